@@ -62,8 +62,8 @@ std::function<void()> add_check_command(CLI::App& program) {
   CLI::App& command = *program.add_subcommand(
       "check", "Put bodies on a recorded or simulated crowd, and find who runs into whom");
   command.footer(
-      "Reads JuPedSim's SQLite, PeTrack and Juelich text, the Pedestrian Dynamics Data Archive's HDF5,\n"
-      "Pathfinder's CSV, TrajNet++, ETH/UCY, and plain CSV with columns id, frame or time, x, y. The\n"
+      "Reads JuPedSim's SQLite and HDF5, PeTrack and Juelich text, the Pedestrian Dynamics Data Archive's\n"
+      "HDF5, Pathfinder's CSV, TrajNet++, ETH/UCY, and plain CSV with columns id, frame or time, x, y. The\n"
       "format is recognized by the content of the file, not by its name. If the file does not state the\n"
       "frame rate or the unit of length, the program asks for --fps or --unit, and for --columns where they\n"
       "have no names and their rows do not tell them. It prints every assumption.\n"

@@ -11,14 +11,15 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace bch::detail::trajectory {
 namespace {
 
 constexpr const char* dataset_name = "trajectory";
-constexpr std::size_t longest_geometry = std::size_t{1} << 24;
-constexpr hsize_t largest_chunk = hsize_t{1} << 25;  // bytes
-constexpr std::size_t largest_record = 4096;         // likewise
+constexpr std::size_t longest_text = std::size_t{1} << 24;
+constexpr std::size_t largest_chunk = std::size_t{1} << 25;  // bytes
+constexpr std::size_t largest_record = 4096;                 // likewise
 
 [[noreturn]] void reject(const std::string& reason) {
   throw std::runtime_error(reason);
@@ -77,6 +78,9 @@ Handle open_file(const std::string& file) {
   H5PLset_loading_state(0);
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, "HDF5");
   H5Pset_fapl_sec2(access);
+  // Rows are read one after the other. A chunk that does not fit would be inflated for every part of it that is read.
+  constexpr std::size_t slots = 521;  // HDF5's default
+  H5Pset_cache(access, 0, slots, largest_chunk, 1);
   return {H5Fopen(file.c_str(), H5F_ACC_RDONLY, access), H5Fclose, "cannot be read by HDF5"};
 }
 
@@ -115,28 +119,59 @@ void check_storage(hid_t dataset, std::size_t record) {
     reject("the dataset 'trajectory' has chunks of more than 32 MiB");
 }
 
+Handle member_type(hid_t record, const char* name) {
+  return {H5Tget_member_type(record, static_cast<unsigned>(H5Tget_member_index(record, name))), H5Tclose,
+          "HDF5"};
+}
+
+bool has_member(hid_t record, const char* name) {
+  return H5Tget_member_index(record, name) >= 0;
+}
+
+/// Whether records say where people face.
+bool has_orientation(hid_t record) {
+  return has_member(record, "ox") && has_member(record, "oy");
+}
+
 /// Checks the members of a record.
 void check_type(hid_t type) {
   if (H5Tget_class(type) != H5T_COMPOUND) reject("the dataset 'trajectory' does not consist of records");
   if (H5Tget_size(type) > largest_record) reject("the records of 'trajectory' have more than 4096 bytes");
-  for (const char* const name : {"id", "frame", "x", "y", "z"}) {
-    const int index = H5Tget_member_index(type, name);
-    if (index < 0) reject("the records of 'trajectory' have no '" + std::string(name) + "'");
-    const Handle member(H5Tget_member_type(type, static_cast<unsigned>(index)), H5Tclose, "HDF5");
-    const bool whole = name[1] != '\0';
+  std::vector<std::string> names{"id", "frame", "x", "y", "z"};
+  if (has_orientation(type)) names.insert(names.end(), {"ox", "oy"});
+  for (const std::string& name : names) {
+    if (!has_member(type, name.c_str())) reject("the records of 'trajectory' have no '" + name + "'");
+    const Handle member = member_type(type, name.c_str());
+    const bool whole = name == "id" || name == "frame";
     if (whole ? !is_plain_integer(member) : !is_plain_float(member))
-      reject(std::string("'") + name + "' of 'trajectory' is not " +
-             (whole ? "an integer" : "a floating-point number"));
+      reject("'" + name + "' of 'trajectory' is not " + (whole ? "an integer" : "a floating-point number"));
   }
 }
 
-Handle record_type() {
+bool has_unsigned_ids(hid_t record) {
+  return H5Tget_sign(member_type(record, "id")) == H5T_SGN_NONE;
+}
+
+/// How the records of a file lie in memory.
+Handle memory_type(hid_t record) {
   Handle type(H5Tcreate(H5T_COMPOUND, sizeof(ArchiveRow)), H5Tclose, "HDF5");
-  H5Tinsert(type, "id", offsetof(ArchiveRow, id), H5T_NATIVE_INT64);
+  // HDF5 would turn all that are too large into the largest.
+  H5Tinsert(type, "id", offsetof(ArchiveRow, id),
+            has_unsigned_ids(record) ? H5T_NATIVE_UINT64 : H5T_NATIVE_INT64);
   H5Tinsert(type, "frame", offsetof(ArchiveRow, frame), H5T_NATIVE_INT64);
   H5Tinsert(type, "x", offsetof(ArchiveRow, x), H5T_NATIVE_DOUBLE);
   H5Tinsert(type, "y", offsetof(ArchiveRow, y), H5T_NATIVE_DOUBLE);
   H5Tinsert(type, "z", offsetof(ArchiveRow, z), H5T_NATIVE_DOUBLE);
+  if (!has_orientation(record)) return type;
+  H5Tinsert(type, "ox", offsetof(ArchiveRow, ox), H5T_NATIVE_DOUBLE);
+  H5Tinsert(type, "oy", offsetof(ArchiveRow, oy), H5T_NATIVE_DOUBLE);
+  return type;
+}
+
+/// Opens a dataset's type of records, checked.
+Handle open_records(hid_t dataset) {
+  Handle type(H5Dget_type(dataset), H5Tclose, "the dataset 'trajectory' cannot be read");
+  check_type(type);
   return type;
 }
 
@@ -151,45 +186,54 @@ Handle open_attribute(hid_t object, const char* name) {
 }
 
 /// Reads a text whose length the type says.
-std::string fixed_text(hid_t attribute, hid_t type) {
+std::string fixed_text(hid_t attribute, hid_t type, const std::string& what) {
   std::string text(H5Tget_size(type), '\0');
-  if (text.size() > longest_geometry) reject("its geometry has more than 16 MiB");
-  if (H5Aread(attribute, type, text.data()) < 0) fail("its geometry cannot be read");
+  if (text.size() > longest_text) reject(what + " has more than 16 MiB");
+  if (H5Aread(attribute, type, text.data()) < 0) fail(what + " cannot be read");
   return text.substr(0, text.find('\0'));
 }
 
-std::string variable_text(hid_t attribute, hid_t type) {
+std::string variable_text(hid_t attribute, hid_t type, const std::string& what) {
   const Handle memory(H5Tcopy(H5T_C_S1), H5Tclose, "HDF5");
   H5Tset_size(memory, H5T_VARIABLE);
   H5Tset_cset(memory, H5Tget_cset(type));
   char* text = nullptr;
-  if (H5Aread(attribute, memory, static_cast<void*>(&text)) < 0) fail("its geometry cannot be read");
+  if (H5Aread(attribute, memory, static_cast<void*>(&text)) < 0) fail(what + " cannot be read");
   if (text == nullptr) return {};
   std::string copy(text);
   H5free_memory(text);
-  if (copy.size() > longest_geometry) reject("its geometry has more than 16 MiB");
+  if (copy.size() > longest_text) reject(what + " has more than 16 MiB");
   return copy;
+}
+
+/// Returns a text of the file itself; empty where it has none of that name.
+std::string text_of(hid_t file, const char* name, const std::string& what) {
+  if (H5Aexists(file, name) <= 0) return {};
+  const Handle attribute = open_attribute(file, name);
+  const Handle type(H5Aget_type(attribute), H5Tclose, (what + " cannot be read").c_str());
+  if (H5Tget_class(type) != H5T_STRING) reject(std::string("the attribute '") + name + "' is not a text");
+  return H5Tis_variable_str(type) > 0 ? variable_text(attribute, type, what)
+                                      : fixed_text(attribute, type, what);
 }
 
 }  // namespace
 
 /// What is open of a file.
 struct Hdf5Recording::Handles {
-  Handle file, dataset, space, type;
+  Handle file, dataset, space, record, memory;
 
   explicit Handles(const std::string& name)
       : file(open_file(name)),
         dataset(open_dataset(file)),
         space(H5Dget_space(dataset), H5Sclose, "the dataset 'trajectory' cannot be read"),
-        type(record_type()) {}
+        record(open_records(dataset)),
+        memory(memory_type(record)) {}
 };
 
 Hdf5Recording::Hdf5Recording(const std::string& file) : handles_(std::make_unique<Handles>(file)) {
-  const Handle type(H5Dget_type(handles_->dataset), H5Tclose, "the dataset 'trajectory' cannot be read");
   if (H5Sget_simple_extent_ndims(handles_->space) != 1)
     reject("the dataset 'trajectory' is not one-dimensional");
-  check_type(type);
-  check_storage(handles_->dataset, H5Tget_size(type));
+  check_storage(handles_->dataset, H5Tget_size(handles_->record));
 }
 
 Hdf5Recording::~Hdf5Recording() = default;
@@ -214,19 +258,34 @@ double Hdf5Recording::fps() const {
 }
 
 std::string Hdf5Recording::geometry() const {
-  if (H5Aexists(handles_->file, "wkt_geometry") <= 0) return {};
-  const Handle attribute = open_attribute(handles_->file, "wkt_geometry");
-  const Handle type(H5Aget_type(attribute), H5Tclose, "its geometry cannot be read");
-  if (H5Tget_class(type) != H5T_STRING) reject("the attribute 'wkt_geometry' is not a text");
-  return H5Tis_variable_str(type) > 0 ? variable_text(attribute, type) : fixed_text(attribute, type);
+  return text_of(handles_->file, "wkt_geometry", "its geometry");
+}
+
+bool Hdf5Recording::is_of_jupedsim() const {
+  if (has_orientation(handles_->record)) return true;
+  try {
+    return text_of(handles_->file, "producer", "the attribute 'producer'") == "JuPedSim";
+  } catch (const std::runtime_error&) {
+    return false;  // what others call so may be anything
+  }
+}
+
+bool Hdf5Recording::ids_are_unsigned() const {
+  return has_unsigned_ids(handles_->record);
+}
+
+std::uint64_t Hdf5Recording::bytes_a_row() const {
+  return H5Tget_size(handles_->record);
 }
 
 void Hdf5Recording::read(std::uint64_t first, std::span<ArchiveRow> rows) const {
   const hsize_t start = first, count = rows.size();
   const Handle memory(H5Screate_simple(1, &count, nullptr), H5Sclose, "HDF5");
   if (H5Sselect_hyperslab(handles_->space, H5S_SELECT_SET, &start, nullptr, &count, nullptr) < 0 ||
-      H5Dread(handles_->dataset, handles_->type, memory, handles_->space, H5P_DEFAULT, rows.data()) < 0)
+      H5Dread(handles_->dataset, handles_->memory, memory, handles_->space, H5P_DEFAULT, rows.data()) < 0)
     fail("rows from " + std::to_string(first + 1) + " on cannot be read");
+  if (!has_orientation(handles_->record))
+    for (ArchiveRow& row : rows) row.ox = row.oy = 0;
 }
 
 }  // namespace bch::detail::trajectory

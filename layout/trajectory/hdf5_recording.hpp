@@ -15,12 +15,13 @@ namespace bch::detail::trajectory {
 
 /// Represents a row of the dataset.
 struct ArchiveRow {
-  std::int64_t id, frame;
+  std::int64_t id, frame;  ///< of an unsigned type the id holds the bits
   double x, y, z;
+  double ox, oy;  ///< where the person faces; 0 where the file does not say
 };
 
-/// Represents a file of the Pedestrian Dynamics Data Archive: a dataset "trajectory" of (id, frame, x, y, z) with an attribute "fps", and
-/// an attribute "wkt_geometry" of the file.
+/// Represents a file of the Pedestrian Dynamics Data Archive, or of JuPedSim: a dataset "trajectory" of (id, frame, x, y, z), in any order
+/// and with others, such as JuPedSim's (ox, oy), with an attribute "fps"; and an attribute "wkt_geometry" of the file.
 /// Errors:  all functions throw std::runtime_error with the reason, but on files that crash or exhaust the process.
 class Hdf5Recording {
  public:
@@ -30,6 +31,9 @@ class Hdf5Recording {
   Hdf5Recording& operator=(const Hdf5Recording&) = delete;
 
   std::uint64_t rows() const;
+  std::uint64_t bytes_a_row() const;  ///< in the file
+  bool is_of_jupedsim() const;        ///< whose z is the floor's
+  bool ids_are_unsigned() const;
   double fps() const;  ///< 0 where the file does not say
   std::string geometry() const;
 

@@ -36,8 +36,9 @@ enum Answer : std::uint64_t { is_recording = 1, is_error = 2 };
 struct Header {
   std::uint64_t answer = is_recording;
   std::uint64_t text = 0;  ///< bytes of the geometry, or of the error, that follow
-  std::uint64_t rows = 0;
+  std::uint64_t rows = 0, bytes_a_row = 0;
   double fps = 0;
+  std::uint64_t is_of_jupedsim = 0, ids_are_unsigned = 0;  ///< or 1
 };
 
 template <class Value>
@@ -63,7 +64,13 @@ void send(const std::filesystem::path& path, int to) {
   try {
     const Hdf5Recording file(path.string());
     const std::string geometry = file.geometry();
-    header = {is_recording, geometry.size(), file.rows(), file.fps()};
+    header = {is_recording,
+              geometry.size(),
+              file.rows(),
+              file.bytes_a_row(),
+              file.fps(),
+              std::uint64_t{file.is_of_jupedsim()},
+              std::uint64_t{file.ids_are_unsigned()}};
     begun = true;
     write_or_exit(to, bytes_of(header));
     write_or_exit(to, geometry);
@@ -72,7 +79,7 @@ void send(const std::filesystem::path& path, int to) {
     if (begun) return;
     const std::string reason =
         dynamic_cast<const std::bad_alloc*>(&problem) != nullptr ? "needs too much memory" : problem.what();
-    write_or_exit(to, bytes_of(Header{is_error, reason.size(), 0, 0}));
+    write_or_exit(to, bytes_of(Header{is_error, reason.size()}));
     write_or_exit(to, reason);
   }
 }
@@ -80,7 +87,10 @@ void send(const std::filesystem::path& path, int to) {
 class PedestrianArchive final : public RowSource {
  public:
   PedestrianArchive(const std::filesystem::path& file, const TrajectoryOptions& options)
-      : places_{file, false}, metres_(options.unit.value_or(1)), patience_(options.patience), go_on_(options.go_on) {
+      : places_{file, false},
+        metres_(options.unit.value_or(1)),
+        patience_(options.patience),
+        go_on_(options.go_on) {
     begin();
     if (header_.fps != 0 && !options.fps) rate_ = checked_fps(places_, header_.fps, "the attribute 'fps'");
   }
@@ -89,10 +99,12 @@ class PedestrianArchive final : public RowSource {
 
   Recording recording() const override {
     Recording all;
-    all.format = "HDF5 of the Pedestrian Dynamics Data Archive";
+    all.format =
+        header_.is_of_jupedsim != 0 ? "JuPedSim HDF5" : "HDF5 of the Pedestrian Dynamics Data Archive";
     all.geometry = geometry_;
     if (geometry_.empty()) all.assumptions.emplace_back("There are no walls: the file has no geometry.");
     heights_.describe(all.assumptions);
+    if (has_floors_) all.assumptions.emplace_back("z is the height of the floor, and is ignored.");
     all.rate = rate_;
     return all;
   }
@@ -120,6 +132,7 @@ class PedestrianArchive final : public RowSource {
   Header header_;
   std::string geometry_;
   Heights heights_;
+  bool has_floors_ = false;   ///< heights of floors other than 0
   std::uint64_t number_ = 0;  ///< of the row that was read last
 
   void begin() {
@@ -137,7 +150,7 @@ class PedestrianArchive final : public RowSource {
     geometry_ = std::move(text);
     std::error_code ignored;
     const std::uintmax_t size = std::filesystem::file_size(places_.file, ignored);
-    if (header_.rows / most_compression > size / sizeof(ArchiveRow) + 1)
+    if (header_.rows / most_compression > size / std::max<std::uint64_t>(header_.bytes_a_row, 1) + 1)
       places_.reject("malformed: " + std::to_string(header_.rows) + " rows do not fit into it");
   }
 
@@ -179,17 +192,35 @@ class PedestrianArchive final : public RowSource {
     return metres;
   }
 
+  /// (0, 0) and NaN say nothing.
+  float heading(const ArchiveRow& from) const {
+    if (std::isinf(from.ox)) reject("ox", from.ox, "is not finite");
+    if (std::isinf(from.oy)) reject("oy", from.oy, "is not finite");
+    if ((from.ox == 0 && from.oy == 0) || std::isnan(from.ox) || std::isnan(from.oy)) return unknown;
+    return static_cast<float>(std::atan2(from.oy, from.ox));
+  }
+
+  /// Returns what z says of the person.
+  float stature(double z) {
+    if (std::isinf(z)) reject("z", z, "is not finite");
+    if (header_.is_of_jupedsim != 0) has_floors_ |= std::abs(z) > 0;
+    return header_.is_of_jupedsim != 0 || std::isnan(z) ? unknown : heights_.take(z * metres_);
+  }
+
   Row row(const ArchiveRow& from) {
     Row row;
     row.number = ++number_;
     row.key = from.frame;
     row.id = from.id;
+    if (header_.ids_are_unsigned != 0 && from.id < 0)
+      places_.reject(
+          number_, "id " + shown(std::to_string(static_cast<std::uint64_t>(from.id))) + " is not below 2^63");
     if (row.key > largest_frame || row.key < -largest_frame)
       places_.reject(number_, "frame " + shown(std::to_string(row.key)) + " is not within +-1e15");
     row.x = coordinate("x", from.x);
     row.y = coordinate("y", from.y);
-    if (std::isinf(from.z)) reject("z", from.z, "is not finite");
-    if (!std::isnan(from.z)) row.stature = heights_.take(from.z * metres_);
+    row.heading = heading(from);
+    row.stature = stature(from.z);
     return row;
   }
 };

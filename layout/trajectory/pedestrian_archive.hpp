@@ -8,7 +8,7 @@
 #include "layout/trajectory/row.hpp"
 #include "layout/trajectory/trajectory.hpp"
 
-// Private to the readers of recordings: HDF5 of the Pedestrian Dynamics Data Archive.
+// Private to the readers of recordings: HDF5 of the Pedestrian Dynamics Data Archive and of JuPedSim.
 
 namespace bch::detail::trajectory {
 

@@ -51,6 +51,10 @@ void write_archives(const fs::path& folder) {
   file.storage = ArchiveFile::Storage::contiguous;
   file.fixed_text = true;
   file.write(folder / "seed2");
+  file = {};
+  file.has_orientation = file.ids_are_unsigned = true;
+  file.producer = "JuPedSim";
+  file.write(folder / "seed3");
 }
 
 }  // namespace

@@ -18,11 +18,14 @@ hid_t made(hid_t id) {
 
 hid_t memory_type(const ArchiveFile& file) {
   const hid_t type = made(H5Tcreate(H5T_COMPOUND, sizeof(ArchiveFile::Row)));
-  H5Tinsert(type, "id", offsetof(ArchiveFile::Row, id), H5T_NATIVE_INT64);
+  H5Tinsert(type, "id", offsetof(ArchiveFile::Row, id),
+            file.ids_are_unsigned ? H5T_NATIVE_UINT64 : H5T_NATIVE_INT64);
   H5Tinsert(type, "frame", offsetof(ArchiveFile::Row, frame), H5T_NATIVE_INT64);
   H5Tinsert(type, "x", offsetof(ArchiveFile::Row, x), H5T_NATIVE_DOUBLE);
   H5Tinsert(type, "y", offsetof(ArchiveFile::Row, y), H5T_NATIVE_DOUBLE);
   H5Tinsert(type, file.z.c_str(), offsetof(ArchiveFile::Row, z), H5T_NATIVE_DOUBLE);
+  H5Tinsert(type, "ox", offsetof(ArchiveFile::Row, ox), H5T_NATIVE_DOUBLE);
+  H5Tinsert(type, "oy", offsetof(ArchiveFile::Row, oy), H5T_NATIVE_DOUBLE);
   return type;
 }
 
@@ -30,18 +33,23 @@ hid_t file_type(const ArchiveFile& file) {
   const std::size_t whole = file.floats ? 4 : 8;
   const hid_t integer = file.floats ? H5T_STD_I32BE : H5T_STD_I64LE,
               real = file.floats ? H5T_IEEE_F32BE : H5T_IEEE_F64LE;
-  const hid_t type = made(H5Tcreate(H5T_COMPOUND, 5 * whole));
-  H5Tinsert(type, "id", 0, integer);
-  H5Tinsert(type, "frame", whole, integer);
-  H5Tinsert(type, file.z.c_str(), 2 * whole, real);
-  H5Tinsert(type, "x", 3 * whole, file.x_is_integer ? integer : real);
-  H5Tinsert(type, "y", 4 * whole, real);
+  const std::size_t begin = file.has_orientation ? 2 * whole : 0;
+  const hid_t type = made(H5Tcreate(H5T_COMPOUND, begin + 5 * whole));
+  if (file.has_orientation) {
+    H5Tinsert(type, "oy", 0, real);
+    H5Tinsert(type, "ox", whole, real);
+  }
+  H5Tinsert(type, "id", begin, file.ids_are_unsigned ? H5T_STD_U64LE : integer);
+  H5Tinsert(type, "frame", begin + whole, integer);
+  H5Tinsert(type, file.z.c_str(), begin + 2 * whole, real);
+  H5Tinsert(type, "x", begin + 3 * whole, file.x_is_integer ? integer : real);
+  H5Tinsert(type, "y", begin + 4 * whole, real);
   return type;
 }
 
 hid_t creation(const ArchiveFile& file) {
   const hid_t list = made(H5Pcreate(H5P_DATASET_CREATE));
-  hsize_t chunk[] = {file.storage == ArchiveFile::Storage::big_chunks ? hsize_t{1} << 20 : 2, 1};
+  hsize_t chunk[] = {file.storage == ArchiveFile::Storage::big_chunks ? hsize_t{1} << 20 : file.chunk, 1};
   using enum ArchiveFile::Storage;
   if (file.storage == deflated || file.storage == big_chunks) H5Pset_chunk(list, 1, chunk);
   if (file.storage == deflated) {
@@ -105,6 +113,7 @@ void ArchiveFile::write(const std::filesystem::path& file) const {
   else
     add_dataset(opened, *this);
   if (geometry) add_text(opened, "wkt_geometry", *geometry, fixed_text);
+  if (producer) add_text(opened, "producer", *producer, fixed_text);
   H5Fclose(opened);
 }
 

@@ -11,11 +11,11 @@
 
 namespace bch::test {
 
-/// A file of the Pedestrian Dynamics Data Archive, and ways in which it is none.
+/// A file of the Pedestrian Dynamics Data Archive or of JuPedSim, and ways in which it is none.
 struct ArchiveFile {
   struct Row {
     std::int64_t id, frame;
-    double x, y, z;
+    double x, y, z, ox = 0, oy = 0;
   };
   enum class Storage : std::uint8_t {
     contiguous,
@@ -35,6 +35,10 @@ struct ArchiveFile {
   bool is_plane = false;  ///< two dimensions
   bool floats = false;    ///< of half the size
   bool x_is_integer = false;
+  bool has_orientation = false;  ///< ox and oy, before all others
+  bool ids_are_unsigned = false;
+  std::uint64_t chunk = 2;  ///< rows, of those that are deflated
+  std::optional<std::string> producer = std::nullopt;
   std::string name = "trajectory", z = "z";
   Storage storage = Storage::contiguous;
 

@@ -83,6 +83,73 @@ TEST_F(ArchiveFiles, MayHaveMoreRowsThanABatch) {
             "f: row 15001: person 2 is at two places in frame 7, here at (3, 1), by row 14982 at (1.75, 1)");
 }
 
+TEST_F(ArchiveFiles, OfJuPedSimSayWherePeopleFaceAndNotHowTallTheyAre) {
+  ArchiveFile file;
+  file.has_orientation = true;
+  file.rows = {{1, 0, 1.5, 2, 0, 0, 1}, {2, 0, 3, 4, 1.5, -1, 0}, {3, 0, 5, 6, 0, 0, 0}};
+  const ReadRecording recording = read(file);
+  EXPECT_EQ(recording.info.format, "JuPedSim HDF5");
+  EXPECT_EQ(text_of(recording), "0 1 1.5 2 1.5707964 -\n0 2 3 4 3.1415927 -\n0 3 5 6 - -\n");
+  EXPECT_EQ(recording.info.assumptions,
+            std::vector<std::string>{"z is the height of the floor, and is ignored."});
+  file.rows[1].z = 0;
+  EXPECT_TRUE(read(file).info.assumptions.empty());
+  file.rows[0].ox = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(std::isnan(read(file).frames[0].people[0].heading));
+  file.rows[0].ox = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(complaint(file), "f: row 1: ox 'inf' is not finite");
+  // Without directions, too.
+  file = {};
+  file.producer = "JuPedSim";
+  EXPECT_EQ(text_of(read(file)), "0 1 1.5 2 - -\n0 2 3 4 - -\n1 1 1.75 2 - -\n");
+  file.producer = "another";
+  EXPECT_EQ(text_of(read(file)), rows);
+}
+
+TEST_F(ArchiveFiles, HaveIdsOf63Bits) {
+  ArchiveFile file;
+  file.ids_are_unsigned = true;
+  EXPECT_EQ(text_of(read(file)), rows);
+  file.rows[0].id = std::numeric_limits<std::int64_t>::max();
+  EXPECT_EQ(read(file).frames[0].people[1].id, file.rows[0].id);
+  file.rows[1].id = std::numeric_limits<std::int64_t>::min();  // as an unsigned number
+  EXPECT_EQ(complaint(file), "f: row 2: id '9223372036854775808' is not below 2^63");
+}
+
+/// Returns the bytes that this process and its children have read from files; 0 where nobody counts them.
+std::uint64_t bytes_read() {
+  std::ifstream counts("/proc/self/io");
+  std::string name;
+  std::uint64_t bytes = 0;
+  return counts >> name >> bytes ? bytes : 0;
+}
+
+TEST_F(ArchiveFiles, AreInflatedOnceForEachPass) {
+  ArchiveFile file;
+  file.storage = Storage::deflated;
+  file.rows.clear();
+  test::Random random(1);
+  for (std::int64_t row = 0; row < 100'000; ++row)
+    file.rows.push_back({row % 100, row / 100, random.uniform(-100, 100), random.uniform(-100, 100), 1.5});
+  std::string text;
+  for (const std::uint64_t chunk : {100'000, 30'000, 1'000}) {
+    file.chunk = chunk;
+    file.write(folder.file("f"));
+    const std::uint64_t before = bytes_read();
+    const ReadRecording recording = test::read_recording(folder.file("f"));
+    const std::uint64_t pipes = 2 * 64 * file.rows.size();  // from the child
+    EXPECT_LT(bytes_read() - before, 4 * std::filesystem::file_size(folder.file("f")) + pipes) << chunk;
+    if (text.empty()) text = text_of(recording);
+    EXPECT_EQ(text_of(recording), text) << chunk;
+  }
+}
+
+TEST_F(ArchiveFiles, AreReadNoFurtherThanTheCallerLikes) {
+  ArchiveFile().write(folder.file("f"));
+  EXPECT_EQ(test::trajectory_complaint(folder.file("f"), {.go_on = [] { return false; }}),
+            "f: reading it was cancelled");
+}
+
 TEST_F(ArchiveFiles, AreRefusedByOneLine) {
   ArchiveFile file;
   file.name = "positions";
