@@ -4,8 +4,11 @@
 #include "layout/trajectory/jupedsim.hpp"
 
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <unordered_set>
 
 #include "layout/base/shortest.hpp"
 #include "layout/trajectory/numbers.hpp"
@@ -104,8 +107,8 @@ class JuPedSim final : public RowSource {
     SqliteStatement geometry(database_, "SELECT wkt FROM geometry" + which);
     if (!geometry.step()) return take_the_only_geometry();
     recording_.geometry = geometry.text(0);
-    const std::int64_t count =
-        number_of(by_frame ? "DISTINCT geometry_hash) FROM frame_data" : "DISTINCT wkt) FROM geometry");
+    const std::size_t count =
+        by_frame ? different("geometry_hash", "frame_data") : different("wkt", "geometry");
     if (count > 1)
       recording_.assumptions.push_back("The geometry of the first frame is that of all: the file has " +
                                        std::to_string(count) + ", which differ.");
@@ -113,7 +116,7 @@ class JuPedSim final : public RowSource {
 
   /// For a file whose first frame names none that is there.
   void take_the_only_geometry() {
-    const std::int64_t count = number_of("DISTINCT wkt) FROM geometry");
+    const std::size_t count = different("wkt", "geometry");
     if (count == 0) return say_that_there_is_none();
     if (count > 1) {
       recording_.assumptions.push_back("There are no walls: the file has " + std::to_string(count) +
@@ -130,9 +133,13 @@ class JuPedSim final : public RowSource {
     recording_.assumptions.emplace_back("There are no walls: the file has no geometry.");
   }
 
-  std::int64_t number_of(const std::string& what) const {
-    SqliteStatement count(database_, "SELECT count(" + what);
-    return count.step() ? count.integer(0) : 0;
+  /// Returns how many different values a column has. SQLite would keep them all, which may be long and share their pages.
+  std::size_t different(const std::string& column, const std::string& table) const {
+    SqliteStatement values(database_, "SELECT " + column + " FROM " + table);
+    std::unordered_set<std::size_t> hashes;
+    while (values.step())
+      if (values.type(0) != SQLITE_NULL) hashes.insert(std::hash<std::string_view>()(values.text(0)));
+    return hashes.size();
   }
 
   bool step(SqliteStatement& statement) {

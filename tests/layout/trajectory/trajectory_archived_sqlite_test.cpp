@@ -149,7 +149,7 @@ TEST_F(ArchivedJuPedSimFiles, AreReadNoFurtherThanTheCallerLikes) {
 }
 
 TEST_F(ArchivedJuPedSimFiles, WithALogThatIsClosedLeaveNothingBeside) {
-  OpenDatabase(folder.file("f"), as_log + JuPedSimFile().sql());
+  { const OpenDatabase closed(folder.file("f"), as_log + JuPedSimFile().sql()); }
   ASSERT_EQ(contents().size(), 1u);
   EXPECT_EQ(rows(), 3u);
   folder.write("f-wal", "");
@@ -187,7 +187,7 @@ TEST_F(ArchivedJuPedSimFiles, LeftInTheMiddleOfAChangeSayHowItIsTakenBack) {
       complaint(),
       "f: holds a change that was never finished: the program sqlite3 takes it back when it opens a copy "
       "of the file and of its journal, 'f-journal'");
-  OpenDatabase(folder.file("f"), "SELECT * FROM metadata");
+  { const OpenDatabase closed(folder.file("f"), "SELECT * FROM metadata"); }
   EXPECT_EQ(rows(), 3u);
 }
 

@@ -132,7 +132,7 @@ TEST_F(ArchiveFiles, AreInflatedOnceForEachPass) {
   for (std::int64_t row = 0; row < 100'000; ++row)
     file.rows.push_back({row % 100, row / 100, random.uniform(-100, 100), random.uniform(-100, 100), 1.5});
   std::string text;
-  for (const std::uint64_t chunk : {100'000, 30'000, 1'000}) {
+  for (const std::uint64_t chunk : {100'000u, 30'000u, 1'000u}) {
     file.chunk = chunk;
     file.write(folder.file("f"));
     const std::uint64_t before = bytes_read();
