@@ -48,10 +48,7 @@ bool ObstacleSearch::look_about(double from, double end) {
 }
 
 bool ObstacleSearch::is_in_area(double x, double y) {
-  const ObstaclePlace place{x, y, {1, 0}};
-  for (const std::uint32_t slot : near_.areas_about(place, {0, 0}))
-    if (near_.holds(slot, place, {0, 0})) return true;
-  return false;
+  return !near_.areas_that_hold({x, y, {1, 0}}, {0, 0}).empty();
 }
 
 /// From key to key of the clip.

@@ -57,9 +57,8 @@ class AreaSide {
 
  private:
   bool first_is_inside(Vec2 point) {
-    for (const std::uint32_t slot : near_.areas_about(place_, point))
-      if (near_.obstacles().areas[slot] == obstacle_) return near_.holds(slot, place_, point);
-    return false;
+    const auto areas = near_.areas_that_hold(place_, point);
+    return std::binary_search(areas.begin(), areas.end(), obstacle_);
   }
 
   NearSegments& near_;
@@ -185,9 +184,12 @@ bool BodyQuery::outline_holds(const PlacedPart& part, std::span<const LocalSegme
 }
 
 bool BodyQuery::has_segment_of(std::uint32_t obstacle) noexcept {
+  // Those of an obstacle have consecutive numbers.
   const auto found = near_.found();
-  return std::any_of(found.begin(), found.end(),
-                     [&](const LocalSegment& segment) { return segment.obstacle == obstacle; });
+  const auto first =
+      std::lower_bound(found.begin(), found.end(), obstacle,
+                       [](const LocalSegment& segment, std::uint32_t of) { return segment.obstacle < of; });
+  return first != found.end() && first->obstacle == obstacle;
 }
 
 std::uint32_t BodyQuery::area_that_holds(const PlacedPart& part, bool exact_leaves) {

@@ -80,6 +80,17 @@ class BodyQuery {
   /// Returns an area that holds a disc of a part clear of its segments, with exact leaves something of its outline, or no_obstacle.
   /// Precondition: near() found all segments within the root's disc.
   std::uint32_t area_that_holds(const PlacedPart& part, bool exact_leaves);
+  /// Returns whether an area, whose segments next to a part these are, holds something of it that they do not touch.
+  bool area_holds(const PlacedPart& part, std::span<const LocalSegment> segments, std::uint32_t obstacle,
+                  bool exact_leaves);
+  /// Calls found(obstacle) for the areas that hold a part and have no segment next to it, until it returns false.
+  template <class Found>
+  bool visit_areas_beyond(const PlacedPart& part, const Found& found) {
+    if (is_too_large_for_areas(part.root())) return false;
+    for (const std::uint32_t area : near_.areas_that_hold(part.place, part.centre()))
+      if (!has_segment_of(area) && !found(area)) return true;
+    return false;
+  }
   /// Returns whether the outline of a part holds where a path begins, which it does not touch.
   bool outline_holds(const PlacedPart& part, std::span<const LocalSegment> segments) const noexcept;
 
@@ -91,22 +102,9 @@ class BodyQuery {
 
   bool touches(const PlacedPart& part, std::span<const LocalSegment> segments,
                bool exact_leaves) const noexcept;
-  /// Returns whether an area, whose segments next to a part these are, holds something of it that they do not touch.
-  bool area_holds(const PlacedPart& part, std::span<const LocalSegment> segments, std::uint32_t obstacle,
-                  bool exact_leaves);
 
   bool is_too_large_for_areas(const Root& root) const noexcept {
     return 2 * double{root.radius} > near_.obstacles().widest_area;
-  }
-  /// Calls found(obstacle) for the areas that hold a part and have no segment next to it, until it returns false.
-  template <class Found>
-  bool visit_areas_beyond(const PlacedPart& part, const Found& found) {
-    if (is_too_large_for_areas(part.root())) return false;
-    for (const std::uint32_t slot : near_.areas_about(part.place, part.centre())) {
-      const std::uint32_t area = near_.obstacles().areas[slot];
-      if (!has_segment_of(area) && near_.holds(slot, part.place, part.centre()) && !found(area)) return true;
-    }
-    return false;
   }
   bool has_segment_of(std::uint32_t obstacle) noexcept;
 

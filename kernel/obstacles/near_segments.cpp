@@ -64,6 +64,28 @@ Box box_about(const ObstaclePlace& place, Vec2 centre, double distance, Vector w
           y + std::max(way.y, 0.0) + wide};
 }
 
+/// Sorts numbers, and keeps one of each that is there an odd number of times.
+void keep_odd(std::vector<std::uint32_t>& numbers) {
+  std::sort(numbers.begin(), numbers.end());
+  std::size_t kept = 0;
+  for (const std::uint32_t number : numbers) {
+    if (kept != 0 && numbers[kept - 1] == number)
+      --kept;
+    else
+      numbers[kept++] = number;
+  }
+  numbers.resize(kept);
+}
+
+/// Returns the distance within which find() finds what has a square distance. It is more than that by much more than what is rounded, and by
+/// much less than what others are farther away; and more than 0, within which find() finds nothing. Far ends of the segment round more,
+/// and find() adds their slack.
+double distance_of_nearest(double square, Vector from) noexcept {
+  constexpr double least_distance = 1e-9;  // metres
+  return std::max(least_distance,
+                  std::sqrt(square) * (1 + 0x1p-40) + 0x1p-46 * (std::abs(from.x) + std::abs(from.y)));
+}
+
 }  // namespace
 
 bool crosses(Vector from, Vector way, double square, Vector a, Vector b) noexcept {
@@ -137,19 +159,38 @@ void NearSegments::visit_near(Vector from, const double& limit, const Take& take
   }
 }
 
-double NearSegments::nearest_distance(const ObstaclePlace& place, Vec2 centre, std::uint32_t area) {
+double NearSegments::nearest_distance(const ObstaclePlace& place, Vec2 centre) {
   const Vector from = in_world(place, centre);
   double least = std::numeric_limits<double>::infinity();
   visit_near(from, least, [&](std::uint32_t slot) {
-    const WorldSegment& segment = obstacles_.segments[slot];
-    if (area == no_obstacle || (segment.obstacle == area && segment.length > 0))
-      least = std::min(least, segment.square_distance(from.x, from.y));
+    least = std::min(least, obstacles_.segments[slot].square_distance(from.x, from.y));
   });
-  // Much more than what is rounded, and much less than what others are farther away; more than 0, within which find() finds nothing. Far
-  // ends of the segment round more, and find() adds their slack.
-  constexpr double least_distance = 1e-9;  // metres
-  return std::max(least_distance,
-                  std::sqrt(least) * (1 + 0x1p-40) + 0x1p-46 * (std::abs(from.x) + std::abs(from.y)));
+  return distance_of_nearest(least, from);
+}
+
+double NearSegments::nearest_distance(const ObstaclePlace& place, Vec2 centre,
+                                      std::span<const std::uint32_t> areas) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const Vector from = in_world(place, centre);
+  squares_.assign(areas.size(), infinity);
+  std::size_t missing = areas.size();
+  double limit = infinity;
+  visit_near(from, limit, [&](std::uint32_t slot) {
+    const WorldSegment& segment = obstacles_.segments[slot];
+    const auto area = std::lower_bound(areas.begin(), areas.end(), segment.obstacle);
+    if (area == areas.end() || *area != segment.obstacle || !(segment.length > 0)) return;
+    double& least = squares_[static_cast<std::size_t>(area - areas.begin())];
+    const bool is_first = least == infinity;
+    least = std::min(least, segment.square_distance(from.x, from.y));
+    missing -= is_first;
+    // With many areas the limit is set once: it is near enough then, and looking for the largest number takes time.
+    if (missing == 0 && (is_first || areas.size() == 1))
+      limit = *std::max_element(squares_.begin(), squares_.end());
+  });
+  double most = 0;
+  for (const double square : squares_)
+    if (square < infinity) most = std::max(most, square);
+  return distance_of_nearest(most, from);
 }
 
 std::span<LocalSegment> NearSegments::find(const ObstaclePlace& place, Vec2 centre, double distance) {
@@ -163,7 +204,7 @@ std::span<LocalSegment> NearSegments::find(const ObstaclePlace& place, Vec2 cent
 }
 
 void NearSegments::prepare(std::span<const NearQuery> queries, std::span<const StandingPart> parts) {
-  parts_ = parts, part_ = {};
+  parts_ = parts, part_ = {}, asked_.reset();
   boxes_.clear();
   for (const NearQuery& query : queries)
     boxes_.push_back(box_about(query.place, query.centre, query.distance, {0, 0}));
@@ -182,7 +223,7 @@ void NearSegments::prepare(std::span<const NearQuery> queries, std::span<const S
 }
 
 std::span<LocalSegment> NearSegments::take(std::size_t query) {
-  if (!parts_.empty()) part_ = parts_.subspan(query, 1);
+  if (!parts_.empty()) part_ = parts_.subspan(query, 1), asked_.reset();
   const std::uint32_t begin = prepared_end_[query];
   return sorted(std::span(prepared_).subspan(begin, prepared_end_[query + 1] - begin));
 }
@@ -205,30 +246,31 @@ std::span<LocalSegment> NearSegments::sorted(std::span<LocalSegment> segments) {
   return found_ = segments;
 }
 
-std::span<const std::uint32_t> NearSegments::areas_about(const ObstaclePlace& place, Vec2 point) {
-  const auto [x, y] = place.turned(point.x, point.y);
-  const double wide = rounding_of(place);
-  query(obstacles_.area_tree,
-        {place.x + x - wide, place.y + y - wide, place.x + x + wide, place.y + y + wide}, areas_);
-  if (!part_.empty())
-    std::erase_if(areas_,
-                  [&](std::uint32_t slot) { return !is_level(obstacles_.areas[slot], part_.front()); });
-  return areas_;
-}
-
-bool NearSegments::holds(std::uint32_t area_slot, const ObstaclePlace& place, Vec2 point) {
+std::span<const std::uint32_t> NearSegments::areas_that_hold(const ObstaclePlace& place, Vec2 point) {
   const Vector from = place.turned(point.x, point.y);
-  const double wide = rounding_of(place), y = place.y + from.y;
-  const Box ray{place.x + from.x - wide, y - wide, obstacles_.area_boxes[area_slot].high_x, y + wide};
-  bool odd = false;
+  const Asked asked{place.x, place.y, from.x, from.y};
+  if (asked == asked_) return areas_;
+  asked_ = asked;
+  areas_.clear(), about_.clear();
+  const double wide = rounding_of(place), x = place.x + from.x, y = place.y + from.y;
+  Box ray{x - wide, y - wide, x + wide, y + wide};
+  for (const std::uint32_t slot : query(obstacles_.area_tree, ray, slots_)) {
+    about_.push_back(obstacles_.areas[slot]);
+    ray.high_x = std::max(ray.high_x, obstacles_.area_boxes[slot].high_x);
+  }
+  if (!part_.empty())
+    std::erase_if(about_, [&](std::uint32_t area) { return !is_level(area, part_.front()); });
+  if (about_.empty()) return areas_;
+  std::sort(about_.begin(), about_.end());
   for (const std::uint32_t slot : query(obstacles_.segment_tree, ray, slots_)) {
     const WorldSegment& segment = obstacles_.segments[slot];
-    if (segment.obstacle != obstacles_.areas[area_slot]) continue;
-    odd ^=
+    if (std::binary_search(about_.begin(), about_.end(), segment.obstacle) &&
         crosses(from, {1, 0}, std::numeric_limits<double>::infinity(),
-                {segment.ax - place.x, segment.ay - place.y}, {segment.bx - place.x, segment.by - place.y});
+                {segment.ax - place.x, segment.ay - place.y}, {segment.bx - place.x, segment.by - place.y}))
+      areas_.push_back(segment.obstacle);
   }
-  return odd;
+  keep_odd(areas_);
+  return areas_;
 }
 
 }  // namespace bch::detail

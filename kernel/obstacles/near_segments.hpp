@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -70,9 +71,12 @@ class NearSegments {
                                       ObstaclePlace::Vector way);
   std::span<LocalSegment> found() const noexcept { return found_; }
 
-  /// Returns a distance from a point of the agent's frame within which find() finds the nearest segment, and hardly any other: of all
-  /// segments, or of those of an area that have a length; infinity: there is none.
-  double nearest_distance(const ObstaclePlace& place, Vec2 centre, std::uint32_t area = no_obstacle);
+  /// Returns a distance from a point of the agent's frame within which find() finds the nearest segment, and hardly any other; infinity:
+  /// there is none.
+  double nearest_distance(const ObstaclePlace& place, Vec2 centre);
+  /// Returns one within which it finds the nearest segment with a length of each of some areas, which ascend; of those that have such
+  /// segments. One search serves all areas, however many there are.
+  double nearest_distance(const ObstaclePlace& place, Vec2 centre, std::span<const std::uint32_t> areas);
 
   /// Calls visit(segments) for every obstacle of those that were found, until it returns true. Returns: whether it did.
   template <class Visit>
@@ -85,10 +89,9 @@ class NearSegments {
     return false;
   }
 
-  /// Returns the areas whose boxes hold a point of the agent's frame.
-  std::span<const std::uint32_t> areas_about(const ObstaclePlace& place, Vec2 point);
-  /// Returns whether an area holds such a point, which is none of its border: by the parity of the segments that a ray crosses.
-  bool holds(std::uint32_t area_slot, const ObstaclePlace& place, Vec2 point);
+  /// Returns the areas that hold a point of the agent's frame, ascending: by the parity of their segments that a ray crosses, one ray for
+  /// all areas. Of an area whose border the point is next to, nothing is said. Valid until the next call.
+  std::span<const std::uint32_t> areas_that_hold(const ObstaclePlace& place, Vec2 point);
 
  private:
   /// Finds the boxes of a tree that overlap `boxes_`, level by level. Returns: how many of hits_ these are, query after query.
@@ -115,9 +118,17 @@ class NearSegments {
     bool operator<(const OpenBlock& other) const noexcept { return square > other.square; }
   };
 
+  /// Represents a point that was asked about: the agent's position, and the way from there.
+  struct Asked {
+    double x, y, way_x, way_y;
+    friend bool operator==(const Asked&, const Asked&) = default;
+  };
+
   const Implementation& implementation_;
   const ObstacleView& obstacles_;
-  std::vector<std::uint32_t> slots_, areas_;
+  std::vector<std::uint32_t> slots_, about_, areas_;
+  std::vector<double> squares_;  ///< by area
+  std::optional<Asked> asked_;   ///< what areas_ hold
   std::vector<Box> boxes_;
   std::vector<BoxHit> hits_, next_;
   std::vector<OpenBlock> open_;                  ///< a heap: the nearest first

@@ -147,10 +147,11 @@ void clearance(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& 
 /// - Away from a line, it goes to either side until no disc overlaps the touched stretch.
 /// - Away from a post, it goes along the disc that is nearest to the post.
 ///
-/// The shortest of all such moves counts. An agent that touches several obstacles gets the longest of their moves. An agent that is
-/// inside an area and touches none of its segments crosses the nearest of them. One move frees an agent of a convex area or a
-/// single segment, if its new position is right to 1e-7 of its reach; for other obstacles, call again after the move. The depth is
-/// 0, and the direction (0, 0), where nothing is touched.
+/// The shortest of all such moves out of an obstacle counts. An agent that is inside an area and touches none of its segments crosses the
+/// nearest of them. An agent that touches or is inside several obstacles gets the longest of the moves that each of them alone asks for.
+/// One move frees an agent of a convex area or a single segment, if its new position is right to 1e-7 of its reach; for other obstacles,
+/// call again after the move. The depth is 0, and the direction (0, 0), where nothing is touched.
+/// Cost:    n log n for n segments that are near an agent, or as near as the farthest of those that it crosses.
 /// Options: implementation.
 void penetration(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
                  std::span<Penetration> out, const QueryOptions& options = {});

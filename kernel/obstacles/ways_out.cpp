@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/obstacles/ways_out.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace bch::detail {
+namespace {
+
+bool has_length(const LocalSegment& segment) noexcept {
+  return segment.from < segment.to;
+}
+
+void keep_longer(WayOut& longest, const WayOut& way) noexcept {
+  if (way.depth > longest.depth) longest = way;
+}
+
+}  // namespace
+
+WayOut WaysOut::longest() {
+  WayOut longest;
+  std::vector<std::uint32_t> areas;  // that hold the part clear of their segments
+  body_.near_part(part_);
+  body_.near().any_obstacle([&](std::span<const LocalSegment> segments, std::uint32_t obstacle) {
+    find_touched(segments);
+    if (!touched_.empty())
+      keep_longer(longest, is_post() ? from_post(*touched_.front()) : shortest(segments));
+    else if (body_.near().obstacles().is_area[obstacle] != 0 &&
+             body_.area_holds(part_, segments, obstacle, false))
+      areas.push_back(obstacle);
+    return false;
+  });
+  body_.visit_areas_beyond(part_, [&](std::uint32_t area) { return areas.push_back(area), true; });
+  if (areas.empty()) return longest;
+  std::sort(areas.begin(), areas.end());
+  keep_longer(longest, longest_out_of(areas));
+  return longest;
+}
+
+void WaysOut::find_touched(std::span<const LocalSegment> segments) {
+  touched_.clear();
+  for (const LocalSegment& segment : segments)
+    if (is_touched(segment)) touched_.push_back(&segment);
+}
+
+bool WaysOut::is_touched(const LocalSegment& segment) const noexcept {
+  for (std::uint32_t i = 0; i < discs_.count; ++i)
+    if (segment.touches(double{discs_.x[i]}, double{discs_.y[i]}, double{discs_.radius[i]})) return true;
+  return false;
+}
+
+bool WaysOut::is_post() const noexcept {
+  return std::none_of(touched_.begin(), touched_.end(),
+                      [](const LocalSegment* segment) { return has_length(*segment); });
+}
+
+WayOut WaysOut::from_post(const LocalSegment& post) const {
+  // The point in the agent's frame, and the disc.
+  const double px = post.from * post.x - post.offset * post.y, py = post.from * post.y + post.offset * post.x;
+  double deepest = std::numeric_limits<double>::infinity(), ux = 1, uy = 0;
+  for (std::uint32_t i = 0; i < discs_.count; ++i) {
+    const double dx = double{discs_.x[i]} - px, dy = double{discs_.y[i]} - py;
+    const double length = std::sqrt(dx * dx + dy * dy), gap = length - double{discs_.radius[i]};
+    if (gap >= deepest) continue;
+    deepest = gap;
+    ux = length > 0 ? dx / length : 1, uy = length > 0 ? dy / length : 0;
+  }
+  // A line through the point, which has the disc on its left.
+  LocalSegment across = post;
+  across.x = uy, across.y = -ux;
+  across.from = across.to = px * across.x + py * across.y;
+  across.offset = px * ux + py * uy;
+  const double depth = depth_towards(1, across, {across.from, across.to});
+  const auto [x, y] = part_.place.turned(ux, uy);
+  return {with_margin(depth, across), {x, y}};
+}
+
+WayOut WaysOut::shortest(std::span<const LocalSegment> segments) {
+  hull_.clear();
+  for (const LocalSegment* const segment : touched_) {
+    const WorldSegment& world = in_world(*segment);
+    hull_.add({world.ax, world.ay}), hull_.add({world.bx, world.by});
+  }
+  hull_.close();
+  WayOut shortest{std::numeric_limits<double>::infinity(), {}};
+  for (const LocalSegment& segment : segments) {
+    if (!has_length(segment)) continue;
+    const int side = body_.near().obstacles().outside[segment.number];
+    if (!(side != 0 && has_all_behind(segment, side)) && !is_touched(segment)) continue;
+    const WayOut way = over(segment, side == 0 ? beside_touched(segment) : Range{});
+    if (way.depth < shortest.depth) shortest = way;
+  }
+  return shortest;
+}
+
+bool WaysOut::has_all_behind(const LocalSegment& segment, int side) const {
+  const WorldSegment& line = in_world(segment);
+  return hull_.most([&](EndsHull::Point end) {
+    const double dx = end.x - line.ax, dy = end.y - line.ay;
+    return side * (line.x * dy - line.y * dx);
+  }) <= segment.slack;
+}
+
+WaysOut::Range WaysOut::beside_touched(const LocalSegment& segment) const {
+  const WorldSegment& line = in_world(segment);
+  const auto along = [&](EndsHull::Point end) {
+    const double dx = end.x - line.ax, dy = end.y - line.ay;
+    return segment.from + dx * line.x + dy * line.y;
+  };
+  return {-hull_.most([&](EndsHull::Point end) { return -along(end); }), hull_.most(along)};
+}
+
+/// An area has no nearest segment where a set has numbers that are no lengths.
+WayOut WaysOut::longest_out_of(std::span<const std::uint32_t> areas) {
+  struct Nearest {
+    const LocalSegment* segment = nullptr;
+    double square = std::numeric_limits<double>::infinity();
+  };
+  std::vector<Nearest> nearest(areas.size());
+  const Vec2 centre = part_.centre();
+  const double distance = body_.near().nearest_distance(part_.place, centre, areas);
+  for (const LocalSegment& segment : body_.near().find(part_.place, centre, distance)) {
+    const auto area = std::lower_bound(areas.begin(), areas.end(), segment.obstacle);
+    if (area == areas.end() || *area != segment.obstacle || !(in_world(segment).length > 0)) continue;
+    const double square = segment.square_distance(double{centre.x}, double{centre.y});
+    Nearest& of_area = nearest[static_cast<std::size_t>(area - areas.begin())];
+    if (square < of_area.square) of_area = {&segment, square};
+  }
+  WayOut longest;
+  for (const auto& [segment, square] : nearest)
+    if (segment != nullptr) keep_longer(longest, over(*segment, {}));
+  return longest;
+}
+
+WayOut WaysOut::over(const LocalSegment& segment, Range range) const {
+  int side = body_.near().obstacles().outside[segment.number];
+  double depth = depth_towards(side == 0 ? 1 : side, segment, range);
+  if (side == 0) {
+    const double right = depth_towards(-1, segment, range);
+    side = right < depth ? -1 : 1;
+    depth = std::min(depth, right);
+  }
+  const WorldSegment& world = in_world(segment);
+  return {with_margin(depth, segment), {-side * world.y, side * world.x}};
+}
+
+/// Returns how far discs beside the range have to move towards a side of a segment, 1 the left one, until none is across.
+double WaysOut::depth_towards(int side, const LocalSegment& segment, Range range) const noexcept {
+  double depth = 0;
+  for (std::uint32_t i = 0; i < discs_.count; ++i) {
+    const double x = discs_.x[i], y = discs_.y[i], r = double{discs_.radius[i]} + segment.slack;
+    const double along = segment.along(x, y);
+    if (along >= range.from - r && along <= range.to + r)
+      depth = std::max(depth, r - side * segment.across(x, y));
+  }
+  return depth;
+}
+
+double WaysOut::with_margin(double depth, const LocalSegment& segment) const noexcept {
+  // For the rounding of the depth to float, and of the new position.
+  const double margin = 0x1p-20 * part_.outer_radius() + 2 * segment.slack;
+  return (depth + margin) * (1 + 0x1p-22);
+}
+
+}  // namespace bch::detail

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "kernel/obstacles/body_query.hpp"
+#include "kernel/obstacles/ends_hull.hpp"
+#include "layout/format/cut_discs.hpp"
+
+namespace bch::detail {
+
+/// A way out over a segment.
+struct WayOut {
+  double depth = 0;
+  ObstaclePlace::Vector direction = {0, 0};  ///< in the world
+};
+
+/// Finds the ways out of the obstacles that a part touches, and of the areas that hold it.
+class WaysOut {
+ public:
+  WaysOut(BodyQuery& body, const PlacedPart& part)
+      : body_(body), part_(part), discs_(cut_discs(part.shapes, part.root_index())) {}
+
+  /// Returns the longest of the ways out of each obstacle.
+  WayOut longest();
+
+ private:
+  /// Holds the stretch of a segment's line on which discs count.
+  struct Range {
+    double from = -std::numeric_limits<double>::infinity(), to = std::numeric_limits<double>::infinity();
+  };
+
+  void find_touched(std::span<const LocalSegment> segments);
+  bool is_touched(const LocalSegment& segment) const noexcept;
+  /// Returns whether no segment that is touched has a direction.
+  bool is_post() const noexcept;
+  /// Returns the way away from a point: that of the disc that overlaps it the deepest.
+  WayOut from_post(const LocalSegment& post) const;
+  /// Returns the shortest way out of an obstacle: over a segment that is touched, or one that has all of those behind it.
+  WayOut shortest(std::span<const LocalSegment> segments);
+  /// Returns whether all that is touched is behind a segment, seen from the side that is outside.
+  bool has_all_behind(const LocalSegment& segment, int side) const;
+  /// Returns the stretch of a segment's line beside which the touched segments are.
+  Range beside_touched(const LocalSegment& segment) const;
+  /// Returns the longest of the ways out of areas, which ascend, each over the segment that is the nearest to the part's centre.
+  WayOut longest_out_of(std::span<const std::uint32_t> areas);
+  WayOut over(const LocalSegment& segment, Range range) const;
+  double depth_towards(int side, const LocalSegment& segment, Range range) const noexcept;
+  double with_margin(double depth, const LocalSegment& segment) const noexcept;
+  const WorldSegment& in_world(const LocalSegment& segment) const noexcept {
+    return body_.near().obstacles().segments[segment.slot];
+  }
+
+  BodyQuery& body_;
+  const PlacedPart& part_;
+  const CutDiscs discs_;
+  std::vector<const LocalSegment*> touched_;
+  EndsHull hull_;  ///< of what is touched
+};
+
+}  // namespace bch::detail
