@@ -10,6 +10,7 @@
 
 #include "kernel/motion/body_at.hpp"
 #include "kernel/motion/hull_separation.hpp"
+#include "kernel/motion/path.hpp"
 
 namespace bch::detail {
 namespace {
@@ -41,6 +42,7 @@ double ContactSearch::first(const MotionFacts& a, const MotionFacts& b, double f
   MovingBody body_a(a), body_b(b);
   a_ = &body_a, b_ = &body_b;
   looked_inside_ = 0;
+  limit_.begin();
   const double reaches = a.tree->reach + b.tree->reach;
   const double slack_of_places = position_rounding * (a.farthest + b.farthest) + root_rounding * reaches;
   for (double time = from; time <= to;) {
@@ -49,8 +51,10 @@ double ContactSearch::first(const MotionFacts& a, const MotionFacts& b, double f
     slack_ = slack_of_places + (a_->time_slack(time) + b_->time_slack(time));
     const RelativeWay way(a_->pose(time), b_->pose(time), a_->pose(until), b_->pose(until));
     const auto [enter, leave] = way.times_within(reaches + slack_);
+    limit_.count(1);
     if (enter <= 1) {
-      const double length = until - time, last = leave < 1 ? time + leave * length : end;
+      const double length = until - time,
+                   last = leave < 1 ? time + leave * length : std::min(end, end_of_news(time, until));
       const double found =
           first_near(std::min(time + enter * length, last), last, to, AnimatedHulls::level_count);
       if (found <= to) return found;
@@ -65,9 +69,20 @@ double ContactSearch::first(const MotionFacts& a, const MotionFacts& b, double f
   return never;
 }
 
+/// Returns until when two bodies that stand from one time to another may do together what they have not done since the first one.
+double ContactSearch::end_of_news(double time, double until) {
+  const bool stand =
+      is_one_place(a_->pose(time), a_->pose(until)) && is_one_place(b_->pose(time), b_->pose(until));
+  if (!stand) return never;
+  const double a = a_->period(time), b = b_->period(time);
+  const double together = a == 0 || b == 0 || a == b ? std::max(a, b) : never;
+  return together > 0 ? time + 2 * together : never;
+}
+
 /// Where both paths go straight on and the bodies are within reach: from window to window of their hulls; below these, from key to key.
 double ContactSearch::first_near(double from, double end, double to, unsigned level) {
   for (double time = from; time <= to;) {
+    limit_.count(1);
     const double clip_end = std::min(a_->clip_end(time), b_->clip_end(time));
     double until = std::min(end, clip_end), found = never;
     if (level > 0) until = std::min({end, a_->hull_end(level - 1), b_->hull_end(level - 1)});

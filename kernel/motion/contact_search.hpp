@@ -8,6 +8,7 @@
 
 #include "kernel/motion/moving_body.hpp"
 #include "kernel/motion/placed_nodes.hpp"
+#include "kernel/motion/step_limit.hpp"
 
 namespace bch::detail {
 
@@ -38,6 +39,9 @@ namespace bch::detail {
 ///
 /// At the time that is found, two discs are at most twice as far apart as both were enlarged.
 ///
+/// Where both stand and repeat themselves together, nothing changes after a round of theirs; two are looked at, which hold one whatever
+/// rounds. What else goes on for too long is given up: StepLimit.
+///
 /// What one body's rings go round holds another one's ring wholly or not at all, as long as no discs overlap. Whether it does can
 /// change only in the beginning and where a chunk begins, and is asked then; between, a ring would have to pass through the other
 /// one's discs.
@@ -46,9 +50,11 @@ class ContactSearch {
   explicit ContactSearch(double tolerance) : tolerance_(tolerance) {}
 
   /// Returns the first contact from one time to another, or infinity. Contacts up to `to` do not depend on it.
+  /// Errors:  throws StepLimit::Reached.
   double first(const MotionFacts& a, const MotionFacts& b, double from, double to);
 
  private:
+  double end_of_news(double time, double until);
   double first_near(double from, double end, double to, unsigned level);
   bool hulls_are_apart(double from, double end, unsigned level) const;
   double first_between(double from, double end);
@@ -64,6 +70,7 @@ class ContactSearch {
   };
 
   double tolerance_;
+  StepLimit limit_;
   double slack_ = 0;
   double room_ = 0;  ///< what two discs are enlarged by in an interval
   MovingBody* a_ = nullptr;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <string>
+#include <vector>
 
 #include <bch/time_of_impact.hpp>
 
@@ -55,13 +56,19 @@ void first_contact(std::span<const Motion> motions, std::span<const Pair> pairs,
   require_valid(query, interval, tolerance);
   const MotionParts parts(query, motions);
   require_valid(query, pairs, parts);
+  std::vector<double> found(pairs.size());
   for_ranges(pairs.size(), grain, [&](std::size_t begin, std::size_t end) {
     ContactSearch search(tolerance);
     for (std::size_t i = begin; i < end; ++i) {
       const auto [low, high] = std::minmax(pairs[i].first, pairs[i].second);
-      times[i] = first_of_slabs(search, parts, low, parts, high, interval.from, interval.to);
+      found[i] = within_limit(
+          query, [i] { return "pair " + std::to_string(i); },
+          [&, low = low, high = high] {
+            return first_of_slabs(search, parts, low, parts, high, interval.from, interval.to);
+          });
     }
   });
+  std::copy(found.begin(), found.end(), times.begin());
 }
 
 double free_until(const Motion& motion, std::span<const Motion> others, const TimeInterval& interval,
@@ -76,8 +83,12 @@ double free_until(const Motion& motion, std::span<const Motion> others, const Ti
   ContactSearch search(tolerance);
   double first = never;
   for (std::size_t i = 0; i < others.size(); ++i)
-    first = std::min(first,
-                     first_of_slabs(search, own, 0, parts, i, interval.from, std::min(first, interval.to)));
+    first = std::min(first, within_limit(
+                                query, [i] { return "motion " + std::to_string(i); },
+                                [&] {
+                                  return first_of_slabs(search, own, 0, parts, i, interval.from,
+                                                        std::min(first, interval.to));
+                                }));
   return first;
 }
 

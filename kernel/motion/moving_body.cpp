@@ -73,6 +73,11 @@ double MovingBody::clip_end(double time) noexcept {
   return clip_end_;
 }
 
+double MovingBody::period(double time) noexcept {
+  if (tree().loops) return tree().length();
+  return std::isinf(clip_end(time)) ? 0 : std::numeric_limits<double>::infinity();
+}
+
 /// Before its beginning and after its end a clip stands still: at the first or last key, in share().
 void MovingBody::find_key(double time) noexcept {
   begin_round(tree().loops ? std::floor((time - facts_->clip_begin) / tree().length()) : 0);

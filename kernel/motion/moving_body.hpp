@@ -38,6 +38,9 @@ class MovingBody {
   /// Returns until when discs move straight on.
   double clip_end(double time) noexcept;
 
+  /// Returns after how long its discs repeat for good what they do from a time on: 0 where they stand still, infinite where they do not.
+  double period(double time) noexcept;
+
   /// Returns by how much rounding of times moves a disc until path_end(), at most, from the time on for which that was called.
   double time_slack(double time) const noexcept;
   /// Returns where the body is until path_end().

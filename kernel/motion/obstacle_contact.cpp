@@ -2,6 +2,8 @@
 // Copyright (c) 2026 the bch authors
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include <bch/obstacles.hpp>
 
@@ -24,16 +26,21 @@ void first_contact(std::span<const Motion> motions, const ObstacleSet& obstacles
   require_valid(query, interval, tolerance);
   const MotionParts parts(query, motions);
   const Implementation& implementation = chosen({}, query);
+  std::vector<double> found(motions.size());
   for_ranges(motions.size(), grain, [&](std::size_t begin, std::size_t end) {
     ObstacleSearch search(implementation, obstacles.view(), tolerance);
-    for (std::size_t i = begin; i < end; ++i) {
-      double first = never;
-      for (const MotionFacts& slab : parts[i])
-        first = std::min(first, search.first(slab, motions[i].shape->reach(), interval.from,
-                                             std::min(first, interval.to)));
-      times[i] = first;
-    }
+    for (std::size_t i = begin; i < end; ++i)
+      found[i] = within_limit(
+          query, [i] { return "motion " + std::to_string(i); },
+          [&] {
+            double first = never;
+            for (const MotionFacts& slab : parts[i])
+              first = std::min(first, search.first(slab, motions[i].shape->reach(), interval.from,
+                                                   std::min(first, interval.to)));
+            return first;
+          });
   });
+  std::copy(found.begin(), found.end(), times.begin());
 }
 
 double free_until(const Motion& motion, std::span<const Motion> others, const ObstacleSet& obstacles,

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "kernel/motion/body_at.hpp"
+#include "kernel/motion/path.hpp"
 
 namespace bch::detail {
 
@@ -16,10 +17,15 @@ double ObstacleSearch::first(const MotionFacts& motion, double reach, double fro
   body_ = &body;
   looked_inside_ = 0;
   reach_ = reach;
+  limit_.begin();
   for (double time = from; time <= to;) {
     const double end = body_->path_end(time);
     slack_ = body_->time_slack(time) + position_rounding * motion.farthest + root_rounding * 2 * reach;
-    const double found = first_on_way(time, end, to);
+    // One that stands does nothing new after a round.
+    const bool stands = is_one_place(body_->pose(time), body_->pose(end));
+    const double period = stands ? body_->period(time) : 0,
+                 last = period > 0 ? std::min(end, time + 2 * period) : end;
+    const double found = first_on_way(time, last, to);
     if (found <= to) return found;
     time = end;
   }
@@ -54,6 +60,7 @@ bool ObstacleSearch::is_in_area(double x, double y) {
 /// From key to key of the clip.
 double ObstacleSearch::first_near(double from, double end, double to) {
   for (double time = from; time <= to;) {
+    limit_.count(1 + found_.size());
     const double until = std::min(body_->clip_end(time), end);
     if (body_->chunk().nodes() > 0) {
       if (nested_where_a_chunk_begins(time)) return time;

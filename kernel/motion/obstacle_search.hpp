@@ -8,6 +8,7 @@
 
 #include "kernel/motion/moving_body.hpp"
 #include "kernel/motion/placed_nodes.hpp"
+#include "kernel/motion/step_limit.hpp"
 #include "kernel/motion/still_segment.hpp"
 #include "kernel/obstacles/near_segments.hpp"
 
@@ -32,6 +33,7 @@ class ObstacleSearch {
 
   /// Returns the first contact of a body, or of a slab of it, from one time to another, or infinity. Contacts up to `to` do not depend on it.
   /// `reach`: that of the whole body.
+  /// Errors:  throws StepLimit::Reached.
   double first(const MotionFacts& motion, double reach, double from, double to);
 
  private:
@@ -52,6 +54,7 @@ class ObstacleSearch {
 
   NearSegments near_;
   double tolerance_;
+  StepLimit limit_;
   double reach_ = 0, slack_ = 0;
   double room_ = 0;  ///< what discs are enlarged by in an interval
   MovingBody* body_ = nullptr;

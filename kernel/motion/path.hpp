@@ -16,4 +16,9 @@ inline PathKey between_keys(const PathKey& from, const PathKey& to, double time)
   return {time, blend(from.x, to.x), blend(from.y, to.y), blend(from.heading, to.heading)};
 }
 
+/// Returns whether two keys are one place.
+inline bool is_one_place(const PathKey& a, const PathKey& b) noexcept {
+  return a.x == b.x && a.y == b.y && a.heading == b.heading;
+}
+
 }  // namespace bch::detail

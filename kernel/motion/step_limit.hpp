@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "kernel/motion/motion_parts.hpp"
+
+namespace bch::detail {
+
+/// Counts the steps of a search, from key to key of clips, and ends a search that a clip which loops makes endless to all intents. An hour
+/// of clips with a hundred keys a second has 400 000.
+class StepLimit {
+ public:
+  struct Reached {};
+
+  void begin() noexcept { steps_ = 0; }
+  /// Errors:  throws Reached.
+  void count(std::uint64_t steps) {
+    steps_ += steps;
+    if (steps_ > most) throw Reached();
+  }
+
+ private:
+  static constexpr std::uint64_t most = 100'000'000;
+  std::uint64_t steps_ = 0;
+};
+
+/// Returns what find() finds.
+/// Errors:  throws std::invalid_argument with the name of what was looked at, where the limit is reached.
+template <class Name, class Find>
+double within_limit(const char* query, const Name& name, const Find& find) {
+  try {
+    return find();
+  } catch (const StepLimit::Reached&) {
+    reject(query, name() + ": clips go on for more than 1e8 keys within reach; ask about a shorter interval");
+  }
+}
+
+}  // namespace bch::detail
