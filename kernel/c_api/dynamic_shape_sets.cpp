@@ -107,11 +107,11 @@ bch_status bch_dynamic_shape_set_create(const bch_shape_set* start, bch_dynamic_
     required(set, "set");
     auto made = std::make_unique<bch_dynamic_shape_set>(object_of(start, "start").set);
     const bch_shape_set* const lent = made->lent.get();
-    registry::add(lent, kind_of(lent));
+    registry::lend(lent, kind_of(lent));
     try {
       hand_out(std::move(made), set);
     } catch (...) {
-      registry::remove(lent);
+      registry::end_loan(lent);
       throw;
     }
   });
@@ -152,7 +152,6 @@ bch_status bch_dynamic_shape_set_replace_poses(bch_dynamic_shape_set* handle, co
 
 bch_status bch_dynamic_shape_set_free(bch_dynamic_shape_set* set) {
   return guarded([&] {
-    if (set != nullptr) registry::remove(object_of(set, "set").lent.get());
-    take_back(set, "set");
+    if (const auto taken = take_back(set, "set")) registry::end_loan(taken->lent.get());
   });
 }

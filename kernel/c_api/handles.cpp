@@ -13,7 +13,11 @@ namespace {
 
 struct Living {
   std::shared_mutex mutex;
-  std::unordered_map<const void*, std::string_view> kinds;
+  struct Object {
+    std::string_view kind;
+    bool is_lent;
+  };
+  std::unordered_map<const void*, Object> objects;
 };
 
 /// Never destroyed: a program may free objects while it ends.
@@ -26,18 +30,32 @@ Living& living() {
 
 void add(const void* object, std::string_view kind) {
   const std::unique_lock lock(living().mutex);
-  living().kinds[object] = kind;
+  living().objects[object] = {kind, false};
 }
 
-void remove(const void* object) noexcept {
+void lend(const void* object, std::string_view kind) {
   const std::unique_lock lock(living().mutex);
-  living().kinds.erase(object);
+  living().objects[object] = {kind, true};
+}
+
+Removal remove(const void* object, std::string_view kind) noexcept {
+  const std::unique_lock lock(living().mutex);
+  const auto found = living().objects.find(object);
+  if (found == living().objects.end() || found->second.kind != kind) return Removal::unknown;
+  if (found->second.is_lent) return Removal::lent;
+  living().objects.erase(found);
+  return Removal::removed;
+}
+
+void end_loan(const void* object) noexcept {
+  const std::unique_lock lock(living().mutex);
+  living().objects.erase(object);
 }
 
 bool contains(const void* object, std::string_view kind) noexcept {
   const std::shared_lock lock(living().mutex);
-  const auto found = living().kinds.find(object);
-  return found != living().kinds.end() && found->second == kind;
+  const auto found = living().objects.find(object);
+  return found != living().objects.end() && found->second.kind == kind;
 }
 
 }  // namespace registry

@@ -15,7 +15,13 @@ namespace bch::c_api {
 /// freed, or is of another kind, is an error.
 namespace registry {
 void add(const void* object, std::string_view kind);
-void remove(const void* object) noexcept;
+/// Adds an object that belongs to another one, and that only end_loan() removes.
+void lend(const void* object, std::string_view kind);
+void end_loan(const void* object) noexcept;
+
+enum class Removal { removed, unknown, lent };
+/// Removes an object if it is of a kind and not lent. Of threads that remove one object at the same time, one does.
+Removal remove(const void* object, std::string_view kind) noexcept;
 bool contains(const void* object, std::string_view kind) noexcept;
 }  // namespace registry
 
@@ -63,14 +69,19 @@ constexpr std::string_view kind_of(const bch_moment_set*) {
   return "bch_moment_set";
 }
 
+/// Throws what is said of a handle that is no living object of its kind.
+template <class Object>
+[[noreturn]] void reject_handle(Object* handle, const char* argument) {
+  throw Failure(BCH_INVALID_ARGUMENT,
+                std::string(argument) + " is no living " + std::string(kind_of(handle)) + "; was it freed?");
+}
+
 /// Returns the object of a handle.
 /// Errors:  throws Failure naming the argument, on NULL and on what is no living object of this kind.
 template <class Object>
 Object& object_of(Object* handle, const char* argument) {
   if (handle == nullptr) throw Failure(BCH_INVALID_ARGUMENT, std::string(argument) + " is NULL");
-  if (!registry::contains(handle, kind_of(handle)))
-    throw Failure(BCH_INVALID_ARGUMENT, std::string(argument) + " is no living " +
-                                            std::string(kind_of(handle)) + "; was it freed?");
+  if (!registry::contains(handle, kind_of(handle))) reject_handle(handle, argument);
   return *handle;
 }
 
@@ -81,14 +92,21 @@ void hand_out(std::unique_ptr<Object> object, Object** to) {
   *to = object.release();
 }
 
-/// Deletes the object of a handle; NULL is none.
-/// Errors:  as object_of().
+/// Takes an object back that was handed out; NULL is none. The object is not read before it is this thread's alone.
+/// Errors:  as object_of(), and on an object that is lent.
 template <class Object>
-void take_back(Object* handle, const char* argument) {
-  if (handle == nullptr) return;
-  object_of(handle, argument);
-  registry::remove(handle);
-  delete handle;
+std::unique_ptr<Object> take_back(Object* handle, const char* argument) {
+  if (handle == nullptr) return nullptr;
+  switch (registry::remove(handle, kind_of(handle))) {
+    case registry::Removal::removed:
+      break;
+    case registry::Removal::unknown:
+      reject_handle(handle, argument);
+    case registry::Removal::lent:
+      throw Failure(BCH_INVALID_ARGUMENT,
+                    std::string(argument) + " belongs to the object that lent it, which frees it");
+  }
+  return std::unique_ptr<Object>(handle);
 }
 
 /// Frees an object, as the functions of the C interface do that free one.

@@ -24,7 +24,7 @@ namespace {
 
 /// Ends a loan.
 void take_loan_back(bch_moment_set& set) {
-  if (set.lent) registry::remove(set.lent.get());
+  if (set.lent) registry::end_loan(set.lent.get());
   set.lent.reset();
 }
 
@@ -79,7 +79,7 @@ bch_status bch_moment_set_get_shapes(bch_moment_set* handle, const bch_shape_set
     required(shapes, "shapes");
     if (!set.lent) {
       auto lent = std::make_unique<bch_shape_set>(set.moments.set());
-      registry::add(lent.get(), kind_of(lent.get()));
+      registry::lend(lent.get(), kind_of(lent.get()));
       set.lent = std::move(lent);
     }
     *shapes = set.lent.get();
@@ -88,8 +88,7 @@ bch_status bch_moment_set_get_shapes(bch_moment_set* handle, const bch_shape_set
 
 bch_status bch_moment_set_free(bch_moment_set* set) {
   return guarded([&] {
-    if (set != nullptr) take_loan_back(object_of(set, "set"));
-    take_back(set, "set");
+    if (const auto taken = take_back(set, "set")) take_loan_back(*taken);
   });
 }
 

@@ -144,9 +144,5 @@ bch_status bch_shape_set_verify(const bch_shape_set* set, size_t most, bch_findi
 }
 
 bch_status bch_shape_set_free(bch_shape_set* set) {
-  return guarded([&] {
-    if (set != nullptr && !object_of(set, "set").own)
-      throw Failure(BCH_INVALID_ARGUMENT, "set belongs to a bch_dynamic_shape_set, which frees it");
-    take_back(set, "set");
-  });
+  return free_object(set, "set");
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <string>
 #include <thread>
@@ -171,6 +172,26 @@ TEST_F(CApiThreads, ObjectsGoFromThreadToThread) {
   for (unsigned t = 0; t < thread_count; ++t) {
     EXPECT_EQ(hits[t], hits[0]);
     EXPECT_EQ(bch_obstacles_free(of[t]), BCH_INVALID_ARGUMENT);
+  }
+}
+
+/// Of threads that free one object at the same time, one does, and the others are told that it is no living object.
+TEST_F(CApiThreads, OneOfThemFreesAnObject) {
+  const auto expect_one = [](auto* object, auto* free) {
+    std::vector<bch_status> said(thread_count);
+    on_threads([&](unsigned t) { said[t] = free(object); });
+    std::sort(said.begin(), said.end());
+    std::vector<bch_status> one(thread_count, BCH_INVALID_ARGUMENT);
+    one[0] = BCH_OK;
+    EXPECT_EQ(said, one);
+  };
+  for (int i = 0; i < 300; ++i) {
+    expect_one(made<test::OwnedFinder>(bch_contact_finder_create).release(), bch_contact_finder_free);
+    expect_one(test::c_set(shapes).release(), bch_shape_set_free);
+    const auto dynamic = [&](bch_dynamic_shape_set** to) {
+      return bch_dynamic_shape_set_create(set.get(), to);
+    };
+    expect_one(made<test::OwnedDynamicSet>(dynamic).release(), bch_dynamic_shape_set_free);
   }
 }
 

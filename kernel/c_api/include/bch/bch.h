@@ -15,8 +15,9 @@
  * Results:  every function that can fail returns a bch_status and writes its results through its last arguments. Unless it
  *           returns BCH_OK, nothing has been written, and bch_last_error() says what is wrong.
  * Handles:  an object is a pointer that a function creates and that the free function of its kind frees; freeing NULL does
- *           nothing. A function returns BCH_INVALID_ARGUMENT for a pointer which is no living object of the right kind. An
- *           object that lent a pointer has to live as long as that pointer is used.
+ *           nothing. A function returns BCH_INVALID_ARGUMENT for a pointer which is no living object of the right kind, also to
+ *           all but one of the threads that free an object at the same time. An object that lent a pointer has to live as long
+ *           as that pointer is used.
  * Structs:  those that begin with `size` may grow at their end in later versions: initialise them by the macro of their
  *           name, which fills in the size and the defaults. NULL in place of options means the defaults.
  * Arrays:   they are the caller's and packed. They are neither copied nor kept, and may be NULL where they are empty.
