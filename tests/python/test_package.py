@@ -80,7 +80,7 @@ class Errors(unittest.TestCase):
         self.expect(ValueError, ["directions is 300"], bch.penetration, self.shapes, self.agents, self.pairs, 300)
         self.expect(IndexError, ["shape is 4294967296"], self.shapes.discs, 2**32)
         self.expect(IndexError, ["slab is -1"], self.shapes.outline, 0, -1)
-        self.expect(ValueError, ["a depth is -1"], bch.ShapeSetBuilder, bch.Plan([-1]))
+        self.expect(ValueError, ["depths[0] is -1"], bch.ShapeSetBuilder, bch.Plan([-1]))
 
     def test_characters_and_scenes(self):
         mesh = ([(0, 0, 0), (1, 0, 0), (1, 1, 1)], [(0, 1, 2)])
@@ -120,6 +120,129 @@ class Errors(unittest.TestCase):
         self.expect(ValueError, ["directions are for pairs"], bch.penetration, self.shapes, self.agents, walls, 8)
         exact = {"leaves": "segments"}
         self.expect(ValueError, ["leaves are for obstacles"], bch.within, self.shapes, self.agents, self.pairs, 1, **exact)
+
+    def test_every_argument_of_a_wrong_class(self):
+        """What is no such thing is a TypeError or a ValueError that names the argument."""
+        man = bch.default_male()
+        discs = np.zeros((2, 1, 3)) + (0, 0, 0.2)
+        body = bch.AnimatedShape([0, 1], discs)
+        mover = bch.Mover(body, [(0, 0, 0, 0)])
+        walls = bch.Obstacles.from_wkt("LINESTRING(0 0, 1 1)")
+        crowd = {"shapes": self.shapes, "agents": self.agents}
+        asked = {**crowd, "pairs": self.pairs}
+        poses, which = [(0, 0.0)], np.zeros(1, np.uint32)
+        points = {"x": np.zeros(2), "y": np.zeros(2)}
+        mesh = {"vertices": np.eye(3), "triangles": [(0, 1, 2)]}
+        builder, tall = bch.ShapeSetBuilder(), bch.ShapeSetBuilder(bch.Plan(heights=True))
+        moments = bch.MomentSet([body])
+        table = [
+            (bch.Agents, {"shape": which, "x": np.zeros(1), "y": np.zeros(1), "heading": np.zeros(1)}),
+            (bch.AnimatedShape, {"times": [0, 1], "discs": discs, "ring_ends": [1]}),
+            (body.discs, {"seconds": 0.5}),
+            (bch.Mover, {"shape": body, "path": [(0, 0, 0, 0)], "clip_begin": 0}),
+            (bch.MomentSet, {"bodies": [body], "plan": bch.Plan()}),
+            (moments.show, {"body": which, "seconds": np.zeros(1), "threads": 1}),
+            (bch.first_contact, {"movers": [mover], "pairs": walls, "interval": (0, 1), "tolerance": 0.1, "threads": 1}),
+            (bch.free_until, {"mover": mover, "others": [mover], "interval": (0, 1), "tolerance": 0.1}),
+            (bch.animate, {"character": man, "clip": 99, "spacing": 0.1, "inset": 0.1, "error": 0.1, "slices": [0.5]}),
+            (bch.Obstacles, {**points, "path_offsets": np.array([0, 2], np.uint64)}),
+            (bch.Obstacles.from_wkt, {"text": "LINESTRING(0 0, 1 1)", "heights": (0, 1)}),
+            (walls.owner, {"segment": 0}),
+            (bch.collide, {**asked, "semantics": "solid", "leaves": "discs", "threads": 1, "implementation": "scalar"}),
+            (bch.within, {**asked, "distance": 1.0, "semantics": "solid", "threads": 1}),
+            (bch.clearance, {**asked, "max_distance": 1, "leaves": "discs", "overlap": "zero"}),
+            (bch.nearest, {**asked, "max_distance": 1, "out": None}),
+            (bch.penetration, {**asked, "directions": 16}),
+            (bch.time_of_impact, {**asked, "dx": np.zeros(1), "dy": np.zeros(1)}),
+            (bch.local_densities, {**points, "radius": 2}),
+            (bch.candidate_pairs, {**crowd, "margin": 0, "threads": 1}),
+            (bch.collide_all, {**crowd, "obstacles": walls, "semantics": "solid", "leaves": "discs", "threads": 1}),
+            (bch.contacts, {**asked, "leaves": "discs", "threads": 1}),
+            (bch.read_trajectory, {"path": "/nowhere.csv", "fps": 1, "unit": 1, "columns": "id,frame,x,y"}),
+            (
+                bch.check,
+                {"path": "/nowhere.csv", "characters": [man], "clip_speeds": {}, "facing": 0, "slices": [], "depth": 0}
+                | {"leaves": "discs", "max_distance": 1, "walls": walls, "fps": 1, "unit": 1, "threads": 1},
+            ),
+            (
+                bch.plan_scene,
+                {"poses": poses, "character": which, "distance": np.zeros(1), "depth": which, "leaves": "discs"}
+                | {"slices": [], "whole_from": 1, "pose_step": 1, "pairs_per_shape": 1},
+            ),
+            (bch.best_slices, {"characters": man, "planes": [0.5], "slabs": 1, "poses": 1}),
+            (bch.standing_slices, {"slabs": 2}),
+            (bch.dataframe, {"records": bch.Trajectory(np.empty(0, bch.TRACKED), 1, "", "", [], [])}),
+            (bch.depth_at_density, {"people_per_square_metre": 1}),
+            (man.sample_poses, {"count": 1}),
+            (bch.default_pedestrian, {"sex": "male", "stature": 1.7, "shoulders": 0}),
+            (bch.pedestrian_strides_per_second, {"speed": 1}),
+            (
+                bch.import_character,
+                {"path": "/nowhere.glb", "up": "z", "scale": 1, "clip_files": [], "max_triangles": 1}
+                | {"timeout": 1, "memory_limit": 2**30},
+            ),
+            (bch.make_character, {**mesh, "name": "a", "joints": [], "bones": [], "motions": [], "root_joint": -1}),
+            (bch.make_character, {**mesh, "to_ground": np.eye(4), "weights": None, "vertex_bones": None}),
+            (bch.PoseShaper, {"character": man, "plan": bch.Plan()}),
+            (bch.PoseShaper(man).outline, {"clip": 0, "seconds": 0, "slab": 0}),
+            (bch.ShapeSetBuilder, {"plan": bch.Plan()}),
+            (lambda depths: bch.ShapeSetBuilder(bch.Plan(depths=depths)), {"depths": [0]}),
+            (lambda slices: bch.ShapeSetBuilder(bch.Plan(slices=slices)), {"slices": [0.5]}),
+            (lambda threshold: bch.ShapeSetBuilder(bch.Plan(threshold=threshold)), {"threshold": 0.5}),
+            (builder.add_poses, {"character": man, "poses": [], "threads": 1}),
+            (builder.add_sources, {"characters": [man], "sources": np.empty(0, bch.SOURCE), "threads": 1}),
+            (tall.add_polygons, {"polygons": [[(0, 0), (1, 0), (0, 1)]], "heights": (0, 1)}),
+            (tall.add_capsules, {"capsules": [(0, 0, 1, 0, 1)], "tolerance": 0.1, "heights": (0, 1)}),
+            (tall.add_discs, {"discs": [(0, 0, 1)], "heights": (0, 1)}),
+            (tall.add_cylinder, {"radius": 1, "heights": (0, 1)}),
+            (builder.add_mesh, {"positions": np.eye(3), "triangles": [(0, 1, 2)]}),
+            (builder.add_moment, {"shape": body, "seconds": 0}),
+            (bch.bake, {"characters": man, "poses": 0, "plan": bch.Plan(), "path": None, "threads": 1}),
+            (bch.DynamicShapeSet, {"start": self.shapes}),
+            (
+                bch.DynamicShapeSet(self.shapes).replace,
+                {"character": man, "shapes": which[:0], "poses": [], "threshold": 0.1, "threads": 1},
+            ),
+            (bch.ShapeSet.load, {"path": "/nowhere.bch"}),
+            (bch.ShapeSet.from_polygons, {"bodies": [[[(0, 0), (1, 0), (0, 1)]]], "heights": None, "plan": bch.Plan()}),
+            (self.shapes.save, {"path": "/nowhere/a.bch"}),
+            (self.shapes.discs, {"shape": 0, "level": 0}),
+            (self.shapes.slab_begin, {"shape": 0, "level": 0}),
+            (self.shapes.outline, {"shape": 0, "slab": 0}),
+            (self.shapes.radius, {"shape": 0}),
+            (self.shapes.origin, {"shape": 0}),
+            (self.shapes.keep_clip, {"shape": body, "character": "man", "clip": "walk"}),
+            (self.shapes.verify, {"most": 1}),
+        ]
+        for call, good in table:
+            for name in good:
+                for wrong in (object(), "cm", [1], [object()], {1: 2}, 1j, 10**400, np.zeros(3, "c16")):
+                    if isinstance(wrong, type(good[name])):
+                        continue
+                    with self.subTest(call=getattr(call, "__qualname__", call), argument=name, value=repr(wrong)[:40]):
+                        try:
+                            call(**{**good, name: wrong})
+                        except (TypeError, ValueError) as error:
+                            self.assertIn(name, str(error))
+                        except (FileNotFoundError, IndexError, OverflowError) as error:  # a name, an index, a size
+                            self.assertIsInstance(error, bch.Error)
+
+    def test_arguments_are_named_as_arguments(self):
+        """Not as options of the command-line program."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "walk--fps.txt"
+            path.write_text("1 2 3 4\n2 3 4 5\n")
+            self.expect(OSError, ["columns has to"], bch.read_trajectory, path)
+            path.write_text("id frame x y\n1 2 3 4\n1 3 4 5\n")
+            with self.assertRaises(OSError) as caught:
+                bch.read_trajectory(path)
+            self.assertIn("fps has to", str(caught.exception))
+            self.assertNotIn(" --", str(caught.exception))
+            self.assertIn("walk--fps.txt", str(caught.exception))
+        cm = lambda **named: bch.read_trajectory("/nowhere.csv", **named)
+        self.expect(TypeError, ["unit is a str", "a number"], cm, unit="cm")
+        self.expect(TypeError, ["clip is a str", "a whole number"], bch.animate, bch.default_male(), "walk")
+        self.expect(TypeError, ["distance is a list"], bch.within, self.shapes, self.agents, self.pairs, [1])
 
     def test_bodies(self):
         builder = bch.ShapeSetBuilder()
@@ -467,7 +590,7 @@ class Recordings(unittest.TestCase):
         of_set = bch.check(self.path, unit=1, characters=baked, clip_speeds={"walk": 1.3})
         self.assertGreater(of_set.summary["overlapping_near_pairs"], 0)
         self.assertTrue(any("walks in walk at 1.3 m/s" in line for line in of_set.assumptions))
-        with self.assertRaisesRegex(TypeError, "characters has a str"):
+        with self.assertRaisesRegex(TypeError, r"characters\[0\] is a str"):
             bch.check(self.path, unit=1, characters=["default:male"])
         with self.assertRaisesRegex(ValueError, "leaves is 'discs and segments'"):
             bch.check(self.path, unit=1, leaves="discs and segments")

@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _library
-from ._arrays import DISC, Records, address, bounded, f4, f8, u4
+from ._arrays import DISC, Records, address, bounded, converted, f4, f8, listed, number, u4
 from ._library import ArrayError, Handle, check, lib
 
 
@@ -41,14 +41,14 @@ class AnimatedShape:
     def __init__(
         self, times: npt.ArrayLike, discs: npt.ArrayLike, ring_ends: Sequence[int] = (), *, loops: bool = False
     ) -> None:
-        keys = np.ascontiguousarray(times, f8)
-        all_discs = np.ascontiguousarray(discs, f4)
+        keys, all_discs = converted(times, f8, "times"), converted(discs, f4, "discs")
         if keys.ndim != 1 or all_discs.ndim != 3 or all_discs.shape[::2] != (len(keys), 3):
             raise ArrayError(f"discs have shape {all_discs.shape} at times of shape {keys.shape}; wanted are (k, n, 3) at (k,)")
-        ends = np.array([bounded(end, "a ring's end", 0, 2**32 - 1) for end in ring_ends], u4)
+        given_ends = enumerate(listed(ring_ends, "ring_ends", "whole numbers"))
+        ends = np.array([bounded(end, f"ring_ends[{i}]", 0, 2**32 - 1) for i, end in given_ends], u4)
         counts = np.array([len(keys), all_discs.shape[1], len(ends)], u4)
         arrays = _library.AnimatedArrays(
-            loops=loops,
+            loops=bool(loops),
             key_counts=address(counts),
             disc_counts=address(counts[1:]),
             ring_counts=address(counts[2:]),
@@ -83,10 +83,10 @@ class AnimatedShape:
         (n,) DISC
             Records of x, y and radius, metres.
         """
-        count = c_size_t()
-        check(lib.bch_animated_shape_get_discs(self._pointer, seconds, None, 0, byref(count)))
+        count, time = c_size_t(), number(seconds, "seconds")
+        check(lib.bch_animated_shape_get_discs(self._pointer, time, None, 0, byref(count)))
         discs = np.empty(count.value, DISC)
-        check(lib.bch_animated_shape_get_discs(self._pointer, seconds, address(discs), len(discs), byref(count)))
+        check(lib.bch_animated_shape_get_discs(self._pointer, time, address(discs), len(discs), byref(count)))
         return discs
 
     def __repr__(self) -> str:

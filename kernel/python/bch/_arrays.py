@@ -6,7 +6,7 @@
 import ctypes
 import operator
 import os
-from typing import Any, Optional, Tuple
+from typing import Any, Dict, List, Optional, Tuple, Type, TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -21,6 +21,7 @@ Float64 = npt.NDArray[np.float64]
 Bool = npt.NDArray[np.bool_]
 Records = npt.NDArray[np.void]
 Shape = Tuple[Optional[int], ...]
+T = TypeVar("T")
 
 u1, u4, u8 = np.dtype(np.uint8), np.dtype(np.uint32), np.dtype(np.uint64)
 i4, i8 = np.dtype(np.int32), np.dtype(np.int64)
@@ -90,9 +91,73 @@ def result(out: Optional[npt.NDArray[Any]], dtype: np.dtype[Any], shape: Tuple[i
     return out
 
 
+def rejected(value: Any, name: str, wanted: str) -> ArrayError:
+    """Return the error about an argument of a wrong type."""
+    return ArrayError(f"{name} is {_words(value)}; wanted is {wanted}")
+
+
+def instance(value: Any, kind: Type[T], name: str) -> T:
+    """Return an object of a class of the package, or raise an error that names the argument."""
+    if not isinstance(value, kind):
+        raise rejected(value, name, f"a bch.{kind.__name__}")
+    return value
+
+
+def listed(values: Any, name: str, wanted: str) -> List[Any]:
+    """Return a sequence as a list, or raise an error that names it."""
+    try:
+        return list(values)
+    except TypeError:
+        raise rejected(values, name, f"a sequence of {wanted}") from None
+
+
+def instances(values: Any, kind: Type[T], name: str) -> List[T]:
+    """Return a sequence of objects of a class of the package as a list, or raise an error that names the one that is none."""
+    found = listed(values, name, f"bch.{kind.__name__}")
+    return [instance(each, kind, f"{name}[{i}]") for i, each in enumerate(found)]
+
+
+def number(value: Any, name: str) -> float:
+    """Return a number as a float, or raise an error that names it. Texts are no numbers."""
+    if isinstance(value, (str, bytes, bytearray, complex)) or isinstance(value, np.ndarray) and value.ndim > 0:
+        raise rejected(value, name, "a number")
+    try:
+        return float(value)
+    except TypeError:
+        raise rejected(value, name, "a number") from None
+    except OverflowError:
+        raise ArgumentError(f"{name} is beyond the largest number") from None
+
+
+def pair(values: Any, name: str) -> Tuple[float, float]:
+    """Return two numbers, or raise an error that names them."""
+    found = listed(values, name, "two numbers")
+    if len(found) != 2:
+        raise ArgumentError(f"{name} has length {len(found)}; wanted are two numbers")
+    return number(found[0], f"{name}[0]"), number(found[1], f"{name}[1]")
+
+
+def one_of(words: Dict[str, int], word: Any, name: str) -> int:
+    """Return the number that stands for a word, or raise an error that names the argument."""
+    wanted = f"one of {', '.join(map(repr, words))}"
+    if not isinstance(word, str):
+        raise rejected(word, name, wanted)
+    if word not in words:
+        raise ArgumentError(f"{name} is {word!r}; it is {wanted}")
+    return words[word]
+
+
+def whole_number(value: Any, name: str) -> int:
+    """Return a whole number, or raise an error that names it."""
+    try:
+        return operator.index(value)
+    except TypeError:
+        raise rejected(value, name, "a whole number") from None
+
+
 def index(value: Any, name: str, end: int) -> int:
     """Return a whole number from 0 to below `end`, or raise an error that names it."""
-    number = operator.index(value)
+    number = whole_number(value, name)
     if not 0 <= number < end:
         raise RangeError(f"{name} is {number}, not from 0 to {end - 1}")
     return number
@@ -100,15 +165,31 @@ def index(value: Any, name: str, end: int) -> int:
 
 def bounded(value: Any, name: str, low: int, high: int) -> int:
     """Return a whole number within bounds, or raise an error that names it."""
-    number = operator.index(value)
+    number = whole_number(value, name)
     if not low <= number <= high:
         raise ArgumentError(f"{name} is {number}, not from {low} to {high}")
     return number
 
 
+def as_array(values: Any, name: str) -> npt.NDArray[Any]:
+    """Return what is an array or becomes one, or raise an error that names it."""
+    try:
+        return np.asarray(values)
+    except (TypeError, ValueError):  # rows of different lengths
+        raise rejected(values, name, "an array of numbers") from None
+
+
+def converted(values: Any, dtype: np.dtype[Any], name: str) -> npt.NDArray[Any]:
+    """Return numbers as a C-contiguous array of a dtype, or raise an error that names them."""
+    array = as_array(values, name)
+    if array.dtype.kind not in "biuf":
+        raise rejected(values, name, "an array of numbers")
+    return np.ascontiguousarray(array, dtype)
+
+
 def table(values: Any, dtype: np.dtype[Any], columns: int, name: str) -> npt.NDArray[Any]:
     """Return rows of `columns` numbers as an array, for calls that take lists and convert them."""
-    array = np.asarray(values)
+    array = as_array(values, name)
     whole = dtype.kind == "u"
     if array.ndim != 2 or array.shape[1] != columns or array.dtype.kind not in ("iu" if whole else "iuf"):
         kind = "whole numbers" if whole else "numbers"
@@ -120,7 +201,10 @@ def table(values: Any, dtype: np.dtype[Any], columns: int, name: str) -> npt.NDA
 
 def encoded(text: Any, name: str) -> bytes:
     """Return a text or a path as the library takes it."""
-    code = os.fsencode(text)
+    try:
+        code = os.fsencode(text)
+    except TypeError:
+        raise rejected(text, name, "a text or a path") from None
     if b"\0" in code:
         raise ArgumentError(f"{name} has a NUL character")
     return code

@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _library
-from ._arrays import address, bounded, encoded, f4, table, u4, u8
+from ._arrays import address, as_array, bounded, converted, encoded, f4, instance, instances, number, table, u4, u8
 from ._library import ArgumentError, ArrayError, Handle
 from ._shapes import Character
 
@@ -76,7 +76,7 @@ class _Arrays:
         """Return the address of affine maps. None is the identity."""
         rows = np.empty((len(maps), 3, 4), f4)
         for i, each in enumerate(maps):
-            found = np.eye(4) if each is None else np.asarray(each)
+            found = np.eye(4) if each is None else as_array(each, f"{name} {i}")
             if found.shape not in ((3, 4), (4, 4)) or found.dtype.kind not in "iuf":
                 raise ArrayError(f"{name} {i} has shape {found.shape}; wanted is (3, 4) or (4, 4)")
             rows[i] = found[:3]
@@ -85,15 +85,17 @@ class _Arrays:
     def curve(self, curve: Optional[Curve], width: int) -> _library.Curve:
         if curve is None:
             return _library.Curve()
+        instance(curve, Curve, "a curve of a channel")
         if curve.interpolation not in _interpolations:
             raise ArgumentError(f"interpolation is {curve.interpolation!r}; it is one of {', '.join(_interpolations)}")
-        times = np.ascontiguousarray(curve.times, f4)
+        times = converted(curve.times, f4, "the times of a curve")
         values = table(curve.values, f4, width, "the values of a curve")
         if times.shape != (len(values),):
             raise ArrayError(f"the times of a curve have shape {times.shape}, and there are {len(values)} values")
         tangents = None
         if curve.interpolation == "cubic":
-            tangents = np.ascontiguousarray(curve.tangents if curve.tangents is not None else (), f4)
+            given_tangents = () if curve.tangents is None else curve.tangents
+            tangents = converted(given_tangents, f4, "the tangents of a curve")
             if tangents.shape != (len(values), 2, width):
                 raise ArrayError(f"the tangents of a curve have shape {tangents.shape}, not {(len(values), 2, width)}")
         return _library.Curve(
@@ -105,7 +107,8 @@ class _Arrays:
         )
 
     def motion(self, motion: Motion) -> _library.Clip:
-        channels = (_library.Channel * len(motion.channels))(
+        given_channels = instances(motion.channels, Channel, "channels")
+        channels = (_library.Channel * len(given_channels))(
             *[
                 _library.Channel(
                     bounded(channel.joint, "the joint of a channel", 0, 2**32 - 1),
@@ -113,15 +116,15 @@ class _Arrays:
                     self.curve(channel.rotations, 4),
                     self.curve(channel.scales, 3),
                 )
-                for channel in motion.channels
+                for channel in given_channels
             ]
         )
         self._kept.append(channels)
-        return _library.Clip(encoded(motion.name, "a name"), motion.seconds, channels, len(channels))
+        return _library.Clip(encoded(motion.name, "a name"), number(motion.seconds, "seconds of a motion"), channels, len(channels))
 
     def influences(self, bones: npt.ArrayLike, weights: npt.ArrayLike, vertices: int, to: Any) -> None:
         """Set the influences of vertices. A weight of 0 is no influence."""
-        weight = np.asarray(weights)
+        weight = as_array(weights, "weights")
         columns = weight.shape[1] if weight.ndim == 2 else 1
         weight, bone = table(weights, f4, columns, "weights"), table(bones, u4, columns, "vertex_bones")
         if len(weight) != vertices or len(bone) != vertices:
@@ -171,6 +174,8 @@ def make_character(
         The map from the joints' frame to metres, z up.
     """
     arrays = _Arrays()
+    joints, bones = instances(joints, Joint, "joints"), instances(bones, Bone, "bones")
+    motions = instances(motions, Motion, "motions")
     points, corners = table(vertices, f4, 3, "vertices"), table(triangles, u4, 3, "triangles")
     names = (c_char_p * len(joints))(*[encoded(joint.name, "a name") for joint in joints])
     clips = (_library.Clip * len(motions))(*[arrays.motion(motion) for motion in motions])

@@ -13,8 +13,8 @@ from typing import Any, Iterator, Optional, Tuple, Union, overload
 import numpy as np
 
 from . import _library
-from ._arrays import UInt32, UInt64, copied, given, index, u4, u8
-from ._library import ArrayError, Exclusive, Handle, check, lib
+from ._arrays import UInt32, UInt64, copied, given, index, instance, number, u4, u8
+from ._library import Exclusive, Handle, check, lib
 from ._obstacles import Obstacles
 from ._queries import Agents, Leaves, Semantics, options, pointers
 from ._shapes import ShapeSet
@@ -71,11 +71,12 @@ class BroadPhase:
     def find(self, shapes: ShapeSet, agents: Agents, margin: float = 0.0, *, threads: int = 0) -> UInt32:
         """Find pairs as the function `candidate_pairs` does."""
         set_at, agents_at = pointers(shapes, agents)
+        within = number(margin, "margin")
         how, _ = options(threads=threads)
         pairs, count = ctypes.c_void_p(), ctypes.c_size_t()
         with self._exclusive:
             handle = self._handle.pointer
-            check(lib.bch_broad_phase_find(handle, set_at, agents_at, float(margin), how, byref(pairs), byref(count)))
+            check(lib.bch_broad_phase_find(handle, set_at, agents_at, within, how, byref(pairs), byref(count)))
             return copied(pairs.value, u4, (count.value, 2))
 
 
@@ -150,9 +151,7 @@ class CrowdCollider:
         set_at, agents_at = pointers(shapes, agents)
         how, _ = options(semantics, leaves, "zero", math.inf, threads, implementation)
         found, touched = _library.IndexRows(), _library.IndexRows()
-        if obstacles is not None and not isinstance(obstacles, Obstacles):
-            raise ArrayError(f"obstacles is a {type(obstacles).__name__}; wanted is a bch.Obstacles")
-        walls = None if obstacles is None else obstacles._pointer
+        walls = None if obstacles is None else instance(obstacles, Obstacles, "obstacles")._pointer
         with self._exclusive:
             status = lib.bch_crowd_collider_collide_all(
                 self._handle.pointer, set_at, agents_at, walls, how, byref(found), None if walls is None else byref(touched)

@@ -5,6 +5,7 @@
 
 import ctypes
 import os
+import re
 import threading
 from ctypes import POINTER, c_char_p, c_double, c_float, c_int32, c_int64, c_size_t, c_uint32, c_uint64, c_void_p
 from pathlib import Path
@@ -525,7 +526,7 @@ def _load() -> ctypes.CDLL:
     try:
         library = ctypes.CDLL(path)
     except OSError as error:
-        raise ImportError(f"bch: {error} (it needs Debian's libtbb12, libassimp5, libdraco7, libsqlite3-0)") from None
+        raise ImportError(f"bch: {error} (it needs Debian's libtbb12, libassimp5, libdraco7, libsqlite3-0, libhdf5-103-1)") from None
     if library.bch_abi_version() != ABI_VERSION:
         raise ImportError(f"bch: {path} has another interface ({library.bch_abi_version()}) than this package ({ABI_VERSION})")
     for name, parameters in _functions.items():
@@ -542,10 +543,20 @@ def _load() -> ctypes.CDLL:
 lib = _load()
 
 
+#: The arguments whose names are not those of the options that the command-line program has for the same.
+_arguments = {"clip-speed": "clip_speeds", "character": "characters", "semantics": "outlines, for semantics"}
+
+
+def said(text: bytes) -> str:
+    """Return what the library says, with the names of arguments in place of options of the command-line program."""
+    name = lambda option: _arguments.get(option[1], option[1].replace("-", "_"))  # noqa: E731
+    return re.sub(r"(?<![^ (])--([a-z][a-z-]*)", name, text.decode(errors="replace"))
+
+
 def check(status: int) -> None:
     """Raise the error that a status stands for."""
     if status != OK:
-        raise _errors.get(status, Error)(lib.bch_last_error().decode(errors="replace"))
+        raise _errors.get(status, Error)(said(lib.bch_last_error()))
 
 
 class Handle:

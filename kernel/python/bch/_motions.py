@@ -13,10 +13,25 @@ import numpy.typing as npt
 
 from . import _library
 from ._animated import AnimatedShape
-from ._arrays import Float64, UInt32, address, bounded, f4, f8, given, index, result, table, u4
-from ._library import ArgumentError, ArrayError, Exclusive, Handle, check, lib
+from ._arrays import (
+    Float64,
+    UInt32,
+    address,
+    bounded,
+    f8,
+    given,
+    index,
+    instance,
+    instances,
+    number,
+    pair,
+    result,
+    table,
+    u4,
+)
+from ._library import ArgumentError, Exclusive, Handle, check, lib
 from ._obstacles import Obstacles
-from ._shapes import Character, Plan, ShapeSet, _CPlan
+from ._shapes import Character, Plan, ShapeSet, _CPlan, _planes
 
 
 def animate(
@@ -47,17 +62,17 @@ def animate(
     loops : bool, optional
         Whether the clip is played over and over, its end followed by its beginning at once. None: if its last pose is its first one.
     """
-    number = index(clip, "clip", len(character.clips))
-    planes = np.ascontiguousarray(slices, f4)
+    of = index(clip, "clip", len(instance(character, Character, "character").clips))
+    planes = _planes(slices)
     options = _library.AnimateOptions(
-        spacing=spacing,
-        inset=inset,
-        error=error,
+        spacing=number(spacing, "spacing"),
+        inset=number(inset, "inset"),
+        error=number(error, "error"),
         slices=address(planes),
         slice_count=len(planes),
         loops=-1 if loops is None else bool(loops),
     )
-    return AnimatedShape._of(Handle("animated_shape", "animate", character._pointer, number, byref(options)))
+    return AnimatedShape._of(Handle("animated_shape", "animate", character._pointer, of, byref(options)))
 
 
 class MomentSet:
@@ -76,7 +91,7 @@ class MomentSet:
 
     def __init__(self, bodies: Sequence[AnimatedShape], plan: Plan = Plan()) -> None:
         c_plan = _CPlan(plan)
-        self._bodies = list(bodies)
+        self._bodies = instances(bodies, AnimatedShape, "bodies")
         pointers = (c_void_p * len(self._bodies))(*[body._pointer for body in self._bodies])
         self._exclusive = Exclusive("MomentSet")
         self._handle = Handle("moment_set", "create", pointers, len(pointers), c_plan._pointer)
@@ -133,7 +148,8 @@ class Mover:
     __slots__ = ("shape", "path", "clip_begin")
 
     def __init__(self, shape: AnimatedShape, path: npt.ArrayLike, clip_begin: float = 0.0) -> None:
-        self.shape, self.clip_begin = shape, float(clip_begin)
+        self.shape = instance(shape, AnimatedShape, "shape")
+        self.clip_begin = number(clip_begin, "clip_begin")
         self.path = table(path, f8, 4, "path")
 
     def _struct(self) -> _library.Motion:
@@ -143,17 +159,14 @@ class Mover:
 
 
 def _structs(movers: Sequence[Mover]) -> Any:
-    for mover in movers:
-        if not isinstance(mover, Mover):
-            raise ArrayError(f"a {type(mover).__name__} in place of a bch.Mover")
     return (_library.Motion * len(movers))(*[mover._struct() for mover in movers])
 
 
 def _interval(interval: Tuple[float, float]) -> Tuple[float, float]:
-    begin, end = interval
+    begin, end = pair(interval, "interval")
     if not begin <= end:
-        raise ArgumentError(f"interval is from {begin} to {end} s")
-    return float(begin), float(end)
+        raise ArgumentError(f"interval is from {begin:g} to {end:g} s")
+    return begin, end
 
 
 def first_contact(
@@ -186,14 +199,15 @@ def first_contact(
     (m,) float64
         Time of the first contact, seconds; infinity where there is none.
     """
-    movers = list(movers)
+    movers = instances(movers, Mover, "movers")
+    near = number(tolerance, "tolerance")
     structs, (begin, end) = _structs(movers), _interval(interval)
     threads = bounded(threads, "threads", 0, 1024)
     if isinstance(pairs, Obstacles):
         times = result(out, f8, (len(movers),))
         check(
             lib.bch_obstacles_first_contact(
-                structs, len(structs), pairs._pointer, begin, end, tolerance, threads, address(times)
+                structs, len(structs), pairs._pointer, begin, end, near, threads, address(times)
             )
         )
         return times
@@ -201,7 +215,7 @@ def first_contact(
     times = result(out, f8, (count,))
     check(
         lib.bch_first_contact(
-            structs, len(structs), asked, count, begin, end, tolerance, threads, address(times)
+            structs, len(structs), asked, count, begin, end, near, threads, address(times)
         )
     )
     return times
@@ -219,8 +233,9 @@ def free_until(
     interval, tolerance
         As for `first_contact`. The result is the least time that it finds for the mover and each of the others.
     """
-    others = list(others)
-    own, structs, (begin, end) = _structs([mover]), _structs(others), _interval(interval)
+    own = _structs([instance(mover, Mover, "mover")])
+    structs, (begin, end) = _structs(instances(others, Mover, "others")), _interval(interval)
     time = c_double()
-    check(lib.bch_free_until(own, structs, len(structs), begin, end, tolerance, byref(time)))
+    near = number(tolerance, "tolerance")
+    check(lib.bch_free_until(own, structs, len(structs), begin, end, near, byref(time)))
     return time.value

@@ -12,7 +12,7 @@ from typing import Any, Optional, Tuple
 import numpy as np
 
 from . import _library
-from ._arrays import Float64, UInt8, UInt64, encoded, f8, given, index, u1, u8
+from ._arrays import Float64, UInt8, UInt64, address, encoded, f8, given, index, pair, u1, u8
 from ._library import Handle, check, lib
 
 
@@ -48,6 +48,9 @@ class Obstacles:
         is_area: Optional[UInt8] = None,
         heights: Optional[Float64] = None,
     ) -> None:
+        given(path_offsets, u8, (None,), "path_offsets")
+        if obstacle_offsets is not None:
+            given(obstacle_offsets, u8, (None,), "obstacle_offsets")
         paths = len(path_offsets) - 1
         obstacles = paths if obstacle_offsets is None else len(obstacle_offsets) - 1
         n = int(path_offsets[-1]) if paths >= 0 else 0
@@ -58,11 +61,9 @@ class Obstacles:
         arrays = _library.ObstacleArrays(
             x=given(x, f8, (n,), "x"),
             y=given(y, f8, (n,), "y"),
-            path_offsets=given(path_offsets, u8, (None,), "path_offsets"),
+            path_offsets=address(path_offsets),
             path_count=max(paths, 0),
-            obstacle_offsets=None
-            if obstacle_offsets is None
-            else given(obstacle_offsets, u8, (None,), "obstacle_offsets"),
+            obstacle_offsets=None if obstacle_offsets is None else address(obstacle_offsets),
             obstacle_count=max(obstacles, 0),
             is_area=None if is_area is None else given(is_area, u1, (obstacles,), "is_area"),
             bottom=None if columns is None else columns[0].ctypes.data,
@@ -86,7 +87,7 @@ class Obstacles:
         heights : (float, float)
             The bottom and the top of all obstacles of the text, metres in the world; by default they are infinite.
         """
-        bottom, top = heights
+        bottom, top = pair(heights, "heights")
         made = cls.__new__(cls)
         wkt = encoded(getattr(text, "wkt", text), "text")
         made._take(Handle("obstacles", "from_wkt_at", wkt, int(walkable), bottom, top))

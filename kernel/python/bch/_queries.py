@@ -28,6 +28,10 @@ from ._arrays import (
     f4,
     f8,
     given,
+    instance,
+    number,
+    one_of,
+    rejected,
     result,
     u1,
     u4,
@@ -129,17 +133,10 @@ Semantics = Literal["boundary", "solid"]
 Leaves = Literal["discs", "segments"]
 Overlap = Literal["zero", "deepest"]
 _semantics: Dict[str, int] = {"boundary": 0, "solid": 1}
-_leaves: Dict[str, int] = {"discs": 0, "segments": 1}
+LEAVES: Dict[str, int] = {"discs": 0, "segments": 1}
 _overlaps: Dict[str, int] = {"zero": 0, "deepest": 1}
 
 
-def _one_of(words: Dict[str, int], word: str, name: str) -> int:
-    if word not in words:
-        raise ArgumentError(f"{name} is {word!r}; it is one of {', '.join(map(repr, words))}")
-    return words[word]
-
-
-@functools.lru_cache(maxsize=256)
 def options(
     semantics: Semantics = "boundary",
     leaves: Leaves = "segments",
@@ -150,12 +147,35 @@ def options(
     distance_leaves: Leaves = "discs",
 ) -> Tuple[int, _library.QueryOptions]:
     """Return the address of a struct of options, and the struct."""
+    if not (implementation is None or isinstance(implementation, str)):
+        raise rejected(implementation, "implementation", "one of bch.implementations()")
+    return _options(
+        one_of(_semantics, semantics, "semantics"),
+        one_of(LEAVES, leaves, "leaves"),
+        one_of(_overlaps, overlap, "overlap"),
+        number(max_distance, "max_distance"),
+        bounded(threads, "threads", 0, 1024),
+        implementation,
+        one_of(LEAVES, distance_leaves, "leaves"),
+    )
+
+
+@functools.lru_cache(maxsize=256)
+def _options(
+    semantics: int,
+    leaves: int,
+    overlap: int,
+    max_distance: float,
+    threads: int,
+    implementation: Optional[str],
+    distance_leaves: int,
+) -> Tuple[int, _library.QueryOptions]:
     struct = _library.QueryOptions(
-        semantics=_one_of(_semantics, semantics, "semantics"),
-        leaves=_one_of(_leaves, leaves, "leaves"),
-        distance_leaves=_one_of(_leaves, distance_leaves, "leaves"),
-        overlap=_one_of(_overlaps, overlap, "overlap"),
-        threads=bounded(threads, "threads", 0, 1024),
+        semantics=semantics,
+        leaves=leaves,
+        distance_leaves=distance_leaves,
+        overlap=overlap,
+        threads=threads,
         max_distance=max_distance,
         implementation=None if implementation is None else implementation.encode(),
     )
@@ -172,7 +192,7 @@ def pointers(shapes: ShapeSet, agents: Agents) -> Tuple[int, int]:
         hint = "; ask about its .shapes" if hasattr(shapes, "shapes") else ""
         raise ArrayError(f"shapes is a {type(shapes).__name__}; wanted is a bch.ShapeSet{hint}")
     if not isinstance(agents, Agents):
-        raise ArrayError(f"agents is a {type(agents).__name__}; wanted is a bch.Agents")
+        raise rejected(agents, "agents", "a bch.Agents")
     return shapes._pointer, agents._pointer
 
 
@@ -268,9 +288,10 @@ def within(
         raise ArgumentError("leaves are for obstacles; pairs are measured between discs")
     answers = result(out, b1, (n,))
     how, _ = options(semantics, "segments", "zero", math.inf, threads, implementation, leaves)
-    near = np.array([distance], f8) if np.ndim(distance) == 0 else distance
-    assert isinstance(near, np.ndarray)
-    at = given(near, f8, (len(near),), "distance")
+    near: Any = distance
+    if not isinstance(distance, (np.ndarray, list, tuple)):
+        near = np.array([number(distance, "distance")], f8)
+    at = given(near, f8, (None,), "distance")
     if isinstance(pairs, Obstacles):
         status = lib.bch_obstacles_within(set_at, agents_at, where, at, len(near), how, address(answers))
     else:
@@ -385,6 +406,8 @@ def nearest(
         agents overlap unless `overlap` is "deepest".
     """
     n = _asked(shapes, agents, pairs)[3]
+    if out is not None:
+        instance(out, Nearest, "out")
     found = Nearest(
         result(None if out is None else out.distance, f4, (n,), "out.distance"),
         result(None if out is None else out.direction, f4, (n, 2), "out.direction"),
@@ -503,7 +526,8 @@ def local_densities(x: Float64, y: Float64, radius: float = 2.0) -> Float64:
     (n,) float64
         People per square metre.
     """
-    n = len(x)
+    at_x, n = given(x, f8, (None,), "x"), len(x)
     densities = np.empty(n, f8)
-    check(lib.bch_local_densities(given(x, f8, (n,), "x"), given(y, f8, (n,), "y"), n, radius, address(densities)))
+    within_radius = number(radius, "radius")
+    check(lib.bch_local_densities(at_x, given(y, f8, (n,), "y"), n, within_radius, address(densities)))
     return densities

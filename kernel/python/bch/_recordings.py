@@ -13,12 +13,12 @@ from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Uni
 import numpy as np
 
 from . import _library
-from ._arrays import Records, address, bounded, copied, encoded, f4, f8, i4, i8, u4
-from ._library import ArrayError, Handle, check as _check, lib
+from ._arrays import Records, address, bounded, copied, encoded, f4, f8, i4, i8, instance, instances, number, one_of, rejected, u4
+from ._library import ArrayError, Handle, check as _check, lib, said
 from ._obstacles import Obstacles
 from ._progress import Watched
-from ._queries import Leaves, _leaves, _one_of
-from ._shapes import ALL_DEPTHS, Character, Path, ShapeSet
+from ._queries import LEAVES, Leaves
+from ._shapes import ALL_DEPTHS, Character, Path, ShapeSet, _planes
 
 #: A person in a frame, in metres, radians and seconds; NaN where the file has no value. `motion` indexes `Trajectory.motions`, or is -1.
 TRACKED = np.dtype(
@@ -80,6 +80,8 @@ def dataframe(records: Union[Records, Trajectory]) -> Any:
 
     For a `Trajectory`, the columns `character` and `clip` hold names in place of `motion`.
     """
+    if not isinstance(records, (Trajectory, np.ndarray)) or isinstance(records, np.ndarray) and records.dtype.names is None:
+        raise rejected(records, "records", "a structured array or a bch.Trajectory")
     import pandas
 
     if not isinstance(records, Trajectory):
@@ -91,8 +93,8 @@ def dataframe(records: Union[Records, Trajectory]) -> Any:
 def _open(path: Path, fps: Optional[float], unit: Optional[float], columns: Optional[str]) -> Handle:
     with Watched("reading", False) as watched:
         options = _library.TrajectoryOptions(
-            fps=fps or 0.0,
-            unit=unit or 0.0,
+            fps=0.0 if fps is None else number(fps, "fps"),
+            unit=0.0 if unit is None else number(unit, "unit"),
             columns=None if columns is None else encoded(columns, "columns"),
             progress=watched.callback,
         )
@@ -140,7 +142,7 @@ def read_trajectory(
         if count.value == 0:
             break
         done += count.value
-    lines = info.assumptions.decode(errors="replace").splitlines()
+    lines = said(info.assumptions).splitlines()
     geometry = info.geometry.decode(errors="replace")
     return Trajectory(rows[:done], info.fps, info.format.decode(), geometry, lines, _motions(handle))
 
@@ -212,20 +214,21 @@ def check(
     -------
     Check
     """
-    if walls is not None and not isinstance(walls, Obstacles):
-        raise ArrayError(f"walls is a {type(walls).__name__}; wanted is a bch.Obstacles")
-    baked, own = (characters, ()) if isinstance(characters, ShapeSet) else (None, characters)
-    for character in own:
-        if not isinstance(character, Character):
-            raise ArrayError(f"characters has a {type(character).__name__}; wanted is a bch.Character")
-    if baked is None and (clip_speeds or facing):
+    if walls is not None:
+        instance(walls, Obstacles, "walls")
+    baked = characters if isinstance(characters, ShapeSet) else None
+    own = [] if isinstance(characters, ShapeSet) else instances(characters, Character, "characters")
+    if not isinstance(clip_speeds, Mapping):
+        raise rejected(clip_speeds, "clip_speeds", "a mapping of str to float")
+    ahead = number(facing, "facing")
+    if baked is None and (clip_speeds or ahead):
         raise ArrayError("clip_speeds and facing are for characters of a bch.ShapeSet")
     trajectory = _open(path, fps, unit, columns)
     cast = (ctypes.c_void_p * len(own))(*(character._pointer for character in own))
     speeds = (_library.ClipSpeed * len(clip_speeds))(
-        *(_library.ClipSpeed(encoded(clip, "clip_speeds"), speed) for clip, speed in clip_speeds.items())
+        *(_library.ClipSpeed(encoded(clip, "clip_speeds"), number(speed, "clip_speeds")) for clip, speed in clip_speeds.items())
     )
-    planes = np.array([float(plane) for plane in slices], f4)
+    planes = _planes(slices)
     with Watched("checking", progress) as watched:
         options = _library.CheckOptions(
             threads=bounded(threads, "threads", 0, 1024),
@@ -237,9 +240,9 @@ def check(
             baked=None if baked is None else baked._pointer,
             clip_speeds=ctypes.cast(speeds, ctypes.c_void_p),
             clip_speed_count=len(speeds),
-            facing=facing,
-            leaves=_one_of(_leaves, leaves, "leaves"),
-            max_distance=max_distance,
+            facing=ahead,
+            leaves=one_of(LEAVES, leaves, "leaves"),
+            max_distance=number(max_distance, "max_distance"),
             walls=None if walls is None else walls._pointer,
             progress=watched.callback,
         )
@@ -253,5 +256,5 @@ def check(
         _records(lib.bch_check_get_frames, handle, _FRAME),
         _records(lib.bch_check_get_pairs, handle, _PAIR),
         {name: getattr(summary, name) for name, *_ in _library.CheckSummary._fields_ if name != "size"},
-        (lines.value or b"").decode(errors="replace").splitlines(),
+        said(lines.value or b"").splitlines(),
     )

@@ -13,9 +13,29 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _library
-from ._arrays import POSE, SOURCE, Float64, Records, UInt8, UInt32, address, bounded, copied, f4, f8, given, u1, u4
+from ._arrays import (
+    POSE,
+    SOURCE,
+    Float64,
+    Records,
+    UInt8,
+    UInt32,
+    address,
+    bounded,
+    converted,
+    copied,
+    f4,
+    f8,
+    given,
+    instances,
+    number,
+    one_of,
+    u1,
+    u4,
+)
 from ._library import ArgumentError, Handle, check, lib
-from ._shapes import Character, Plan, ShapeSet, ShapeSetBuilder, _as_poses, _pointers
+from ._queries import LEAVES
+from ._shapes import Character, Plan, ShapeSet, ShapeSetBuilder, _as_poses, _planes, _pointers
 
 
 class ScenePlan:
@@ -112,11 +132,10 @@ def plan_scene(
     pairs_per_shape : float
         The expected number of pairs of a shape before it is replaced; a small number if each shape lives for one frame.
     """
-    if leaves not in ("discs", "segments"):
-        raise ArgumentError(f"leaves is {leaves!r}; it is 'segments' or 'discs'")
+    which = one_of(LEAVES, leaves, "leaves")
     array = _as_poses(poses)
     n = len(array)
-    planes = np.array([float(plane) for plane in slices], f4)
+    planes = _planes(slices)
     agents = _library.SceneAgents(
         character=None if character is None else given(character, u4, (n,), "character"),
         poses=address(array),
@@ -125,14 +144,14 @@ def plan_scene(
         count=n,
     )
     use = _library.SceneUse(
-        solid=solid,
-        leaves=int(leaves == "segments"),
-        heights=heights,
+        solid=bool(solid),
+        leaves=which,
+        heights=bool(heights),
         slices=address(planes),
         slice_count=len(planes),
-        whole_from=whole_from,
-        pairs_per_shape=pairs_per_shape,
-        pose_step=pose_step,
+        whole_from=number(whole_from, "whole_from"),
+        pairs_per_shape=number(pairs_per_shape, "pairs_per_shape"),
+        pose_step=number(pose_step, "pose_step"),
     )
     return ScenePlan(Handle("scene_plan", "create", byref(agents), byref(use)))
 
@@ -162,14 +181,15 @@ def best_slices(
         At most slabs - 1 heights, metres, for `Plan.slices`, without planes that clear nothing more than the others; all planes if
             there are no more than slabs - 1.
     """
-    people = [characters] if isinstance(characters, Character) else list(characters)
-    each = [character.sample_poses(poses) for character in people]
-    among = np.array(planes, f4, ndmin=1)
+    people = [characters] if isinstance(characters, Character) else instances(characters, Character, "characters")
+    count_of_each = bounded(poses, "poses", 0, 2**31)
+    each = [character.sample_poses(count_of_each) for character in people]
+    among = np.array(converted(planes, f4, "planes"), ndmin=1)
     if among.ndim != 1:
         raise ArgumentError(f"planes has shape {among.shape}; wanted is (p,)")
     chosen, count = np.empty(len(among), f4), c_size_t()
     all_poses = np.concatenate(each) if each else np.empty(0, POSE)
-    pointers = _pointers([character for character, of in zip(people, each) for _ in of])
+    pointers = _pointers([character for character, of in zip(people, each) for _ in of], "characters")
     check(
         lib.bch_best_slices(
             pointers,

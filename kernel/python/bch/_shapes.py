@@ -24,17 +24,27 @@ from ._arrays import (
     Records,
     UInt32,
     address,
+    as_array,
     bounded,
+    converted,
     copied,
     encoded,
     f4,
+    f8,
     given,
     index,
+    instance,
+    instances,
+    listed,
+    number,
+    one_of,
+    pair,
     table,
     u4,
     u8,
+    whole_number,
 )
-from ._library import ArgumentError, ArrayError, Exclusive, Handle, check, lib
+from ._library import ArgumentError, ArrayError, Exclusive, Handle, check, lib, said
 from ._progress import Watched
 
 Path = Union[str, "os.PathLike[str]"]
@@ -56,21 +66,26 @@ class Plan(NamedTuple):
     threshold: float = 0.01  #: the radius below which discs are not divided, metres
 
 
+def _planes(slices: Sequence[float]) -> Float32:
+    return np.array([number(plane, f"slices[{i}]") for i, plane in enumerate(listed(slices, "slices", "numbers"))], f4)
+
+
 class _CPlan:
     """A plan as the library takes it, with the arrays that it points to."""
 
     def __init__(self, plan: Plan) -> None:
-        self.depths = np.array([bounded(depth, "a depth", 0, ALL_DEPTHS) for depth in plan.depths], u4)
-        self.slices = np.array([float(plane) for plane in plan.slices], f4)
+        depths = enumerate(listed(instance(plan, Plan, "plan").depths, "depths", "whole numbers"))
+        self.depths = np.array([bounded(depth, f"depths[{i}]", 0, ALL_DEPTHS) for i, depth in depths], u4)
+        self.slices = _planes(plan.slices)
         self.struct = _library.Plan(
-            outlines=plan.outlines,
-            culling=plan.culling,
-            heights=plan.heights,
+            outlines=bool(plan.outlines),
+            culling=bool(plan.culling),
+            heights=bool(plan.heights),
             depths=address(self.depths),
             depth_count=len(self.depths),
             slices=address(self.slices),
             slice_count=len(self.slices),
-            threshold=plan.threshold,
+            threshold=number(plan.threshold, "threshold"),
         )
         self._pointer = ctypes.addressof(self.struct)
 
@@ -95,11 +110,13 @@ def depth_at_density(people_per_square_metre: Float64) -> UInt32: ...
 def depth_at_density(people_per_square_metre: Union[float, Float64]) -> Union[int, UInt32]:
     """Return the cut depth that a density needs, in people per square metre; for an array, one depth per entry."""
     if isinstance(people_per_square_metre, np.ndarray):
-        return np.array([depth_at_density(float(density)) for density in people_per_square_metre], u4)
-    if not 0 <= people_per_square_metre < float("inf"):
+        densities = converted(people_per_square_metre, f8, "people_per_square_metre")
+        return np.array([depth_at_density(float(density)) for density in densities], u4)
+    density = number(people_per_square_metre, "people_per_square_metre")
+    if not 0 <= density < float("inf"):
         raise ArgumentError(f"people_per_square_metre is {people_per_square_metre}")
     depth = c_uint32()
-    check(lib.bch_depth_at_density(people_per_square_metre, byref(depth)))
+    check(lib.bch_depth_at_density(density, byref(depth)))
     return depth.value
 
 
@@ -131,7 +148,7 @@ class Character:
         info = _library.CharacterInfo()
         check(lib.bch_character_get_info(self._pointer, byref(info)))
         self.name: str = info.name.decode(errors="replace")
-        self.notes: List[str] = info.notes.decode(errors="replace").splitlines()
+        self.notes: List[str] = said(info.notes).splitlines()
         self.joints, self.vertices, self.triangles = info.joints, info.vertices, info.triangles
         self.height: float = info.height
         self.clips: List[Clip] = [self._clip(i) for i in range(info.clips)]
@@ -157,8 +174,9 @@ class Character:
         return f"<bch.Character {self.name!r}: {self.triangles} triangles, {len(self.clips)} clips>"
 
 
-def _pointers(characters: Sequence[Character]) -> Any:
-    return (ctypes.c_void_p * len(characters))(*[character._pointer for character in characters])
+def _pointers(characters: Sequence[Character], name: str) -> Any:
+    found = instances(characters, Character, name)
+    return (ctypes.c_void_p * len(found))(*[character._pointer for character in found])
 
 
 def default_male() -> Character:
@@ -190,14 +208,13 @@ def default_pedestrian(sex: str = "male", stature: float = 1.75, shoulders: floa
     shoulders : float
         How far the shoulders are turned from the direction of motion, radians, counter-clockwise.
     """
-    if sex not in ("female", "male"):
-        raise ArgumentError(f"sex is {sex!r}; it is 'female' or 'male'")
-    return Character(Handle("character", "pedestrian", int(sex == "male"), stature, shoulders))
+    tall, turned = number(stature, "stature"), number(shoulders, "shoulders")
+    return Character(Handle("character", "pedestrian", one_of({"female": 0, "male": 1}, sex, "sex"), tall, turned))
 
 
 def pedestrian_strides_per_second(speed: float) -> float:
     """Return the number of strides per second, of two steps each, of a pedestrian at a speed in m/s."""
-    return float(lib.bch_pedestrian_strides_per_second(speed))
+    return float(lib.bch_pedestrian_strides_per_second(number(speed, "speed")))
 
 
 def import_character(
@@ -229,18 +246,18 @@ def import_character(
     max_triangles, timeout, memory_limit
         Limits of reading: number of triangles, seconds, bytes.
     """
-    files = (c_char_p * len(clip_files))(*[encoded(file, "a clip file") for file in clip_files])
-    if up not in (None, "x", "y", "z"):
-        raise ArgumentError(f"up is {up!r}; it is 'x', 'y' or 'z'")
+    paths = [encoded(file, f"clip_files[{i}]") for i, file in enumerate(listed(clip_files, "clip_files", "paths"))]
+    files = (c_char_p * len(paths))(*paths)
+    axis = -1 if up is None else one_of({"x": 0, "y": 1, "z": 2}, up, "up")
     with Watched("importing", False) as watched:
         options = _library.ImportOptions(
-            up=-1 if up is None else "xyz".index(up),
-            scale=scale,
-            force_clips=force_clips,
+            up=axis,
+            scale=number(scale, "scale"),
+            force_clips=bool(force_clips),
             clip_files=files,
-            clip_file_count=len(clip_files),
+            clip_file_count=len(paths),
             most_triangles=bounded(max_triangles, "max_triangles", 1, 2**63 - 1),
-            seconds=timeout,
+            seconds=number(timeout, "timeout"),
             memory=bounded(memory_limit, "memory_limit", 1, 2**63 - 1),
             progress=watched.callback,
         )
@@ -252,9 +269,10 @@ def import_character(
 def _as_poses(poses: Any, name: str = "poses") -> Records:
     if isinstance(poses, (list, tuple)):
         pairs = [pose.item() if isinstance(pose, np.void) else pose for pose in poses]
-        if not all(isinstance(pair, tuple) and len(pair) == 2 for pair in pairs):
+        if not all(isinstance(each, tuple) and len(each) == 2 for each in pairs):
             raise ArrayError(f"{name} is a {type(poses).__name__} of others than (clip, seconds)")
-        return np.array(pairs, POSE)
+        timed = [(bounded(clip, f"a clip of {name}", 0, REST_POSE), number(at, f"seconds of {name}")) for clip, at in pairs]
+        return np.array(timed, POSE)
     array: Records = poses
     given(array, POSE, (None,), name)
     return array
@@ -278,7 +296,7 @@ class PoseShaper:
 
     def __init__(self, character: Character, plan: Plan = Plan()) -> None:
         c_plan = _CPlan(plan)
-        self._clips, self._slabs = len(character.clips), len(plan.slices) + 1
+        self._clips, self._slabs = len(instance(character, Character, "character").clips), len(plan.slices) + 1
         self._exclusive = Exclusive("PoseShaper")
         self._handle = Handle("pose_shaper", "create", character._pointer, c_plan._pointer)
         self._pointer: int = self._handle.pointer
@@ -299,10 +317,11 @@ class PoseShaper:
         whole : bool
             Do not cut the body.
         """
-        number = REST_POSE if clip == REST_POSE else index(clip, "clip", self._clips)
-        which = _slab(slab, self._slabs)
+        of = whole_number(clip, "clip")
+        of = of if of == REST_POSE else index(of, "clip", self._clips)
+        which, at = _slab(slab, self._slabs), number(seconds, "seconds")
         with self._exclusive:
-            check(lib.bch_pose_shaper_make(self._pointer, _library.Pose(number, seconds), int(whole)))
+            check(lib.bch_pose_shaper_make(self._pointer, _library.Pose(of, at), int(bool(whole))))
             return _contours(lib.bch_pose_shaper_get_outline, self._pointer, which)
 
 
@@ -374,8 +393,12 @@ class ShapeSet:
         plan : Plan
         """
         builder = ShapeSetBuilder(plan)
+        bodies = listed(bodies, "bodies", "sequences of polygons")
+        ranges = [None] * len(bodies) if heights is None else listed(heights, "heights", "(bottom, top)")
+        if len(ranges) < len(bodies):
+            raise ArgumentError(f"heights has length {len(ranges)}, and there are {len(bodies)} bodies")
         for i, polygons in enumerate(bodies):
-            builder.add_polygons(polygons, heights=None if heights is None else heights[i])
+            builder._add_polygons(polygons, ranges[i], f"bodies[{i}]")
         return builder.finish()
 
     def save(self, path: Path) -> None:
@@ -433,7 +456,8 @@ class ShapeSet:
         return begin
 
     def _place(self, shape: int, level: int) -> Tuple[int, int]:
-        number = level + len(self.depths) if level < 0 else level
+        number = whole_number(level, "level")
+        number += len(self.depths) if number < 0 else 0
         return index(shape, "shape", self.shape_count), index(number, "level", len(self.depths))
 
     def outline(self, shape: int, slab: Optional[int] = None) -> List[Float32]:
@@ -469,8 +493,8 @@ class ShapeSet:
 
     def keep_clip(self, shape: AnimatedShape, character: str, clip: Optional[str] = None) -> None:
         """Keep a body that moves by itself, with its names. `save` writes it beside the shapes."""
-        name = None if clip is None else encoded(clip, "clip")
-        check(lib.bch_shape_set_add_clip(self._pointer, shape._pointer, encoded(character, "character"), name))
+        body, name = instance(shape, AnimatedShape, "shape"), None if clip is None else encoded(clip, "clip")
+        check(lib.bch_shape_set_add_clip(self._pointer, body._pointer, encoded(character, "character"), name))
 
     @property
     def clips(self) -> List[KeptClip]:
@@ -532,7 +556,7 @@ class ShapeSetBuilder:
             return None
         if not self._has_heights:
             raise ArgumentError("heights are for plans that keep them: Plan(heights=True), or one with slices")
-        bottom, top = heights
+        bottom, top = pair(heights, "heights")
         return byref(_library.Heights(bottom, top))
 
     def add_poses(self, character: Character, poses: Any, *, threads: int = 0, progress: bool = False) -> None:
@@ -547,6 +571,7 @@ class ShapeSetBuilder:
         progress : bool
             Show a progress bar on a terminal.
         """
+        instance(character, Character, "character")
         array = _as_poses(poses)
         with self._exclusive, Watched(f"baking {character.name}", progress) as watched:
             work = _library.Work(threads=bounded(threads, "threads", 0, 1024), progress=watched.callback)
@@ -572,7 +597,7 @@ class ShapeSetBuilder:
             Show a progress bar on a terminal.
         """
         which = given(sources, SOURCE, (None,), "sources")
-        pointers = _pointers(characters)
+        pointers = _pointers(characters, "characters")
         with self._exclusive, Watched("baking", progress) as watched:
             work = _library.Work(threads=bounded(threads, "threads", 0, 1024), progress=watched.callback)
             watched.run(
@@ -585,7 +610,10 @@ class ShapeSetBuilder:
         self, polygons: Sequence[npt.ArrayLike], *, heights: Optional[Tuple[float, float]] = None
     ) -> None:
         """Add a body of polygons: (k, 2) corners in metres, relative to the agent's position, in either orientation."""
-        corners = [table(polygon, f4, 2, "a polygon") for polygon in polygons]
+        self._add_polygons(polygons, heights, "polygons")
+
+    def _add_polygons(self, polygons: Any, heights: Optional[Tuple[float, float]], name: str) -> None:
+        corners = [table(polygon, f4, 2, f"{name}[{i}]") for i, polygon in enumerate(listed(polygons, name, "polygons"))]
         offsets = np.zeros(len(corners) + 1, u8)
         offsets[1:] = np.cumsum([len(each) for each in corners])
         points = np.concatenate(corners) if corners else np.empty((0, 2), f4)
@@ -600,11 +628,11 @@ class ShapeSetBuilder:
         self, capsules: npt.ArrayLike, *, tolerance: float = 0.001, heights: Optional[Tuple[float, float]] = None
     ) -> None:
         """Add a body of capsules: (k, 5) numbers, x and y of one end, x and y of the other, and the radius, in metres."""
-        array = table(capsules, f4, 5, "capsules")
+        array, near = table(capsules, f4, 5, "capsules"), number(tolerance, "tolerance")
         with self._exclusive:
             check(
                 lib.bch_shape_set_builder_add_capsules(
-                    self._pointer, address(array), len(array), tolerance, self._heights(heights)
+                    self._pointer, address(array), len(array), near, self._heights(heights)
                 )
             )
 
@@ -613,7 +641,7 @@ class ShapeSetBuilder:
 
         Discs have no outline, which plans with slices need, unless depth 0 is alone; capsules have one.
         """
-        given_discs = np.asarray(discs)
+        given_discs = as_array(discs, "discs")
         if given_discs.dtype == DISC:
             given_discs = np.stack([given_discs[name] for name in ("x", "y", "radius")], axis=-1)
         array = table(given_discs, f4, 3, "discs")
@@ -623,7 +651,7 @@ class ShapeSetBuilder:
     def add_cylinder(self, radius: float, *, heights: Optional[Tuple[float, float]] = None) -> None:
         """Add a cylinder about the agent's position, with a radius in metres. Plans with slices refuse it, as they do discs."""
         with self._exclusive:
-            check(lib.bch_shape_set_builder_add_cylinder(self._pointer, radius, self._heights(heights)))
+            check(lib.bch_shape_set_builder_add_cylinder(self._pointer, number(radius, "radius"), self._heights(heights)))
 
     def add_mesh(self, positions: npt.ArrayLike, triangles: npt.ArrayLike) -> None:
         """Add a mesh as it is: (n, 3) positions in metres, z up, and (t, 3) indices of them. The plan's slices cut it."""
@@ -637,8 +665,9 @@ class ShapeSetBuilder:
 
     def add_moment(self, shape: AnimatedShape, seconds: float) -> None:
         """Add a body that moves by itself, as it is at a time of its clip, in seconds."""
+        body, at = instance(shape, AnimatedShape, "shape"), number(seconds, "seconds")
         with self._exclusive:
-            check(lib.bch_shape_set_builder_add_moment(self._pointer, shape._pointer, seconds))
+            check(lib.bch_shape_set_builder_add_moment(self._pointer, body._pointer, at))
 
     def finish(self) -> ShapeSet:
         """Return the set of all bodies that were added. The builder is then empty."""
@@ -680,11 +709,14 @@ def bake(
         A set with the shapes of one character after the other.
     """
     alone = isinstance(characters, Character)
-    people: List[Character] = [characters] if isinstance(characters, Character) else list(characters)
+    people: List[Character] = (
+        [characters] if isinstance(characters, Character) else instances(characters, Character, "characters")
+    )
     if isinstance(poses, (int, np.integer)):
-        each = [character.sample_poses(int(poses)) for character in people]
+        count = bounded(poses, "poses", 0, 2**31)
+        each = [character.sample_poses(count) for character in people]
     else:
-        each = [poses] if alone else list(poses)
+        each = [poses] if alone else listed(poses, "poses", "those of each character")
     if len(each) != len(people):
         raise ArgumentError(f"poses has those of {len(each)} characters, and there are {len(people)}")
     builder = ShapeSetBuilder(plan)
@@ -709,7 +741,7 @@ class DynamicShapeSet:
 
     def __init__(self, start: ShapeSet) -> None:
         self._exclusive = Exclusive("DynamicShapeSet")
-        self._handle = Handle("dynamic_shape_set", "create", start._pointer)
+        self._handle = Handle("dynamic_shape_set", "create", instance(start, ShapeSet, "start")._pointer)
         self._pointer: int = self._handle.pointer
         lent = ctypes.c_void_p()
         check(lib.bch_dynamic_shape_set_get_shapes(self._pointer, byref(lent)))
@@ -738,12 +770,13 @@ class DynamicShapeSet:
         threads : int
             Number of threads; 0: all processors.
         """
-        array = _as_poses(poses)
+        instance(character, Character, "character")
+        array, least = _as_poses(poses), number(threshold, "threshold")
         which = given(shapes, u4, (len(array),), "shapes")
         with self._exclusive, Watched("posing", False) as watched:
             work = _library.Work(threads=bounded(threads, "threads", 0, 1024), progress=watched.callback)
             watched.run(
                 lib.bch_dynamic_shape_set_replace_poses(
-                    self._pointer, character._pointer, which, address(array), len(array), threshold, byref(work)
+                    self._pointer, character._pointer, which, address(array), len(array), least, byref(work)
                 )
             )

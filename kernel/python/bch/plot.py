@@ -11,7 +11,7 @@ import numpy as np
 
 from ._arrays import Bool, Float64
 from ._crowds import collide_all
-from ._queries import Agents
+from ._queries import Agents, pointers
 from ._shapes import ShapeSet
 
 _FREE, _HIT, _DISC = "#4c78a8", "#e45756", "#9aa5b1"
@@ -52,6 +52,7 @@ def crowd(
     from matplotlib.patches import PathPatch
     from matplotlib.path import Path
 
+    pointers(shapes, agents)  # are these
     if hits is None:
         hits = collide_all(shapes, agents).counts > 0
     patches, colours, circles = [], [], []
