@@ -90,8 +90,8 @@ ObstacleSet obstacles_from_wkt(std::string_view text, Polygons polygons = Polygo
 // Queries of agents against obstacles. Each answers every agent as the query of the same name answers every pair: it is defined without a
 // traversal, gives the same bits on every processor and for any number of threads, never misses a contact, and answers far from the
 // origin as at it. A disc overlaps an obstacle where its centre is at most its radius away from it; distances are computed in double. A
-// false positive has a gap of at most the sizes of discs, 4 um per metre of an agent's reach, and 1e-14 of the distance to the ends of a
-// segment. A body in slabs meets an obstacle where some part of it does.
+// false positive has a gap of at most the sizes of discs, 4 um per metre of an agent's reach, and 9e-15 of the distances to the two ends
+// of a segment together. A body in slabs meets an obstacle where some part of it does.
 //
 // A slab or a whole body is compared only with obstacles whose heights meet its own, as between agents with a z: touching counts, and
 // heights are widened by their rounding. For such a part there are no other obstacles, neither their segments nor their areas. Its
@@ -132,9 +132,9 @@ void within(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obs
 /// With distance_leaves = Leaves::segments, where the agent has exact leaves, the distance is that of its outline: the least from a
 /// segment of it to one of the obstacle, and 0 where they come within the margin of exact leaves or an area holds something of the
 /// outline. It is never larger than that of the outline as it was given, and below it by no more than 1.2 um per metre of reach, 0.12 um
-/// per metre of the distance and 4e-15 of the distance to the ends of the segment. The points are those of the two segments, and the disc
-/// is the leaf that holds the agent's point. Of equal distances that with the first segment of the outline counts, then the first of the
-/// obstacle. A leaf of more than 127 segments is measured as a disc, after all segments. Where collide() answers 1 in boundary semantics
+/// per metre of the distance and 9e-15 of the distances to the two ends of the segment together, which is 9 um beside the middle of a wall
+/// of 1e9 m. The points are those of the two segments, and the disc is the leaf that holds the agent's point. Of equal distances that with
+/// the first segment of the outline counts, then the first of the obstacle. A leaf of more than 127 segments is measured as a disc, after all segments. Where collide() answers 1 in boundary semantics
 /// the distance is 0; where the distance is positive, collide() answers 0 there.
 /// Options: max_distance, overlap, distance_leaves, implementation.
 void clearance(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
@@ -168,8 +168,8 @@ void time_of_impact(const ShapeSet& shapes, const Agents& agents, const Displace
 /// heights.
 ///
 /// The time is never later than the first contact. At that time the solid is away from the obstacle by at most the tolerance, 4 um for each
-/// metre of its reach, 1e-14 of the distance to the ends of a segment, and the rounding in double, as between two motions. Times are the
-/// same bits on every processor, for any number of threads and any split of the batch. A later end of the interval changes no time.
+/// metre of its reach, 2e-14 of the distances to the two ends of a segment together, and the rounding in double, as between two motions.
+/// Times are the same bits on every processor, for any number of threads and any split of the batch. A later end of the interval changes no time.
 ///
 /// Units:   as first_contact() of pairs.
 /// Sizes:   as many times as motions.

@@ -99,7 +99,7 @@ void validate(const AnimatedDiscs& discs);
 /// discs, and what the polygons of its rings' centres enclose. A body that is cut is one such solid for each slab.
 ///
 /// The discs are in a tree whose nodes are discs that move as these do, and hold them at every time. Where a chunk ends and the next one
-/// begins, the discs of both count. Times before the beginning and after the end are clamped to these; if the clip loops, they wrap around
+/// begins, the discs of the next one count alone; first_contact() of who comes from before also compares those of the one that ends. Times before the beginning and after the end are clamped to these; if the clip loops, they wrap around
 /// instead: its end is followed by its beginning at once, even where the body is not there what it was at the end.
 ///
 /// Numbers are kept in 16 bits. Discs of animate() are kept exactly; other discs are rounded outward, so that they hold the given ones

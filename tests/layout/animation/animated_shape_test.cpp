@@ -45,6 +45,7 @@ TEST(AnimatedShape, HasItsDiscsAtEveryTime) {
   EXPECT_NEAR(once.reach(), 7, 1e-9);
   EXPECT_EQ(once.discs(-5), first);
   EXPECT_EQ(once.discs(2), half);
+  EXPECT_EQ(once.discs(3), last);  // where a chunk begins its discs count alone
   EXPECT_EQ(once.discs(3.5), last);
   EXPECT_EQ(once.discs(9), last);
   EXPECT_TRUE(loop.loops());
