@@ -82,7 +82,7 @@ double ContactSearch::end_of_news(double time, double until) {
 /// Where both paths go straight on and the bodies are within reach: from window to window of their hulls; below these, from key to key.
 double ContactSearch::first_near(double from, double end, double to, unsigned level) {
   for (double time = from; time <= to;) {
-    limit_.count(1);
+    if (level > 0) limit_.count(1);
     const double clip_end = std::min(a_->clip_end(time), b_->clip_end(time));
     double until = std::min(end, clip_end), found = never;
     if (level > 0) until = std::min({end, a_->hull_end(level - 1), b_->hull_end(level - 1)});
@@ -117,6 +117,7 @@ bool ContactSearch::hulls_are_apart(double from, double end, unsigned level) con
 
 double ContactSearch::first_between(double from, double end) {
   return first_halving(from, end, tolerance_, [&](double begin, double last) {
+    limit_.count(1);
     place(begin, last);
     const double bend = nodes_a_.bend() + nodes_b_.bend();
     room_ = bend + slack_;

@@ -34,6 +34,7 @@ double ObstacleSearch::first(const MotionFacts& motion, double reach, double fro
 
 /// Where the path goes straight on: halves ways that are long, but not where nothing is near.
 double ObstacleSearch::first_on_way(double from, double end, double to) {
+  limit_.count(1);
   if (from > to || !look_about(from, end)) return never;
   const double half = from + (end - from) / 2;
   const PathKey a = body_->pose(from), b = body_->pose(end);
@@ -60,7 +61,7 @@ bool ObstacleSearch::is_in_area(double x, double y) {
 /// From key to key of the clip.
 double ObstacleSearch::first_near(double from, double end, double to) {
   for (double time = from; time <= to;) {
-    limit_.count(1 + found_.size());
+    limit_.count(1);
     const double until = std::min(body_->clip_end(time), end);
     if (body_->chunk().nodes() > 0) {
       if (nested_where_a_chunk_begins(time)) return time;
@@ -75,6 +76,7 @@ double ObstacleSearch::first_near(double from, double end, double to) {
 
 double ObstacleSearch::first_between(double from, double end) {
   return first_halving(from, end, tolerance_, [&](double begin, double last) {
+    limit_.count(found_.size());
     place(begin, last);
     room_ = nodes_.bend() + slack_;
     return std::pair(first_of_nodes(), nodes_.bend());

@@ -10,8 +10,8 @@
 
 namespace bch::detail {
 
-/// Counts the steps of a search, from key to key of clips, and ends a search that a clip which loops makes endless to all intents. An hour
-/// of clips with a hundred keys a second has 400 000.
+/// Counts the steps of a search, most of them from key to key of clips within reach, and ends one that short loops, long ways or fine
+/// tolerances make endless to all intents. An hour of clips with a hundred keys a second has 400 000.
 class StepLimit {
  public:
   struct Reached {};
@@ -35,7 +35,10 @@ double within_limit(const char* query, const Name& name, const Find& find) {
   try {
     return find();
   } catch (const StepLimit::Reached&) {
-    reject(query, name() + ": clips go on for more than 1e8 keys within reach; ask about a shorter interval");
+    reject(
+        query,
+        name() +
+            ": more than 1e8 steps, as from key to key of clips within reach; ask about a shorter interval");
   }
 }
 

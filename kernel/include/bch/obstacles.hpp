@@ -174,7 +174,7 @@ void time_of_impact(const ShapeSet& shapes, const Agents& agents, const Displace
 /// Units:   as first_contact() of pairs.
 /// Sizes:   as many times as motions.
 /// Errors:  throws std::invalid_argument, before anything is written, as first_contact() of pairs. Each segment that is near counts as
-///          a key of the clip, too, at each of these.
+///          a step.
 /// Cost:    of a body that stands, two rounds of a clip that loops are looked at.
 void first_contact(std::span<const Motion> motions, const ObstacleSet& obstacles,
                    const TimeInterval& interval, std::span<double> times, double tolerance = 0.005);

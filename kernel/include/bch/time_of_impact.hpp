@@ -125,7 +125,7 @@ struct TimeInterval {
 /// Errors:  throws std::invalid_argument, before anything is written, on sizes that differ, an index out of range, an interval that ends
 ///          before it begins or is not within these units, a tolerance below 1e-6 m; naming the motion and key, on a shape or a path that
 ///          is missing, keys that do not ascend or are not within these units; naming the pair, on bodies that are cut at different
-///          planes, and on more than 1e8 keys of clips that a search within reach would have to go through.
+///          planes, and on a search of more than 1e8 steps, most of them from key to key of clips within reach.
 /// Threads: runs in the caller's TBB arena. Allocates for the motions and for each task.
 /// Cost:    grows with the keys of the paths and, while two bodies are within reach of each other, with the rounds of clips that loop. Of
 ///          bodies that stand, and of which both loop in the same time or one stands still, two rounds are looked at.
