@@ -28,7 +28,7 @@ const char* kind_of(const CheckedPair& pair) {
 }
 
 const char* kind_of(const OverlapEvent& event) {
-  return event.is_wall ? "wall" : event.depth < 0 ? "pass" : "overlap";
+  return event.is_wall ? "wall" : event.is_pass() ? "pass" : "overlap";
 }
 
 /// The deepest ones first; of equal ones as they are.
@@ -147,16 +147,18 @@ nlohmann::ordered_json json_of(const CheckedRecording& recording, const CheckSum
 }
 
 nlohmann::ordered_json json_of(const OverlapEvent& event) {
-  return {{"first", event.first},
-          {"second", event.second},
-          {"kind", kind_of(event)},
-          {"from_frame", event.from},
-          {"to_frame", event.to},
-          {"frames", event.frames},
-          {"worst_frame", event.worst},
-          {"depth", std::max(0.0f, event.depth)},
-          {"x", event.x},
-          {"y", event.y}};
+  nlohmann::ordered_json json{{"first", event.first},
+                              {"second", event.second},
+                              {"kind", kind_of(event)},
+                              {"from_frame", event.from},
+                              {"to_frame", event.to},
+                              {"frames", event.frames},
+                              {"worst_frame", event.worst_frame()},
+                              {"depth", std::max(0.0f, event.depth)},
+                              {"x", event.x},
+                              {"y", event.y}};
+  if (event.is_pass()) json["after"] = event.after();
+  return json;
 }
 
 std::string json_text(const nlohmann::ordered_json& json) {
@@ -242,8 +244,8 @@ std::string pair_lines(const CheckedFrame& frame) {
 std::string event_line(const OverlapEvent& event, double fps) {
   return fmt::format("{},{},{},{:.4f},{:.4f},{},{:.4f},{:.4f},{:.3f},{:.3f}\n", event.first, event.second,
                      kind_of(event), static_cast<double>(event.from) / fps,
-                     static_cast<double>(event.to) / fps, event.frames,
-                     static_cast<double>(event.worst) / fps, std::max(0.0f, event.depth), event.x, event.y);
+                     static_cast<double>(event.to) / fps, event.frames, event.worst / fps,
+                     std::max(0.0f, event.depth), event.x, event.y);
 }
 
 std::string bodies_text(const CheckedRecording& recording) {

@@ -106,7 +106,7 @@ void RecordingPage::add(const CheckedFrame& frame, const ShapeSet& shapes) {
 
 std::string RecordingPage::finish(const CheckSummary& summary) && {
   std::vector<PageEvent> events;
-  const auto seconds = [&](std::int64_t frame) { return static_cast<double>(frame) / fps_; };
+  const auto seconds = [&](auto frame) { return static_cast<double>(frame) / fps_; };
   for (const OverlapEvent& event : summary.events)
     events.push_back({event.first,
                       event.second,

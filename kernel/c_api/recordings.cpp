@@ -140,11 +140,19 @@ bch_check_frame frame_of(const CheckedFrame& frame) {
 
 bch_check_event event_of(const OverlapEvent& event) {
   const std::int32_t kind = event.is_wall     ? BCH_CHECK_WALL
-                            : event.depth < 0 ? BCH_CHECK_PASS
+                            : event.is_pass() ? BCH_CHECK_PASS
                                               : BCH_CHECK_OVERLAP;
-  return {event.first,  event.second, event.from, event.to,
-          event.worst,  event.x,      event.y,    std::max(0.0f, event.depth),
-          event.frames, kind,         0};
+  return {event.first,
+          event.second,
+          event.from,
+          event.to,
+          event.worst_frame(),
+          event.x,
+          event.y,
+          std::max(0.0f, event.depth),
+          event.frames,
+          kind,
+          static_cast<float>(event.after())};
 }
 
 bch_check_summary summary_of(const CheckSummary& of, const TrajectoryInfo& info) {

@@ -47,8 +47,10 @@ struct CheckedPair {
   bool overlap;  ///< the two overlap in this frame
   bool passing;  ///< they do between this frame and the next, and in neither of them
   float depth;   ///< how far the first has to move to be free, metres
-  float gap;   ///< how far they are apart, metres; 0 where they overlap, infinite beyond the largest distance
-  float x, y;  ///< where the first has to move
+  float gap;     ///< how far they are apart in this frame, metres; 0 where they overlap
+  float x, y;    ///< where the first has to move
+  // Of a pass: how long after this frame they touch, in frames, and the way of the first until then, metres.
+  float after, way_x, way_y;
 };
 
 /// Describes a person of a frame, as he was checked.
@@ -88,14 +90,20 @@ struct OverlapCount {
 };
 using OverlapCounts = std::array<OverlapCount, density_classes.size()>;
 
-/// Describes two people who overlap in frames one after the other.
+/// Describes two people who overlap in frames one after the other, or who pass: touch after the frame `from`, and before the next.
 struct OverlapEvent {
   std::int64_t first, second;
   bool is_wall;
-  std::int64_t from, to, worst;  ///< frames
+  std::int64_t from, to;  ///< frames
+  double worst;           ///< the frame of the largest depth; of a pass when they touch, between two frames
   std::uint32_t frames;
-  float depth;  ///< the largest
+  float depth;  ///< the largest; below 0: they pass
   double x, y;  ///< where the first person then is, metres
+
+  bool is_pass() const noexcept { return depth < 0; }
+  /// Returns the frame of the largest depth, or the one before a pass, and how long after it that is, in frames.
+  std::int64_t worst_frame() const noexcept { return is_pass() ? from : static_cast<std::int64_t>(worst); }
+  double after() const noexcept { return worst - static_cast<double>(worst_frame()); }
 };
 
 /// Summarises a recording, or an interval of its frames: people are then those until its end.

@@ -16,10 +16,10 @@ auto who(const Overlap& overlap) {
   return std::tie(overlap.first, overlap.is_wall, overlap.second);
 }
 
-/// Joins overlaps of frames one after the other to events.
+/// Joins overlaps of frames one after the other to events. Each pass is an event of its own.
 class EventLog {
  public:
-  /// Takes the overlaps of the next frame, and where the first person of each is.
+  /// Takes the overlaps and passes of the next frame, and where the first person of each is.
   void add(const CheckedFrame& frame);
   /// Returns all events, by their first frames, then ids.
   std::vector<OverlapEvent> finish();

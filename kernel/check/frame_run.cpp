@@ -110,6 +110,9 @@ CheckedPair FrameRun::checked(Pair pair) const {
           0,
           0,
           0,
+          0,
+          0,
+          0,
           0};
 }
 
@@ -202,6 +205,14 @@ void FrameRun::ask_pairs(const ShapeSet& set, const Agents& all) {
   std::sort(hits_.begin(), hits_.end(), by_place);
 }
 
+/// Measures how far people are apart who do not overlap, by what decides whether they do; infinite beyond the distance.
+std::vector<float> FrameRun::gaps_of(const ShapeSet& set, const Agents& all, std::span<const Pair> pairs,
+                                     double max_distance) const {
+  std::vector<float> gaps(pairs.size());
+  clearance(set, all, pairs, {gaps}, {.max_distance = max_distance, .distance_leaves = options_.leaves});
+  return gaps;
+}
+
 /// Measures how deep people overlap, and how far others are apart.
 void FrameRun::ask_depths(const ShapeSet& set, const Agents& all) {
   std::vector<Penetration> depths(hits_.size());
@@ -215,8 +226,7 @@ void FrameRun::ask_depths(const ShapeSet& set, const Agents& all) {
     pair.x = static_cast<float>(depths[i].x), pair.y = static_cast<float>(depths[i].y);
   }
   if (options_.max_distance <= 0) return;
-  std::vector<float> gaps(apart_.size());
-  clearance(set, all, apart_, {gaps}, {.max_distance = options_.max_distance});
+  const std::vector<float> gaps = gaps_of(set, all, apart_, options_.max_distance);
   for (std::size_t i = 0; i < apart_.size(); ++i)
     if (std::isfinite(gaps[i])) checked_.emplace_back(checked(apart_[i])).gap = gaps[i];
 }
@@ -243,12 +253,27 @@ void FrameRun::ask_between(const ShapeSet& set, const Agents& all, const Agents&
   // Discs decide about times, so that they have to be clear of each other before and after: who touches now, or then, does not pass.
   std::size_t kept = 0;
   for (std::size_t i = 0; i < moving.size(); ++i)
-    if (times[i] > 0 && times[i] < 1) moving[kept] = moving[i], later[kept++] = later[i];
-  later.resize(kept);
+    if (times[i] > 0 && times[i] < 1)
+      times[kept] = times[i], moving[kept] = moving[i], later[kept++] = later[i];
+  moving.resize(kept), later.resize(kept);
   answers_.resize(kept);
   collide(set, with_next, later, answers_, {.semantics = Semantics::solid, .leaves = Leaves::discs});
+  const std::vector<float> gaps = gaps_of(set, all, moving, std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < kept; ++i)
-    if (answers_[i] == 0) checked_.emplace_back(checked(moving[i])).passing = true;
+    if (answers_[i] == 0) add_pass(moving[i], begin_ + later[i].first, times[i], gaps[i]);
+}
+
+/// `next`: the first person in the next frame, of the block. `time`: of the contact, a share of the time until then.
+void FrameRun::add_pass(Pair people, std::size_t next, float time, float gap) {
+  const std::size_t now = begin_ + people.first;
+  const auto frame = [&](std::size_t person) { return block_->frame(block_->frame_of()[person]); };
+  const auto until_then = [time](auto from, auto to) { return time * static_cast<float>(to - from); };
+  CheckedPair& pair = checked_.emplace_back(checked(people));
+  pair.passing = true;
+  pair.gap = gap;
+  pair.after = until_then(frame(now), frame(next));
+  pair.way_x = until_then(block_->x()[now], block_->x()[next]);
+  pair.way_y = until_then(block_->y()[now], block_->y()[next]);
 }
 
 void FrameRun::ask_walls(const ShapeSet& set, const Agents& all) {

@@ -52,8 +52,11 @@ class FrameRun {
   void find_near();
   void turn_shoulders();
   void ask_pairs(const ShapeSet& set, const Agents& all);
+  std::vector<float> gaps_of(const ShapeSet& set, const Agents& all, std::span<const Pair> pairs,
+                             double max_distance) const;
   void ask_depths(const ShapeSet& set, const Agents& all);
   void ask_between(const ShapeSet& set, const Agents& all, const Agents& with_next);
+  void add_pass(Pair people, std::size_t next, float time, float gap);
   void ask_walls(const ShapeSet& set, const Agents& all);
   void tell_people(const WalkerShapes& walker_shapes, const Agents& all);
   void count();

@@ -34,6 +34,10 @@ void EventChain::add(const CheckSummary& interval) {
   std::vector<OverlapEvent> still_open;
   std::vector<std::uint8_t> goes_on(open_.size(), 0);
   for (OverlapEvent event : interval.events) {
+    if (event.is_pass()) {
+      closed_.push_back(event);
+      continue;
+    }
     const auto before = std::lower_bound(open_.begin(), open_.end(), event,
                                          [](const auto& a, const auto& b) { return who(a) < who(b); });
     if (event.from == interval.first_frame && before != open_.end() && who(*before) == who(event)) {

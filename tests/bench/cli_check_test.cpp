@@ -59,6 +59,36 @@ TEST(Cli, CheckTellsWhoRunsIntoWhom) {
   EXPECT_EQ(read_text(page).find(folder.path().string()), std::string::npos);
 }
 
+/// People who walk through each other between two frames, a second apart.
+TEST(Cli, CheckTellsWhenAndWherePeoplePass) {
+  const TemporaryFolder folder;
+  std::string rows = "id,frame,x,y\n";
+  for (int k = 0; k < 4; ++k)
+    rows += fmt::format("1,{0},{1},5000\n2,{0},{2},5000\n", k, 9000 - 3 + 2 * k, 9000 + 3 - 2 * k);
+  const std::string file = folder.write("pass.csv", rows), events = folder.file("events.csv"),
+                    pairs = folder.file("pairs.csv"), json = folder.file("check.json"),
+                    page = folder.file("check.html");
+  const Ending run = bch({"check", file, "--unit", "m", "--fps", "1", "--events", events, "--pairs", pairs,
+                          "--json", json, "--html", page});
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.out.find("1 event, 1 of them between two frames"), std::string::npos) << run.out;
+  const nlohmann::json event = read_json(json)["events"].at(0);
+  EXPECT_EQ(event["kind"], "pass");
+  EXPECT_EQ(event["worst_frame"], 1);
+  const double after = event["after"];
+  EXPECT_GT(after, 0.2);
+  EXPECT_LT(after, 0.5);
+  EXPECT_NEAR(event["x"].get<double>(), 8999 + 2 * after, 1e-3);
+  EXPECT_EQ(event["y"], 5000);
+  EXPECT_NE(read_text(events).find(fmt::format("\n1,2,pass,1.0000,1.0000,1,{:.4f},0.0000,{:.3f},5000.000\n",
+                                               1 + after, event["x"].get<double>())),
+            std::string::npos)
+      << read_text(events);
+  EXPECT_EQ(read_text(pairs).find("pass,0.0000,0.0000"), std::string::npos) << read_text(pairs);
+  EXPECT_NE(read_text(page).find(fmt::format("\"events\":[[1,2,1.0,1.0,{:.4f}", 1 + after)),
+            std::string::npos);
+}
+
 TEST(Cli, CheckWritesTheSameForAnyNumberOfThreads) {
   const TemporaryFolder folder;
   const std::string file = folder.write("two.txt", two_who_meet());

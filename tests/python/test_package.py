@@ -571,6 +571,15 @@ class Recordings(unittest.TestCase):
         again = bch.check(self.path, unit=1, max_distance=0.5, threads=1)
         for one, other in zip(found[:3], again[:3]):
             self.assertEqual(one.tobytes(), other.tobytes())
+        passing = Path(self.folder.name) / "passing.csv"
+        rows = [f"1,{k},{8997 + 2 * k},5\n2,{k},{9003 - 2 * k},5\n" for k in range(4)]
+        passing.write_text("id,frame,x,y\n" + "".join(rows))
+        seen = bch.check(passing, fps=1, unit=1)
+        self.assertEqual((len(seen.events), seen.events["kind"][0], seen.events["worst"][0]), (1, bch.PASS, 1))
+        self.assertTrue(0.2 < seen.events["after"][0] < 0.5)
+        self.assertAlmostEqual(seen.events["x"][0], 8999 + 2 * float(seen.events["after"][0]), 4)
+        self.assertEqual(seen.events["y"][0], 5)
+        self.assertTrue(seen.pairs["kind"][0] == bch.PASS and 0.5 < seen.pairs["gap"][0] < 2)
         free = bch.check(self.path, unit=1, walls=bch.Obstacles.from_wkt("LINESTRING(-9 0.6, 9 0.6)"))
         self.assertEqual(free.summary["in_walls"], 0)
         pairs = lambda **more: bch.check(self.path, unit=1, **more).summary["overlapping_near_pairs"]

@@ -36,7 +36,7 @@ _PAIR = np.dtype(
 )
 _EVENT = np.dtype(
     [("first", i8), ("second", i8), ("from", i8), ("to", i8), ("worst", i8), ("x", f8), ("y", f8), ("depth", f4)]
-    + [("frames", u4), ("kind", i4), ("_", i4)]
+    + [("frames", u4), ("kind", i4), ("after", f4)]
 )
 #: People whom a frame has at most.
 _MOST_PEOPLE = 1_000_000
@@ -150,7 +150,9 @@ def read_trajectory(
 class Check(NamedTuple):
     """The result of `check`: who runs into whom in a recording. Ids are those of the file; depths and positions are in metres."""
 
-    events: Records  #: first, second, from, to, worst (frames), x, y, depth, frames, kind: overlaps in successive frames
+    #: first, second, from, to, worst (frames), x, y, depth, frames, kind, after: overlaps in successive frames, and passes. A pass is
+    #: `after` frames behind the frame `worst`; `x` and `y` are where the first person then is.
+    events: Records
     frames: Records  #: frame, seconds, people, overlapping, overlapping_pairs, in_walls, density
     pairs: Records  #: frame, first, second, depth, gap, x, y, kind: who is near whom
     summary: Dict[str, Any]  #: counts of the whole recording: person_frames, overlapping, near_pairs ...

@@ -7,9 +7,13 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <limits>
+#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include <bch/clearance.hpp>
+#include <bch/collide.hpp>
 
 #include "tests/support/made_up_recording.hpp"
 #include "tests/support/scenes.hpp"
@@ -39,9 +43,9 @@ TEST(Check, PeopleWhoWalkThroughEachOtherAreAnEvent) {
   EXPECT_EQ(event.first, 5);
   EXPECT_EQ(event.second, 7);
   EXPECT_FALSE(event.is_wall);
-  EXPECT_NEAR(static_cast<double>(event.worst), 62, 4);  // where they meet
-  EXPECT_LT(event.from, event.worst);
-  EXPECT_GT(event.to, event.worst);
+  EXPECT_NEAR(event.worst, 62, 4);  // where they meet
+  EXPECT_LT(event.from, event.worst_frame());
+  EXPECT_GT(event.to, event.worst_frame());
   EXPECT_EQ(event.frames, event.to - event.from + 1);
   EXPECT_GT(event.depth, 0.2f);
   EXPECT_EQ(summary.people, 3u);
@@ -54,14 +58,95 @@ TEST(Check, PeopleWhoWalkThroughEachOtherAreAnEvent) {
 
 TEST(Check, NobodyPassesThroughAnybodyUnseen) {
   MadeUp recording(1);  // a frame a second: they are metres apart before and after
-  recording.walk(1, -3, 0, 2, 0, 4);
-  recording.walk(2, 3, 0, -2, 0, 4);
-  const CheckSummary summary = check_of(recording);
+  recording.walk(1, 1e6 - 3, -2e6, 2, 0, 4);
+  recording.walk(2, 1e6 + 3, -2e6, -2, 0, 4);
+  recording.rewind();
+  std::vector<CheckedPair> pairs;
+  const CheckSummary summary = check(recording, {}, [&](const CheckedFrame& frame, const ShapeSet&) {
+    pairs.insert(pairs.end(), frame.pairs.begin(), frame.pairs.end());
+  });
   EXPECT_EQ(summary.passings, 1u);
-  ASSERT_EQ(summary.events.size(), 1u);
-  EXPECT_EQ(summary.events[0].from, 1);
-  EXPECT_LT(summary.events[0].depth, 0);
   EXPECT_EQ(summary.all.overlapping, 0u);
+  ASSERT_EQ(summary.events.size(), 1u);
+  const OverlapEvent& event = summary.events[0];
+  EXPECT_TRUE(event.is_pass());
+  EXPECT_EQ(event.from, 1);
+  EXPECT_EQ(event.to, 1);
+  EXPECT_EQ(event.worst_frame(), 1);
+  ASSERT_EQ(pairs.size(), 1u);
+  EXPECT_TRUE(pairs[0].passing);
+  const double gap = static_cast<double>(pairs[0].gap);
+  EXPECT_GT(gap, 0.8);  // of 2 m between the centres
+  EXPECT_LT(gap, 2);
+  EXPECT_GT(event.after(), (gap - 0.05) / 4);  // they come 4 m nearer a frame; discs touch a little earlier
+  EXPECT_LT(event.after(), 0.5);
+  EXPECT_NEAR(event.x, 1e6 - 1 + 2 * event.after(), 1e-5);  // where the first then is
+  EXPECT_EQ(event.y, -2e6);
+}
+
+TEST(Check, APassBesideAnOverlapIsAnEventOfItsOwn) {
+  MadeUp recording(1);
+  const double way[] = {0.1, -2, 2, -2, 0.1, 0.1, 2};  // overlaps, passes and comes back twice, overlaps
+  for (std::int64_t frame = 0; frame < std::ssize(way); ++frame) {
+    recording.add(10 * frame, {1, 0, 0, 0, 1.75f});
+    recording.add(10 * frame, {2, way[frame], 0, 0, 1.75f});
+  }
+  const CheckSummary summary = check_of(recording);
+  std::vector<CheckSummary> parts;
+  for (const std::int64_t from : {-10, 20, 30, 50}) {
+    CheckOptions options;
+    options.frames = {from, from == 50 ? 100 : from == 30 ? 50 : from + (from < 0 ? 30 : 10)};
+    parts.push_back(check_of(recording, options));
+  }
+  for (const CheckSummary& all : {summary, join(parts)}) {
+    EXPECT_EQ(all.passings, 2u);
+    std::ostringstream text;
+    for (const OverlapEvent& event : all.events)
+      text << event.is_pass() << " " << event.from << " " << event.to << " " << event.frames << ", ";
+    EXPECT_EQ(text.str(), "0 0 0 1, 1 10 10 1, 1 20 20 1, 0 40 50 2, ");
+    EXPECT_GT(all.events[1].after(), 2);  // of the 10 frames until the next
+    EXPECT_LT(all.events[1].after(), 5);
+  }
+}
+
+TEST(Check, GapsAreThoseOfWhatDecides) {
+  MadeUp recording(10);
+  add_crowd(recording, 60, static_cast<int>(test::samples(20)));
+  CheckOptions options;
+  options.max_distance = 0.3;
+  for (const Leaves leaves : {Leaves::segments, Leaves::discs}) {
+    options.leaves = leaves;
+    recording.rewind();
+    std::size_t near = 0;
+    check(recording, options, [&](const CheckedFrame& frame, const ShapeSet& shapes) {
+      std::vector<std::uint32_t> shape;
+      std::vector<double> x, y, heading;
+      std::map<std::int64_t, std::uint32_t> number;
+      for (const CheckedPerson& person : frame.people) {
+        number[person.walker.id] = static_cast<std::uint32_t>(shape.size());
+        shape.push_back(person.shape);
+        x.push_back(person.walker.x), y.push_back(person.walker.y), heading.push_back(person.walker.heading);
+      }
+      std::map<std::pair<std::uint32_t, std::uint32_t>, float> told;
+      for (const CheckedPair& pair : frame.pairs)
+        if (!pair.passing) told[{number[pair.first], number[pair.second]}] = pair.gap;
+      const Agents agents{shape, x, y, heading};
+      const std::vector<Pair> pairs = candidate_pairs(shapes, agents, options.max_distance);
+      std::vector<float> gaps(pairs.size());
+      std::vector<std::uint8_t> hits(pairs.size());
+      collide(shapes, agents, pairs, hits, {.semantics = Semantics::solid, .leaves = leaves});
+      clearance(shapes, agents, pairs, {gaps}, {.distance_leaves = leaves});
+      for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const auto row = told.find({pairs[i].first, pairs[i].second});
+        const bool is_near = static_cast<double>(gaps[i]) <= options.max_distance;
+        ASSERT_EQ(row != told.end(), hits[i] != 0 || is_near) << gaps[i];
+        if (row == told.end()) continue;
+        ASSERT_EQ(row->second, hits[i] != 0 ? 0 : gaps[i]);
+        near += hits[i] == 0;
+      }
+    });
+    EXPECT_GT(near, 100u);
+  }
 }
 
 TEST(Check, WallsAreMet) {
@@ -74,7 +159,7 @@ TEST(Check, WallsAreMet) {
   ASSERT_EQ(summary.events.size(), 1u);
   EXPECT_TRUE(summary.events[0].is_wall);
   EXPECT_EQ(summary.events[0].first, 4);
-  EXPECT_NEAR(static_cast<double>(summary.events[0].worst), 50, 8);
+  EXPECT_NEAR(summary.events[0].worst, 50, 8);
   EXPECT_EQ(summary.all.in_walls, summary.events[0].frames);
 }
 

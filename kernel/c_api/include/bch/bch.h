@@ -899,20 +899,20 @@ typedef struct bch_check_pair {
   int64_t frame;
   int64_t first, second; /**< ids; `second` is the number of a wall */
   float depth;           /**< how far the first has to move to be free, metres */
-  float gap;             /**< how far they are apart, metres */
+  float gap;             /**< how far they are apart in this frame, metres; 0 where they overlap */
   float x, y;            /**< the direction in which the first has to move */
   int32_t kind;          /**< BCH_CHECK_OVERLAP ... */
   int32_t unused;
 } bch_check_pair;
-/** Describes two people, or a person and a wall, who overlap in consecutive frames. */
+/** Describes two people, or a person and a wall, who overlap in consecutive frames, or two people who pass once. */
 typedef struct bch_check_event {
   int64_t first, second;   /**< ids */
-  int64_t from, to, worst; /**< the first and the last frame, and the one in which they overlap the deepest */
-  double x, y;             /**< where the first is in that frame, metres */
+  int64_t from, to, worst; /**< the first and the last frame, and the one in which they overlap the deepest; of a pass the frame before it */
+  double x, y;             /**< where the first is then, metres */
   float depth;             /**< how deep they overlap in that frame, metres */
   uint32_t frames;
   int32_t kind; /**< BCH_CHECK_OVERLAP, BCH_CHECK_PASS or BCH_CHECK_WALL */
-  int32_t unused;
+  float after;  /**< of a pass: how long after that frame they touch, in frames; else 0 */
 } bch_check_event;
 /** Gets all frames; they live as long as the check, like the next. */
 BCH_API bch_status bch_check_get_frames(const bch_check* check, const bch_check_frame** frames, size_t* count);
