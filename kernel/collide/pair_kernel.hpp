@@ -91,10 +91,18 @@ class PairKernel {
       take_culling();
     for (std::uint32_t k = 0; k < open_.size; ++k) {
       const std::uint32_t pair = open_.pair[k];
+      if (coincide(pair)) continue;  // the code says so by now
       traversal_.add(begin + pair, miss(pair), at_.transform(pair), at_.root_a[pair], at_.root_b[pair],
                      shapes_.reach[at_.shape_a[pair]] + shapes_.reach[at_.shape_b[pair]],
                      segment_margin(pair), gaps_of(pair));
     }
+  }
+
+  /// Returns whether both agents show one cut at one place, to the bit, so that their outlines meet: all leaves would be near each other, and none
+  /// would surely cross, which is the dearest that there is to compare.
+  bool coincide(std::uint32_t pair) const noexcept {
+    const auto [c, s, tx, ty] = at_.transform(pair);
+    return at_.root_a[pair] == at_.root_b[pair] && s == 0 && tx == 0 && ty == 0 && c > 0;
   }
 
   double segment_margin(std::uint32_t pair) const noexcept {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <numbers>
 #include <vector>
 
 #include <bch/clearance.hpp>
@@ -115,6 +116,30 @@ TEST_P(Coincidence, OfPositions) {
   }
   for (const Semantics semantics : {Semantics::boundary, Semantics::solid})
     EXPECT_EQ(collide_in(set, scene, semantics), collide_in(plain, scene, semantics));
+}
+
+/// Of one shape, at one place, or so near each other that hardly a segment crosses another.
+TEST_P(Coincidence, OfOutlines) {
+  const std::vector<Shape> shapes = test::synthetic_shapes(304, 20);
+  const ShapeSetPlan plan{{3, all_depths}};
+  const ShapeSet set(shapes, plan);
+  const baselines::Reference exact(shapes, plan);
+  test::Random random(305);
+  test::PairScene scene;
+  for (std::uint32_t i = 0; i < test::samples(400); ++i) {
+    const double heading = random.uniform(-3, 3);
+    const std::uint32_t shape = random.below(20);
+    const auto level = [&] { return static_cast<std::uint8_t>(i % 5 != 0 || random.below(2) == 0); };
+    const double off = i % 4 == 0 ? 1e-5 * random.uniform(-1, 1) : 0;
+    const double turn = i % 4 == 1 ? 1e-7 * random.uniform(-1, 1) : i % 4 == 2 ? std::numbers::pi : 0;
+    scene.crowd.add({shape, -3, 4, heading, level()});
+    scene.crowd.add({shape, -3 + off, 4, heading + turn, level()});
+    scene.pairs.push_back({2 * i, 2 * i + 1});
+  }
+  const auto hits = collide_in(set, scene);
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i)
+    ASSERT_EQ(hits[i], exact.boundary(scene.crowd.agents(), scene.pairs[i], baselines::Method::brute_force))
+        << i;
 }
 
 std::vector<const Implementation*> all_implementations() {
