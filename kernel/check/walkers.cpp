@@ -18,6 +18,7 @@ namespace {
 constexpr double smoothing = 0.4;           ///< seconds before and after
 constexpr double jump = 100;                ///< metres
 constexpr double fastest = 20;              ///< metres a second, a jump aside
+constexpr std::size_t few_people = 1024;    ///< are not worth looking for those who have left
 constexpr double slowest_direction = 0.15;  ///< metres a second: who is slower has no direction
 
 Random random_of(std::int64_t id) {
@@ -66,13 +67,44 @@ bool WalkerReader::read_one() {
     return false;
   }
   for (const TrackedPerson& person : next.people) {
-    Track& track = tracks_[person.id];
+    Track& track = track_of(person.id);
     if (!track.places.empty()) require_no_jump(track.places.back(), person, next.frame);
     track.places.push_back({next.frame, person.x, person.y});
     next.tracks.push_back(&track);
   }
   ahead_.push_back(std::move(next));
   return true;
+}
+
+WalkerReader::Track& WalkerReader::track_of(std::int64_t id) {
+  const auto [entry, is_new] = tracks_.try_emplace(id);
+  Track& track = entry->second;
+  if (!is_new) return track;
+  track.is_female = is_female_by_id(id);
+  track.stature = stature_by_id(id, track.is_female);
+  if (const auto found = left_.find(id); found != left_.end()) {
+    const Left& left = found->second;
+    track.places.push_back(left.last);
+    track.heading = left.heading, track.phase = left.phase, track.way = left.way;
+    track.last_frame = left.last.frame;
+    track.has_heading = left.has_heading, track.has_walked = true;
+    left_.erase(found);
+  }
+  return track;
+}
+
+/// Forgets the places of people who have left, but for the last one: none before it is within the window of a later frame. All people
+/// have walked to this frame.
+void WalkerReader::let_go(std::int64_t frame) {
+  if (tracks_.size() < many_tracks_) return;
+  for (auto entry = tracks_.begin(); entry != tracks_.end();) {
+    const Track& track = entry->second;
+    const Place last = track.places.back();
+    const bool has_left = last.frame < frame - window_;
+    if (has_left) left_[entry->first] = {last, track.heading, track.phase, track.way, track.has_heading};
+    entry = has_left ? tracks_.erase(entry) : std::next(entry);
+  }
+  many_tracks_ = std::max(few_people, 2 * tracks_.size());
 }
 
 Walker WalkerReader::walk(const TrackedPerson& person, Track& track, std::int64_t frame) const {
@@ -95,8 +127,6 @@ Walker WalkerReader::walk(const TrackedPerson& person, Track& track, std::int64_
   if (!track.has_walked) {
     track.phase = random_of(person.id).uniform(1);
     track.way = 100 * track.phase;
-    track.is_female = is_female_by_id(person.id);
-    track.stature = stature_by_id(person.id, track.is_female);
   }
   const double since = track.has_walked ? static_cast<double>(frame - track.last_frame) / fps_ : 0;
   track.has_walked = true;
@@ -145,6 +175,7 @@ bool WalkerReader::walk_on(WalkerFrame& frame) {
     frame.people.push_back(walk(now.people[i], *now.tracks[i], now.frame));
   face_the_crowd(frame, now.tracks);
   for (Walker& walker : frame.people) walker.heading -= facing_;
+  let_go(now.frame);
   return true;
 }
 

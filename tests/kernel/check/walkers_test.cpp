@@ -4,11 +4,13 @@
 #include "kernel/check/walkers.hpp"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
+#include <tuple>
 #include <vector>
 
 #include <bch/default_characters.hpp>
@@ -101,6 +103,57 @@ TEST(Walkers, TakeHeadingsOfTheFile) {
     EXPECT_FLOAT_EQ(static_cast<float>(frame.people[0].heading), 1.5f);
     EXPECT_FALSE(frame.people[0].is_guessed);
   }
+}
+
+/// So many people that those who left are forgotten, in place of being held.
+void add_many_others(MadeUp& recording, std::int64_t people, std::int64_t frames) {
+  for (std::int64_t k = 0; k < people; ++k)
+    recording.add(k % frames, {1000 + k, 500 + 3.0 * static_cast<double>(k / frames), 0, 0, unknown});
+}
+
+TEST(Walkers, GoOnWhenTheyComeBack) {
+  std::vector<std::vector<Walker>> told;
+  for (const std::int64_t others : {800, 20'000}) {  // in all frames, because these are read ahead
+    MadeUp recording(25);
+    for (const std::int64_t frame : {0, 300, 325, 357, 700})  // away for a while, a short one and a long one
+      for (int k = 0; k < 20; ++k)
+        recording.add(frame + k,
+                      {7, 0.001 * static_cast<double>(frame) + 0.04 * k, 0.02 * k, unknown, unknown});
+    for (const std::int64_t frame : {0, 600})  // stands, and walks when he is back
+      for (int k = 0; k < 20; ++k)
+        recording.add(frame + k, {8, 9, frame > 0 ? 0.05 * k : 0, unknown, unknown});
+    add_many_others(recording, others, 800);
+    recording.rewind();
+    WalkerReader reader(recording);
+    std::vector<Walker>& all = told.emplace_back();
+    for (WalkerFrame frame; reader.next(frame);)
+      for (const Walker& walker : frame.people)
+        if (walker.id < 1000 && !(walker.id == 8 && walker.is_guessed)) all.push_back(walker);
+    EXPECT_EQ(reader.people(), 2u + static_cast<std::size_t>(others));
+  }
+  ASSERT_EQ(told[0].size(), told[1].size());
+  for (std::size_t i = 0; i < told[0].size(); ++i) {
+    const Walker &one = told[0][i], &other = told[1][i];
+    EXPECT_EQ(std::tie(one.id, one.x, one.heading, one.speed, one.phase, one.stature, one.is_female,
+                       one.is_guessed, one.way, one.seconds),
+              std::tie(other.id, other.x, other.heading, other.speed, other.phase, other.stature,
+                       other.is_female, other.is_guessed, other.way, other.seconds))
+        << i;
+  }
+}
+
+TEST(Walkers, WhoHaveLeftTakeLittleMemory) {
+  constexpr std::int64_t people = 200'000;
+  MadeUp recording(25);
+  add_many_others(recording, people, 4000);
+  recording.rewind();
+  WalkerReader reader(recording);
+  const auto used = [] { return mallinfo2().uordblks + mallinfo2().hblkhd; };  // 0 under a sanitizer
+  const std::size_t before = used();
+  for (WalkerFrame frame; reader.next(frame);) {
+  }
+  EXPECT_LT(static_cast<double>(used() - before), 150.0 * people);
+  EXPECT_EQ(reader.people(), static_cast<std::size_t>(people));
 }
 
 TEST(Walkers, WithoutAStatureHaveOneByTheirIds) {
