@@ -33,12 +33,11 @@ void check_whole(const CheckCommandOptions& options) {
   CheckTables tables(options.outputs);
   std::optional<RecordingPage> page;
   if (!options.html.empty()) page.emplace(opened.recording);
-  const detail::CheckSummary summary =
-      detail::check(*opened.reader, opened.options(options.input),
-                    [&](const detail::CheckedFrame& frame, const ShapeSet& shapes) {
-                      tables.add(frame);
-                      if (page) page->add(frame, shapes);
-                    });
+  const detail::CheckSummary summary = opened.check(
+      opened.options(options.input), [&](const detail::CheckedFrame& frame, const ShapeSet& shapes) {
+        tables.add(frame);
+        if (page) page->add(frame, shapes);
+      });
   tables.finish(opened.recording, summary);
   if (page) write_file(options.html, std::move(*page).finish(summary));
   tell(opened.recording, summary, options.outputs);

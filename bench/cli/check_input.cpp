@@ -154,6 +154,13 @@ void CheckInput::add_to(CLI::App& command) {
                   "Also write to --pairs the pairs with a gap of at most M metres [0: overlaps only]")
       ->type_name("M")
       ->check(number_between(0, 10));
+  command
+      .add_option(
+          "--max-pairs", max_pairs,
+          "Pairs of people near each other in a frame, or in 4096 rows [4 million plus 100 per person]")
+      ->type_name("N")
+      ->check(whole_between(1, 1'000'000'000))
+      ->group("Limits");
 }
 
 void CheckInput::add_bodies_to(CLI::App& command) {
@@ -235,9 +242,20 @@ detail::CheckOptions OpenedCheck::options(const CheckInput& input) const {
   how.baked = baked ? &baked->set : nullptr;
   how.facing = input.facing * std::numbers::pi / 180;
   how.max_distance = input.max_distance;
+  how.most_pairs = input.max_pairs;
   how.walls = walls ? &*walls : nullptr;
   how.coarse = recording.info.rows < detail::coarse_from ? 1 : 3;
   return how;
+}
+
+detail::CheckSummary OpenedCheck::check(
+    const detail::CheckOptions& options,
+    const std::function<void(const detail::CheckedFrame&, const ShapeSet&)>& seen) const {
+  try {
+    return detail::check(*reader, options, seen);
+  } catch (const detail::TooManyPairs& error) {
+    throw InputError(recording.file + ": " + error.what() + "; --max-pairs raises the limit");
+  }
 }
 
 }  // namespace bch::cli

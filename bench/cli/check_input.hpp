@@ -4,6 +4,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,7 +24,8 @@ struct CheckInput {
   std::string file, walls, unit, columns;
   double fps = 0;  ///< 0: what the file says
   double max_distance = 0;
-  ShapeOptions shapes;  ///< of which slices and clips alone are asked for
+  std::size_t max_pairs = 0;  ///< 0: what is usual
+  ShapeOptions shapes;        ///< of which slices and clips alone are asked for
   std::vector<std::string> characters;
   std::string depth = "all", leaves = "segments";
   std::vector<std::string> clip_speeds;  ///< NAME=SPEED each; these and the next of a baked set alone
@@ -50,8 +52,12 @@ struct OpenedCheck {
 
   /// Opens the recording. Errors: throws UsageError, InputError, TrajectoryError.
   explicit OpenedCheck(const CheckInput& input);
-  /// Returns what to ask detail::check(); as long as this lives.
+  /// Returns what to ask check(); as long as this lives.
   detail::CheckOptions options(const CheckInput& input) const;
+  /// Checks the recording by detail::check(). Errors: throws InputError also on too many pairs.
+  detail::CheckSummary check(
+      const detail::CheckOptions& options,
+      const std::function<void(const detail::CheckedFrame&, const ShapeSet&)>& seen) const;
 };
 
 }  // namespace bch::cli

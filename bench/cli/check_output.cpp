@@ -209,7 +209,12 @@ CheckTables::CheckTables(const CheckOutputs& outputs)
 
 void CheckTables::add(const CheckedFrame& frame) {
   if (frames) frames.add(frame_line(frame));
-  if (pairs) pairs.add(pair_lines(frame));
+  constexpr std::size_t at_once = 10'000;  // lines, because a frame may have millions
+  CheckedFrame some = frame;
+  for (std::size_t i = 0; pairs && i < frame.pairs.size(); i += at_once) {
+    some.pairs = frame.pairs.subspan(i, std::min(at_once, frame.pairs.size() - i));
+    pairs.add(pair_lines(some));
+  }
 }
 
 void CheckTables::finish(const CheckedRecording& recording, const CheckSummary& summary) {

@@ -208,7 +208,7 @@ std::string check_part(const CheckInput& input, const PartFiles& files, const Js
   files.begin();
   StreamedTable frames(files.file(frames_kind), ""), pairs(files.file(pairs_kind), ""),
       events(files.file(events_kind), "");
-  const CheckSummary summary = check(*opened.reader, how, [&](const CheckedFrame& frame, const ShapeSet&) {
+  const CheckSummary summary = opened.check(how, [&](const CheckedFrame& frame, const ShapeSet&) {
     frames.add(frame_line(frame));
     pairs.add(pair_lines(frame));
   });

@@ -3,9 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
 #include <unordered_map>
 
 #include <bch/penetration.hpp>
@@ -25,6 +30,7 @@
 #include "bench/cli/query_answers.hpp"
 #include "bench/cli/query_options.hpp"
 #include "bench/cli/query_pairs.hpp"
+#include "kernel/broad_phase/pair_limit.hpp"
 #include "layout/base/mixed_hash.hpp"
 #include "layout/base/rounding.hpp"
 
@@ -86,27 +92,50 @@ Question read_question(const QueryCommandOptions& options, std::size_t shapes, s
   return question;
 }
 
-/// Returns the table of answers.
-std::string answer(const QueryCommandOptions& options, const ShapeSet& set, Question& question) {
+/// Returns all pairs of neighbours that are asked about.
+std::vector<Pair> pairs_of_all(const QueryCommandOptions& options, const ShapeSet& set,
+                               const AgentTable& table, const QueryOptions& how) {
+  const std::size_t most =
+      options.max_pairs > 0 ? options.max_pairs : detail::usual_most_pairs(table.id.size());
+  try {
+    return all_pairs(set, table, options.what, how, most);
+  } catch (const std::length_error&) {
+    throw InputError(
+        fmt::format("{}: more than {} pairs of agents are near each other; --max-pairs raises the limit",
+                    options.agents, most));
+  }
+}
+
+using Write = std::function<void(const std::string&)>;
+
+/// Writes the table of answers, piece by piece.
+void answer(const QueryCommandOptions& options, const ShapeSet& set, Question& question, const Write& write) {
+  constexpr std::size_t at_once = 1'000'000;  // pairs
   auto& [table, pairs, obstacle_set] = question;
   const ObstacleSet* const obstacles = obstacle_set ? &*obstacle_set : nullptr;
   QueryOptions how = options.answer.query_options();
   how.max_distance = options.max_distance;
   how.overlap = options.overlap == "zero" ? Overlap::zero : Overlap::deepest;
   how.distance_leaves = options.answer.leaves == "segments" ? Leaves::segments : Leaves::discs;
-  if (options.all_pairs)
-    pairs = std::isfinite(options.max_distance) ? near_pairs(set, table, options.what, how)
-                                                : colliding_pairs(set, table.agents(), how);
+  if (options.all_pairs) pairs = pairs_of_all(options, set, table, how);
   const QueryKind& kind = query_kind(options.what);
-  return fmt::format("{},{}{}\n", subject_columns(obstacles), kind.columns,
-                     options.points                                        ? point_columns
-                     : options.what == "contacts" && !set.slices().empty() ? slab_columns
-                                                                           : "") +
-         kind.rows({set, table, pairs, how, options.directions, options.only_direction(), options.points,
-                    obstacles});
+  std::string lines = fmt::format("{},{}{}\n", subject_columns(obstacles), kind.columns,
+                                  options.points                                        ? point_columns
+                                  : options.what == "contacts" && !set.slices().empty() ? slab_columns
+                                                                                        : "");
+  const std::span<const Pair> all = pairs;
+  std::size_t begin = 0;
+  do {
+    const std::span<const Pair> some = all.subspan(begin, std::min(at_once, all.size() - begin));
+    lines += kind.rows(
+        {set, table, some, how, options.directions, options.only_direction(), options.points, obstacles});
+    write(lines);
+    lines.clear();
+    begin += some.size();
+  } while (begin < all.size());
 }
 
-std::string query_character(const QueryCommandOptions& options) {
+void query_character(const QueryCommandOptions& options, const Write& write) {
   std::vector<std::uint32_t> depths = options.answer.cut_depths();
   const CostLimits& limits = options.shapes.limits;
   const LoadedCharacter from = load_character(options.character, options.shapes.import_options());
@@ -123,17 +152,17 @@ std::string query_character(const QueryCommandOptions& options) {
   const BuiltShapes built = build_shapes({&from, 1}, used, options.shapes.threshold, plan, limits);
   const ShapeSet set(built.shapes, plan);
   guard.reset();
-  return answer(options, set, question);
+  answer(options, set, question, write);
 }
 
-std::string query_baked(const QueryCommandOptions& options) {
+void query_baked(const QueryCommandOptions& options, const Write& write) {
   const BakedShapes baked = load_baked_for(options.character, options.answer);
   Question question = read_question(options, baked.set.shape_count(), baked.set.level_count());
   if (options.compares_heights(question.table) && !baked.set.has_heights())
     throw InputError(options.character + ": was baked without heights, which agents with a z and " +
                      "--obstacle-heights need; bake it with --heights or --slices");
   const Threads threads(options.answer.threads);
-  return answer(options, baked.set, question);
+  answer(options, baked.set, question, write);
 }
 
 /// Requires that --leaves concerns the question.
@@ -149,10 +178,10 @@ void require_leaves_of(const CLI::App& command, const QueryCommandOptions& optio
   }
 }
 
-std::string answers(const CLI::App& command, const QueryCommandOptions& options) {
-  if (!is_baked(options.character)) return query_character(options);
+void answer_all(const CLI::App& command, const QueryCommandOptions& options, const Write& write) {
+  if (!is_baked(options.character)) return query_character(options, write);
   require_unsettled(command, options.character);
-  return query_baked(options);
+  query_baked(options, write);
 }
 
 /// Answers a part of what is asked, unless that is done already.
@@ -163,7 +192,8 @@ void query_part(const CLI::App& command, QueryCommandOptions options,
   const nlohmann::ordered_json run = run_of(command, inputs);
   if (files.is_done(run)) return write_standard_output(files.done_line());
   options.only = files.part();
-  const std::string table = answers(command, options);
+  std::string table;
+  answer_all(command, options, [&](const std::string& lines) { table += lines; });
   files.begin();
   write_file(files.file(answers_kind), table);
   files.finish(run, {}, {answers_kind});
@@ -184,6 +214,7 @@ void run_query(const CLI::App& command, const QueryCommandOptions& options) {
   }
   if (options.what != "penetration")
     require_absent(command, {"--directions", "--direction"}, "belongs to --what penetration");
+  if (!options.all_pairs) require_absent(command, {"--max-pairs"}, "belongs to --all-pairs");
   const bool within = options.what == "within";
   if (options.what != "clearance")
     require_absent(command, {"--overlap", "--points"}, "belongs to --what clearance");
@@ -206,7 +237,7 @@ void run_query(const CLI::App& command, const QueryCommandOptions& options) {
       options.shapes.inputs({options.character, options.agents, options.pairs, options.obstacles});
   require_outputs({}, inputs);
   if (options.part.are_given()) return query_part(command, options, inputs);
-  write_standard_data(answers(command, options));
+  answer_all(command, options, write_standard_data);
 }
 
 }  // namespace
@@ -248,6 +279,12 @@ std::function<void()> add_query_command(CLI::App& program) {
   command.add_option("PAIRS.csv", options->pairs, "Columns first,second: ids of agents")->type_name("");
   command.add_flag("--all-pairs", options->all_pairs,
                    "Instead of PAIRS.csv: all pairs that collide or, with --max-distance, come within it");
+  command
+      .add_option("--max-pairs", options->max_pairs,
+                  "Pairs of agents near each other, for --all-pairs [4 million plus 100 per agent]")
+      ->type_name("N")
+      ->check(whole_between(1, 1'000'000'000))
+      ->group("Limits");
   command
       .add_option(
           "--obstacles", options->obstacles,

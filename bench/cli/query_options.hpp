@@ -27,6 +27,7 @@ struct QueryCommandOptions {
   std::string direction;         ///< empty: the best of many
   std::string obstacle_heights;  ///< empty: infinite
   double max_distance = HUGE_VAL;
+  std::size_t max_pairs = 0;  ///< of neighbours, for all_pairs; 0: what is usual
   std::string overlap = "zero";
   bool points = false;
   PartOptions part;

@@ -27,33 +27,26 @@ std::vector<std::uint8_t> have_clearance(const ShapeSet& set, const Agents& agen
 
 }  // namespace
 
-std::vector<Pair> near_pairs(const ShapeSet& set, const AgentTable& table, const std::string& what,
-                             const QueryOptions& options) {
+std::vector<Pair> all_pairs(const ShapeSet& set, const AgentTable& table, const std::string& what,
+                            const QueryOptions& options, std::size_t most) {
   const Agents agents = table.agents();
-  std::vector<Pair> pairs = candidate_pairs(set, agents, options.max_distance);
+  const bool of_distance = std::isfinite(options.max_distance);
+  std::vector<Pair> pairs = candidate_pairs(set, agents, of_distance ? options.max_distance : 0, most);
   std::sort(pairs.begin(), pairs.end(),
             [](Pair a, Pair b) { return a.first != b.first ? a.first < b.first : a.second < b.second; });
-  std::vector<std::uint8_t> near(pairs.size());
-  if (what == "within")
-    within(set, agents, pairs, {&options.max_distance, 1}, near, options);
+  std::vector<std::uint8_t> kept(pairs.size());
+  if (!of_distance)
+    collide(set, agents, pairs, kept, options);
+  else if (what == "within")
+    within(set, agents, pairs, {&options.max_distance, 1}, kept, options);
   else
-    near = have_clearance(set, agents, pairs, options);
-  std::size_t kept = 0;
+    kept = have_clearance(set, agents, pairs, options);
+  std::size_t count = 0;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    pairs[kept] = pairs[i];
-    kept += near[i];
+    pairs[count] = pairs[i];
+    count += kept[i];
   }
-  pairs.resize(kept);
-  return pairs;
-}
-
-std::vector<Pair> colliding_pairs(const ShapeSet& set, const Agents& agents, const QueryOptions& options) {
-  CrowdCollider collider;
-  const Rows<std::uint32_t> rows = collider.collide_all(set, agents, options);
-  std::vector<Pair> pairs;
-  for (std::uint32_t i = 0; i < agents.size(); ++i)
-    for (const std::uint32_t j : rows[i])
-      if (i < j) pairs.push_back({i, j});
+  pairs.resize(count);
   return pairs;
 }
 

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -12,12 +13,10 @@
 
 namespace bch::cli {
 
-/// Returns all pairs that are within max_distance of each other, in the order of the agents' lines. `what`: "within" counts as that query
-/// does, also who stands inside whom; else distances count alone.
-std::vector<Pair> near_pairs(const ShapeSet& set, const AgentTable& table, const std::string& what,
-                             const QueryOptions& options);
-
-/// Returns all pairs that collide, in the same order.
-std::vector<Pair> colliding_pairs(const ShapeSet& set, const Agents& agents, const QueryOptions& options);
+/// Returns all pairs that collide or, with a finite max_distance, are within it, in the order of the agents' lines. `what`: "within" counts
+/// as that query does, also who stands inside whom; else distances count alone.
+/// Errors:  throws std::length_error where there are more pairs of neighbours than `most`.
+std::vector<Pair> all_pairs(const ShapeSet& set, const AgentTable& table, const std::string& what,
+                            const QueryOptions& options, std::size_t most);
 
 }  // namespace bch::cli

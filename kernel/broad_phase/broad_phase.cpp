@@ -65,13 +65,15 @@ struct BroadPhase::State {
   std::vector<Pair> pairs;
 
   /// Finds the pairs of one agent or more.
-  std::span<const Pair> find(const ShapeSetView& shapes, const Agents& agents, double margin);
+  std::span<const Pair> find(const ShapeSetView& shapes, const Agents& agents, double margin,
+                             std::size_t most_pairs);
   void sort_discs(const CrowdGrid& grid, const ShapeSetView& shapes, const Agents& agents, double margin);
-  void find_in_block(const CrowdGrid& grid, std::size_t begin, std::size_t end, PairList& list) const;
+  void find_in_block(const CrowdGrid& grid, std::size_t begin, std::size_t end, PairList& list,
+                     PairCount& count) const;
   void find_in_class(const CrowdGrid& grid, std::uint32_t size_class, std::size_t begin, std::size_t end,
-                     PairList& list) const;
+                     PairList& list, PairCount& count) const;
   void find_larger(const CrowdGrid& grid, std::uint32_t size_class, std::size_t begin, std::size_t end,
-                   PairList& list) const;
+                   PairList& list, PairCount& count) const;
   void gather_pairs(std::size_t blocks);
 };
 
@@ -95,20 +97,21 @@ void BroadPhase::State::sort_discs(const CrowdGrid& grid, const ShapeSetView& sh
 
 /// The pairs of discs begin .. end with later ones of their class and with all of coarser classes.
 void BroadPhase::State::find_in_block(const CrowdGrid& grid, std::size_t begin, std::size_t end,
-                                      PairList& list) const {
+                                      PairList& list, PairCount& count) const {
   list.clear();
   for (std::uint32_t c = 0; c < grid.class_count(); ++c) {
     const std::size_t from = std::max(begin, class_begin[c]), to = std::min(end, class_begin[c + 1]);
     if (from >= to) continue;
-    find_in_class(grid, c, from, to, list);
-    find_larger(grid, c, from, to, list);
+    find_in_class(grid, c, from, to, list, count);
+    find_larger(grid, c, from, to, list, count);
   }
+  list.tell(count);
 }
 
 /// Half of the neighbourhood, so that each pair is seen once: the rest of a cell and the one beside it are a
 /// run of discs, and so are the three cells above. Both runs only move forward.
 void BroadPhase::State::find_in_class(const CrowdGrid& grid, std::uint32_t size_class, std::size_t begin,
-                                      std::size_t end, PairList& list) const {
+                                      std::size_t end, PairList& list, PairCount& count) const {
   const std::size_t class_end = class_begin[size_class + 1];
   const std::uint64_t up = grid.stride(size_class);
   const auto skip_below = [&](std::uint64_t cell, std::size_t i) {
@@ -123,15 +126,15 @@ void BroadPhase::State::find_in_class(const CrowdGrid& grid, std::uint32_t size_
     above = skip_below(here + up - 1, above);
     above_end = skip_below(here + up + 2, std::max(above, above_end));
     for (; i < end && discs.cell(i) == here; ++i) {
-      list.add_overlapping(discs, i, i + 1, beside_end);
-      list.add_overlapping(discs, i, above, above_end);
+      list.add_overlapping(discs, i, i + 1, beside_end, count);
+      list.add_overlapping(discs, i, above, above_end, count);
     }
   }
 }
 
 /// Searches all nine cells about a disc, in the grid of every coarser class.
 void BroadPhase::State::find_larger(const CrowdGrid& grid, std::uint32_t size_class, std::size_t begin,
-                                    std::size_t end, PairList& list) const {
+                                    std::size_t end, PairList& list, PairCount& count) const {
   for (std::uint32_t c = 0; c < size_class; ++c) {
     if (class_begin[c] == class_begin[c + 1]) continue;
     for (std::size_t i = begin; i < end;) {
@@ -141,7 +144,8 @@ void BroadPhase::State::find_larger(const CrowdGrid& grid, std::uint32_t size_cl
       for (const std::uint64_t row : {middle - up, middle, middle + up}) {
         const std::size_t from = discs.first_from(row - 1, class_begin[c], class_begin[c + 1]);
         const std::size_t to = discs.first_from(row + 2, from, class_begin[c + 1]);
-        for (std::size_t k = i; from < to && k < cell_end; ++k) list.add_overlapping(discs, k, from, to);
+        for (std::size_t k = i; from < to && k < cell_end; ++k)
+          list.add_overlapping(discs, k, from, to, count);
       }
       i = cell_end;
     }
@@ -161,16 +165,17 @@ void BroadPhase::State::gather_pairs(std::size_t blocks) {
   });
 }
 
-std::span<const Pair> BroadPhase::State::find(const ShapeSetView& shapes, const Agents& agents,
-                                              double margin) {
+std::span<const Pair> BroadPhase::State::find(const ShapeSetView& shapes, const Agents& agents, double margin,
+                                              std::size_t most_pairs) {
   const CrowdGrid grid(bounds(shapes, agents, margin));
   sort_discs(grid, shapes, agents, margin);
   const std::size_t blocks = (agents.size() + block_discs - 1) / block_discs;
   if (found.size() < blocks) found.resize(blocks);
+  PairCount count(most_pairs);
   for_ranges(blocks, 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t b = first; b < last; ++b) {
       const std::size_t begin = b * block_discs, end = std::min(begin + block_discs, agents.size());
-      find_in_block(grid, begin, end, found[b]);
+      find_in_block(grid, begin, end, found[b], count);
       if (!agents.z.empty()) found[b].keep_if([&](Pair pair) { return heights_meet(shapes, agents, pair); });
     }
   });
@@ -183,18 +188,20 @@ BroadPhase::BroadPhase(BroadPhase&&) noexcept = default;
 BroadPhase& BroadPhase::operator=(BroadPhase&&) noexcept = default;
 BroadPhase::~BroadPhase() = default;
 
-std::span<const Pair> BroadPhase::find(const ShapeSet& shapes, const Agents& agents, double margin) {
+std::span<const Pair> BroadPhase::find(const ShapeSet& shapes, const Agents& agents, double margin,
+                                       std::size_t most_pairs) {
   const FloatingPointStateGuard floats;
   validate(shapes, agents);
   if (!(margin >= 0 && margin <= 2 * rounding::largest_position))
     throw std::invalid_argument("broad phase: a margin of " + shortest(margin) + " m");
   if (agents.size() == 0) return {};
-  return without_tasks_from_outside([&] { return state_->find(shapes.view(), agents, margin); });
+  return without_tasks_from_outside([&] { return state_->find(shapes.view(), agents, margin, most_pairs); });
 }
 
-std::vector<Pair> candidate_pairs(const ShapeSet& shapes, const Agents& agents, double margin) {
+std::vector<Pair> candidate_pairs(const ShapeSet& shapes, const Agents& agents, double margin,
+                                  std::size_t most_pairs) {
   BroadPhase broad_phase;
-  const std::span<const Pair> pairs = broad_phase.find(shapes, agents, margin);
+  const std::span<const Pair> pairs = broad_phase.find(shapes, agents, margin, most_pairs);
   return {pairs.begin(), pairs.end()};
 }
 

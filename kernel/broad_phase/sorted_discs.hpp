@@ -4,9 +4,12 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include <bch/agents.hpp>
@@ -77,11 +80,26 @@ class SortedDiscs {
   std::vector<std::uint32_t> agent_;
 };
 
+/// Counts the pairs that all tasks find, up to a limit.
+class PairCount {
+ public:
+  explicit PairCount(std::size_t most) noexcept : most_(most) {}
+  /// Errors:  throws std::length_error where there are more than the limit.
+  void add(std::size_t pairs) {
+    if (count_.fetch_add(pairs, std::memory_order_relaxed) + pairs > most_)
+      throw std::length_error("broad phase: more than " + std::to_string(most_) + " pairs");
+  }
+
+ private:
+  const std::size_t most_;
+  std::atomic<std::size_t> count_ = 0;
+};
+
 /// Holds pairs that a task found.
 class PairList {
  public:
   std::span<const Pair> pairs() const noexcept { return {pairs_.data(), size_}; }
-  void clear() noexcept { size_ = 0; }
+  void clear() noexcept { size_ = counted_ = 0; }
   /// Keeps the pairs that pass a test.
   template <class Test>
   void keep_if(Test passes) {
@@ -92,16 +110,27 @@ class PairList {
   }
 
   /// Adds the pairs of disc i with those of begin .. end that it overlaps.
-  void add_overlapping(const SortedDiscs& discs, std::size_t i, std::size_t begin, std::size_t end) {
+  void add_overlapping(const SortedDiscs& discs, std::size_t i, std::size_t begin, std::size_t end,
+                       PairCount& count) {
     const std::size_t most = size_ + (end - begin) + SortedDiscs::width;
     if (most > pairs_.size()) pairs_.resize(2 * most);
     size_ = static_cast<std::size_t>(discs.write_overlapping(i, begin, end, pairs_.data() + size_) -
                                      pairs_.data());
+    if (size_ - counted_ > uncounted) [[unlikely]]
+      tell(count);
+  }
+  /// Counts what was not counted yet.
+  void tell(PairCount& count) {
+    count.add(size_ - counted_);
+    counted_ = size_;
   }
 
  private:
+  static constexpr std::size_t uncounted =
+      65536;  ///< pairs, about: tasks should not wait for each other to count
+
   std::vector<Pair> pairs_;
-  std::size_t size_ = 0;
+  std::size_t size_ = 0, counted_ = 0;
 };
 
 }  // namespace bch::detail

@@ -218,6 +218,7 @@ std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check
   if (!(given.max_distance >= 0 && given.max_distance <= 10))
     throw Failure(BCH_INVALID_ARGUMENT, "options->max_distance is " + std::to_string(given.max_distance));
   options.max_distance = given.max_distance;
+  options.most_pairs = given.max_pairs;
   const Cast cast = cast_of(given);
   options.cast = cast;
   options.baked = given.baked == nullptr ? nullptr : &object_of(given.baked, "options->baked").set;

@@ -18,6 +18,7 @@ namespace bch::detail {
 namespace {
 
 constexpr std::size_t run_people = 4096;  ///< of a task, about
+constexpr double pairs_at_once = 4e6;     ///< about, where runs of a block have more: some 150 bytes each
 
 /// Checks blocks of frames.
 class Checker {
@@ -36,6 +37,7 @@ class Checker {
  private:
   std::size_t look(const FrameBlock& block, std::size_t frames);
   void pose(std::size_t runs);
+  std::size_t asked_at_once(std::size_t first, std::size_t end) const;
   void tell(const FrameBlock& block, const FrameRun& run, double fps);
 
   const CheckOptions options_;
@@ -106,10 +108,27 @@ void Checker::check(const FrameBlock& block, bool at_end, double fps) {
   const std::size_t looked_at = look(block, frames);
   pose(looked_at);
   const std::size_t runs = at_end ? looked_at : looked_at - 1;
-  for_ranges(runs, 1, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) runs_[k]->ask(shapes_, shape_);
-  });
-  for (std::size_t k = 0; k < runs; ++k) tell(block, *runs_[k], fps);
+  for (std::size_t first = 0; first < runs;) {
+    const std::size_t last = asked_at_once(first, runs);
+    for_ranges(last - first, 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) runs_[first + k]->ask(shapes_, shape_);
+    });
+    for (; first < last; ++first) {
+      tell(block, *runs_[first], fps);
+      runs_[first]->let_go();
+    }
+  }
+}
+
+/// Returns the end of the runs that are asked together: mostly all, but no more than memory is wanted for.
+std::size_t Checker::asked_at_once(std::size_t first, std::size_t end) const {
+  double pairs = runs_[first]->expected_pairs();
+  std::size_t last = first + 1;
+  for (; last < end; ++last) {
+    pairs += runs_[last]->expected_pairs();
+    if (pairs > pairs_at_once) break;
+  }
+  return last;
 }
 
 CheckSummary Checker::finish(std::size_t people) {

@@ -11,6 +11,7 @@
 #include <optional>
 #include <set>
 #include <span>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -37,6 +38,14 @@ struct CheckOptions {
   double facing = 0;  ///< radians: where the shapes of baked people face, which others do to 0
   std::size_t people_at_once =
       100'000;  ///< about so many, of many frames; the answers are the same for any number
+  std::size_t most_pairs =
+      0;  ///< of neighbours, in some 4 096 person-frames, or in one frame; 0: usual_most_pairs()
+};
+
+/// Reports that a recording has more pairs of neighbours than are held at once. The message names the frame.
+class TooManyPairs : public std::length_error {
+ public:
+  using std::length_error::length_error;
 };
 
 /// Describes two people of a frame, or a person and a wall, who are near each other.
@@ -120,7 +129,7 @@ struct CheckSummary {
 /// those of some frames. Characters and clips that rows name are taken from the cast. `seen`, which may be empty, hears of every frame in turn, on the caller's thread.
 /// Threads: runs in the caller's TBB arena, and reads on any of its threads, what comes next while it checks. The same answers for any
 ///          number of threads.
-/// Errors:  throws TrajectoryError, also where rows name what the cast does not have.
+/// Errors:  throws TrajectoryError, also where rows name what the cast does not have; TooManyPairs.
 CheckSummary check(TrajectoryReader& reader, const CheckOptions& options,
                    const std::function<void(const CheckedFrame&, const ShapeSet&)>& seen = {});
 

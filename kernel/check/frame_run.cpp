@@ -4,67 +4,28 @@
 #include "kernel/check/frame_run.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
+#include <stdexcept>
+#include <string>
 #include <tuple>
 
 #include <bch/clearance.hpp>
 #include <bch/collide.hpp>
-#include <bch/hierarchy.hpp>
 #include <bch/penetration.hpp>
 #include <bch/time_of_impact.hpp>
+
+#include "kernel/broad_phase/pair_limit.hpp"
 
 namespace bch::detail {
 namespace {
 
 constexpr std::uint32_t directions = 32;
-constexpr double near_distance = 1.2, density_distance = 1;  ///< metres
-constexpr double crowded = 4;   ///< people per square metre: from there on they turn their shoulders
-constexpr double beside = 0.6;  ///< metres: for somebody who is so near at a side
-constexpr double farthest_step =
-    6;  ///< metres, of one or of two people together; beyond, it is a jump and no way
 /// Metres: nobody passes through a body, an arm included, who moves by less than that.
 constexpr double thinnest = 0.05;
-using std::numbers::pi;
-
-const ShapeSet& near_discs() {
-  static const ShapeSet discs = [] {
-    Shape disc;
-    disc.hierarchy = fixed_cylinder(static_cast<float>(near_distance / 2));
-    return ShapeSet({&disc, 1});
-  }();
-  return discs;
-}
 
 bool by_place(Pair a, Pair b) {
   return a.first != b.first ? a.first < b.first : a.second < b.second;
-}
-
-constexpr double square(double value) {
-  return value * value;
-}
-
-/// A bit for each of the compared discs that are nearer than they are wide.
-std::uint8_t discs_of(double square_distance) {
-  std::uint8_t bits = 0;
-  for (std::size_t k = 0; k < compared_discs.size(); ++k)
-    bits |= static_cast<std::uint8_t>((square_distance < square(2 * compared_discs[k])) << k);
-  return bits;
-}
-
-std::uint8_t density_class(double density) {
-  const auto next = std::upper_bound(density_classes.begin() + 1, density_classes.end(), density);
-  return static_cast<std::uint8_t>(next - density_classes.begin() - 1);
-}
-
-/// How far a shoulder has to be turned for somebody at a side: that on his side goes back where he is ahead, and forward where he is
-/// behind.
-Shoulders turned_for(double bearing) {
-  const double off = std::abs(bearing);
-  if (off < pi / 4 || off > 3 * pi / 4) return Shoulders::straight;
-  return (bearing > 0) == (off < pi / 2) ? Shoulders::left : Shoulders::right;
 }
 
 }  // namespace
@@ -116,64 +77,6 @@ CheckedPair FrameRun::checked(Pair pair) const {
           0};
 }
 
-void FrameRun::look(const FrameBlock& block, std::size_t first, std::size_t last) {
-  block_ = &block;
-  first_ = first, last_ = last;
-  begin_ = block.begin(first), end_ = block.begin(last);
-  find_near();
-  turn_shoulders();
-  poses_.clear();
-  for (std::size_t i = 0; i < size(); ++i)
-    poses_.emplace_back(block.people()[begin_ + i], shoulders_[i], options_.coarse, options_.cast, motions_);
-}
-
-/// Finds who is within 1.2 m of whom, what discs say of them, and how many are within 1 m.
-void FrameRun::find_near() {
-  zeros_.resize(size());
-  const std::span<const Pair> found = near_phase_.find(
-      near_discs(), {zeros_, own(block_->apart_x()), own(block_->y()), own(block_->heading())});
-  const auto frame_of = own(block_->frame_of());
-  near_.clear(), near_in_discs_.clear();
-  in_discs_.assign(size(), 0);
-  near_count_.assign(size(), 1);
-  for (const Pair pair : found) {
-    const double distance = square_distance(pair);
-    if (distance > square(near_distance) || frame_of[pair.first] != frame_of[pair.second]) continue;
-    const std::uint8_t discs = discs_of(distance);
-    near_.push_back(pair), near_in_discs_.push_back(discs);
-    const bool is_within = distance <= square(density_distance);
-    for (const std::uint32_t i : {pair.first, pair.second})
-      in_discs_[i] |= discs, near_count_[i] += is_within;
-  }
-  density_.clear(), density_class_.clear();
-  for (const std::uint32_t count : near_count_) {
-    density_.push_back(static_cast<double>(count) / (pi * square(density_distance)));
-    density_class_.push_back(density_class(density_.back()));
-  }
-}
-
-/// Finds who turns his shoulders: in a crowd, for whoever is nearest, if he is at a side; of equally near ones, for the first.
-void FrameRun::turn_shoulders() {
-  const auto people = own(block_->people());
-  std::vector<double> least(size(), square(beside));
-  std::vector<std::uint32_t> nearest(size(), 0);
-  for (const Pair pair : near_) {
-    const double distance = square_distance(pair);
-    const auto offer = [&](std::uint32_t i, std::uint32_t other) {
-      if (density_[i] < crowded || std::tie(distance, other) >= std::tie(least[i], nearest[i])) return;
-      least[i] = distance, nearest[i] = other;
-    };
-    offer(pair.first, pair.second), offer(pair.second, pair.first);
-  }
-  shoulders_.assign(size(), Shoulders::straight);
-  for (std::size_t i = 0; i < size(); ++i) {
-    if (least[i] == square(beside)) continue;
-    const Walker& other = people[nearest[i]];
-    const double bearing = std::atan2(other.y - people[i].y, other.x - people[i].x) - people[i].heading;
-    shoulders_[i] = turned_for(bearing - 2 * pi * std::round(bearing / (2 * pi)));
-  }
-}
-
 void FrameRun::ask(const WalkerShapes& walker_shapes, std::span<const std::uint32_t> shapes) {
   const ShapeSet& set = walker_shapes.set();
   const Agents all = agents(shapes, end_);
@@ -187,14 +90,41 @@ void FrameRun::ask(const WalkerShapes& walker_shapes, std::span<const std::uint3
            std::tie(b.frame, b.first, b.is_wall, b.second, b.passing);
   });
   tell_people(walker_shapes, all);
-  count();
+  count_overlaps();
+}
+
+/// The pairs within a distance grow with its square.
+double FrameRun::expected_pairs() const {
+  const auto near = static_cast<double>(near_pairs_ + size());
+  return near * square((margin_ + near_distance) / near_distance);
+}
+
+void FrameRun::let_go() {
+  if (answers_.capacity() <= usual_pairs()) return;
+  body_phase_ = BroadPhase();
+  let_go(answers_), let_go(hits_), let_go(apart_), let_go(checked_);
+}
+
+/// Finds the neighbours among the people, as if each frame stood far from the others.
+std::span<const Pair> FrameRun::find(BroadPhase& phase, const ShapeSet& shapes,
+                                     std::span<const std::uint32_t> shape_of, double margin) const {
+  const std::size_t most = options_.most_pairs > 0 ? options_.most_pairs : usual_most_pairs(size());
+  try {
+    return phase.find(shapes, {shape_of, own(block_->apart_x()), own(block_->y()), own(block_->heading())},
+                      margin, most);
+  } catch (const std::length_error&) {
+    const std::int64_t first = block_->frame(first_), last = block_->frame(last_ - 1);
+    const std::string frames = last > first
+                                   ? "frames " + std::to_string(first) + " to " + std::to_string(last)
+                                   : "frame " + std::to_string(first);
+    throw TooManyPairs(frames + ": more than " + std::to_string(most) +
+                       " pairs of people are near each other");
+  }
 }
 
 /// Finds who overlaps, and who does not but may be within the largest distance or touch before the next frame.
 void FrameRun::ask_pairs(const ShapeSet& set, const Agents& all) {
-  const double margin = std::max(options_.max_distance, std::min(2 * longest_step(), farthest_step));
-  const std::span<const Pair> found =
-      body_phase_.find(set, {all.shape, own(block_->apart_x()), all.y, all.heading}, margin);
+  const std::span<const Pair> found = find(body_phase_, set, all.shape, margin_);
   answers_.resize(found.size());
   collide(set, all, found, answers_, {.semantics = Semantics::solid, .leaves = options_.leaves});
   const auto frame_of = own(block_->frame_of());
@@ -311,30 +241,17 @@ void FrameRun::tell_people(const WalkerShapes& walker_shapes, const Agents& all)
                                static_cast<float>(density_[i]), overlaps_[i] != 0, in_wall_[i] != 0});
 }
 
-void FrameRun::count() {
-  // How many people and pairs of each class are in each set of discs.
-  constexpr std::size_t sets = std::size_t{1} << compared_discs.size();
-  std::array<std::array<std::uint64_t, sets>, density_classes.size()> people{}, pairs{};
-  counts_ = {};
+std::uint8_t FrameRun::class_of(Pair pair) const {
+  return std::max(density_class_[pair.first], density_class_[pair.second]);
+}
+
+void FrameRun::count_overlaps() {
   for (std::size_t i = 0; i < size(); ++i) {
-    OverlapCount& to = counts_[density_class_[i]];
-    ++people[density_class_[i]][in_discs_[i]];
-    to.guessed += block_->people()[begin_ + i].is_guessed;
-    to.overlapping += overlaps_[i];
-    to.in_walls += in_wall_[i];
+    counts_[density_class_[i]].overlapping += overlaps_[i];
+    counts_[density_class_[i]].in_walls += in_wall_[i];
   }
-  const auto class_of = [&](Pair pair) {
-    return std::max(density_class_[pair.first], density_class_[pair.second]);
-  };
-  for (std::size_t i = 0; i < near_.size(); ++i) ++pairs[class_of(near_[i])][near_in_discs_[i]];
   for (const Pair pair : hits_)
     counts_[class_of(pair)].overlapping_pairs += square_distance(pair) <= square(near_distance);
-  for (std::size_t c = 0; c < density_classes.size(); ++c)
-    for (std::size_t set = 0; set < sets; ++set) {
-      counts_[c].people += people[c][set], counts_[c].near_pairs += pairs[c][set];
-      for (std::size_t k = 0; k < compared_discs.size(); ++k)
-        if (set >> k & 1) counts_[c].discs[k] += people[c][set], counts_[c].disc_pairs[k] += pairs[c][set];
-    }
 }
 
 }  // namespace bch::detail

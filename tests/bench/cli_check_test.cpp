@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -87,6 +88,24 @@ TEST(Cli, CheckTellsWhenAndWherePeoplePass) {
   EXPECT_EQ(read_text(pairs).find("pass,0.0000,0.0000"), std::string::npos) << read_text(pairs);
   EXPECT_NE(read_text(page).find(fmt::format("\"events\":[[1,2,1.0,1.0,{:.4f}", 1 + after)),
             std::string::npos);
+}
+
+/// As many as a small file may have, so that memory is wanted for their pairs.
+TEST(Cli, CheckLimitsThePairs) {
+  const TemporaryFolder folder;
+  std::string rows = "id,frame,x,y\n";
+  for (int i = 0; i < 20'000; ++i) rows += fmt::format("{},7,0,0\n", i);
+  const std::string file = folder.write("spot.csv", rows), events = folder.file("events.csv");
+  const Ending run = bch({"check", file, "--unit", "m", "--fps", "1", "--events", events});
+  EXPECT_EQ(run.code, 3);
+  EXPECT_EQ(run.err, fmt::format("bch: {}: frame 7: more than 6000000 pairs of people are near each other; "
+                                 "--max-pairs raises the limit\n",
+                                 file));
+  EXPECT_EQ(run.out, "");
+  EXPECT_FALSE(std::filesystem::exists(events));
+  const std::string two = folder.write("two.txt", two_who_meet());
+  EXPECT_EQ(bch({"check", two, "--max-pairs", "5"}).code, 3);
+  EXPECT_EQ(bch({"check", two, "--max-pairs", "1000"}).code, 0);
 }
 
 TEST(Cli, CheckWritesTheSameForAnyNumberOfThreads) {

@@ -68,6 +68,48 @@ TEST(Cli, AllPairsEqualsExplicitPairs) {
   EXPECT_GT(lines(all.out), 20u);
 }
 
+/// So many agents at one place.
+std::string spot(int count) {
+  std::ostringstream csv;
+  csv << "id,shape,x,y,heading\n";
+  for (int i = 0; i < count; ++i) csv << i << ",0,1,1,0\n";
+  return csv.str();
+}
+
+TEST(Cli, QueryLimitsAllPairs) {
+  const TemporaryFolder folder;
+  const std::string shapes = folder.write("box.obj", box), agents = folder.write("agents.csv", spot(20'000));
+  const Ending run = bch({"query", shapes, agents, "--all-pairs"}, as_metres);
+  EXPECT_EQ(run.code, 3);
+  EXPECT_EQ(run.out, "");
+  EXPECT_EQ(run.err,
+            "bch: " + agents +
+                ": more than 6000000 pairs of agents are near each other; --max-pairs raises the limit\n");
+  const std::string few = folder.write("few.csv", spot(5));
+  for (const Arguments& how : {Arguments{}, Arguments{"--what", "clearance", "--max-distance", "1"}}) {
+    Arguments words{"query", shapes, few, "--all-pairs", "--max-pairs", "9"};
+    words.insert(words.end(), how.begin(), how.end());
+    EXPECT_EQ(bch(words, as_metres).code, 3);
+    words[5] = "10";
+    EXPECT_EQ(lines(bch(words, as_metres).out), 11u);
+  }
+  expect_failure(
+      bch({"query", shapes, few, folder.write("pairs.csv", "first,second\n"), "--max-pairs", "9"}, as_metres),
+      2, {"--max-pairs"});
+}
+
+/// Of so many pairs that they are answered and written piece by piece.
+TEST(Cli, QueryAnswersMillionsOfPairs) {
+  const TemporaryFolder folder;
+  const Ending run =
+      bch({"query", folder.write("box.obj", box), folder.write("agents.csv", spot(1500)), "--all-pairs"},
+          as_metres);
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(lines(run.out), 1u + 1500 * 1499 / 2);
+  EXPECT_TRUE(run.out.starts_with("first,second,hit\n0,1,1\n0,2,1\n"));
+  EXPECT_TRUE(run.out.ends_with("\n1497,1498,1\n1497,1499,1\n1498,1499,1\n"));
+}
+
 /// As spreadsheets write it, with the mark of its byte order.
 std::string utf16(const std::string& ascii, bool big_endian) {
   std::string text = big_endian ? "\xfe\xff" : "\xff\xfe";

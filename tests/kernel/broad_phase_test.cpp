@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -130,6 +132,21 @@ TEST(BroadPhase, AllInOnePlace) {
   const test::Crowd crowd = crowd_in(0, 0, 1200, 4, 3e5, -3e5);
   EXPECT_EQ(brute_force(set, crowd.agents()).size(), 1200u * 1199 / 2);
   expect_right(crowd);
+}
+
+TEST(BroadPhase, FindsNoMorePairsThanIsWanted) {
+  const test::Crowd spot = crowd_in(0, 0, 2000, 40);  // in several blocks
+  constexpr std::size_t pairs = 2000 * 1999 / 2;
+  BroadPhase broad_phase;
+  EXPECT_EQ(broad_phase.find(set, spot.agents(), 0, pairs).size(), pairs);
+  for (const std::size_t most : {pairs - 1, std::size_t{0}}) try {
+      broad_phase.find(set, spot.agents(), 0, most);
+      FAIL();
+    } catch (const std::length_error& error) {
+      EXPECT_EQ(error.what(), "broad phase: more than " + std::to_string(most) + " pairs");
+    }
+  EXPECT_EQ(candidate_pairs(set, spot.agents(), 0, pairs).size(), pairs);
+  EXPECT_THROW(candidate_pairs(set, spot.agents(), 0, 1), std::length_error);
 }
 
 TEST(BroadPhase, ClustersAtTheEndsOfTheWorld) {

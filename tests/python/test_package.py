@@ -580,6 +580,8 @@ class Recordings(unittest.TestCase):
         self.assertAlmostEqual(seen.events["x"][0], 8999 + 2 * float(seen.events["after"][0]), 4)
         self.assertEqual(seen.events["y"][0], 5)
         self.assertTrue(seen.pairs["kind"][0] == bch.PASS and 0.5 < seen.pairs["gap"][0] < 2)
+        with self.assertRaisesRegex(Exception, "frames 0 to 99: more than 5 pairs of people are near each other"):
+            bch.check(self.path, unit=1, max_pairs=5)
         free = bch.check(self.path, unit=1, walls=bch.Obstacles.from_wkt("LINESTRING(-9 0.6, 9 0.6)"))
         self.assertEqual(free.summary["in_walls"], 0)
         pairs = lambda **more: bch.check(self.path, unit=1, **more).summary["overlapping_near_pairs"]

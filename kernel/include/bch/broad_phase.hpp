@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <cstddef>
+#include <limits>
 #include <memory>
 #include <span>
 #include <vector>
@@ -32,11 +34,14 @@ class BroadPhase {
   /// Grid:    radii within a factor of four share a grid; other radii have grids of their own, so a few large agents
   ///          do not slow down many small ones. A cell is no smaller than 2^-30 of the crowd's extent.
   /// Memory:  the pairs are valid until the next call. The object keeps 72 bytes an agent and up to 24 a pair; a call
-  ///          like an earlier one allocates nothing.
-  /// Errors:  throws std::invalid_argument like validate(shapes, agents), and on a margin outside these limits.
+  ///          like an earlier one allocates nothing. `most_pairs` limits that: n agents at one place are n^2 / 2 pairs. (Agents that are
+  ///          near each other and at different heights count, too.)
+  /// Errors:  throws std::invalid_argument like validate(shapes, agents), and on a margin outside these limits;
+  ///          std::length_error as soon as there are more pairs than `most_pairs`.
   /// Threads: runs in the caller's TBB arena; one call at a time. While the calling thread waits for the tasks of the call, it
   ///          takes no other tasks, so one object for each of TBB's threads is enough.
-  std::span<const Pair> find(const ShapeSet& shapes, const Agents& agents, double margin = 0);
+  std::span<const Pair> find(const ShapeSet& shapes, const Agents& agents, double margin = 0,
+                             std::size_t most_pairs = std::numeric_limits<std::size_t>::max());
 
  private:
   struct State;
@@ -44,6 +49,7 @@ class BroadPhase {
 };
 
 /// Returns the pairs of BroadPhase::find() in a new vector, for single calls.
-std::vector<Pair> candidate_pairs(const ShapeSet& shapes, const Agents& agents, double margin = 0);
+std::vector<Pair> candidate_pairs(const ShapeSet& shapes, const Agents& agents, double margin = 0,
+                                  std::size_t most_pairs = std::numeric_limits<std::size_t>::max());
 
 }  // namespace bch

@@ -385,6 +385,7 @@ class CheckOptions(_Sized):
         ("clip_speeds", c_void_p),
         ("clip_speed_count", c_size_t),
         ("facing", c_double),
+        ("max_pairs", c_size_t),
     ]
 
 

@@ -175,6 +175,7 @@ def check(
     depth: int = ALL_DEPTHS,
     leaves: Leaves = "segments",
     max_distance: float = 0.0,
+    max_pairs: int = 0,
     walls: Optional[Obstacles] = None,
     fps: Optional[float] = None,
     unit: Optional[float] = None,
@@ -203,6 +204,9 @@ def check(
         What decides at ALL_DEPTHS: segments of the outlines, or discs that cover them.
     max_distance : float
         Also report pairs with gaps up to this distance, metres.
+    max_pairs : int
+        The most pairs of people near each other, in a frame or in some 4096 rows; 0: 4 million and 100 per person. More are
+        an error, because each takes memory.
     walls : Obstacles, optional
         Walls to use instead of the geometry of the recording.
     fps, unit, columns
@@ -245,6 +249,7 @@ def check(
             facing=ahead,
             leaves=one_of(LEAVES, leaves, "leaves"),
             max_distance=number(max_distance, "max_distance"),
+            max_pairs=bounded(max_pairs, "max_pairs", 0, 1_000_000_000),
             walls=None if walls is None else walls._pointer,
             progress=watched.callback,
         )

@@ -853,9 +853,11 @@ typedef struct bch_check_options {
   const bch_clip_speed* clip_speeds; /**< of the baked set, which does not say how fast people walk in its clips */
   size_t clip_speed_count;
   double facing; /**< of the baked set: the direction that people face, radians from +x */
+  /** The most pairs of people near each other, in a frame or in some 4096 rows; more are BCH_TOO_LARGE. 0: 4 million and 100 a person. */
+  size_t max_pairs;
 } bch_check_options;
 #define BCH_CHECK_OPTIONS_INIT \
-  { sizeof(bch_check_options), 0, NULL, 0, 0, NULL, 0, NULL, NULL, BCH_ALL_DEPTHS, BCH_SEGMENTS, NULL, 0, NULL, NULL, 0, 0 }
+  { sizeof(bch_check_options), 0, NULL, 0, 0, NULL, 0, NULL, NULL, BCH_ALL_DEPTHS, BCH_SEGMENTS, NULL, 0, NULL, NULL, 0, 0, 0 }
 /** Puts a walking person on every row of a recording that has not been read from, and finds who runs into whom. */
 BCH_API bch_status bch_check_run(bch_trajectory* trajectory, const bch_check_options* options, bch_check** check);
 /** Holds the summary of a whole recording. */
