@@ -110,7 +110,7 @@ using Write = std::function<void(const std::string&)>;
 
 /// Writes the table of answers, piece by piece.
 void answer(const QueryCommandOptions& options, const ShapeSet& set, Question& question, const Write& write) {
-  constexpr std::size_t at_once = 1'000'000;  // pairs
+  constexpr std::size_t at_once = 65'536;  // pairs, of which each may have many contacts
   auto& [table, pairs, obstacle_set] = question;
   const ObstacleSet* const obstacles = obstacle_set ? &*obstacle_set : nullptr;
   QueryOptions how = options.answer.query_options();

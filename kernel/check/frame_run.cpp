@@ -181,16 +181,19 @@ void FrameRun::ask_between(const ShapeSet& set, const Agents& all, const Agents&
   std::vector<float> times(moving.size());
   time_of_impact(set, all, moving, {x, y}, times);
   // Discs decide about times, so that they have to be clear of each other before and after: who touches now, or then, does not pass.
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < moving.size(); ++i)
-    if (times[i] > 0 && times[i] < 1)
-      times[kept] = times[i], moving[kept] = moving[i], later[kept++] = later[i];
-  moving.resize(kept), later.resize(kept);
-  answers_.resize(kept);
+  const auto keep_if = [&](auto is_kept) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < moving.size(); ++i)
+      if (is_kept(i)) times[kept] = times[i], moving[kept] = moving[i], later[kept++] = later[i];
+    moving.resize(kept), later.resize(kept);
+  };
+  keep_if([&](std::size_t i) { return times[i] > 0 && times[i] < 1; });
+  answers_.resize(later.size());
   collide(set, with_next, later, answers_, {.semantics = Semantics::solid, .leaves = Leaves::discs});
+  keep_if([&](std::size_t i) { return answers_[i] == 0; });
   const std::vector<float> gaps = gaps_of(set, all, moving, std::numeric_limits<double>::infinity());
-  for (std::size_t i = 0; i < kept; ++i)
-    if (answers_[i] == 0) add_pass(moving[i], begin_ + later[i].first, times[i], gaps[i]);
+  for (std::size_t i = 0; i < moving.size(); ++i)
+    add_pass(moving[i], begin_ + later[i].first, times[i], gaps[i]);
 }
 
 /// `next`: the first person in the next frame, of the block. `time`: of the contact, a share of the time until then.
