@@ -9,6 +9,8 @@
 #include <numeric>
 #include <span>
 
+#include "layout/import/polygon.hpp"
+
 namespace bch::detail::importing {
 namespace {
 
@@ -31,17 +33,20 @@ std::vector<Vec3> read_vertices(const SceneFile& file, const aiMesh& mesh, const
 }
 
 std::vector<std::array<std::uint32_t, 3>> read_triangles(const SceneFile& file, const aiMesh& mesh,
-                                                         const std::string& mesh_name, ImportReport& report) {
+                                                         const std::string& mesh_name,
+                                                         const std::vector<Vec3>& vertices,
+                                                         ImportReport& report) {
   if (mesh.mNumFaces > 0 && mesh.mFaces == nullptr) file.reject(mesh_name + " has no faces where it says so");
   std::vector<std::array<std::uint32_t, 3>> triangles;
   triangles.reserve(mesh.mNumFaces);
   for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
     const aiFace& face = mesh.mFaces[f];
-    const bool good = face.mNumIndices == 3 && face.mIndices != nullptr &&
-                      std::all_of(face.mIndices, face.mIndices + 3,
-                                  [&](unsigned index) { return index < mesh.mNumVertices; });
+    const std::span corners(face.mIndices, face.mIndices == nullptr ? 0 : face.mNumIndices);
+    const bool good =
+        corners.size() >= 3 && std::all_of(corners.begin(), corners.end(),
+                                           [&](unsigned corner) { return corner < vertices.size(); });
     if (good)
-      triangles.push_back({face.mIndices[0], face.mIndices[1], face.mIndices[2]});
+      append_triangles_of(vertices, corners, triangles);
     else
       ++report.dropped_faces;
   }
@@ -69,7 +74,7 @@ class MeshAppender {
       return;
     }
     const std::vector<Vec3> vertices = read_vertices(file_, mesh, name);
-    const auto triangles = read_triangles(file_, mesh, name, report_);
+    const auto triangles = read_triangles(file_, mesh, name, vertices, report_);
     if (triangles.empty()) {
       report_.dropped_vertices += vertices.size();
       return;

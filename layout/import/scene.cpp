@@ -5,7 +5,6 @@
 
 #include <assimp/config.h>
 #include <assimp/importerdesc.h>
-#include <assimp/postprocess.h>
 
 #include <algorithm>
 #include <cmath>
@@ -97,9 +96,9 @@ SceneFile::SceneFile(const std::filesystem::path& file, const ImportOptions& opt
     return;
   }
   set_up(importer, file, options);
-  // Nothing else of assimp's post-processing: joining vertices merges them without regard to their weights,
-  // and each further step is a further place to fail on a damaged file.
-  scene = importer.ReadFile(file.string(), aiProcess_Triangulate);
+  // Nothing of assimp's post-processing: joining vertices merges them without regard to their weights, triangles
+  // are cut across corners that lie on their edges, and each step is a further place to fail on a damaged file.
+  scene = importer.ReadFile(file.string(), 0);
   const int index = importer.GetPropertyInteger("importerIndex", -1);
   const aiImporterDesc* description =
       index < 0 ? nullptr : importer.GetImporterInfo(static_cast<std::size_t>(index));

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include <bch/import.hpp>
+
+#include "layout/character/eigen.hpp"
+#include "layout/character/skinning.hpp"
+#include "layout/import/polygon.hpp"
+#include "tests/support/scenes.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+// Faces of more than three corners: each simple one is covered once, wherever its corners lie.
+
+namespace bch {
+namespace {
+
+using Grid = std::array<int, 2>;
+using Polygon = std::vector<Grid>;
+
+int cross(const Grid& a, const Grid& b, const Grid& c) {
+  return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+int doubled_area(const Polygon& p) {
+  int area = 0;
+  for (std::size_t i = 2; i < p.size(); ++i) area += cross(p[0], p[i - 1], p[i]);
+  return area;
+}
+
+bool is_on(const Grid& a, const Grid& b, const Grid& p) {
+  const auto between = [&](int axis) {
+    return std::min(a[axis], b[axis]) <= p[axis] && p[axis] <= std::max(a[axis], b[axis]);
+  };
+  return cross(a, b, p) == 0 && between(0) && between(1);
+}
+
+bool meet(const Grid& a, const Grid& b, const Grid& c, const Grid& d) {
+  if (is_on(a, b, c) || is_on(a, b, d) || is_on(c, d, a) || is_on(c, d, b)) return true;
+  const auto differ = [](int x, int y) { return (x < 0) != (y < 0); };
+  return differ(cross(a, b, c), cross(a, b, d)) && differ(cross(c, d, a), cross(c, d, b));
+}
+
+bool is_simple(const Polygon& p) {
+  const std::size_t size = p.size();
+  for (std::size_t i = 0; i < size; ++i)
+    for (std::size_t j = i + 1; j < size; ++j) {
+      const Grid &a = p[i], &b = p[(i + 1) % size], &c = p[j], &d = p[(j + 1) % size];
+      const bool follows = j == i + 1, precedes = (j + 1) % size == i;
+      if (a == c || (follows && (is_on(a, b, d) || is_on(c, d, a))) ||
+          (precedes && (is_on(a, b, c) || is_on(c, d, b))) || (!follows && !precedes && meet(a, b, c, d)))
+        return false;
+    }
+  return doubled_area(p) != 0;
+}
+
+Polygon random_polygon(test::Random& random) {
+  Polygon polygon(4 + random.below(6));
+  const std::uint32_t side = 3 + random.below(4);
+  for (Grid& corner : polygon)
+    corner = {static_cast<int>(random.below(side)), static_cast<int>(random.below(side))};
+  return polygon;
+}
+
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+
+/// In a plane that leans or stands, far from the origin.
+Triangles cut(const Polygon& polygon, std::uint32_t plane) {
+  std::vector<Vec3> vertices;
+  for (const auto& [x, y] : polygon) {
+    const float u = 0.25f * static_cast<float>(x), v = 0.25f * static_cast<float>(y);
+    vertices.push_back(plane == 0 ? Vec3{u, v, u + v} : plane == 1 ? Vec3{v, 1e5f, u} : Vec3{3, u, 1e5f + v});
+  }
+  std::vector<std::uint32_t> corners(polygon.size());
+  std::iota(corners.begin(), corners.end(), 0u);
+  Triangles triangles;
+  detail::importing::append_triangles_of(vertices, corners, triangles);
+  return triangles;
+}
+
+TEST(Faces, SimplePolygonsAreCoveredOnceAndCornersOnEdgesKept) {
+  test::Random random(1);
+  std::size_t tried = 0;
+  for (std::uint32_t i = 0; tried < 5000; ++i) {
+    const Polygon polygon = random_polygon(random);
+    if (!is_simple(polygon)) continue;
+    ++tried;
+    const Triangles triangles = cut(polygon, i % 3);
+    ASSERT_EQ(triangles.size(), polygon.size() - 2);
+    int sum = 0;
+    for (const auto& [a, b, c] : triangles) {
+      const int area = cross(polygon[a], polygon[b], polygon[c]);
+      ASSERT_GT(area * doubled_area(polygon), 0) << "polygon " << i;
+      sum += area;
+    }
+    ASSERT_EQ(sum, doubled_area(polygon)) << "polygon " << i;
+  }
+}
+
+/// Where it winds at all, a triangle covers it: the signed areas add up everywhere, so they do in sum.
+TEST(Faces, OtherPolygonsAreCutAllTheSame) {
+  test::Random random(2);
+  for (std::uint32_t i = 0; i < 5000; ++i) {
+    Polygon polygon = random_polygon(random);
+    if (i % 5 == 0) std::ranges::fill(polygon, polygon[0]);
+    if (i % 5 == 1)
+      for (Grid& corner : polygon) corner[1] = 2 * corner[0];
+    const Triangles triangles = cut(polygon, i % 3);
+    ASSERT_EQ(triangles.size(), polygon.size() - 2);
+    std::vector<bool> used(polygon.size());
+    int sum = 0;
+    for (const auto& triangle : triangles) {
+      for (const std::uint32_t corner : triangle) used.at(corner) = true;
+      sum += cross(polygon[triangle[0]], polygon[triangle[1]], polygon[triangle[2]]);
+    }
+    ASSERT_EQ(sum, doubled_area(polygon)) << "polygon " << i;
+    ASSERT_EQ(std::count(used.begin(), used.end(), false), 0) << "polygon " << i;
+  }
+}
+
+/// The corner at (e, e) lies beside the line through the next two by 2^-43 at 2^40, where doubles have steps of 2^-12.
+TEST(Faces, TurnsAreExact) {
+  const float far = 0x1p40f, next = 0x1p40f + 0x1p17f, near = 0x1p-20f, beside = 0x1p-20f + 0x1p-43f;
+  const auto first_triangle = [&](Vec3 corner) {
+    Triangles triangles;
+    detail::importing::append_triangles_of(
+        std::vector<Vec3>{corner, {far, far, 0}, {next, next, 0}, {-far, 2 * far, 0}},
+        std::vector<std::uint32_t>{0, 1, 2, 3}, triangles);
+    return triangles.at(0);
+  };
+  EXPECT_EQ(first_triangle({near, beside, 0}), (std::array<std::uint32_t, 3>{0, 1, 2}));
+  EXPECT_EQ(first_triangle({beside, near, 0}), (std::array<std::uint32_t, 3>{1, 2, 3}));
+  EXPECT_EQ(first_triangle({near, near, 0}), (std::array<std::uint32_t, 3>{1, 2, 3}));
+}
+
+TEST(Faces, ConvexQuadsAreCutFromTheirFirstCorner) {
+  EXPECT_EQ(cut({{0, 0}, {2, 0}, {2, 1}, {0, 1}}, 2), (Triangles{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(cut({{0, 1}, {2, 1}, {2, 0}, {0, 0}}, 2), (Triangles{{0, 1, 2}, {0, 2, 3}}));
+  EXPECT_EQ(cut({{0, 0}, {1, 1}, {4, 0}, {0, 4}}, 2), (Triangles{{1, 2, 3}, {1, 3, 0}}));
+}
+
+// ---- Files: an L of 3 m2, whose inner corner lies on the way between two others
+
+const std::array<std::array<float, 3>, 6> ell = {
+    {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}}};
+
+class FacesOfFiles : public testing::Test {
+ protected:
+  TemporaryFolder folder;
+
+  double area(const std::string& name, const std::string& text) {
+    ImportOptions options;
+    options.up = UpAxis::z;
+    options.scale = 1.0f;
+    const auto [character, report] = import_character(folder.write(name, text), options);
+    EXPECT_EQ(report.dropped_faces, 0u);
+    double sum = 0;
+    for (const auto& [a, b, c] : character.triangles) {
+      const Eigen::Vector3f origin = detail::to_eigen(character.vertices[a]);
+      sum += 0.5 * static_cast<double>((detail::to_eigen(character.vertices[b]) - origin)
+                                           .cross(detail::to_eigen(character.vertices[c]) - origin)
+                                           .norm());
+    }
+    return sum;
+  }
+};
+
+std::string numbers(const char* before, const char* after, const char* between) {
+  std::string text;
+  for (const auto& [x, y, z] : ell)
+    text += before + std::to_string(x) + between + std::to_string(y) + between + std::to_string(z) + after;
+  return text;
+}
+
+TEST_F(FacesOfFiles, ObjFromEveryCornerAndBothWays) {
+  for (int start = 0; start < 6; ++start)
+    for (const int step : {1, 5}) {
+      std::string face = "f";
+      for (int i = 0; i < 6; ++i) face += ' ' + std::to_string(1 + (start + step * i) % 6);
+      EXPECT_NEAR(area("ell.obj", numbers("v ", "\n", " ") + face + '\n'), 3, 1e-6) << face;
+    }
+  EXPECT_NEAR(area("arrow.obj", "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 1 0\nv 0 2 0\nf 1 2 3 4 5\n"), 3, 1e-6);
+  // A square with a square hole, to which a cut leads.
+  EXPECT_NEAR(area("ring.obj",
+                   "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nv 1 1 0\nv 1 3 0\nv 3 3 0\nv 3 1 0\n"
+                   "f 1 2 3 4 1 5 6 7 8 5\n"),
+              12, 1e-6);
+}
+
+TEST_F(FacesOfFiles, Ply) {
+  EXPECT_NEAR(area("ell.ply",
+                   "ply\nformat ascii 1.0\nelement vertex 6\nproperty float x\nproperty float y\n"
+                   "property float z\nelement face 1\nproperty list uchar int vertex_index\nend_header\n" +
+                       numbers("", "\n", " ") + "6 0 1 2 3 4 5\n"),
+              3, 1e-6);
+}
+
+TEST_F(FacesOfFiles, Collada) {
+  const std::string input = R"(<input semantic="VERTEX" source="#v" offset="0"/>)";
+  for (const std::string& faces :
+       {"<polylist count=\"1\">" + input + "<vcount>6</vcount><p>0 1 2 3 4 5</p></polylist>",
+        "<polygons count=\"1\">" + input + "<p>0 1 2 3 4 5</p></polygons>",
+        "<tristrips count=\"2\">" + input + "<p>0 1 3 2</p><p>0 3 5 4</p></tristrips>",
+        "<trifans count=\"1\">" + input + "<p>3 4 5 0 1 2</p></trifans>"})
+    EXPECT_NEAR(area("ell.dae",
+                     R"(<?xml version="1.0" encoding="utf-8"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit name="meter" meter="1"/><up_axis>Z_UP</up_axis></asset>
+<library_geometries><geometry id="g" name="g"><mesh><source id="p"><float_array id="pa" count="18">)" +
+                         numbers("", " ", " ") + R"(</float_array><technique_common>
+<accessor source="#pa" count="6" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
+<param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>)" +
+                         faces + R"(</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s"><node id="n"><instance_geometry url="#g"/></node></visual_scene>
+</library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)"),
+                3, 1e-5)
+        << faces;
+}
+
+TEST_F(FacesOfFiles, Fbx) {
+  std::string vertices = numbers("", ",", ",");
+  vertices.pop_back();
+  EXPECT_NEAR(
+      area("ell.fbx",
+           "; FBX 7.4.0 project file\nFBXHeaderExtension:  {\n\tFBXVersion: 7400\n}\n"
+           "Objects:  {\n\tGeometry: 1000, \"Geometry::ell\", \"Mesh\" {\n\t\tVertices: *18 {\n\t\t\ta: " +
+               vertices +
+               "\n\t\t}\n\t\tPolygonVertexIndex: *6 {\n\t\t\ta: 0,1,2,3,4,-6\n\t\t}\n\t}\n"
+               "\tModel: 2000, \"Model::ell\", \"Mesh\" {\n\t}\n}\n"
+               "Connections:  {\n\tC: \"OO\",2000,0\n\tC: \"OO\",1000,2000\n}\n"),
+      3, 1e-6);
+}
+
+}  // namespace
+}  // namespace bch
