@@ -258,6 +258,8 @@ class ClipFile {
 void add_clips_of(const std::filesystem::path& clip_file, const ImportOptions& options, Direction up,
                   Character& character, ImportReport& report) {
   const ClipFile source(clip_file, options, up);
+  for (const std::string& note : source.file().notes)
+    report.notes.push_back(one_line(clip_file.filename().string()) + ": " + note);
   std::vector<SourceClip> clips = read_clips(source.file(), report.notes);
   if (clips.empty()) source.file().reject("no clips");
   const std::string stem = one_line(clip_file.stem().string());

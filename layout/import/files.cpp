@@ -18,8 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-
 constexpr std::string_view supported[] = {
     "Autodesk FBX Importer",
     "Collada Importer",
@@ -27,7 +25,6 @@ constexpr std::string_view supported[] = {
     "Inter-Quake Model Importer",
     "BVH Importer (MoCap)",
     "Wavefront Object Importer",
-    "Stanford Polygon Library (PLY) Importer",
     "Stereolithography (STL) Importer",
 };
 
@@ -45,6 +42,18 @@ bool begins_with_mark(Assimp::IOStream& stream) {
   const std::string_view text(start, stream.Read(start, 1, sizeof start));
   stream.Seek(0, aiOrigin_SET);
   return text.starts_with(byte_order_mark) && text.find('\0') == std::string_view::npos;
+}
+
+std::string rest_of(Assimp::IOStream& stream) {
+  std::string bytes(stream.FileSize() - stream.Tell(), '\0');
+  bytes.resize(stream.Read(bytes.data(), 1, bytes.size()));
+  return bytes;
+}
+
+Assimp::IOStream* stream_of(const std::string& bytes) {
+  std::unique_ptr<std::uint8_t[]> copy(new std::uint8_t[bytes.size()]);
+  std::copy(bytes.begin(), bytes.end(), copy.get());
+  return new Assimp::MemoryIOStream(copy.release(), bytes.size(), true);
 }
 
 }  // namespace
@@ -66,13 +75,16 @@ bool FileAndSiblings::Exists(const char* path) const {
 Assimp::IOStream* FileAndSiblings::Open(const char* path, const char* mode) {
   const bool reads = mode != nullptr && mode[0] == 'r' && std::strchr(mode, '+') == nullptr;
   if (!reads || path == nullptr || !allows(path)) return nullptr;
+  if (text_ && fs::canonical(path) == file_) return stream_of(*text_);
   std::unique_ptr<Assimp::IOStream> stream(DefaultIOSystem::Open(path, mode));
   if (stream == nullptr || !begins_with_mark(*stream)) return stream.release();
-  const std::size_t size = stream->FileSize() - byte_order_mark.size();
-  std::unique_ptr<std::uint8_t[]> bytes(new std::uint8_t[size]);
   stream->Seek(byte_order_mark.size(), aiOrigin_SET);
-  const std::size_t got = stream->Read(bytes.get(), 1, size);
-  return new Assimp::MemoryIOStream(bytes.release(), got, true);
+  return stream_of(rest_of(*stream));
+}
+
+std::string FileAndSiblings::read(const fs::path& path) {
+  const std::unique_ptr<Assimp::IOStream> stream(Open(path.string().c_str(), "rb"));
+  return stream == nullptr ? "" : rest_of(*stream);
 }
 
 void keep_supported_formats(Assimp::Importer& importer) {

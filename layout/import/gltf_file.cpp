@@ -32,12 +32,9 @@ constexpr std::string_view known_extensions[] = {"KHR_materials_",
                                                  "KHR_mesh_quantization",
                                                  "KHR_draco_mesh_compression"};
 
-std::string read_all(FileAndSiblings& files, const std::filesystem::path& path) {
-  const std::unique_ptr<Assimp::IOStream> stream(files.Open(path.string().c_str(), "rb"));
-  if (stream == nullptr) return {};
-  std::string bytes(stream->FileSize(), '\0');
-  bytes.resize(stream->Read(bytes.data(), 1, bytes.size()));
-  return bytes;
+bool is_known(const std::string& extension) {
+  return std::any_of(std::begin(known_extensions), std::end(known_extensions),
+                     [&](std::string_view start) { return extension.starts_with(start); });
 }
 
 std::uint32_t little_endian(std::string_view bytes, std::size_t at) {
@@ -94,7 +91,7 @@ bool is_gltf(const std::filesystem::path& file) {
 }
 
 GltfFile::GltfFile(const std::filesystem::path& file)
-    : path_(file), files_(file), bytes_(read_all(files_, file)), values_left_(most_values) {
+    : path_(file), files_(file), bytes_(files_.read(file)), values_left_(most_values) {
   std::string_view text = bytes_.starts_with("glTF") ? split_binary() : std::string_view(bytes_);
   while (!text.empty() && text.back() == '\0') text.remove_suffix(1);
   try {
@@ -137,10 +134,16 @@ void GltfFile::check_version_and_extensions() const {
   const JsonValue required = root()["extensionsRequired"];
   for (std::size_t e = 0; e < required.size(); ++e) {
     const std::string name = required[e].text();
-    const bool known = std::any_of(std::begin(known_extensions), std::end(known_extensions),
-                                   [&](std::string_view start) { return name.starts_with(start); });
-    if (!known) reject(path_, "requires the glTF extension '" + name + "', which is not read");
+    if (!is_known(name)) reject(path_, "requires the glTF extension '" + name + "', which is not read");
   }
+}
+
+std::vector<std::string> GltfFile::unread_extensions() const {
+  const JsonValue used = root()["extensionsUsed"];
+  std::vector<std::string> names;
+  for (std::size_t e = 0; e < used.size(); ++e)
+    if (!is_known(used[e].text())) names.push_back(used[e].text());
+  return names;
 }
 
 JsonValue GltfFile::named_by(const JsonValue& index, const char* array) const {
@@ -162,7 +165,7 @@ std::string_view GltfFile::buffer(const JsonValue& json, std::size_t index) {
       if (comma == std::string::npos) json["uri"].reject("is data that is not in base64");
       place->second = base64(std::string_view(uri).substr(comma + 8), json["uri"]);
     } else if (added) {
-      place->second = read_all(files_, path_.parent_path() / without_escapes(uri));
+      place->second = files_.read(path_.parent_path() / without_escapes(uri));
       if (place->second.empty())
         json["uri"].reject("is '" + uri + "', which is no file in this folder, is empty, or cannot be read");
     }

@@ -53,6 +53,8 @@ class GltfFile {
 
   const std::filesystem::path& path() const { return path_; }
   JsonValue root() const { return {path_, *json_}; }
+  /// Returns the names of the extensions that the file uses without requiring them, and that are not read.
+  std::vector<std::string> unread_extensions() const;
   /// Returns the element of a top-level array, such as "accessors", whose index stands at `index`.
   JsonValue named_by(const JsonValue& index, const char* array) const;
 

@@ -22,7 +22,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using namespace std::chrono_literals;
 
-/// How the child's words begin.
+/// How the child's words begin. Behind `no_memory` stands the file that needs it, where that is known.
 enum Answer : char { character = 'c', import_error = 'e', no_memory = 'm' };
 
 std::string answer(const std::function<ImportedCharacter()>& read) {
@@ -31,9 +31,10 @@ std::string answer(const std::function<ImportedCharacter()>& read) {
   } catch (const std::bad_alloc&) {
     return {char{no_memory}};
   } catch (const std::exception& error) {
-    const std::string_view reason = error.what();
-    const bool memory = reason.find("needs more memory") != std::string_view::npos;
-    return memory ? std::string{char{no_memory}} : char{import_error} + std::string(reason);
+    const std::string reason = error.what();
+    const std::size_t memory = reason.find(": needs more memory");
+    return memory == std::string::npos ? char{import_error} + reason
+                                       : char{no_memory} + reason.substr(0, memory);
   }
 }
 
@@ -82,8 +83,7 @@ ImportedCharacter guarded_import(const std::string& file, const std::function<Im
   if (WEXITSTATUS(status) != 0 || words->empty()) reject("malformed: the importer gives up on it");
   switch (words->front()) {
     case no_memory:
-      reject(gibibytes(limits));
-      break;
+      throw ImportStopped((words->size() > 1 ? words->substr(1) : file) + ": " + gibibytes(limits));
     case import_error:
       throw ImportError(words->substr(1));
     default:
@@ -102,8 +102,10 @@ namespace bch {
 
 ImportedCharacter import_in_child(const std::filesystem::path& file, const ImportOptions& options,
                                   const ImportLimits& limits) {
+  std::string files = file.string();
+  for (const std::filesystem::path& clip_file : options.clip_files) files += " with " + clip_file.string();
   return detail::guarded_import(
-      file.string(), [&] { return import_character(file, options); }, limits);
+      files, [&] { return import_character(file, options); }, limits);
 }
 
 }  // namespace bch

@@ -46,6 +46,21 @@ std::size_t bone_joints(const Character& character) {
   return joints.size();
 }
 
+/// Reads a file, so that every error is an ImportError that names it.
+template <class Read>
+auto naming(const std::filesystem::path& file, Read read) {
+  try {
+    return read();
+  } catch (const ImportError&) {
+    throw;
+  } catch (const std::bad_alloc&) {
+    reject(file, "needs more memory than there is");
+  } catch (const std::exception& error) {
+    // This also catches errors of validate() and the skinning, as a further line of defence.
+    reject(file, error.what());
+  }
+}
+
 }  // namespace
 
 ImportedCharacter importing::character_of(const SceneFile& file, const ImportOptions& options) {
@@ -56,7 +71,7 @@ ImportedCharacter importing::character_of(const SceneFile& file, const ImportOpt
   if (file.format == "Inter-Quake Model Importer")
     report.notes.emplace_back("of this format the rest pose alone is read, without bones and clips");
   if (!file.gltf.posed_morphs.empty()) file.reject(file.gltf.posed_morphs);
-  report.notes.insert(report.notes.end(), file.gltf.notes.begin(), file.gltf.notes.end());
+  report.notes.insert(report.notes.end(), file.notes.begin(), file.notes.end());
 
   const NodeList nodes = read_nodes(file);
   const std::vector<bool> bone_is_skin = read_meshes(file, nodes, character, report);
@@ -68,7 +83,7 @@ ImportedCharacter importing::character_of(const SceneFile& file, const ImportOpt
   add_own_clips(file, nodes, character, report);
   const std::size_t own_clips = character.clips.size();
   for (const std::filesystem::path& clip_file : options.clip_files)
-    add_clips_of(clip_file, options, up, character, report);
+    naming(clip_file, [&] { add_clips_of(clip_file, options, up, character, report); });
   character.root_joint = find_root_joint(character, bone_is_skin);
   validate(character);
   check_poses(file, character);
@@ -82,16 +97,7 @@ ImportedCharacter importing::character_of(const SceneFile& file, const ImportOpt
 }
 
 ImportedCharacter import_character(const std::filesystem::path& file, const ImportOptions& options) {
-  try {
-    return character_of(SceneFile(file, options), options);
-  } catch (const ImportError&) {
-    throw;
-  } catch (const std::bad_alloc&) {
-    reject(file, "needs more memory than there is");
-  } catch (const std::exception& error) {
-    // This also catches errors of validate() and the skinning, as a further line of defence.
-    reject(file, error.what());
-  }
+  return naming(file, [&] { return character_of(SceneFile(file, options), options); });
 }
 
 }  // namespace bch

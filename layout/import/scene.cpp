@@ -7,12 +7,15 @@
 #include <assimp/importerdesc.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <new>
 
 #include "layout/import/files.hpp"
 #include "layout/import/gltf_file.hpp"
+#include "layout/import/ply.hpp"
+#include "layout/import/text.hpp"
 
 namespace bch::detail::importing {
 namespace {
@@ -32,21 +35,31 @@ void check_readable(const std::filesystem::path& file) {
   if (size > largest_file) reject(file, "larger than " + count(largest_file >> 30, "GiB", "GiB"));
 }
 
-void set_up(Assimp::Importer& importer, const std::filesystem::path& file, const ImportOptions& options) {
-  keep_supported_formats(importer);
-  importer.SetIOHandler(new FileAndSiblings(file));  // which the importer owns from here on
-  // Otherwise a joint becomes a chain of helper nodes, and channels no longer carry its name.
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
-  // A file with a skeleton alone (BVH) would get a made-up mesh of pyramids.
-  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
-  if (options.up) importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
-}
-
 bool is_utf16(const std::filesystem::path& file) {
   char start[2] = {};
   std::ifstream(file, std::ios::binary).read(start, sizeof start);
   const std::string_view mark(start, sizeof start);
   return mark == "\xFE\xFF" || mark == "\xFF\xFE";
+}
+
+/// Lets assimp read text of formats in which its readers lose something without that, or notes what they lose.
+void settle_text(const std::filesystem::path& file, FileAndSiblings& files, std::vector<std::string>& notes) {
+  std::string ending = file.extension().string();
+  for (char& c : ending) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (is_utf16(file)) return;
+  if (ending == ".obj") files.replace_text(plain_obj(file, files.read(file)));
+  if (ending == ".bvh")
+    if (const std::string note = check_bvh(file, files.read(file)); !note.empty()) notes.push_back(note);
+}
+
+void set_up(Assimp::Importer& importer, FileAndSiblings* files, const ImportOptions& options) {
+  keep_supported_formats(importer);
+  importer.SetIOHandler(files);  // which the importer owns from here on
+  // Otherwise a joint becomes a chain of helper nodes, and channels no longer carry its name.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS, false);
+  // A file with a skeleton alone (BVH) would get a made-up mesh of pyramids.
+  importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
+  if (options.up) importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
 }
 
 std::string reason_of_failure(const Assimp::Importer& importer) {
@@ -93,11 +106,20 @@ SceneFile::SceneFile(const std::filesystem::path& file, const ImportOptions& opt
     gltf = read_gltf(file);
     scene = gltf.scene.get();
     format = "glTF2 Importer";
+    notes = gltf.notes;
     return;
   }
-  set_up(importer, file, options);
-  // Nothing of assimp's post-processing: joining vertices merges them without regard to their weights, triangles
-  // are cut across corners that lie on their edges, and each step is a further place to fail on a damaged file.
+  if (is_ply(file)) {
+    ply = read_ply(file);
+    scene = ply.get();
+    format = "Stanford Polygon Library (PLY) Importer";
+    return;
+  }
+  auto files = std::make_unique<FileAndSiblings>(file);
+  settle_text(file, *files, notes);
+  set_up(importer, files.release(), options);
+  // Nothing of assimp's post-processing: joining vertices merges them without regard to their weights, triangles are cut across
+  // corners that lie on their edges, and each step is a further place to fail on a damaged file.
   scene = importer.ReadFile(file.string(), 0);
   const int index = importer.GetPropertyInteger("importerIndex", -1);
   const aiImporterDesc* description =

@@ -40,8 +40,10 @@ struct SceneFile {
   std::filesystem::path path;
   Assimp::Importer importer;  ///< owns the scene of a file that assimp reads
   GltfScene gltf;             ///< of a glTF file
+  std::unique_ptr<aiScene, SceneDeleter> ply;
   const aiScene* scene = nullptr;
   std::string format;
+  std::vector<std::string> notes;  ///< of what is not read
   std::size_t most_triangles = ImportOptions().most_triangles;
 
   /// Reads the scene of a file.

@@ -66,14 +66,14 @@ struct ImportedCharacter {
   ImportReport report;
 };
 
-/// Reads a character from a file. glTF 2 is read directly; assimp reads FBX, Collada, MD5, IQM, OBJ, PLY and STL. Clips come from files
-/// of these formats and from BVH. Of IQM, assimp reads only the rest pose.
+/// Reads a character from a file. glTF 2 and PLY are read directly; assimp reads FBX, Collada, MD5, IQM, OBJ and STL. Clips come from
+/// files of these formats and from BVH. Of IQM, assimp reads only the rest pose.
 /// Files:   up to 1 GiB. A file may name others that lie in the same folder, such as a glTF file's buffer; no
 ///          further file is read, wherever a link or a path leads.
-/// Meshes:  all of the scene, instances included. Polygons are cut into triangles. Vertices equal in position
-///          and influences become one. Weights, each from 0 to 1 (1.001 for rounding), are normalised, and any
-///          number of them is kept. A vertex without weights in a mesh with bones takes those of the nearest
-///          vertex that has some.
+/// Meshes:  all of the scene, instances included. Polygons are cut into triangles, which cover a simple one exactly
+///          once. Vertices equal in position and influences become one. Weights, each from 0 to 1 (1.001 for
+///          rounding), are normalised, and any number of them is kept. A vertex without weights in a mesh with bones
+///          takes those of the nearest vertex that has some.
 /// Frame:   to_ground leads to metres, z up, and never mirrors. Where neither file nor format tells the unit
 ///          or the up axis, they are guessed from the rest pose, and a note says so.
 /// glTF:    the default scene. Required extensions are refused by name, except KHR_mesh_quantization,

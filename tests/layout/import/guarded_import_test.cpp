@@ -75,6 +75,27 @@ TEST(GuardedImport, ErrorsOfTheImportAreItsOwn) {
   }
 }
 
+/// A file of clips, say, is named where it is known to be the one, and with the character where it is not.
+TEST(GuardedImport, ErrorsNameTheFileThatIsRead) {
+  try {
+    guarded_import("a.glb", []() -> ImportedCharacter {
+      throw ImportError("walk.bvh: needs more memory than there is");
+    });
+    ADD_FAILURE() << "accepted";
+  } catch (const ImportStopped& error) {
+    EXPECT_STREQ(error.what(), "walk.bvh: reading it takes more than 2 GiB of memory");
+  }
+  try {
+    ImportOptions options;
+    options.clip_files = {"b.bvh", "c.fbx"};
+    import_in_child("/nowhere/a.glb", options, {.time = std::chrono::milliseconds(0)});
+    ADD_FAILURE() << "accepted";
+  } catch (const ImportStopped& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with("/nowhere/a.glb with b.bvh with c.fbx: "))
+        << error.what();
+  }
+}
+
 TEST(GuardedImport, Crashes) {
   for (const int number : {SIGSEGV, SIGABRT, SIGFPE, SIGBUS, SIGILL})
     expect_rejected([number]() -> ImportedCharacter { return raise(number), good(); },
