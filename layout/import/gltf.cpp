@@ -121,6 +121,9 @@ void SceneDeleter::operator()(aiScene* scene) const {
 
 GltfScene read_gltf(const std::filesystem::path& file) {
   GltfReader reader{GltfFile(file), {}, {}, {}};
+  for (const std::string& name : reader.file.unread_extensions())
+    reader.result.notes.push_back("uses the glTF extension '" + one_line(name) +
+                                  "', which is not read: what it adds, moves or hides, if anything, is lost");
   reader.result.scene.reset(new aiScene);
   read_scene_nodes(reader, default_scene(reader)["nodes"]);
   read_gltf_meshes(reader);

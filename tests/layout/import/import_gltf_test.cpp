@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -48,6 +49,22 @@ TEST_F(ImportGltf, RequiredExtensionsAreReadOrRefusedByName) {
     expect_error(text(name), std::string("requires the glTF extension '") + name + "'");
   for (const char* name : {"KHR_materials_unlit", "KHR_texture_transform", "KHR_mesh_quantization"})
     EXPECT_EQ(import(text(name)).report.triangles, 1u) << name;
+}
+
+TEST_F(ImportGltf, OptionalExtensionsAreReadOrNamedByANote) {
+  GltfFile gltf;
+  gltf.add_json(
+      "\"extensionsUsed\":[\"EXT_mesh_gpu_instancing\",\"KHR_materials_unlit\",\"KHR_node_visibility\"]");
+  const std::string positions = gltf.add(corners, "VEC3");
+  const ImportReport report = import(triangle(std::move(gltf), positions)).report;
+  const auto named = [&](const std::string& extension) {
+    return std::ranges::count(report.notes,
+                              "uses the glTF extension '" + extension +
+                                  "', which is not read: what it adds, moves or hides, if anything, is lost");
+  };
+  EXPECT_EQ(named("EXT_mesh_gpu_instancing"), 1);
+  EXPECT_EQ(named("KHR_node_visibility"), 1);
+  EXPECT_EQ(named("KHR_materials_unlit"), 0);
 }
 
 TEST_F(ImportGltf, PositionsMayBeQuantised) {
