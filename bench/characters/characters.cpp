@@ -3,14 +3,17 @@
 
 #include "bench/characters/characters.hpp"
 
+#include <fmt/format.h>
 #include <strings.h>
 
 #include <algorithm>
+#include <set>
 #include <string_view>
 
 #include <bch/default_characters.hpp>
 
 #include "bench/base/exit_codes.hpp"
+#include "bench/base/printable.hpp"
 #include "layout/character/skinning.hpp"
 
 namespace bch::cli {
@@ -72,6 +75,23 @@ std::string with_own_option(std::string message) {
 
 std::string file_name(const LoadedCharacter& character) {
   return character.source.substr(character.source.find_last_of('/') + 1);
+}
+
+std::vector<std::string> notes_of(std::span<const LoadedCharacter> characters) {
+  std::vector<std::string> notes;
+  std::set<std::string> files;
+  for (const LoadedCharacter& character : characters) {
+    if (!files.insert(character.source).second) continue;
+    for (const std::string& note : character.report.notes) notes.push_back(character.source + ": " + note);
+  }
+  return notes;
+}
+
+std::string notes_text(std::span<const LoadedCharacter> characters) {
+  std::string text;
+  for (const std::string& note : notes_of(characters))
+    text += fmt::format("  {:<10}{}\n", "note", printable_line(note));
+  return text;
 }
 
 bool is_baked(const std::string& file) {

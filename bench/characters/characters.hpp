@@ -30,6 +30,11 @@ bool is_baked(const std::string& file);
 /// Returns the name of the character's file without its folders.
 std::string file_name(const LoadedCharacter& character);
 
+/// Returns the notes of the imports, each behind its file's name; those of a file once.
+std::vector<std::string> notes_of(std::span<const LoadedCharacter> characters);
+/// Returns the same as text: a line a note.
+std::string notes_text(std::span<const LoadedCharacter> characters);
+
 /// Loads a built-in character or imports a file.
 /// Errors:  throws UsageError on a built-in character with import options or an unknown "default:" name,
 ///          InputError and ImportError on a bad file.

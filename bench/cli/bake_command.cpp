@@ -54,9 +54,7 @@ void run_bake(const BakeOptions& options) {
                         sources.size() + shapes_in_time(seconds_of(characters, animated)));
   const BakedShapes baked =
       bake_file(options.output, characters, sources, options.shapes.threshold, plan, limits, animated);
-  std::string notes;
-  for (const LoadedCharacter& character : characters) notes += notes_text(character);
-  write_standard_output(text_of(options.output, baked) + notes);
+  write_standard_output(text_of(options.output, baked) + notes_text(characters));
 }
 
 }  // namespace

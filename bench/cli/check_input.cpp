@@ -92,13 +92,16 @@ detail::Cast cast_of(const CheckInput& input, const std::optional<BakedShapes>& 
       throw InputError(error.what());
     }
   }
-  for (LoadedCharacter& loaded : load_characters(input.characters, input.shapes.import_options())) {
+  std::vector<LoadedCharacter> characters = load_characters(input.characters, input.shapes.import_options());
+  const std::vector<std::string> notes = notes_of(characters);
+  for (LoadedCharacter& loaded : characters) {
     try {
       cast.push_back(detail::cast_member(std::move(loaded.character), file_name(loaded)));
     } catch (const std::invalid_argument& error) {
       throw InputError(error.what());
     }
   }
+  if (!cast.empty()) cast[0].assumptions.insert(cast[0].assumptions.begin(), notes.begin(), notes.end());
   return cast;
 }
 

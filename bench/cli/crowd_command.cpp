@@ -58,7 +58,7 @@ void run_crowd(const CrowdOptions& options, std::span<const LoadedCharacter> cha
   const CrowdRun run{options, characters, threshold, built, set, crowd, answers, query.implementation->name,
                      threads};
   write_files(run, level);
-  write_standard_output(text_report(run));
+  write_standard_output(text_report(run) + notes_text(characters));
 }
 
 void require_outputs_of(const CrowdOptions& options) {

@@ -151,13 +151,6 @@ std::string text_of(const LoadedCharacter& character) {
   return out;
 }
 
-std::string notes_text(const LoadedCharacter& character) {
-  std::string out;
-  for (const std::string& note : character.report.notes)
-    out += fmt::format("  {:<10}{}: {}\n", "note", printable_line(character.source), printable_line(note));
-  return out;
-}
-
 std::string text_of(const LoadedCharacter& character, const ShapeTable& table) {
   std::size_t widest = 9;  // "rest pose"
   for (const Clip& clip : character.character.clips)

@@ -53,8 +53,6 @@ struct ShapeTable {
 };
 
 std::string text_of(const LoadedCharacter& character);
-/// Returns the import's notes on a character, with its file's name: a line a note, mostly none.
-std::string notes_text(const LoadedCharacter& character);
 std::string text_of(const LoadedCharacter& character, const ShapeTable& table);
 std::string text_of(const LoadedCharacter& character, const ShapeFacts& facts);
 

@@ -60,17 +60,18 @@ bench::PlacedClip placed_clip(const PlaceOptions& options, const detail::CastMem
           AnimatedShape(bench::cylinder_of(discs))};
 }
 
-/// Builds the bodies of all clips, each by a task of its own.
-std::vector<bench::PlacedClip> clips_of(const PlaceOptions& options) {
+/// Builds the bodies of all clips, each by a task of its own. Adds the notes of imports to a text.
+std::vector<bench::PlacedClip> clips_of(const PlaceOptions& options, std::string& notes) {
   for (const std::string& file : options.characters)
     if (is_baked(file))
       throw InputError(
           file +
           ": is a baked set, which does not tell how tall people are and how fast they walk in a "
           "clip; give --character the characters that it was made of");
+  const std::vector<LoadedCharacter> characters = load_characters(options.characters, {});
+  notes += notes_text(characters);
   std::vector<detail::CastMember> members;
-  for (const LoadedCharacter& loaded : load_characters(options.characters, {}))
-    members.push_back(member_of(loaded));
+  for (const LoadedCharacter& loaded : characters) members.push_back(member_of(loaded));
   const std::vector<ClipOf> wanted = find_clips<detail::CastMember>(options.clip_names, members, "--clip");
   std::vector<std::optional<bench::PlacedClip>> built(wanted.size());
   tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t i) {
@@ -100,7 +101,8 @@ void run_place(const PlaceOptions& options) {
     placing.obstacles = &*obstacles;
   }
   const bench::Stopwatch watch(2);
-  run.clips = clips_of(options);
+  std::string notes;
+  run.clips = clips_of(options, notes);
   run.build_seconds = watch.nanoseconds() * 1e-9;
   for (const bench::Spacing spacing : spacings) {
     const bench::Stopwatch search(2);
@@ -113,7 +115,7 @@ void run_place(const PlaceOptions& options) {
   }
   if (!options.csv.empty()) write_file(options.csv, csv_report(run));
   write_json(options.json, json_report(run));
-  write_standard_output(text_report(run));
+  write_standard_output(text_report(run) + notes);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -153,6 +154,7 @@ void query_character(const QueryCommandOptions& options, const Write& write) {
   const ShapeSet set(built.shapes, plan);
   guard.reset();
   answer(options, set, question, write);
+  std::fputs(notes_text({&from, 1}).c_str(), stderr);  // standard output is for data
 }
 
 void query_baked(const QueryCommandOptions& options, const Write& write) {
@@ -271,6 +273,7 @@ std::function<void()> add_query_command(CLI::App& program) {
       "first,second,...;\n"
       "contacts cannot be asked. FILE.wkt may have POLYGON, MULTIPOLYGON, LINESTRING, MULTILINESTRING and\n"
       "GEOMETRYCOLLECTION; Z and M are ignored.\n"
+      "Notes on how a character's file was read go to standard error.\n"
       "Example: bch query default:female agents.csv pairs.csv > answers.csv");
   command.add_option("SHAPES", options->character, character_or_baked_help)->type_name("")->required();
   command.add_option("AGENTS.csv", options->agents, "Columns id,shape,x,y,heading[,z][,level][,dx,dy]")

@@ -6,9 +6,10 @@
 #include <filesystem>
 
 #include "tests/support/bch_run.hpp"
+#include "tests/support/gltf_file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-// Outputs never destroy inputs or each other, whatever their names are.
+// Outputs never destroy inputs or each other, whatever their names are; and what is said of an input.
 
 namespace bch::test {
 namespace {
@@ -127,6 +128,32 @@ TEST_F(CliFiles, FilesOfAFolderAreOutputs) {
     fs::remove(output);
   }
   EXPECT_EQ(read_text(model), box);
+}
+
+/// Whatever a command makes of a character, it says once what it took for granted of the file.
+TEST(Cli, EveryCommandPrintsTheNotesOfAnImport) {
+  const TemporaryFolder folder;
+  SkinnedStrip walker;  // whose lower end swings under the upper one, as a leg does
+  walker.joints = {1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0};
+  walker.turns = {0, 0, -0.25f, 0.97f, 0, 0, 0, 1, 0, 0, 0.25f, 0.97f};
+  const std::string strip = folder.write("strip.gltf", walker.text()), note = strip + ": y up -> z up\n";
+  const std::string agents = folder.write("agents.csv", "id,shape,x,y,heading\na,0,0,0,0\nb,0,9,9,0\n");
+  const std::string pairs = folder.write("pairs.csv", "first,second\na,b\n");
+  const std::string walk = folder.write("walk.csv", "id,time,x,y\n1,0,0,0\n1,0.5,0.6,0\n1,1,1.2,0\n");
+  const Ending query = bch({"query", strip, agents, pairs, "--poses", "1"});
+  EXPECT_EQ(query.out, "first,second,hit\na,b,0\n");
+  EXPECT_NE(query.err.find(note), std::string::npos) << query.err;
+  for (const Arguments& arguments :
+       {Arguments{"bake", strip, strip, "--poses", "1", "-o", folder.file("strips.bch")},
+        Arguments{"crowd", "--character", strip, "--character", strip, "--poses", "1", "--agents", "50"},
+        Arguments{"check", walk, "--unit", "m", "--character", strip, "--character", strip},
+        Arguments{"place", "--character", strip, "--seconds", "1", "--tries", "2"}}) {
+    const Ending run = bch(arguments);
+    EXPECT_EQ(run.code, 0) << run.err;
+    const std::size_t first = run.out.find(note);
+    EXPECT_NE(first, std::string::npos) << run.out;
+    EXPECT_EQ(run.out.find(note, first + 1), std::string::npos) << run.out;
+  }
 }
 
 }  // namespace

@@ -21,7 +21,8 @@ TEST(Cli, QueryAnswersInTheOrderOfThePairs) {
   const Ending run = bch({"query", shapes, agents, pairs}, as_metres);
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_EQ(run.out, "first,second,hit\nb,a,1\na,c,0\na,\"d,e\",0\na,a,1\n");
-  EXPECT_EQ(run.err, "");
+  EXPECT_EQ(run.err, "  note      " + shapes + ": y up -> z up, as the caller says\n" + "  note      " +
+                         shapes + ": metres, as the caller says\n");
 }
 
 TEST(Cli, QueryTakesALevelForEachAgent) {
