@@ -129,15 +129,39 @@ class EarClipper {
   Fault fault_of(std::size_t ear) const {
     const std::array<Point, 3> triangle = {points_[before_[ear]], points_[ear], points_[behind_[ear]]};
     const int side = turn(triangle[0], triangle[1], triangle[2]);
-    if (side <= 0) return side < 0 ? outside : without_area;
+    if (side == 0) return goes_on(triangle) ? without_area : clear;
+    if (side < 0) return outside;
     Fault fault = clear;
     for (std::size_t i = behind_[ear]; i != before_[ear]; i = behind_[i]) {
       const Point &a = points_[i], &b = points_[behind_[i]];
       if (apart(triangle, a, b)) continue;
       if (enters(triangle, a, b)) return entered;
-      if (touches(triangle, a)) fault = touched;
+      if (touches(triangle, a) || runs_back(triangle[0], triangle[1], a, b) ||
+          runs_back(triangle[1], triangle[2], a, b))
+        fault = touched;
     }
     return fault;
+  }
+
+  /// Returns whether the way from a to b, or a part of it, goes back along that from s to t. Then there may be no inside beside it.
+  static bool runs_back(const Point& s, const Point& t, const Point& a, const Point& b) {
+    if (turn(s, t, a) != 0 || turn(s, t, b) != 0) return false;
+    const auto meets = [&](double Point::*axis) {
+      const bool rises = s.*axis < t.*axis;
+      const double low = rises ? s.*axis : t.*axis, high = rises ? t.*axis : s.*axis;
+      return low < high && (rises ? a.*axis > b.*axis : a.*axis < b.*axis) &&
+             std::min(a.*axis, b.*axis) < high && std::max(a.*axis, b.*axis) > low;
+    };
+    return meets(&Point::x) || meets(&Point::y);
+  }
+
+  /// Of three corners on a line: returns whether the middle one lies between the others. Else nothing is lost with it.
+  static bool goes_on(const std::array<Point, 3>& t) {
+    const auto between = [&](double Point::*axis) {
+      return (t[0].*axis < t[1].*axis && t[1].*axis < t[2].*axis) ||
+             (t[0].*axis > t[1].*axis && t[1].*axis > t[2].*axis);
+    };
+    return between(&Point::x) || between(&Point::y);
   }
 
   /// Tells most edges from the triangle at little cost.

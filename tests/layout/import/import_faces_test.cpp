@@ -187,11 +187,25 @@ TEST_F(FacesOfFiles, ObjFromEveryCornerAndBothWays) {
       EXPECT_NEAR(area("ell.obj", numbers("v ", "\n", " ") + face + '\n'), 3, 1e-6) << face;
     }
   EXPECT_NEAR(area("arrow.obj", "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 1 1 0\nv 0 2 0\nf 1 2 3 4 5\n"), 3, 1e-6);
-  // A square with a square hole, to which a cut leads.
-  EXPECT_NEAR(area("ring.obj",
-                   "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nv 1 1 0\nv 1 3 0\nv 3 3 0\nv 3 1 0\n"
-                   "f 1 2 3 4 1 5 6 7 8 5\n"),
-              12, 1e-6);
+}
+
+/// A square with a square hole, to which a cut leads; a square with a line that leads away from it; two squares with one between.
+TEST_F(FacesOfFiles, CutsToHolesAndLinesToAndFro) {
+  const std::string vertices =
+      "v 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nv 1 1 0\nv 1 3 0\nv 3 3 0\nv 3 1 0\nv 6 5 0\nv 6 8 0\nv 4 8 0\n";
+  const struct {
+    std::vector<int> corners;
+    double area;
+  } cases[] = {{{1, 2, 3, 4, 1, 5, 6, 7, 8, 5}, 12},
+               {{1, 2, 3, 9, 10, 9, 3, 4}, 16},
+               {{1, 2, 3, 9, 10, 11, 9, 3, 4}, 19}};
+  for (const auto& [corners, expected] : cases)
+    for (std::size_t start = 0; start < corners.size(); ++start) {
+      std::string face = "f";
+      for (std::size_t i = 0; i < corners.size(); ++i)
+        face += ' ' + std::to_string(corners[(start + i) % corners.size()]);
+      EXPECT_NEAR(area("face.obj", vertices + face + '\n'), expected, 1e-6) << face;
+    }
 }
 
 TEST_F(FacesOfFiles, Ply) {
