@@ -27,23 +27,24 @@ constexpr int left_alone[] = {SIGKILL, SIGSTOP, SIGTSTP, SIGTTIN,  SIGTTOU,
 
 /// A file in an open folder.
 struct Unfinished {
+  enum : int { free, filling, named };
+  std::atomic<int> state{free};
   int folder;
   char name[RemovedOnSignal::longest_name + 1];
 };
-/// Never freed: a handler on another thread may still look at it when its owner has gone.
-Unfinished place;
-std::atomic<const Unfinished*> unfinished{nullptr};
-static_assert(std::atomic<const Unfinished*>::is_always_lock_free);
+static_assert(std::atomic<int>::is_always_lock_free);
+/// Never freed: a handler on another thread may still look at one when its owner has gone.
+Unfinished unfinished[RemovedOnSignal::most_files];
 
-/// The stack on which handlers run when the main thread has used up its own.
-alignas(64) char handler_stack[std::size_t{64} << 10];
+OnRequest on_request = OnRequest::say_so;
 
-/// Removes the file under construction by calls that signal handlers may make.
+/// Removes the files under construction by calls that signal handlers may make.
 void remove_unfinished() {
-  if (const Unfinished* const file = unfinished.load()) unlinkat(file->folder, file->name, 0);
+  for (const Unfinished& file : unfinished)
+    if (file.state == Unfinished::named) unlinkat(file.folder, file.name, 0);
 }
 
-/// Removes the file under construction, writes the words and leaves. Only calls that signal handlers may make: before one that does not
+/// Removes the files under construction, writes the words and leaves. Only calls that signal handlers may make: before one that does not
 /// return, an address sanitizer would ask for the bounds of the stack, under a lock that the interrupted thread may hold.
 [[noreturn, gnu::no_sanitize_address]] void leave_saying(int code, std::string_view words) {
   remove_unfinished();
@@ -65,32 +66,25 @@ extern "C" void clean_up(int signal) {
   raise(signal);
 }
 
-template <class Act>
-void for_each_ending_signal(Act act) {
-  for (int number = 1; number <= SIGRTMAX; ++number)
-    if (std::ranges::find(left_alone, number) == std::ranges::end(left_alone)) act(number);
-}
-
 void catch_signal(int number) {
   struct sigaction action = {};
   // The C library keeps some numbers for itself.
   if (sigaction(number, nullptr, &action) != 0 || action.sa_handler != SIG_DFL) return;
-  const bool request = std::ranges::find(requests, number) != std::ranges::end(requests);
+  const bool says_so =
+      on_request == OnRequest::say_so && std::ranges::find(requests, number) != std::ranges::end(requests);
   action = {};
-  action.sa_handler = request ? leave : clean_up;
-  action.sa_flags = SA_ONSTACK | (request ? 0 : SA_RESETHAND);
+  action.sa_handler = says_so ? leave : clean_up;
+  action.sa_flags = says_so ? 0 : static_cast<int>(SA_RESETHAND);
   sigfillset(&action.sa_mask);
   sigaction(number, &action, nullptr);
 }
 
 }  // namespace
 
-void clean_up_on_signals() {
-  stack_t stack = {};
-  stack.ss_sp = handler_stack;
-  stack.ss_size = sizeof handler_stack;
-  sigaltstack(&stack, nullptr);
-  for_each_ending_signal(catch_signal);
+void clean_up_on_signals(OnRequest what) {
+  on_request = what;
+  for (int number = 1; number <= SIGRTMAX; ++number)
+    if (std::ranges::find(left_alone, number) == std::ranges::end(left_alone)) catch_signal(number);
   signal(SIGXFSZ, SIG_IGN);
 }
 
@@ -100,14 +94,20 @@ void leave_at_once(int code, const std::string& line) {
 
 RemovedOnSignal::RemovedOnSignal(int folder, std::string_view name) {
   if (name.size() > longest_name) throw std::length_error("name too long: " + std::string(name));
-  unfinished = nullptr;
-  place = {folder, {}};
-  std::ranges::copy(name, place.name);
-  unfinished = &place;
+  for (place_ = 0; place_ < most_files; ++place_) {
+    Unfinished& place = unfinished[place_];
+    int expected = Unfinished::free;
+    if (!place.state.compare_exchange_strong(expected, Unfinished::filling)) continue;
+    place.folder = folder;
+    *std::ranges::copy(name, place.name).out = '\0';
+    place.state = Unfinished::named;
+    return;
+  }
+  throw std::length_error("too many files at a time");
 }
 
 RemovedOnSignal::~RemovedOnSignal() {
-  unfinished = nullptr;
+  unfinished[place_].state = Unfinished::free;
 }
 
 }  // namespace bch::cli

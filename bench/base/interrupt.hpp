@@ -9,27 +9,34 @@
 
 namespace bch::cli {
 
-/// Makes every signal that ends the program, and can be caught, remove the file under construction first.
-/// SIGINT, SIGTERM and SIGHUP then end it with a message and exit code 128 + signal; all others, crashes among them, as
-/// they would have without this. Signals that are ignored or caught already stay so. SIGXFSZ is ignored: a file
-/// beyond the user's limit is an error of write(), like a full disk.
-void clean_up_on_signals();
+/// Represents what a program does when somebody asks it to end by SIGINT, SIGTERM or SIGHUP.
+enum class OnRequest {
+  say_so,  ///< it writes a line, and ends with exit code 128 + signal
+  end,     ///< it ends by the signal: mpirun asks all ranks, and tells it itself
+};
 
-/// Ends the program at once, from any thread, whatever the others do: removes the file under construction, writes a line
+/// Makes every signal that ends the program, and can be caught, remove all files under construction first. Signals that
+/// are no requests, crashes among them, then end it as they would have without this. Signals that are ignored or caught
+/// already stay so. SIGXFSZ is ignored: a file beyond the user's limit is an error of write(), like a full disk.
+void clean_up_on_signals(OnRequest on_request);
+
+/// Ends the program at once, from any thread, whatever the others do: removes all files under construction, writes a line
 /// to standard error, and leaves with that code.
 [[noreturn]] void leave_at_once(int code, const std::string& line);
 
-/// Names the file that such a signal removes during this object's lifetime: a name in an open folder. Of
-/// several such files, a signal removes the last one.
+/// Names a file that such a signal removes during this object's lifetime: a name in an open folder.
 class RemovedOnSignal {
  public:
-  static constexpr std::size_t longest_name = 31;
+  static constexpr std::size_t longest_name = 31, most_files = 64;
 
-  /// Takes an open folder and a name. Errors: throws std::length_error on a longer name.
+  /// Takes an open folder and a name. Errors: throws std::length_error on a longer name, or more files at a time.
   RemovedOnSignal(int folder, std::string_view name);
   ~RemovedOnSignal();
   RemovedOnSignal(const RemovedOnSignal&) = delete;
   RemovedOnSignal& operator=(const RemovedOnSignal&) = delete;
+
+ private:
+  std::size_t place_;  ///< where handlers look for it
 };
 
 }  // namespace bch::cli

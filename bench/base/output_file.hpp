@@ -26,7 +26,6 @@ struct Descriptor {
 /// under a random name that an attacker cannot predict, and replaces that file in commit(). Without commit(),
 /// the destructor or a signal removes it. The new file has the permissions of the one it replaces. Where the
 /// name is a symbolic link, the file that it leads to is replaced. Devices and pipes are written to directly.
-/// Several files may be open at a time, but a signal removes only the last one.
 /// Errors of all: throw InputError naming the file and the reason.
 class OutputFile {
  public:

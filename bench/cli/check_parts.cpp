@@ -26,9 +26,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char *frames_kind = "frames.csv", *pairs_kind = "pairs.csv", *events_kind = "events.csv",
-                     *summary_kind = "summary.json";
-
 Json kept(const OverlapCount& count) {
   return {count.people, count.guessed,    count.overlapping,       count.in_walls,
           count.discs,  count.near_pairs, count.overlapping_pairs, count.disc_pairs};
@@ -170,8 +167,7 @@ struct KeptPart {
 KeptPart read_kept(const PartFiles& part) {
   std::string file = part.file(summary_kind);
   try {
-    std::ifstream stream(file, std::ios::binary);
-    const Json kept = Json::parse(stream);
+    const Json kept = read_part_json(file);
     KeptPart read{recording_of(kept.at("recording")), summary_of(kept.at("summary"))};
     file = part.file(events_kind);
     read.summary.events = read_events(part);
@@ -202,21 +198,26 @@ void add_rows(StreamedTable& table, const PartFiles& part, const char* kind) {
 std::string check_part(const CheckInput& input, const PartFiles& files, const Json& run) {
   const std::string name = files.part().name();
   if (files.is_done(run)) return files.done_line();
+  const FileLock lock = files.claim("check", input.files());
   const OpenedCheck opened(input);
   CheckOptions how = opened.options(input);
   how.frames = frames_of(files.part(), opened.recording.info);
   files.begin();
-  StreamedTable frames(files.file(frames_kind), ""), pairs(files.file(pairs_kind), ""),
-      events(files.file(events_kind), "");
+  PartFile frames(files.file(frames_kind)), pairs(files.file(pairs_kind)), events(files.file(events_kind));
   const CheckSummary summary = opened.check(how, [&](const CheckedFrame& frame, const ShapeSet&) {
     frames.add(frame_line(frame));
     pairs.add(pair_lines(frame));
   });
   for (const OverlapEvent& event : summary.events) events.add(kept_line(event));
-  frames.commit(), pairs.commit(), events.commit();
-  write_json(files.file(summary_kind), {{"recording", kept(opened.recording)}, {"summary", kept(summary)}});
-  files.finish(run, {{"from_frame", how.frames.from}, {"to_frame", how.frames.to - 1}},
-               {frames_kind, pairs_kind, events_kind, summary_kind});
+  const Json told{{"recording", kept(opened.recording)}, {"summary", kept(summary)}};
+  PartFile rest(files.file(summary_kind));
+  rest.add(told.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  Json identities = Json::array();
+  for (PartFile* const file : {&frames, &pairs, &events, &rest}) {
+    file->commit();
+    identities.push_back(file->identity());
+  }
+  files.finish(run, {{"from_frame", how.frames.from}, {"to_frame", how.frames.to - 1}}, identities);
   return fmt::format("{}: frames {} to {}, {}\n", name, how.frames.from, how.frames.to - 1, files.manifest());
 }
 

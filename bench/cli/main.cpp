@@ -61,6 +61,6 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  clean_up_on_signals();
+  clean_up_on_signals(OnRequest::say_so);
   return run_main("bch", [&] { return run(argc, argv); });
 }

@@ -15,7 +15,7 @@
 
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/output.hpp"
-#include "layout/baked/checksum.hpp"
+#include "bench/base/text.hpp"
 
 namespace bch::cli {
 namespace {
@@ -26,6 +26,7 @@ using Json = nlohmann::ordered_json;
 constexpr int manifest_version = 1;
 constexpr std::uint32_t most_parts = 1'000'000;
 constexpr const char* manifest_ending = ".manifest.json";
+constexpr int deepest = 5;  ///< levels of nesting: a summary, its counts by density, each of these, its discs
 
 /// Reads a number from 1 to most_parts, or 0 where it is none.
 std::uint32_t part_number(std::string_view text) {
@@ -34,23 +35,55 @@ std::uint32_t part_number(std::string_view text) {
   return error == std::errc() && stop == text.data() + text.size() && number <= most_parts ? number : 0;
 }
 
-Json read_manifest(const std::string& file) {
+/// Opens a regular file: a pipe may have nothing to read for ever, and a device no end.
+std::ifstream opened(const std::string& file) {
+  std::error_code none;
+  if (fs::exists(file, none) && !fs::is_regular_file(file, none))
+    throw InputError(file + ": is not a regular file");
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw InputError(file + ": cannot be read: " + std::strerror(errno));
-  Json manifest = Json::parse(stream, nullptr, false);
+  return stream;
+}
+
+Json identity_of(const std::string& name, const detail::baked::StreamChecksum& all) {
+  return {{"file", name}, {"bytes", all.bytes}, {"xxh3", fmt::format("{:016x}", all.checksum)}};
+}
+
+Json identity_of_file(const std::string& file, const std::string& name) {
+  std::ifstream stream = opened(file);
+  const detail::baked::StreamChecksum all = detail::baked::checksum(stream);
+  if (stream.bad()) throw InputError(file + ": cannot be read: " + std::strerror(errno));
+  return identity_of(name, all);
+}
+
+Json read_manifest(const std::string& file) {
+  Json manifest = read_part_json(file);
   if (!manifest.is_object() || manifest.value("bch_part", Json()) != manifest_version)
     throw InputError(file + ": is not the manifest of a part");
   return manifest;
 }
 
-/// Checks that a part's files have the bytes that its manifest says.
+/// Reads the number of a part, or of all; 0 where it is none. A conversion would round and wrap others.
+std::uint32_t checked_number(const Json& number) {
+  return number.is_number_unsigned() && number <= most_parts ? number.get<std::uint32_t>() : 0;
+}
+
+/// Checks that a part has the files of its command, with the bytes that its manifest says.
 void require_whole(const PartFiles& part, const Json& manifest) {
-  for (const Json& wanted : manifest.at("files")) {
-    const std::string name = wanted.at("file");
-    const fs::path file = fs::path(part.manifest()).parent_path() / name;
-    if (name.find('/') != std::string::npos)
-      throw InputError(part.manifest() + ": '" + name + "' is elsewhere");
-    if (identity_of_file(file, name) != wanted)
+  const std::string manifest_file = part.manifest(), command = manifest.at("run").at("command");
+  const std::vector<std::string> kinds = kinds_of(command);
+  const Json& files = manifest.at("files");
+  if (kinds.empty()) throw InputError(manifest_file + ": '" + command + "' is not done in parts");
+  if (!files.is_array() || files.size() != kinds.size())
+    throw InputError(fmt::format("{}: has not the {} of a part of bch {}", manifest_file,
+                                 counted(kinds.size(), "file"), command));
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    const fs::path file = part.file(kinds[i]);
+    const std::string name = files[i].at("file");
+    if (name != file.filename())
+      throw InputError(manifest_file + ": '" + name + "' is elsewhere, where " + file.filename().string() +
+                       " is expected");
+    if (identity_of_file(file, name) != files[i])
       throw InputError(file.string() + ": is not what " + part.part().name() + " wrote");
   }
 }
@@ -64,8 +97,9 @@ struct FoundPart {
 FoundPart find_part(const std::string& file) {
   const Json manifest = read_manifest(file);
   try {
-    const Part part{manifest.at("part"), manifest.at("of")};
-    if (part.number == 0 || part.number > part.count) throw InputError(file + ": is damaged");
+    const Part part{checked_number(manifest.at("part")), checked_number(manifest.at("of"))};
+    if (part.number == 0 || part.number > part.count)
+      throw InputError(file + ": is damaged: 'part' and 'of' are not a part and its number of parts");
     const PartFiles files(fs::path(file).parent_path(), part);
     if (fs::path(files.manifest()).filename() != fs::path(file).filename())
       throw InputError(file + ": is " + part.name() + ", and has the name of another");
@@ -122,12 +156,42 @@ Part parse_part(const std::string& text) {
   return part;
 }
 
-Json identity_of_file(const std::string& file, const std::string& name) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw InputError(file + ": cannot be read: " + std::strerror(errno));
-  const auto [bytes, checksum] = detail::baked::checksum(stream);
-  if (stream.bad()) throw InputError(file + ": cannot be read: " + std::strerror(errno));
-  return {{"file", name}, {"bytes", bytes}, {"xxh3", fmt::format("{:016x}", checksum)}};
+Json read_part_json(const std::string& file) {
+  std::ifstream stream = opened(file);
+  const auto is_flat = [&](int depth, Json::parse_event_t event, const Json&) {
+    if ((event == Json::parse_event_t::array_start || event == Json::parse_event_t::object_start) &&
+        depth >= deepest)
+      throw InputError(fmt::format("{}: nests deeper than {} levels, as no part does", file, deepest));
+    return true;
+  };
+  return Json::parse(stream, is_flat, false);
+}
+
+std::vector<std::string> kinds_of(const std::string& command) {
+  if (command == "check") return {frames_kind, pairs_kind, events_kind, summary_kind};
+  if (command == "query") return {answers_kind};
+  return {};
+}
+
+PartFile::PartFile(const std::string& file) : name_(fs::path(file).filename()), file_(file) {}
+
+void PartFile::add(std::string_view bytes) {
+  constexpr std::size_t piece = std::size_t{1} << 20;
+  waiting_ += bytes;
+  if (waiting_.size() < piece) return;
+  file_.write(waiting_);
+  checksum_.add(waiting_);
+  waiting_.clear();
+}
+
+void PartFile::commit() {
+  file_.write(waiting_);
+  checksum_.add(waiting_);
+  file_.commit();
+}
+
+Json PartFile::identity() const {
+  return identity_of(name_, checksum_.value());
 }
 
 Json run_of(const std::string& command, const Json& options, const std::vector<std::string>& inputs) {
@@ -162,15 +226,20 @@ std::string PartFiles::done_line() const {
   return fmt::format("{} is done already: {}\n", part_.name(), manifest());
 }
 
-void PartFiles::begin() const {
+FileLock PartFiles::claim(const std::string& command, const std::vector<std::string>& inputs) const {
   make_folder(folder_);
+  const std::string lock = fmt::format(".part-{}-of-{}.lock", part_.number, part_.count);
+  std::vector<OutputOption> outputs{{"--into", manifest()}, {"--into", fs::path(folder_) / lock}};
+  for (const std::string& kind : kinds_of(command)) outputs.push_back({"--into", file(kind)});
+  require_outputs(outputs, inputs);
+  return {folder_, lock};
+}
+
+void PartFiles::begin() const {
   fs::remove(manifest());
 }
 
-void PartFiles::finish(const Json& run, const Json& share, const std::vector<std::string>& kinds) const {
-  Json files = Json::array();
-  for (const std::string& kind : kinds)
-    files.push_back(identity_of_file(file(kind), fs::path(file(kind)).filename()));
+void PartFiles::finish(const Json& run, const Json& share, const Json& files) const {
   write_json(manifest(), {{"bch_part", manifest_version},
                           {"part", part_.number},
                           {"of", part_.count},

@@ -6,8 +6,13 @@
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
+
+#include "bench/base/file_lock.hpp"
+#include "bench/base/output_file.hpp"
+#include "layout/baked/checksum.hpp"
 
 namespace bch::cli {
 
@@ -24,14 +29,37 @@ struct Part {
 /// Errors:  throws UsageError.
 Part parse_part(const std::string& text);
 
-/// Returns a file's name, size and checksum (XXH3, 64 bits, as `xxhsum -H3` tells it).
-/// Errors:  throws InputError.
-nlohmann::ordered_json identity_of_file(const std::string& file, const std::string& name);
-
 /// Returns what parts of the same run have in common.
 /// Inputs:  the options that were given; what is read, of which built-in characters are no files.
 nlohmann::ordered_json run_of(const std::string& command, const nlohmann::ordered_json& options,
                               const std::vector<std::string>& inputs);
+
+/// Reads JSON of a part, which is flat: what nests deeper than all that parts have is refused, before anything that recurses
+/// sees it.
+/// Errors:  throws InputError where there is no regular file, or no such JSON.
+nlohmann::ordered_json read_part_json(const std::string& file);
+
+/// The kinds of files that a part of a command has; none of a command that is not done in parts.
+constexpr const char *frames_kind = "frames.csv", *pairs_kind = "pairs.csv", *events_kind = "events.csv",
+                     *summary_kind = "summary.json", *answers_kind = "answers.csv";
+std::vector<std::string> kinds_of(const std::string& command);
+
+/// Writes a file of a part, and computes meanwhile what the manifest says of its bytes: whatever has the file's name afterwards
+/// may be somebody else's.
+class PartFile {
+ public:
+  explicit PartFile(const std::string& file);
+  void add(std::string_view bytes);
+  void commit();
+  /// Returns name, size and checksum (XXH3, 64 bits, as `xxhsum -H3` tells it) of what was written.
+  nlohmann::ordered_json identity() const;
+
+ private:
+  std::string name_;
+  OutputFile file_;
+  std::string waiting_;
+  detail::baked::RunningChecksum checksum_;
+};
 
 /// Represents a part of a run in a folder: its files, and a manifest that says what was run and which bytes these have. The
 /// manifest is written last, so that a part that has one is whole.
@@ -47,11 +75,14 @@ class PartFiles {
   /// Returns whether the part is there, whole, and of this run.
   bool is_done(const nlohmann::ordered_json& run) const;
   std::string done_line() const;  ///< tells that it is
-  /// Makes the folder, and takes away the manifest of another run.
+  /// Makes the folder, and keeps others from doing the part while the lock lives.
+  /// Errors:  throws UsageError where the part would overwrite an input.
+  FileLock claim(const std::string& command, const std::vector<std::string>& inputs) const;
+  /// Takes away the manifest of another run.
   void begin() const;
-  /// Writes the manifest. `share`: what the part did.
+  /// Writes the manifest. `share`: what the part did; `files`: what PartFile says of each.
   void finish(const nlohmann::ordered_json& run, const nlohmann::ordered_json& share,
-              const std::vector<std::string>& kinds) const;
+              const nlohmann::ordered_json& files) const;
 
  private:
   std::string folder_;
@@ -69,8 +100,6 @@ struct WholeRun {
 /// Errors:  throws InputError naming the part that is missing, damaged, twice there or of another run.
 WholeRun find_parts(const std::vector<std::string>& names);
 
-/// The table of a part of bch query.
-constexpr const char* answers_kind = "answers.csv";
 /// Returns the tables of all parts as one.
 std::string joined_tables(const WholeRun& whole, const std::string& kind);
 

@@ -193,12 +193,15 @@ void query_part(const CLI::App& command, QueryCommandOptions options,
   const PartFiles files = options.part.files();
   const nlohmann::ordered_json run = run_of(command, inputs);
   if (files.is_done(run)) return write_standard_output(files.done_line());
+  const FileLock lock = files.claim("query", inputs);
   options.only = files.part();
   std::string table;
   answer_all(command, options, [&](const std::string& lines) { table += lines; });
   files.begin();
-  write_file(files.file(answers_kind), table);
-  files.finish(run, {}, {answers_kind});
+  PartFile answered(files.file(answers_kind));
+  answered.add(table);
+  answered.commit();
+  files.finish(run, {}, nlohmann::ordered_json::array({answered.identity()}));
   write_standard_output(fmt::format("{}: {}\n", files.part().name(), files.manifest()));
 }
 

@@ -30,7 +30,9 @@ std::string merge_all(const CheckRanksOptions& options, std::uint32_t count) {
   for (std::uint32_t k = 1; k <= count; ++k)
     manifests.push_back(PartFiles(options.folder, {k, count}).manifest());
   try {
-    merge_check(find_parts(manifests), options.outputs);
+    const WholeRun whole = find_parts(manifests);
+    require_outputs(options.outputs.files(), whole.files);
+    merge_check(whole, options.outputs);
     return {};
   } catch (const CheckFailed& error) {
     return error.what();

@@ -169,6 +169,9 @@ void run(const WalkOptions& options, MPI_Comm comm) {
   MPI_Comm_rank(comm, &rank);
   MPI_Comm_size(comm, &size);
   if (options.is_plain && size > 1) throw UsageError("--plain: one process, and there are several ranks");
+  detail::agree(comm, [&] {
+    if (rank == 0) require_outputs({{"--json", options.json}}, {options.file});
+  });
   const Threads threads(options.threads);
   const CrowdReport report = walk_crowd(options, comm, rank, size);
   detail::agree(comm, [&] {

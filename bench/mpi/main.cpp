@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 #include <malloc.h>
-#include <signal.h>
 
 #include <algorithm>
 #include <functional>
@@ -13,6 +12,7 @@
 #include <bch/distributed_crowd.hpp>
 
 #include "bench/base/command_line.hpp"
+#include "bench/base/interrupt.hpp"
 #include "bench/base/run_main.hpp"
 #include "bench/mpi/commands.hpp"
 #include "kernel/distributed/session.hpp"
@@ -73,9 +73,9 @@ int run_rank(const Session& session, int argc, char** argv) {
 
 int main(int argc, char** argv) {
   mallopt(M_MMAP_THRESHOLD, 1 << 20);  // arrays that outgrow their place leave no holes
-  signal(SIGXFSZ, SIG_IGN);            // a file beyond a limit is an error of write(), like a full disk
   return run_main("bch_mpi", [&] {
     const Session session(argc, argv);
+    clean_up_on_signals(OnRequest::end);  // after MPI, which catches some signals itself
     bool is_agreed = false;
     const int code = run_main(fmt::format("bch_mpi: rank {}", session.rank()).c_str(), [&] {
       const int agreed = run_rank(session, argc, argv);

@@ -27,16 +27,30 @@ std::uint64_t checksum(std::span<const std::byte> section_with_zeros) {
 }
 
 StreamChecksum checksum(std::istream& stream) {
-  XXH3_state_t xxh3;
-  XXH3_64bits_reset(&xxh3);
+  RunningChecksum running;
   std::vector<char> bytes(piece);
-  std::uint64_t all = 0;
-  while (stream.read(bytes.data(), static_cast<std::streamsize>(piece)) || stream.gcount() > 0) {
-    const auto count = static_cast<std::size_t>(stream.gcount());
-    XXH3_64bits_update(&xxh3, bytes.data(), count);
-    all += count;
-  }
-  return {all, XXH3_64bits_digest(&xxh3)};
+  while (stream.read(bytes.data(), static_cast<std::streamsize>(piece)) || stream.gcount() > 0)
+    running.add({bytes.data(), static_cast<std::size_t>(stream.gcount())});
+  return running.value();
+}
+
+struct RunningChecksum::State {
+  XXH3_state_t xxh3;
+};
+
+RunningChecksum::RunningChecksum() : state_(std::make_unique<State>()) {
+  XXH3_64bits_reset(&state_->xxh3);
+}
+
+RunningChecksum::~RunningChecksum() = default;
+
+void RunningChecksum::add(std::string_view bytes) {
+  XXH3_64bits_update(&state_->xxh3, bytes.data(), bytes.size());
+  bytes_ += bytes.size();
+}
+
+StreamChecksum RunningChecksum::value() const {
+  return {bytes_, XXH3_64bits_digest(&state_->xxh3)};
 }
 
 struct SectionChecksum::State {
