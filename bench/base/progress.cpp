@@ -33,6 +33,10 @@ Progress::~Progress() {
   if (drawn_) std::fputs("\r\033[K", stderr);
 }
 
+void Progress::show() {
+  if (terminal_) draw(0);
+}
+
 void Progress::advance() {
   const std::size_t done = ++done_;
   if (!terminal_) return;
@@ -46,9 +50,13 @@ void Progress::advance() {
 void Progress::draw(std::size_t done) {
   const std::size_t filled = total_ == 0 ? bar_width : done * bar_width / total_;
   const double seconds = std::chrono::duration<double>(Clock::now() - begin_).count();
-  const double rate = static_cast<double>(done) / seconds;
-  fmt::print(stderr, "\r{} [{:#<{}}{:.<{}}] {} of {}, {:.3g}/s, {} left\033[K", what_, "", filled, "",
-             bar_width - filled, done, total_, rate, time_text(static_cast<double>(total_ - done) / rate));
+  fmt::print(stderr, "\r{} [{:#<{}}{:.<{}}] {} of {}", what_, "", filled, "", bar_width - filled, done,
+             total_);
+  if (done > 0) {
+    const double rate = static_cast<double>(done) / seconds;
+    fmt::print(stderr, ", {:.3g}/s, {} left", rate, time_text(static_cast<double>(total_ - done) / rate));
+  }
+  std::fputs("\033[K", stderr);
   std::fflush(stderr);
   drawn_ = true;
 }

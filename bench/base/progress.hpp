@@ -20,6 +20,9 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
+  /// Shows the bar already now: for few steps, of which the first may take long.
+  void show();
+
   /// Counts one more of the total as done. May be called from any thread.
   void advance();
 

@@ -60,6 +60,7 @@ std::vector<BakedClip> bake_clips(std::span<const LoadedCharacter> characters, s
   }
   std::vector<BakedClip> baked(clips.size());
   Progress progress("animating clips", clips.size());
+  if (!clips.empty()) progress.show();
   tbb::parallel_for(std::size_t{0}, clips.size(), [&](std::size_t i) {
     const auto& [character, clip] = clips[i];
     const std::uint32_t name = first_name[character];

@@ -293,9 +293,10 @@ std::string draw_crowd(const CrowdPicture& picture) {
   const LevelAnswers& drawn = picture.answers.levels[picture.level];
   const std::uint64_t single = picture.answers.levels.front().hit_count;
   const double share = single == 0 ? 0 : static_cast<double>(drawn.cleared) / static_cast<double>(single);
-  const std::string title = fmt::format(
-      "{} agents, {:g} per m²: {} of {} single-cylinder collisions cleared ({:.1f} %)",
-      grouped(picture.crowd.size()), picture.density, grouped(drawn.cleared), grouped(single), 100 * share);
+  const std::string title =
+      fmt::format("{} agents, {:g} per m²: depth {} clears {} of {} collisions at depth 0 ({:.1f} %)",
+                  grouped(picture.crowd.size()), picture.density, depth_name(drawn.depth),
+                  grouped(drawn.cleared), grouped(single), 100 * share);
   const Scene scene(picture);
   Svg svg(picture_width, picture_height, title, style);
   svg.text({margin, 36}, "title", title);

@@ -30,7 +30,7 @@ double bytes_per_shape(const CrowdRun& run) {
   return static_cast<double>(run.set.bytes()) / static_cast<double>(run.set.shape_count());
 }
 
-/// Part of the single cylinder's collisions that a level clears.
+/// Part of the collisions at depth 0 that a level clears: of single cylinders, one for each slab.
 double share_cleared(const CrowdRun& run, const LevelAnswers& level) {
   const std::uint64_t single = run.answers.levels.front().hit_count;
   return single == 0 ? 0 : static_cast<double>(level.cleared) / static_cast<double>(single);
@@ -79,8 +79,11 @@ std::string conclusion(const CrowdRun& run) {
   if (finest.depth == 0 || run.answers.levels.front().hit_count == 0) return {};
   const std::string which =
       finest.depth == all_depths ? "The full hierarchy" : fmt::format("Depth {}", finest.depth);
-  return fmt::format("{} clears {:.1f} % of the single cylinder's collisions.\n", which,
-                     100 * share_cleared(run, finest));
+  const std::string of =
+      run.set.slices().empty()
+          ? "the single cylinder's collisions"
+          : fmt::format("the collisions of a cylinder for each of the {} slabs", run.set.slices().size() + 1);
+  return fmt::format("{} clears {:.1f} % of {}.\n", which, 100 * share_cleared(run, finest), of);
 }
 
 /// A baked file has settled what concerns shapes.

@@ -12,6 +12,7 @@
 
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/output.hpp"
+#include "bench/base/progress.hpp"
 #include "bench/base/stopwatch.hpp"
 #include "bench/base/text.hpp"
 #include "bench/base/wkt_input.hpp"
@@ -74,8 +75,11 @@ std::vector<bench::PlacedClip> clips_of(const PlaceOptions& options, std::string
   for (const LoadedCharacter& loaded : characters) members.push_back(member_of(loaded));
   const std::vector<ClipOf> wanted = find_clips<detail::CastMember>(options.clip_names, members, "--clip");
   std::vector<std::optional<bench::PlacedClip>> built(wanted.size());
+  Progress progress("animating clips", wanted.size());
+  progress.show();
   tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t i) {
     built[i].emplace(placed_clip(options, members[wanted[i].character], wanted[i].clip));
+    progress.advance();
   });
   std::vector<bench::PlacedClip> clips;
   for (std::optional<bench::PlacedClip>& clip : built) clips.push_back(std::move(*clip));
@@ -104,6 +108,7 @@ void run_place(const PlaceOptions& options) {
   std::string notes;
   run.clips = clips_of(options, notes);
   run.build_seconds = watch.nanoseconds() * 1e-9;
+  Progress progress("placing people", std::size(spacings));
   for (const bench::Spacing spacing : spacings) {
     const bench::Stopwatch search(2);
     try {
@@ -112,6 +117,7 @@ void run_place(const PlaceOptions& options) {
       throw InputError(error.what());
     }
     run.placements.back().seconds = search.nanoseconds() * 1e-9;
+    progress.advance();
   }
   if (!options.csv.empty()) write_file(options.csv, csv_report(run));
   write_json(options.json, json_report(run));

@@ -33,6 +33,10 @@ if(NOT output MATCHES "agent 0 collides with 1 others: 1\nagent 1 collides with 
   message(FATAL_ERROR "unexpected answers:\n${output}")
 endif()
 
+if(NOT EXISTS ${WORK}/bch/share/doc/bch/LICENSE)
+  message(FATAL_ERROR "the licence is not installed")
+endif()
+
 # Each installed header compiles alone, and reads no header but the standard library's, its own, and that of the crowd on MPI MPI's.
 file(GLOB headers RELATIVE ${WORK}/bch/include ${WORK}/bch/include/*/*)
 list(LENGTH headers count)
