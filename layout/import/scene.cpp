@@ -12,6 +12,7 @@
 #include <fstream>
 #include <new>
 
+#include "layout/import/fbx.hpp"
 #include "layout/import/files.hpp"
 #include "layout/import/gltf_file.hpp"
 #include "layout/import/ply.hpp"
@@ -130,6 +131,8 @@ SceneFile::SceneFile(const std::filesystem::path& file, const ImportOptions& opt
     reject("text in UTF-16, which is not read in this format: convert it to UTF-8");
   if (scene == nullptr) reject(reason_of_failure(importer));
   if (scene->mRootNode == nullptr) reject("no scene");
+  if (is_fbx())
+    notes = correct_fbx(file, const_cast<aiScene&>(*scene));  // which is the importer's, and it is ours
 }
 
 Affine3 read_matrix(const SceneFile& file, const aiMatrix4x4& m, const std::string& what) {

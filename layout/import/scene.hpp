@@ -43,7 +43,7 @@ struct SceneFile {
   std::unique_ptr<aiScene, SceneDeleter> ply;
   const aiScene* scene = nullptr;
   std::string format;
-  std::vector<std::string> notes;  ///< of what is not read
+  std::vector<std::string> notes;  ///< on what was corrected or is not read
   std::size_t most_triangles = ImportOptions().most_triangles;
 
   /// Reads the scene of a file.

@@ -1,0 +1,368 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+
+#include "layout/import/fbx.hpp"
+#include "layout/import/scene.hpp"
+
+namespace bch::detail::importing {
+namespace {
+
+constexpr double key_rounding = 1e-4;  // assimp computes in float
+constexpr double kept = 5e-4;          // what a blend between keys of assimp's may miss
+constexpr double made_anew = 1e-4;     // and one between keys of our own
+constexpr double baked = 0.1;          // seconds between keys up to which nobody asks what is between them
+constexpr int most_halvings = 8;
+
+constexpr std::string_view axes[] = {"d|X", "d|Y", "d|Z"};  // of what an object animates
+
+using Evaluation = std::function<FbxTransform(double)>;
+
+FbxTransform transform_from(const Eigen::Vector3d& position, const Eigen::Quaterniond& rotation,
+                            const Eigen::Vector3d& scale) {
+  FbxTransform result{Eigen::Affine3d(Eigen::Translation3d(position)), position, rotation, scale, false};
+  result.map.linear() = rotation.toRotationMatrix() * scale.asDiagonal();
+  return result;
+}
+
+Eigen::Vector3d value_in(const aiVectorKey& key) {
+  return {static_cast<double>(key.mValue.x), static_cast<double>(key.mValue.y),
+          static_cast<double>(key.mValue.z)};
+}
+Eigen::Quaterniond value_in(const aiQuatKey& key) {
+  return {static_cast<double>(key.mValue.w), static_cast<double>(key.mValue.x),
+          static_cast<double>(key.mValue.y), static_cast<double>(key.mValue.z)};
+}
+
+Eigen::Vector3d mixed(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double share) {
+  return a + share * (b - a);
+}
+Eigen::Quaterniond mixed(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b, double share) {
+  return a.slerp(share, b);
+}
+
+/// Returns what is shown between two keys.
+FbxTransform blend(const FbxTransform& a, const FbxTransform& b, double share) {
+  return transform_from(mixed(a.position, b.position, share), mixed(a.rotation, b.rotation, share),
+                        mixed(a.scale, b.scale, share));
+}
+
+/// Returns what a list of keys says at a time in ticks; `otherwise` without any.
+template <class Key, class Value>
+Value value_at(const Key* keys, unsigned size, double ticks, const Value& otherwise) {
+  if (size == 0 || keys == nullptr) return otherwise;
+  const Key* const after =
+      std::partition_point(keys, keys + size, [&](const Key& key) { return key.mTime <= ticks; });
+  if (after == keys) return value_in(*keys);
+  const Key& before = *(after - 1);
+  if (after == keys + size) return value_in(before);
+  return mixed(value_in(before), value_in(*after), (ticks - before.mTime) / (after->mTime - before.mTime));
+}
+
+/// Adds up the keys of a channel as it is made.
+class ChannelMaker {
+ public:
+  ChannelMaker(const FbxFile& file, std::string place) : file_(file), place_(std::move(place)) {}
+
+  void add(double ticks, const FbxTransform& pose) {
+    if (pose.sheared) file_.reject(place_ + " shears it, which is not read");
+    const auto as_float = [](double number) { return static_cast<float>(number); };
+    const Eigen::Vector3f position = pose.position.cast<float>(), scale = pose.scale.cast<float>();
+    const Eigen::Quaterniond& q = pose.rotation;
+    positions_.emplace_back(ticks, aiVector3D(position.x(), position.y(), position.z()));
+    rotations_.emplace_back(ticks,
+                            aiQuaternion(as_float(q.w()), as_float(q.x()), as_float(q.y()), as_float(q.z())));
+    scales_.emplace_back(ticks, aiVector3D(scale.x(), scale.y(), scale.z()));
+  }
+
+  std::unique_ptr<aiNodeAnim> channel() const {
+    auto made = std::make_unique<aiNodeAnim>();
+    made->mNumPositionKeys = made->mNumRotationKeys = made->mNumScalingKeys =
+        static_cast<unsigned>(positions_.size());
+    made->mPositionKeys = copied(positions_);
+    made->mRotationKeys = copied(rotations_);
+    made->mScalingKeys = copied(scales_);
+    return made;
+  }
+
+ private:
+  const FbxFile& file_;
+  std::string place_;
+  std::vector<aiVectorKey> positions_, scales_;
+  std::vector<aiQuatKey> rotations_;
+
+  template <class AiKey>
+  static AiKey* copied(const std::vector<AiKey>& keys) {
+    AiKey* const copy = new AiKey[keys.size()];
+    std::copy(keys.begin(), keys.end(), copy);
+    return copy;
+  }
+};
+
+/// Corrects one clip.
+class ClipCorrector {
+ public:
+  ClipCorrector(FbxScene& file, aiAnimation& animation, FbxId stack)
+      : file_(file),
+        animation_(animation),
+        ticks_(animation.mTicksPerSecond > 0 ? animation.mTicksPerSecond : 25),
+        place_("FBX clip '" + to_string(animation.mName) + "'") {
+    for (const FbxId layer : file.document.below(stack, "AnimationLayer"))
+      for (const FbxId node : file.document.below(layer, "AnimationCurveNode")) read_motion(node);
+    set_range(*file.document.object(stack));
+  }
+
+  void correct() {
+    std::map<std::string, std::vector<const FbxModel*>> moved;
+    std::set<std::string> names;
+    for (const FbxModel& model : file_.models) {
+      names.insert(model.name);
+      if (!FbxChain::motions_of(model, motions_).empty()) moved[model.name].push_back(&model);
+    }
+    std::vector<aiNodeAnim*> channels, dropped;
+    for (unsigned c = 0; c < animation_.mNumChannels; ++c) {
+      aiNodeAnim* const channel = animation_.mChannels[c];
+      const std::string name = channel == nullptr ? "" : to_string(channel->mNodeName);
+      // Chains of helper nodes are there only where assimp is told to make them.
+      const bool drops = name.find("_$AssimpFbx$_") != std::string::npos ||
+                         (moved.contains(name) && !keep(*channel, moved[name]));
+      (drops ? dropped : channels).push_back(channel);
+    }
+    std::vector<std::unique_ptr<aiNodeAnim>> made;
+    for (const FbxModel& model : file_.models)
+      if (const auto left = moved.find(model.name);
+          left != moved.end() && std::erase(left->second, &model) > 0)
+        if (std::unique_ptr<aiNodeAnim> channel = channel_of(model)) made.push_back(std::move(channel));
+    if (animation_.mTicksPerSecond <= 0) {
+      animation_.mTicksPerSecond = ticks_;
+      animation_.mDuration = (last_ - first_) * ticks_;
+    }
+    // Nothing throws from here on but where memory ends, so that every channel is owned once.
+    aiNodeAnim** const all = new aiNodeAnim*[channels.size() + made.size()];
+    aiNodeAnim** end = std::copy(channels.begin(), channels.end(), all);
+    for (std::unique_ptr<aiNodeAnim>& channel : made) *end++ = channel.release();
+    for (aiNodeAnim* const channel : dropped) delete channel;
+    delete[] animation_.mChannels;
+    animation_.mChannels = all;
+    animation_.mNumChannels = static_cast<unsigned>(end - all);
+  }
+
+ private:
+  /// Where a value jumps, what comes just before a time differs from what is there.
+  struct Moment {
+    double seconds;
+    FbxTransform before, pose;
+  };
+
+  FbxScene& file_;
+  aiAnimation& animation_;
+  double ticks_;  // per second
+  std::string place_;
+  std::map<FbxId, FbxCurve> curves_;
+  FbxMotions motions_;
+  double first_ = std::numeric_limits<double>::infinity(), last_ = -first_;  // of all keys; then of the clip
+
+  void read_motion(FbxId node) {
+    const FbxDocument& document = file_.document;
+    for (const auto& [target, property] : document.bindings_of(node)) {
+      const FbxPart part = part_named(property);
+      if (part == fbx_parts || document.object(target) == nullptr) continue;
+      FbxMotion motion;
+      bool moves = false;
+      for (const auto& [id, axis] : document.curves_of(node)) {
+        const auto place = std::find(std::begin(axes), std::end(axes), axis);
+        if (place == std::end(axes)) continue;
+        const auto [curve, added] = curves_.try_emplace(id);
+        if (added) curve->second = read_curve(document, *document.object(id));
+        if (curve->second.keys.empty()) continue;
+        moves = true;
+        motion.curves[static_cast<std::size_t>(place - axes)] = &curve->second;
+        if (part > lcl_scaling) continue;  // assimp does not know that these move
+        first_ = std::min(first_, curve->second.keys.front().time);
+        last_ = std::max(last_, curve->second.keys.back().time);
+      }
+      const auto model = file_.by_id.find(target);
+      if (model == file_.by_id.end()) continue;
+      std::string what(property);
+      what += " of node '" + model->second->name + "'";
+      if (moves && part >= geometric_translation)
+        document.file().reject(place_ + " moves " + what + ", which is not read");
+      motion.value = model->second->parts[part];
+      for (int axis = 0; axis < 3; ++axis)
+        motion.value[axis] = document.number(*document.object(node), axes[axis], motion.value[axis]);
+      std::optional<FbxMotion>& known = motions_[model->second][part];
+      const bool moved = known && std::any_of(known->curves.begin(), known->curves.end(),
+                                              [](const FbxCurve* curve) { return curve != nullptr; });
+      if (moves && moved)
+        document.file().reject(place_ + " blends layers that move " + what + ", which is not read");
+      if (moves || !known) known = motion;
+    }
+  }
+
+  /// Sets the range of the clip as assimp does.
+  void set_range(const FbxRecord& stack) {
+    const double start = file_.document.number(stack, "LocalStart", 0),
+                 stop = file_.document.number(stack, "LocalStop", 0);
+    if (start != 0 || stop != 0) {
+      first_ = start / fbx_ticks_per_second;
+      last_ = stop / fbx_ticks_per_second;
+    }
+    if (!std::isfinite(first_)) first_ = 0;
+    if (!(last_ >= first_)) last_ = first_;
+  }
+
+  FbxTransform at(const FbxModel& model, double seconds, bool before = false) const {
+    return file_.chain.local(model, {&motions_, seconds, before});
+  }
+
+  std::vector<Moment> moments(const FbxModel& model) {
+    std::set<double> times{first_, last_};
+    for (const FbxMotion* const motion : FbxChain::motions_of(model, motions_))
+      for (const FbxCurve* const curve : motion->curves) {
+        if (curve == nullptr) continue;
+        for (const FbxCurve::Key& key : curve->keys)
+          if (key.time > first_ && key.time < last_) times.insert(key.time);
+      }
+    std::vector<Moment> list;
+    for (const double time : times) list.push_back({time, at(model, time, true), at(model, time)});
+    return list;
+  }
+
+  /// Tells whether what would be shown is what the file has.
+  bool is_right(const FbxModel& model, const std::vector<Moment>& moments, const Evaluation& shown) const {
+    for (std::size_t m = 0; m < moments.size(); ++m) {
+      const Moment& here = moments[m];
+      const Eigen::Affine3d map = shown(here.seconds).map;
+      if (!agree(map, here.pose.map, key_rounding)) return false;
+      if (m == 0) continue;
+      const Moment& last = moments[m - 1];
+      if (!agree(map, here.before.map, key_rounding) || !passes(model, last, here, shown)) return false;
+    }
+    return true;
+  }
+
+  /// Tells the same of the time between two keys, of which nobody asks if they are near each other.
+  bool passes(const FbxModel& model, const Moment& from, const Moment& to, const Evaluation& shown) const {
+    const double seconds = to.seconds - from.seconds;
+    if (seconds > baked) return follows(model, from, to, shown, kept);
+    return agree(shown(from.seconds + seconds / 2).map, blend(from.pose, to.before, 0.5).map, kept);
+  }
+
+  bool follows(const FbxModel& model, const Moment& from, const Moment& to, const Evaluation& shown,
+               double share_missed) const {
+    for (const double share : {0.25, 0.5, 0.75}) {
+      const double time = from.seconds + share * (to.seconds - from.seconds);
+      if (!agree(shown(time).map, at(model, time).map, share_missed)) return false;
+    }
+    return true;
+  }
+
+  /// Keeps a channel of assimp's for the first model of its name that moves like that.
+  bool keep(aiNodeAnim& channel, std::vector<const FbxModel*>& models) {
+    for (const FbxModel* const model : models) {
+      const FbxTransform rest = file_.chain.local(*model, {});
+      const Evaluation shown = [&](double seconds) {
+        const double ticks = (seconds - first_) * ticks_;
+        return transform_from(value_at(channel.mPositionKeys, channel.mNumPositionKeys, ticks, rest.position),
+                              value_at(channel.mRotationKeys, channel.mNumRotationKeys, ticks, rest.rotation),
+                              value_at(channel.mScalingKeys, channel.mNumScalingKeys, ticks, rest.scale));
+      };
+      if (!is_right(*model, moments(*model), shown)) continue;
+      channel.mNodeName = file_.node_of.at(model)->mName;
+      std::erase(models, model);
+      return true;
+    }
+    return false;
+  }
+
+  /// Returns a channel that moves a model as the file has it; none if it rests.
+  std::unique_ptr<aiNodeAnim> channel_of(const FbxModel& model) {
+    const std::vector<Moment> list = moments(model);
+    const FbxTransform rest = file_.chain.local(model, {});
+    if (is_right(model, list, [&](double) { return rest; })) return nullptr;
+    ChannelMaker maker(file_.document.file(), place_ + ", node '" + model.name + "':");
+    const auto add = [&](double seconds, const FbxTransform& pose) {
+      maker.add((seconds - first_) * ticks_, pose);
+    };
+    add(list.front().seconds, list.front().pose);
+    for (std::size_t m = 1; m < list.size(); ++m) {
+      const Moment& here = list[m];
+      if (here.seconds - list[m - 1].seconds > baked)
+        add_between(model, list[m - 1], here, most_halvings, add);
+      add(here.seconds, here.before);
+      if (!agree(here.before.map, here.pose.map, 1e-9)) add(here.seconds, here.pose);
+    }
+    std::unique_ptr<aiNodeAnim> channel = maker.channel();
+    channel->mNodeName = file_.node_of.at(&model)->mName;
+    return channel;
+  }
+
+  template <class Add>
+  void add_between(const FbxModel& model, const Moment& from, const Moment& to, int halvings,
+                   const Add& add) const {
+    const double seconds = to.seconds - from.seconds;
+    const Evaluation shown = [&](double time) {
+      return blend(from.pose, to.before, (time - from.seconds) / seconds);
+    };
+    if (halvings == 0 || follows(model, from, to, shown, made_anew)) return;
+    const double middle = from.seconds + seconds / 2;
+    const Moment between{middle, at(model, middle), at(model, middle)};
+    add_between(model, from, between, halvings - 1, add);
+    add(middle, between.pose);
+    add_between(model, between, to, halvings - 1, add);
+  }
+};
+
+/// Notes that a clip has curves whose shape this file does not tell.
+void note_missing_slopes(FbxScene& file, FbxId stack, const std::string& clip) {
+  const FbxDocument& document = file.document;
+  for (const FbxId layer : document.below(stack, "AnimationLayer"))
+    for (const FbxId node : document.below(layer, "AnimationCurveNode"))
+      for (const auto& [id, axis] : document.curves_of(node))
+        if (read_curve(document, *document.object(id)).lacks_slopes(baked)) {
+          file.notes.push_back("clip '" + clip +
+                               "': cubic keys without tangents of their own are blended linearly");
+          return;
+        }
+}
+
+}  // namespace
+
+/// assimp leaves out clips that move nothing that it knows, and keeps the order of the others.
+void correct_fbx_clips(FbxScene& file, aiScene& scene) {
+  std::vector<aiAnimation*> animations;
+  std::vector<std::unique_ptr<aiAnimation>> made;
+  unsigned next = 0;
+  for (const FbxId stack : file.document.all("AnimationStack")) {
+    const std::string name = FbxDocument::name_of(*file.document.object(stack)).substr(0, 1023);
+    aiAnimation* animation = next < scene.mNumAnimations ? scene.mAnimations[next] : nullptr;
+    if (animation != nullptr && to_string(animation->mName) == name) {
+      ++next;
+    } else {
+      animation = made.emplace_back(std::make_unique<aiAnimation>()).get();
+      animation->mName.Set(name);
+    }
+    ClipCorrector(file, *animation, stack).correct();
+    if (animation->mNumChannels == 0 && !made.empty() && made.back().get() == animation) continue;
+    note_missing_slopes(file, stack, name);
+    animations.push_back(animation);
+  }
+  if (next < scene.mNumAnimations) file.document.file().reject("FBX clips are not those of the file");
+  aiAnimation** const all = new aiAnimation*[animations.size()];
+  std::copy(animations.begin(), animations.end(), all);
+  for (std::unique_ptr<aiAnimation>& animation : made)
+    if (animation->mNumChannels > 0) animation.release();
+  delete[] scene.mAnimations;
+  scene.mAnimations = all;
+  scene.mNumAnimations = static_cast<unsigned>(animations.size());
+}
+
+}  // namespace bch::detail::importing
