@@ -12,6 +12,7 @@
 #include <fstream>
 #include <new>
 
+#include "layout/import/collada.hpp"
 #include "layout/import/fbx.hpp"
 #include "layout/import/files.hpp"
 #include "layout/import/gltf_file.hpp"
@@ -34,6 +35,12 @@ void check_readable(const std::filesystem::path& file) {
   if (error) reject(file, error.message());
   if (size == 0) reject(file, "empty file");
   if (size > largest_file) reject(file, "larger than " + count(largest_file >> 30, "GiB", "GiB"));
+}
+
+bool is_archive(const std::filesystem::path& file) {
+  char start[2] = {};
+  std::ifstream(file, std::ios::binary).read(start, sizeof start);
+  return std::string_view(start, sizeof start) == "PK";
 }
 
 bool is_utf16(const std::filesystem::path& file) {
@@ -118,6 +125,9 @@ SceneFile::SceneFile(const std::filesystem::path& file, const ImportOptions& opt
   }
   auto files = std::make_unique<FileAndSiblings>(file);
   settle_text(file, *files, notes);
+  std::string collada = rewritten_collada(file);
+  const bool rewritten = !collada.empty();
+  if (rewritten) files->replace_text(std::move(collada));
   set_up(importer, files.release(), options);
   // Nothing of assimp's post-processing: joining vertices merges them without regard to their weights, triangles are cut across
   // corners that lie on their edges, and each step is a further place to fail on a damaged file.
@@ -131,8 +141,12 @@ SceneFile::SceneFile(const std::filesystem::path& file, const ImportOptions& opt
     reject("text in UTF-16, which is not read in this format: convert it to UTF-8");
   if (scene == nullptr) reject(reason_of_failure(importer));
   if (scene->mRootNode == nullptr) reject("no scene");
-  if (is_fbx())
-    notes = correct_fbx(file, const_cast<aiScene&>(*scene));  // which is the importer's, and it is ours
+  aiScene& ours = const_cast<aiScene&>(*scene);  // it is the importer's, which is ours
+  if (rewritten) restore_jumps(ours);
+  if (format == "Collada Importer" && ours.mNumAnimations > 0 && is_archive(file))
+    notes.emplace_back(
+        "of a packed Collada file keys are taken for linear; unpacked, they are read as they are");
+  if (is_fbx()) notes = correct_fbx(file, ours);
 }
 
 Affine3 read_matrix(const SceneFile& file, const aiMatrix4x4& m, const std::string& what) {

@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <set>
+
+#include <bch/import.hpp>
+
+#include "layout/character/eigen.hpp"
+#include "layout/character/skinning.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+// What Collada says of keys and joints, and assimp does not hear.
+
+namespace bch {
+namespace {
+
+std::string source(const std::string& id, const std::string& kind, const std::string& numbers, int count,
+                   int stride, const std::string& param) {
+  return "<source id=\"" + id + "\"><" + kind + "_array id=\"" + id + "-a\" count=\"" +
+         std::to_string(count * stride) + "\">" + numbers + "</" + kind +
+         "_array><technique_common><accessor source=\"#" + id + "-a\" count=\"" + std::to_string(count) +
+         "\" stride=\"" + std::to_string(stride) + "\">" + param + "</accessor></technique_common></source>";
+}
+
+std::string param(const std::string& name, const std::string& type = "float") {
+  return "<param name=\"" + name + "\" type=\"" + type + "\"/>";
+}
+
+std::string geometry(const std::string& id) {
+  return "<geometry id=\"" + id + "\"><mesh>" +
+         source(id + "p", "float", "0 0 0 1 0 0 0 1 0 0 0 1", 4, 3, param("X") + param("Y") + param("Z")) +
+         "<vertices id=\"" + id + "v\"><input semantic=\"POSITION\" source=\"#" + id +
+         "p\"/></vertices><triangles count=\"4\"><input semantic=\"VERTEX\" source=\"#" + id +
+         "v\" offset=\"0\"/><p>0 2 1 0 1 3 1 2 3 2 0 3</p></triangles></mesh></geometry>";
+}
+
+/// The curve of one property: times, values and kinds of keys, and tangents where there are any.
+struct Curve {
+  std::string target, times, values, kinds, in = "", out = "";
+  int keys = 3, stride = 1;
+
+  std::string text(const std::string& id) const {
+    const bool matrix = stride == 16;
+    const std::string params = matrix        ? param("TRANSFORM", "float4x4")
+                               : stride == 3 ? param("X") + param("Y") + param("Z")
+                                             : param("ANGLE");
+    std::string sources = source(id + "i", "float", times, keys, 1, param("TIME")) +
+                          source(id + "o", "float", values, keys, stride, params) +
+                          source(id + "k", "Name", kinds, keys, 1, param("INTERPOLATION", "name"));
+    std::string inputs = "<input semantic=\"INPUT\" source=\"#" + id +
+                         "i\"/><input semantic=\"OUTPUT\" source=\"#" + id +
+                         "o\"/><input semantic=\"INTERPOLATION\" source=\"#" + id + "k\"/>";
+    if (!in.empty()) {
+      sources += source(id + "x", "float", in, keys, 2 * stride, param("X") + param("Y")) +
+                 source(id + "y", "float", out, keys, 2 * stride, param("X") + param("Y"));
+      inputs += "<input semantic=\"IN_TANGENT\" source=\"#" + id +
+                "x\"/><input semantic=\"OUT_TANGENT\" source=\"#" + id + "y\"/>";
+    }
+    return "<animation id=\"" + id + "\">" + sources + "<sampler id=\"" + id + "s\">" + inputs +
+           "</sampler><channel source=\"#" + id + "s\" target=\"" + target + "\"/></animation>";
+  }
+};
+
+std::string collada(const std::string& libraries, const std::string& nodes,
+                    const std::vector<Curve>& curves) {
+  std::string animations;
+  for (std::size_t c = 0; c < curves.size(); ++c) animations += curves[c].text("c" + std::to_string(c));
+  return "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<!-- a > b --><COLLADA "
+         "xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" "
+         "version=\"1.4.1\">\n<asset><unit name=\"m\" meter=\"1\"/><up_axis>Z_UP</up_axis></asset>" +
+         libraries + (curves.empty() ? "" : "<library_animations>" + animations + "</library_animations>") +
+         "<library_visual_scenes><visual_scene id=\"S\">" + nodes +
+         "</visual_scene></library_visual_scenes><scene><instance_visual_scene "
+         "url=\"#S\"/></scene></COLLADA>";
+}
+
+class ImportCollada : public testing::Test {
+ protected:
+  TemporaryFolder folder;
+
+  std::string turning(const std::vector<Curve>& curves) {
+    return collada("<library_geometries>" + geometry("g") + "</library_geometries>",
+                   "<node id=\"n\"><translate sid=\"t\">0 0 0</translate><rotate sid=\"z\">0 0 1 "
+                   "0</rotate><instance_geometry url=\"#g\"/></node>",
+                   curves);
+  }
+
+  ImportedCharacter read(const std::string& text) { return import_character(folder.write("a.dae", text)); }
+
+  /// Compares the node's turn about the vertical with a function of time.
+  void expect_degrees(const std::vector<Curve>& curves, const std::function<double(double)>& degrees) {
+    const ImportedCharacter imported = read(turning(curves));
+    ASSERT_EQ(imported.character.clips.size(), 1u);
+    detail::Skinner skinner(imported.character);
+    for (const double time : {0.0, 0.2, 0.5, 0.9, 0.999, 1.0, 1.3, 1.9, 2.0}) {
+      double largest = -1e9;  // the corner at (1, 0, 0) is the farthest along its own direction
+      const double radians = degrees(time) * std::numbers::pi / 180;
+      const Eigen::Vector2d x(std::cos(radians), std::sin(radians)), y(-std::sin(radians), std::cos(radians));
+      double least = 1e9;
+      const auto pose = skinner.pose({0, static_cast<float>(time)});
+      std::vector<Eigen::Vector2d> points;
+      for (const Vec3& p : pose) points.emplace_back(static_cast<double>(p.x), static_cast<double>(p.y));
+      for (const Eigen::Vector2d& a : points)
+        for (const Eigen::Vector2d& b : points) {
+          largest = std::max(largest, (a - b).dot((x - y).normalized()));
+          least = std::min(least, (a - b).dot((x - y).normalized()));
+        }
+      EXPECT_NEAR(largest, std::sqrt(2.0), 2e-3) << "at " << time;
+      EXPECT_NEAR(least, -std::sqrt(2.0), 2e-3) << "at " << time;
+    }
+  }
+
+  void expect_refused(const std::string& text, const std::string& reason) {
+    try {
+      read(text);
+      ADD_FAILURE() << "read, not refused for '" << reason << "'";
+    } catch (const ImportError& error) {
+      EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
+    }
+  }
+};
+
+TEST_F(ImportCollada, StepKeysHoldTheirValue) {
+  const auto steps = [](double t) { return t < 1 ? 0.0 : t < 2 ? 60.0 : 90.0; };
+  expect_degrees({{"n/z.ANGLE", "0 1 2", "0 60 90", "STEP STEP STEP"}}, steps);
+  expect_degrees({{"n/z.ANGLE", "0 1 2", "0 60 90", "STEP LINEAR LINEAR"}},
+                 [](double t) { return t < 1 ? 0.0 : 60 + 30 * (t - 1); });
+  // Beside a line, on the same node.
+  expect_degrees({{"n/z.ANGLE", "0 1 2", "0 60 90", "STEP STEP STEP"},
+                  {"n/t.X", "0 1 2", "0 5 6", "LINEAR LINEAR LINEAR"}},
+                 steps);
+}
+
+TEST_F(ImportCollada, ASteppedValueJumps) {
+  const Character character = read(turning({{"n/z.ANGLE", "0 1 2", "0 60 90", "STEP STEP STEP"}})).character;
+  const auto& keys = character.clips.at(0).channels.at(0).rotations;
+  EXPECT_TRUE(std::adjacent_find(keys.begin(), keys.end(), [](const auto& a, const auto& b) {
+                return a.time == b.time;
+              }) != keys.end());
+}
+
+TEST_F(ImportCollada, BezierCurvesOfOneNumber) {
+  // Tangents a third of the way along, so that time passes evenly: 60 (3 u^2 - 2 u^3), then a line.
+  expect_degrees({{"n/z.ANGLE", "0 1 2", "0 60 90", "BEZIER LINEAR LINEAR", "0 0 0.666667 60 1.666667 90",
+                   "0.333333 0 1.333333 60 2 90"}},
+                 [](double t) { return t < 1 ? 60 * (3 * t * t - 2 * t * t * t) : 60 + 30 * (t - 1); });
+  // Along which time passes unevenly: u^2 (3 - 2 u) of the time where the value is u^3.
+  expect_degrees(
+      {{"n/z.ANGLE", "0 1 2", "0 60 60", "BEZIER LINEAR LINEAR", "0 0 1 0 2 60", "0 0 1.3 60 2 60"}},
+      [](double t) {
+        double low = 0, high = 1;
+        for (int i = 0; i < 60; ++i) {
+          const double u = (low + high) / 2;
+          (u * u * (3 - 2 * u) < t ? low : high) = u;
+        }
+        return t < 1 ? 60 * low * low * low : 60.0;
+      });
+}
+
+TEST_F(ImportCollada, WhatIsNotRead) {
+  expect_refused(turning({{"n/z.ANGLE", "0 1 2", "0 60 90", "LINEAR HERMITE LINEAR"}}),
+                 "Collada animation 'c0s' has keys of kind HERMITE, which is not read");
+  expect_refused(turning({{"n/z.ANGLE", "0 1 2", "0 60 90", "BEZIER BEZIER BEZIER"}}),
+                 "with 0 numbers for the tangents of 3 keys");
+  expect_refused(turning({{"n/t", "0 1 2", "0 0 0 1 2 3 4 5 6", "BEZIER BEZIER BEZIER", "", "", 3, 3}}),
+                 "of kind BEZIER of 3 numbers");
+  // Baked, or without any motion.
+  read(turning({{"n/t", "0 0.04 0.08", "0 0 0 1 2 3 4 5 6", "BEZIER BEZIER BEZIER", "", "", 3, 3}}));
+  read(turning({{"n/t", "0 1 2", "1 2 3 1 2 3 1 2 3", "BEZIER BEZIER BEZIER", "", "", 3, 3}}));
+  read(turning({{"n/z.ANGLE", "0 1 2", "5 5 5", "HERMITE HERMITE HERMITE"}}));
+}
+
+std::string skin(const std::string& id, const std::string& geometry_id, const std::string& joint_array,
+                 const std::string& joints) {
+  return "<controller id=\"" + id + "\"><skin source=\"#" + geometry_id +
+         "\"><bind_shape_matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</bind_shape_matrix>" +
+         source(id + "j", joint_array, joints, 2, 1, param("JOINT", "name")) +
+         source(id + "b", "float", "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1", 2, 16,
+                param("TRANSFORM", "float4x4")) +
+         source(id + "w", "float", "1", 1, 1, param("WEIGHT")) +
+         "<joints><input semantic=\"JOINT\" source=\"#" + id +
+         "j\"/><input semantic=\"INV_BIND_MATRIX\" source=\"#" + id +
+         "b\"/></joints><vertex_weights count=\"4\"><input semantic=\"JOINT\" source=\"#" + id +
+         "j\" offset=\"0\"/><input semantic=\"WEIGHT\" source=\"#" + id +
+         "w\" offset=\"1\"/><vcount>1 1 1 1</vcount><v>0 0 1 0 1 0 1 "
+         "0</v></vertex_weights></skin></controller>";
+}
+
+std::string skeleton(const std::string& id, double x) {
+  return "<node id=\"" + id + "-hips\" sid=\"Hips\" name=\"Hips\" type=\"JOINT\"><translate sid=\"t\">" +
+         std::to_string(x) + " 0 0</translate><node id=\"" + id +
+         "-spine\" sid=\"Spine\" name=\"Spine\" type=\"JOINT\"><translate sid=\"t\">0 0 "
+         "0</translate></node></node>";
+}
+
+std::string user(const std::string& id, const std::string& name, const std::string& controller,
+                 const std::string& root) {
+  return "<node id=\"" + id + "\" name=\"" + name + "\"><instance_controller url=\"#" + controller +
+         "\"><skeleton>#" + root + "</skeleton></instance_controller></node>";
+}
+
+std::string libraries(const std::string& skins, const std::string& geometries) {
+  return "<library_geometries>" + geometries + "</library_geometries><library_controllers>" + skins +
+         "</library_controllers>";
+}
+
+std::set<std::string> moving_joints(const Character& character) {
+  std::set<std::string> names;
+  for (const Influence& influence : character.influences)
+    names.insert(character.joints[character.bones[influence.bone].joint].name);
+  return names;
+}
+
+TEST_F(ImportCollada, JointsAreKnownByTheirSids) {
+  const std::string nodes = user("body", "Spine", "s", "a-hips") + skeleton("a", 0);
+  const std::vector<Curve> curves = {{"a-spine/t.X", "0 1 2", "0 1 2", "LINEAR LINEAR LINEAR"}};
+  for (const std::string kind : {"Name", "IDREF"}) {
+    const std::string joints = kind == "Name" ? "Hips Spine" : "a-hips a-spine";
+    const ImportedCharacter imported =
+        read(collada(libraries(skin("s", "g", kind, joints), geometry("g")), nodes, curves));
+    EXPECT_EQ(moving_joints(imported.character), (std::set<std::string>{"a-hips", "a-spine"})) << kind;
+    EXPECT_EQ(imported.character.clips.size(), 1u) << kind;
+  }
+}
+
+TEST_F(ImportCollada, TwoPeopleWithTheSameJoints) {
+  const std::string both =
+      libraries(skin("s", "g", "Name", "Hips Spine") + skin("t", "h", "Name", "Hips Spine"),
+                geometry("g") + geometry("h"));
+  const std::string skeletons = skeleton("a", 0) + skeleton("b", 3);
+  const ImportedCharacter pair = read(
+      collada(both, user("one", "one", "s", "a-hips") + user("two", "two", "t", "b-hips") + skeletons, {}));
+  EXPECT_EQ(moving_joints(pair.character), (std::set<std::string>{"a-hips", "a-spine", "b-hips", "b-spine"}));
+  expect_refused(
+      collada(libraries(skin("s", "g", "Name", "Hips Spine"), geometry("g")),
+              user("one", "one", "s", "a-hips") + user("two", "two", "s", "b-hips") + skeletons, {}),
+      "Collada joint 'Hips' may be any of 2 nodes");
+}
+
+}  // namespace
+}  // namespace bch
