@@ -11,6 +11,7 @@
 #include <set>
 
 #include "layout/import/fbx.hpp"
+#include "layout/import/fbx_channel.hpp"
 #include "layout/import/scene.hpp"
 
 namespace bch::detail::importing {
@@ -25,87 +26,6 @@ constexpr int most_halvings = 8;
 constexpr std::string_view axes[] = {"d|X", "d|Y", "d|Z"};  // of what an object animates
 
 using Evaluation = std::function<FbxTransform(double)>;
-
-FbxTransform transform_from(const Eigen::Vector3d& position, const Eigen::Quaterniond& rotation,
-                            const Eigen::Vector3d& scale) {
-  FbxTransform result{Eigen::Affine3d(Eigen::Translation3d(position)), position, rotation, scale, false};
-  result.map.linear() = rotation.toRotationMatrix() * scale.asDiagonal();
-  return result;
-}
-
-Eigen::Vector3d value_in(const aiVectorKey& key) {
-  return {static_cast<double>(key.mValue.x), static_cast<double>(key.mValue.y),
-          static_cast<double>(key.mValue.z)};
-}
-Eigen::Quaterniond value_in(const aiQuatKey& key) {
-  return {static_cast<double>(key.mValue.w), static_cast<double>(key.mValue.x),
-          static_cast<double>(key.mValue.y), static_cast<double>(key.mValue.z)};
-}
-
-Eigen::Vector3d mixed(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double share) {
-  return a + share * (b - a);
-}
-Eigen::Quaterniond mixed(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b, double share) {
-  return a.slerp(share, b);
-}
-
-/// Returns what is shown between two keys.
-FbxTransform blend(const FbxTransform& a, const FbxTransform& b, double share) {
-  return transform_from(mixed(a.position, b.position, share), mixed(a.rotation, b.rotation, share),
-                        mixed(a.scale, b.scale, share));
-}
-
-/// Returns what a list of keys says at a time in ticks; `otherwise` without any.
-template <class Key, class Value>
-Value value_at(const Key* keys, unsigned size, double ticks, const Value& otherwise) {
-  if (size == 0 || keys == nullptr) return otherwise;
-  const Key* const after =
-      std::partition_point(keys, keys + size, [&](const Key& key) { return key.mTime <= ticks; });
-  if (after == keys) return value_in(*keys);
-  const Key& before = *(after - 1);
-  if (after == keys + size) return value_in(before);
-  return mixed(value_in(before), value_in(*after), (ticks - before.mTime) / (after->mTime - before.mTime));
-}
-
-/// Adds up the keys of a channel as it is made.
-class ChannelMaker {
- public:
-  ChannelMaker(const FbxFile& file, std::string place) : file_(file), place_(std::move(place)) {}
-
-  void add(double ticks, const FbxTransform& pose) {
-    if (pose.sheared) file_.reject(place_ + " shears it, which is not read");
-    const auto as_float = [](double number) { return static_cast<float>(number); };
-    const Eigen::Vector3f position = pose.position.cast<float>(), scale = pose.scale.cast<float>();
-    const Eigen::Quaterniond& q = pose.rotation;
-    positions_.emplace_back(ticks, aiVector3D(position.x(), position.y(), position.z()));
-    rotations_.emplace_back(ticks,
-                            aiQuaternion(as_float(q.w()), as_float(q.x()), as_float(q.y()), as_float(q.z())));
-    scales_.emplace_back(ticks, aiVector3D(scale.x(), scale.y(), scale.z()));
-  }
-
-  std::unique_ptr<aiNodeAnim> channel() const {
-    auto made = std::make_unique<aiNodeAnim>();
-    made->mNumPositionKeys = made->mNumRotationKeys = made->mNumScalingKeys =
-        static_cast<unsigned>(positions_.size());
-    made->mPositionKeys = copied(positions_);
-    made->mRotationKeys = copied(rotations_);
-    made->mScalingKeys = copied(scales_);
-    return made;
-  }
-
- private:
-  const FbxFile& file_;
-  std::string place_;
-  std::vector<aiVectorKey> positions_, scales_;
-  std::vector<aiQuatKey> rotations_;
-
-  template <class AiKey>
-  static AiKey* copied(const std::vector<AiKey>& keys) {
-    AiKey* const copy = new AiKey[keys.size()];
-    std::copy(keys.begin(), keys.end(), copy);
-    return copy;
-  }
-};
 
 /// Corrects one clip.
 class ClipCorrector {
@@ -270,10 +190,7 @@ class ClipCorrector {
     for (const FbxModel* const model : models) {
       const FbxTransform rest = file_.chain.local(*model, {});
       const Evaluation shown = [&](double seconds) {
-        const double ticks = (seconds - first_) * ticks_;
-        return transform_from(value_at(channel.mPositionKeys, channel.mNumPositionKeys, ticks, rest.position),
-                              value_at(channel.mRotationKeys, channel.mNumRotationKeys, ticks, rest.rotation),
-                              value_at(channel.mScalingKeys, channel.mNumScalingKeys, ticks, rest.scale));
+        return shown_by(channel, (seconds - first_) * ticks_, rest);
       };
       if (!is_right(*model, moments(*model), shown)) continue;
       channel.mNodeName = file_.node_of.at(model)->mName;
