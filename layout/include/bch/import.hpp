@@ -72,13 +72,16 @@ struct ImportedCharacter {
 ///          further file is read, wherever a link or a path leads.
 /// Meshes:  all of the scene, instances included. Polygons are cut into triangles, which cover a simple one exactly
 ///          once. Vertices equal in position and influences become one. Weights, each from 0 to 1 (1.001 for
-///          rounding), are normalised, and any number of them is kept. A vertex without weights in a mesh with bones
-///          takes those of the nearest vertex that has some.
+///          rounding), are normalised, and any number of them is kept; FBX's are shares of their sum, such as
+///          percents. A vertex without weights in a mesh with bones takes those of the nearest vertex that has some.
 /// Frame:   to_ground leads to metres, z up, and never mirrors. Where neither file nor format tells the unit
 ///          or the up axis, they are guessed from the rest pose, and a note says so.
 /// glTF:    the default scene. Required extensions are refused by name, except KHR_mesh_quantization,
 ///          KHR_draco_mesh_compression and those of materials, textures and lights. Morph targets with weights
 ///          other than 0 are refused.
+/// FBX:     nodes and keys by the documentation's chain of transforms; blend shapes other than at 0 percent, additive link modes and
+///          layers that move the same property are refused. The chapter on layout has a table.
+/// Collada: stepped keys, and Bezier curves of one number; other curves are refused by name.
 /// Joints:  the nodes that carry vertices, and the nodes above them. root_joint is the joint with which clips
 ///          walk, in most skeletons the hips; -1 without bones.
 /// Clips:   those of other files are matched by joint name, without any namespace ("mixamorig:"). They give the
