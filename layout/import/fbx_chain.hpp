@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <Eigen/Geometry>
 #include <array>
 #include <optional>
 #include <string>

@@ -3,13 +3,13 @@
 
 #pragma once
 
-#include <Eigen/Core>
 #include <map>
 #include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
+#include "layout/character/eigen.hpp"
 #include "layout/import/fbx_record.hpp"
 
 // Private to the importer: the objects of an FBX file, what connects them, and the curves that move them.

@@ -101,7 +101,8 @@ TEST(Layers, LibrariesStayInTheirRooms) {
   expect_no_include("layout", "oneapi/tbb|tbb/");
   expect_no_include("layout", "Eigen/|layout/character/eigen",
                     "^(character|default_character|import)/.*cpp$|^character/(eigen|rotation_blend)|"
-                    "^default_character/(body|human)_|^import/(scene|units)");
+                    "^default_character/(body|human)_|^import/(fbx_document|scene|units)");
+  expect_no_include("layout", "zlib", "^import/fbx_record");
   expect_no_include("layout", "xxhash", "^baked/checksum");
   expect_no_include("layout", "sqlite3", "^trajectory/sqlite_");
   expect_no_include("layout", "hdf5", "^trajectory/hdf5_recording");
