@@ -2,7 +2,6 @@
 // Copyright (c) 2026 the bch authors
 
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <functional>
@@ -11,8 +10,7 @@
 
 #include "layout/character/eigen.hpp"
 #include "layout/character/skinning.hpp"
-#include "layout/import/fbx_record.hpp"
-#include "tests/support/fbx_text.hpp"
+#include "tests/support/fbx_man.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 // Every row of the chapter's table of FBX, against the published chain.
@@ -22,27 +20,6 @@ namespace {
 
 using Eigen::Affine3d;
 using Eigen::Vector3d;
-
-const std::vector<Vector3d> corners = {{0, 0, 0}, {0.3, 0, 0}, {0, 0.7, 0}, {0, 0, 0.5}};
-
-/// A skeleton of three joints, a skin on two of them, a rigid mesh on the third, and one that marks the origin.
-FbxText man() {
-  FbxText fbx;
-  fbx.nodes = {{"Armature", "Null", -1}, {"Hips", "LimbNode", 0}, {"Spine", "LimbNode", 1},
-               {"Hat", "Mesh", 2},       {"Tip", "Mesh", 3},      {"Body", "Mesh", -1},
-               {"Mark", "Mesh", -1}};
-  fbx.nodes[1].vectors["Lcl Translation"] = {0, 0.9, 0};
-  fbx.nodes[2].vectors["Lcl Translation"] = {0.1, 0.4, 0};
-  fbx.nodes[3].vectors["Lcl Translation"] = {0, 0.3, 0.2};
-  fbx.nodes[4].vectors["Lcl Translation"] = {0.1, 0.1, 0};
-  fbx.meshes = {{3, corners}, {4, corners}, {6, {{-2, 0, -2}, {2, 0, -2}, {2, 0, 2}, {-2, 3, 2}}}};
-  fbx.meshes.push_back({5,
-                        {{0, 0.2, 0}, {0.4, 0.8, 0}, {0, 1.5, 0.1}, {0, 0.8, 0.6}},
-                        {{1, {0, 1}, {1, 0.25}}, {2, {1, 2, 3}, {0.75, 1, 1}}}});
-  fbx.bind(fbx.meshes.back());
-  fbx.stop = 1;
-  return fbx;
-}
 
 class ImportFbx : public testing::Test {
  protected:
@@ -96,14 +73,6 @@ class ImportFbx : public testing::Test {
     }
   }
 };
-
-/// Turns the spine by all three angles, and moves and scales it.
-void move_spine(FbxText& fbx) {
-  fbx.curves = {
-      {2, "Lcl Rotation", 0, {0, 0.5, 1}, {0, 40, -20}}, {2, "Lcl Rotation", 1, {0, 1}, {10, 70}},
-      {2, "Lcl Rotation", 2, {0.25, 1}, {-30, 50}},      {2, "Lcl Translation", 1, {0, 1}, {0.4, 0.6}},
-      {2, "Lcl Scaling", 0, {0, 1}, {1, 1.5}},           {1, "Lcl Rotation", 1, {0, 1}, {0, 60}}};
-}
 
 TEST_F(ImportFbx, EveryPartOfTheChain) {
   const struct {
@@ -299,108 +268,6 @@ TEST_F(ImportFbx, WhatIsNotRead) {
       expect_as_written(blend, "a blend shape at 0");
     else
       expect_refused(blend, "FBX blend shape 'Fat' moves vertices");
-  }
-}
-
-using detail::importing::FbxFile;
-using detail::importing::FbxRecord;
-using detail::importing::FbxValue;
-
-template <class Number>
-std::string bytes_of(Number number) {
-  return {reinterpret_cast<const char*>(&number), sizeof number};
-}
-
-/// Returns a number as one of a type of FBX's.
-std::string number_as(char type, double number) {
-  switch (type | 0x20) {
-    case 'l':
-      return bytes_of(static_cast<std::int64_t>(number));
-    case 'i':
-      return bytes_of(static_cast<std::int32_t>(number));
-    default:
-      return bytes_of(number);
-  }
-}
-
-/// Returns the type that a binary file has for a number.
-char type_of(const FbxRecord& record) {
-  if (record.name == "C" || record.values.size() == 3) return 'L';  // ids
-  if (record.name != "P") return 'I';
-  const std::string_view kind = record.text(1);
-  return kind == "KTime" ? 'L' : kind == "enum" || kind == "int" ? 'I' : 'D';
-}
-
-std::string packed_array(const FbxFile& file, const FbxRecord& record) {
-  FbxRecord holder;
-  holder.children = {record};
-  const bool whole =
-      record.name.ends_with("Index") || record.name == "Indexes" || record.name.starts_with("KeyAttr");
-  const char type = record.name == "KeyTime" ? 'l' : whole ? 'i' : 'd';
-  std::string plain;
-  const std::vector<double> numbers = file.numbers(holder, record.name);
-  for (const double number : numbers) plain += number_as(type, number);
-  std::string packed(compressBound(plain.size()), '\0');
-  uLongf size = packed.size();
-  compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(plain.data()),
-           plain.size());
-  // Floats have the bits of the whole numbers in the text.
-  const char stated = record.name == "KeyAttrDataFloat" ? 'f' : type;
-  return stated + bytes_of(static_cast<std::uint32_t>(numbers.size())) + bytes_of(std::uint32_t{1}) +
-         bytes_of(static_cast<std::uint32_t>(size)) + packed.substr(0, size);
-}
-
-std::string text_value(std::string text) {
-  if (const std::size_t end = text.find("::"); end != text.npos)
-    text = text.substr(end + 2) + std::string("\0\1", 2) + text.substr(0, end);
-  return "S" + bytes_of(static_cast<std::uint32_t>(text.size())) + text;
-}
-
-/// Writes a record as in a binary file, where it begins so many bytes behind the start.
-std::string binary(const FbxFile& file, const FbxRecord& record, std::size_t begin) {
-  std::string values;
-  for (const FbxValue& value : record.values)
-    values += value.type == 't'   ? packed_array(file, record)
-              : value.type == 'n' ? type_of(record) + number_as(type_of(record), value.number)
-                                  : text_value(std::string(value.bytes));
-  const std::size_t head = 13 + record.name.size() + values.size();
-  std::string below;
-  for (const FbxRecord& child : record.children) below += binary(file, child, begin + head + below.size());
-  if (!record.children.empty()) below += std::string(13, '\0');
-  const auto word = [](std::size_t number) { return bytes_of(static_cast<std::uint32_t>(number)); };
-  return word(begin + head + below.size()) + word(record.values.size()) + word(values.size()) +
-         static_cast<char>(record.name.size()) + std::string(record.name) + values + below;
-}
-
-TEST_F(ImportFbx, ABinaryFileIsReadAsItsText) {
-  FbxText fbx = man();
-  move_spine(fbx);
-  fbx.curves[0].flags = 0x408;
-  fbx.curves[0].slope = 90;
-  fbx.nodes[2].vectors["PostRotation"] = {30, -50, 90};
-  fbx.nodes[3].vectors["GeometricRotation"] = {30, -50, 90};
-  const ImportedCharacter text = read(fbx);
-  const FbxFile file(folder.file("man.fbx"));
-  std::string bytes("Kaydara FBX Binary  \0\x1a\0", 23);
-  bytes += std::string("\xe8\x1c\0\0", 4);  // version 7400
-  for (const FbxRecord& record : file.root().children) bytes += binary(file, record, bytes.size());
-  bytes += std::string(13 + 160, '\0');
-  const ImportedCharacter read_again = import_character(folder.write("man.fbx", bytes));
-  ASSERT_EQ(read_again.character.clips.size(), 1u);
-  for (const PoseTime at : {PoseTime{}, PoseTime{0, 0.3f}, PoseTime{0, 0.9f}}) {
-    detail::Skinner a(text.character), b(read_again.character);
-    const auto pose = a.pose(at), other = b.pose(at);
-    ASSERT_EQ(pose.size(), other.size());
-    for (std::size_t v = 0; v < pose.size(); ++v)
-      EXPECT_TRUE(detail::to_eigen(pose[v]).isApprox(detail::to_eigen(other[v]), 1e-6f));
-  }
-  // Every truncation is refused, or read where only the end is missing.
-  for (std::size_t size = 30; size < bytes.size(); size += 97) {
-    const std::filesystem::path cut = folder.write("cut.fbx", bytes.substr(0, size));
-    try {
-      const FbxFile records(cut);
-    } catch (const ImportError&) {
-    }
   }
 }
 
