@@ -40,6 +40,9 @@ class ClipCorrector {
     set_range(*file.document.object(stack));
   }
 
+  /// Returns the length of the clip in ticks.
+  double duration() const { return (last_ - first_) * ticks_; }
+
   void correct() {
     std::map<std::string, std::vector<const FbxModel*>> moved;
     std::set<std::string> names;
@@ -61,10 +64,6 @@ class ClipCorrector {
       if (const auto left = moved.find(model.name);
           left != moved.end() && std::erase(left->second, &model) > 0)
         if (std::unique_ptr<aiNodeAnim> channel = channel_of(model)) made.push_back(std::move(channel));
-    if (animation_.mTicksPerSecond <= 0) {
-      animation_.mTicksPerSecond = ticks_;
-      animation_.mDuration = (last_ - first_) * ticks_;
-    }
     // Nothing throws from here on but where memory ends, so that every channel is owned once.
     aiNodeAnim** const all = new aiNodeAnim*[channels.size() + made.size()];
     aiNodeAnim** end = std::copy(channels.begin(), channels.end(), all);
@@ -266,9 +265,14 @@ void correct_fbx_clips(FbxScene& file, aiScene& scene) {
     } else {
       animation = made.emplace_back(std::make_unique<aiAnimation>()).get();
       animation->mName.Set(name);
+      animation->mTicksPerSecond = 1;
     }
-    ClipCorrector(file, *animation, stack).correct();
-    if (animation->mNumChannels == 0 && !made.empty() && made.back().get() == animation) continue;
+    ClipCorrector corrector(file, *animation, stack);
+    corrector.correct();
+    if (!made.empty() && made.back().get() == animation) {
+      if (animation->mNumChannels == 0) continue;
+      animation->mDuration = corrector.duration();
+    }
     note_missing_slopes(file, stack, name);
     animations.push_back(animation);
   }

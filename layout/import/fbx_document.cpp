@@ -145,8 +145,9 @@ std::string FbxDocument::name_of(const FbxRecord& object) {
   // "Hips", two bytes and "Model" in binary files, "Model::Hips" in text.
   if (const std::size_t end = text.find(std::string_view("\0\1", 2)); end != std::string_view::npos)
     return std::string(text.substr(0, end));
-  const std::size_t begin = text.find("::");
-  return std::string(begin == std::string_view::npos ? text : text.substr(begin + 2));
+  for (const std::string_view start : {"Model::", "AnimStack::", "SubDeformer::"})
+    if (text.starts_with(start)) return std::string(text.substr(start.size()));
+  return std::string(text);
 }
 
 std::optional<Eigen::Vector3d> FbxDocument::property(const FbxRecord& object, std::string_view name) const {

@@ -178,6 +178,7 @@ double largest_percent(const FbxDocument& document, FbxId channel) {
     const FbxRecord* const curve_node = document.object(node);
     if (property != "DeformPercent" || curve_node == nullptr || curve_node->name != "AnimationCurveNode")
       continue;
+    most = std::max(most, std::abs(document.number(*curve_node, "d|DeformPercent", 0)));
     for (const auto& [id, axis] : document.curves_of(node))
       for (const double value : document.file().numbers(*document.object(id), "KeyValueFloat"))
         most = std::max(most, std::abs(value));

@@ -255,7 +255,7 @@ TEST_F(ImportFbx, WhatIsNotRead) {
   FbxText geometric = man();
   geometric.curves = {{2, "Lcl Rotation", 1, {0, 1}, {0, 60}}, {3, "GeometricRotation", 1, {0, 1}, {0, 60}}};
   expect_refused(geometric, "moves GeometricRotation of node 'Hat'");
-  for (const std::string percent : {"0", "100", "-3"}) {
+  for (const std::string percent : {"0", "100", "-3", "animated"}) {
     FbxText blend = man();
     blend.more_objects =
         "Geometry: 7000, \"Geometry::Fat\", \"Shape\" {\nVersion: 100\nIndexes: *1 {\na: 1\n}\n"
@@ -264,6 +264,11 @@ TEST_F(ImportFbx, WhatIsNotRead) {
         "Deformer: 7002, \"SubDeformer::Fat\", \"BlendShapeChannel\" {\nVersion: 100\nDeformPercent: " +
         percent + "\nFullWeights: *1 {\na: 100\n}\n}\n";
     blend.more_connections = "C: \"OO\",7001,1000\nC: \"OO\",7002,7001\nC: \"OO\",7000,7002\n";
+    if (percent == "animated") {
+      blend.curves = {{2, "Lcl Rotation", 1, {0, 1}, {0, 60}}};
+      blend.more_objects.replace(blend.more_objects.find(percent), percent.size(), "0");
+      blend.more_connections += "C: \"OP\",6000,7002, \"DeformPercent\"\n";
+    }
     if (percent == "0")
       expect_as_written(blend, "a blend shape at 0");
     else
