@@ -151,7 +151,7 @@ void CheckInput::add_to(CLI::App& command) {
       .add_option("--depth", depth,
                   "Depth of the discs to test: 0, 1, 2 ..., or all for the whole tree [all]")
       ->type_name("N");
-  add_leaves_option(command, leaves, 2);
+  add_leaves_option(command, leaves, 4);
   command
       .add_option("--max-distance", max_distance,
                   "Also write to --pairs the pairs with a gap of at most M metres [0: overlaps only]")

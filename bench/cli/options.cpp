@@ -192,7 +192,7 @@ void AnswerOptions::add_levels_to(CLI::App& command) {
                   "[boundary]")
       ->type_name("NAME")
       ->check(one_of({"boundary", "solid"}));
-  add_leaves_option(command, leaves, 1);
+  add_leaves_option(command, leaves, 2);
   add_threads_option(command, threads);
 }
 

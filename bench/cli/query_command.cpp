@@ -338,7 +338,7 @@ std::function<void()> add_query_command(CLI::App& program) {
   options->answer.add_to(command);
   command.get_option("--leaves")
       ->description(
-          "Depth all: segments of outlines, or discs, up to 1 cm early [segments; clearance, within: discs]");
+          "Depth all: segments of outlines, or discs, up to 2 cm early [segments; clearance, within: discs]");
   return [options, &command] { run_query(command, *options); };
 }
 

@@ -93,7 +93,7 @@ std::function<void()> add_report_command(CLI::App& program) {
       "Charts need gnuplot. If BCH_TEST_DATA is set, real characters are read from "
       "$BCH_TEST_DATA/characters,\n"
       "and recordings of people from $BCH_TEST_DATA/trajectories.\n"
-      "All experiments take about 15 minutes on two cores, or 2 minutes with --quick.\n"
+      "All experiments take 10 to 20 minutes on two cores, or 2 to 5 minutes with --quick.\n"
       "Example: bch report --out report --quick");
   command.add_option("--out", options->report.folder, "Folder for the page and its tables")
       ->type_name("DIR")

@@ -137,6 +137,21 @@ TEST_F(BchMpiCheck, AKilledRankEndsAllAndPartsAreNotDoneAgain) {
   for (const auto& [manifest, written] : done) EXPECT_EQ(fs::last_write_time(manifest), written) << manifest;
 }
 
+/// The one rank is signalled itself: mpirun may end others by SIGKILL before they have cleaned up.
+TEST_F(BchMpiCheck, ASignalLeavesNoTemporaryFile) {
+  const std::string file = folder.write("walking.txt", walking_people());
+  const std::string writes = "ls -A '" + parts + "' 2>/dev/null | grep -q '^[.]bch'";
+  Arguments command{
+      "-n", "1", "sh", "-c", "(until " + writes + "; do sleep 0.01; done; kill -TERM $$) &\nexec \"$@\"",
+      "sh"};
+  const Arguments plain = check("1", file);
+  command.insert(command.end(), plain.begin() + 2, plain.end());
+  EXPECT_NE(run(command).code, 0);
+  EXPECT_FALSE(fs::exists(json));
+  ASSERT_TRUE(fs::exists(parts));
+  EXPECT_TRUE(fs::is_empty(parts));
+}
+
 TEST_F(BchMpiCheck, AFullDiskOfOneRankEndsAllWithOneLine) {
   Arguments command = with_shell(check("2", recording()), "ulimit -f 0");
   command.insert(command.begin(), {"--mca", "btl", "self,tcp"});  // whose memory is not shared by a file
