@@ -198,6 +198,12 @@ std::vector<Pair> read_pairs(const std::string& file, const AgentTable& agents) 
   return pairs;
 }
 
+void guard_ids(AgentTable& table) {
+  for (std::string& id : table.id)
+    if (std::string_view("=+-@\t\r\n").find(id.front()) != std::string_view::npos && !parse_number(id))
+      id.insert(id.begin(), '\'');
+}
+
 std::string csv_field(const std::string& text) {
   const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
   const bool trimmed = !text.empty() && (is_blank(text.front()) || is_blank(text.back()));

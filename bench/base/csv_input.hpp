@@ -37,6 +37,9 @@ AgentTable read_agents(const std::string& file, std::uint32_t shapes, std::uint3
 /// Reads the columns first,second: ids of agents.
 std::vector<Pair> read_pairs(const std::string& file, const AgentTable& agents);
 
+/// Puts ' before ids that spreadsheets take for formulas: those that begin with =, +, -, @ or a control character and are no numbers.
+void guard_ids(AgentTable& table);
+
 /// Writes an id as a CSV field: in quotes where it has a comma, a quote, a line ending, or a blank at either
 /// end, which readers would otherwise take away.
 std::string csv_field(const std::string& text);

@@ -43,7 +43,9 @@ std::string slabs_text(const ShapeFacts& facts) {
                        text_of(slab.heights), slab.contours, slab.outline_area, slab.nodes, slab.leaves,
                        slab.disc_area, slab.disc_area / slab.outline_area);
   }
-  return out + "\nAreas are exact, of the leaf discs by the arcs of their union.\n";
+  return out +
+         "\nHeights are those of this pose; the height above is that at rest. Areas are exact, of the leaf "
+         "discs by the arcs of their union.\n";
 }
 
 double clip_seconds(const ImportReport& report) {

@@ -21,7 +21,7 @@ namespace bch::cli {
 /// Holds what the command line of bch query says.
 struct QueryCommandOptions {
   std::string character, agents, pairs, obstacles;
-  bool all_pairs = false, walkable = false;
+  bool all_pairs = false, walkable = false, guard_ids = false;
   std::string what = query_kinds().front().name;
   std::uint32_t directions = 16;
   std::string direction;         ///< empty: the best of many

@@ -262,7 +262,6 @@ void add_clips_of(const std::filesystem::path& clip_file, const ImportOptions& o
     report.notes.push_back(one_line(clip_file.filename().string()) + ": " + note);
   std::vector<SourceClip> clips = read_clips(source.file(), report.notes);
   if (clips.empty()) source.file().reject("no clips");
-  report.notes.insert(report.notes.end(), source.file().notes.begin(), source.file().notes.end());
   const std::string stem = one_line(clip_file.stem().string());
   for (SourceClip& clip : clips) {
     const std::size_t channels = clip.channels.size();

@@ -20,6 +20,10 @@
 namespace bch::detail::importing {
 namespace {
 
+std::string in_quotes(std::string_view word) {
+  return std::string("'").append(word).append("'");
+}
+
 enum class Type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
 struct NamedType {
@@ -98,7 +102,7 @@ class Header {
     } else if (words[0] == "property" && !elements_.empty() && words.size() == 5 && words[1] == "list") {
       elements_.back().properties.push_back({words[4], type_of(words[3]), type_of(words[2])});
     } else {
-      reject("'" + std::string(line) + "' is no line of a PLY header");
+      reject(in_quotes(line) + " is no line of a PLY header");
     }
     return true;
   }
@@ -107,18 +111,18 @@ class Header {
     if (name == "ascii") return Format::text;
     if (name == "binary_little_endian") return Format::little_endian;
     if (name == "binary_big_endian") return Format::big_endian;
-    reject("'" + std::string(name) + "' is no format of PLY");
+    reject(in_quotes(name) + " is no format of PLY");
   }
   Type type_of(std::string_view name) const {
     for (const NamedType& type : types)
       if (name == type.name || name == type.sized_name) return type.type;
-    reject("'" + std::string(name) + "' is no type of PLY");
+    reject(in_quotes(name) + " is no type of PLY");
   }
   std::uint64_t count_of(std::string_view word) const {
     std::uint64_t number = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
     if (error != std::errc() || end != word.data() + word.size())
-      reject("'" + std::string(word) + "' is no count");
+      reject(in_quotes(word) + " is no count");
     return number;
   }
 };
