@@ -121,8 +121,7 @@ class Header {
   std::uint64_t count_of(std::string_view word) const {
     std::uint64_t number = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), number);
-    if (error != std::errc() || end != word.data() + word.size())
-      reject(in_quotes(word) + " is no count");
+    if (error != std::errc() || end != word.data() + word.size()) reject(in_quotes(word) + " is no count");
     return number;
   }
 };
