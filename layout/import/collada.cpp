@@ -26,18 +26,6 @@ XmlElements all_of(const XmlElement& element, std::string_view name) {
   return list;
 }
 
-std::vector<std::string_view> words_of(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r\n";
-  std::vector<std::string_view> words;
-  std::size_t at = 0;
-  while ((at = text.find_first_not_of(blanks, at)) != text.npos) {
-    const std::size_t end = std::min(text.find_first_of(blanks, at), text.size());
-    words.push_back(text.substr(at, end - at));
-    at = end;
-  }
-  return words;
-}
-
 ColladaText::ColladaText(const std::filesystem::path& path, std::string_view text)
     : path_(path), text_(text), root_(parse_xml(text)) {
   if (root_.name.empty()) reject("is no XML whose elements end");

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "layout/import/text.hpp"
 #include "layout/import/xml.hpp"
 
 // Private to the importer: the text of a Collada file, parts of which are replaced.
@@ -20,7 +21,6 @@ using XmlElements = std::vector<const XmlElement*>;
 
 /// Returns an element and all below it that have a name, in the order of the text.
 XmlElements all_of(const XmlElement& element, std::string_view name);
-std::vector<std::string_view> words_of(std::string_view text);
 
 class ColladaText {
  public:

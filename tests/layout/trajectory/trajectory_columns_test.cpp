@@ -21,7 +21,7 @@ using test::ReadRecording;
 using test::text_of;
 using test::Trajectories;
 
-constexpr TrajectoryOptions options{.fps = 25, .unit = 1};
+const TrajectoryOptions options{.fps = 25, .unit = 1};
 
 /// Writes twelve frames of a few people who walk, with a line end behind each of `columns`: f frame, i id, x, y, h height, o 0, t time,
 /// a heading, v speed.
