@@ -271,8 +271,8 @@ void draw_key(Svg& svg, const CrowdPicture& picture, State state, double x, cons
 void draw_legend(Svg& svg, const CrowdPicture& picture, const Window& window) {
   svg.open_group("legend");
   draw_key(svg, picture, is_colliding, margin, "collides;", "overlapping discs are dark");
-  draw_key(svg, picture, is_cleared, 325, "cleared: only single", "cylinders (dashed) overlap");
-  draw_key(svg, picture, is_free, 635, "free: not even single", "cylinders overlap");
+  draw_key(svg, picture, is_cleared, 325, "cleared: only cylinders", "(dashed) overlap");
+  draw_key(svg, picture, is_free, 635, "free: not even", "cylinders overlap");
   svg.close_group();
 
   const double right = picture_width - margin, left = right - window.scale();

@@ -3,7 +3,6 @@
 
 #include "layout/import/collada.hpp"
 
-#include <algorithm>
 #include <fstream>
 #include <iterator>
 

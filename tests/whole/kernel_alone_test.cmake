@@ -30,7 +30,7 @@ if(NOT output STREQUAL expected)
 endif()
 
 # Where such flags are not undone, nothing compiles.
-run_wrong("needs IEEE arithmetic" ${COMPILER} -std=c++20 -Ofast -I${SOURCE} -fsyntax-only -x c++ ${SOURCE}/layout/base/rounding.hpp)
+run_wrong("need IEEE arithmetic" ${COMPILER} -std=c++20 -Ofast -I${SOURCE} -fsyntax-only -x c++ ${SOURCE}/layout/base/rounding.hpp)
 
 # Every header that was read, whether or not a target asked for its folder.
 file(STRINGS ${WORK}/bch/CMakeCache.txt ninja REGEX "^CMAKE_MAKE_PROGRAM:")
