@@ -286,9 +286,9 @@ std::function<void()> add_query_command(CLI::App& program) {
   command.add_option("PAIRS.csv", options->pairs, "Columns first,second: ids of agents")->type_name("");
   command.add_flag("--all-pairs", options->all_pairs,
                    "Instead of PAIRS.csv: all pairs that collide or, with --max-distance, come within it");
-  command.add_flag("--guard-ids", options->guard_ids,
-                   "Put ' before ids that begin with =, +, - or @, unless they are numbers: a spreadsheet "
-                   "would take them for formulas");
+  command.add_flag(
+      "--guard-ids", options->guard_ids,
+      "Put ' before ids that begin with =, +, - or @, unless they are numbers, for spreadsheets");
   command
       .add_option("--max-pairs", options->max_pairs,
                   "Pairs of agents near each other, for --all-pairs [4 million plus 100 per agent]")

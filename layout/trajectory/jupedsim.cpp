@@ -10,6 +10,7 @@
 #include <string_view>
 #include <unordered_set>
 
+#include "layout/base/mixed_hash.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/trajectory/numbers.hpp"
 #include "layout/trajectory/sqlite_database.hpp"
@@ -136,7 +137,7 @@ class JuPedSim final : public RowSource {
   /// Returns how many different values a column has. SQLite would keep them all, which may be long and share their pages.
   std::size_t different(const std::string& column, const std::string& table) const {
     SqliteStatement values(database_, "SELECT " + column + " FROM " + table);
-    std::unordered_set<std::size_t> hashes;
+    std::unordered_set<std::size_t, MixedHash> hashes;
     while (values.step())
       if (values.type(0) != SQLITE_NULL) hashes.insert(std::hash<std::string_view>()(values.text(0)));
     return hashes.size();
