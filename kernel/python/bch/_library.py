@@ -527,7 +527,7 @@ def _load() -> ctypes.CDLL:
     try:
         library = ctypes.CDLL(path)
     except OSError as error:
-        raise ImportError(f"bch: {error} (it needs Debian's libtbb12, libassimp5, libdraco7, libsqlite3-0, libhdf5-103-1)") from None
+        raise ImportError(f"bch: {error} (it needs Debian's libtbb12, libassimp5, libdraco7, zlib1g, libsqlite3-0, libhdf5-103-1)") from None
     if library.bch_abi_version() != ABI_VERSION:
         raise ImportError(f"bch: {path} has another interface ({library.bch_abi_version()}) than this package ({ABI_VERSION})")
     for name, parameters in _functions.items():
