@@ -83,7 +83,7 @@ ImportedCharacter importing::character_of(const SceneFile& file, const ImportOpt
   add_own_clips(file, nodes, character, report);
   const std::size_t own_clips = character.clips.size();
   for (const std::filesystem::path& clip_file : options.clip_files)
-    naming(clip_file, [&] { add_clips_of(clip_file, options, up, character, report); });
+    naming(clip_file, [&] { add_clips_of(clip_file, options, up, result.character, result.report); });
   character.root_joint = find_root_joint(character, bone_is_skin);
   validate(character);
   check_poses(file, character);
