@@ -142,11 +142,11 @@ TEST_F(Obstacles, HaveTheHullOfTheirEnds) {
     hull.close();
     const double angle = random.uniform(-4, 4), c = random.below(2) == 0 ? random.below(3) : std::cos(angle),
                  s = random.below(2) == 0 ? -1.0 * random.below(3) : std::sin(angle);
-    for (const auto& [x, y] : {detail::EndsHull::Point{c, s}, {-c, -s}, {-s, c}, {s, -c}}) {
-      const auto of = [&](detail::EndsHull::Point end) { return x * end.x + y * end.y; };
+    for (const detail::EndsHull::Point way : {detail::EndsHull::Point{c, s}, {-c, -s}, {-s, c}, {s, -c}}) {
+      const auto of = [&](detail::EndsHull::Point end) { return way.x * end.x + way.y * end.y; };
       double most = -std::numeric_limits<double>::infinity();
       for (const auto& end : ends) most = std::max(most, of(end));
-      if (kind < 2 && std::round(x) == x && std::round(y) == y)
+      if (kind < 2 && std::round(way.x) == way.x && std::round(way.y) == way.y)
         ASSERT_EQ(hull.most(of), most) << k;
       else
         ASSERT_NEAR(hull.most(of), most, 1e-15 * (1 + std::abs(most))) << k;
