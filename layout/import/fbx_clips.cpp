@@ -65,7 +65,9 @@ class ClipCorrector {
           left != moved.end() && std::erase(left->second, &model) > 0)
         if (std::unique_ptr<aiNodeAnim> channel = channel_of(model)) made.push_back(std::move(channel));
     // Nothing throws from here on but where memory ends, so that every channel is owned once.
-    aiNodeAnim** const all = new aiNodeAnim*[channels.size() + made.size()];
+    // assimp deletes no list without members.
+    const std::size_t count = channels.size() + made.size();
+    aiNodeAnim** const all = count == 0 ? nullptr : new aiNodeAnim*[count];
     aiNodeAnim** end = std::copy(channels.begin(), channels.end(), all);
     for (std::unique_ptr<aiNodeAnim>& channel : made) *end++ = channel.release();
     for (aiNodeAnim* const channel : dropped) delete channel;
@@ -277,7 +279,7 @@ void correct_fbx_clips(FbxScene& file, aiScene& scene) {
     animations.push_back(animation);
   }
   if (next < scene.mNumAnimations) file.document.file().reject("FBX clips are not those of the file");
-  aiAnimation** const all = new aiAnimation*[animations.size()];
+  aiAnimation** const all = animations.empty() ? nullptr : new aiAnimation*[animations.size()];
   std::copy(animations.begin(), animations.end(), all);
   for (std::unique_ptr<aiAnimation>& animation : made)
     if (animation->mNumChannels > 0) animation.release();
