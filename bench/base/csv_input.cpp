@@ -199,9 +199,12 @@ std::vector<Pair> read_pairs(const std::string& file, const AgentTable& agents) 
 }
 
 void guard_ids(AgentTable& table) {
-  for (std::string& id : table.id)
-    if (std::string_view("=+-@\t\r\n").find(id.front()) != std::string_view::npos && !parse_number(id))
+  for (std::string& id : table.id) {
+    const std::optional<double> number = parse_number(id);
+    if (std::string_view("=+-@\t\r\n").find(id.front()) != std::string_view::npos &&
+        !(number && std::isfinite(*number)))
       id.insert(id.begin(), '\'');
+  }
 }
 
 std::string csv_field(const std::string& text) {

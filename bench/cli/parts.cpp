@@ -35,11 +35,15 @@ std::uint32_t part_number(std::string_view text) {
   return error == std::errc() && stop == text.data() + text.size() && number <= most_parts ? number : 0;
 }
 
-/// Opens a regular file: a pipe may have nothing to read for ever, and a device no end.
-std::ifstream opened(const std::string& file) {
+/// A pipe may have nobody at its other end for ever, and a device no end.
+void require_regular(const fs::path& file) {
   std::error_code none;
   if (fs::exists(file, none) && !fs::is_regular_file(file, none))
-    throw InputError(file + ": is not a regular file");
+    throw InputError(file.string() + ": is not a regular file");
+}
+
+std::ifstream opened(const std::string& file) {
+  require_regular(file);
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw InputError(file + ": cannot be read: " + std::strerror(errno));
   return stream;
@@ -232,6 +236,7 @@ FileLock PartFiles::claim(const std::string& command, const std::vector<std::str
   std::vector<OutputOption> outputs{{"--into", manifest()}, {"--into", fs::path(folder_) / lock}};
   for (const std::string& kind : kinds_of(command)) outputs.push_back({"--into", file(kind)});
   require_outputs(outputs, inputs);
+  for (const std::string& kind : kinds_of(command)) require_regular(file(kind));
   return {folder_, lock};
 }
 

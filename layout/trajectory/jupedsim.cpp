@@ -104,8 +104,8 @@ class JuPedSim final : public RowSource {
     if (!database_.has_table("geometry")) return say_that_there_is_none();
     const bool by_frame = version_ > 1 && database_.has_table("frame_data");
     std::string which = " ORDER BY rowid LIMIT 1";
-    if (by_frame) which = " WHERE hash = (SELECT geometry_hash FROM frame_data ORDER BY frame LIMIT 1)";
-    SqliteStatement geometry(database_, "SELECT wkt FROM geometry" + which);
+    if (by_frame) which = " AND hash = (SELECT geometry_hash FROM frame_data ORDER BY frame LIMIT 1)";
+    SqliteStatement geometry(database_, "SELECT wkt FROM geometry WHERE length(wkt) > 0" + which);
     if (!geometry.step()) return take_the_only_geometry();
     recording_.geometry = geometry.text(0);
     const std::size_t count =
@@ -124,7 +124,7 @@ class JuPedSim final : public RowSource {
                                        " geometries, and its first frame names none of them.");
       return;
     }
-    SqliteStatement geometry(database_, "SELECT wkt FROM geometry WHERE wkt IS NOT NULL LIMIT 1");
+    SqliteStatement geometry(database_, "SELECT wkt FROM geometry WHERE length(wkt) > 0 LIMIT 1");
     if (geometry.step()) recording_.geometry = geometry.text(0);
     recording_.assumptions.emplace_back(
         "The only geometry of the file is that of all frames, though the first frame does not name it.");
@@ -134,12 +134,12 @@ class JuPedSim final : public RowSource {
     recording_.assumptions.emplace_back("There are no walls: the file has no geometry.");
   }
 
-  /// Returns how many different values a column has. SQLite would keep them all, which may be long and share their pages.
+  /// Returns how many different values a column has, beside none and an empty text. SQLite would keep them all, which may be long and share their pages.
   std::size_t different(const std::string& column, const std::string& table) const {
-    SqliteStatement values(database_, "SELECT " + column + " FROM " + table);
+    SqliteStatement values(database_,
+                           "SELECT " + column + " FROM " + table + " WHERE length(" + column + ") > 0");
     std::unordered_set<std::size_t, MixedHash> hashes;
-    while (values.step())
-      if (values.type(0) != SQLITE_NULL) hashes.insert(std::hash<std::string_view>()(values.text(0)));
+    while (values.step()) hashes.insert(std::hash<std::string_view>()(values.text(0)));
     return hashes.size();
   }
 

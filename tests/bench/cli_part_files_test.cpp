@@ -107,6 +107,12 @@ TEST_F(CliPartFiles, ThatNestDeeplyAreRefused) {
     }
 }
 
+TEST_F(CliPartFiles, AreWrittenToNoPipe) {
+  fs::create_directory(parts);
+  ASSERT_EQ(mkfifo(part("frames.csv").c_str(), 0600), 0);
+  expect_failure(do_part(), 3, {part("frames.csv"), "not a regular file"});
+}
+
 TEST_F(CliPartFiles, ThatAreNoneAreRefusedByALine) {
   fs::create_directory(parts);
   const std::string manifest = part("manifest.json");

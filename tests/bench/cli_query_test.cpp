@@ -28,14 +28,15 @@ TEST(Cli, QueryAnswersInTheOrderOfThePairs) {
 TEST(Cli, QueryGuardsIdsThatASpreadsheetWouldCompute) {
   const TemporaryFolder folder;
   const std::string shapes = folder.write("box.obj", box);
-  const std::string agents = folder.write(
-      "agents.csv",
-      "id,shape,x,y,heading\n=1+1,0,0,0,0\n-5,0,0,0,0\n\"@a,b\",0,0,0,0\n-x,0,0,0,0\nb=,0,0,0,0\n");
-  const std::string pairs = folder.write("pairs.csv", "first,second\n=1+1,-5\n\"@a,b\",-x\nb=,-5\n");
+  const std::string agents = folder.write("agents.csv",
+                                          "id,shape,x,y,heading\n=1+1,0,0,0,0\n-5,0,0,0,0\n\"@a,b\",0,0,0,"
+                                          "0\n-x,0,0,0,0\nb=,0,0,0,0\n-inf,0,9,9,0\n");
+  const std::string pairs = folder.write("pairs.csv", "first,second\n=1+1,-5\n\"@a,b\",-x\nb=,-5\n-inf,-5\n");
   const Ending plain = bch({"query", shapes, agents, pairs}, as_metres);
-  EXPECT_EQ(plain.out, "first,second,hit\n=1+1,-5,1\n\"@a,b\",-x,1\nb=,-5,1\n") << plain.err;
+  EXPECT_EQ(plain.out, "first,second,hit\n=1+1,-5,1\n\"@a,b\",-x,1\nb=,-5,1\n-inf,-5,0\n") << plain.err;
   const Ending guarded = bch({"query", shapes, agents, pairs, "--guard-ids"}, as_metres);
-  EXPECT_EQ(guarded.out, "first,second,hit\n'=1+1,-5,1\n\"'@a,b\",'-x,1\nb=,-5,1\n") << guarded.err;
+  EXPECT_EQ(guarded.out, "first,second,hit\n'=1+1,-5,1\n\"'@a,b\",'-x,1\nb=,-5,1\n'-inf,-5,0\n")
+      << guarded.err;
 }
 
 TEST(Cli, QueryTakesALevelForEachAgent) {

@@ -102,6 +102,17 @@ TEST_F(JuPedSimFiles, HaveTheirOnlyGeometryThoughNoFrameNamesIt) {
   }
 }
 
+TEST_F(JuPedSimFiles, DoNotNameAGeometryWithoutText) {
+  JuPedSimFile file;
+  file.geometry =
+      "CREATE TABLE geometry(hash INTEGER, wkt TEXT);"
+      "CREATE TABLE frame_data(frame INTEGER, geometry_hash INTEGER);"
+      "INSERT INTO frame_data VALUES(0,1); INSERT INTO geometry VALUES(1,NULL),(3,''),(2,'POLYGON EMPTY');";
+  const ReadRecording recording = read(file);
+  EXPECT_EQ(recording.info.geometry, "POLYGON EMPTY");
+  EXPECT_EQ(recording.info.assumptions.size(), 1u);
+}
+
 TEST_F(JuPedSimFiles, NameTheRowThatIsWrong) {
   const std::pair<const char*, const char*> cases[] = {
       {"(0,1,9e999,2,0,0)", "row 4: pos_x 'Inf' is not finite"},
