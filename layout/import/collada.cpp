@@ -3,10 +3,12 @@
 
 #include "layout/import/collada.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 
 #include "layout/import/collada_text.hpp"
+#include "layout/import/files.hpp"
 #include "layout/import/scene.hpp"
 
 namespace bch::detail::importing {
@@ -78,12 +80,16 @@ void ColladaText::reject(const std::string& reason) const {
 
 std::string rewritten_collada(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  std::string text(4096, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  if (text.find("<COLLADA") == text.npos) return {};
+  char start[64] = {};
+  stream.read(start, sizeof start);
+  std::string_view beginning(start, static_cast<std::size_t>(stream.gcount()));
+  if (beginning.starts_with(byte_order_mark)) beginning.remove_prefix(byte_order_mark.size());
+  if (!beginning.substr(std::min(beginning.find_first_not_of(" \t\r\n"), beginning.size())).starts_with('<'))
+    return {};
   stream.clear();
-  text.append(std::istreambuf_iterator<char>(stream), {});
+  stream.seekg(0);
+  const std::string text(std::istreambuf_iterator<char>(stream), {});
+  if (text.find("<COLLADA") == text.npos) return {};
   ColladaText collada(file, text);
   rewrite_curves(collada);
   rewrite_joints(collada);

@@ -40,6 +40,19 @@ struct Keys {
     return std::equal(value, value + static_cast<std::ptrdiff_t>(stride),
                       value + static_cast<std::ptrdiff_t>(stride));
   }
+
+  /// Returns whether nothing moves, whatever the kind: all keys are equal, and tangents, if there are any, are 0 or the keys' values.
+  bool is_still() const {
+    for (std::size_t key = 0; key + 1 < times.size(); ++key)
+      if (!is_equal(key)) return false;
+    const auto is_flat = [&](const std::vector<double>& tangents) {
+      const bool has_times = tangents.size() == 2 * values.size();
+      for (std::size_t i = has_times ? 1 : 0; i < tangents.size(); i += has_times ? 2 : 1)
+        if (tangents[i] != 0 && tangents[i] != values[(has_times ? i / 2 : i) % values.size()]) return false;
+      return true;
+    };
+    return is_flat(in_tangents) && is_flat(out_tangents);
+  }
 };
 
 class CurveRewriter {
@@ -54,19 +67,23 @@ class CurveRewriter {
     const auto is_line = [](std::string_view kind) { return kind == "LINEAR"; };
     if (std::all_of(keys.kinds.begin(), keys.kinds.end(), is_line)) return;
     const XmlElement* const values = collada_.source(sampler, "OUTPUT");
-    keys.times = numbers(collada_.source(sampler, "INPUT"));
-    keys.values = numbers(values);
-    keys.in_tangents = numbers(collada_.source(sampler, "IN_TANGENT"));
-    keys.out_tangents = numbers(collada_.source(sampler, "OUT_TANGENT"));
     const std::string name(sampler.attribute("id"));
-    if (keys.times.empty() || keys.values.empty() || keys.values.size() % keys.times.size() != 0) return;
+    keys.times = numbers(collada_.source(sampler, "INPUT"), name);
+    keys.values = numbers(values, name);
+    keys.in_tangents = numbers(collada_.source(sampler, "IN_TANGENT"), name);
+    keys.out_tangents = numbers(collada_.source(sampler, "OUT_TANGENT"), name);
+    if (keys.times.empty() || keys.values.empty()) return;
+    if (keys.values.size() % keys.times.size() != 0)
+      collada_.reject("Collada animation '" + name + "' has " + count(keys.values.size(), "number") +
+                      " for " + count(keys.times.size(), "key"));
     keys.stride = keys.values.size() / keys.times.size();
     keys.kinds.resize(keys.times.size(), "LINEAR");
 
     Keys lines;
+    const bool is_still = keys.is_still();
     bool changes = false;
     for (std::size_t k = 0; k < keys.times.size(); ++k) {
-      if (k > 0) changes = add_between(keys, k - 1, name, lines) || changes;
+      if (k > 0) changes = add_between(keys, k - 1, is_still, name, lines) || changes;
       add(lines, keys.times[k], keys, k);
     }
     if (changes) write(sampler, name, *values, keys.stride, lines);
@@ -75,13 +92,26 @@ class CurveRewriter {
  private:
   ColladaText& collada_;
 
-  static std::vector<double> numbers(const XmlElement* source) {
+  /// Returns all numbers of a source, which has to use them all.
+  std::vector<double> numbers(const XmlElement* source, const std::string& name) const {
     std::vector<double> list;
     const XmlElement* const array = source == nullptr ? nullptr : source->child("float_array");
     if (array == nullptr) return list;
+    const std::string what = "Collada animation '" + name + "' has ";
+    for (const XmlElement* const accessor : all_of(*source, "accessor")) {
+      const std::string_view offset = accessor->attribute("offset");
+      const bool skips =
+          std::any_of(accessor->children.begin(), accessor->children.end(), [&](const XmlElement& param) {
+            return param.attribute("name").empty() && accessor->children.size() > 1;
+          });
+      if (skips || (!offset.empty() && offset != "0"))
+        collada_.reject(what + "a source with an offset or with values that have no name, which is not read");
+    }
     for (const std::string_view word : words_of(array->content)) {
       double number = 0;
-      double_from_chars(word.data(), word.data() + word.size(), number);
+      const auto [end, error] = double_from_chars(word.data(), word.data() + word.size(), number);
+      if (error != std::errc() || end != word.data() + word.size())
+        collada_.reject(what + "'" + std::string(word) + "' for a number");
       list.push_back(number);
     }
     return list;
@@ -94,22 +124,21 @@ class CurveRewriter {
   }
 
   /// Adds what a line from a key to the next one lacks.
-  bool add_between(const Keys& keys, std::size_t key, const std::string& name, Keys& lines) const {
+  bool add_between(const Keys& keys, std::size_t key, bool is_still, const std::string& name,
+                   Keys& lines) const {
     const std::string_view kind = keys.kinds[key];
     const double from = keys.times[key], to = keys.times[key + 1], jump = to - ramp(to);
-    if (kind == "LINEAR" || (keys.is_equal(key) && kind != "BEZIER")) return false;
+    if (kind == "LINEAR" || (kind == "STEP" && keys.is_equal(key))) return false;
     if (kind == "STEP") {
       if (jump > from) add(lines, jump, keys, key);
       return true;
     }
-    if (to - from <= near_keys) return false;
+    if (to - from <= near_keys || is_still) return false;
     const std::string what = "Collada animation '" + name + "' has keys of kind " + std::string(kind);
     if (kind != "BEZIER") collada_.reject(what + ", which is not read");
     if (keys.stride == 1) return add_curve(keys, key, what, lines);
-    if (!keys.is_equal(key))
-      collada_.reject(what + " of " + count(keys.stride, "number") +
-                      ", which is not read (of one number it is)");
-    return false;
+    collada_.reject(what + " of " + count(keys.stride, "number") +
+                    ", which is not read (of one number it is)");
   }
 
   bool add_curve(const Keys& keys, std::size_t key, const std::string& what, Keys& lines) const {

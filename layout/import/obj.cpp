@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <system_error>
 
+#include "layout/base/decimal.hpp"
 #include "layout/import/scene.hpp"
 #include "layout/import/text.hpp"
 
@@ -55,14 +58,20 @@ class PlainObj {
     return start == std::string_view::npos || line[start] == '#';
   }
 
+  static bool is_number(std::string_view word) {
+    if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
+    double number = 0;
+    const auto [end, error] = double_from_chars(word.data(), word.data() + word.size(), number);
+    return error == std::errc() && end == word.data() + word.size() && std::isfinite(number);
+  }
+
   /// Three coordinates, and a fourth that divides them; further numbers are colours.
   void write_vertex(const std::vector<std::string_view>& words) {
     if (words.size() < 4) reject("a vertex of " + count(words.size() - 1, "coordinate") + ", not 3");
     plain_ += 'v';
     for (std::size_t i = 1; i < (words.size() == 5 ? 5 : 4); ++i) {
       const std::string_view word = words[i];
-      if (word.find_first_of("0123456789") == std::string_view::npos)
-        reject("coordinate '" + std::string(word) + "' is not a finite number");
+      if (!is_number(word)) reject("coordinate '" + std::string(word) + "' is not a finite number");
       plain_ += word[0] == '.' ? " 0" : " ";  // assimp counts numbers by their first characters
       plain_ += word;
     }

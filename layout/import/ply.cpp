@@ -98,13 +98,21 @@ class Header {
     } else if (words[0] == "element" && words.size() == 3) {
       elements_.push_back({words[1], count_of(words[2]), {}});
     } else if (words[0] == "property" && !elements_.empty() && words.size() == 3) {
-      elements_.back().properties.push_back({words[2], type_of(words[1]), {}});
+      add({words[2], type_of(words[1]), {}});
     } else if (words[0] == "property" && !elements_.empty() && words.size() == 5 && words[1] == "list") {
-      elements_.back().properties.push_back({words[4], type_of(words[3]), type_of(words[2])});
+      add({words[4], type_of(words[3]), type_of(words[2])});
     } else {
       reject(in_quotes(line) + " is no line of a PLY header");
     }
     return true;
+  }
+
+  void add(const Property& property) {
+    constexpr std::size_t most = 1000;
+    if (elements_.back().properties.size() == most) reject("an element has more than 1000 properties");
+    for (const Property& other : elements_.back().properties)
+      if (other.name == property.name) reject(in_quotes(property.name) + " is a property twice");
+    elements_.back().properties.push_back(property);
   }
 
   Format format_of(std::string_view name) const {
@@ -157,17 +165,17 @@ class Data {
     return static_cast<std::size_t>(size);
   }
 
+  [[noreturn]] void reject(const std::string& reason) const {
+    importing::reject(file_, std::string(element_->name) + " " + std::to_string(index_) + " of " +
+                                 std::to_string(element_->count) + " " + reason);
+  }
+
  private:
   const std::filesystem::path& file_;
   std::string_view rest_;
   Format format_;
   const Element* element_ = nullptr;
   std::uint64_t index_ = 0;
-
-  [[noreturn]] void reject(const std::string& reason) const {
-    importing::reject(file_, std::string(element_->name) + " " + std::to_string(index_) + " of " +
-                                 std::to_string(element_->count) + " " + reason);
-  }
 
   /// Reads numbers as assimp does, so that they are the same to the last bit.
   double next_word_as(Type type) {
@@ -261,6 +269,8 @@ void read_element(const Element& element, Data& data, Mesh& mesh) {
       for (std::size_t v = 0; v < values; ++v) {
         const double value = data.next(property.type);
         const auto axis = std::ranges::find(axes, property.name) - axes;
+        if (property.size && names_corners && value != std::floor(value))
+          data.reject("has a corner " + shortest(value));
         if (property.size && names_corners)
           corners.push_back(value >= 0 && value < no_vertex ? static_cast<std::uint32_t>(value) : no_vertex);
         else if (!property.size && axis < 3)

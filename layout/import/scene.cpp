@@ -143,9 +143,10 @@ SceneFile::SceneFile(const std::filesystem::path& file, const ImportOptions& opt
   if (scene->mRootNode == nullptr) reject("no scene");
   aiScene& ours = const_cast<aiScene&>(*scene);  // it is the importer's, which is ours
   if (rewritten) restore_jumps(ours);
-  if (format == "Collada Importer" && ours.mNumAnimations > 0 && is_archive(file))
+  if (format == "Collada Importer" && ours.mNumAnimations > 0 && (is_archive(file) || is_utf16(file)))
     notes.emplace_back(
-        "of a packed Collada file keys are taken for linear; unpacked, they are read as they are");
+        "of a Collada file that is packed or in UTF-16 keys are taken for linear; unpacked and in UTF-8, "
+        "they are read as they are");
   if (is_fbx()) notes = correct_fbx(file, ours);
 }
 

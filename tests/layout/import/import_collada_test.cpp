@@ -170,6 +170,19 @@ TEST_F(ImportCollada, WhatIsNotRead) {
                  "with 0 numbers for the tangents of 3 keys");
   expect_refused(turning({{"n/t", "0 1 2", "0 0 0 1 2 3 4 5 6", "BEZIER BEZIER BEZIER", "", "", 3, 3}}),
                  "of kind BEZIER of 3 numbers");
+  const Curve bulge{"n/z.ANGLE",         "0 1 2",         "30 30 30", "HERMITE HERMITE HERMITE",
+                    "0 -90 1 -90 2 -90", "0 90 1 90 2 90"};
+  expect_refused(turning({bulge}), "has keys of kind HERMITE, which is not read");
+  expect_refused(turning({{"n/z.ANGLE", "0 1 2", "0 60", "STEP STEP STEP"}}), "has 2 numbers for 3 keys");
+  expect_refused(turning({{"n/z.ANGLE", "0 1 2", "0 6o 90", "STEP STEP STEP"}}), "has '6o' for a number");
+  std::string text = turning({{"n/z.ANGLE", "0 1 2", "0 60 90", "STEP STEP STEP"}});
+  const std::string accessor = "<accessor source=\"#c0o-a\"";
+  text.replace(text.find(accessor), accessor.size(), accessor + " offset=\"1\"");
+  expect_refused(text, "has a source with an offset or with values that have no name");
+  // However far into the file Collada begins.
+  text = turning({bulge});
+  text.insert(text.find("<!--"), "<!-- " + std::string(10'000, ' ') + " -->");
+  expect_refused(text, "has keys of kind HERMITE, which is not read");
   // Baked, or without any motion.
   read(turning({{"n/t", "0 0.04 0.08", "0 0 0 1 2 3 4 5 6", "BEZIER BEZIER BEZIER", "", "", 3, 3}}));
   read(turning({{"n/t", "0 1 2", "1 2 3 1 2 3 1 2 3", "BEZIER BEZIER BEZIER", "", "", 3, 3}}));

@@ -67,6 +67,9 @@ TEST_F(ImportText, ObjMayBeWrittenInManyWays) {
 TEST_F(ImportText, ObjThatIsNoneNamesItsLine) {
   expect_error("a.obj", "v 0 0 0\nv 1 0\n", "line 2: a vertex of 2 coordinates, not 3");
   expect_error("a.obj", "v 0 0 0\n\nv 1 nan 0\n", "line 3: coordinate 'nan' is not a finite number");
+  for (const char* const word : {"0x10", "3,5", "3abc", "3.0.5", "3d0", "3e", "1e400"})
+    expect_error("a.obj", std::string("v 0 0 0\nv 1 ") + word + " 0\n",
+                 std::string("line 2: coordinate '") + word + "' is not a finite number");
   expect_error("a.obj", plain_obj + "f 1 2 x\n", "line 7: corner 'x' names no vertex");
   expect_error("a.obj", plain_obj + "f 1 2 0\n", "line 7: corner '0' names no vertex");
   expect_error("a.obj", plain_obj + "f 1 2 5\n", "out of range");
@@ -162,6 +165,8 @@ TEST_F(ImportText, PlyThatIsNoneNamesThePlace) {
   expect_error("a.ply", good + "3 0 1 x\n", "face 0 of 1 has 'x' for a number");
   expect_error("a.ply", good + "-3 0 1 2\n", "face 0 of 1 has a list of -3");
   expect_error("a.ply", good + "3 0 1 5\n", "no triangles");
+  expect_error("a.ply", good + "3 0 1 2.5\n", "face 0 of 1 has a corner 2.5");
+  expect_error("a.ply", start + "property float y\nend_header\n", "line 7: 'y' is a property twice");
   const std::string binary = binary_ply(false, "\n");
   expect_error("a.ply", binary.substr(0, binary.size() - 1), "face 1 of 2 is not there");
 }
