@@ -56,9 +56,8 @@ struct CheckedPair {
   bool overlap;  ///< the two overlap in this frame
   bool passing;  ///< they do between this frame and the next, and in neither of them
   float depth;   ///< how far the first has to move to be free, metres
-  float
-      gap;  ///< between them in this frame, metres; 0 where they overlap, and where discs do but no nodes above
-  float x, y;  ///< where the first has to move
+  float gap;     ///< between them in this frame, metres; 0 also where discs overlap, but not the nodes above
+  float x, y;    ///< where the first has to move
   // Of a pass: how long after this frame they touch, in frames, and the way of the first until then, metres.
   float after, way_x, way_y;
 };

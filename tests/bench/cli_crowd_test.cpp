@@ -57,6 +57,7 @@ TEST(Cli, CrowdDrawsAPicture) {
   const std::string svg = read_text(svg_file);
   EXPECT_TRUE(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
   EXPECT_LT(svg.size(), 600000u);
+  EXPECT_NE(svg.find(": depth 6 clears"), std::string::npos);  // the terminal's last line is about all depths
   for (const char* id :
        {"crowd", "colliding", "cleared", "free", "overlaps", "single-cylinders", "legend", "scale"})
     EXPECT_NE(svg.find("id=\"" + std::string(id) + "\""), std::string::npos) << id;

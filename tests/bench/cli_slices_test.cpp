@@ -110,7 +110,10 @@ TEST(Cli, SlabsAreDrawn) {
   const std::string drawn = read_text(svg);
   for (const char* panel : {"slab-0", "slab-1", "slab-2", "slab-3", "slab 3: nothing"})
     EXPECT_NE(drawn.find(panel), std::string::npos) << panel;
-  ASSERT_EQ(bch({"crowd", "--agents", "60", "--poses", "3", "--svg", crowd}, slices).code, 0);
+  const Ending run = bch({"crowd", "--agents", "60", "--poses", "3", "--svg", crowd}, slices);
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.out.find("the collisions of a cylinder for each of the 4 slabs"), std::string::npos)
+      << run.out;
   EXPECT_NE(read_text(crowd).find("slab by slab"), std::string::npos);
 }
 

@@ -63,4 +63,4 @@ endif()
 run_wrong("bch has no component 'characters'"
   ${CMAKE_COMMAND} -S ${SOURCE}/tests/examples/consumer -B ${WORK}/wrong_consumer ${settings})
 run_wrong("BCH_BUILD_IMPORT needs BCH_BUILD_CHARACTERS"
-  ${CMAKE_COMMAND} -S ${SOURCE} -B ${WORK}/bch -DBCH_BUILD_IMPORT=ON)
+  ${CMAKE_COMMAND} -S ${SOURCE}/tests/examples/subproject -B ${WORK}/bch -DBCH_BUILD_IMPORT=ON)
