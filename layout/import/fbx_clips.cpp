@@ -153,6 +153,7 @@ class ClipCorrector {
           if (key.time > first_ && key.time < last_) times.insert(key.time);
       }
     std::vector<Moment> list;
+    list.reserve(times.size());
     for (const double time : times) list.push_back({time, at(model, time, true), at(model, time)});
     return list;
   }
@@ -189,7 +190,7 @@ class ClipCorrector {
   /// Keeps a channel of assimp's for the first model of its name that moves like that.
   bool keep(aiNodeAnim& channel, std::vector<const FbxModel*>& models) {
     for (const FbxModel* const model : models) {
-      const FbxTransform rest = file_.chain.local(*model, {});
+      FbxTransform rest = file_.chain.local(*model, {});
       const Evaluation shown = [&](double seconds) {
         return shown_by(channel, (seconds - first_) * ticks_, rest);
       };
@@ -282,7 +283,7 @@ void correct_fbx_clips(FbxScene& file, aiScene& scene) {
   aiAnimation** const all = animations.empty() ? nullptr : new aiAnimation*[animations.size()];
   std::copy(animations.begin(), animations.end(), all);
   for (std::unique_ptr<aiAnimation>& animation : made)
-    if (animation->mNumChannels > 0) animation.release();
+    if (animation->mNumChannels > 0) static_cast<void>(animation.release());  // `all` owns it
   delete[] scene.mAnimations;
   scene.mAnimations = all;
   scene.mNumAnimations = static_cast<unsigned>(animations.size());
