@@ -245,11 +245,9 @@ TEST_F(ImportFbx, NodesThatShareANameAreKnownByIdentity) {
 }
 
 TEST_F(ImportFbx, WhatIsNotRead) {
-#ifndef BCH_SANITIZED  // assimp loses the memory of the first one's weights
   FbxText twins = man();
   twins.nodes[1].name = "Spine";
   expect_refused(twins, "has two bones named 'Spine'");
-#endif
   FbxText layers = man();
   layers.curves = {{2, "Lcl Rotation", 1, {0, 1}, {0, 60}},
                    {2, "Lcl Rotation", 1, {0, 1}, {0, 30}, 4, 0, 0, 1}};
@@ -258,6 +256,9 @@ TEST_F(ImportFbx, WhatIsNotRead) {
   geometric.curves = {{2, "Lcl Rotation", 1, {0, 1}, {0, 60}}, {3, "GeometricRotation", 1, {0, 1}, {0, 60}}};
   expect_refused(geometric, "moves GeometricRotation of node 'Hat'");
   for (const std::string percent : {"0", "100", "-3", "animated"}) {
+#ifdef BCH_SANITIZED
+    if (percent == "animated") continue;  // assimp loses the memory of its channel
+#endif
     FbxText blend = man();
     blend.more_objects =
         "Geometry: 7000, \"Geometry::Fat\", \"Shape\" {\nVersion: 100\nIndexes: *1 {\na: 1\n}\n"
