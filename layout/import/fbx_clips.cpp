@@ -190,7 +190,7 @@ class ClipCorrector {
   /// Keeps a channel of assimp's for the first model of its name that moves like that.
   bool keep(aiNodeAnim& channel, std::vector<const FbxModel*>& models) {
     for (const FbxModel* const model : models) {
-      FbxTransform rest = file_.chain.local(*model, {});
+      const FbxTransform rest = file_.chain.local(*model, {});
       const Evaluation shown = [&](double seconds) {
         return shown_by(channel, (seconds - first_) * ticks_, rest);
       };
@@ -205,7 +205,7 @@ class ClipCorrector {
   /// Returns a channel that moves a model as the file has it; none if it rests.
   std::unique_ptr<aiNodeAnim> channel_of(const FbxModel& model) {
     const std::vector<Moment> list = moments(model);
-    const FbxTransform rest = file_.chain.local(model, {});
+    FbxTransform rest = file_.chain.local(model, {});
     if (is_right(model, list, [&](double) { return rest; })) return nullptr;
     ChannelMaker maker(file_.document.file(), place_ + ", node '" + model.name + "':");
     const auto add = [&](double seconds, const FbxTransform& pose) {
