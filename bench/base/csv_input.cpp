@@ -200,10 +200,9 @@ std::vector<Pair> read_pairs(const std::string& file, const AgentTable& agents) 
 
 void guard_ids(AgentTable& table) {
   for (std::string& id : table.id) {
+    if (std::string_view("=+-@\t\r\n").find(id.front()) == std::string_view::npos) continue;
     const std::optional<double> number = parse_number(id);
-    if (std::string_view("=+-@\t\r\n").find(id.front()) != std::string_view::npos &&
-        !(number && std::isfinite(*number)))
-      id.insert(id.begin(), '\'');
+    if (!number || !std::isfinite(*number)) id.insert(id.begin(), '\'');
   }
 }
 

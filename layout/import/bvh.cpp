@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "layout/base/decimal.hpp"
 #include "layout/import/scene.hpp"
 #include "layout/import/text.hpp"
 
@@ -12,10 +11,8 @@ namespace {
 
 /// Returns a whole number, or -1.
 double whole_number(std::string_view word) {
-  double value = -1;
-  const auto [end, error] = double_from_chars(word.data(), word.data() + word.size(), value);
-  const bool whole = error == std::errc() && end == word.data() + word.size() && value == std::floor(value);
-  return whole ? value : -1;
+  const double value = number_of(word).value_or(-1);
+  return value == std::floor(value) ? value : -1;
 }
 
 /// Goes over the channels of a joint.

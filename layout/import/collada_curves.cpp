@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <vector>
 
-#include "layout/base/decimal.hpp"
 #include "layout/import/collada.hpp"
 #include "layout/import/collada_text.hpp"
 #include "layout/import/scene.hpp"
@@ -108,11 +108,9 @@ class CurveRewriter {
         collada_.reject(what + "a source with an offset or with values that have no name, which is not read");
     }
     for (const std::string_view word : words_of(array->content)) {
-      double number = 0;
-      const auto [end, error] = double_from_chars(word.data(), word.data() + word.size(), number);
-      if (error != std::errc() || end != word.data() + word.size())
-        collada_.reject(what + "'" + std::string(word) + "' for a number");
-      list.push_back(number);
+      const std::optional<double> number = number_of(word);
+      if (!number) collada_.reject(what + "'" + std::string(word) + "' for a number");
+      list.push_back(*number);
     }
     return list;
   }

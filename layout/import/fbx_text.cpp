@@ -19,8 +19,7 @@ double number_from(std::string_view word) {
   double number = 0;
   const auto [end, error] = double_from_chars(word.data(), word.data() + word.size(), number);
   if (end != word.data() + word.size()) return std::nan("");
-  const bool tiny = word.find("e-") != word.npos || word.find("E-") != word.npos;
-  return error == std::errc::result_out_of_range ? (tiny ? 0 : HUGE_VAL) : number;
+  return error == std::errc::result_out_of_range ? HUGE_VAL : number;
 }
 
 /// Reads the records of a text file: a name and a colon, values between commas, records in braces.

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <system_error>
 
-#include "layout/base/decimal.hpp"
 #include "layout/import/scene.hpp"
 #include "layout/import/text.hpp"
 
@@ -60,9 +59,8 @@ class PlainObj {
 
   static bool is_number(std::string_view word) {
     if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
-    double number = 0;
-    const auto [end, error] = double_from_chars(word.data(), word.data() + word.size(), number);
-    return error == std::errc() && end == word.data() + word.size() && std::isfinite(number);
+    const std::optional<double> number = number_of(word);
+    return number && std::isfinite(*number);
   }
 
   /// Three coordinates, and a fourth that divides them; further numbers are colours.

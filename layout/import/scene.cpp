@@ -37,16 +37,18 @@ void check_readable(const std::filesystem::path& file) {
   if (size > largest_file) reject(file, "larger than " + count(largest_file >> 30, "GiB", "GiB"));
 }
 
+std::string first_two_bytes(const std::filesystem::path& file) {
+  std::string start(2, '\0');
+  std::ifstream(file, std::ios::binary).read(start.data(), 2);
+  return start;
+}
+
 bool is_archive(const std::filesystem::path& file) {
-  char start[2] = {};
-  std::ifstream(file, std::ios::binary).read(start, sizeof start);
-  return std::string_view(start, sizeof start) == "PK";
+  return first_two_bytes(file) == "PK";
 }
 
 bool is_utf16(const std::filesystem::path& file) {
-  char start[2] = {};
-  std::ifstream(file, std::ios::binary).read(start, sizeof start);
-  const std::string_view mark(start, sizeof start);
+  const std::string mark = first_two_bytes(file);
   return mark == "\xFE\xFF" || mark == "\xFF\xFE";
 }
 

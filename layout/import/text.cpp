@@ -4,6 +4,9 @@
 #include "layout/import/text.hpp"
 
 #include <algorithm>
+#include <system_error>
+
+#include "layout/base/decimal.hpp"
 
 namespace bch::detail::importing {
 
@@ -30,6 +33,13 @@ std::vector<std::string_view> words_of(std::string_view line) {
     if (word.empty()) return words;
     words.push_back(word);
   }
+}
+
+std::optional<double> number_of(std::string_view word) {
+  double number = 0;
+  const auto [end, error] = double_from_chars(word.data(), word.data() + word.size(), number);
+  if (error != std::errc() || end != word.data() + word.size()) return std::nullopt;
+  return number;
 }
 
 }  // namespace bch::detail::importing

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,6 +32,9 @@ class Lines {
 /// Takes the next word off a text: what stands between blanks or ends of lines. Empty at the end.
 std::string_view next_word(std::string_view& text);
 std::vector<std::string_view> words_of(std::string_view line);
+
+/// Returns the number that is all of a word, infinities and NaN included; none for other words and numbers too large.
+std::optional<double> number_of(std::string_view word);
 
 /// Returns an OBJ file's text as assimp reads it rightly: each vertex as its coordinates, each face as the numbers of its
 /// vertices, without comments and lines that go on. Textures and normals are left out.

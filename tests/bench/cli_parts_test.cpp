@@ -193,7 +193,7 @@ nlohmann::ordered_json identity_of(const fs::path& file) {
   return {{"file", file.filename().string()}, {"bytes", bytes}, {"xxh3", fmt::format("{:016x}", checksum)}};
 }
 
-/// Numbers that no count is, in a file whose manifest vouches for them.
+/// A summary whose counts are fractions, negative or too large is refused, also where the manifest has its checksum.
 TEST(CliParts, HaveWholeNumbersForCounts) {
   const TemporaryFolder folder;
   const std::string file = folder.write("people.txt", crossing_people());
