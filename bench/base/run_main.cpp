@@ -19,7 +19,7 @@
 
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/printable.hpp"
-#include "layout/trajectory/trajectory.hpp"
+#include "layout/recordings/trajectory.hpp"
 
 namespace bch::cli {
 namespace {

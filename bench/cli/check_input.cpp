@@ -12,7 +12,7 @@
 #include "bench/base/number.hpp"
 #include "bench/base/wkt_input.hpp"
 #include "bench/characters/characters.hpp"
-#include "kernel/check/baked_cast.hpp"
+#include "kernel/recordings/baked_cast.hpp"
 
 namespace bch::cli {
 namespace {

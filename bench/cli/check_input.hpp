@@ -15,7 +15,7 @@
 
 #include "bench/cli/check_output.hpp"
 #include "bench/cli/options.hpp"
-#include "kernel/check/check.hpp"
+#include "kernel/recordings/check.hpp"
 
 namespace bch::cli {
 

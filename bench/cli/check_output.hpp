@@ -9,7 +9,7 @@
 
 #include "bench/base/output.hpp"
 #include "bench/base/output_file.hpp"
-#include "kernel/check/check.hpp"
+#include "kernel/recordings/check.hpp"
 
 namespace bch::cli {
 

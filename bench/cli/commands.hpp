@@ -18,7 +18,5 @@ std::function<void()> add_inspect_command(CLI::App& program);
 std::function<void()> add_merge_command(CLI::App& program);
 std::function<void()> add_place_command(CLI::App& program);
 std::function<void()> add_query_command(CLI::App& program);
-std::function<void()> add_report_command(CLI::App& program);
-std::function<void()> add_stability_command(CLI::App& program);
 
 }  // namespace bch::cli

@@ -13,7 +13,7 @@
 #include <string>
 #include <utility>
 
-#include "kernel/check/walkers.hpp"
+#include "kernel/recordings/walkers.hpp"
 
 namespace bch::cli {
 namespace {

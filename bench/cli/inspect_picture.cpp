@@ -11,7 +11,7 @@
 namespace bch::cli {
 namespace {
 
-constexpr double panel = 210, label = 38, gap = 14, margin = 20, head = 80;
+constexpr double panel = 210, label = 38, gap = 14, border = 20, head = 80;
 /// Part of the panel that the largest depth's discs fill.
 constexpr double fill = 0.94;
 
@@ -81,7 +81,7 @@ Layout lay_out(const ShapeFacts& facts, std::size_t panels) {
 }
 
 void draw_panel(Svg& svg, const Layout& layout, const Panel& shown, std::size_t index) {
-  const Pixel corner{margin + static_cast<double>(index % layout.columns) * (panel + gap),
+  const Pixel corner{border + static_cast<double>(index % layout.columns) * (panel + gap),
                      head + static_cast<double>(index / layout.columns) * (panel + label)};
   const Placement placement{
       {corner.x + panel / 2 - layout.scale * layout.x, corner.y + panel / 2 + layout.scale * layout.y},
@@ -131,20 +131,20 @@ std::string draw_shape(const LoadedCharacter& character, const ShapeFacts& facts
   const std::size_t rows = (panels.size() + layout.columns - 1) / layout.columns;
   const std::size_t filled = std::min(panels.size(), layout.columns);
   const double width =
-      2 * margin + static_cast<double>(std::max<std::size_t>(filled, 3)) * (panel + gap) - gap;
+      2 * border + static_cast<double>(std::max<std::size_t>(filled, 3)) * (panel + gap) - gap;
   const double height = head + static_cast<double>(rows) * (panel + label) + 8;
   const std::string title = fmt::format("{}, {}", character.character.name, shape_title(character, facts));
   Svg svg(width, height, title, css);
-  svg.text({margin, 38}, "title", title);
+  svg.text({border, 38}, "title", title);
   svg.text(
-      {margin, 62}, "caption",
+      {border, 62}, "caption",
       facts.slabs.empty()
           ? fmt::format(
                 "Seen from above: outline of {:.3f} m², and the discs of its hierarchy cut at each depth.",
                 facts.outline_area)
           : std::string(
                 "Seen from above, slab by slab: the outline of each, and the leaf discs of its hierarchy."));
-  draw_scale(svg, width - margin, layout.scale);
+  draw_scale(svg, width - border, layout.scale);
   for (std::size_t i = 0; i < panels.size(); ++i) draw_panel(svg, layout, panels[i], i);
   return std::move(svg).finish();
 }

@@ -41,11 +41,10 @@ int run(int argc, char** argv) {
   program.require_subcommand(1);
   program.get_formatter()->column_width(24);
   const std::pair<const char*, std::function<void()>> commands[] = {
-      {"bake", add_bake_command(program)},           {"check", add_check_command(program)},
-      {"crowd", add_crowd_command(program)},         {"inspect", add_inspect_command(program)},
-      {"merge", add_merge_command(program)},         {"place", add_place_command(program)},
-      {"query", add_query_command(program)},         {"report", add_report_command(program)},
-      {"stability", add_stability_command(program)},
+      {"bake", add_bake_command(program)},   {"check", add_check_command(program)},
+      {"crowd", add_crowd_command(program)}, {"inspect", add_inspect_command(program)},
+      {"merge", add_merge_command(program)}, {"place", add_place_command(program)},
+      {"query", add_query_command(program)},
   };
   std::vector<std::string_view> names;
   for (const auto& command : commands) names.emplace_back(command.first);

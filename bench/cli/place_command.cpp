@@ -22,7 +22,7 @@
 #include "bench/cli/given_paths.hpp"
 #include "bench/cli/options.hpp"
 #include "bench/cli/place_report.hpp"
-#include "kernel/check/walker_cast.hpp"
+#include "kernel/recordings/walker_cast.hpp"
 
 namespace bch::cli {
 namespace {

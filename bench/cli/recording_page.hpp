@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "bench/check_page/check_page.hpp"
 #include "bench/cli/check_output.hpp"
+#include "bench/recordings/check_page.hpp"
 
 namespace bch::cli {
 

@@ -17,8 +17,8 @@ using namespace detail;
 
 namespace {
 
-constexpr double stride = 1.3 / 30;   ///< metres a step
-constexpr double weight_unit = 1e-3;  ///< of a pair: weights are whole numbers
+constexpr double step_length = 1.3 / 30;  ///< metres a step
+constexpr double weight_unit = 1e-3;      ///< of a pair: weights are whole numbers
 
 class CutSimulation {
  public:
@@ -83,7 +83,7 @@ class CutSimulation {
     }
     for (CrowdAgent& agent : drawn) {
       const double heading = random.uniform(2 * std::numbers::pi);
-      agent.x += stride * std::cos(heading), agent.y += stride * std::sin(heading);
+      agent.x += step_length * std::cos(heading), agent.y += step_length * std::sin(heading);
       from.migrants += owners_[cell_at(agent.x, agent.y, side_)].rank != owner;
     }
   }

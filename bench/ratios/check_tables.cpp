@@ -11,7 +11,7 @@
 
 #include "bench/ratios/ratios.hpp"
 #include "bench/workload/contender.hpp"
-#include "kernel/check/check.hpp"
+#include "kernel/recordings/check.hpp"
 #include "layout/base/random.hpp"
 
 namespace bch::bench {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "bench/report/experiment.hpp"
-#include "kernel/check/check.hpp"
+#include "kernel/recordings/check.hpp"
 
 // The recordings of the test data and the bodies that experiments put on them.
 

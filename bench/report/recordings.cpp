@@ -17,7 +17,7 @@
 #include "bench/report/experiment.hpp"
 #include "bench/report/recorded_crowds.hpp"
 #include "bench/report/statistics.hpp"
-#include "kernel/check/check.hpp"
+#include "kernel/recordings/check.hpp"
 
 // Bodies on recorded people, who never overlap, so that whatever does is a false alarm; and beside them on simulated ones.
 

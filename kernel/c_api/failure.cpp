@@ -11,7 +11,7 @@
 #include <bch/import.hpp>
 #include <bch/version.hpp>
 
-#include "layout/trajectory/trajectory.hpp"
+#include "layout/recordings/trajectory.hpp"
 
 namespace bch::c_api {
 namespace {

@@ -12,9 +12,9 @@
 #include "kernel/c_api/handles.hpp"
 #include "kernel/c_api/objects.hpp"
 #include "kernel/c_api/obstacles.hpp"
-#include "kernel/check/baked_cast.hpp"
-#include "kernel/check/check.hpp"
-#include "layout/trajectory/trajectory.hpp"
+#include "kernel/recordings/baked_cast.hpp"
+#include "kernel/recordings/check.hpp"
+#include "layout/recordings/trajectory.hpp"
 
 struct bch_trajectory {
   std::unique_ptr<bch::detail::TrajectoryReader> reader;

@@ -13,10 +13,10 @@
 #include <utility>
 #include <vector>
 
-#include "bench/check_page/embedding.hpp"
-#include "bench/check_page/overlap_series.hpp"
-#include "bench/check_page/page_shapes.hpp"
-#include "bench/check_page/rounded.hpp"
+#include "bench/recordings/embedding.hpp"
+#include "bench/recordings/overlap_series.hpp"
+#include "bench/recordings/page_shapes.hpp"
+#include "bench/recordings/rounded.hpp"
 #include "layout/base/random.hpp"
 #include "tests/support/page_blocks.hpp"
 

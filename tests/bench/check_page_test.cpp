@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "bench/check_page/check_page.hpp"
+#include "bench/recordings/check_page.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

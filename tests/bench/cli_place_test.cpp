@@ -18,7 +18,7 @@
 #include <bch/default_characters.hpp>
 #include <bch/pose_shape.hpp>
 
-#include "kernel/check/walker_cast.hpp"
+#include "kernel/recordings/walker_cast.hpp"
 #include "tests/support/bch_run.hpp"
 #include "tests/support/temporary_folder.hpp"
 

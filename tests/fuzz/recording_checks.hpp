@@ -5,7 +5,7 @@
 
 #include <filesystem>
 
-#include "layout/trajectory/trajectory.hpp"
+#include "layout/recordings/trajectory.hpp"
 
 namespace bch::fuzz {
 

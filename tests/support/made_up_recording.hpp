@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "kernel/check/check.hpp"
+#include "kernel/recordings/check.hpp"
 #include "tests/support/scenes.hpp"
 
 // Recordings that are made up, of which it is known who runs into whom.

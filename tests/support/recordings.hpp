@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "layout/trajectory/trajectory.hpp"
+#include "layout/recordings/trajectory.hpp"
 
 namespace bch::test {
 

@@ -16,7 +16,7 @@
 #include <bch/bch.hpp>
 
 #include "bench/base/disc_union_area.hpp"
-#include "bench/check_page/check_page.hpp"
+#include "bench/recordings/check_page.hpp"
 #include "layout/base/random.hpp"
 
 // Writes the page of a recording that it makes up, for tests in a browser, and what the page should show as JSON: two

@@ -1,13 +1,10 @@
-# Builds SOURCE as a subproject with every option off, where no package but TBB can be found and by a parent whose flags break
+# Builds SOURCE as a subproject without components, where no package but TBB can be found and by a parent whose flags break
 # arithmetic; installs it, and builds a program against that. The subproject's answers are those of the program ANSWERS.
 # Usage: cmake -DSOURCE=... -DWORK=... -DCOMPILER=... -DFLAGS=... -DANSWERS=... -P kernel_alone_test.cmake
 include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 
 set(settings -G Ninja -DCMAKE_UNITY_BUILD=ON -DCMAKE_CXX_COMPILER=${COMPILER} -DCMAKE_PREFIX_PATH=${WORK}/prefix)
-set(alone -DBCH_XXHASH_INCLUDE_DIR=/nonexistent)
-foreach(component BAKED CHARACTERS IMPORT TRAJECTORIES MPI BASELINES BENCH TESTS)
-  list(APPEND alone -DBCH_BUILD_${component}=OFF)
-endforeach()
+set(alone -DBCH_XXHASH_INCLUDE_DIR=/nonexistent -DBCH_COMPONENTS=)
 foreach(package Eigen3 PkgConfig fcl CLI11 nlohmann_json fmt benchmark GTest)
   list(APPEND alone -DCMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
 endforeach()
@@ -62,5 +59,5 @@ endif()
 # Who asks for more than there is reads why.
 run_wrong("bch has no component 'characters'"
   ${CMAKE_COMMAND} -S ${SOURCE}/tests/examples/consumer -B ${WORK}/wrong_consumer ${settings})
-run_wrong("BCH_BUILD_IMPORT needs BCH_BUILD_CHARACTERS"
-  ${CMAKE_COMMAND} -S ${SOURCE}/tests/examples/subproject -B ${WORK}/bch -DBCH_BUILD_IMPORT=ON)
+run_wrong("import needs the component characters"
+  ${CMAKE_COMMAND} -S ${SOURCE}/tests/examples/subproject -B ${WORK}/bch -DBCH_COMPONENTS=import)

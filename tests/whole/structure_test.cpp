@@ -104,9 +104,10 @@ TEST(Layers, LibrariesStayInTheirRooms) {
                     "^default_character/(body|human)_|^import/(fbx_document|scene|units)");
   expect_no_include("layout", "zlib", "^import/fbx_record");
   expect_no_include("layout", "xxhash", "^baked/checksum");
-  expect_no_include("layout", "sqlite3", "^trajectory/sqlite_");
-  expect_no_include("layout", "hdf5", "^trajectory/hdf5_recording");
-  expect_no_include("layout", "layout/trajectory/", "^trajectory/");
+  expect_no_include("layout", "sqlite3", "^recordings/sqlite_");
+  expect_no_include("layout", "hdf5", "^recordings/hdf5_recording");
+  expect_no_include("layout", "layout/recordings/", "^recordings/");
+  expect_no_include("kernel", "(layout|kernel)/recordings/", "^recordings/|^c_api/");
   expect_no_include("kernel", "assimp/|Eigen/|polyclipping/");
   expect_no_include("kernel", "xsimd/");
   expect_no_include("baselines", "assimp/|xsimd/|oneapi/tbb|tbb/");

@@ -65,12 +65,12 @@ struct ScenePlan {
   std::vector<std::uint8_t> agent_level;   ///< one per agent: Agents::level
 };
 
-/// Returns the cut depth that a density needs, by measurement (`bch report --experiment detail`). It is the coarsest one whose false
+/// Returns the cut depth that a density needs, by measurement (`bch_lab report --experiment detail`). It is the coarsest one whose false
 /// collisions stop a walking person at most once a second, or all_depths where no depth does.
 std::uint32_t depth_at_density(double people_per_square_metre);
 
 /// Returns planes that clear most false collisions of standing people about 1.75 m tall, metres, for 1, 2, 3, 4 or 8 slabs. They were
-/// measured (`bch_ratios --table slices`, `bch report --experiment error_time`); best_slices() finds planes for other bodies.
+/// measured (`bch_ratios --table slices`, `bch_lab report --experiment error_time`); best_slices() finds planes for other bodies.
 /// Errors:  throws std::invalid_argument on another number.
 std::vector<float> standing_slices(std::uint32_t slabs);
 

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+
+namespace bch::cli {
+
+/// Adds a subcommand to the laboratory's program.
+/// Returns: a function that runs it once the command line was read.
+/// Errors:  the returned function throws UsageError, InputError, ImportError, BakedFileError, anything else for a fault.
+std::function<void()> add_report_command(CLI::App& program);
+std::function<void()> add_stability_command(CLI::App& program);
+
+}  // namespace bch::cli

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <algorithm>
+
+#include "kernel/recordings/walker_cast.hpp"
+#include "layout/recordings/row.hpp"
+
+namespace bch::detail {
+namespace {
+
+using trajectory::shown;
+
+[[noreturn]] void reject(const NamedMotion& motion, const std::string& reason) {
+  throw TrajectoryError(motion.place + ": " + reason);
+}
+
+template <class Named>
+std::string names_of(const Named& all) {
+  std::string names;
+  for (const auto& each : all) names += (names.empty() ? "" : ", ") + shown(each.name);
+  return names;
+}
+
+bool is_called(const CastMember& member, const std::string& name) {
+  return member.name == name || member.name.substr(0, member.name.rfind('.')) == name;
+}
+
+std::optional<std::uint32_t> member_of(const NamedMotion& motion, CastView cast) {
+  if (motion.character.empty()) return std::nullopt;
+  const auto has_name = [&](const CastMember& member) { return is_called(member, motion.character); };
+  const auto found = std::find_if(cast.begin(), cast.end(), has_name);
+  if (found == cast.end())
+    reject(motion, "character " + shown(motion.character) + " is none of " + names_of(cast));
+  if (std::find_if(found + 1, cast.end(), has_name) != cast.end())
+    reject(motion, "character " + shown(motion.character) + " may be several of " + names_of(cast));
+  return static_cast<std::uint32_t>(found - cast.begin());
+}
+
+std::uint32_t clip_of(const NamedMotion& motion, const CastMember& member) {
+  const auto found = std::find_if(member.clips.begin(), member.clips.end(),
+                                  [&](const CastClip& clip) { return clip.name == motion.clip; });
+  if (found == member.clips.end())
+    reject(motion, "clip " + shown(motion.clip) + " is not in " + shown(member.name) + ", which has " +
+                       names_of(member.clips));
+  return static_cast<std::uint32_t>(found - member.clips.begin());
+}
+
+CastMotion cast_motion(const NamedMotion& named, CastView cast) {
+  if (cast.empty())
+    reject(named,
+           (named.character.empty() ? "clip " + shown(named.clip) : "character " + shown(named.character)) +
+               " needs a file that has it: --character has to name it");
+  CastMotion motion{member_of(named, cast), {}};
+  if (named.clip.empty()) return motion;
+  for (std::uint32_t k = 0; k < cast.size(); ++k)
+    motion.clips.push_back(motion.member && *motion.member != k ? 0 : clip_of(named, cast[k]));
+  return motion;
+}
+
+}  // namespace
+
+std::vector<CastMotion> cast_motions(std::span<const NamedMotion> named, CastView cast) {
+  std::vector<CastMotion> motions;
+  for (const NamedMotion& motion : named) motions.push_back(cast_motion(motion, cast));
+  return motions;
+}
+
+}  // namespace bch::detail

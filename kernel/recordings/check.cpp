@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/recordings/check.hpp"
+
+#include <oneapi/tbb/task_group.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "kernel/recordings/events.hpp"
+#include "kernel/recordings/frame_block.hpp"
+#include "kernel/recordings/frame_run.hpp"
+#include "kernel/runtime/floating_point_state.hpp"
+#include "kernel/runtime/task_ranges.hpp"
+
+namespace bch::detail {
+namespace {
+
+constexpr std::size_t run_people = 4096;  ///< of a task, about
+constexpr double pairs_at_once = 4e6;     ///< about, where runs of a block have more: some 150 bytes each
+
+/// Checks blocks of frames.
+class Checker {
+ public:
+  Checker(const TrajectoryInfo& info, const CheckOptions& options,
+          const std::function<void(const CheckedFrame&, const ShapeSet&)>& seen)
+      : options_(options),
+        motions_(cast_motions(info.motions, options_.cast)),
+        seen_(seen),
+        shapes_(options_.plan, options_.cast, options_.baked) {}
+
+  /// Checks all frames of a block but the last one, which the next block begins with or nobody asks for; at the end that one, too.
+  void check(const FrameBlock& block, bool at_end, double fps);
+  CheckSummary finish(std::size_t people);
+
+ private:
+  std::size_t look(const FrameBlock& block, std::size_t frames);
+  void pose(std::size_t runs);
+  std::size_t asked_at_once(std::size_t first, std::size_t end) const;
+  void tell(const FrameBlock& block, const FrameRun& run, double fps);
+
+  const CheckOptions options_;
+  const std::vector<CastMotion> motions_;
+  const std::function<void(const CheckedFrame&, const ShapeSet&)>& seen_;
+  WalkerShapes shapes_;
+  CheckSummary summary_;
+  EventLog events_;
+  std::vector<std::unique_ptr<FrameRun>> runs_;
+  // Of a block.
+  std::vector<WalkerPose> poses_;
+  std::vector<std::uint32_t> shape_;
+};
+
+/// Divides a block into runs of frames, the last frame being one where it does not belong to the block.
+std::vector<std::size_t> run_begins(const FrameBlock& block, std::size_t frames) {
+  std::vector<std::size_t> begins{0};
+  for (std::size_t i = 1; i < frames; ++i)
+    if (block.begin(i) - block.begin(begins.back()) >= run_people) begins.push_back(i);
+  if (frames > 0 && frames < block.frames()) begins.push_back(frames);
+  begins.push_back(block.frames());
+  return begins;
+}
+
+/// Takes the people of a block. Returns how many runs they are.
+std::size_t Checker::look(const FrameBlock& block, std::size_t frames) {
+  const std::vector<std::size_t> begins = run_begins(block, frames);
+  const std::size_t runs = begins.size() - 1;
+  while (runs_.size() < runs) runs_.push_back(std::make_unique<FrameRun>(options_, motions_));
+  for_ranges(runs, 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) runs_[k]->look(block, begins[k], begins[k + 1]);
+  });
+  return runs;
+}
+
+void Checker::pose(std::size_t runs) {
+  poses_.clear();
+  for (std::size_t k = 0; k < runs; ++k)
+    poses_.insert(poses_.end(), runs_[k]->poses().begin(), runs_[k]->poses().end());
+  shape_.resize(poses_.size());
+  for (const WalkerPose& pose : shapes_.find(poses_, shape_)) summary_.poses.insert(pose.key());
+}
+
+/// Tells the frames of a run, and joins its overlaps to events.
+void Checker::tell(const FrameBlock& block, const FrameRun& run, double fps) {
+  std::span<const CheckedPair> pairs = run.pairs();
+  for (std::size_t i = run.first(); i < run.last(); ++i) {
+    const std::int64_t frame = block.frame(i);
+    const auto behind = std::find_if(pairs.begin(), pairs.end(),
+                                     [=](const CheckedPair& pair) { return pair.frame != frame; });
+    const auto count = static_cast<std::size_t>(behind - pairs.begin());
+    const CheckedFrame told{
+        frame, static_cast<double>(frame) / fps,
+        run.people().subspan(block.begin(i) - block.begin(run.first()), block.begin(i + 1) - block.begin(i)),
+        pairs.first(count)};
+    pairs = pairs.subspan(count);
+    for (const CheckedPair& pair : told.pairs) summary_.passings += pair.passing;
+    events_.add(told);
+    if (seen_) seen_(told, shapes_.set());
+    if (summary_.frames++ == 0) summary_.first_frame = frame;
+    summary_.last_frame = frame;
+  }
+  for (std::size_t k = 0; k < run.counts().size(); ++k) summary_.by_density[k] += run.counts()[k];
+}
+
+void Checker::check(const FrameBlock& block, bool at_end, double fps) {
+  const std::size_t frames = at_end ? block.frames() : block.frames() - 1;
+  const std::size_t looked_at = look(block, frames);
+  pose(looked_at);
+  const std::size_t runs = at_end ? looked_at : looked_at - 1;
+  for (std::size_t first = 0; first < runs;) {
+    const std::size_t last = asked_at_once(first, runs);
+    for_ranges(last - first, 1, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) runs_[first + k]->ask(shapes_, shape_);
+    });
+    for (; first < last; ++first) {
+      tell(block, *runs_[first], fps);
+      runs_[first]->let_go();
+    }
+  }
+}
+
+/// Returns the end of the runs that are asked together: mostly all, but no more than memory is wanted for.
+std::size_t Checker::asked_at_once(std::size_t first, std::size_t end) const {
+  double pairs = runs_[first]->expected_pairs();
+  std::size_t last = first + 1;
+  for (; last < end; ++last) {
+    pairs += runs_[last]->expected_pairs();
+    if (pairs > pairs_at_once) break;
+  }
+  return last;
+}
+
+CheckSummary Checker::finish(std::size_t people) {
+  for (const OverlapCount& count : summary_.by_density) summary_.all += count;
+  summary_.guessed = summary_.all.guessed;
+  summary_.events = events_.finish();
+  summary_.people = people;
+  return std::move(summary_);
+}
+
+/// Work that goes on beside the caller's until it is waited for, or at the latest until this is destroyed.
+class Beside {
+ public:
+  template <class Work>
+  explicit Beside(Work work) {
+    group_.run([work] {
+      const FloatingPointStateGuard floats;
+      work();
+    });
+  }
+  ~Beside() {
+    if (is_over_) return;
+    try {
+      group_.wait();
+    } catch (...) {  // what the caller threw comes first
+    }
+  }
+  void wait() {
+    is_over_ = true;
+    group_.wait();
+  }
+
+ private:
+  tbb::task_group group_;
+  bool is_over_ = false;
+};
+
+}  // namespace
+
+OverlapCount& OverlapCount::operator+=(const OverlapCount& other) {
+  people += other.people, guessed += other.guessed;
+  overlapping += other.overlapping, in_walls += other.in_walls;
+  near_pairs += other.near_pairs, overlapping_pairs += other.overlapping_pairs;
+  for (std::size_t k = 0; k < discs.size(); ++k)
+    discs[k] += other.discs[k], disc_pairs[k] += other.disc_pairs[k];
+  return *this;
+}
+
+CheckSummary check(TrajectoryReader& reader, const CheckOptions& options,
+                   const std::function<void(const CheckedFrame&, const ShapeSet&)>& seen) {
+  const FloatingPointStateGuard floats;
+  const double fps = reader.info().fps;
+  WalkerReader walkers(reader, options.frames, options.facing);
+  Checker checker(reader.info(), options, seen);
+  FrameBlock now, next;
+  bool at_end = now.read(walkers, options.people_at_once, {});
+  while (!at_end) {
+    Beside reading([&] { at_end = next.read(walkers, options.people_at_once, now); });
+    without_tasks_from_outside([&] { checker.check(now, false, fps); });
+    reading.wait();
+    std::swap(now, next);
+  }
+  if (now.frames() > 0) checker.check(now, !walkers.is_behind(), fps);
+  return checker.finish(walkers.people());
+}
+
+}  // namespace bch::detail

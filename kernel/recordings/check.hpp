@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include <bch/broad_phase.hpp>
+#include <bch/obstacles.hpp>
+
+#include "kernel/recordings/walker_shapes.hpp"
+#include "kernel/recordings/walkers.hpp"
+
+namespace bch::detail {
+
+/// Holds the options of a check of a recording.
+struct CheckOptions {
+  ShapeSetPlan plan = {};            ///< one level, of any depth; slices cut the bodies
+  Leaves leaves = Leaves::segments;  ///< what decides who overlaps, where the level has all depths
+  double max_distance = 0;           ///< gaps up to that are measured, metres; 0: none are
+  const ObstacleSet* walls = nullptr;
+  std::uint32_t coarse =
+      1;  ///< 1: neither speed nor phase of a pose is off by what moves an outline by 1 cm; 3: by 3 cm
+  FrameInterval frames = {};  ///< these are checked; all before them are read, because people hold headings
+  CastView cast = {};         ///< whose bodies people have; where it is empty, pedestrians'
+  const ShapeSet* baked =
+      nullptr;        ///< their shapes, of baked_cast(): of its last level, so that the plan does not matter
+  double facing = 0;  ///< radians: where the shapes of baked people face, which others do to 0
+  std::size_t people_at_once =
+      100'000;  ///< about so many, of many frames; the answers are the same for any number
+  std::size_t most_pairs =
+      0;  ///< of neighbours, in some 4 096 person-frames, or in one frame; 0: usual_most_pairs()
+};
+
+/// Reports that a recording has more pairs of neighbours than are held at once. The message names the frame.
+class TooManyPairs : public std::length_error {
+ public:
+  using std::length_error::length_error;
+};
+
+/// Describes two people of a frame, or a person and a wall, who are near each other.
+struct CheckedPair {
+  std::int64_t frame;
+  std::int64_t first, second;  ///< ids; `second` is a wall's number where `is_wall`
+  bool is_wall;
+  bool overlap;  ///< the two overlap in this frame
+  bool passing;  ///< they do between this frame and the next, and in neither of them
+  float depth;   ///< how far the first has to move to be free, metres
+  float gap;     ///< between them in this frame, metres; 0 also where discs overlap, but not the nodes above
+  float x, y;    ///< where the first has to move
+  // Of a pass: how long after this frame they touch, in frames, and the way of the first until then, metres.
+  float after, way_x, way_y;
+};
+
+/// Describes a person of a frame, as he was checked.
+struct CheckedPerson {
+  Walker walker;
+  std::uint32_t shape;  ///< in the set that is handed over with the frame
+  std::uint32_t pose;   ///< a number that nobody in another pose has, in the whole recording
+  float density;        ///< people per square metre within a metre of him
+  bool overlaps;        ///< somebody, in this frame
+  bool in_wall;
+};
+
+/// The number of rows from which on a recording is checked with coarser poses, so that these are still few beside
+/// the rows.
+constexpr std::uint64_t coarse_from = 300'000;
+
+/// Describes a frame that was checked.
+struct CheckedFrame {
+  std::int64_t frame;
+  double seconds;  ///< from frame 0
+  std::span<const CheckedPerson> people;
+  std::span<const CheckedPair> pairs;
+};
+
+/// The radii of discs whose answer is told beside, metres, and the classes of density, people per square metre.
+constexpr std::array<double, 4> compared_discs{0.2, 0.25, 0.3, 0.4};
+constexpr std::array<double, 6> density_classes{0, 1, 2, 3, 4, 6};
+
+/// Counts person-frames, and how many of them overlap.
+struct OverlapCount {
+  std::uint64_t people = 0, guessed = 0, overlapping = 0, in_walls = 0;
+  std::array<std::uint64_t, compared_discs.size()> discs{};
+  std::uint64_t near_pairs = 0, overlapping_pairs = 0;  ///< of those within 1.2 m
+  std::array<std::uint64_t, compared_discs.size()> disc_pairs{};
+
+  OverlapCount& operator+=(const OverlapCount& other);
+};
+using OverlapCounts = std::array<OverlapCount, density_classes.size()>;
+
+/// Describes two people who overlap in frames one after the other, or who pass: touch after the frame `from`, and before the next.
+struct OverlapEvent {
+  std::int64_t first, second;
+  bool is_wall;
+  std::int64_t from, to;  ///< frames
+  double worst;           ///< the frame of the largest depth; of a pass when they touch, between two frames
+  std::uint32_t frames;
+  float depth;  ///< the largest; below 0: they pass
+  double x, y;  ///< where the first person then is, metres
+
+  bool is_pass() const noexcept { return depth < 0; }
+  /// Returns the frame of the largest depth, or the one before a pass, and how long after it that is, in frames.
+  std::int64_t worst_frame() const noexcept { return is_pass() ? from : static_cast<std::int64_t>(worst); }
+  double after() const noexcept { return worst - static_cast<double>(worst_frame()); }
+};
+
+/// Summarises a recording, or an interval of its frames: people are then those until its end.
+struct CheckSummary {
+  std::uint64_t frames = 0, people = 0, guessed = 0, passings = 0;
+  std::int64_t first_frame = 0, last_frame = 0;
+  OverlapCount all;
+  OverlapCounts by_density;
+  std::vector<OverlapEvent> events;  ///< by their first frames, then ids
+  std::set<std::uint64_t> poses;     ///< keys of all that people were in
+};
+
+/// Puts a walking person on every row of a recording and finds who runs into whom. Reads frame after frame; memory grows with the people, and with
+/// those of some frames. Characters and clips that rows name are taken from the cast. `seen`, which may be empty, hears of every frame in turn, on the caller's thread.
+/// Threads: runs in the caller's TBB arena, and reads on any of its threads, what comes next while it checks. The same answers for any
+///          number of threads.
+/// Errors:  throws TrajectoryError, also where rows name what the cast does not have; TooManyPairs.
+CheckSummary check(TrajectoryReader& reader, const CheckOptions& options,
+                   const std::function<void(const CheckedFrame&, const ShapeSet&)>& seen = {});
+
+/// Joins what there is to tell of a recording's intervals, all of them one behind the other, to that of the whole: the same as if it had been
+/// checked at once. Overlaps that go on from one to the next are one event.
+CheckSummary join(std::span<const CheckSummary> intervals);
+
+}  // namespace bch::detail

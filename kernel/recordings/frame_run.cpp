@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/recordings/frame_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+
+#include <bch/clearance.hpp>
+#include <bch/collide.hpp>
+#include <bch/penetration.hpp>
+#include <bch/time_of_impact.hpp>
+
+#include "kernel/broad_phase/pair_limit.hpp"
+
+namespace bch::detail {
+namespace {
+
+constexpr std::uint32_t directions = 32;
+/// Metres: nobody passes through a body, an arm included, who moves by less than that.
+constexpr double thinnest = 0.05;
+
+bool by_place(Pair a, Pair b) {
+  return a.first != b.first ? a.first < b.first : a.second < b.second;
+}
+
+}  // namespace
+
+Agents FrameRun::agents(std::span<const std::uint32_t> shapes, std::size_t end) const {
+  const std::size_t count = end - begin_;
+  return {shapes.subspan(begin_, count), block_->x().subspan(begin_, count),
+          block_->y().subspan(begin_, count), block_->heading().subspan(begin_, count)};
+}
+
+double FrameRun::square_distance(Pair pair) const {
+  const double *x = block_->x().data() + begin_, *y = block_->y().data() + begin_;
+  return square(x[pair.first] - x[pair.second]) + square(y[pair.first] - y[pair.second]);
+}
+
+/// Returns the square of a person's way to the next frame: infinite where he is not there, or jumps.
+double FrameRun::square_step(std::size_t person) const {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  const auto x = own(block_->x()), y = own(block_->y());
+  const std::size_t next = own(block_->next_of())[person];
+  if (next == FrameBlock::nobody) return infinite;
+  const double step = square(block_->x()[next] - x[person]) + square(block_->y()[next] - y[person]);
+  return step > square(farthest_step) ? infinite : step;
+}
+
+/// Returns the longest way of a person to the next frame, metres.
+double FrameRun::longest_step() const {
+  double longest = 0;
+  for (std::size_t i = 0; i < size(); ++i)
+    if (const double step = square_step(i); std::isfinite(step)) longest = std::max(longest, step);
+  return std::sqrt(longest);
+}
+
+/// What is known of any two people, who are neither in overlap nor near each other yet.
+CheckedPair FrameRun::checked(Pair pair) const {
+  const auto people = own(block_->people());
+  return {block_->frame(own(block_->frame_of())[pair.first]),
+          people[pair.first].id,
+          people[pair.second].id,
+          false,
+          false,
+          false,
+          0,
+          0,
+          0,
+          0,
+          0,
+          0,
+          0};
+}
+
+void FrameRun::ask(const WalkerShapes& walker_shapes, std::span<const std::uint32_t> shapes) {
+  const ShapeSet& set = walker_shapes.set();
+  const Agents all = agents(shapes, end_);
+  checked_.clear();
+  ask_pairs(set, all);
+  ask_depths(set, all);
+  ask_between(set, all, agents(shapes, block_->begin(std::min(last_ + 1, block_->frames()))));
+  ask_walls(set, all);
+  std::sort(checked_.begin(), checked_.end(), [](const CheckedPair& a, const CheckedPair& b) {
+    return std::tie(a.frame, a.first, a.is_wall, a.second, a.passing) <
+           std::tie(b.frame, b.first, b.is_wall, b.second, b.passing);
+  });
+  tell_people(walker_shapes, all);
+  count_overlaps();
+}
+
+/// The pairs within a distance grow with its square.
+double FrameRun::expected_pairs() const {
+  const auto near = static_cast<double>(near_pairs_ + size());
+  return near * square((margin_ + near_distance) / near_distance);
+}
+
+void FrameRun::let_go() {
+  if (answers_.capacity() <= usual_pairs()) return;
+  body_phase_ = BroadPhase();
+  let_go(answers_), let_go(hits_), let_go(apart_), let_go(checked_);
+}
+
+/// Finds the neighbours among the people, as if each frame stood far from the others.
+std::span<const Pair> FrameRun::find(BroadPhase& phase, const ShapeSet& shapes,
+                                     std::span<const std::uint32_t> shape_of, double margin) const {
+  const std::size_t most = options_.most_pairs > 0 ? options_.most_pairs : usual_most_pairs(size());
+  try {
+    return phase.find(shapes, {shape_of, own(block_->apart_x()), own(block_->y()), own(block_->heading())},
+                      margin, most);
+  } catch (const std::length_error&) {
+    const std::int64_t first = block_->frame(first_), last = block_->frame(last_ - 1);
+    const std::string frames = last > first
+                                   ? "frames " + std::to_string(first) + " to " + std::to_string(last)
+                                   : "frame " + std::to_string(first);
+    throw TooManyPairs(frames + ": more than " + std::to_string(most) +
+                       " pairs of people are near each other");
+  }
+}
+
+/// Finds who overlaps, and who does not but may be within the largest distance or touch before the next frame.
+void FrameRun::ask_pairs(const ShapeSet& set, const Agents& all) {
+  const std::span<const Pair> found = find(body_phase_, set, all.shape, margin_);
+  answers_.resize(found.size());
+  collide(set, all, found, answers_, {.semantics = Semantics::solid, .leaves = options_.leaves});
+  const auto frame_of = own(block_->frame_of());
+  hits_.clear(), apart_.clear();
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (frame_of[found[i].first] == frame_of[found[i].second])
+      (answers_[i] != 0 ? hits_ : apart_).push_back(found[i]);
+  std::sort(hits_.begin(), hits_.end(), by_place);
+}
+
+/// Measures how far people are apart who do not overlap, by what decides whether they do; infinite beyond the distance.
+std::vector<float> FrameRun::gaps_of(const ShapeSet& set, const Agents& all, std::span<const Pair> pairs,
+                                     double max_distance) const {
+  std::vector<float> gaps(pairs.size());
+  clearance(set, all, pairs, {gaps}, {.max_distance = max_distance, .distance_leaves = options_.leaves});
+  return gaps;
+}
+
+/// Measures how deep people overlap, and how far others are apart.
+void FrameRun::ask_depths(const ShapeSet& set, const Agents& all) {
+  std::vector<Penetration> depths(hits_.size());
+  penetration(set, all, hits_, directions, depths);
+  overlaps_.assign(size(), 0);
+  for (std::size_t i = 0; i < hits_.size(); ++i) {
+    overlaps_[hits_[i].first] = overlaps_[hits_[i].second] = 1;
+    CheckedPair& pair = checked_.emplace_back(checked(hits_[i]));
+    pair.overlap = true;
+    pair.depth = depths[i].depth;
+    pair.x = static_cast<float>(depths[i].x), pair.y = static_cast<float>(depths[i].y);
+  }
+  if (options_.max_distance <= 0) return;
+  const std::vector<float> gaps = gaps_of(set, all, apart_, options_.max_distance);
+  for (std::size_t i = 0; i < apart_.size(); ++i)
+    if (std::isfinite(gaps[i])) checked_.emplace_back(checked(apart_[i])).gap = gaps[i];
+}
+
+/// Finds who passes through whom between two frames: people who do not overlap in either.
+void FrameRun::ask_between(const ShapeSet& set, const Agents& all, const Agents& with_next) {
+  const auto next_of = own(block_->next_of());
+  std::vector<Pair> moving, later;
+  std::vector<double> x, y;
+  for (const Pair pair : apart_) {
+    if (!std::isfinite(square_step(pair.first)) || !std::isfinite(square_step(pair.second))) continue;
+    const std::uint32_t first = next_of[pair.first], second = next_of[pair.second];
+    const Walker *from = block_->people().data() + begin_, *to = block_->people().data();
+    const double dx = to[first].x - from[pair.first].x - to[second].x + from[pair.second].x,
+                 dy = to[first].y - from[pair.first].y - to[second].y + from[pair.second].y;
+    if (dx * dx + dy * dy < thinnest * thinnest) continue;
+    moving.push_back(pair);
+    const auto begin = static_cast<std::uint32_t>(begin_);
+    later.push_back({first - begin, second - begin});
+    x.push_back(dx), y.push_back(dy);
+  }
+  std::vector<float> times(moving.size());
+  time_of_impact(set, all, moving, {x, y}, times);
+  // Discs decide about times, so that they have to be clear of each other before and after: who touches now, or then, does not pass.
+  const auto keep_if = [&](auto is_kept) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < moving.size(); ++i)
+      if (is_kept(i)) times[kept] = times[i], moving[kept] = moving[i], later[kept++] = later[i];
+    moving.resize(kept), later.resize(kept);
+  };
+  keep_if([&](std::size_t i) { return times[i] > 0 && times[i] < 1; });
+  answers_.resize(later.size());
+  collide(set, with_next, later, answers_, {.semantics = Semantics::solid, .leaves = Leaves::discs});
+  keep_if([&](std::size_t i) { return answers_[i] == 0; });
+  const std::vector<float> gaps = gaps_of(set, all, moving, std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < moving.size(); ++i)
+    add_pass(moving[i], begin_ + later[i].first, times[i], gaps[i]);
+}
+
+/// `next`: the first person in the next frame, of the block. `time`: of the contact, a share of the time until then.
+void FrameRun::add_pass(Pair people, std::size_t next, float time, float gap) {
+  const std::size_t now = begin_ + people.first;
+  const auto frame = [&](std::size_t person) { return block_->frame(block_->frame_of()[person]); };
+  const auto until_then = [time](auto from, auto to) { return time * static_cast<float>(to - from); };
+  CheckedPair& pair = checked_.emplace_back(checked(people));
+  pair.passing = true;
+  pair.gap = gap;
+  pair.after = until_then(frame(now), frame(next));
+  pair.way_x = until_then(block_->x()[now], block_->x()[next]);
+  pair.way_y = until_then(block_->y()[now], block_->y()[next]);
+}
+
+void FrameRun::ask_walls(const ShapeSet& set, const Agents& all) {
+  in_wall_.assign(size(), 0);
+  if (options_.walls == nullptr) return;
+  collide(set, all, *options_.walls, in_wall_, {.semantics = Semantics::solid, .leaves = options_.leaves});
+  std::vector<std::uint32_t> who, shape;
+  std::vector<double> x, y, heading;
+  for (std::uint32_t i = 0; i < size(); ++i)
+    if (in_wall_[i] != 0) {
+      who.push_back(i), shape.push_back(all.shape[i]);
+      x.push_back(all.x[i]), y.push_back(all.y[i]), heading.push_back(all.heading[i]);
+    }
+  std::vector<Penetration> depths(who.size());
+  std::vector<float> gaps(who.size());
+  std::vector<DiscPair> nearest(who.size());
+  penetration(set, {shape, x, y, heading}, *options_.walls, depths);
+  clearance(set, {shape, x, y, heading}, *options_.walls, {.distance = gaps, .discs = nearest},
+            {.overlap = Overlap::deepest});
+  for (std::size_t k = 0; k < who.size(); ++k) {
+    const std::uint32_t segment = nearest[k].second;
+    CheckedPair& pair = checked_.emplace_back(checked({who[k], who[k]}));
+    pair.second = segment == no_discs.second ? 0 : options_.walls->obstacle_of(segment);
+    pair.is_wall = pair.overlap = true;
+    pair.depth = depths[k].depth;
+    pair.x = static_cast<float>(depths[k].x), pair.y = static_cast<float>(depths[k].y);
+  }
+}
+
+void FrameRun::tell_people(const WalkerShapes& walker_shapes, const Agents& all) {
+  const auto people = own(block_->people());
+  checked_people_.clear();
+  for (std::size_t i = 0; i < size(); ++i)
+    checked_people_.push_back({people[i], all.shape[i], walker_shapes.given_up() + all.shape[i],
+                               static_cast<float>(density_[i]), overlaps_[i] != 0, in_wall_[i] != 0});
+}
+
+std::uint8_t FrameRun::class_of(Pair pair) const {
+  return std::max(density_class_[pair.first], density_class_[pair.second]);
+}
+
+void FrameRun::count_overlaps() {
+  for (std::size_t i = 0; i < size(); ++i) {
+    counts_[density_class_[i]].overlapping += overlaps_[i];
+    counts_[density_class_[i]].in_walls += in_wall_[i];
+  }
+  for (const Pair pair : hits_)
+    counts_[class_of(pair)].overlapping_pairs += square_distance(pair) <= square(near_distance);
+}
+
+}  // namespace bch::detail

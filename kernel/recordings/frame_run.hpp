@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <bch/broad_phase.hpp>
+
+#include "kernel/recordings/check.hpp"
+#include "kernel/recordings/frame_block.hpp"
+
+namespace bch::detail {
+
+/// Holds some frames of a block, one behind the other, which one task checks: enough people for the batches of the kernel, few enough for a
+/// cache. Indices are of the people of these frames. Keeps its memory for the next ones.
+class FrameRun {
+ public:
+  static constexpr double near_distance = 1.2;  ///< metres
+  /// Metres, of one or of two people together, from a frame to the next; beyond, it is a jump and no way.
+  static constexpr double farthest_step = 6;
+
+  /// Takes `options` and `motions`, those that rows name, which have to live as long as this.
+  FrameRun(const CheckOptions& options, std::span<const CastMotion> motions)
+      : options_(options), motions_(motions) {}
+
+  /// Takes frames first .. last of a block, which has to live as long as the next calls; finds who is near whom and which poses people
+  /// are in.
+  void look(const FrameBlock& block, std::size_t first, std::size_t last);
+  std::span<const WalkerPose> poses() const noexcept { return poses_; }
+  /// Returns about how many pairs of neighbours ask() will hold, or more.
+  double expected_pairs() const;
+  /// Finds who overlaps or passes whom, and counts. `shapes`: of all people of the block.
+  void ask(const WalkerShapes& walker_shapes, std::span<const std::uint32_t> shapes);
+
+  std::size_t first() const noexcept { return first_; }
+  std::size_t last() const noexcept { return last_; }
+  std::span<const CheckedPerson> people() const noexcept { return checked_people_; }
+  /// Gives the memory for pairs back where it is more than usual, because there are many runs.
+  void let_go();
+  /// Returns who overlaps or passes whom, by frame, then ids.
+  std::span<const CheckedPair> pairs() const noexcept { return checked_; }
+  const OverlapCounts& counts() const noexcept { return counts_; }
+
+ private:
+  std::size_t size() const noexcept { return end_ - begin_; }
+  /// Returns for how many pairs memory is kept.
+  std::size_t usual_pairs() const noexcept { return 65'536 + 32 * size(); }
+  static constexpr double square(double value) { return value * value; }
+  template <class Value>
+  static void let_go(std::vector<Value>& values) {
+    values = std::vector<Value>();
+  }
+  template <class Value>
+  std::span<Value> own(std::span<Value> of_block) const noexcept {
+    return of_block.subspan(begin_, size());
+  }
+  Agents agents(std::span<const std::uint32_t> shapes, std::size_t end) const;
+  double square_step(std::size_t person) const;
+  double longest_step() const;
+  double square_distance(Pair pair) const;
+  CheckedPair checked(Pair pair) const;
+
+  std::span<const Pair> find(BroadPhase& phase, const ShapeSet& shapes,
+                             std::span<const std::uint32_t> shape_of, double margin) const;
+  void find_near();
+  void turn_shoulders();
+  void ask_pairs(const ShapeSet& set, const Agents& all);
+  std::vector<float> gaps_of(const ShapeSet& set, const Agents& all, std::span<const Pair> pairs,
+                             double max_distance) const;
+  void ask_depths(const ShapeSet& set, const Agents& all);
+  void ask_between(const ShapeSet& set, const Agents& all, const Agents& with_next);
+  void add_pass(Pair people, std::size_t next, float time, float gap);
+  void ask_walls(const ShapeSet& set, const Agents& all);
+  void tell_people(const WalkerShapes& walker_shapes, const Agents& all);
+  std::uint8_t class_of(Pair pair) const;
+  void count_near();
+  void count_overlaps();
+
+  const CheckOptions& options_;
+  const std::span<const CastMotion> motions_;
+  const FrameBlock* block_ = nullptr;
+  std::size_t first_ = 0, last_ = 0;  ///< frames
+  std::size_t begin_ = 0, end_ = 0;   ///< people of the block
+  BroadPhase near_phase_, body_phase_;
+  std::vector<std::uint32_t> zeros_, near_count_;
+  std::vector<double> density_;
+  std::vector<std::uint8_t> density_class_;
+  std::vector<Shoulders> shoulders_;
+  std::vector<WalkerPose> poses_;
+  std::size_t near_pairs_ = 0;
+  double margin_ = 0;  ///< metres: how far from each other people may be who are asked about
+  std::vector<Pair> near_, hits_;
+  std::vector<std::uint8_t> near_in_discs_;
+  std::vector<Pair> apart_;  ///< may touch before the next frame, but do not in this one
+  std::vector<std::uint8_t> answers_, in_wall_;
+  std::vector<std::uint8_t> overlaps_,
+      in_discs_;  ///< by person; that and near_in_discs_ have a bit for each of compared_discs
+  std::vector<CheckedPair> checked_;
+  std::vector<CheckedPerson> checked_people_;
+  OverlapCounts counts_;
+};
+
+}  // namespace bch::detail

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <bch/character.hpp>
+
+#include "kernel/recordings/walkers.hpp"
+
+namespace bch::detail {
+
+/// Represents a shape of a baked set, and its time in the clip.
+struct BakedPose {
+  float seconds;
+  std::uint32_t shape;
+};
+
+/// Represents a clip of a character.
+struct CastClip {
+  std::string name;
+  double seconds;        ///< from its beginning to where it begins again
+  double speed;          ///< at which the character walks in it, at its own height, metres a second
+  std::uint32_t phases;  ///< so many that half a step between two moves no vertex by more than a centimetre
+  std::vector<BakedPose> baked = {};  ///< of a member of a baked set, by time: its phases
+};
+
+/// Represents a character of one's own as the people of a recording have it: it walks along +x, but for those of a baked set, which have
+/// the size and the direction that they were baked with.
+struct CastMember {
+  std::string name;
+  Character character;               ///< empty where it is baked
+  double height;                     ///< in its first walk, metres; 0 where it is baked
+  std::vector<CastClip> clips;       ///< of the character
+  std::vector<std::uint32_t> walks;  ///< those in which it walks straight on, by ascending speed; never empty
+  std::vector<std::uint32_t>
+      idles;  ///< in which it stands; may be empty: who stands then stops in the slowest walk
+  std::vector<std::string> assumptions;
+};
+
+/// Finds which clips of a character walk, how fast and where to, by the foot on the ground: that goes back under the body
+/// as fast as the body goes forward, also in a clip that walks on the spot. A clip in which it mostly does so in one direction,
+/// at 0.3 m/s or more, is a walk; one in which it hardly moves and something else does is an idle; the others, which turn, are
+/// left out, and so are walks of another direction than most.
+/// Errors:  throws std::invalid_argument, naming the character, where no clip is a walk.
+CastMember cast_member(Character character, const std::string& name);
+
+/// Sorts the walks of a member by ascending speed.
+void sort_walks(CastMember& member);
+
+/// Holds the characters of one's own in a recording, and a view of them, which they outlive.
+using Cast = std::vector<CastMember>;
+using CastView = std::span<const CastMember>;
+
+/// Returns which of them a person has, by the id: the same in every run.
+std::uint32_t member_by_id(std::int64_t id, CastView cast);
+
+/// Holds the body and the clip that rows of a recording name.
+struct CastMotion {
+  std::optional<std::uint32_t> member;  ///< else one by the id
+  std::vector<std::uint32_t> clips;     ///< of each member; empty: by the speed
+};
+
+/// Finds what the rows of a recording name among the characters. A character is called as its file is, with or without what follows the last
+/// dot, and a clip as the file calls it.
+/// Errors:  throws TrajectoryError, naming the file, the line and the name, on what is not there, and on a clip that a row names without a
+///          character and that one of them does not have.
+std::vector<CastMotion> cast_motions(std::span<const NamedMotion> named, CastView cast);
+
+/// Represents a clip of a character, and a phase of it.
+struct CastPose {
+  std::uint32_t member;  ///< of the cast
+  std::uint32_t clip;    ///< of the character
+  std::uint32_t phase;
+  float seconds;  ///< of the phase, in the clip
+};
+
+/// Returns how a walker moves: as his row says, else in the walk of the nearest speed, as far in it as he has walked, or in an idle while he
+/// stands. `motions`: what cast_motions() found. `coarse`: divides the number of phases.
+CastPose cast_pose(CastView cast, std::span<const CastMotion> motions, const Walker& walker,
+                   std::uint32_t coarse);
+
+/// Returns a character of a stature in metres.
+Character scaled(const CastMember& member, double stature);
+
+}  // namespace bch::detail

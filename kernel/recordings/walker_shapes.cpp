@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/recordings/walker_shapes.hpp"
+
+#include <oneapi/tbb/concurrent_queue.h>
+#include <oneapi/tbb/enumerable_thread_specific.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include <bch/default_characters.hpp>
+#include <bch/pose_shape.hpp>
+
+#include "kernel/runtime/ordered_build.hpp"
+#include "kernel/runtime/task_ranges.hpp"
+
+namespace bch::detail {
+namespace {
+
+constexpr double shortest_stature = 0.9, stature_step = 1.04;
+constexpr std::uint32_t stature_classes = 25;  // up to 2.3 m
+constexpr float threshold = 0.02f;             ///< metres; segments decide who overlaps, discs how deep
+constexpr std::size_t lookups = 4096;          ///< of poses, a task
+constexpr std::size_t expected_shapes =
+    30'000;  ///< about the most; room for them takes no memory before there are
+
+/// The number of phases at a speed: feet go faster, relative to the body, the faster people walk.
+std::uint32_t phases_at(std::uint32_t clip, std::uint32_t coarse) {
+  return static_cast<std::uint32_t>(28 + 170 * pedestrian_speed_step * clip) / coarse;
+}
+
+/// The nearest multiple of a number.
+std::uint32_t rounded(double value, std::uint32_t step) {
+  return static_cast<std::uint32_t>(std::round(value / step)) * step;
+}
+
+Character character_of(const WalkerPose& pose, CastView cast) {
+  constexpr double turn[] = {0, 0.7, -0.7};  // radians; of Shoulders
+  if (pose.member != WalkerPose::built_in) return scaled(cast[pose.member], pose.metres());
+  return default_pedestrian(pose.is_female ? Sex::female : Sex::male, pose.metres(),
+                            turn[static_cast<std::size_t>(pose.shoulders)]);
+}
+
+}  // namespace
+
+WalkerPose::WalkerPose(const Walker& walker, Shoulders held, std::uint32_t coarse, CastView cast,
+                       std::span<const CastMotion> motions)
+    : is_female(walker.is_female), shoulders(held) {
+  const double size =
+      std::log(std::max(walker.stature, shortest_stature) / shortest_stature) / std::log(stature_step);
+  stature = std::min(rounded(size, coarse), stature_classes - 1);
+  if (!cast.empty()) {
+    const CastPose pose = cast_pose(cast, motions, walker, coarse);
+    if (cast[pose.member].height == 0) stature = 0;  // as it was baked
+    member = pose.member, clip = pose.clip, phase = pose.phase, seconds = pose.seconds;
+    return;
+  }
+  clip = std::min(rounded(walker.speed / pedestrian_speed_step, coarse), pedestrian_speeds - 1);
+  const std::uint32_t phases = phases_at(clip, coarse);
+  phase = std::min(static_cast<std::uint32_t>(walker.phase * phases), phases - 1);
+  const double share = (phase + 0.5) / phases;
+  seconds = static_cast<float>(share / pedestrian_strides_per_second(clip * pedestrian_speed_step));
+}
+
+std::uint64_t WalkerPose::key() const noexcept {
+  return body() << 32 | clip << 16 | phase;
+}
+
+std::uint64_t WalkerPose::body() const noexcept {
+  if (member != built_in) return (std::uint64_t{1} << 16) + std::uint64_t{member} * stature_classes + stature;
+  return (std::uint64_t{stature} * 2 + is_female) * 3 + static_cast<std::uint64_t>(shoulders);
+}
+
+double WalkerPose::metres() const noexcept {
+  return shortest_stature * std::pow(stature_step, stature);
+}
+
+PoseTime WalkerPose::at() const noexcept {
+  return {clip, seconds};
+}
+
+/// A character, and the shapers of it that no thread has. They are few, because threads take poses as they come, of many bodies.
+struct WalkerShapes::Body {
+  std::unique_ptr<const Character> character;
+  tbb::concurrent_queue<std::unique_ptr<PoseShaper>> shapers;
+};
+
+/// What a thread makes shapes with: the shaper of a body, until it makes one of another.
+struct WalkerShapes::Workshop {
+  Body* body = nullptr;
+  std::unique_ptr<PoseShaper> shaper;
+
+  ~Workshop() { leave(); }
+  void leave() {
+    if (shaper) body->shapers.push(std::move(shaper));
+  }
+  PoseShaper& shaper_of(Body& wanted, const ShapeSetPlan& plan) {
+    if (body == &wanted) return *shaper;
+    leave();
+    body = &wanted;
+    if (!body->shapers.try_pop(shaper))
+      shaper = std::make_unique<PoseShaper>(*body->character, plan, threshold);
+    return *shaper;
+  }
+};
+
+WalkerShapes::WalkerShapes(const ShapeSetPlan& plan, CastView cast, const ShapeSet* baked)
+    : plan_(plan),
+      cast_(cast),
+      builder_(plan, expected_shapes),
+      baked_(baked),
+      set_(baked != nullptr ? baked : &builder_.set()) {}
+WalkerShapes::~WalkerShapes() = default;
+
+/// Makes those that are new on all threads.
+std::vector<WalkerShapes::Body*> WalkerShapes::bodies_of(std::span<const WalkerPose> poses) {
+  std::vector<Body*> bodies, made;
+  std::vector<const WalkerPose*> wanted;
+  for (const WalkerPose& pose : poses) {
+    auto& body = bodies_[pose.body()];
+    if (!body) {
+      body = std::make_unique<Body>();
+      made.push_back(body.get()), wanted.push_back(&pose);
+    }
+    bodies.push_back(body.get());
+  }
+  for_ranges(made.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      made[i]->character = std::make_unique<const Character>(character_of(*wanted[i], cast_));
+  });
+  return bodies;
+}
+
+void WalkerShapes::build(std::span<const WalkerPose> poses) {
+  const std::vector<Body*> bodies = bodies_of(poses);
+  tbb::enumerable_thread_specific<Workshop> workshops;
+  add_in_order(
+      builder_, plan_, poses.size(),
+      [&](std::size_t i) -> const Shape& {
+        return workshops.local().shaper_of(*bodies[i], plan_).shape(poses[i].at());
+      },
+      [](std::size_t) {});
+  set_ = &builder_.set();
+}
+
+void WalkerShapes::give_up() {
+  given_up_ += set_->shape_count();
+  builder_ = ShapeSetBuilder(plan_, expected_shapes);
+  set_ = &builder_.set();
+  number_of_.clear();
+}
+
+std::span<const WalkerPose> WalkerShapes::find(std::span<const WalkerPose> poses,
+                                               std::span<std::uint32_t> shapes) {
+  if (baked_ == nullptr && set_->bytes() > most_bytes) give_up();
+  constexpr std::uint32_t none = 0xffff'ffff;
+  for_ranges(poses.size(), lookups, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const auto found = number_of_.find(poses[i].key());
+      shapes[i] = found == number_of_.end() ? none : found->second;
+    }
+  });
+  new_.clear();
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    if (shapes[i] != none) continue;
+    const WalkerPose& pose = poses[i];
+    const auto next = baked_ != nullptr ? cast_[pose.member].clips[pose.clip].baked[pose.phase].shape
+                                        : static_cast<std::uint32_t>(set_->shape_count() + new_.size());
+    const auto [entry, is_new] = number_of_.emplace(pose.key(), next);
+    if (is_new) new_.push_back(pose);
+    shapes[i] = entry->second;
+  }
+  if (baked_ == nullptr && !new_.empty()) build(new_);
+  return new_;
+}
+
+}  // namespace bch::detail

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/recordings/walkers.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include <bch/default_characters.hpp>
+
+#include "layout/base/random.hpp"
+
+namespace bch::detail {
+namespace {
+
+constexpr double smoothing = 0.4;           ///< seconds before and after
+constexpr double jump = 100;                ///< metres
+constexpr double fastest = 20;              ///< metres a second, a jump aside
+constexpr std::size_t few_people = 1024;    ///< are not worth looking for those who have left
+constexpr double slowest_direction = 0.15;  ///< metres a second: who is slower has no direction
+
+Random random_of(std::int64_t id) {
+  return Random(0x9e3779b97f4a7c15u ^ static_cast<std::uint64_t>(id));
+}
+
+}  // namespace
+
+bool is_female_by_id(std::int64_t id) {
+  return random_of(id).below(2) == 0;
+}
+
+/// About normal, by the sum of uniform numbers: means and deviations of adults in Europe, to two digits.
+double stature_by_id(std::int64_t id, bool is_female) {
+  Random random = random_of(id);
+  random.next();  // that which the sex is drawn from
+  double sum = -6;
+  for (int i = 0; i < 12; ++i) sum += random.uniform(1);
+  return is_female ? 1.66 + 0.065 * sum : 1.79 + 0.07 * sum;
+}
+
+WalkerReader::WalkerReader(TrajectoryReader& reader, FrameInterval wanted, double facing)
+    : reader_(reader),
+      fps_(reader.info().fps),
+      window_(std::max<std::int64_t>(1, std::llround(smoothing * fps_))),
+      wanted_(wanted),
+      facing_(facing) {}
+
+/// Nobody moves so far so fast: ids were mixed up, or places.
+void WalkerReader::require_no_jump(const Place& from, const TrackedPerson& to, std::int64_t frame) const {
+  const double x = to.x - from.x, y = to.y - from.y, square = x * x + y * y;
+  if (square < jump * jump) return;
+  const double way = std::sqrt(square), seconds = static_cast<double>(frame - from.frame) / fps_;
+  if (way < fastest * seconds) return;
+  std::ostringstream text;
+  text << reader_.place_of(to.row) << ": person " << to.id << " jumps by " << way << " m, from (" << from.x
+       << ", " << from.y << ") in frame " << from.frame << " to (" << to.x << ", " << to.y << ") in frame "
+       << frame;
+  throw TrajectoryError(std::move(text).str());
+}
+
+bool WalkerReader::read_one() {
+  Frame next;
+  if (at_end_ || !reader_.next(next.frame, next.people)) {
+    at_end_ = true;
+    return false;
+  }
+  for (const TrackedPerson& person : next.people) {
+    Track& track = track_of(person.id);
+    if (!track.places.empty()) require_no_jump(track.places.back(), person, next.frame);
+    track.places.push_back({next.frame, person.x, person.y});
+    next.tracks.push_back(&track);
+  }
+  ahead_.push_back(std::move(next));
+  return true;
+}
+
+WalkerReader::Track& WalkerReader::track_of(std::int64_t id) {
+  const auto [entry, is_new] = tracks_.try_emplace(id);
+  Track& track = entry->second;
+  if (!is_new) return track;
+  track.is_female = is_female_by_id(id);
+  track.stature = stature_by_id(id, track.is_female);
+  if (const auto found = left_.find(id); found != left_.end()) {
+    const Left& left = found->second;
+    track.places.push_back(left.last);
+    track.heading = left.heading, track.phase = left.phase, track.way = left.way;
+    track.last_frame = left.last.frame;
+    track.has_heading = left.has_heading, track.has_walked = true;
+    left_.erase(found);
+  }
+  return track;
+}
+
+/// Forgets the places of people who have left, but for the last one: none before it is within the window of a later frame. All people
+/// have walked to this frame.
+void WalkerReader::let_go(std::int64_t frame) {
+  if (tracks_.size() < many_tracks_) return;
+  for (auto entry = tracks_.begin(); entry != tracks_.end();) {
+    const Track& track = entry->second;
+    const Place last = track.places.back();
+    const bool has_left = last.frame < frame - window_;
+    if (has_left) left_[entry->first] = {last, track.heading, track.phase, track.way, track.has_heading};
+    entry = has_left ? tracks_.erase(entry) : std::next(entry);
+  }
+  many_tracks_ = std::max(few_people, 2 * tracks_.size());
+}
+
+Walker WalkerReader::walk(const TrackedPerson& person, Track& track, std::int64_t frame) const {
+  // Those before the window go, but for the last one before this frame, which recordings of few frames need.
+  while (track.places.size() > 1 && track.places[0].frame < frame - window_ && track.places[1].frame < frame)
+    track.places.pop_front();
+  const Place first = track.places.front();
+  // The last one within the window, or, where there is none, the next.
+  auto last = std::prev(track.places.end());
+  while (last->frame > frame + window_ && std::prev(last)->frame > frame) --last;
+  const double seconds = static_cast<double>(last->frame - first.frame) / fps_;
+  const double dx = last->x - first.x, dy = last->y - first.y;
+  const double speed = seconds > 0 ? std::sqrt(dx * dx + dy * dy) / seconds : 0;
+
+  const bool told = !std::isnan(person.heading), moves = speed > slowest_direction;
+  if (told || moves) {
+    track.heading = told ? static_cast<double>(person.heading) : std::atan2(dy, dx);
+    track.has_heading = true;
+  }
+  if (!track.has_walked) {
+    track.phase = random_of(person.id).uniform(1);
+    track.way = 100 * track.phase;
+  }
+  const double since = track.has_walked ? static_cast<double>(frame - track.last_frame) / fps_ : 0;
+  track.has_walked = true;
+  if (speed > 0.05) track.phase += since * pedestrian_strides_per_second(speed);
+  track.way += since * speed;
+  track.phase -= std::floor(track.phase);
+  track.last_frame = frame;
+  const double stature = std::isnan(person.stature) ? track.stature : static_cast<double>(person.stature);
+  return {person.id,
+          person.x,
+          person.y,
+          track.heading,
+          speed,
+          track.phase,
+          stature,
+          track.is_female,
+          !told && !moves,
+          track.way,
+          static_cast<double>(frame) / fps_ + static_cast<double>(static_cast<std::uint64_t>(person.id) % 97),
+          person.motion,
+          person.clip_seconds};
+}
+
+/// Who has not moved yet faces the way in which the others walk.
+void WalkerReader::face_the_crowd(WalkerFrame& frame, const std::vector<Track*>& tracks) const {
+  if (std::all_of(tracks.begin(), tracks.end(), [](const Track* track) { return track->has_heading; }))
+    return;
+  double x = 0, y = 0;
+  for (const Walker& walker : frame.people)
+    if (!walker.is_guessed) x += std::cos(walker.heading), y += std::sin(walker.heading);
+  if (x == 0 && y == 0) return;
+  for (std::size_t i = 0; i < tracks.size(); ++i)
+    if (!tracks[i]->has_heading) frame.people[i].heading = std::atan2(y, x);
+}
+
+/// Lets people walk on to the next frame, wanted or not.
+bool WalkerReader::walk_on(WalkerFrame& frame) {
+  while (ahead_.empty() || ahead_.back().frame <= ahead_.front().frame + window_)
+    if (!read_one()) break;
+  if (ahead_.empty()) return false;
+  const Frame now = std::move(ahead_.front());
+  ahead_.pop_front();
+  frame.frame = now.frame;
+  frame.people.clear();
+  for (std::size_t i = 0; i < now.people.size(); ++i)
+    frame.people.push_back(walk(now.people[i], *now.tracks[i], now.frame));
+  face_the_crowd(frame, now.tracks);
+  for (Walker& walker : frame.people) walker.heading -= facing_;
+  let_go(now.frame);
+  return true;
+}
+
+bool WalkerReader::next(WalkerFrame& frame) {
+  if (is_behind_) return false;
+  do {
+    if (!walk_on(frame)) return false;
+  } while (frame.frame < wanted_.from);
+  is_behind_ = frame.frame >= wanted_.to;
+  return true;
+}
+
+}  // namespace bch::detail

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <limits>
+#include <unordered_map>
+#include <vector>
+
+#include "layout/base/mixed_hash.hpp"
+#include "layout/recordings/trajectory.hpp"
+
+namespace bch::detail {
+
+/// Describes a person of a recording in a frame, and how he walks.
+struct Walker {
+  std::int64_t id;
+  double x, y;     ///< metres
+  double heading;  ///< radians, by which his shape is turned
+  double speed;    ///< metres a second, smoothed
+  double phase;    ///< share of a stride, 0 to 1, from the left heel's contact on
+  double stature;  ///< metres
+  bool is_female;
+  bool is_guessed;     ///< the heading is neither of the file nor of a person who walks
+  double way = 0;      ///< metres that he has walked, from a place of his own on
+  double seconds = 0;  ///< from a time of his own on
+  std::uint32_t motion = TrackedPerson::no_motion;  ///< that the file names
+  float clip_seconds =
+      std::numeric_limits<float>::quiet_NaN();  ///< of its clip; NaN where the file does not say
+};
+
+/// Holds the people of a frame, by ascending id.
+struct WalkerFrame {
+  std::int64_t frame = 0;
+  std::vector<Walker> people;
+};
+
+/// Represents the frames whose numbers are in [from, to).
+struct FrameInterval {
+  std::int64_t from = std::numeric_limits<std::int64_t>::min();
+  std::int64_t to = std::numeric_limits<std::int64_t>::max();
+};
+
+/// Reads a recording and finds how its people walk: speeds from positions 0.4 s before and after,
+/// or from the next ones where there are none so near, headings from the file or from the
+/// way of a person who walks, held while he stands, and strides that go on with the distance. Memory grows with the people of
+/// the frames within 0.4 s, and by about 100 bytes for each person who has left.
+/// Errors:  throws TrajectoryError on what the reader rejects, and on a person who is 100 m away a moment later.
+class WalkerReader {
+ public:
+  /// Takes `reader`, which has to live as long as this.
+  /// `facing`: where shapes face that are not turned, radians.
+  explicit WalkerReader(TrajectoryReader& reader, FrameInterval wanted = {}, double facing = 0);
+
+  /// Reads the next frame that is wanted. The first one behind these follows, too. Returns false at the end.
+  bool next(WalkerFrame& frame);
+  /// Returns whether the last frame that was read is the one behind those wanted.
+  bool is_behind() const noexcept { return is_behind_; }
+  /// Returns how many different people were read.
+  std::size_t people() const noexcept { return tracks_.size() + left_.size(); }
+
+ private:
+  struct Place {
+    std::int64_t frame;
+    double x, y;
+  };
+  /// Holds what is known of a person: his last places, and how he walked last.
+  struct Track {
+    std::deque<Place> places;
+    double heading = 0, phase = 0, way = 0, stature = 0;  ///< the latter where the file has none
+    std::int64_t last_frame = 0;
+    bool is_female = false, has_heading = false, has_walked = false;
+  };
+  /// Holds what is kept of a person who has left: so much that he goes on as before if he comes back.
+  struct Left {
+    Place last;
+    double heading, phase, way;
+    bool has_heading;
+  };
+  struct Frame {
+    std::int64_t frame;
+    std::vector<TrackedPerson> people;
+    std::vector<Track*> tracks;  ///< of the people
+  };
+
+  bool read_one();
+  Track& track_of(std::int64_t id);
+  void let_go(std::int64_t frame);
+  void require_no_jump(const Place& from, const TrackedPerson& to, std::int64_t frame) const;
+  bool walk_on(WalkerFrame& frame);
+  Walker walk(const TrackedPerson& person, Track& track, std::int64_t frame) const;
+  void face_the_crowd(WalkerFrame& frame, const std::vector<Track*>& tracks) const;
+
+  TrajectoryReader& reader_;
+  const double fps_;
+  const std::int64_t window_;  ///< frames before and after
+  const FrameInterval wanted_;
+  const double facing_;
+  bool at_end_ = false, is_behind_ = false;
+  std::deque<Frame> ahead_;
+  std::unordered_map<std::int64_t, Track, MixedHash> tracks_;
+  std::unordered_map<std::int64_t, Left, MixedHash> left_;
+  std::size_t many_tracks_ = 0;  ///< from so many on, those who have left are looked for
+};
+
+/// Returns a stature for a person whose file has none, and whether the body is a woman's, both by the id: the same in every run.
+double stature_by_id(std::int64_t id, bool is_female);
+bool is_female_by_id(std::int64_t id);
+
+}  // namespace bch::detail

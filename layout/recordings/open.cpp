@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <string_view>
+
+#include "layout/base/shortest.hpp"
+#include "layout/recordings/frame_reader.hpp"
+#include "layout/recordings/jupedsim.hpp"
+#include "layout/recordings/ndjson.hpp"
+#include "layout/recordings/pedestrian_archive.hpp"
+#include "layout/recordings/row.hpp"
+#include "layout/recordings/table.hpp"
+#include "layout/recordings/trajectory.hpp"
+
+namespace bch::detail {
+namespace trajectory {
+namespace {
+
+/// Returns the first bytes of a file.
+/// Errors:  throws TrajectoryError on what is no file, or an empty one.
+std::string beginning(const Places& places) {
+  const int file = open(places.file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (file < 0) places.reject(std::string("cannot be opened: ") + std::strerror(errno));
+  struct stat status = {};
+  const bool is_file = fstat(file, &status) == 0 && S_ISREG(status.st_mode);
+  std::string bytes(4096, '\0');
+  const ssize_t got = is_file ? ::read(file, bytes.data(), bytes.size()) : 0;
+  close(file);
+  if (!is_file) places.reject("is not a file");
+  if (got < 0) places.reject(std::string("cannot be read: ") + std::strerror(errno));
+  if (got == 0) places.reject("is empty");
+  bytes.resize(static_cast<std::size_t>(got));
+  return bytes;
+}
+
+bool is_json(std::string_view bytes) {
+  if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
+  const std::size_t first = bytes.find_first_not_of(" \t\r\n");
+  return first != std::string_view::npos && bytes[first] == '{';
+}
+
+std::unique_ptr<RowSource> open_rows(const std::filesystem::path& file, const TrajectoryOptions& options) {
+  const std::string bytes = beginning({file, false});
+  if (bytes.starts_with(std::string_view("SQLite format 3\0", 16))) return open_jupedsim(file, options);
+  if (bytes.starts_with("\x89HDF\r\n\x1a\n")) return open_pedestrian_archive(file, options);
+  if (is_json(bytes)) return open_ndjson(file, options);
+  return open_table(file, options);
+}
+
+}  // namespace
+}  // namespace trajectory
+
+std::unique_ptr<TrajectoryReader> open_trajectory(const std::filesystem::path& file,
+                                                  const TrajectoryOptions& options) {
+  const trajectory::Places places{file, false};
+  if (options.fps) trajectory::checked_fps(places, *options.fps, "the frame rate of --fps");
+  if (options.unit && !(*options.unit > 0 && std::isfinite(*options.unit)))
+    places.reject("the unit of --unit is " + shortest(*options.unit) + " m, not above 0");
+  return std::make_unique<trajectory::FrameReader>(trajectory::open_rows(file, options), options);
+}
+
+}  // namespace bch::detail
