@@ -222,7 +222,7 @@ TEST(LeafSegments, OfDenseOutlinesAreDiscs) {
 }
 
 /// Agents at levels that have segments beside such at levels that do not: discs decide between those.
-TEST(Levels, BesideThatOfAllDepthsAreComparedByDiscs) {
+TEST(ExactLeavesOfLevels, BesideThatOfAllDepthsAreComparedByDiscs) {
   const std::vector<Shape> shapes = test::synthetic_shapes(2406, 12);
   const ShapeSetPlan plan{{0, 4, all_depths}};
   const ShapeSet set(shapes, plan);
