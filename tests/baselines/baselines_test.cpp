@@ -8,11 +8,8 @@
 #include <cstdio>
 #include <string>
 
-#include <bch/collide.hpp>
-
 #include "baselines/oracle.hpp"
 #include "baselines/placement.hpp"
-#include "baselines/reference.hpp"
 #include "tests/support/baseline_scene.hpp"
 #include "tests/support/brute_force.hpp"
 #include "tests/support/character_shapes.hpp"
@@ -70,8 +67,6 @@ class Suite {
     check_outlines();
     check_triangles();
     check_peers();
-    check_levels();
-    check_kernel();
     std::printf("%s placements, seed %" PRIu64 ": %zu", kind, seed, scene_.pairs.size());
     for (const test::Answers& one : all_)
       std::printf(", %s %td", std::string(one.kind->name).c_str(),
@@ -150,54 +145,10 @@ class Suite {
     }
   }
 
-  std::vector<std::uint8_t> hits_to(std::string_view name, std::uint32_t depth) const {
-    std::vector<std::uint8_t> result(scene_.pairs.size());
-    of(name).query(scene_.crowd.agents(), scene_.pairs, result, depth);
-    return result;
-  }
-
-  /// Cylinders at every level hit what the outlines hit, and no more than at the level above; the descent alone hits
-  /// what it does verified.
-  void check_levels() {
-    const baselines::Reference brute(shapes_, plan_);
-    std::vector<std::uint8_t> above(hits("single"));
-    for (std::size_t level = 0; level < plan_.depths.size(); ++level) {
-      std::fill(scene_.crowd.level.begin(), scene_.crowd.level.end(), static_cast<std::uint8_t>(level));
-      const Agents agents = scene_.crowd.agents();
-      const auto walked = hits_to("reference", plan_.depths[level]),
-                 unverified = hits_to("paper_descent", plan_.depths[level]);
-      if (plan_.depths[level] == 0) {
-        ASSERT_EQ(walked, hits("single"));
-      }
-      for (std::size_t i = 0; i < scene_.pairs.size(); ++i) {
-        ASSERT_TRUE(hits("obb_contour")[i] <= walked[i] && walked[i] <= above[i] &&
-                    walked[i] <= unverified[i])
-            << "level " << level << ", " << test::replay_line(scene_, i);
-        if (i % brute_share != 0) continue;
-        ASSERT_EQ(brute.boundary(agents, scene_.pairs[i], baselines::Method::brute_force), walked[i] == 1)
-            << "level " << level << ", " << test::replay_line(scene_, i);
-      }
-      above = walked;
-    }
-  }
-
-  void check_kernel() {
-    const ShapeSet set(shapes_, plan_);
-    for (std::size_t level = 0; level < plan_.depths.size(); ++level) {
-      std::fill(scene_.crowd.level.begin(), scene_.crowd.level.end(), static_cast<std::uint8_t>(level));
-      std::vector<std::uint8_t> kernel(scene_.pairs.size());
-      collide(set, scene_.crowd.agents(), scene_.pairs, kernel);
-      const auto walked = hits_to("reference", plan_.depths[level]);
-      for (std::size_t i = 0; i < scene_.pairs.size(); ++i)
-        ASSERT_EQ(kernel[i], walked[i]) << "level " << level << ", " << test::replay_line(scene_, i);
-    }
-  }
-
   const Outline& outline(const Agents& agents, std::uint32_t agent) const {
     return shapes_[agents.shape[agent]].outline;
   }
 
-  const ShapeSetPlan plan_{{0, 3, 6, all_depths}, false};
   std::vector<Body> bodies_;
   std::vector<Shape> shapes_;
   std::vector<test::Answers> all_;

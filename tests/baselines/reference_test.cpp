@@ -276,20 +276,6 @@ TEST(Examples, TreesMayBeHigh) {
   EXPECT_LT(hits, 180u);
 }
 
-TEST(Contacts, OfAnAgentWithItselfAreAllItsDiscs) {
-  const std::vector<Shape> shapes = test::synthetic_shapes(2461, 16);
-  const ShapeSetPlan plan{{0, 3, 6, all_depths}};
-  const baselines::CutLists cuts(shapes, plan);
-  test::Crowd crowd;
-  for (std::uint32_t shape = 0; shape < shapes.size(); ++shape)
-    for (std::uint8_t level = 0; level < plan.depths.size(); ++level) crowd.add({shape, 1, 2, 3, level});
-  for (std::uint32_t agent = 0; agent < crowd.x.size(); ++agent) {
-    const auto found = baselines::contacts(cuts, crowd.agents(), {agent, agent});
-    EXPECT_EQ(std::count_if(found.begin(), found.end(), [](const auto& c) { return c.first == c.second; }),
-              std::ssize(cuts.of(crowd.agents(), agent)));
-  }
-}
-
 TEST(CutLists, LeadFromEveryDiscToTheRoot) {
   const std::vector<Shape> shapes = test::synthetic_shapes(2451, 8);
   const ShapeSetPlan plan{{0, 3, all_depths}};
