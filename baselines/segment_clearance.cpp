@@ -16,6 +16,7 @@ SegmentClearance::SegmentClearance(std::span<const Shape> shapes, const ShapeSet
     : shapes_(shapes), cuts_(shapes, plan), segments_(shapes, plan, bch::Leaves::segments) {
   for (const Shape& shape : shapes) {
     Leaves& of = leaves_.emplace_back();
+    if (shape.hierarchy.primitive_ranges.empty()) continue;
     std::set<std::uint32_t> held;
     const std::vector<std::uint32_t> nodes = cut(shape.hierarchy, all_depths);
     for (std::uint32_t leaf = 0; leaf < nodes.size(); ++leaf) {

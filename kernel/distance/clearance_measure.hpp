@@ -32,7 +32,7 @@ namespace bch::detail {
 /// together: 45.4 u S, for which `slack` = 64 u S is taken off beside, and 39.2 u D, for which nearer takes
 /// 64. So v' <= v, and leaving out what is above the best never loses a tie. Its root is rough_root(),
 /// shortened by more than that is off. These sums are static_asserts in clearance_terms.hpp. A test sees the
-/// slack: without it, tests/kernel/unequal_sizes_test.cpp finds other discs than brute force does, where a
+/// slack: without it, tests/kernel/queries_test.cpp finds other discs than brute force does, where a
 /// tiny shape lies in a disc of one that is far from its own origin. Only the proof needs that `nearer` is
 /// less than `near`.
 template <class Simd>

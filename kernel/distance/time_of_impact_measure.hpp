@@ -79,7 +79,7 @@ static_assert(slack >= bound_reach + bound_distance + inexact_way);
 /// and then a 2^18th longer, for what |v| and the products are off by. Bounds below 0 only have to stay
 /// there.
 ///
-/// A test sees the slack: without it, or with F of one shape alone, tests/kernel/unequal_sizes_test.cpp finds
+/// A test sees the slack: without it, or with F of one shape alone, tests/kernel/queries_test.cpp finds
 /// later times than brute force does.
 template <class Simd>
 class TimeOfImpactMeasure {

@@ -277,7 +277,7 @@ int main(int argc, char** argv) {
   const tbb::global_control one(tbb::global_control::max_allowed_parallelism, session.size() == 1 ? 2 : 1);
   testing::InitGoogleTest(&argc, argv);
   GTEST_FLAG_SET(fail_fast, false);  // a rank that ended early would leave the others waiting
-  if (session.rank() != 0)  // whose lines are enough; failures of others are seen by their exit code
+  if (session.rank() != 0)           // whose lines are enough; failures of others are seen by their exit code
     delete testing::UnitTest::GetInstance()->listeners().Release(
         testing::UnitTest::GetInstance()->listeners().default_result_printer());
   return RUN_ALL_TESTS();

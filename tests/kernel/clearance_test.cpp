@@ -4,13 +4,10 @@
 #include <bch/clearance.hpp>
 
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -24,7 +21,6 @@
 namespace bch {
 namespace {
 
-using baselines::ClearanceReference;
 using baselines::Method;
 using test::answers;
 using test::Answers;
@@ -37,128 +33,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 class ClearanceDifferential : public test::Differential {
  protected:
   ClearanceDifferential() : Differential(2601, four_levels) {}
-
-  ClearanceReference reference{shapes, four_levels};
-
-  void expect_equal_to_brute_force(const PairScene& scene, double max_distance, const std::string& what) {
-    const Answers deepest = answers(reference, scene, max_distance, Method::brute_force);
-    expect_equal(scene, max_distance, Overlap::deepest, deepest, what);
-    expect_equal(scene, max_distance, Overlap::zero, test::at_least_zero(deepest), what + ", at least 0");
-  }
-
-  void expect_equal(const PairScene& scene, double max_distance, Overlap overlap, const Answers& brute_force,
-                    const std::string& what) {
-    for (const auto& implementation : implementations()) {
-      if (!implementation.supported()) continue;
-      const Answers of =
-          answers(set, scene.crowd.agents(), scene.pairs, max_distance, &implementation, overlap);
-      for (std::size_t i = 0; i < scene.pairs.size(); ++i)
-        ASSERT_TRUE(of.same(i, brute_force, i))
-            << what << ", " << implementation.name << ", pair " << i << ": " << of.distance[i] << " between "
-            << of.discs[i].first << " and " << of.discs[i].second << ", expected " << brute_force.distance[i]
-            << " between " << brute_force.discs[i].first << " and " << brute_force.discs[i].second;
-    }
-  }
 };
-
-TEST_F(ClearanceDifferential, RandomPairs) {
-  for (const double max_distance : {infinity, 0.5, 0.05, 0.0})
-    for (int i = 0; i < 2; ++i)
-      expect_equal_to_brute_force(random_scene(random, set, 25'000), max_distance,
-                                  "at most " + std::to_string(max_distance));
-}
-
-TEST_F(ClearanceDifferential, NearTangentPairs) {
-  for (const double max_distance : {infinity, 0.5, 1e-6, 0.0})
-    expect_equal_to_brute_force(tangent_scene(12'500), max_distance,
-                                "tangent, at most " + std::to_string(max_distance));
-}
-
-TEST_F(ClearanceDifferential, FarFromTheOriginAndFarApart) {
-  PairScene scene = random_scene(random, set, 25'000);
-  const Answers at_origin = answers(set, scene.crowd.agents(), scene.pairs, infinity);
-  test::move_away(scene, 1e7, -8e8);
-  expect_equal_to_brute_force(scene, infinity, "far from the origin");
-  const Answers far = answers(set, scene.crowd.agents(), scene.pairs, infinity);
-  for (std::size_t i = 0; i < scene.pairs.size(); ++i) EXPECT_TRUE(far.same(i, at_origin, i)) << i;
-  for (const double apart : {30.0, 1e4, 1.4e9}) {
-    scene = random_scene(random, set, 8'000);
-    for (std::size_t i = 1; i < scene.crowd.x.size(); i += 2) scene.crowd.x[i] -= apart;
-    if (apart > 1e9)
-      for (double& x : scene.crowd.x) x += 0.5e9;
-    expect_equal_to_brute_force(scene, infinity, "far apart: " + std::to_string(apart));
-    expect_equal_to_brute_force(scene, apart, "far apart, limited: " + std::to_string(apart));
-  }
-}
-
-TEST_F(ClearanceDifferential, ManyShapesAnswerLikeOneOfEach) {
-  PairScene scene = random_scene(random, set, 5'000);
-  const Answers of_one = answers(set, scene.crowd.agents(), scene.pairs, 0.5);
-  const ShapeSet large(test::repeated(shapes), four_levels);
-  for (std::size_t i = 0; i < scene.crowd.shape.size(); ++i)
-    scene.crowd.shape[i] += static_cast<std::uint32_t>(i * shapes.size() % large.shape_count());
-  for (const auto& implementation : implementations()) {
-    if (!implementation.supported()) continue;
-    const Answers of_many = answers(large, scene.crowd.agents(), scene.pairs, 0.5, &implementation);
-    for (std::size_t i = 0; i < scene.pairs.size(); ++i)
-      ASSERT_TRUE(of_many.same(i, of_one, i)) << implementation.name << ", pair " << i;
-  }
-}
-
-/// Many gaps that are equal: copies of one disc set, unturned, at places on a grid.
-TEST_F(ClearanceDifferential, OfEqualGapsTheFirstCounts) {
-  PairScene scene;
-  for (std::uint32_t i = 0; i < test::samples(10'000); ++i) {
-    const std::uint32_t shape = random.below(static_cast<std::uint32_t>(shapes.size()));
-    const double quarter = 1.5707963267948966 * random.below(4);
-    const auto at = [&] { return 0.25 * (static_cast<int>(random.below(9)) - 4); };
-    const auto level = static_cast<std::uint8_t>(random.below(4));
-    scene.crowd.add({shape, at(), at(), quarter, level});
-    scene.crowd.add({shape, at(), at(), quarter, level});
-    scene.pairs.push_back({2 * i, 2 * i + 1});
-  }
-  expect_equal_to_brute_force(scene, infinity, "equal gaps");
-}
-
-TEST_F(ClearanceDifferential, TheReferencesAgree) {
-  const PairScene scene = tangent_scene(10'000);
-  for (const double max_distance : {infinity, 0.1}) {
-    const Answers slow = answers(reference, scene, max_distance, Method::brute_force),
-                  fast = answers(reference, scene, max_distance, Method::depth_first);
-    for (std::size_t i = 0; i < scene.pairs.size(); ++i) ASSERT_TRUE(fast.same(i, slow, i)) << i;
-  }
-}
-
-TEST_F(ClearanceDifferential, BatchesAndThreads) {
-  const PairScene scene = random_scene(random, set, 20'000);
-  const Answers whole = answers(set, scene.crowd.agents(), scene.pairs, 0.5);
-  for (const std::size_t size : {0, 1, 3, 17, 255, 257, 1025})
-    for (const std::size_t offset : {0, 1, 62}) {
-      const Answers part =
-          answers(set, scene.crowd.agents(), std::span(scene.pairs).subspan(offset, size), 0.5);
-      for (std::size_t i = 0; i < size; ++i)
-        EXPECT_TRUE(part.same(i, whole, offset + i)) << size << ' ' << offset;
-    }
-  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 8);
-  for (int threads = 1; threads <= 8; ++threads) {
-    tbb::task_arena arena(threads);
-    const Answers of = arena.execute([&] { return answers(set, scene.crowd.agents(), scene.pairs, 0.5); });
-    for (std::size_t i = 0; i < scene.pairs.size(); ++i)
-      ASSERT_TRUE(of.same(i, whole, i)) << threads << " threads";
-  }
-}
-
-TEST_F(ClearanceDifferential, ExchangedAgentsExchangeNodesAndTurnTheDirection) {
-  PairScene scene = tangent_scene(20'000);
-  const Answers one = answers(set, scene.crowd.agents(), scene.pairs, infinity);
-  for (Pair& pair : scene.pairs) std::swap(pair.first, pair.second);
-  const Answers other = answers(set, scene.crowd.agents(), scene.pairs, infinity);
-  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
-    EXPECT_EQ(other.distance[i], one.distance[i]);
-    EXPECT_EQ(other.direction[i], (Vec2{-one.direction[i].x, -one.direction[i].y}));
-    EXPECT_EQ(other.discs[i], (DiscPair{one.discs[i].second, one.discs[i].first}));
-  }
-}
 
 /// What clearance.hpp says of both. Cut discs that overlap are no collision where nodes above them are apart, and brute
 /// force knows that of every pair that is deeper than rounding goes.
@@ -259,21 +134,14 @@ TEST(Clearance, OfTipsIsTheDistanceOfTheOutlinesLessTheMargin) {
   }
 }
 
-std::vector<NearestPoints> points_of(const ShapeSet& set, const PairScene& scene, const Answers& all) {
-  std::vector<float> distance(scene.pairs.size());
-  std::vector<NearestPoints> points(scene.pairs.size());
-  clearance(set, scene.crowd.agents(), scene.pairs, {.distance = distance, .points = points},
-            {.overlap = Overlap::deepest});
-  EXPECT_EQ(distance, all.distance);
-  return points;
-}
-
 /// They lie on the edges of the nearest discs, along the direction, and are as far apart as the distance says.
 TEST_F(ClearanceDifferential, PointsAreThoseOfTheNearestFeatures) {
   const PairScene scene = random_scene(random, set, 5'000);
   const test::Crowd& crowd = scene.crowd;
-  const Answers all = answers(set, crowd.agents(), scene.pairs, infinity);
-  const std::vector<NearestPoints> points = points_of(set, scene, all);
+  Answers all(scene.pairs.size());
+  std::vector<NearestPoints> points(scene.pairs.size());
+  clearance(set, crowd.agents(), scene.pairs, {all.distance, all.direction, all.discs, points},
+            {.overlap = Overlap::deepest});
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
     const auto [a, b] = scene.pairs[i];
     const double x = all.direction[i].x, y = all.direction[i].y;
@@ -290,19 +158,6 @@ TEST_F(ClearanceDifferential, PointsAreThoseOfTheNearestFeatures) {
     EXPECT_NEAR(way_x * x + way_y * y, all.distance[i], 32e-6) << i;
     EXPECT_NEAR(way_x * y - way_y * x, 0, 32e-6) << i;
   }
-}
-
-TEST_F(ClearanceDifferential, PointsAreTheSameFarFromTheOriginAndInTheOtherOrder) {
-  PairScene scene = random_scene(random, set, 5'000);
-  test::move_away(scene, 0, 0);
-  const Answers all = answers(set, scene.crowd.agents(), scene.pairs, infinity);
-  const std::vector<NearestPoints> points = points_of(set, scene, all);
-  test::move_away(scene, 1e7, -8e8);
-  EXPECT_EQ(points_of(set, scene, all), points);
-  for (Pair& pair : scene.pairs) std::swap(pair.first, pair.second);
-  const std::vector<NearestPoints> exchanged = points_of(set, scene, all);
-  for (std::size_t i = 0; i < points.size(); ++i)
-    ASSERT_EQ(exchanged[i], (NearestPoints{points[i].second, points[i].first})) << i;
 }
 
 /// Moving the second agent along the direction widens the gap of the nearest discs by as much.
@@ -326,6 +181,56 @@ TEST_F(ClearanceDifferential, DirectionsAreUnitVectorsAlongWhichDiscsPart) {
       EXPECT_NEAR(after.distance[0] - all.distance[i], 0.001, 1e-5) << i;
     }
   }
+}
+
+TEST(Clearance, OfSingleDiscs) {
+  const std::vector<Shape> shapes = {{{}, fixed_cylinder(0.25f)}, {{}, fixed_cylinder(0.5f)}};
+  for (const ShapeSetPlan& levels : {ShapeSetPlan{{0}}, ShapeSetPlan{}}) {
+    const ShapeSet set(shapes, levels);
+    test::Crowd crowd;
+    crowd.add({0, 1, 1, 0.7, 0});
+    crowd.add({1, 4, 5, 2, 0});
+    crowd.add({1, 1, 1, 3, 0});
+    const std::vector<Pair> pairs = {{0, 1}, {1, 0}, {0, 2}, {2, 0}, {0, 0}};
+    const auto of = answers(set, crowd.agents(), pairs, infinity);
+    EXPECT_NEAR(of.distance[0], 4.25, 1e-5);
+    EXPECT_NEAR(of.direction[0].x, 0.6, 1e-6);
+    EXPECT_NEAR(of.direction[0].y, 0.8, 1e-6);
+    EXPECT_EQ(of.direction[1], (Vec2{-of.direction[0].x, -of.direction[0].y}));
+    EXPECT_NEAR(of.distance[2], -0.75, 1e-5);
+    EXPECT_EQ(of.direction[2], (Vec2{1, 0}));  // coincident centres
+    EXPECT_EQ(of.direction[3], (Vec2{-1, 0}));
+    EXPECT_NEAR(of.distance[4], -0.5, 1e-5);  // an agent and itself
+    EXPECT_EQ(of.direction[4], (Vec2{1, 0}));
+    EXPECT_EQ(of.discs[4], (DiscPair{0, 0}));
+    const auto limited = answers(set, crowd.agents(), pairs, 4);
+    EXPECT_EQ(limited.distance[0], std::numeric_limits<float>::infinity());
+    EXPECT_EQ(limited.direction[0], (Vec2{0, 0}));
+    EXPECT_EQ(limited.discs[0], no_discs);
+    std::vector<float> distance(pairs.size());
+    std::vector<NearestPoints> points(pairs.size(), {{1, 1}, {1, 1}});
+    clearance(set, crowd.agents(), pairs, {.distance = distance, .points = points}, {.max_distance = 4.5});
+    EXPECT_NEAR(points[0].first.x, 0.15, 1e-5);
+    EXPECT_NEAR(points[0].first.y, 0.2, 1e-5);
+    EXPECT_NEAR(points[0].second.x, -0.3, 1e-5);
+    EXPECT_NEAR(points[0].second.y, -0.4, 1e-5);
+    EXPECT_EQ(points[1], (NearestPoints{points[0].second, points[0].first}));
+    EXPECT_EQ(points[2], NearestPoints{});  // they overlap
+    const auto touching = answers(set, crowd.agents(), pairs, 0);
+    EXPECT_EQ(touching.distance[2], of.distance[2]);
+    EXPECT_EQ(touching.distance[0], std::numeric_limits<float>::infinity());
+  }
+}
+
+TEST(Clearance, AnswersThatAreNotAskedForChangeNoOthers) {
+  const ShapeSet set(test::synthetic_shapes(6, 8), four_levels);
+  Random random(7);
+  const PairScene scene = random_scene(random, set, 3'000);
+  const Answers all = answers(set, scene.crowd.agents(), scene.pairs, 0.5);
+  std::vector<float> distance(scene.pairs.size());
+  clearance(set, scene.crowd.agents(), scene.pairs, {distance, {}, {}},
+            {.max_distance = 0.5, .overlap = Overlap::deepest});
+  EXPECT_EQ(distance, all.distance);
 }
 
 }  // namespace

@@ -109,20 +109,5 @@ TEST_F(CollideAll, AnyNumberOfThreads) {
   EXPECT_GT(entries, 20'000u);
 }
 
-TEST_F(CollideAll, BadInputIsNamed) {
-  CrowdCollider collider;
-  test::Crowd crowd = crowd_of(3, 1, 8);
-  crowd.x[2] = std::numeric_limits<double>::quiet_NaN();
-  try {
-    collider.collide_all(set, crowd.agents());
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_NE(std::string(error.what()).find("agent 2: position (nan"), std::string::npos) << error.what();
-  }
-  const ShapeSet boundary_only(shapes, {plan.depths, false});
-  EXPECT_THROW(collider.collide_all(boundary_only, crowd_of(3, 1, 8).agents(), {Semantics::solid}),
-               std::invalid_argument);
-}
-
 }  // namespace
 }  // namespace bch

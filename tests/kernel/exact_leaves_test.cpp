@@ -14,14 +14,13 @@
 #include <bch/contacts.hpp>
 #include <bch/default_characters.hpp>
 
-#include "baselines/contact_reference.hpp"
 #include "baselines/oracle.hpp"
 #include "baselines/reference.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/format/shape_arrays.hpp"
 #include "layout/format/shape_set_view.hpp"
 #include "tests/support/character_shapes.hpp"
-#include "tests/support/differential.hpp"
+#include "tests/support/query_references.hpp"
 #include "tests/support/touching_scene.hpp"
 
 // Exact leaves: that leaf segments decide like brute force over all segments, miss no outlines that meet, and take no others
@@ -89,25 +88,9 @@ TEST_F(ExactLeaves, MissNoOutlinesThatMeetAndTakeNoOthersForMeeting) {
 }
 
 TEST_F(ExactLeaves, EqualBruteForceWhereOutlinesTouch) {
-  const Scene scene = touching_scene(random, shapes, test::samples(20'000));
-  const Agents agents = scene.crowd.agents();
-  const baselines::Reference reference(shapes, {});
-  for (const Semantics semantics : {Semantics::boundary, Semantics::solid}) {
-    std::vector<std::uint8_t> expected;
-    for (const Pair pair : scene.pairs) {
-      const auto ask = [&](baselines::Method method) {
-        return semantics == Semantics::solid ? reference.solid(agents, pair, method)
-                                             : reference.boundary(agents, pair, method);
-      };
-      expected.push_back(ask(baselines::Method::brute_force));
-      ASSERT_EQ(ask(baselines::Method::depth_first), expected.back());
-    }
-    for (const auto& implementation : implementations())
-      if (implementation.supported()) {
-        EXPECT_EQ(answers(set, agents, scene.pairs, {semantics, &implementation}), expected)
-            << implementation.name;
-      }
-  }
+  const test::Questions questions =
+      questions_about(random, set, touching_scene(random, shapes, test::samples(20'000)));
+  expect_answers(set, questions, test::BruteForce(shapes, {}).answers(set, questions), "touching");
 }
 
 /// Where segments meet, so do leaf discs and all discs above them.
@@ -121,29 +104,6 @@ TEST_F(ExactLeaves, HitNothingThatDiscsDoNot) {
     cleared += segments[i] < discs[i];
   }
   EXPECT_GT(cleared, 0u);
-}
-
-TEST_F(ExactLeaves, DecideContactsAsWell) {
-  const Scene scene = touching_scene(random, shapes, test::samples(5'000));
-  const Agents agents = scene.crowd.agents();
-  const baselines::CutLists cuts(shapes, {});
-  const baselines::LeafSegments segments(shapes, {}, Leaves::segments);
-  for (const auto& implementation : implementations()) {
-    if (!implementation.supported()) continue;
-    ContactFinder finder;
-    const Rows<DiscPair> table = finder.find(set, agents, scene.pairs, {.implementation = &implementation});
-    const auto hits = answers(set, agents, scene.pairs, {Semantics::boundary, &implementation});
-    for (std::size_t i = 0; i < hits.size(); ++i) {
-      ASSERT_EQ(table[i].empty(), hits[i] == 0) << implementation.name << ", pair " << i;
-      const auto expected = baselines::contacts(cuts, agents, scene.pairs[i], &segments);
-      const auto row = table[i];
-      ASSERT_TRUE(std::equal(row.begin(), row.end(), expected.begin(), expected.end(),
-                             [](const DiscPair& contact, const auto& discs) {
-                               return contact.first == discs.first && contact.second == discs.second;
-                             }))
-          << implementation.name << ", pair " << i;
-    }
-  }
 }
 
 /// What people are tested for: exact outlines, and nothing between.
@@ -212,13 +172,8 @@ TEST(LeafSegments, OfDenseOutlinesAreDiscs) {
   EXPECT_EQ(
       std::count(set.arrays().leaf_segments.begin(), set.arrays().leaf_segments.begin() + dense.count, 0u),
       dense.count);
-  const test::PairScene scene = random_scene(random, set, 300);
-  const baselines::Reference reference(shapes, {});
-  const auto hits = answers(set, scene.crowd.agents(), scene.pairs);
-  for (std::size_t i = 0; i < hits.size(); ++i)
-    ASSERT_EQ(hits[i],
-              reference.boundary(scene.crowd.agents(), scene.pairs[i], baselines::Method::depth_first))
-        << i;
+  const test::Questions questions = questions_about(random, set, random_scene(random, set, 300));
+  expect_answers(set, questions, test::BruteForce(shapes, {}).answers(set, questions), "dense");
 }
 
 /// Agents at levels that have segments beside such at levels that do not: discs decide between those.
@@ -239,19 +194,6 @@ TEST(ExactLeavesOfLevels, BesideThatOfAllDepthsAreComparedByDiscs) {
     ASSERT_EQ(agents.level[scene.pairs[i].second], 2) << i;
   }
   EXPECT_GT(differ, 0u);
-}
-
-TEST(ExactLeavesInput, IsChecked) {
-  const std::vector<Shape> shapes = test::synthetic_shapes(2408, 2);
-  const ShapeSet set(shapes);
-  const std::vector<std::uint32_t> shape = {0, 1};
-  const std::vector<double> zero = {0, 0};
-  const std::vector<Pair> pairs = {{0, 1}};
-  EXPECT_THROW(answers(set, {shape, zero, zero, zero}, pairs, {.leaves = static_cast<Leaves>(7)}),
-               std::invalid_argument);
-  EXPECT_THROW(
-      ContactFinder().find(set, {shape, zero, zero, zero}, pairs, {.leaves = static_cast<Leaves>(7)}),
-      std::invalid_argument);
 }
 
 }  // namespace

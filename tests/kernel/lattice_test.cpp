@@ -5,18 +5,11 @@
 
 #include <algorithm>
 #include <limits>
-#include <memory>
-#include <span>
+#include <string>
 #include <vector>
 
-#include <bch/clearance.hpp>
-#include <bch/collide.hpp>
-#include <bch/contacts.hpp>
-#include <bch/penetration.hpp>
-#include <bch/time_of_impact.hpp>
-
-#include "baselines/oracle.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/query_answers.hpp"
+#include "tests/support/touching_scene.hpp"
 
 // Footprints with integer corners at integer positions and heading 0, as simulators have them. Many corners are exactly
 // level with each other, edges lie on each other, and agents touch in single points. Every query is compared with the
@@ -58,145 +51,13 @@ std::vector<Outline> small_footprints() {
   };
 }
 
-class Lattice : public testing::Test {
- protected:
-  Lattice() {
-    outlines = big_footprints();
-    for (const Outline& each : small_footprints()) outlines.push_back(each);
-    for (const Outline& each : outlines) shapes.push_back(test::contour_shape(each, threshold));
-    for (const bool culling : {true, false})
-      sets.emplace_back(shapes, ShapeSetPlan{{all_depths}, true, culling});
-  }
-
-  baselines::Oracle oracle(const Agents& agents, Pair pair) const {
-    return {outlines[agents.shape[pair.first]], outlines[agents.shape[pair.second]],
-            baselines::exact_placement(agents, pair.first, pair.second)};
-  }
-
-  /// Both agents at integers, the second one at every place about the first one. Pairs name them in either order.
-  test::PairScene all_places(std::uint32_t a, std::uint32_t b) const {
-    test::PairScene scene;
-    for (int j = -farthest; j <= farthest; ++j)
-      for (int i = -farthest; i <= farthest; ++i) {
-        const auto first = static_cast<std::uint32_t>(scene.crowd.x.size());
-        scene.crowd.add({a, 1000, -77, 0, 0});
-        scene.crowd.add({b, 1000.0 + i, -77.0 + j, 0, 0});
-        scene.pairs.push_back((i + j) % 2 == 0 ? Pair{first, first + 1} : Pair{first + 1, first});
-      }
-    return scene;
-  }
-
-  template <class Visit>
-  void for_pairs_of_shapes(Visit visit) const {
-    const auto count = static_cast<std::uint32_t>(shapes.size());
-    for (std::uint32_t a = 0; a < count; ++a)
-      for (std::uint32_t b = a; b < count; ++b) visit(all_places(a, b));
-  }
-
-  std::vector<Outline> outlines;
-  std::vector<Shape> shapes;
-  std::vector<ShapeSet> sets;  ///< with culling data and without
-};
-
-template <class Visit>
-void for_implementations(Visit visit) {
-  for (const auto& implementation : implementations())
-    if (implementation.supported()) visit(implementation);
-}
-
-TEST_F(Lattice, CollisionsAreThoseOfTheOutlines) {
-  std::size_t crossing = 0, nested = 0, apart = 0;
-  for_pairs_of_shapes([&](const test::PairScene& scene) {
-    std::vector<std::uint8_t> boundary, solid, found(scene.pairs.size());
-    for (const Pair pair : scene.pairs) {
-      const baselines::Oracle truth = oracle(scene.crowd.agents(), pair);
-      const bool cross = truth.cross(), inside = !cross && truth.nested();
-      boundary.push_back(cross), solid.push_back(cross || inside);
-      crossing += cross, nested += inside, apart += !cross && !inside;
-    }
-    for_implementations([&](const Implementation& implementation) {
-      for (const ShapeSet& set : sets) {
-        collide(set, scene.crowd.agents(), scene.pairs, found, {Semantics::boundary, &implementation});
-        EXPECT_EQ(found, boundary) << implementation.name;
-        collide(set, scene.crowd.agents(), scene.pairs, found, {Semantics::solid, &implementation});
-        EXPECT_EQ(found, solid) << implementation.name;
-      }
-    });
-  });
-  EXPECT_GT(crossing, 5'000u);
-  EXPECT_GT(nested, 300u);
-  EXPECT_GT(apart, 5'000u);
-}
-
-TEST_F(Lattice, ClearancesAreThoseOfTheOutlines) {
-  for_pairs_of_shapes([&](const test::PairScene& scene) {
-    std::vector<double> distance;
-    for (const Pair pair : scene.pairs)
-      distance.push_back(static_cast<double>(oracle(scene.crowd.agents(), pair).distance()));
-    for_implementations([&](const Implementation& implementation) {
-      std::vector<float> found(scene.pairs.size());
-      clearance(sets[0], scene.crowd.agents(), scene.pairs, {found, {}}, {.implementation = &implementation});
-      for (std::size_t i = 0; i < found.size(); ++i) {
-        ASSERT_LE(static_cast<double>(found[i]), distance[i]) << implementation.name;
-        ASSERT_GE(static_cast<double>(found[i]), distance[i] - 2 * leaf_size - 1e-4) << implementation.name;
-      }
-    });
-  });
-}
-
-TEST_F(Lattice, ContactsAreThereWhereOutlinesCross) {
-  for_pairs_of_shapes([&](const test::PairScene& scene) {
-    for_implementations([&](const Implementation& implementation) {
-      ContactFinder finder;
-      const Rows<DiscPair> table =
-          finder.find(sets[0], scene.crowd.agents(), scene.pairs, {.implementation = &implementation});
-      for (std::size_t i = 0; i < scene.pairs.size(); ++i)
-        ASSERT_EQ(!table[i].empty(), oracle(scene.crowd.agents(), scene.pairs[i]).cross())
-            << implementation.name;
-    });
-  });
-}
-
-/// The first agent of a pair comes towards the second one's place, goes a metre further, and turns neither.
-TEST_F(Lattice, TimeOfImpactsAreThoseOfTheOutlines) {
-  std::size_t meetings = 0;
-  for_pairs_of_shapes([&](const test::PairScene& scene) {
-    const Agents agents = scene.crowd.agents();
-    std::vector<double> x, y, time;
-    for (const auto [first, second] : scene.pairs) {
-      x.push_back(agents.x[second] - agents.x[first] + 1);
-      y.push_back(agents.y[second] - agents.y[first]);
-      const baselines::Oracle truth = oracle(agents, {first, second});
-      time.push_back(truth.cross() ? 0 : static_cast<double>(truth.time_of_impact(x.back(), y.back())));
-      meetings += time.back() > 0 && time.back() <= 1;
-    }
-    for_implementations([&](const Implementation& implementation) {
-      std::vector<float> found(scene.pairs.size());
-      time_of_impact(sets[0], agents, scene.pairs, {x, y}, found, {.implementation = &implementation});
-      for (std::size_t i = 0; i < found.size(); ++i) {
-        ASSERT_LE(static_cast<double>(found[i]), time[i]) << implementation.name;
-        if (found[i] > 1) continue;
-        // There the outlines are as near each other as two leaf discs that touch.
-        test::Crowd then = scene.crowd;
-        then.x[scene.pairs[i].first] += static_cast<double>(found[i]) * x[i];
-        then.y[scene.pairs[i].first] += static_cast<double>(found[i]) * y[i];
-        ASSERT_LE(static_cast<double>(oracle(then.agents(), scene.pairs[i]).distance()), 2 * leaf_size + 1e-4)
-            << implementation.name;
-      }
-    });
-  });
-  EXPECT_GT(meetings, 5'000u);
-}
-
-/// How far an outline extends along an axis.
+/// How far an outline extends along both axes.
 struct Box {
   double low[2], high[2];
 
   Box(const Outline& outline, double x, double y) {
-    const auto [left, right] = std::minmax_element(outline.points.begin(), outline.points.end(),
-                                                   [](Vec2 a, Vec2 b) { return a.x < b.x; });
-    const auto [bottom, top] = std::minmax_element(outline.points.begin(), outline.points.end(),
-                                                   [](Vec2 a, Vec2 b) { return a.y < b.y; });
+    const auto [left, right] = std::ranges::minmax_element(outline.points, {}, &Vec2::x);
+    const auto [bottom, top] = std::ranges::minmax_element(outline.points, {}, &Vec2::y);
     low[0] = x + static_cast<double>(left->x), high[0] = x + static_cast<double>(right->x);
     low[1] = y + static_cast<double>(bottom->y), high[1] = y + static_cast<double>(top->y);
   }
@@ -209,29 +70,98 @@ double box_depth(const Box& a, const Box& b) {
   return std::max(least, 0.0);
 }
 
-TEST_F(Lattice, PenetrationsAreThoseOfTheBoxes) {
-  for_pairs_of_shapes([&](const test::PairScene& scene) {
-    const Agents agents = scene.crowd.agents();
-    const auto box = [&](std::uint32_t agent) {
-      return Box(outlines[agents.shape[agent]], agents.x[agent], agents.y[agent]);
-    };
-    for_implementations([&](const Implementation& implementation) {
-      std::vector<Penetration> found(scene.pairs.size());
-      penetration(sets[0], agents, scene.pairs, 4, found, {.implementation = &implementation});
-      test::PairScene after = scene;
-      for (std::size_t i = 0; i < found.size(); ++i) {
-        const auto [first, second] = scene.pairs[i];
-        const double depth = found[i].depth, least = box_depth(box(first), box(second));
-        ASSERT_GE(depth, least) << implementation.name;
-        ASSERT_LE(depth, least + 2 * leaf_size + 1e-4) << implementation.name;
-        after.crowd.x[first] += depth * found[i].x;
-        after.crowd.y[first] += depth * found[i].y;
+class Lattice : public testing::Test {
+ protected:
+  Lattice() {
+    std::vector<Outline> outlines = big_footprints();
+    for (const Outline& each : small_footprints()) outlines.push_back(each);
+    for (const Outline& each : outlines) shapes.push_back(test::contour_shape(each, threshold));
+    for (const bool culling : {true, false})
+      sets.emplace_back(shapes, ShapeSetPlan{{all_depths}, true, culling});
+  }
+
+  /// Both agents at integers, the second one at every place about the first one; pairs name them in either order. The first one of a pair
+  /// comes towards the second one's place, goes a metre further, and turns neither.
+  test::Questions all_places(std::uint32_t a, std::uint32_t b) const {
+    test::Questions scene;
+    scene.lines = 4;
+    for (int j = -farthest; j <= farthest; ++j)
+      for (int i = -farthest; i <= farthest; ++i) {
+        const auto first = static_cast<std::uint32_t>(scene.crowd.x.size());
+        scene.crowd.add({a, 1000, -77, 0, 0});
+        scene.crowd.add({b, 1000.0 + i, -77.0 + j, 0, 0});
+        const bool in_order = (i + j) % 2 == 0;
+        scene.pairs.push_back(in_order ? Pair{first, first + 1} : Pair{first + 1, first});
+        scene.way_x.push_back((in_order ? i : -i) + 1);
+        scene.way_y.push_back(in_order ? j : -j);
+        scene.directions.push_back({1, 0});
+        scene.distances.push_back(0);
       }
-      std::vector<std::uint8_t> hits(scene.pairs.size());
-      collide(sets[0], after.crowd.agents(), after.pairs, hits, {Semantics::solid, &implementation});
-      EXPECT_EQ(std::count(hits.begin(), hits.end(), 1), 0) << implementation.name;
-    });
-  });
+    return scene;
+  }
+
+  /// Returns the outlines after the first agent's move.
+  baselines::Oracle moved(test::Crowd crowd, Pair pair, double x, double y) const {
+    crowd.x[pair.first] += x, crowd.y[pair.first] += y;
+    return test::oracle(shapes, crowd.agents(), pair);
+  }
+
+  double least_way(const test::Crowd& crowd, Pair pair) const {
+    const auto box = [&](std::uint32_t agent) {
+      return Box(shapes[crowd.shape[agent]].outline, crowd.x[agent], crowd.y[agent]);
+    };
+    return box_depth(box(pair.first), box(pair.second));
+  }
+
+  std::vector<Shape> shapes;
+  std::vector<ShapeSet> sets;  ///< with culling data and without
+};
+
+TEST_F(Lattice, AnswersAreThoseOfTheOutlines) {
+  std::size_t crossing = 0, nested = 0, apart = 0, meetings = 0;
+  constexpr double slack = 2 * leaf_size + 1e-4;
+  for (std::uint32_t a = 0; a < shapes.size(); ++a)
+    for (std::uint32_t b = a; b < shapes.size(); ++b) {
+      const test::Questions scene = all_places(a, b);
+      test::Questions after = scene;
+      const std::vector<test::PairAnswers> all = ask(sets[0], scene);
+      const std::string what = std::to_string(a) + " and " + std::to_string(b);
+      expect_answers(sets[0], scene, all, what);
+      expect_same(ask(sets[1], scene), all, what + ", without culling");
+      for (std::size_t i = 0; i < all.size(); ++i) {
+        const Pair pair = scene.pairs[i];
+        const double x = scene.way_x[i], y = scene.way_y[i];
+        const baselines::Oracle truth = test::oracle(shapes, scene.crowd.agents(), pair);
+        const bool cross = truth.cross(), inside = !cross && truth.nested();
+        crossing += cross, nested += inside, apart += !cross && !inside;
+        ASSERT_EQ(all[i].boundary, cross);
+        ASSERT_EQ(all[i].solid, cross || inside);
+        ASSERT_EQ(!all[i].contacts.empty(), cross);
+
+        const auto distance = static_cast<double>(truth.distance());
+        ASSERT_LE(static_cast<double>(all[i].nearest.distance), distance);
+        ASSERT_GE(static_cast<double>(all[i].nearest.distance), distance - slack);
+
+        const double found = all[i].time, time = cross ? 0 : static_cast<double>(truth.time_of_impact(x, y));
+        meetings += time > 0 && time <= 1;
+        ASSERT_LE(found, time);
+        if (found <= 1) {  // there the outlines are as near each other as two leaf discs that touch
+          ASSERT_LE(static_cast<double>(moved(scene.crowd, pair, found * x, found * y).distance()), slack);
+        }
+
+        const auto& [depth, way_x, way_y] = all[i].best;
+        const double least = least_way(scene.crowd, pair);
+        ASSERT_GE(static_cast<double>(depth), least);
+        ASSERT_LE(static_cast<double>(depth), least + slack);
+        after.crowd.x[pair.first] += static_cast<double>(depth) * way_x;
+        after.crowd.y[pair.first] += static_cast<double>(depth) * way_y;
+      }
+      for (const test::PairAnswers& each : ask(sets[0], after)) ASSERT_EQ(each.solid, 0);
+    }
+  EXPECT_GT(crossing, 5'000u);
+  EXPECT_GT(nested, 300u);
+  EXPECT_GT(apart, 5'000u);
+  EXPECT_GT(meetings, 5'000u);
 }
 
 TEST_F(Lattice, NeighboursInACrowdAreThoseOfTheOutlines) {
@@ -245,13 +175,14 @@ TEST_F(Lattice, NeighboursInACrowdAreThoseOfTheOutlines) {
   for (std::uint32_t i = 0; i < size; ++i)
     for (std::uint32_t j = 0; j < size; ++j) {
       if (i == j) continue;
-      const baselines::Oracle truth = oracle(crowd.agents(), {i, j});
+      const baselines::Oracle truth = test::oracle(shapes, crowd.agents(), {i, j});
       if (truth.cross()) boundary[i].push_back(j);
       if (truth.cross() || truth.nested()) solid[i].push_back(j);
     }
   EXPECT_NE(boundary, solid);
   CrowdCollider collider;
-  for_implementations([&](const Implementation& implementation) {
+  for (const Implementation& implementation : implementations()) {
+    if (!implementation.supported()) continue;
     for (const ShapeSet& set : sets)
       for (const Semantics semantics : {Semantics::boundary, Semantics::solid}) {
         const auto rows = collider.collide_all(set, crowd.agents(), {semantics, &implementation});
@@ -262,7 +193,7 @@ TEST_F(Lattice, NeighboursInACrowdAreThoseOfTheOutlines) {
               << implementation.name << ", agent " << i;
         }
       }
-  });
+  }
 }
 
 }  // namespace

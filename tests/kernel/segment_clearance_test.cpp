@@ -14,7 +14,6 @@
 #include <bch/collide.hpp>
 #include <bch/default_characters.hpp>
 
-#include "baselines/clearance_reference.hpp"
 #include "baselines/segment_clearance.hpp"
 #include "layout/base/rounding.hpp"
 #include "tests/support/character_shapes.hpp"
@@ -50,23 +49,6 @@ Found find(const ShapeSet& set, const PairScene& scene, QueryOptions options = {
   return found;
 }
 
-/// The distances of all segments, or of discs where a shape has no segments at its level.
-class Expected {
- public:
-  Expected(std::span<const Shape> shapes, const ShapeSetPlan& plan)
-      : segments_(shapes, plan), discs_(shapes, plan) {}
-
-  float distance(const Agents& agents, Pair pair, double max_distance) {
-    if (const auto of_segments = segments_.distance(agents, pair, max_distance)) return *of_segments;
-    return baselines::at_least_zero(discs_.query(agents, pair, max_distance, baselines::Method::depth_first))
-        .distance;
-  }
-
- private:
-  baselines::SegmentClearance segments_;
-  baselines::ClearanceReference discs_;
-};
-
 class SegmentClearance : public test::Differential {
  protected:
   SegmentClearance() : Differential(2701, test::four_levels) {}
@@ -76,94 +58,7 @@ class SegmentClearance : public test::Differential {
     for (std::uint8_t& level : scene.crowd.level)
       if (random.below(4) != 0) level = 3;
   }
-
-  void expect_equal_to_brute_force(const PairScene& scene, double max_distance) {
-    std::vector<float> distances;
-    for (const Pair pair : scene.pairs)
-      distances.push_back(expected.distance(scene.crowd.agents(), pair, max_distance));
-    const Found first = find(set, scene, {.max_distance = max_distance});
-    for (const auto& implementation : implementations()) {
-      if (!implementation.supported()) continue;
-      const Found found = find(set, scene, {.implementation = &implementation, .max_distance = max_distance});
-      for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
-        ASSERT_EQ(found.distance[i], distances[i]) << implementation.name << ", pair " << i;
-        ASSERT_TRUE(found.same(i, first, i)) << implementation.name << ", pair " << i;
-      }
-    }
-  }
-
-  Expected expected{shapes, test::four_levels};
 };
-
-TEST_F(SegmentClearance, OfRandomPairsEqualsBruteForce) {
-  for (const double max_distance : {infinity, 0.5, 0.05, 0.0}) {
-    PairScene scene = random_scene(random, set, 25'000);
-    refine(scene);
-    expect_equal_to_brute_force(scene, max_distance);
-  }
-}
-
-TEST_F(SegmentClearance, OfTangentPairsEqualsBruteForce) {
-  for (const double max_distance : {infinity, 0.5, 0.02, 1e-6}) {
-    PairScene scene = tangent_scene(25'000);
-    refine(scene);
-    expect_equal_to_brute_force(scene, max_distance);
-  }
-}
-
-TEST_F(SegmentClearance, FarFromTheOriginAndFarApartEqualsBruteForce) {
-  PairScene scene = random_scene(random, set, 8'000);
-  refine(scene);
-  test::move_away(scene, 0, 0);
-  const Found at_origin = find(set, scene);
-  test::move_away(scene, 1e7, -8e8);
-  expect_equal_to_brute_force(scene, infinity);
-  const Found far = find(set, scene);
-  for (std::size_t i = 0; i < scene.pairs.size(); ++i) EXPECT_TRUE(far.same(i, at_origin, i)) << i;
-  for (const double apart : {30.0, 1e4, 1.4e9}) {
-    // From so far away that rounding hides a body, all leaves are equally near.
-    scene = random_scene(random, set, test::samples(apart > 1e9 ? 200 : 3'000));
-    refine(scene);
-    for (std::size_t i = 1; i < scene.crowd.x.size(); i += 2) scene.crowd.x[i] -= apart;
-    if (apart > 1e9)
-      for (double& x : scene.crowd.x) x += 0.5e9;
-    expect_equal_to_brute_force(scene, infinity);
-    expect_equal_to_brute_force(scene, apart);
-  }
-}
-
-TEST_F(SegmentClearance, OfExchangedAgentsIsExchanged) {
-  PairScene scene = tangent_scene(10'000);
-  refine(scene);
-  const Found one = find(set, scene);
-  for (Pair& pair : scene.pairs) std::swap(pair.first, pair.second);
-  const Found other = find(set, scene);
-  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
-    EXPECT_EQ(other.distance[i], one.distance[i]);
-    EXPECT_EQ(other.direction[i], (Vec2{-one.direction[i].x, -one.direction[i].y}));
-    EXPECT_EQ(other.discs[i], (DiscPair{one.discs[i].second, one.discs[i].first}));
-    EXPECT_EQ(other.points[i], (NearestPoints{one.points[i].second, one.points[i].first}));
-  }
-}
-
-TEST_F(SegmentClearance, OfManyShapesAndInPartsIsTheSame) {
-  PairScene scene = random_scene(random, set, 12'000);
-  refine(scene);
-  constexpr std::uint32_t first = 62, most = 1025;
-  ASSERT_GE(scene.pairs.size(), first + most);
-  const Found whole = find(set, scene, {.max_distance = 0.5});
-  for (const std::uint32_t size : {0u, 1u, 3u, 17u, 255u, most}) {
-    const auto begin = scene.pairs.begin() + first;
-    PairScene part{scene.crowd, {begin, begin + size}};
-    const Found found = find(set, part, {.max_distance = 0.5});
-    for (std::size_t i = 0; i < size; ++i) EXPECT_TRUE(found.same(i, whole, first + i)) << size;
-  }
-  const ShapeSet large(test::repeated(shapes), test::four_levels);
-  for (std::size_t i = 0; i < scene.crowd.shape.size(); ++i)
-    scene.crowd.shape[i] += static_cast<std::uint32_t>(i * shapes.size() % large.shape_count());
-  const Found of_many = find(large, scene, {.max_distance = 0.5});
-  for (std::size_t i = 0; i < scene.pairs.size(); ++i) EXPECT_TRUE(of_many.same(i, whole, i)) << i;
-}
 
 /// The same question in the same words: what collides has no distance, and what has one does not collide.
 TEST_F(SegmentClearance, AgreesWithCollide) {
@@ -329,30 +224,6 @@ TEST(SegmentClearanceOfOutlines, NamesTheFirstOfEquallyNearSegments) {
     EXPECT_LT(distance_from_segment(shapes[0], nearest->b, scene.crowd.heading[b], first.points[i].second),
               1e-6);
   }
-}
-
-/// Discs decide where a leaf has too many segments.
-TEST(SegmentClearanceOfOutlines, OfDenseOnesIsThatOfDiscs) {
-  Random random(2706);
-  const std::vector<Shape> shapes = {test::contour_shape(test::star(random, 20'000, 0.3, 0.31), 0.05f),
-                                     test::contour_shape(test::star(random, 40, 0.2, 0.4))};
-  const ShapeSet set(shapes);
-  const PairScene scene = random_scene(random, set, 1'000);
-  Expected expected(shapes, {});
-  const Found found = find(set, scene);
-  for (std::size_t i = 0; i < scene.pairs.size(); ++i)
-    ASSERT_EQ(found.distance[i], expected.distance(scene.crowd.agents(), scene.pairs[i], infinity)) << i;
-}
-
-TEST(SegmentClearanceOfOutlines, LeavesAreChecked) {
-  const std::vector<Shape> shapes = test::synthetic_shapes(2707, 2);
-  const ShapeSet set(shapes);
-  Random random(2708);
-  const PairScene scene = random_scene(random, set, 2);
-  std::vector<float> distance(2);
-  EXPECT_THROW(clearance(set, scene.crowd.agents(), scene.pairs, {distance},
-                         {.distance_leaves = static_cast<Leaves>(7)}),
-               std::invalid_argument);
 }
 
 }  // namespace

@@ -20,7 +20,7 @@
 #include "kernel/collide/answer.hpp"
 #include "kernel/crowd/neighbour_rows.hpp"
 #include "kernel/runtime/pair_validation.hpp"
-#include "tests/support/clearances.hpp"
+#include "tests/support/query_answers.hpp"
 #include "tests/support/scenes.hpp"
 
 // For ThreadSanitizer: the functions that tasks run, and whole calls, which then run on tests/support/plain_threads.
@@ -76,42 +76,17 @@ TEST_F(Threads, ASetIsReadWhileAnotherIsBuilt) {
   EXPECT_GT(bytes, 0u);
 }
 
-/// All that can be asked of a scene, in calls that share nothing but the shapes and the agents.
+/// All that can be asked of a crowd, in calls that share nothing but the shapes and the agents.
 struct Everything {
-  std::vector<std::uint8_t> boundary, solid, near;
-  test::Answers clearances;
-  std::vector<float> times;
-  std::vector<Penetration> best, along;
-  std::vector<std::uint64_t> contact_offsets;
-  std::vector<DiscPair> contacts;
+  std::vector<test::PairAnswers> of_pairs;
   std::vector<Pair> candidates;
   std::vector<std::uint64_t> begin;
   std::vector<std::uint32_t> neighbours, obstacles;
   std::vector<float> from_walls;
 
-  Everything(const ShapeSet& set, const test::PairScene& scene)
-      : boundary(scene.pairs.size()),
-        solid(boundary),
-        near(boundary),
-        times(boundary.size()),
-        best(boundary.size()),
-        along(best),
-        from_walls(scene.crowd.x.size()) {
-    const Agents agents = scene.crowd.agents();
-    const std::span<const Pair> pairs = scene.pairs;
-    const std::vector<double> way(pairs.size(), 0.5);
-    const std::vector<Vec2> directions(pairs.size(), Vec2{0.6f, 0.8f});
-    collide(set, agents, pairs, boundary);
-    collide(set, agents, pairs, solid, {Semantics::solid});
-    clearances = test::answers(set, agents, pairs, 0.5);
-    within(set, agents, pairs, std::vector<double>(pairs.size(), 0.1), near);
-    time_of_impact(set, agents, pairs, {way, way}, times);
-    penetration(set, agents, pairs, 8, best);
-    penetration_along(set, agents, pairs, directions, along);
-    ContactFinder finder;
-    const Rows<DiscPair> rows = finder.find(set, agents, pairs);
-    contact_offsets.assign(rows.offsets.begin(), rows.offsets.end());
-    contacts.assign(rows.values.begin(), rows.values.end());
+  Everything(const ShapeSet& set, const test::Questions& questions)
+      : of_pairs(ask(set, questions)), from_walls(questions.crowd.x.size()) {
+    const Agents agents = questions.crowd.agents();
     candidates = candidate_pairs(set, agents);
     CrowdCollider collider;
     const Rows<std::uint32_t> all = collider.collide_all(set, agents);
@@ -125,16 +100,7 @@ struct Everything {
   }
 
   void expect_same(const Everything& other) const {
-    EXPECT_EQ(boundary, other.boundary);
-    EXPECT_EQ(solid, other.solid);
-    EXPECT_EQ(near, other.near);
-    for (std::size_t i = 0; i < boundary.size(); ++i)
-      EXPECT_TRUE(clearances.same(i, other.clearances, i)) << i;
-    EXPECT_EQ(times, other.times);
-    EXPECT_EQ(best, other.best);
-    EXPECT_EQ(along, other.along);
-    EXPECT_EQ(contact_offsets, other.contact_offsets);
-    EXPECT_EQ(contacts, other.contacts);
+    test::expect_same(other.of_pairs, of_pairs, "at the same time");
     EXPECT_EQ(candidates, other.candidates);
     EXPECT_EQ(begin, other.begin);
     EXPECT_EQ(neighbours, other.neighbours);
@@ -144,11 +110,12 @@ struct Everything {
 };
 
 TEST_F(Threads, EveryQueryRunsWhileOthersRunAndASetIsBuilt) {
-  const Everything alone(set, scene);
+  const test::Questions questions = questions_about(random, set, scene);
+  const Everything alone(set, questions);
   EXPECT_GT(alone.neighbours.size(), scene.pairs.size() / 2);
   std::optional<Everything> first, second;
-  std::thread reader([&] { first.emplace(set, scene); });
-  std::thread other_reader([&] { second.emplace(set, scene); });
+  std::thread reader([&] { first.emplace(set, questions); });
+  std::thread other_reader([&] { second.emplace(set, questions); });
   std::thread builder([&] { EXPECT_GT(ShapeSet(shapes, {{0, 3, all_depths}, true}).bytes(), 0u); });
   reader.join();
   other_reader.join();

@@ -4,8 +4,6 @@
 #include <bch/time_of_impact.hpp>
 
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include <cmath>
 #include <limits>
@@ -93,12 +91,6 @@ class TimeOfImpactDifferential : public test::Differential {
   }
 };
 
-TEST_F(TimeOfImpactDifferential, RandomPairs) {
-  for (const double back : {0.1, 0.5, 2.0, 10.0})
-    for (int i = 0; i < 2; ++i)
-      expect_equal_to_brute_force(approaching(25'000, back), "from " + std::to_string(back));
-}
-
 /// Ways that end at the touch of two discs, or pass by within the last bits.
 TEST_F(TimeOfImpactDifferential, NearTangentPairs) {
   Motion motion = approaching(20'000, 1);
@@ -126,40 +118,6 @@ TEST_F(TimeOfImpactDifferential, NearTangentPairs) {
   expect_equal_to_brute_force(motion, "passes by");
 }
 
-TEST_F(TimeOfImpactDifferential, FarFromTheOriginAndFarApart) {
-  Motion motion = approaching(20'000, 1);
-  const std::vector<float> at_origin = times(set, motion);
-  test::move_away(motion, 1e7, -8e8);
-  expect_equal_to_brute_force(motion, "far from the origin");
-  for (const double apart : {100.0, 1e5, 1e9}) {
-    motion = approaching(4'000, 0.5);
-    for (std::size_t i = 0; i < motion.pairs.size(); ++i) {
-      const auto [first, second] = motion.pairs[i];
-      motion.crowd.x[first] -= 0.9 * apart;
-      const double dx = motion.crowd.x[second] - motion.crowd.x[first],
-                   dy = motion.crowd.y[second] - motion.crowd.y[first];
-      motion.x[i] = std::min(1e9, random.uniform(0.9, 1.2) * dx), motion.y[i] = dy;
-    }
-    expect_equal_to_brute_force(motion, "far apart: " + std::to_string(apart));
-  }
-}
-
-TEST_F(TimeOfImpactDifferential, TheReferencesAgree) {
-  const Motion motion = approaching(20'000, 1);
-  for (std::size_t i = 0; i < motion.pairs.size(); ++i)
-    ASSERT_EQ(expected(motion, i, Method::depth_first), expected(motion, i, Method::brute_force)) << i;
-}
-
-TEST_F(TimeOfImpactDifferential, WithoutShortcuts) {
-  const ShapeSet plain(shapes, {.depths = four_levels.depths, .culling = false});
-  const Motion motion = approaching(20'000, 1);
-  const std::vector<float> expected = times(set, motion);
-  for (const auto& implementation : implementations()) {
-    if (!implementation.supported()) continue;
-    EXPECT_EQ(times(plain, motion, &implementation), expected) << implementation.name;
-  }
-}
-
 TEST_F(TimeOfImpactDifferential, WithoutAWayItIsCollide) {
   Motion motion{random_scene(random, set, 50'000), {}, {}};
   motion.x.assign(motion.pairs.size(), 0), motion.y = motion.x;
@@ -174,30 +132,6 @@ TEST_F(TimeOfImpactDifferential, WithoutAWayItIsCollide) {
     for (std::size_t i = 0; i < hits.size(); ++i)
       ASSERT_EQ(hardly[i], expected(motion, i, Method::brute_force)) << length << " m, pair " << i;
   }
-}
-
-TEST_F(TimeOfImpactDifferential, BatchesThreadsAndOrder) {
-  Motion motion = approaching(20'000, 1);
-  const std::vector<float> whole = times(set, motion);
-  const Agents agents = motion.crowd.agents();
-  for (const std::size_t size : {0, 1, 3, 17, 255, 257, 1025})
-    for (const std::size_t offset : {0, 1, 62}) {
-      std::vector<float> part(size);
-      time_of_impact(set, agents, std::span(motion.pairs).subspan(offset, size),
-                     {std::span(motion.x).subspan(offset, size), std::span(motion.y).subspan(offset, size)},
-                     part);
-      for (std::size_t i = 0; i < size; ++i) EXPECT_EQ(part[i], whole[offset + i]);
-    }
-  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 8);
-  for (int threads = 1; threads <= 8; ++threads) {
-    tbb::task_arena arena(threads);
-    EXPECT_EQ(arena.execute([&] { return times(set, motion); }), whole) << threads << " threads";
-  }
-  for (std::size_t i = 0; i < motion.pairs.size(); ++i) {
-    std::swap(motion.pairs[i].first, motion.pairs[i].second);
-    motion.x[i] = -motion.x[i], motion.y[i] = -motion.y[i];
-  }
-  EXPECT_EQ(times(set, motion), whole);
 }
 
 /// Never later than the outlines' contact; before it discs do not overlap, and at it they do, but for rounding.
@@ -307,42 +241,6 @@ TEST(TimeOfImpact, OfSingleDiscs) {
     EXPECT_EQ(all[5], never);  // at rest
     EXPECT_EQ(all[6], never);  // passes by
   }
-}
-
-TEST(TimeOfImpact, RejectsBadInputBeforeAnythingIsWritten) {
-  const ShapeSet set(test::synthetic_shapes(1, 2));
-  Motion motion;
-  motion.crowd.add({0, 0, 0, 0, 0});
-  motion.crowd.add({1, 1, 0, 0, 0});
-  motion.pairs = {{0, 1}};
-  motion.x = {1}, motion.y = {0};
-  const auto expect_rejected = [&](const std::string& message) {
-    std::vector<float> all(1, 42);
-    try {
-      time_of_impact(set, motion.crowd.agents(), motion.pairs, motion.displacements(), all);
-      FAIL() << "accepted; expected: " << message;
-    } catch (const std::invalid_argument& error) {
-      EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
-    }
-    EXPECT_EQ(all[0], 42);
-  };
-  motion.y = {std::nan("")};
-  expect_rejected("pair 0: displacement (1, nan)");
-  motion.y = {-2e9};
-  expect_rejected("pair 0: displacement (1, -2e+09)");
-  motion.y = {};
-  expect_rejected("1 pairs but 0 displacements in y");
-  motion.y = {0};
-  motion.x = {1, 1};
-  expect_rejected("1 pairs but 2 displacements in x");
-  motion.x = {1};
-  motion.pairs = {{0, 1}, {1, 0}};
-  motion.x = motion.y = {1, 1};
-  expect_rejected("2 pairs but 1 times");
-  motion.pairs = {{0, 1}};
-  motion.x = {1}, motion.y = {0};
-  motion.crowd.heading[1] = std::numeric_limits<double>::infinity();
-  expect_rejected("pair 0: agent 1: heading inf");
 }
 
 }  // namespace

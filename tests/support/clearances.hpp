@@ -64,18 +64,4 @@ inline Answers at_least_zero(const Answers& all) {
   return zero;
 }
 
-/// Asks the scalar reference for the answers to all pairs of a scene.
-inline Answers answers(baselines::ClearanceReference& reference, const PairScene& scene, double max_distance,
-                       baselines::Method method) {
-  Answers all;
-  for (const Pair pair : scene.pairs) {
-    const auto [distance, direction, first, second] =
-        reference.query(scene.crowd.agents(), pair, max_distance, method);
-    all.distance.push_back(distance);
-    all.direction.push_back(direction);
-    all.discs.push_back({first, second});
-  }
-  return all;
-}
-
 }  // namespace bch::test

@@ -45,21 +45,6 @@ Outline archipelago(Random& random) {
 
 }  // namespace
 
-std::uint64_t Random::next() {
-  std::uint64_t z = state_ += 0x9e3779b97f4a7c15;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111eb;
-  return z ^ (z >> 31);
-}
-
-double Random::uniform(double low, double high) {
-  return low + (high - low) * (static_cast<double>(next() >> 11) * 0x1p-53);
-}
-
-std::uint32_t Random::below(std::uint32_t bound) {
-  return static_cast<std::uint32_t>((next() >> 32) * bound >> 32);
-}
-
 Outline polygon(std::vector<Vec2> points) {
   Outline outline;
   outline.contour_begin.push_back(static_cast<std::uint32_t>(points.size()));

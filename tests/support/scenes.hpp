@@ -11,18 +11,15 @@
 #include <bch/agents.hpp>
 #include <bch/shape_set.hpp>
 
+#include "layout/base/random.hpp"
+
 namespace bch::test {
 
-/// splitmix64 (Steele, Lea, Flood 2014): the same numbers everywhere for a seed.
-class Random {
+/// The same numbers everywhere for a seed.
+class Random : public detail::Random {
  public:
-  explicit Random(std::uint64_t seed) : state_(seed) {}
-  std::uint64_t next();
-  double uniform(double low, double high);
-  std::uint32_t below(std::uint32_t bound);
-
- private:
-  std::uint64_t state_;
+  using detail::Random::Random;
+  double uniform(double low, double high) { return between(low, high); }
 };
 
 /// Returns how many cases of the same kind a test of `cases` looks at: an eighth with sanitizers, a tenth in an
