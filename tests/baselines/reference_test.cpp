@@ -276,33 +276,5 @@ TEST(Examples, TreesMayBeHigh) {
   EXPECT_LT(hits, 180u);
 }
 
-TEST(CutLists, LeadFromEveryDiscToTheRoot) {
-  const std::vector<Shape> shapes = test::synthetic_shapes(2451, 8);
-  const ShapeSetPlan plan{{0, 3, all_depths}};
-  const baselines::CutLists cuts(shapes, plan);
-  for (std::uint32_t shape = 0; shape < shapes.size(); ++shape)
-    for (std::uint8_t level = 0; level < plan.depths.size(); ++level) {
-      test::Crowd crowd;
-      crowd.add({shape, 0, 0, 0, level});
-      const baselines::CutList& list = cuts.list(crowd.agents(), 0);
-      const Hierarchy& hierarchy = shapes[shape].hierarchy;
-      const std::vector<std::uint32_t> nodes = cut(hierarchy, plan.depths[level]);
-      ASSERT_EQ(list.discs.size(), nodes.size());
-      for (std::size_t i = 0; i < nodes.size(); ++i) {
-        const auto same = [](const Disc& a, const Disc& b) {
-          return a.x == b.x && a.y == b.y && a.radius == b.radius;
-        };
-        const auto path = list.path(i);
-        EXPECT_TRUE(same(list.discs[i], hierarchy.nodes[nodes[i]].disc));
-        EXPECT_TRUE(same(path.front(), list.discs[i]));
-        EXPECT_TRUE(same(path.back(), hierarchy.nodes[0].disc));
-        EXPECT_LE(path.size(), std::size_t{height(hierarchy)} + 1);
-        if (level == 1) {
-          EXPECT_LE(path.size(), 4u);
-        }
-      }
-    }
-}
-
 }  // namespace
 }  // namespace bch

@@ -199,29 +199,5 @@ TEST(BadInput, BodiesAreNamedWithWhatIsWrong) {
     EXPECT_NE(complaint([&] { baselines::kind("fixed").build({}, {.fixed_radius = radius}); }), "accepted");
 }
 
-TEST(BadInput, QueriesAreRejectedBeforeAnythingIsWritten) {
-  const std::vector<Body> bodies = {block(0.5f, 0.25f, 0, 1)};
-  const auto structure = baselines::kind("obb_full").build(bodies, {});
-  const auto ask = [&](auto damage, Pair pair = {0, 1}, std::size_t room = 2) {
-    test::Crowd crowd = two(0, 0, 1, 0, 0);
-    damage(crowd);
-    const std::vector<Pair> pairs = {{0, 0}, pair};
-    std::vector<std::uint8_t> hits(room, 42);
-    const std::string message = complaint([&] { structure->query(crowd.agents(), pairs, hits); });
-    for (const std::uint8_t hit : hits) EXPECT_TRUE(hit == 42 || message == "accepted");
-    return message;
-  };
-  const auto nothing = [](test::Crowd&) {};
-  EXPECT_EQ(ask(nothing), "accepted");
-  EXPECT_EQ(ask(nothing, {0, 2}), "pair 1: agent 2 of 2");
-  EXPECT_EQ(ask(nothing, {0, 1}, 3), "2 pairs but room for 3 hits");
-  EXPECT_EQ(ask([](test::Crowd& c) { c.shape[1] = 1; }), "pair 1: agent 1: shape 1 of 1");
-  EXPECT_EQ(ask([](test::Crowd& c) { c.x[1] = NAN; }), "pair 1: agent 1: position (nan, 0)");
-  EXPECT_EQ(ask([](test::Crowd& c) { c.y[1] = -2e9; }), "pair 1: agent 1: position (1, -2e+09)");
-  EXPECT_EQ(ask([](test::Crowd& c) { c.heading[1] = HUGE_VAL; }), "pair 1: agent 1: heading inf");
-  EXPECT_EQ(ask([](test::Crowd& c) { c.y.pop_back(); }),
-            "agents: 2 shapes but 2, 1 and 2 values of x, y and heading");
-}
-
 }  // namespace
 }  // namespace bch

@@ -4,18 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include <bch/collide.hpp>
 #include <bch/default_characters.hpp>
-#include <bch/outline_builder.hpp>
 
 #include "baselines/oracle.hpp"
 #include "baselines/reference.hpp"
-#include "layout/character/skinning.hpp"
 #include "tests/support/character_shapes.hpp"
-#include "tests/support/hierarchy_checks.hpp"
-#include "tests/support/outline_checks.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/test_characters.hpp"
 
@@ -75,45 +70,6 @@ TEST(RealPoses, NoOutlineCrossingIsMissed) {
   const auto data = test::test_data();
   if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set: no real characters to test with";
   expect_no_crossing_missed(test::real_characters(*data), 50, 2000);
-}
-
-/// Outline against sampling, hierarchy against the mesh, for some poses.
-void expect_sound_poses(const std::vector<Character>& characters, std::uint32_t poses) {
-  for (const Character& character : characters) {
-    detail::Skinner skinner(character);
-    for (const PoseTime& time : sample_poses(character, poses)) {
-      SCOPED_TRACE(character.name + ", clip " + std::to_string(time.clip) + ", " +
-                   std::to_string(time.seconds) + " s");
-      const auto positions = skinner.pose(time);
-      const Outline outline = union_outline(positions, character.triangles);
-      test::expect_covers(outline, positions, character.triangles);
-      test::expect_equals_samples(outline, positions, character.triangles, 120);
-
-      const Hierarchy contour = contour_hierarchy(outline, 0.01f);
-      test::expect_sound(contour);
-      test::expect_covers_outline(contour, outline);
-      test::expect_leaves_below(contour, 0.01f);
-      const Disc& root = contour.nodes[0].disc;
-      std::vector<Vec2> vertices;
-      for (const auto& p : positions) {
-        vertices.push_back({p.x, p.y});
-        EXPECT_LE(std::hypot(static_cast<double>(p.x) - static_cast<double>(root.x),
-                             static_cast<double>(p.y) - static_cast<double>(root.y)),
-                  root.radius);
-      }
-      test::expect_sound(projected_hierarchy(vertices, character.triangles));
-    }
-  }
-}
-
-TEST(DefaultPoses, OutlinesAndHierarchiesAreSound) {
-  expect_sound_poses(test::default_characters(), 6);
-}
-
-TEST(RealPoses, OutlinesAndHierarchiesAreSound) {
-  const auto data = test::test_data();
-  if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set: no real characters to test with";
-  expect_sound_poses(test::real_characters(*data), 6);
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 
 #include "baselines/obstacle_reference.hpp"
 #include "layout/base/planes.hpp"
+#include "tests/support/obstacle_answers.hpp"
 #include "tests/support/obstacle_scenes.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/slab_scenes.hpp"
@@ -33,7 +34,7 @@ using test::Random;
 
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 
-/// Gives obstacles heights about those of agents: some reach the ground or the sky, some are planes at whole multiples of a quarter.
+/// Gives obstacles, which have none, heights about those of agents: some reach the ground or the sky, some are planes at whole multiples of a quarter.
 void raise(Random& random, ObstacleScene& scene) {
   for (std::size_t i = 0; i < scene.is_area.size(); ++i) {
     const double bottom = random.below(2) == 0 ? random.uniform(4, 8) : 4 + 0.25 * random.below(16);
@@ -97,53 +98,46 @@ struct LevelObstacles {
 };
 
 /// What all queries say of an agent.
-struct AllAnswers {
-  std::uint8_t hit, near;
-  float distance, deepest, time;
-  DiscPair discs;
-  Penetration way_out;
+struct AgentAnswers {
+  std::uint8_t hit = 0, near = 0;
+  float distance = HUGE_VALF, deepest = HUGE_VALF, time = HUGE_VALF;
+  DiscPair discs{};
+  Penetration way_out{};
+
+  AgentAnswers() = default;
+  AgentAnswers(const test::ObstacleAnswers& all, std::size_t i)
+      : hit(all.hits[i]),
+        near(all.near[i]),
+        distance(all.distance[i]),
+        deepest(all.deepest[i]),
+        time(all.time[i]),
+        discs(all.deepest_discs[i]),
+        way_out(all.ways[i]) {}
 };
 
-/// What an agent is asked: how near is near, and its way, the same in x and y.
+/// What agents are asked: how near is near, and their ways, the same in x and y.
 struct Question {
   QueryOptions options;
   std::vector<double> distances, way;
-};
 
-std::vector<AllAnswers> ask(const ShapeSet& set, const Agents& agents, const ObstacleSet& obstacles,
-                            const Question& question) {
-  const std::size_t n = agents.size();
-  std::vector<std::uint8_t> hits(n), near(n);
-  std::vector<float> distance(n), deepest(n), time(n);
-  std::vector<DiscPair> discs(n);
-  std::vector<Penetration> ways(n);
-  QueryOptions options = question.options;
-  collide(set, agents, obstacles, hits, options);
-  within(set, agents, obstacles, question.distances, near, options);
-  clearance(set, agents, obstacles, {.distance = distance}, options);
-  options.overlap = Overlap::deepest;
-  clearance(set, agents, obstacles, {.distance = deepest, .discs = discs}, options);
-  penetration(set, agents, obstacles, ways, options);
-  time_of_impact(set, agents, {question.way, question.way}, obstacles, time, options);
-  std::vector<AllAnswers> all;
-  for (std::size_t i = 0; i < n; ++i)
-    all.push_back({hits[i], near[i], distance[i], deepest[i], time[i], discs[i], ways[i]});
-  return all;
-}
+  test::ObstacleAnswers ask(const ShapeSet& set, const Agents& agents, const ObstacleSet& obstacles) const {
+    return test::all_answers(set, agents, obstacles, options, distances, {way, way});
+  }
+};
 
 /// The parameter lists the slices; none makes whole bodies.
 class ObstaclesWithHeights : public testing::TestWithParam<std::vector<float>> {
  protected:
   /// Joins what the parts of an agent say of the obstacles level with them. `touched`: those that it collides with.
-  AllAnswers joined(const Crowd& crowd, std::uint32_t agent, const ObstacleScene& scene,
-                    const Question& question, std::vector<std::uint32_t>& touched) {
-    AllAnswers all{0, 0, never, never, never, {}, {}};
+  AgentAnswers joined(const Crowd& crowd, std::uint32_t agent, const ObstacleScene& scene,
+                      const Question& question, std::vector<std::uint32_t>& touched) {
+    AgentAnswers all;
     std::uint32_t discs_before = 0;
     for (const PartShapes::Part& part : parts.of_body[crowd.shape[agent]]) {
       const LevelObstacles level = level_with(scene, part.heights, crowd.z[agent]);
       Crowd one;
       one.add({part.shape, crowd.x[agent], crowd.y[agent], crowd.heading[agent], crowd.level[agent]});
-      const AllAnswers of = of_part(
+      const AgentAnswers of = of_part(
           one.agents(), level,
           {question.options, {question.distances[agent]}, std::vector<double>(1, question.way[agent])});
       const CrowdCollisions rows = collider.collide_all(apart, one.agents(), *level.set, question.options);
@@ -163,7 +157,6 @@ class ObstaclesWithHeights : public testing::TestWithParam<std::vector<float>> {
 
   bool is_sliced() const { return !GetParam().empty(); }
 
-  static constexpr float never = std::numeric_limits<float>::infinity();
   Random random{3011};
   ShapeSetPlan plan = plan_of(GetParam());
   std::vector<Shape> bodies = test::bodies(random, plan);
@@ -176,8 +169,8 @@ class ObstaclesWithHeights : public testing::TestWithParam<std::vector<float>> {
     return plan;
   }
 
-  AllAnswers of_part(const Agents& part, const LevelObstacles& level, const Question& question) {
-    AllAnswers of = ask(apart, part, *level.set, question).front();
+  AgentAnswers of_part(const Agents& part, const LevelObstacles& level, const Question& question) {
+    AgentAnswers of(question.ask(apart, part, *level.set), 0);
     const auto is_hit = [&](const auto& obstacle) { return reference.collides(part, 0, obstacle); };
     const bool crosses = std::any_of(level.reference.begin(), level.reference.end(), is_hit);
     // Bodies in slabs are solid, also where time is concerned.
@@ -191,8 +184,9 @@ class ObstaclesWithHeights : public testing::TestWithParam<std::vector<float>> {
     std::vector<bool> kept;
     const long double slack = 1e-9L + std::abs(z) * 0x1p-50L;
     for (std::size_t o = 0; o < scene.is_area.size(); ++o)
-      kept.push_back(scene.bottom[o] <= static_cast<long double>(part.top) + z + slack &&
-                     static_cast<long double>(part.bottom) + z <= scene.top[o] + slack);
+      kept.push_back(scene.bottom.empty() ||
+                     (scene.bottom[o] <= static_cast<long double>(part.top) + z + slack &&
+                      static_cast<long double>(part.bottom) + z <= scene.top[o] + slack));
     return {scene, kept};
   }
 
@@ -202,45 +196,47 @@ class ObstaclesWithHeights : public testing::TestWithParam<std::vector<float>> {
   CrowdCollider collider;
 };
 
+/// Obstacles of all heights, and the same ones raised.
 TEST_P(ObstaclesWithHeights, AreAsPartsSayOfThoseLevelWithThem) {
   constexpr std::uint32_t agents = 100;
   std::size_t hits = 0, passed = 0;
   for (std::uint32_t k = 0; k < test::samples(24); ++k) {
     ObstacleScene scene = test::obstacle_scene(random, 12, 3);
-    const ObstacleSet endless = scene.set();
-    raise(random, scene);
-    const ObstacleSet obstacles = scene.set();
     Crowd crowd = test::crowd_about(random, set, agents, 3);
-    Question question;
+    Question question{{}, test::distances_for(random, agents), {}};
     question.options.semantics = is_sliced() ? Semantics::solid : Semantics::boundary;
     question.options.distance_leaves = k % 2 == 0 ? Leaves::discs : Leaves::segments;
     for (std::uint32_t i = 0; i < agents; ++i) {
       crowd.z.push_back(random.below(3) == 0 ? 5 : random.uniform(3, 8));
-      question.distances.push_back(random.below(8) == 0 ? 0 : random.uniform(0, 1));
       question.way.push_back(random.uniform(-1, 1));
     }
-    const std::vector<AllAnswers> found = ask(set, crowd.agents(), obstacles, question),
-                                  of_all = ask(set, crowd.agents(), endless, question);
-    CrowdCollider whole;
-    const CrowdCollisions rows = whole.collide_all(set, crowd.agents(), obstacles, question.options);
-    for (std::uint32_t i = 0; i < agents; ++i) {
-      std::vector<std::uint32_t> touched;
-      const AllAnswers expected = joined(crowd, i, scene, question, touched);
-      ASSERT_EQ(found[i].hit, expected.hit) << k << ", agent " << i;
-      ASSERT_EQ(found[i].near, expected.near) << k << ", agent " << i;
-      ASSERT_EQ(found[i].distance, expected.distance) << k << ", agent " << i;
-      ASSERT_EQ(found[i].deepest, expected.deepest) << k << ", agent " << i;
-      if (expected.deepest < never) {
-        ASSERT_EQ(found[i].discs, expected.discs) << k << ", agent " << i;
+    std::vector<std::uint8_t> hits_of_all;
+    for (const bool raised : {false, true}) {
+      if (raised) raise(random, scene);
+      const ObstacleSet obstacles = scene.set();
+      const test::ObstacleAnswers found = question.ask(set, crowd.agents(), obstacles);
+      CrowdCollider whole;
+      const CrowdCollisions rows = whole.collide_all(set, crowd.agents(), obstacles, question.options);
+      for (std::uint32_t i = 0; i < agents; ++i) {
+        std::vector<std::uint32_t> touched;
+        const AgentAnswers expected = joined(crowd, i, scene, question, touched), of(found, i);
+        ASSERT_EQ(of.hit, expected.hit) << k << ", agent " << i;
+        ASSERT_EQ(of.near, expected.near) << k << ", agent " << i;
+        ASSERT_EQ(of.distance, expected.distance) << k << ", agent " << i;
+        ASSERT_EQ(of.deepest, expected.deepest) << k << ", agent " << i;
+        if (expected.deepest < HUGE_VALF) {
+          ASSERT_EQ(of.discs, expected.discs) << k << ", agent " << i;
+        }
+        ASSERT_EQ(of.time, expected.time) << k << ", agent " << i;
+        ASSERT_EQ(of.way_out, expected.way_out) << k << ", agent " << i;
+        ASSERT_EQ(std::vector<std::uint32_t>(rows.obstacles[i].begin(), rows.obstacles[i].end()), touched);
+        hits += expected.hit;
+        passed += raised && hits_of_all[i] != 0 && expected.hit == 0;
       }
-      ASSERT_EQ(found[i].time, expected.time) << k << ", agent " << i;
-      ASSERT_EQ(found[i].way_out, expected.way_out) << k << ", agent " << i;
-      ASSERT_EQ(std::vector<std::uint32_t>(rows.obstacles[i].begin(), rows.obstacles[i].end()), touched);
-      hits += expected.hit;
-      passed += of_all[i].hit != 0 && expected.hit == 0;
+      hits_of_all = found.hits;
     }
   }
-  EXPECT_GT(hits, test::samples(150));
+  EXPECT_GT(hits, test::samples(300));
   EXPECT_GT(passed, test::samples(150));
 }
 
