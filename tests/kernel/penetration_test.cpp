@@ -57,28 +57,6 @@ class SeparatingAxisTest : public test::Differential {
 
   CutLists cuts{shapes, plan};
 
-  void expect_reference(const PairScene& scene, std::uint32_t k, const char* what) {
-    const Agents agents = scene.crowd.agents();
-    const std::vector<Vec2> directions = random_directions(random, scene.pairs.size());
-    std::vector<baselines::Way> best, given;
-    for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
-      best.push_back(baselines::penetration(cuts, agents, scene.pairs[i], k));
-      given.push_back(baselines::penetration_along(cuts, agents, scene.pairs[i], directions[i]));
-    }
-    const auto same = [](const Penetration& a, const baselines::Way& b) {
-      return a.depth == b.depth && a.x == b.x && a.y == b.y;
-    };
-    for (const auto& implementation : implementations()) {
-      if (!implementation.supported()) continue;
-      const auto found_best = best_of(k, set, scene, implementation);
-      const auto found_given = along(directions, set, scene, implementation);
-      for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
-        ASSERT_TRUE(same(found_best[i], best[i])) << what << ", " << implementation.name << ", pair " << i;
-        ASSERT_TRUE(same(found_given[i], given[i])) << what << ", " << implementation.name << ", pair " << i;
-      }
-    }
-  }
-
   std::size_t collisions(const PairScene& scene, Semantics semantics) const {
     std::vector<std::uint8_t> hits(scene.pairs.size());
     collide(set, scene.crowd.agents(), scene.pairs, hits, {semantics});
@@ -229,15 +207,6 @@ TEST_F(SeparatingAxisTest, LinesAcrossTheToldDirectionPartAgentsThatAreFarApart)
         ASSERT_GE(back, support(b, x / length, y / length)) << distance << " m, pair " << i;
       }
   }
-}
-
-/// Pairs of one agent after the other, in which its extents are kept.
-TEST_F(SeparatingAxisTest, PairsThatShareAnAgent) {
-  PairScene scene = random_scene(random, set, 60);
-  scene.pairs.clear();
-  for (std::uint32_t i = 0; i < 120; ++i)
-    for (std::uint32_t j = 0; j < 120; ++j) scene.pairs.push_back({i, j});
-  expect_reference(scene, 16, "all pairs");
 }
 
 /// Two discs of radius 0.25 m.

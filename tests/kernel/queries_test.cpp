@@ -9,6 +9,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -69,7 +70,7 @@ std::vector<Shape> of_unequal_sizes(Random& random) {
     };
     add(scaled({{-1, 0}, {1, 0}}, size), 0.03);
     add(scaled({{0.75f, 0.75f}, {0.75f, 1.25f}}, size), 1);
-    add(scaled(test::star(random, 60, 0.6, 1).points, size), 0.02);
+    add(scaled(test::star(random, 9, 0.5, 1).points, size), 0.1);
     add(scaled(test::star(random, 5, 0.2, 0.3, 0.9, 0.1).points, size), 0.2);
   }
   return shapes;
@@ -145,10 +146,13 @@ struct Kind {
   std::vector<Shape> (*shapes)(Random&);
   std::uint32_t pairs;  ///< of each placement: fewer where brute force takes longer
 };
+void PrintTo(const Kind& kind, std::ostream* out) {
+  *out << kind.name;
+}
 const Kind kinds[] = {{"ManyKinds", of_many_kinds, 800},
                       {"People", people, 600},
                       {"FewCorners", of_few_corners, 3'000},
-                      {"UnequalSizes", of_unequal_sizes, 1'000},
+                      {"UnequalSizes", of_unequal_sizes, 4'000},
                       {"DeepTrees", of_deep_trees, 300},
                       {"Discs", of_discs, 3'000},
                       {"BesideTheirOrigin", beside_their_origin, 3'000}};
@@ -159,6 +163,9 @@ struct Levels {
   const char* name;
   ShapeSetPlan plan;
 };
+void PrintTo(const Levels& levels, std::ostream* out) {
+  *out << levels.name;
+}
 const Levels plans[] = {{"FourLevels", {{0, 3, 6, all_depths}}},
                         {"OneLevel", {}},
                         {"NoCulling", {.depths = {2, all_depths}, .culling = false}},
@@ -398,6 +405,16 @@ class Queries : public testing::Test {
 
 TEST_F(Queries, OfManyPairsEqualBruteForce) {
   expect_answers(world.set, questions, world.brute_force.answers(world.set, questions), "many pairs");
+}
+
+/// One after the other, as kernels keep what they know of an agent.
+TEST_F(Queries, OfPairsThatShareAnAgentEqualBruteForce) {
+  PairScene scene = anywhere(random, world, 40);
+  scene.pairs.clear();
+  for (std::uint32_t i = 0; i < 80; ++i)
+    for (std::uint32_t j = 0; j < 80; ++j) scene.pairs.push_back({i, j});
+  const Questions all = questions_about(random, world.set, scene);
+  expect_answers(world.set, all, world.brute_force.answers(world.set, all), "all pairs");
 }
 
 TEST_F(Queries, InBatchesOfAnySizeAndOffset) {

@@ -106,8 +106,8 @@ Questions questions_about(Random& random, const ShapeSet& set, PairScene scene) 
                                 : static_cast<double>(clearances[i]) * (1 + random.uniform(-2e-6, 0.5e-6)));
 
     const double x = all.crowd.x[second] - all.crowd.x[first], y = all.crowd.y[second] - all.crowd.y[first];
-    const double course =
-        std::atan2(y, x) + random.uniform(-1, 1) * (random.below(2) == 0 ? std::numbers::pi : 0.3);
+    constexpr double asides[] = {0.3, 2, std::numbers::pi};
+    const double course = std::atan2(y, x) + random.uniform(-1, 1) * asides[random.below(3)];
     const double length = std::min(1e9, random.uniform(0, 1.5) * (std::hypot(x, y) + both));
     all.way_x.push_back(length * std::cos(course)), all.way_y.push_back(length * std::sin(course));
   }

@@ -35,7 +35,7 @@ struct Questions : PairScene {
 };
 
 /// Draws what to ask about pairs: a limit, directions of any length, distances of which most are as the pairs' clearances but
-/// for some bits, and ways of which half lead about towards the other agent.
+/// for some bits, and ways of which a third lead about towards the other agent.
 Questions questions_about(Random& random, const ShapeSet& set, PairScene scene);
 
 /// What clearance() says of a pair.
