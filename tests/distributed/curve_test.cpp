@@ -3,15 +3,10 @@
 
 #include "kernel/distributed/curve.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <cstdlib>
-#include <numeric>
-#include <vector>
 
 #include "kernel/distributed/cut.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 
 namespace bch::detail {
 namespace {

@@ -3,23 +3,16 @@
 
 #include <bch/distributed_crowd.hpp>
 
-#include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <new>
-#include <stdexcept>
-#include <vector>
 
 #include <bch/broad_phase.hpp>
 
 #include "kernel/distributed/agreement.hpp"
 #include "kernel/distributed/session.hpp"
 #include "tests/distributed/world.hpp"
-#include "tests/support/complaint.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 
 // Every rank runs these tests, all with the same random numbers: each knows the whole crowd and what one process answers. Tests
 // only EXPECT, because a rank that left one early would leave the others waiting.

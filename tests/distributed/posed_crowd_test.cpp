@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
-
 #include <bch/default_characters.hpp>
 #include <bch/distributed_crowd.hpp>
 #include <bch/pose_shape.hpp>
 
 #include "tests/distributed/world.hpp"
-#include "tests/support/complaint.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 
 // Crowds of characters that are posed anew in every step.
 

@@ -3,22 +3,16 @@
 
 #include <bch/default_characters.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <map>
-#include <numeric>
 #include <random>
-#include <set>
 
+#include "baselines/welzl.hpp"
 #include "layout/character/eigen.hpp"
 #include "layout/character/skinning.hpp"
+#include "tests/support/test.hpp"
 
 namespace bch {
 namespace {
 
-using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 /// What the header promises about a character.
@@ -45,52 +39,11 @@ INSTANTIATE_TEST_SUITE_P(All, DefaultCharacter,
                                          Expectation{default_bulky_male, 1.88, 0.42, 0.135, 0.139}),
                          name_of);
 
-struct Disc {
-  double x = 0, y = 0, radius = -1;
-
-  bool holds(const Vec3& p) const {
-    return std::hypot(static_cast<double>(p.x) - x, static_cast<double>(p.y) - y) <= radius + 1e-9;
-  }
-};
-
-Vector2d ground(const Vec3& p) {
-  return detail::to_eigen(p).head<2>().cast<double>();
-}
-
-Disc disc_through(const Vec3& a, const Vec3& b) {
-  const Vector2d p = ground(a);
-  const Vector2d q = ground(b);
-  return {(p.x() + q.x()) / 2, (p.y() + q.y()) / 2, (p - q).norm() / 2};
-}
-
-Disc disc_through(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vector2d p = ground(a);
-  const Vector2d u = ground(b) - p;
-  const Vector2d v = ground(c) - p;
-  const double twice = 2 * (u.x() * v.y() - u.y() * v.x());
-  const Vector2d centre((v.y() * u.squaredNorm() - u.y() * v.squaredNorm()) / twice,
-                        (u.x() * v.squaredNorm() - v.x() * u.squaredNorm()) / twice);
-  return {p.x() + centre.x(), p.y() + centre.y(), centre.norm()};
-}
-
-/// Radius of the smallest disc that holds the points seen from above: a point outside the disc of those
-/// before it is on the border of the next. E. Welzl, "Smallest enclosing disks (balls and ellipsoids)", 1991.
+/// The radius of the smallest disc that holds the points seen from above.
 double enclosing_radius(std::span<const Vec3> points) {
-  std::vector<Vec3> p(points.begin(), points.end());
-  std::mt19937 random(7);
-  for (std::size_t i = p.size() - 1; i > 0; --i) std::swap(p[i], p[random() % (i + 1)]);
-  Disc disc;
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    if (disc.holds(p[i])) continue;
-    disc = disc_through(p[i], p[i]);
-    for (std::size_t j = 0; j < i; ++j) {
-      if (disc.holds(p[j])) continue;
-      disc = disc_through(p[i], p[j]);
-      for (std::size_t k = 0; k < j; ++k)
-        if (!disc.holds(p[k])) disc = disc_through(p[i], p[j], p[k]);
-    }
-  }
-  return disc.radius;
+  std::vector<Vec2> ground;
+  for (const Vec3& p : points) ground.push_back({p.x, p.y});
+  return std::sqrt(bench::Welzl()(ground).square_radius);
 }
 
 Vector3d exact(const Vec3& p) {
@@ -215,8 +168,7 @@ TEST_P(DefaultCharacter, ClipsLastAsLongAsThePapersAndAreOfItsKinds) {
 TEST_P(DefaultCharacter, IsAsWideAsThePapers) {
   detail::Skinner skinner(character);
   const auto check = [&](const std::vector<PoseTime>& poses) {
-    double sum = 0;
-    double squares = 0;
+    double sum = 0, squares = 0;
     for (const PoseTime& at : poses) {
       const double radius = enclosing_radius(skinner.pose(at));
       sum += radius;

@@ -3,11 +3,7 @@
 
 #include <bch/dynamic_shape_set.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <ostream>
-#include <string>
 
 #include <bch/broad_phase.hpp>
 #include <bch/collide.hpp>
@@ -15,7 +11,7 @@
 #include "layout/format/shape_validation.hpp"
 #include "layout/shape_set/shape_storage.hpp"
 #include "tests/support/allocation_count.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 
 namespace bch {
 

@@ -3,16 +3,10 @@
 
 #include "layout/enclosing_disc/enclosing_disc.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 #include "baselines/welzl.hpp"
 #include "layout/enclosing_disc/enclosing_discs.hpp"
 #include "layout/format/contours.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 
 namespace bch {
 namespace {

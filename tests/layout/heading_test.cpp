@@ -3,14 +3,8 @@
 
 #include "layout/base/heading.hpp"
 
-#include <gtest/gtest.h>
-
-#include <bit>
-#include <cmath>
-#include <numbers>
-
 #include "layout/base/rounding.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 
 namespace bch {
 namespace {

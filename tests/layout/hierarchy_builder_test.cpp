@@ -3,25 +3,14 @@
 
 #include "layout/hierarchy/builder.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <limits>
-#include <stdexcept>
-#include <string>
-#include <utility>
-
 #include "layout/base/rounding.hpp"
 #include "layout/culling/supports.hpp"
 #include "layout/shape_set/bvh8.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/character_shapes.hpp"
-#include "tests/support/complaint.hpp"
 #include "tests/support/hierarchy_checks.hpp"
 #include "tests/support/reference_hierarchy.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 #include "tests/support/test_characters.hpp"
 
 namespace bch {
@@ -38,24 +27,14 @@ void expect_as_reference(const Outline& outline, float threshold) {
   }
 }
 
-void expect_poses_as_reference(const std::vector<Character>& characters, std::uint32_t poses) {
-  for (const Character& character : characters)
-    for (const Shape& shape : test::pose_shapes(character, poses)) expect_as_reference(shape.outline, 0.01f);
-}
-
 TEST(HierarchyBuilder, EqualsTheReferenceOnManyShapes) {
   for (const Shape& shape : test::synthetic_shapes(31, 120))
     for (const float threshold : {0.003f, 0.01f, 0.2f}) expect_as_reference(shape.outline, threshold);
 }
 
-TEST(HierarchyBuilder, EqualsTheReferenceOnDefaultPoses) {
-  expect_poses_as_reference(test::default_characters(), 100);
-}
-
-TEST(HierarchyBuilder, EqualsTheReferenceOnRealPoses) {
-  const auto data = test::test_data();
-  if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set: no real characters to test with";
-  expect_poses_as_reference(test::real_characters(*data), 30);
+TEST(HierarchyBuilder, EqualsTheReferenceOnPoses) {
+  for (const Character& character : test::people())
+    for (const Shape& shape : test::pose_shapes(character, 100)) expect_as_reference(shape.outline, 0.01f);
 }
 
 /// Points of a kind: on a line, on a circle, few distinct ones, anywhere; a power of two keeps them exact.

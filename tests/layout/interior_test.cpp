@@ -3,43 +3,20 @@
 
 #include "layout/culling/interior.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <numbers>
-
 #include "layout/base/heading.hpp"
 #include "layout/base/rounding.hpp"
-#include "layout/culling/supports.hpp"
 #include "layout/format/contours.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/outline_checks.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/plane_geometry.hpp"
+#include "tests/support/test.hpp"
 #include "tests/support/test_characters.hpp"
 
 namespace bch {
 namespace {
 
 using test::polygon;
-
-TEST(Supports, AreExtentsOfTheDiscsEnlarged) {
-  const std::vector<Disc> discs = {{1, 0, 0.5f}, {-0.25f, 0.5f, 0.125f}};
-  const detail::Supports heights = detail::supports(discs, 1.5);
-  for (std::uint32_t at = 0; at < detail::support_stride; ++at) {
-    // All even directions twice over, then all odd ones.
-    const std::uint32_t direction =
-        2 * (at % (detail::support_directions / 2)) + (at >= detail::support_directions ? 1 : 0);
-    const double angle = 2 * std::numbers::pi * direction / detail::support_directions;
-    double extent = -HUGE_VAL;
-    for (const Disc& d : discs)
-      extent =
-          std::max(extent, std::cos(angle) * static_cast<double>(d.x) +
-                               std::sin(angle) * static_cast<double>(d.y) + static_cast<double>(d.radius));
-    EXPECT_GT(heights[at], extent);
-    EXPECT_LT(heights[at], extent + 5e-5);
-  }
-}
 
 using Contour = std::span<const Vec2>;
 
@@ -54,23 +31,6 @@ Contour contour_of_most_area(const Outline& outline) {
   return outline.contour(largest);
 }
 
-/// Distance to the contour inside it, minus the distance outside, in extended precision.
-long double depth(Contour contour, float at_x, float at_y) {
-  const long double x = at_x, y = at_y;
-  long double nearest = HUGE_VALL;
-  bool inside = false;
-  for (std::size_t i = 0; i < contour.size(); ++i) {
-    const Vec2 a = contour[i], b = contour[(i + 1) % contour.size()];
-    const long double ax = a.x, ay = a.y, bx = b.x, by = b.y, dx = bx - ax, dy = by - ay;
-    const long double length = dx * dx + dy * dy;
-    const long double t =
-        length > 0 ? std::clamp(((x - ax) * dx + (y - ay) * dy) / length, 0.0L, 1.0L) : 0.0L;
-    nearest = std::min(nearest, std::hypot(x - ax - t * dx, y - ay - t * dy));
-    if ((ay > y) != (by > y) && x < ax + (y - ay) / dy * dx) inside = !inside;
-  }
-  return inside ? nearest : -nearest;
-}
-
 /// How many there are; each is inside by what rounding.hpp asks for and not by much more.
 int expect_inside(const Outline& outline, double reach, const detail::Interior& found) {
   const Contour contour = contour_of_most_area(outline);
@@ -82,7 +42,7 @@ int expect_inside(const Outline& outline, double reach, const detail::Interior& 
       continue;
     }
     ++discs;
-    const long double exact = depth(contour, found.x[k], found.y[k]);
+    const long double exact = test::depth_in_contour<long double>(contour, found.x[k], found.y[k]);
     EXPECT_GT(found.radius[k], 0);
     EXPECT_LE(found.radius[k], exact - margin) << found.x[k] << ", " << found.y[k];
     EXPECT_GE(found.radius[k], exact * (1 - 0x1p-21L) - margin) << found.x[k] << ", " << found.y[k];
@@ -102,6 +62,11 @@ Outline scaled(Outline outline, double factor, double x = 0, double y = 0) {
   return outline;
 }
 
+bool same(const detail::Interior& a, const detail::Interior& b) {
+  return a.x == b.x && a.y == b.y && a.radius == b.radius && a.extreme_x == b.extreme_x &&
+         a.extreme_y == b.extreme_y;
+}
+
 TEST(Interior, DiscsAreInsideTheLargestContour) {
   detail::InteriorBuilder builder;
   int discs = 0;
@@ -111,23 +76,13 @@ TEST(Interior, DiscsAreInsideTheLargestContour) {
   EXPECT_GE(discs, 500);  // of 512: the slender ones have room for fewer
 }
 
-void expect_full_blocks_inside(const std::vector<Character>& characters, std::uint32_t poses) {
+TEST(Interior, DiscsAreInsidePoses) {
   detail::InteriorBuilder builder;
-  for (const Character& character : characters)
-    for (const Shape& shape : test::pose_shapes(character, poses))
+  for (const Character& character : test::people())
+    for (const Shape& shape : test::pose_shapes(character, 20))
       EXPECT_EQ(expect_inside(shape.outline, shape.hierarchy.reach,
                               builder.build(shape.outline, shape.hierarchy.reach)),
                 static_cast<int>(detail::block_width));
-}
-
-TEST(Interior, DiscsAreInsideDefaultPoses) {
-  expect_full_blocks_inside(test::default_characters(), 20);
-}
-
-TEST(Interior, DiscsAreInsideRealPoses) {
-  const auto data = test::test_data();
-  if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set: no real characters to test with";
-  expect_full_blocks_inside(test::real_characters(*data), 40);
 }
 
 TEST(Interior, DiscsAreInsideContoursOfAnySize) {
@@ -172,11 +127,7 @@ TEST(Interior, WhatWasBuiltBeforeChangesNothingAndMemoryIsReused) {
     EXPECT_EQ(test::allocation_count(), before);
     const detail::Interior fresh = detail::interior(shape.outline, shape.hierarchy.reach);
     EXPECT_GT(test::allocation_count(), before);
-    EXPECT_EQ(again.x, fresh.x);
-    EXPECT_EQ(again.y, fresh.y);
-    EXPECT_EQ(again.radius, fresh.radius);
-    EXPECT_EQ(again.extreme_x, fresh.extreme_x);
-    EXPECT_EQ(again.extreme_y, fresh.extreme_y);
+    EXPECT_TRUE(same(again, fresh));
   }
 }
 
@@ -233,11 +184,7 @@ TEST(Interior, EveryInstructionSetGivesTheSameBits) {
     for (const Shape& shape : shapes) {
       const detail::Interior found = builder.build(shape.outline, detail::reach(shape.outline.points));
       const detail::Interior expected = plain.build(shape.outline, detail::reach(shape.outline.points));
-      ASSERT_EQ(found.x, expected.x) << implementation.name;
-      ASSERT_EQ(found.y, expected.y) << implementation.name;
-      ASSERT_EQ(found.radius, expected.radius) << implementation.name;
-      ASSERT_EQ(found.extreme_x, expected.extreme_x) << implementation.name;
-      ASSERT_EQ(found.extreme_y, expected.extreme_y) << implementation.name;
+      ASSERT_TRUE(same(found, expected)) << implementation.name;
     }
   }
 }

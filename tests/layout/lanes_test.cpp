@@ -3,15 +3,7 @@
 
 #include "layout/simd/lanes.hpp"
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <bit>
-#include <cmath>
-#include <limits>
-#include <vector>
-
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 
 namespace bch::detail {
 namespace {

@@ -3,22 +3,15 @@
 
 #include <bch/outline_builder.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <stdexcept>
-#include <utility>
-#include <vector>
-
 #include <bch/default_characters.hpp>
 
+#include "layout/base/build_implementation.hpp"
 #include "layout/character/skinning.hpp"
 #include "layout/outline/grid_geometry.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/outline_arrangement.hpp"
-#include "tests/support/outline_checks.hpp"
 #include "tests/support/outline_soups.hpp"
+#include "tests/support/test.hpp"
 
 namespace bch {
 namespace {
@@ -161,24 +154,6 @@ TEST(Fraction, IsComparedExactly) {
   EXPECT_EQ(detail::compare(detail::Fraction(0, 1), larger), -1);
 }
 
-TEST(OutlineBuilder, AllocatesNothingTheSecondTime) {
-  const Character man = default_male();
-  detail::Skinner skinner(man);
-  OutlineBuilder builder(man.triangles, man.vertices.size(), man.vertices);
-  Outline outline;
-  for (const bool second : {false, true})
-    for (const PoseTime& time : sample_poses(man, 10)) {
-      const auto positions = skinner.pose(time);
-      const std::size_t before = test::allocation_count();
-      builder.build(positions, outline);
-      if (second) {
-        EXPECT_EQ(test::allocation_count(), before);
-      }
-    }
-  EXPECT_GT(test::allocation_count(), 0u);
-}
-
-/// The same union, made of the same triangles in another order, turned over, numbered otherwise, some twice.
 /// Soups on the grid; and slivers of a few steps, whose contours the rounding of crossings may turn round.
 TEST(OutlineBuilder, MakesOutlinesThatAreValid) {
   test::Random random(72);
@@ -201,6 +176,7 @@ TEST(OutlineBuilder, MakesOutlinesThatAreValid) {
   }
 }
 
+/// The same union, made of the same triangles in another order, turned over, numbered otherwise, some twice.
 TEST(OutlineBuilder, DependsOnTheUnionAlone) {
   test::Random random(5);
   for (int i = 0; i < 500; ++i) {
@@ -228,43 +204,114 @@ TEST(OutlineBuilder, DependsOnTheUnionAlone) {
   }
 }
 
-/// Points of a lattice four times as fine as the soups', those on an edge left aside: what a triangle covers
-/// is inside.
-TEST(OutlineBuilder, HoldsEveryCoveredLatticePoint) {
-  test::Random random(77);
-  std::size_t covered_points = 0;
-  for (int i = 0; i < 1000; ++i) {
+// ---- On every instruction set
+
+std::vector<const detail::BuildImplementation*> supported_implementations() {
+  std::vector<const detail::BuildImplementation*> supported;
+  for (const detail::BuildImplementation& row : detail::build_implementations())
+    if (row.supported()) supported.push_back(&row);
+  return supported;
+}
+
+TEST(OutlineBuilder, EqualsTheArrangementOfAllEdges) {
+  test::Random random(2014);
+  const auto implementations = supported_implementations();
+  int compared = 0;
+  Outline outline;
+  for (int i = 0; i < 10000; ++i) {
     const Soup any = test::random_soup(random);
-    Outline outline;
+    const bool bind_pose = random.below(2) == 0;
+    OutlineBuilder builder(any.triangles, any.positions.size(),
+                           bind_pose ? std::span(any.positions) : std::span<const Vec3>(),
+                           *implementations[static_cast<std::size_t>(i) % implementations.size()]);
     try {
-      outline = build(any);
+      builder.build(any.positions, outline);
     } catch (const std::invalid_argument&) {
-      continue;
+      continue;  // a soup of points
     }
-    constexpr float unit = 0x1p-10f;
-    const auto triangles = test::on_grid(any, unit / 4);
-    for (std::int64_t y = -1; y < 33; ++y)
-      for (std::int64_t x = -1; x < 33; ++x) {
-        const auto side = [&](test::IntegerPoint a, test::IntegerPoint b) {
-          return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
-        };
-        bool covered = false, on_line = false;
-        for (const auto& [a, b, c] : triangles) {
-          const std::int64_t s = side(a, b), t = side(b, c), u = side(c, a);
-          on_line |= s == 0 || t == 0 || u == 0;
-          covered |= (s > 0 && t > 0 && u > 0) || (s < 0 && t < 0 && u < 0);
-        }
-        if (!covered || on_line) continue;
-        ++covered_points;
-        // Where the lattice is that of the grid, rounded crossings may have passed a point by.
-        if (outline.grid_step < unit / 16) {
-          ASSERT_TRUE(test::inside(outline, static_cast<double>(x) * 0.25 * static_cast<double>(unit),
-                                   static_cast<double>(y) * 0.25 * static_cast<double>(unit)))
-              << i << ": " << x << ", " << y;
-        }
-      }
+    ++compared;
+    ASSERT_EQ(test::on_grid(outline), test::arrangement_outline(test::on_grid(any, outline.grid_step)))
+        << "soup " << i;
   }
-  EXPECT_GT(covered_points, 10000u);
+  EXPECT_GT(compared, 9900);
+}
+
+/// Triangles a grid step wide and millions long: which way such a one goes round, floats cannot tell.
+Soup soup_of_slivers(test::Random& random) {
+  constexpr double step = 0x1p-23;
+  const double x = random.uniform(0.6, 1), y = random.uniform(-1, 1);
+  const auto on_grid = [&](double metres) {
+    return static_cast<float>(step * (std::round(metres / step) + random.below(5) - 2));
+  };
+  Soup soup;
+  const std::uint32_t count = 3 + random.below(4);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const double share = i == 0 ? 0.99 : random.uniform(-0.99, 0.99);
+    soup.positions.push_back({on_grid(share * x), on_grid(share * y), 0});
+  }
+  for (std::uint32_t i = 0; i < 6; ++i)
+    soup.triangles.push_back({i % count, random.below(count), random.below(count)});
+  return soup;
+}
+
+TEST(OutlineBuilder, SliversHaveTheOutlineOfTheirArrangement) {
+  test::Random random(23);
+  Outline outline;
+  for (int i = 0; i < 3000; ++i) {
+    const Soup slivers = soup_of_slivers(random);
+    for (const detail::BuildImplementation* row : supported_implementations()) {
+      OutlineBuilder(slivers.triangles, slivers.positions.size(), slivers.positions, *row)
+          .build(slivers.positions, outline);
+      ASSERT_EQ(outline.grid_step, 0x1p-23f);
+      ASSERT_EQ(test::on_grid(outline), test::arrangement_outline(test::on_grid(slivers, outline.grid_step)))
+          << row->name << ", soup " << i;
+    }
+  }
+}
+
+/// More candidates than any word of bits holds, all of them at one point: tip after tip, and the centre between.
+TEST(OutlineBuilder, AStarIsWalkedTipByTip) {
+  for (const detail::BuildImplementation* row : supported_implementations())
+    for (const std::size_t tips : {3, 16, 17, 63, 64, 65, 300, 1100, 5000}) {
+      Soup star{{{0, 0, 0}}, {}};
+      for (std::uint32_t i = 0; i < tips; ++i) {
+        const double angle = 6.283185307179586 * (i + 0.25) / static_cast<double>(tips);
+        star.positions.push_back(
+            {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 0});
+        star.triangles.push_back({0, i + 1, i + 1});
+      }
+      Outline outline;
+      OutlineBuilder(star.triangles, star.positions.size(), {}, *row).build(star.positions, outline);
+      ASSERT_EQ(outline.contours(), 1u) << row->name << ' ' << tips;
+      ASSERT_EQ(outline.points.size(), 2 * tips) << row->name;
+      for (std::size_t i = 0; i < tips; ++i) {
+        const Vec2 tip = outline.points[2 * i], next = outline.points[(2 * i + 2) % (2 * tips)];
+        ASSERT_EQ(outline.points[2 * i + 1], (Vec2{0, 0})) << row->name << ' ' << tips;
+        ASSERT_GT(double{tip.x} * double{next.y} - double{tip.y} * double{next.x}, 0)
+            << row->name << ' ' << tips;
+      }
+    }
+}
+
+TEST(OutlineBuilder, GivesTheSameBitsOnEveryInstructionSet) {
+  const auto implementations = supported_implementations();
+  ASSERT_STREQ(implementations.back()->name, detail::base.name);
+  for (const Character& character : {default_male(), default_female()}) {
+    detail::Skinner skinner(character);
+    std::vector<OutlineBuilder> builders;
+    for (const detail::BuildImplementation* row : implementations)
+      builders.emplace_back(character.triangles, character.vertices.size(), character.vertices, *row);
+    for (const PoseTime& time : sample_poses(character, 50)) {
+      const auto positions = skinner.pose(time);
+      const Outline expected = union_outline(positions, character.triangles);
+      for (OutlineBuilder& builder : builders) {
+        Outline outline;
+        builder.build(positions, outline);
+        ASSERT_EQ(outline.points, expected.points);
+        ASSERT_EQ(outline.contour_begin, expected.contour_begin);
+      }
+    }
+  }
 }
 
 }  // namespace

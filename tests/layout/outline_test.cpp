@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <array>
-#include <limits>
-#include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include <bch/hierarchy.hpp>
 #include <bch/outline_builder.hpp>
 
-#include "tests/support/complaint.hpp"
+#include "layout/hierarchy/builder.hpp"
+#include "layout/outline/extreme_vertices.hpp"
 #include "tests/support/outline_checks.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 
 namespace bch {
 namespace {
@@ -44,49 +36,6 @@ TEST(UnionOutline, TwoTrianglesMakeASquare) {
   EXPECT_EQ(outline.points, (std::vector<Vec2>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
   EXPECT_EQ(area(outline), 1.0);
   EXPECT_EQ(outline.grid_step, 0x1p-22f);
-}
-
-TEST(UnionOutline, LeavesHolesAndWhatIsInThemOut) {
-  Mesh mesh;
-  mesh.add_rectangle(0, 0, 3, 1);
-  mesh.add_rectangle(0, 2, 3, 3);
-  mesh.add_rectangle(0, 0, 1, 3);
-  mesh.add_rectangle(2, 0, 3, 3);
-  mesh.add_rectangle(1.25f, 1.25f, 1.75f, 1.75f);
-  const Outline outline = mesh.outline();
-  ASSERT_EQ(outline.contours(), 1u);
-  EXPECT_EQ(area(outline), 9.0);
-  EXPECT_EQ(outline.points.size(), 4u);
-}
-
-TEST(UnionOutline, KeepsSeparateParts) {
-  Mesh mesh;
-  mesh.add_rectangle(2, 0, 3, 1);
-  mesh.add_rectangle(0, 0, 1, 1);
-  mesh.add_rectangle(0, 0, 1, 1, 5);  // a duplicate above
-  const Outline outline = mesh.outline();
-  ASSERT_EQ(outline.contours(), 2u);
-  EXPECT_EQ(outline.contour(0)[0], (Vec2{0, 0}));
-  EXPECT_EQ(outline.contour(1)[0], (Vec2{2, 0}));
-  EXPECT_EQ(area(outline), 2.0);
-}
-
-TEST(UnionOutline, KeepsATriangleSeenEdgeOnAsAWhisker) {
-  Mesh mesh;
-  mesh.add_rectangle(0, 0, 1, 1);
-  mesh.add({0.5f, 0.5f, 0}, {2, 0.5f, 0}, {2, 0.5f, 1});
-  mesh.add({3, 3, 0}, {3, 4, 0}, {3, 4, 1});
-  mesh.add({0.25f, 0.25f, 0}, {0.75f, 0.5f, 0}, {0.5f, 0.375f, 1});  // inside: nothing to see
-  const Outline outline = mesh.outline();
-  EXPECT_EQ(area(outline), 1.0);
-  const auto has = [&](Vec2 p) {
-    return std::find(outline.points.begin(), outline.points.end(), p) != outline.points.end();
-  };
-  EXPECT_TRUE(has({2, 0.5f}));
-  EXPECT_TRUE(has({3, 3}));
-  EXPECT_TRUE(has({3, 4}));
-  EXPECT_FALSE(has({0.25f, 0.25f}));
-  EXPECT_EQ(outline.contours(), 2u);
 }
 
 TEST(UnionOutline, KeepsTheTipOfANeedle) {
@@ -138,12 +87,7 @@ Outline with_another(Outline outline, std::vector<Vec2> contour) {
 const std::vector<Vec2> square = {{-2, -2}, {2, -2}, {2, 2}, {-2, 2}};
 
 void expect_refused(const Outline& outline, const std::string& message) {
-  try {
-    validate(outline);
-    FAIL() << "accepted; expected: " << message;
-  } catch (const std::invalid_argument& error) {
-    EXPECT_EQ(error.what(), message);
-  }
+  EXPECT_EQ(test::complaint([&] { validate(outline); }), message);
 }
 
 TEST(ValidateOutline, ClockwiseContoursAreRefused) {
@@ -183,38 +127,6 @@ TEST(ValidateOutline, ContoursMayTouchCrossAndHoldEachOther) {
   for (std::size_t i = 0; i < allowed.size(); ++i) EXPECT_NO_THROW(validate(allowed[i])) << i;
 }
 
-TEST(UnionOutline, RandomSoups) {
-  test::Random random(99);
-  int compared = 0;
-  for (int i = 0; i < 300; ++i) {
-    Mesh mesh;
-    const int count = 1 + static_cast<int>(random.below(30));
-    // Every third soup has small integer coordinates, where coincidences of all kinds happen.
-    const auto coordinate = [&] {
-      return i % 3 == 0 ? static_cast<float>(random.below(9)) : static_cast<float>(random.uniform(0, 8));
-    };
-    for (int t = 0; t < count; ++t) {
-      const float x = coordinate(), y = coordinate();
-      const auto near = [&](float at) {
-        return i % 2 == 0 ? coordinate() : at + static_cast<float>(random.uniform(-1.5, 1.5));
-      };
-      mesh.add({x, y, 0}, {near(x), near(y), 1}, {near(x), near(y), 2});
-    }
-    Outline outline;
-    try {
-      outline = mesh.outline();
-    } catch (const std::invalid_argument&) {
-      continue;  // a soup of points
-    }
-    ++compared;
-    EXPECT_NO_THROW(validate(outline));
-    test::expect_covers(outline, mesh.positions, mesh.triangles);
-    test::expect_equals_samples(outline, mesh.positions, mesh.triangles, 48);
-    if (HasFailure()) FAIL() << "soup " << i;
-  }
-  EXPECT_GT(compared, 290);
-}
-
 const std::vector<Vec2> footprint = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
 
 TEST(OutlineFromPolygons, TakesPolygonsEitherWayRoundAndClosedOrNot) {
@@ -251,6 +163,83 @@ TEST(OutlineFromPolygons, RejectsWhatIsNone) {
   expect("polygon 0: it has no area", {{{0, 0}, {1, 1}, {2, 2}}});
   expect("polygon 1: corner 2 is not finite", {footprint, {{0, 0}, {1, 0}, {nan, 1}}});
   expect("outline: reach 1414213.5623730961 m is outside 1e-6 to 1e6 m", {{{0, 0}, {1e6f, 0}, {1e6f, 1e6f}}});
+}
+
+// ---- Vertices that decide the disc of a pose without its outline
+
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+
+struct Soup {
+  std::vector<Vec2> positions;
+  Triangles triangles;
+};
+
+/// Of kinds: anywhere, on a line, on a circle, on few points of a grid, flat and away from the origin, where others decide
+/// the reach than the disc. The last vertex is far and in no triangle.
+Soup random_soup(test::Random& random, int kind) {
+  Soup soup;
+  const std::uint32_t count = 3 + random.below(40);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
+    if (kind == 1) y = 0.5 * x;
+    if (kind == 2) y = std::sin(4 * x), x = std::cos(4 * x);
+    if (kind == 3) x = std::round(2 * x), y = std::round(2 * y);
+    if (kind == 4) y = 5 + 0.2 * y;
+    soup.positions.push_back({static_cast<float>(x + 0.3), static_cast<float>(y)});
+  }
+  for (std::uint32_t i = 0; i + 2 < count; ++i) soup.triangles.push_back({i, i + 1, i + 2});
+  soup.positions.push_back({9.0f, 9.0f});
+  return soup;
+}
+
+/// What an outline makes of the same triangles; it may round crossings, and disagree about which of equal points decides.
+TEST(ExtremeVertices, DecideTheDiscAroundTheOutline) {
+  test::Random random(81);
+  detail::HierarchyBuilder builder;
+  Hierarchy root, expected;
+  Outline outline;
+  for (int i = 0; i < 2000; ++i) {
+    const Soup soup = random_soup(random, i % 5);
+    detail::ExtremeVertices extremes(soup.triangles, soup.positions.size());
+    extremes.find(soup.positions);
+    OutlineBuilder outlines(soup.triangles, soup.positions.size());
+    outlines.build(soup.positions, outline);
+    EXPECT_EQ(extremes.grid_step(), outline.grid_step);
+    builder.contour(outline, 0.01f, SplitRule::centroid, expected, 0);
+    builder.root(extremes.points(), extremes.grid_step(), root);
+    ASSERT_EQ(root.nodes.size(), 1u);
+    EXPECT_EQ(root.reach, expected.reach);
+    const Disc &disc = root.nodes[0].disc, &other = expected.nodes[0].disc;
+    const double unit = 0x1p-23 * root.reach;
+    EXPECT_NEAR(disc.radius, other.radius, unit);
+    for (std::size_t v = 0; v + 1 < soup.positions.size(); ++v)
+      ASSERT_LE(std::hypot(static_cast<double>(soup.positions[v].x) - static_cast<double>(disc.x),
+                           static_cast<double>(soup.positions[v].y) - static_cast<double>(disc.y)),
+                disc.radius);
+  }
+}
+
+TEST(ExtremeVertices, AreFewOfManyVertices) {
+  test::Random random(82);
+  Soup soup;
+  for (std::uint32_t i = 0; i < 3000; ++i)
+    soup.positions.push_back(
+        {static_cast<float>(random.uniform(-1, 1)), static_cast<float>(random.uniform(-0.3, 0.3))});
+  for (std::uint32_t i = 0; i + 2 < 3000; ++i) soup.triangles.push_back({i, i + 1, i + 2});
+  detail::ExtremeVertices extremes(soup.triangles, soup.positions.size());
+  extremes.find(soup.positions);
+  EXPECT_LT(extremes.points().size(), 300u);
+}
+
+TEST(ExtremeVertices, RejectWhatHasNoReach) {
+  const Triangles one = {{0, 1, 2}};
+  std::vector<Vec2> positions(3);
+  detail::ExtremeVertices extremes(one, 3);
+  EXPECT_THROW(extremes.find(positions), std::invalid_argument);
+  positions[1].x = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_THROW(extremes.find(positions), std::invalid_argument);
+  positions[1].x = 1;
+  EXPECT_NO_THROW(extremes.find(positions));
 }
 
 }  // namespace

@@ -1,17 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <stdexcept>
-#include <vector>
-
 #include <bch/outline_builder.hpp>
 #include <bch/pose_shape.hpp>
 
 #include "layout/character/skinning.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/character_shapes.hpp"
+#include "tests/support/test.hpp"
 #include "tests/support/test_characters.hpp"
 
 namespace bch {
@@ -36,46 +32,28 @@ Shape one_shape(detail::Skinner& skinner, PoseTime at, float threshold = 0.01f) 
   return shape;
 }
 
-void expect_as_one_by_one(const Character& character, float threshold) {
-  detail::Skinner skinner(character);
-  PoseShaper shaper(character, {}, threshold);
-  for (const PoseTime& time : sample_poses(character, 20))
-    expect_equal(shaper.shape(time), one_shape(skinner, time, threshold));
-}
-
 TEST(PoseShaper, MakesTheShapesThatAreMadeOneByOne) {
-  for (const Character& character : test::default_characters()) {
-    expect_as_one_by_one(character, 0.01f);
-    expect_as_one_by_one(character, 0.1f);
-  }
-}
-
-TEST(RealPoses, AreMadeAsOneByOne) {
-  const auto data = test::test_data();
-  if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set: no real characters to test with";
-  for (const Character& character : test::real_characters(*data)) expect_as_one_by_one(character, 0.01f);
+  for (const Character& character : test::people())
+    for (const float threshold : {0.01f, 0.1f}) {
+      detail::Skinner skinner(character);
+      PoseShaper shaper(character, {}, threshold);
+      for (const PoseTime& time : sample_poses(character, 20))
+        expect_equal(shaper.shape(time), one_shape(skinner, time, threshold));
+    }
 }
 
 /// Depth 0 without an outline: the same disc, bit for bit.
-void expect_root_as_with_outline(const Character& character, std::uint32_t poses) {
-  PoseShaper with(character, {.depths = {0}, .heights = true}), without(character, {.depths = {0}});
-  for (const PoseTime& time : sample_poses(character, poses)) {
-    const Hierarchy &expected = with.shape(time).hierarchy, &root = without.shape(time).hierarchy;
-    ASSERT_EQ(root.nodes.size(), 1u);
-    EXPECT_EQ(root.nodes[0].disc, expected.nodes[0].disc);
-    EXPECT_TRUE(root.nodes[0].is_leaf());
-    EXPECT_EQ(root.reach, expected.reach);
-  }
-}
-
 TEST(PoseShaper, NeedsNoOutlineForTheRootAlone) {
-  for (const Character& character : test::default_characters()) expect_root_as_with_outline(character, 200);
-}
-
-TEST(RealPoses, NeedNoOutlineForTheRootAlone) {
-  const auto data = test::test_data();
-  if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set: no real characters to test with";
-  for (const Character& character : test::real_characters(*data)) expect_root_as_with_outline(character, 50);
+  for (const Character& character : test::people()) {
+    PoseShaper with(character, {.depths = {0}, .heights = true}), without(character, {.depths = {0}});
+    for (const PoseTime& time : sample_poses(character, 200)) {
+      const Hierarchy &expected = with.shape(time).hierarchy, &root = without.shape(time).hierarchy;
+      ASSERT_EQ(root.nodes.size(), 1u);
+      EXPECT_EQ(root.nodes[0].disc, expected.nodes[0].disc);
+      EXPECT_TRUE(root.nodes[0].is_leaf());
+      EXPECT_EQ(root.reach, expected.reach);
+    }
+  }
 }
 
 void expect_no_allocations_the_second_time(const ShapeSetPlan& plan) {

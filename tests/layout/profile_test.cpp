@@ -3,12 +3,6 @@
 
 #include "layout/culling/profile.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 #include <bch/hierarchy.hpp>
 
 #include "layout/base/rounding.hpp"
@@ -16,7 +10,8 @@
 #include "layout/format/contours.hpp"
 #include "layout/format/shape_set_view.hpp"
 #include "tests/support/character_shapes.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/plane_geometry.hpp"
+#include "tests/support/test.hpp"
 #include "tests/support/test_characters.hpp"
 
 namespace bch {
@@ -55,21 +50,6 @@ std::vector<Direction> directions(test::Random& random) {
   return all;
 }
 
-/// Distance to a contour, negative outside it.
-double depth(std::span<const Vec2> contour, double x, double y) {
-  double nearest = HUGE_VAL;
-  bool inside = false;
-  for (std::size_t i = 0; i < contour.size(); ++i) {
-    const Vec2 a = contour[i], b = contour[(i + 1) % contour.size()];
-    const double ax = a.x, ay = a.y, bx = b.x, by = b.y, dx = bx - ax, dy = by - ay;
-    const double square = dx * dx + dy * dy;
-    const double t = square > 0 ? std::clamp(((x - ax) * dx + (y - ay) * dy) / square, 0.0, 1.0) : 0.0;
-    nearest = std::min(nearest, std::hypot(x - ax - t * dx, y - ay - t * dy));
-    if ((ay > y) != (by > y) && x < ax + (y - ay) / dy * dx) inside = !inside;
-  }
-  return inside ? nearest : -nearest;
-}
-
 detail::Profile profile_of(const Shape& shape) {
   const double reach = shape.hierarchy.reach;
   detail::Profile result = detail::profile(shape.outline, detail::interior(shape.outline, reach), reach);
@@ -105,8 +85,8 @@ std::uint32_t expect_sound(const Shape& shape, test::Random& random) {
     for (const double share : {0.0, random.uniform(0, 1), 1.0}) {
       if (sector.inner == -infinity) continue;
       const double out = share * static_cast<double>(sector.inner);
-      EXPECT_GE(depth(contour, static_cast<double>(profile.x) + out * d.x,
-                      static_cast<double>(profile.y) + out * d.y),
+      EXPECT_GE(test::depth_in_contour<double>(contour, static_cast<double>(profile.x) + out * d.x,
+                                               static_cast<double>(profile.y) + out * d.y),
                 inner_margin * reach);
     }
     double farthest = -HUGE_VAL, behind = -HUGE_VAL;
@@ -138,9 +118,7 @@ TEST(Profile, IsSoundAndCompleteForPeople) {
 }
 
 TEST(Profile, IsAlmostTightForASquare) {
-  Outline square;
-  square.points = {{1, 1}, {3, 1}, {3, 3}, {1, 3}};
-  square.contour_begin.push_back(4);
+  const Outline square = test::polygon({{1, 1}, {3, 1}, {3, 3}, {1, 3}});
   const detail::Profile profile = profile_of({square, contour_hierarchy(square, 0.01f)});
   EXPECT_EQ(profile.x, 2);
   EXPECT_EQ(profile.y, 2);
@@ -160,9 +138,7 @@ TEST(Profile, IsAlmostTightForASquare) {
 /// A notch whose tip lies next to the line between two sectors ends the inside in both, whether its sides cross that
 /// line or not.
 void expect_notch_in_both(float side, float low, float high) {
-  Outline notched;
-  notched.points = {{-1, -1}, {1, -1}, {1, low}, {0.5f, 0}, {1, high}, {1, 1}, {-1, 1}};
-  notched.contour_begin.push_back(7);
+  Outline notched = test::polygon({{-1, -1}, {1, -1}, {1, low}, {0.5f, 0}, {1, high}, {1, 1}, {-1, 1}});
   detail::Profile found = detail::profile(notched, {}, 1.5);
   // The tip moves the centre, and goes after it.
   for (int i = 0; i < 20; ++i) {
@@ -183,17 +159,14 @@ TEST(Profile, MindsWhatIsJustBeyondASector) {
 }
 
 TEST(Profile, KnowsNothingOfTheInsideWhereThereIsNoRoom) {
-  Outline stroke;
-  stroke.points = {{1, 1}, {2, 1.5f}};
-  stroke.contour_begin.push_back(2);
+  const Outline stroke = test::polygon({{1, 1}, {2, 1.5f}});
   for (const detail::Sector& sector : profile_of({stroke, contour_hierarchy(stroke, 0.01f)}).sectors) {
     EXPECT_EQ(sector.inner, -infinity);
     EXPECT_LT(sector.outer, 1.3f);
   }
   // A hook about its own centroid.
-  Outline hook;
-  hook.points = {{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 3.9f}, {3.9f, 3.9f}, {3.9f, 0.1f}, {0, 0.1f}};
-  hook.contour_begin.push_back(8);
+  const Outline hook =
+      test::polygon({{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 3.9f}, {3.9f, 3.9f}, {3.9f, 0.1f}, {0, 0.1f}});
   for (const detail::Sector& sector : profile_of({hook, contour_hierarchy(hook, 0.01f)}).sectors)
     EXPECT_EQ(sector.inner, -infinity);
 }

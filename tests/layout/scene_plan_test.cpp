@@ -3,18 +3,11 @@
 
 #include <bch/scene_plan.hpp>
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
-
 #include <bch/collide.hpp>
 #include <bch/pose_shape.hpp>
 
 #include "layout/character/skinning.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 #include "tests/support/test_characters.hpp"
 
 namespace bch {

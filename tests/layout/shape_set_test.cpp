@@ -1,21 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <string>
-#include <tuple>
-
 #include <bch/shape_set.hpp>
 #include <bch/shape_set_builder.hpp>
 
+#include "layout/format/cut_discs.hpp"
+#include "layout/format/leaf_segments.hpp"
 #include "layout/hierarchy/subtrees.hpp"
 #include "layout/shape_set/bvh8.hpp"
 #include "tests/support/baked_bytes.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 
 namespace bch {
 namespace {
@@ -237,18 +231,102 @@ TEST(ShapeSet, RejectsBadPlansAndShapes) {
   EXPECT_THROW(ShapeSet{broken}, std::invalid_argument);
   broken = shapes;
   broken[1].outline.points[3].x = std::numeric_limits<float>::quiet_NaN();
-  try {
-    ShapeSet{broken};
-    FAIL() << "accepted";
-  } catch (const std::invalid_argument& error) {
-    EXPECT_EQ(std::string(error.what()).find("shape set: shape 1: outline: point 3"), 0u) << error.what();
-  }
+  EXPECT_TRUE(test::has(test::complaint([&] { ShapeSet{broken}; }), "shape set: shape 1: outline: point 3"));
   EXPECT_NO_THROW(ShapeSet(broken, {{all_depths}, false, false}));  // asks for no outline
 }
 
 TEST(ShapeSet, MayBeEmpty) {
   const ShapeSet set(std::span<const Shape>{});
   EXPECT_EQ(set.shape_count(), 0u);
+}
+
+/// Levels of one disc, of fewer than a window and of many, in sets with and without nodes.
+TEST(CutDiscs, AreThoseOfTheCutInItsOrder) {
+  const std::vector<Shape> shapes = test::synthetic_shapes(71, 24);
+  std::size_t single = 0, few = 0, many = 0;
+  for (const std::vector<std::uint32_t>& depths :
+       {std::vector<std::uint32_t>{0}, {0, 1, 2, 4, 9, all_depths}}) {
+    const ShapeSet set(shapes, {depths, false});
+    for (std::uint32_t shape = 0; shape < shapes.size(); ++shape)
+      for (std::uint32_t level = 0; level < depths.size(); ++level) {
+        const detail::CutDiscs discs = detail::cut_discs(set.view(), shape * set.level_count() + level);
+        const Hierarchy& hierarchy = shapes[shape].hierarchy;
+        const std::vector<std::uint32_t> expected = cut(hierarchy, depths[level]);
+        ASSERT_EQ(discs.count, expected.size());
+        for (std::uint32_t i = 0; i < discs.count; ++i)
+          ASSERT_EQ((Disc{discs.x[i], discs.y[i], discs.radius[i]}), hierarchy.nodes[expected[i]].disc);
+        const std::vector<Disc> copied = set.discs(shape, level);
+        ASSERT_EQ(copied.size(), discs.count);
+        for (std::uint32_t i = 0; i < discs.count; ++i) {
+          ASSERT_EQ(copied[i], hierarchy.nodes[expected[i]].disc);
+          const double x = copied[i].x, y = copied[i].y, radius = copied[i].radius;
+          ASSERT_LE(std::sqrt(x * x + y * y) + radius, static_cast<double>(set.bounding_radius(shape)));
+        }
+        ++(discs.count == 1 ? single : discs.count < detail::block_width ? few : many);
+      }
+  }
+  EXPECT_GT(single, 24u);
+  EXPECT_GT(few, 20u);
+  EXPECT_GT(many, 20u);
+}
+
+TEST(ShapeSetDiscs, RejectIndicesOutOfRange) {
+  const ShapeSet set(test::synthetic_shapes(72, 3));
+  EXPECT_EQ(test::complaint<std::out_of_range>([&] { set.discs(3, 0); }), "shape set: shape 3 of 3");
+  EXPECT_EQ(test::complaint<std::out_of_range>([&] { set.discs(0, 1); }), "shape set: level 1 of 1");
+  EXPECT_EQ(test::complaint<std::out_of_range>([&] { set.bounding_radius(3); }), "shape set: shape 3 of 3");
+}
+
+/// A single disc reaches as far as it is large, about wherever it is.
+TEST(ShapeSetDiscs, ReachHoldsTheShape) {
+  const float radius = ShapeSet(std::vector<Shape>{{{}, fixed_cylinder(0.5f)}}).bounding_radius(0);
+  EXPECT_GE(radius, 0.5f);
+  EXPECT_LT(radius, 0.50001f);
+}
+
+TEST(LeafSegments, AreRunsOrLists) {
+  const std::vector<std::vector<std::uint32_t>> leaves = {{7}, {1, 2, 3}, {4, 6}, {0x1000000}, {9, 8}, {5}};
+  std::vector<std::uint32_t> long_run(127);
+  for (std::uint32_t i = 0; i < 127; ++i) long_run[i] = 50 + i;
+  std::vector<std::uint32_t> words;
+  for (std::size_t i = 0; i < leaves.size(); ++i) detail::add_leaf(leaves[i], i, leaves.size() + 1, words);
+  detail::add_leaf(long_run, leaves.size(), leaves.size() + 1, words);
+  for (std::size_t i = 0; i < leaves.size(); ++i) EXPECT_EQ(detail::segments_of(words, i), leaves[i]);
+  EXPECT_EQ(detail::segments_of(words, leaves.size()), long_run);
+  EXPECT_EQ(detail::leaf_segments_size(words, leaves.size() + 1), words.size());
+  EXPECT_EQ(words.size(), 7 + 3 + 2 + 3);
+  long_run.push_back(177);
+  detail::add_leaf(long_run, 1, leaves.size() + 1, words);
+  EXPECT_TRUE(detail::segments_of(words, 1).empty());
+}
+
+TEST(Plans, WithoutOutlinesHaveNoExactLeaves) {
+  const std::vector<Shape> shapes = test::synthetic_shapes(2405, 8);
+  EXPECT_TRUE(ShapeSet(shapes).exact_leaves());
+  EXPECT_FALSE(ShapeSet(shapes, {.outlines = false}).exact_leaves());
+  EXPECT_FALSE(ShapeSet(shapes, {{0, 3, 6}}).exact_leaves());
+  EXPECT_EQ(ShapeSet(shapes, {.outlines = false}).arrays().points.size(), 0u);
+  std::vector<Shape> bare = shapes;
+  for (Shape& shape : bare) shape.hierarchy.of_segments = false;
+  EXPECT_FALSE(ShapeSet(bare).exact_leaves());
+  EXPECT_TRUE(ShapeSet(bare).solid());
+}
+
+TEST(HierarchyPrimitives, HaveToBeThoseOfTheOutline) {
+  const auto rejected = [](const auto& change) {
+    std::vector<Shape> changed = test::synthetic_shapes(2408, 2);
+    change(changed[1].hierarchy);
+    return test::complaint([&] { ShapeSet{changed}; });
+  };
+  EXPECT_TRUE(
+      test::has(rejected([](Hierarchy& h) { h.primitive_ranges.pop_back(); }), "shape 1: hierarchy:"));
+  EXPECT_TRUE(
+      test::has(rejected([](Hierarchy& h) { h.primitive_ranges.back().end += 1; }), "holds primitives"));
+  EXPECT_TRUE(test::has(rejected([](Hierarchy& h) {
+                          h.primitive_ranges.back() = {9, 9};
+                        }),
+                        "holds primitives"));
+  EXPECT_TRUE(test::has(rejected([](Hierarchy& h) { h.source[0] = 100'000; }), "comes from segment 100000"));
 }
 
 }  // namespace

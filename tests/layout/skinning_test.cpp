@@ -3,19 +3,12 @@
 
 #include "layout/character/skinning.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <numbers>
 #include <random>
-#include <stdexcept>
-#include <string>
 
 #include "layout/character/eigen.hpp"
 #include "layout/character/rotation_blend.hpp"
 #include "tests/support/character_shapes.hpp"
-#include "tests/support/complaint.hpp"
+#include "tests/support/test.hpp"
 #include "tests/support/test_characters.hpp"
 
 namespace bch {
@@ -174,9 +167,7 @@ void expect_as_slowly(const Character& character) {
 }
 
 TEST(Skinning, IsWhatItIsWrittenAs) {
-  for (const Character& character : test::default_characters()) expect_as_slowly(character);
-  if (const auto data = test::test_data())
-    for (const Character& character : test::real_characters(*data)) expect_as_slowly(character);
+  for (const Character& character : test::people()) expect_as_slowly(character);
 }
 
 /// More bones than have a loop of their own, scales, and keys whose times differ from joint to joint.

@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <stdexcept>
 #include <string>
 
@@ -17,6 +19,12 @@ std::string complaint(Call call) {
     return error.what();
   }
   return "accepted";
+}
+
+/// Returns whether a text has a part, and both where it has not.
+inline testing::AssertionResult has(const std::string& text, const std::string& part) {
+  if (text.find(part) != std::string::npos) return testing::AssertionSuccess() << text;
+  return testing::AssertionFailure() << "no '" << part << "' in: " << text;
 }
 
 }  // namespace bch::test

@@ -4,14 +4,16 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <cstring>
 #include <map>
 #include <numbers>
 #include <string>
 #include <vector>
+
+#include "tests/support/quoted.hpp"
 
 // Small FBX files in text, and where FBX's published chain of transforms takes their vertices:
 // world = parent T Roff Rp Rpre R Rpost^-1 Rp^-1 Soff Sp S Sp^-1, and a mesh's geometric transform. Written from the documentation,
@@ -48,6 +50,7 @@ struct FbxTextMesh {
   int node;
   std::vector<Eigen::Vector3d> points;  ///< the corners of a tetrahedron
   std::vector<FbxTextCluster> clusters = {};
+  std::vector<int> corners = {0, 2, -2, 0, 1, -4, 1, 2, -4, 2, 0, -4};  ///< of polygons: -1 - the last one
 };
 
 /// A scene, its text and its poses.
@@ -58,20 +61,21 @@ class FbxText {
   std::vector<FbxTextMesh> meshes;
   std::string more_objects, more_connections;
   double start = 0, stop = 0;  ///< of the clip
+  int up_axis = 1, up_sign = 1;
+  double unit = 100;  ///< centimetres
 
   std::string text() const {
     std::string objects = more_objects, links = more_connections;
     for (std::size_t n = 0; n < nodes.size(); ++n) add_node(static_cast<int>(n), objects, links);
     for (std::size_t m = 0; m < meshes.size(); ++m) add_mesh(static_cast<int>(m), objects, links);
     if (!curves.empty()) add_clip(objects, links);
-    return "; FBX 7.4.0 project file\nFBXHeaderExtension:  {\n\tFBXHeaderVersion: 1003\n\tFBXVersion: "
-           "7400\n}\n"
-           "GlobalSettings:  {\n\tVersion: 1000\n\tProperties70:  {\n"
-           "\t\tP: \"UpAxis\", \"int\", \"Integer\", \"\",1\n\t\tP: \"UpAxisSign\", \"int\", \"Integer\", "
-           "\"\",1\n"
-           "\t\tP: \"UnitScaleFactor\", \"double\", \"Number\", \"\",100\n"
-           "\t\tP: \"TimeMode\", \"enum\", \"\", \"\",6\n\t}\n}\nObjects:  {\n" +
-           objects + "}\nConnections:  {\n" + links + "}\n";
+    return test::quoted(
+        "; FBX 7.4.0 project file\nFBXHeaderExtension:  {\n\tFBXVersion: 7400\n}\nGlobalSettings:  {\n"
+        "Version: 1000\nProperties70:  {\nP: 'UpAxis', 'int', 'Integer', ''," +
+        std::to_string(up_axis) + "\nP: 'UpAxisSign', 'int', 'Integer', ''," + std::to_string(up_sign) +
+        "\nP: 'UnitScaleFactor', 'double', 'Number', ''," + digits(unit) +
+        "\nP: 'TimeMode', 'enum', '', '',6\n}\n}\nObjects:  {\n" + objects + "}\nConnections:  {\n" + links +
+        "}\n");
   }
 
   /// Returns where the vertices are, at rest or at a time of the clip, in the frame of the file.
@@ -213,20 +217,24 @@ class FbxText {
     return array(name, std::vector<double>(m.data(), m.data() + 16));
   }
   static std::string link(long below, long above, const std::string& property = "") {
-    return "C: \"" + std::string(property.empty() ? "OO" : "OP") + "\"," + std::to_string(below) + "," +
-           std::to_string(above) + (property.empty() ? "" : ", \"" + property + "\"") + "\n";
+    const std::string of = property.empty() ? "" : ", '" + property + "'";
+    return (of.empty() ? "C: 'OO'," : "C: 'OP',") + std::to_string(below) + "," + std::to_string(above) + of +
+           "\n";
+  }
+  static std::string head(const std::string& kind, long id, const std::string& name,
+                          const std::string& of = "") {
+    return kind + ": " + std::to_string(id) + ", '" + name + "', '" + of + "' {\n";
   }
 
   void add_node(int n, std::string& objects, std::string& links) const {
     const FbxTextNode& node = nodes[static_cast<std::size_t>(n)];
-    objects += "Model: " + std::to_string(100 + n) + ", \"Model::" + node.name + "\", \"" + node.kind +
-               "\" {\nVersion: 232\nProperties70:  {\n";
+    objects += head("Model", 100 + n, "Model::" + node.name, node.kind) + "Version: 232\nProperties70:  {\n";
     for (const auto& [name, number] : node.numbers)
-      objects += "P: \"" + name + "\", \"enum\", \"\", \"\"," + std::to_string(number) + "\n";
+      objects += "P: '" + name + "', 'enum', '', ''," + std::to_string(number) + "\n";
     for (const auto& [name, v] : node.vectors)
-      objects += "P: \"" + name + "\", \"Vector3D\", \"Vector\", \"\"," + digits(v.x()) + "," +
-                 digits(v.y()) + "," + digits(v.z()) + "\n";
-    objects += "}\nShading: T\nCulling: \"CullingOff\"\n}\n";
+      objects += "P: '" + name + "', 'Vector3D', 'Vector', ''," + digits(v.x()) + "," + digits(v.y()) + "," +
+                 digits(v.z()) + "\n";
+    objects += "}\n}\n";
     links += link(100 + n, node.parent < 0 ? 0 : 100 + node.parent);
   }
 
@@ -235,19 +243,17 @@ class FbxText {
     std::vector<double> numbers;
     for (const Eigen::Vector3d& point : mesh.points)
       numbers.insert(numbers.end(), {point.x(), point.y(), point.z()});
-    objects += "Geometry: " + std::to_string(1000 + m) + ", \"Geometry::\", \"Mesh\" {\n" +
-               array("Vertices", numbers) +
-               array("PolygonVertexIndex", std::vector<int>{0, 2, -2, 0, 1, -4, 1, 2, -4, 2, 0, -4}) +
-               "GeometryVersion: 124\n}\n";
+    objects += head("Geometry", 1000 + m, "Geometry::", "Mesh") + array("Vertices", numbers) +
+               array("PolygonVertexIndex", mesh.corners) + "GeometryVersion: 124\n}\n";
     links += link(1000 + m, 100 + mesh.node);
     if (mesh.clusters.empty()) return;
-    objects += "Deformer: " + std::to_string(2000 + m) + ", \"Deformer::\", \"Skin\" {\nVersion: 101\n}\n";
+    objects += head("Deformer", 2000 + m, "Deformer::", "Skin") + "Version: 101\n}\n";
     links += link(2000 + m, 1000 + m);
     for (std::size_t c = 0; c < mesh.clusters.size(); ++c) {
       const FbxTextCluster& cluster = mesh.clusters[c];
       const long id = 3000 + 100 * m + static_cast<long>(c);
-      objects += "Deformer: " + std::to_string(id) + ", \"SubDeformer::\", \"Cluster\" {\nVersion: 100\n" +
-                 (cluster.mode.empty() ? "" : "Mode: \"" + cluster.mode + "\"\n") + "UserData: \"\", \"\"\n" +
+      objects += head("Deformer", id, "SubDeformer::", "Cluster") + "Version: 100\n" +
+                 (cluster.mode.empty() ? "" : "Mode: '" + cluster.mode + "'\n") +
                  array("Indexes", cluster.vertices) + array("Weights", cluster.weights) +
                  matrix("Transform", cluster.mesh_to_bone) + matrix("TransformLink", cluster.bone) + "}\n";
       links += link(id, 2000 + m) + link(100 + cluster.node, id);
@@ -256,50 +262,72 @@ class FbxText {
 
   void add_clip(std::string& objects, std::string& links) const {
     const auto ticks = [](double seconds) { return std::round(seconds * 46186158000.0); };
-    objects +=
-        "AnimationStack: 5000, \"AnimStack::Take 001\", \"\" {\nProperties70:  {\nP: \"LocalStart\", "
-        "\"KTime\", \"Time\", \"\"," +
-        digits(ticks(start)) + "\nP: \"LocalStop\", \"KTime\", \"Time\", \"\"," + digits(ticks(stop)) +
-        "\n}\n}\n";
+    objects += head("AnimationStack", 5000, "AnimStack::Take 001") +
+               "Properties70:  {\nP: 'LocalStart', 'KTime', 'Time', ''," + digits(ticks(start)) +
+               "\nP: 'LocalStop', 'KTime', 'Time', ''," + digits(ticks(stop)) + "\n}\n}\n";
     std::map<int, bool> layers;
     std::map<std::string, long> curve_nodes;
     long next = 6000;
     for (const FbxTextCurve& curve : curves) {
       const long layer = 5001 + curve.layer;
       if (layers.try_emplace(curve.layer).second) {
-        objects += "AnimationLayer: " + std::to_string(layer) + ", \"AnimLayer::\", \"\" {\n}\n";
+        objects += head("AnimationLayer", layer, "AnimLayer::") + "}\n";
         links += link(layer, 5000);
       }
       const auto [place, added] = curve_nodes.try_emplace(
           std::to_string(curve.layer) + " " + std::to_string(curve.node) + curve.property, next);
       if (added) {
         const Eigen::Vector3d v = vector(curve.node, curve.property, 0, true);
-        objects += "AnimationCurveNode: " + std::to_string(next) +
-                   ", \"AnimCurveNode::\", \"\" {\nProperties70:  {\n";
+        objects += head("AnimationCurveNode", next, "AnimCurveNode::") + "Properties70:  {\n";
         for (int axis = 0; axis < 3; ++axis)
-          objects +=
-              std::string("P: \"d|") + "XYZ"[axis] + "\", \"Number\", \"\", \"A\"," + digits(v[axis]) + "\n";
+          objects += std::string("P: 'd|") + "XYZ"[axis] + "', 'Number', '', 'A'," + digits(v[axis]) + "\n";
         objects += "}\n}\n";
         links += link(next, layer) + link(next, 100 + curve.node, curve.property);
         ++next;
       }
       std::vector<double> times;
       for (const double seconds : curve.seconds) times.push_back(ticks(seconds));
-      const auto bits = [](float number) {
-        std::int32_t whole;
-        static_assert(sizeof whole == sizeof number);
-        std::memcpy(&whole, &number, sizeof whole);
-        return whole;
-      };
-      objects += "AnimationCurve: " + std::to_string(next) +
-                 ", \"AnimCurve::\", \"\" {\nDefault: 0\nKeyVer: 4008\n" + array("KeyTime", times) +
-                 array("KeyValueFloat", curve.values) + array("KeyAttrFlags", std::vector<int>{curve.flags}) +
+      objects += head("AnimationCurve", next, "AnimCurve::") + "Default: 0\nKeyVer: 4008\n" +
+                 array("KeyTime", times) + array("KeyValueFloat", curve.values) +
+                 array("KeyAttrFlags", std::vector<int>{curve.flags}) +
                  array("KeyAttrDataFloat",
-                       std::vector<int>{bits(curve.slope), bits(curve.next_slope), 218434821, 0}) +
+                       std::vector<int>{std::bit_cast<std::int32_t>(curve.slope),
+                                        std::bit_cast<std::int32_t>(curve.next_slope), 218434821, 0}) +
                  array("KeyAttrRefCount", std::vector<std::size_t>{times.size()}) + "}\n";
       links += link(next++, place->second, std::string("d|") + "XYZ"[curve.axis]);
     }
   }
 };
+
+// ---- A man of three joints, whom tests move
+
+inline const std::vector<Eigen::Vector3d> fbx_corners = {{0, 0, 0}, {0.3, 0, 0}, {0, 0.7, 0}, {0, 0, 0.5}};
+
+/// A skeleton of three joints, a skin on two of them, a rigid mesh on the third, and one that marks the origin.
+inline FbxText man() {
+  FbxText fbx;
+  fbx.nodes = {{"Armature", "Null", -1}, {"Hips", "LimbNode", 0}, {"Spine", "LimbNode", 1},
+               {"Hat", "Mesh", 2},       {"Tip", "Mesh", 3},      {"Body", "Mesh", -1},
+               {"Mark", "Mesh", -1}};
+  fbx.nodes[1].vectors["Lcl Translation"] = {0, 0.9, 0};
+  fbx.nodes[2].vectors["Lcl Translation"] = {0.1, 0.4, 0};
+  fbx.nodes[3].vectors["Lcl Translation"] = {0, 0.3, 0.2};
+  fbx.nodes[4].vectors["Lcl Translation"] = {0.1, 0.1, 0};
+  fbx.meshes = {{3, fbx_corners}, {4, fbx_corners}, {6, {{-2, 0, -2}, {2, 0, -2}, {2, 0, 2}, {-2, 3, 2}}}};
+  fbx.meshes.push_back({5,
+                        {{0, 0.2, 0}, {0.4, 0.8, 0}, {0, 1.5, 0.1}, {0, 0.8, 0.6}},
+                        {{1, {0, 1}, {1, 0.25}}, {2, {1, 2, 3}, {0.75, 1, 1}}}});
+  fbx.bind(fbx.meshes.back());
+  fbx.stop = 1;
+  return fbx;
+}
+
+/// Turns the spine by all three angles, and moves and scales it.
+inline void move_spine(FbxText& fbx) {
+  fbx.curves = {
+      {2, "Lcl Rotation", 0, {0, 0.5, 1}, {0, 40, -20}}, {2, "Lcl Rotation", 1, {0, 1}, {10, 70}},
+      {2, "Lcl Rotation", 2, {0.25, 1}, {-30, 50}},      {2, "Lcl Translation", 1, {0, 1}, {0.4, 0.6}},
+      {2, "Lcl Scaling", 0, {0, 1}, {1, 1.5}},           {1, "Lcl Rotation", 1, {0, 1}, {0, 60}}};
+}
 
 }  // namespace bch

@@ -3,7 +3,12 @@
 
 #include "tests/support/gltf_file.hpp"
 
+#include "tests/support/quoted.hpp"
+
 namespace bch {
+
+using test::quoted;
+
 namespace {
 
 std::string join(const std::vector<std::string>& parts) {
@@ -34,8 +39,8 @@ std::string little_endian(std::size_t number) {
 }  // namespace
 
 std::string GltfFile::add_view(const void* data, std::size_t bytes) {
-  views_.push_back("{\"buffer\":0,\"byteOffset\":" + std::to_string(buffer_.size()) +
-                   ",\"byteLength\":" + std::to_string(bytes) + "}");
+  views_.push_back(quoted("{'buffer':0,'byteOffset':" + std::to_string(buffer_.size()) +
+                          ",'byteLength':" + std::to_string(bytes) + "}"));
   buffer_.append(static_cast<const char*>(data), bytes);
   buffer_.resize((buffer_.size() + 3) / 4 * 4);
   return std::to_string(views_.size() - 1);
@@ -49,41 +54,24 @@ std::string GltfFile::add_accessor(const std::string& json) {
 std::string GltfFile::add(const void* data, std::size_t bytes, std::size_t values, int component,
                           const std::string& type, bool normalised) {
   const std::size_t elements = type == "SCALAR" ? 1 : type == "MAT4" ? 16 : type == "VEC4" ? 4 : 3;
-  return add_accessor("{\"bufferView\":" + add_view(data, bytes) +
-                      (normalised ? ",\"normalized\":true" : "") +
-                      ",\"componentType\":" + std::to_string(component) +
-                      ",\"count\":" + std::to_string(values / elements) + ",\"type\":\"" + type + "\"}");
-}
-
-std::string GltfFile::add(const std::vector<float>& values, const std::string& type) {
-  return add(values.data(), values.size() * sizeof(float), values.size(), 5126, type);
-}
-
-std::string GltfFile::add(const std::vector<std::uint16_t>& values, const std::string& type,
-                          bool normalised) {
-  return add(values.data(), values.size() * sizeof(std::uint16_t), values.size(), 5123, type, normalised);
-}
-
-std::string GltfFile::add(const std::vector<std::uint8_t>& values, const std::string& type, bool normalised) {
-  return add(values.data(), values.size(), values.size(), 5121, type, normalised);
-}
-
-std::string GltfFile::add(const std::vector<std::int16_t>& values, const std::string& type, bool normalised) {
-  return add(values.data(), values.size() * sizeof(std::int16_t), values.size(), 5122, type, normalised);
+  return add_accessor(quoted("{'bufferView':" + add_view(data, bytes) +
+                             (normalised ? ",'normalized':true" : "") +
+                             ",'componentType':" + std::to_string(component) +
+                             ",'count':" + std::to_string(values / elements) + ",'type':'" + type + "'}"));
 }
 
 std::string GltfFile::json(const std::string& uri) const {
-  return "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[{" + uri +
-         "\"byteLength\":" + std::to_string(buffer_.size()) + "}],\"bufferViews\":[" + join(views_) +
-         "],\"accessors\":[" + join(accessors_) + "]," + join(members_) + "}";
+  return quoted("{'asset':{'version':'2.0'},'buffers':[{" + uri +
+                "'byteLength':" + std::to_string(buffer_.size()) + "}],'bufferViews':[" + join(views_) +
+                "],'accessors':[" + join(accessors_) + "]," + join(members_) + "}");
 }
 
 std::string GltfFile::text() const {
-  return json("\"uri\":\"data:application/octet-stream;base64," + base64(buffer_) + "\",");
+  return json("'uri':'data:application/octet-stream;base64," + base64(buffer_) + "',");
 }
 
 std::string GltfFile::text(const std::string& buffer_uri) const {
-  return json("\"uri\":\"" + buffer_uri + "\",");
+  return json("'uri':'" + buffer_uri + "',");
 }
 
 std::string GltfFile::binary() const {
@@ -96,32 +84,30 @@ std::string GltfFile::binary() const {
 
 GltfFile SkinnedStrip::file() const {
   GltfFile gltf;
-  std::string attributes = "\"POSITION\":" + gltf.add(positions, "VEC3");
+  std::string attributes = "'POSITION':" + gltf.add(positions, "VEC3");
   if (!joints.empty())
-    attributes += ",\"JOINTS_0\":" + gltf.add(joints, "VEC4") + ",\"WEIGHTS_0\":" + gltf.add(weights, "VEC4");
+    attributes += ",'JOINTS_0':" + gltf.add(joints, "VEC4") + ",'WEIGHTS_0':" + gltf.add(weights, "VEC4");
   if (!more_joints.empty())
     attributes +=
-        ",\"JOINTS_1\":" + gltf.add(more_joints, "VEC4") + ",\"WEIGHTS_1\":" + gltf.add(more_weights, "VEC4");
-  gltf.add_json("\"meshes\":[{\"name\":\"strip\",\"primitives\":[{\"mode\":" + std::to_string(mode) +
-                ",\"attributes\":{" + attributes + "},\"indices\":" + gltf.add(indices, "SCALAR") + "}]}]");
-  gltf.add_json("\"skins\":[{\"joints\":[1,2],\"inverseBindMatrices\":" + gltf.add(inverse_binds, "MAT4") +
-                "}]");
-  gltf.add_json("\"nodes\":[{\"name\":\"body\",\"mesh\":0,\"skin\":0},{" + hips_turn + "\"name\":\"" + hips +
-                "\",\"children\":[2],\"translation\":[0,1,0]},{\"name\":\"" + head + "\"," + head_place +
-                "},{\"name\":\"camera\",\"translation\":[9,9,9]},{" + armature +
-                "\"name\":\"armature\",\"children\":[1]}]");
-  gltf.add_json("\"scenes\":[{\"nodes\":[0,4,3]}],\"scene\":0");
-  const std::string input = "{" + interpolation + "\"input\":" + gltf.add(times, "SCALAR") + ",\"output\":";
+        ",'JOINTS_1':" + gltf.add(more_joints, "VEC4") + ",'WEIGHTS_1':" + gltf.add(more_weights, "VEC4");
+  gltf.add_json("'meshes':[{'name':'strip','primitives':[{'mode':" + std::to_string(mode) +
+                ",'attributes':{" + attributes + "},'indices':" + gltf.add(indices, "SCALAR") + "}]}]");
+  gltf.add_json("'skins':[{'joints':[1,2],'inverseBindMatrices':" + gltf.add(inverse_binds, "MAT4") + "}]");
+  gltf.add_json("'nodes':[{'name':'body','mesh':0,'skin':0},{" + hips_turn + "'name':'" + hips +
+                "','children':[2],'translation':[0,1,0]},{'name':'" + head + "'," + head_place +
+                "},{'name':'camera','translation':[9,9,9]},{" + armature +
+                "'name':'armature','children':[1]}]");
+  gltf.add_json("'scenes':[{'nodes':[0,4,3]}],'scene':0");
+  const std::string input = "{" + interpolation + "'input':" + gltf.add(times, "SCALAR") + ",'output':";
   std::string samplers = input + gltf.add(way, "VEC3") + "}," + input + gltf.add(turns, "VEC4") + "}";
   std::string channels =
-      "{\"sampler\":0,\"target\":{\"node\":1,\"path\":\"translation\"}},"
-      "{\"sampler\":1,\"target\":{\"node\":2,\"path\":\"rotation\"}}";
+      "{'sampler':0,'target':{'node':1,'path':'translation'}},{'sampler':1,'target':{'node':2,'path':'"
+      "rotation'}}";
   if (!sway.empty()) {
     samplers += "," + input + gltf.add(sway, "VEC3") + "}";
-    channels += ",{\"sampler\":2,\"target\":{\"node\":4,\"path\":\"translation\"}}";
+    channels += ",{'sampler':2,'target':{'node':4,'path':'translation'}}";
   }
-  gltf.add_json("\"animations\":[{\"name\":\"walk\",\"samplers\":[" + samplers + "],\"channels\":[" +
-                channels + "]}]");
+  gltf.add_json("'animations':[{'name':'walk','samplers':[" + samplers + "],'channels':[" + channels + "]}]");
   return gltf;
 }
 

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace bch {
@@ -12,19 +13,24 @@ namespace bch {
 /// A glTF 2 file put together by hand, so that it can be wrong in any way a test wants.
 class GltfFile {
  public:
-  /// Adds an accessor of floats or unsigned shorts; `type` is "SCALAR", "VEC3", "MAT4" ...
+  /// Adds an accessor of numbers; `type` is "SCALAR", "VEC3", "MAT4" ...
   /// Returns: its index as text, to stand in the JSON.
-  std::string add(const std::vector<float>& values, const std::string& type);
-  std::string add(const std::vector<std::uint16_t>& values, const std::string& type, bool normalised = false);
-  std::string add(const std::vector<std::uint8_t>& values, const std::string& type, bool normalised = false);
-  std::string add(const std::vector<std::int16_t>& values, const std::string& type, bool normalised = false);
+  template <class Number>
+  std::string add(const std::vector<Number>& values, const std::string& type, bool normalised = false) {
+    constexpr int component = std::is_same_v<Number, float>           ? 5126
+                              : std::is_same_v<Number, std::uint16_t> ? 5123
+                              : std::is_same_v<Number, std::int16_t>  ? 5122
+                                                                      : 5121;
+    static_assert(component != 5121 || sizeof(Number) == 1);
+    return add(values.data(), values.size() * sizeof(Number), values.size(), component, type, normalised);
+  }
 
   /// Adds an accessor by its JSON.
   std::string add_accessor(const std::string& json);
   /// Adds a buffer view alone. Returns: its index.
   std::string add_view(const void* data, std::size_t bytes);
 
-  /// Adds members of the top-level object, such as "\"nodes\":[{}]".
+  /// Adds members of the top-level object, such as "'nodes':[{}]"; single quotes become double ones.
   void add_json(const std::string& members) { members_.push_back(members); }
 
   std::string text() const;                               ///< .gltf with the buffer inside
@@ -37,7 +43,7 @@ class GltfFile {
   std::vector<std::string> views_, accessors_, members_;
 
   std::string add(const void* data, std::size_t bytes, std::size_t values, int component,
-                  const std::string& type, bool normalised = false);
+                  const std::string& type, bool normalised);
   std::string json(const std::string& uri) const;
 };
 
@@ -59,11 +65,11 @@ struct SkinnedStrip {
   std::vector<float> sway;  ///< positions of the node above the hips, as many as times
   std::string hips = "hips";
   std::string head = "head";
-  std::string armature;   ///< members of the node above the hips, such as "\"scale\":[1,1,1],"
-  std::string hips_turn;  ///< members of the hips, such as "\"rotation\":[0,0,0,1],"
-  std::string head_place = "\"translation\":[0,0.5,0]";
+  std::string armature;   ///< members of the node above the hips, such as "'scale':[1,1,1],"
+  std::string hips_turn;  ///< members of the hips, such as "'rotation':[0,0,0,1],"
+  std::string head_place = "'translation':[0,0.5,0]";
   int mode = 4;               ///< of the primitive: triangles
-  std::string interpolation;  ///< member of all samplers, such as "\"interpolation\":\"STEP\","
+  std::string interpolation;  ///< member of all samplers, such as "'interpolation':'STEP',"
 
   GltfFile file() const;
   std::string text() const { return file().text(); }

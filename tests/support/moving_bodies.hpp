@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include <bch/obstacles.hpp>
 #include <bch/shape_set.hpp>
 #include <bch/time_of_impact.hpp>
 
@@ -46,6 +47,22 @@ struct MotionCase {
 MotionCase random_motion(Random& random);
 /// Likewise of a given body.
 MotionCase random_motion(Random& random, AnimatedDiscs body);
+
+/// Returns the first contact of two motions.
+inline double contact_of(const MotionCase& a, const MotionCase& b, const TimeInterval& interval,
+                         double tolerance = 0.005) {
+  const std::vector<Motion> motions = {a.motion(), b.motion()};
+  double time = 0;
+  first_contact(motions, std::vector<Pair>{{0, 1}}, interval, {&time, 1}, tolerance);
+  return time;
+}
+/// Returns the first contact of a motion with obstacles.
+inline double contact_of(const MotionCase& motion, const ObstacleSet& obstacles, const TimeInterval& interval,
+                         double tolerance = 0.005) {
+  double time = 0;
+  first_contact(std::vector<Motion>{motion.motion()}, obstacles, interval, {&time, 1}, tolerance);
+  return time;
+}
 
 struct WorldDisc {
   double x, y, radius;

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -43,6 +44,12 @@ inline ObstacleAnswers all_answers(const ShapeSet& set, const Agents& agents, co
   penetration(set, agents, obstacles, all.ways, options);
   time_of_impact(set, agents, displacements, obstacles, all.time, options);
   return all;
+}
+
+/// Returns the largest float that is not above a number: what queries make of a distance.
+inline float rounded_down(double value) {
+  const float nearest = static_cast<float>(value);
+  return static_cast<double>(nearest) > value ? std::nextafter(nearest, -HUGE_VALF) : nearest;
 }
 
 /// Distances to ask about, some of them 0.

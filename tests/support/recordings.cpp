@@ -22,11 +22,6 @@ std::string number(float value) {
   return std::isnan(value) ? "-" : detail::shortest(value);
 }
 
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 std::uint32_t big_endian(const std::string& bytes, std::size_t at, std::size_t size) {
   std::uint32_t value = 0;
   for (std::size_t i = at; i < at + size; ++i) value = value << 8 | static_cast<unsigned char>(bytes[i]);
@@ -119,15 +114,17 @@ std::string text_of(const ReadRecording& recording) {
 
 std::string trajectory_complaint(const std::filesystem::path& file,
                                  const detail::TrajectoryOptions& options) {
-  try {
-    read_recording(file, options);
-  } catch (const detail::TrajectoryError& error) {
-    const std::string message = error.what(), folder = file.parent_path().string() + "/";
-    EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-    EXPECT_TRUE(message.starts_with(file.string())) << message;
-    return message.substr(message.starts_with(folder) ? folder.size() : 0);
-  }
-  return "accepted";
+  const std::string folder = file.parent_path().string() + "/",
+                    message = complaint<detail::TrajectoryError>([&] { read_recording(file, options); });
+  if (message == "accepted") return message;
+  EXPECT_EQ(message.find('\n'), std::string::npos) << message;
+  EXPECT_TRUE(message.starts_with(file.string())) << message;
+  return message.substr(message.starts_with(folder) ? folder.size() : 0);
+}
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 void write_sqlite(const std::filesystem::path& file, const std::string& sql) {

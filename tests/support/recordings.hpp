@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "layout/recordings/trajectory.hpp"
+#include "tests/support/complaint.hpp"
 
 namespace bch::test {
 
@@ -36,6 +37,8 @@ std::string text_of(const ReadRecording& recording);
 /// Returns the message of the TrajectoryError that reading throws, the folder left out; "accepted" where there is none.
 std::string trajectory_complaint(const std::filesystem::path& file,
                                  const detail::TrajectoryOptions& options = {});
+
+std::string bytes_of(const std::filesystem::path& file);
 
 /// Makes a SQLite file by statements, in place of one that may be there.
 void write_sqlite(const std::filesystem::path& file, const std::string& sql);

@@ -3,25 +3,17 @@
 
 // Clips that loop for a very long time: first contacts end, or are refused.
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include <bch/obstacles.hpp>
 #include <bch/time_of_impact.hpp>
 
-#include "tests/support/complaint.hpp"
 #include "tests/support/moving_bodies.hpp"
 #include "tests/support/obstacle_scenes.hpp"
+#include "tests/support/test.hpp"
 
 namespace bch {
 namespace {
 
+using test::contact_of;
 using test::MotionCase;
 
 constexpr double never = std::numeric_limits<double>::infinity();
@@ -41,20 +33,6 @@ ObstacleSet wall(double ax, double ay, double bx, double by) {
   const std::vector<double> x = {ax, bx}, y = {ay, by};
   const std::vector<std::uint64_t> paths = {0, 2};
   return ObstacleSet({x, y, paths});
-}
-
-double contact_of(const MotionCase& motion, const ObstacleSet& obstacles, const TimeInterval& interval) {
-  double time = 0;
-  first_contact(std::vector<Motion>{motion.motion()}, obstacles, interval, {&time, 1});
-  return time;
-}
-
-double contact_of(const MotionCase& a, const MotionCase& b, const TimeInterval& interval) {
-  const std::vector<Motion> motions = {a.motion(), b.motion()};
-  const std::vector<Pair> pairs = {{0, 1}};
-  double time = 0;
-  first_contact(motions, pairs, interval, {&time, 1});
-  return time;
 }
 
 /// Two billion rounds within reach of each other are not gone through one by one: this would take an hour.

@@ -1,14 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numeric>
-#include <vector>
-
 #include <bch/broad_phase.hpp>
 #include <bch/clearance.hpp>
 #include <bch/collide.hpp>
@@ -19,10 +11,9 @@
 #include <bch/time_of_impact.hpp>
 #include <bch/verify.hpp>
 
-#include "tests/support/complaint.hpp"
 #include "tests/support/moments.hpp"
 #include "tests/support/moving_bodies.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 #include "tests/support/test_characters.hpp"
 
 // Agents who show bodies that move by themselves, each at a time of its own.
@@ -53,58 +44,6 @@ struct OwnShapes {
   std::vector<std::uint32_t> own;
   Agents agents;
 };
-
-/// Bodies that are cut beside one that is whole.
-TEST_F(Moments, OfSlabsAnswerAsTheShapesOfTheirTimes) {
-  Random random(3128);
-  const ShapeSetPlan plan{.slices = {0.5f, 1}};
-  shapes.erase(shapes.begin() + 1, shapes.end());
-  for (int i = 0; i < 3; ++i) shapes.emplace_back(test::sliced_body(random, plan.slices));
-  bodies.clear();
-  for (const AnimatedShape& shape : shapes) bodies.push_back(&shape);
-  EXPECT_EQ(test::complaint([&] { MomentSet whole(bodies); }), "moments: body 1 is cut at other planes");
-  MomentSet moments(bodies, plan);
-  std::size_t hits = 0;
-  for (const std::uint32_t count : {20u, 60u, 60u}) {
-    Players players(random, count, static_cast<std::uint32_t>(bodies.size()));
-    moments.show(players.body, players.seconds, players.shape);
-    const OwnShapes expect(shapes, players, plan);
-    const std::vector<Pair> pairs = candidate_pairs(moments.set(), players.agents());
-    std::vector<std::uint8_t> found(pairs.size()), expected(pairs.size());
-    collide(moments.set(), players.agents(), pairs, found);
-    collide(expect.set, expect.agents, pairs, expected);
-    EXPECT_EQ(found, expected);
-    hits += static_cast<std::size_t>(std::count(found.begin(), found.end(), 1));
-  }
-  EXPECT_GT(hits, 10u);
-}
-
-/// Answers are those of a set that has the shape of each agent, however many there are from call to call.
-TEST_F(Moments, AnswerAsTheShapesOfTheirTimes) {
-  Random random(3122);
-  for (const bool culling : {false, true}) {
-    const ShapeSetPlan plan{.depths = {0, 3, all_depths}, .culling = culling};
-    MomentSet moments(bodies, plan, 1);
-    int hits = 0;
-    for (const std::uint32_t count : {40u, 7u, 90u, 300u, 120u, 300u}) {
-      Players players(random, count, static_cast<std::uint32_t>(bodies.size()));
-      moments.show(players.body, players.seconds, players.shape);
-      const OwnShapes expect(shapes, players, plan);
-      const std::vector<Pair> pairs = candidate_pairs(moments.set(), players.agents());
-      EXPECT_EQ(pairs, candidate_pairs(expect.set, expect.agents));
-      for (const Semantics semantics : {Semantics::boundary, Semantics::solid}) {
-        std::vector<std::uint8_t> found(pairs.size()), expected(pairs.size());
-        collide(moments.set(), players.agents(), pairs, found, {.semantics = semantics});
-        collide(expect.set, expect.agents, pairs, expected, {.semantics = semantics});
-        EXPECT_EQ(found, expected);
-        hits += static_cast<int>(std::count(found.begin(), found.end(), 1));
-      }
-      EXPECT_EQ(distances(moments.set(), players.agents(), pairs),
-                distances(expect.set, expect.agents, pairs));
-    }
-    EXPECT_GT(hits, 100);
-  }
-}
 
 /// Everything that a query can tell of pairs and of agents near obstacles, at the level of all depths.
 struct AllAnswers {
@@ -140,37 +79,68 @@ struct AllAnswers {
   }
 };
 
+std::vector<const AnimatedShape*> pointers(const std::vector<AnimatedShape>& shapes) {
+  std::vector<const AnimatedShape*> bodies;
+  for (const AnimatedShape& shape : shapes) bodies.push_back(&shape);
+  return bodies;
+}
+
+/// Answers are those of a set that has the shape of each agent, however many there are from call to call.
+void expect_own_shapes(Random& random, const std::vector<AnimatedShape>& shapes, const ShapeSetPlan& plan,
+                       const std::vector<std::uint32_t>& counts) {
+  const std::vector<const AnimatedShape*> bodies = pointers(shapes);
+  const ObstacleSet walls = obstacles_from_wkt("LINESTRING (0 0, 4 5, 3 6) POLYGON ((6 6, 7 6, 7 7, 6 6))");
+  MomentSet moments(bodies, plan, 1);
+  for (const std::uint32_t count : counts) {
+    Players players(random, count, static_cast<std::uint32_t>(bodies.size()));
+    moments.show(players.body, players.seconds, players.shape);
+    const OwnShapes expect(shapes, players, plan);
+    for (std::uint32_t i = 0; i < count; ++i)
+      EXPECT_EQ(moments.set().discs(players.shape[i], 0), expect.set.discs(i, 0));
+    const std::vector<Pair> pairs = candidate_pairs(expect.set, expect.agents, 1);
+    if (plan.depths.size() > 1) {  // where there are leaves alone, candidates may be more
+      EXPECT_TRUE(candidate_pairs(moments.set(), players.agents()) ==
+                  candidate_pairs(expect.set, expect.agents));
+    }
+    const AllAnswers found(moments.set(), players.agents(), pairs, walls),
+        expected(expect.set, expect.agents, pairs, walls);
+    EXPECT_TRUE(found == expected);
+    if (count < 60) continue;
+    EXPECT_GT(std::count(found.hits.begin(), found.hits.end(), 1), 10);
+    EXPECT_GT(std::count(found.at_walls.begin(), found.at_walls.end(), 1), 0);
+    EXPECT_GT(std::ssize(found.contacts), 10);
+    for (const Finding& finding : verify(moments.set(), 1000))
+      EXPECT_EQ(finding.what.find("does not hold the discs"), std::string::npos) << text_of(finding);
+  }
+}
+
+TEST_F(Moments, AnswerAsTheShapesOfTheirTimes) {
+  Random random(3122);
+  for (const bool culling : {false, true})
+    expect_own_shapes(random, shapes, {.depths = {0, 3, all_depths}, .culling = culling},
+                      {40, 7, 90, 300, 120, 300});
+}
+
+/// Bodies that are cut beside one that is whole.
+TEST_F(Moments, OfSlabsAnswerAsTheShapesOfTheirTimes) {
+  Random random(3128);
+  const ShapeSetPlan plan{.slices = {0.5f, 1}};
+  shapes.erase(shapes.begin() + 1, shapes.end());
+  for (int i = 0; i < 3; ++i) shapes.emplace_back(test::sliced_body(random, plan.slices));
+  EXPECT_EQ(test::complaint([&] { MomentSet whole(pointers(shapes)); }),
+            "moments: body 1 is cut at other planes");
+  expect_own_shapes(random, shapes, plan, {20, 60, 60});
+}
+
 /// The level of all depths alone, without culling data, is there but for its discs.
-TEST_F(Moments, OfLeavesAloneAnswerEveryQueryAsTheShapesOfTheirTimes) {
+TEST_F(Moments, OfLeavesAloneAnswerAsTheShapesOfTheirTimes) {
   Random random(3129);
   shapes.emplace_back(test::loose_discs(random, 1));
   for (const std::uint32_t discs : {3u, 8u, 9u, 200u}) shapes.emplace_back(test::loose_discs(random, discs));
   shapes.emplace_back(test::ringed_body(random, 2, 700));
-  bodies.clear();
-  for (const AnimatedShape& shape : shapes) bodies.push_back(&shape);
-  const ObstacleSet walls = obstacles_from_wkt("LINESTRING (0 0, 4 5, 3 6) POLYGON ((6 6, 7 6, 7 7, 6 6))");
-  for (const bool outlines : {false, true}) {
-    const ShapeSetPlan plan{.outlines = outlines, .culling = false, .heights = true};
-    MomentSet moments(bodies, plan, 1);
-    for (const std::uint32_t count : {60u, 250u, 90u}) {
-      Players players(random, count, static_cast<std::uint32_t>(bodies.size()));
-      moments.show(players.body, players.seconds, players.shape);
-      const OwnShapes expect(shapes, players, plan);
-      for (std::uint32_t i = 0; i < count; ++i) {
-        const std::vector<Disc> discs = moments.set().discs(players.shape[i], 0);
-        EXPECT_EQ(discs, expect.set.discs(i, 0));
-      }
-      const std::vector<Pair> pairs = candidate_pairs(expect.set, expect.agents, 1);
-      const AllAnswers found(moments.set(), players.agents(), pairs, walls),
-          expected(expect.set, expect.agents, pairs, walls);
-      EXPECT_TRUE(found == expected);
-      EXPECT_GT(std::count(found.hits.begin(), found.hits.end(), 1), 20);
-      EXPECT_GT(std::count(found.at_walls.begin(), found.at_walls.end(), 1), 0);
-      EXPECT_GT(std::ssize(found.contacts), 100);
-      for (const Finding& finding : verify(moments.set(), 1000))
-        EXPECT_EQ(finding.what.find("does not hold the discs"), std::string::npos) << text_of(finding);
-    }
-  }
+  for (const bool outlines : {false, true})
+    expect_own_shapes(random, shapes, {.outlines = outlines, .culling = false, .heights = true},
+                      {60, 250, 90});
 }
 
 TEST_F(Moments, LoopsAreTheSameInEachRound) {

@@ -1,16 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
 #include <oneapi/tbb/task_arena.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <limits>
-#include <set>
-#include <string>
-#include <vector>
 
 #include <bch/broad_phase.hpp>
 #include <bch/clearance.hpp>
@@ -19,10 +10,9 @@
 #include <bch/verify.hpp>
 
 #include "tests/support/allocation_count.hpp"
-#include "tests/support/complaint.hpp"
 #include "tests/support/moments.hpp"
 #include "tests/support/moving_bodies.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 #include "tests/support/test_characters.hpp"
 
 // When the shapes of moments are made, how long they are kept, and which are refused.

@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
-#include <string>
-#include <vector>
-
 #include <bch/obstacles.hpp>
 
-#include "tests/support/complaint.hpp"
 #include "tests/support/moving_bodies.hpp"
 #include "tests/support/obstacle_scenes.hpp"
+#include "tests/support/plane_geometry.hpp"
+#include "tests/support/test.hpp"
 
 // The first contact of a motion with obstacles, against its solid sampled densely and compared with every segment.
 
@@ -22,6 +14,7 @@ namespace bch {
 namespace {
 
 using baselines::ReferenceObstacle;
+using test::contact_of;
 using test::MotionCase;
 using test::ObstacleScene;
 using test::PlacedBody;
@@ -30,26 +23,11 @@ using test::still_disc;
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-double distance(const test::WorldDisc& disc, const std::array<double, 4>& segment) {
-  const auto& [ax, ay, bx, by] = segment;
-  const double x = bx - ax, y = by - ay, square = x * x + y * y;
-  const double along = square > 0 ? ((disc.x - ax) * x + (disc.y - ay) * y) / square : 0;
-  const double share = std::clamp(along, 0.0, 1.0);
-  return std::hypot(disc.x - ax - share * x, disc.y - ay - share * y);
-}
-
 bool holds(const ReferenceObstacle& area, const test::WorldDisc& point) {
   bool inside = false;
   for (const auto& [ax, ay, bx, by] : area.segments)
     if ((ay > point.y) != (by > point.y)) inside ^= point.x - ax < (bx - ax) * ((point.y - ay) / (by - ay));
   return inside;
-}
-
-double contact_of(const MotionCase& motion, const ObstacleSet& obstacles, const TimeInterval& interval,
-                  double tolerance = 0.005) {
-  double time = 0;
-  first_contact(std::vector<Motion>{motion.motion()}, obstacles, interval, {&time, 1}, tolerance);
-  return time;
 }
 
 /// What a body at a time has to do with obstacles: the gap of the nearest disc and segment, and whether an area holds a disc's centre or
@@ -60,8 +38,9 @@ test::Meeting meeting_at(const MotionCase& motion, const ObstacleScene& scene, d
     const PlacedBody body = test::placed_at(motion, slab, time);
     for (const ReferenceObstacle& obstacle : scene.reference) {
       for (const test::WorldDisc& disc : body.discs) {
-        for (const auto& segment : obstacle.segments)
-          meeting.gap = std::min(meeting.gap, distance(disc, segment) - disc.radius);
+        for (const auto& [ax, ay, bx, by] : obstacle.segments)
+          meeting.gap =
+              std::min(meeting.gap, test::distance_to_segment(disc.x, disc.y, ax, ay, bx, by) - disc.radius);
         meeting.nested |= obstacle.is_area && holds(obstacle, disc);
       }
     }

@@ -5,19 +5,12 @@
 
 #include "kernel/obstacles/distance_grid.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <vector>
-
 #include <bch/obstacles.hpp>
 
 #include "kernel/obstacles/segment.hpp"
 #include "tests/support/obstacle_scenes.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/plane_geometry.hpp"
+#include "tests/support/test.hpp"
 
 namespace bch {
 namespace {
@@ -25,21 +18,11 @@ namespace {
 using detail::DistanceBounds;
 using test::ObstacleScene;
 
-long double distance_of(double x, double y, const baselines::ReferenceObstacle& obstacle) {
-  long double least = std::numeric_limits<long double>::infinity();
-  for (const auto& [ax, ay, bx, by] : obstacle.segments) {
-    const long double dx = static_cast<long double>(bx) - ax, dy = static_cast<long double>(by) - ay,
-                      px = static_cast<long double>(x) - ax, py = static_cast<long double>(y) - ay;
-    const long double square = dx * dx + dy * dy;
-    const long double share = square > 0 ? std::clamp((px * dx + py * dy) / square, 0.0L, 1.0L) : 0.0L;
-    least = std::min(least, std::hypot(px - share * dx, py - share * dy));
-  }
-  return least;
-}
-
 long double distance_of(double x, double y, const ObstacleScene& scene) {
   long double least = std::numeric_limits<long double>::infinity();
-  for (const auto& obstacle : scene.reference) least = std::min(least, distance_of(x, y, obstacle));
+  for (const auto& obstacle : scene.reference)
+    for (const auto& [ax, ay, bx, by] : obstacle.segments)
+      least = std::min(least, test::distance_to_segment<long double>(x, y, ax, ay, bx, by));
   return least;
 }
 

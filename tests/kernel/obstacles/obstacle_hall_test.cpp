@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <vector>
-
 #include <bch/obstacles.hpp>
 
 #include "kernel/obstacles/gap_query.hpp"
+#include "tests/support/obstacle_answers.hpp"
 #include "tests/support/obstacle_scenes.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 
 // Agents in a large hall: its wall has many segments, and all are far.
 
@@ -43,11 +36,6 @@ class ObstacleHall : public test::ObstacleTest {
   }
 };
 
-float rounded_down_to_float(double value) {
-  const float nearest = static_cast<float>(value);
-  return static_cast<double>(nearest) > value ? std::nextafter(nearest, -HUGE_VALF) : nearest;
-}
-
 /// Far from the wall, next to it and beyond, distances are those of brute force over all segments.
 TEST_F(ObstacleHall, IsAsFarAsBruteForceSays) {
   const ObstacleReference reference(shapes, {.depths = {0, 3, 6, all_depths}}, Leaves::discs);
@@ -65,7 +53,7 @@ TEST_F(ObstacleHall, IsAsFarAsBruteForceSays) {
       clearance(set, agents, obstacles, {.distance = limited}, {.max_distance = 50});
       for (std::uint32_t i = 0; i < agents.size(); ++i) {
         const auto gap = reference.gap(agents, i, scene.reference);
-        ASSERT_EQ(deepest[i], rounded_down_to_float(gap.gap)) << i;
+        ASSERT_EQ(deepest[i], test::rounded_down(gap.gap)) << i;
         ASSERT_EQ(discs[i], (DiscPair{gap.disc, gap.segment})) << i;
         const bool is_held = reference.holds_a_centre(agents, i, scene.reference[0]);
         const float expected = is_held ? 0 : std::max(deepest[i], 0.0f);

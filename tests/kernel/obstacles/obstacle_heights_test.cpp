@@ -1,16 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <memory>
-#include <string>
-#include <vector>
-
 #include <bch/collide.hpp>
 #include <bch/obstacles.hpp>
 
@@ -18,8 +8,8 @@
 #include "layout/base/planes.hpp"
 #include "tests/support/obstacle_answers.hpp"
 #include "tests/support/obstacle_scenes.hpp"
-#include "tests/support/scenes.hpp"
 #include "tests/support/slab_scenes.hpp"
+#include "tests/support/test.hpp"
 
 // Obstacles with heights, against the definition: each part of a body, as a shape of its own without heights, and the obstacles whose
 // heights meet the part's, in a set of their own.
@@ -38,8 +28,8 @@ constexpr double unlimited = std::numeric_limits<double>::infinity();
 void raise(Random& random, ObstacleScene& scene) {
   for (std::size_t i = 0; i < scene.is_area.size(); ++i) {
     const double bottom = random.below(2) == 0 ? random.uniform(4, 8) : 4 + 0.25 * random.below(16);
-    scene.bottom.push_back(random.below(4) == 0 ? -unlimited : bottom);
-    scene.top.push_back(random.below(4) == 0 ? unlimited : bottom + 0.5 * random.below(3));
+    scene.bottom.push_back(is_endless || random.below(4) == 0 ? -unlimited : bottom);
+    scene.top.push_back(is_endless || random.below(4) == 0 ? unlimited : bottom + 0.5 * random.below(3));
   }
 }
 
@@ -200,12 +190,13 @@ class ObstaclesWithHeights : public testing::TestWithParam<std::vector<float>> {
 TEST_P(ObstaclesWithHeights, AreAsPartsSayOfThoseLevelWithThem) {
   constexpr std::uint32_t agents = 100;
   std::size_t hits = 0, passed = 0;
-  for (std::uint32_t k = 0; k < test::samples(24); ++k) {
+  for (std::uint32_t k = 0; k < test::samples(36); ++k) {
     ObstacleScene scene = test::obstacle_scene(random, 12, 3);
     Crowd crowd = test::crowd_about(random, set, agents, 3);
     Question question{{}, test::distances_for(random, agents), {}};
     question.options.semantics = is_sliced() ? Semantics::solid : Semantics::boundary;
     question.options.distance_leaves = k % 2 == 0 ? Leaves::discs : Leaves::segments;
+    question.distances = test::distances_for(random, agents);
     for (std::uint32_t i = 0; i < agents; ++i) {
       crowd.z.push_back(random.below(3) == 0 ? 5 : random.uniform(3, 8));
       question.way.push_back(random.uniform(-1, 1));

@@ -3,20 +3,11 @@
 
 // The ways and times of agents among obstacles, and what is said of wrong input.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <stdexcept>
-#include <vector>
-
 #include <bch/collide.hpp>
 #include <bch/obstacles.hpp>
 
-#include "tests/support/complaint.hpp"
 #include "tests/support/obstacle_scenes.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 
 namespace bch {
 namespace {

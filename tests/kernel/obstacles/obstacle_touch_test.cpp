@@ -3,23 +3,14 @@
 
 // Which agents touch obstacles, and which are held by areas: cases that random scenes do not have.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <numbers>
-#include <utility>
-#include <vector>
-
 #include <bch/collide.hpp>
 #include <bch/obstacles.hpp>
 
 #include "baselines/leaf_segments.hpp"
 #include "baselines/quad.hpp"
 #include "tests/support/obstacle_scenes.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/plane_geometry.hpp"
+#include "tests/support/test.hpp"
 
 namespace bch {
 namespace {
@@ -44,38 +35,46 @@ bool cross(QuadVector a, QuadVector b, QuadVector p, QuadVector q) {
   return sign(side(a, b, p)) * sign(side(a, b, q)) <= 0 && sign(side(p, q, a)) * sign(side(p, q, b)) <= 0;
 }
 
-/// Returns the distance of a point from a segment.
+/// Returns the distance of a point from a segment, whose differences are taken in 113 bits.
 double distance_of(QuadVector p, QuadVector from, QuadVector to) {
   const auto plain = [](Quad value) { return static_cast<long double>(value); };
-  const long double x = plain(to.x - from.x), y = plain(to.y - from.y), px = plain(p.x - from.x),
-                    py = plain(p.y - from.y);
-  const long double square = x * x + y * y, along = px * x + py * y;
-  const long double share = square > 0 ? std::clamp(along / square, 0.0L, 1.0L) : 0.0L;
-  return static_cast<double>(std::hypot(px - share * x, py - share * y));
+  return static_cast<double>(test::distance_to_segment<long double>(
+      plain(p.x - from.x), plain(p.y - from.y), 0, 0, plain(to.x - from.x), plain(to.y - from.y)));
+}
+
+/// Calls `each` for the segments of an outline whose points are placed.
+void for_each_segment(const std::vector<QuadVector>& points, const Outline& outline,
+                      const std::function<void(QuadVector, QuadVector)>& each) {
+  for (std::size_t contour = 0; contour < outline.contours(); ++contour) {
+    const std::size_t begin = outline.contour_begin[contour], end = outline.contour_begin[contour + 1];
+    for (std::size_t i = begin; i < end; ++i) each(points[i], points[i + 1 == end ? begin : i + 1]);
+  }
 }
 
 /// Returns the distance of a placed outline from a wall that it does not meet.
 double distance_of(const std::vector<QuadVector>& points, const Outline& outline, QuadVector a,
                    QuadVector b) {
   double least = infinity;
-  for (std::size_t contour = 0; contour < outline.contours(); ++contour) {
-    const std::size_t begin = outline.contour_begin[contour], end = outline.contour_begin[contour + 1];
-    for (std::size_t i = begin; i < end; ++i) {
-      const QuadVector p = points[i], q = points[i + 1 == end ? begin : i + 1];
-      least = std::min({least, distance_of(p, a, b), distance_of(a, p, q), distance_of(b, p, q)});
-    }
-  }
+  for_each_segment(points, outline, [&](QuadVector p, QuadVector q) {
+    least = std::min({least, distance_of(p, a, b), distance_of(a, p, q), distance_of(b, p, q)});
+  });
   return least;
 }
 
 /// Returns whether a placed outline meets a wall.
 bool meets(const std::vector<QuadVector>& points, const Outline& outline, QuadVector a, QuadVector b) {
-  for (std::size_t contour = 0; contour < outline.contours(); ++contour) {
-    const std::size_t begin = outline.contour_begin[contour], end = outline.contour_begin[contour + 1];
-    for (std::size_t i = begin; i < end; ++i)
-      if (cross(a, b, points[i], points[i + 1 == end ? begin : i + 1])) return true;
-  }
-  return false;
+  bool met = false;
+  for_each_segment(points, outline, [&](QuadVector p, QuadVector q) { met = met || cross(a, b, p, q); });
+  return met;
+}
+
+std::vector<QuadVector> placed(const Outline& outline, double x, double y, double heading) {
+  const QuadVector turn = baselines::quad_rotation(heading);
+  std::vector<QuadVector> points;
+  for (const Vec2& point : outline.points)
+    points.push_back(QuadVector{Quad{x}, Quad{y}} +
+                     turned(turn, {Quad{static_cast<double>(point.x)}, Quad{static_cast<double>(point.y)}}));
+  return points;
 }
 
 /// A vertex of an outline next to a wall, within the last bits: where 113-bit arithmetic says that outline and wall meet, the answer
@@ -91,11 +90,7 @@ TEST_F(Obstacles, NeverMissWhatTouches) {
     const double px = far + random.uniform(-5, 5), py = random.uniform(-5, 5),
                  heading = random.uniform(-4, 4);
     for (std::uint8_t level = 0; level < 4; ++level) crowd.add({number, px, py, heading, level});
-    const QuadVector turn = baselines::quad_rotation(heading);
-    std::vector<QuadVector> points;
-    for (const Vec2& point : shape.outline.points)
-      points.push_back(QuadVector{Quad{px}, Quad{py}} + turned(turn, {Quad{static_cast<double>(point.x)},
-                                                                      Quad{static_cast<double>(point.y)}}));
+    const std::vector<QuadVector> points = placed(shape.outline, px, py, heading);
     // The wall stands on the side of the shape that a direction shows, or anywhere.
     const double angle = random.uniform(-4, 4), c = std::cos(angle), s = std::sin(angle);
     std::size_t vertex = 0;
@@ -160,11 +155,8 @@ TEST_F(Obstacles, AreAsFarAsOutlinesAre) {
     std::vector<float> measured(1);
     clearance(set, crowd.agents(), ObstacleSet({x, y, paths}), {.distance = measured},
               {.distance_leaves = Leaves::segments});
-    const QuadVector way = baselines::quad_rotation(heading), a{Quad{x[0]}, Quad{y[0]}},
-                     b{Quad{x[1]}, Quad{y[1]}};
-    std::vector<QuadVector> points;
-    for (const Vec2& point : shape.outline.points)
-      points.push_back(turned(way, {Quad{static_cast<double>(point.x)}, Quad{static_cast<double>(point.y)}}));
+    const QuadVector a{Quad{x[0]}, Quad{y[0]}}, b{Quad{x[1]}, Quad{y[1]}};
+    const std::vector<QuadVector> points = placed(shape.outline, 0, 0, heading);
     if (meets(points, shape.outline, a, b)) {
       ASSERT_EQ(measured[0], 0) << k;
       continue;

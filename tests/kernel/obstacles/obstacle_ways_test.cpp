@@ -3,20 +3,11 @@
 
 // The ways out of many obstacles at once, and out of obstacles of many segments.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <numbers>
-#include <vector>
-
 #include <bch/obstacles.hpp>
 
 #include "kernel/obstacles/ends_hull.hpp"
 #include "tests/support/obstacle_scenes.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 
 namespace bch {
 namespace {

@@ -1,15 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <vector>
 
 #include <bch/collide.hpp>
 #include <bch/obstacles.hpp>
@@ -17,7 +10,8 @@
 #include "baselines/obstacle_reference.hpp"
 #include "tests/support/obstacle_answers.hpp"
 #include "tests/support/obstacle_scenes.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/plane_geometry.hpp"
+#include "tests/support/test.hpp"
 
 namespace bch {
 namespace {
@@ -29,14 +23,10 @@ using test::Crowd;
 using test::distances_for;
 using test::ObstacleScene;
 using test::Random;
+using test::rounded_down;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 const ShapeSetPlan four_levels{.depths = {0, 3, 6, all_depths}};
-
-float rounded_down(double value) {
-  const float nearest = static_cast<float>(value);
-  return static_cast<double>(nearest) > value ? std::nextafter(nearest, -HUGE_VALF) : nearest;
-}
 
 using Obstacles = test::ObstacleTest;
 
@@ -73,14 +63,6 @@ void expect_nearest(const ShapeSet& set, const Agents& agents, std::uint32_t age
   EXPECT_NEAR(double{points.first.y}, double{centre.y} + double{disc.radius} * double{direction.y}, near);
 }
 
-/// Returns how far a point of an agent's frame is from a segment of its outline.
-double distance_from(const Outline& outline, std::uint32_t number, double x, double y) {
-  const auto [from, to] = baselines::LeafSegments::segment(outline, number);
-  const double ux = to.x - from.x, uy = to.y - from.y, square = ux * ux + uy * uy;
-  const double share = std::clamp(((x - from.x) * ux + (y - from.y) * uy) / square, 0.0, 1.0);
-  return std::hypot(x - from.x - share * ux, y - from.y - share * uy);
-}
-
 /// The points of a distance of an outline are on the segments that brute force names, as far apart as the distance says, in its direction; and the
 /// named leaf holds the one.
 void expect_nearest_outline(const Shape& shape, const Agents& agents, std::uint32_t agent,
@@ -89,7 +71,8 @@ void expect_nearest_outline(const Shape& shape, const Agents& agents, std::uint3
   constexpr double near = 1e-5;
   const double c = std::cos(agents.heading[agent]), s = std::sin(agents.heading[agent]);
   const double px = points.first.x, py = points.first.y, x = c * px + s * py, y = c * py - s * px;
-  EXPECT_LE(distance_from(shape.outline, gap.of_outline, x, y), near);
+  const auto [from, to] = baselines::LeafSegments::segment(shape.outline, gap.of_outline);
+  EXPECT_LE(test::distance_to_segment<double>(x, y, from.x, from.y, to.x, to.y), near);
   const double to_x = double{points.second.x} - px, to_y = double{points.second.y} - py;
   EXPECT_NEAR(std::hypot(to_x, to_y), double{distance}, near);
   EXPECT_NEAR(double{direction.x} * double{distance}, to_x, near);
@@ -115,11 +98,10 @@ void expect_brute_force(Random& random, std::span<const Shape> shapes, const Sha
     const ObstacleSet obstacles = scene.set();
     const Crowd crowd = test::crowd_about(random, set, 1000, 3);
     const Agents agents = crowd.agents();
-    std::vector<double> distances, dx, dy;
-    for (std::size_t i = 0; i < agents.size(); ++i) {
-      distances.push_back(random.below(8) == 0 ? 0 : random.uniform(0, 1));
+    const std::vector<double> distances = distances_for(random, agents.size());
+    std::vector<double> dx, dy;
+    for (std::size_t i = 0; i < agents.size(); ++i)
       dx.push_back(random.uniform(-1, 1)), dy.push_back(random.uniform(-1, 1));
-    }
     const Leaves leaves = k % 2 == 0 ? Leaves::segments : Leaves::discs;
     const ObstacleReference& reference = k % 2 == 0 ? with_segments : with_discs;
     QueryOptions how{.leaves = leaves, .distance_leaves = leaves};
@@ -200,11 +182,14 @@ TEST_F(Obstacles, AnswerFarAwayAsAtTheOrigin) {
   const QueryOptions exact_distances{.distance_leaves = Leaves::segments};
   const Answers outlines =
       all_answers(set, crowd.agents(), scene.set(), exact_distances, distances, {way, way});
-  for (const double far : {0x1p20, 0x1p27, 0x1.8p29}) {
+  const auto move = [&](double way) {
     for (auto* values : {&scene.x, &crowd.x})
-      for (double& value : *values) value += far;
+      for (double& value : *values) value += way;
     for (auto* values : {&scene.y, &crowd.y})
-      for (double& value : *values) value -= far;
+      for (double& value : *values) value -= way;
+  };
+  for (const double far : {0x1p20, 0x1p27, 0x1.8p29}) {
+    move(far);
     const oneapi::tbb::global_control threads(oneapi::tbb::global_control::max_allowed_parallelism, 4);
     oneapi::tbb::task_arena(4).execute([&] {
       EXPECT_EQ(all_answers(set, crowd.agents(), scene.set(), {}, distances, {way, way}), here) << far;
@@ -212,10 +197,7 @@ TEST_F(Obstacles, AnswerFarAwayAsAtTheOrigin) {
                 outlines)
           << far;
     });
-    for (auto* values : {&scene.x, &crowd.x})
-      for (double& value : *values) value -= far;
-    for (auto* values : {&scene.y, &crowd.y})
-      for (double& value : *values) value += far;
+    move(-far);
   }
 }
 

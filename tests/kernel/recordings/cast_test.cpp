@@ -3,19 +3,12 @@
 
 #include "kernel/recordings/walker_cast.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
-
 #include <bch/default_characters.hpp>
 #include <bch/pose_shape.hpp>
 
 #include "kernel/recordings/baked_cast.hpp"
 #include "tests/support/made_up_recording.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 
 // Characters and baked shapes that stand for the people of a recording.
 
@@ -66,12 +59,7 @@ TEST(Cast, WalksAsItsClipsSay) {
 }
 
 std::string complaint(const NamedMotion& named, const Cast& cast) {
-  try {
-    cast_motions({&named, 1}, cast);
-  } catch (const TrajectoryError& error) {
-    return error.what();
-  }
-  return "accepted";
+  return test::complaint<TrajectoryError>([&] { cast_motions({&named, 1}, cast); });
 }
 
 /// Rows choose the body, the clip and the time in it; what they leave open is chosen as without them.
@@ -115,8 +103,7 @@ BakedShapes baked_man(double turn) {
   PoseShaper shaper(man);
   std::vector<Shape> shapes;
   for (const std::uint32_t name : {1u, 2u})
-    for (int k = 0; k < 20;
-         ++k) {  // a clip that walks has a second's steps, and one that stands is cut short
+    for (int k = 0; k < 20; ++k) {  // steps of a second; a clip that stands is cut short
       const float seconds = static_cast<float>(k) / 20;
       shapes.push_back(shaper.shape({clip_of(origins.names[name].c_str()), seconds}));
       origins.origins.push_back({0, name, seconds});
@@ -166,24 +153,18 @@ TEST(BakedCast, FacesWhereItIsSaidTo) {
   EXPECT_NEAR(static_cast<double>(pairs[0]), static_cast<double>(pairs[1]), 1);  // by the outline's grid
 }
 
-std::string baked_complaint(const BakedShapes& baked, const std::vector<ClipSpeed>& speeds) {
-  try {
-    baked_cast(baked, "p.bch", speeds);
-  } catch (const std::invalid_argument& error) {
-    return error.what();
-  }
-  return "accepted";
-}
-
 TEST(BakedCast, RefusesWhatItCannotKnow) {
   BakedShapes baked = baked_man(0);
-  EXPECT_EQ(baked_complaint(baked, {{"hop", 1}}), "p.bch: has no clip called hop");
+  const auto complaint_about = [&](const std::vector<ClipSpeed>& speeds) {
+    return test::complaint([&] { baked_cast(baked, "p.bch", speeds); });
+  };
+  EXPECT_EQ(complaint_about({{"hop", 1}}), "p.bch: has no clip called hop");
   EXPECT_EQ(
-      baked_complaint(baked, {{"walk", 0}}),
+      complaint_about({{"walk", 0}}),
       "p.bch: does not say how fast people walk in its clips: --clip-speed has to, as walk=1.3; those of "
       "man.glb are walk, idle phone");
   baked.origins.origins.clear();
-  EXPECT_EQ(baked_complaint(baked, {}), "p.bch: does not say which clips and times its shapes show");
+  EXPECT_EQ(complaint_about({}), "p.bch: does not say which clips and times its shapes show");
 }
 
 }  // namespace

@@ -3,20 +3,13 @@
 
 #include "kernel/recordings/check.hpp"
 
-#include <gtest/gtest.h>
 #include <oneapi/tbb/task_arena.h>
-
-#include <limits>
-#include <map>
-#include <sstream>
-#include <string>
-#include <vector>
 
 #include <bch/clearance.hpp>
 #include <bch/collide.hpp>
 
 #include "tests/support/made_up_recording.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 
 // Who runs into whom in recordings that are made up.
 

@@ -3,15 +3,9 @@
 
 #include "kernel/recordings/walkers.hpp"
 
-#include <gtest/gtest.h>
 #include <malloc.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <numbers>
-#include <tuple>
-#include <vector>
 
 #include <bch/default_characters.hpp>
 #include <bch/pose_shape.hpp>
@@ -19,6 +13,7 @@
 #include "kernel/recordings/walker_shapes.hpp"
 #include "tests/support/made_up_recording.hpp"
 #include "tests/support/outline_checks.hpp"
+#include "tests/support/test.hpp"
 
 // What is told of somebody who is tracked: speed, heading, stature, and the pose that stands for them.
 
@@ -86,14 +81,8 @@ TEST(Walkers, DoNotJumpAHundredMetres) {
   recording.add(100, {4, 99, 0, unknown, unknown});
   EXPECT_EQ(walkers_of(recording).size(), 2u);
   recording.add(110, {4, 300, 0, unknown, unknown, TrackedPerson::no_motion, unknown, 7});
-  try {
-    walkers_of(recording);
-    ADD_FAILURE();
-  } catch (const TrajectoryError& error) {
-    EXPECT_STREQ(
-        error.what(),
-        "made up: row 7: person 4 jumps by 201 m, from (99, 0) in frame 100 to (300, 0) in frame 110");
-  }
+  EXPECT_EQ(test::complaint<TrajectoryError>([&] { walkers_of(recording); }),
+            "made up: row 7: person 4 jumps by 201 m, from (99, 0) in frame 100 to (300, 0) in frame 110");
 }
 
 TEST(Walkers, TakeHeadingsOfTheFile) {
@@ -134,11 +123,11 @@ TEST(Walkers, GoOnWhenTheyComeBack) {
   ASSERT_EQ(told[0].size(), told[1].size());
   for (std::size_t i = 0; i < told[0].size(); ++i) {
     const Walker &one = told[0][i], &other = told[1][i];
-    EXPECT_EQ(std::tie(one.id, one.x, one.heading, one.speed, one.phase, one.stature, one.is_female,
-                       one.is_guessed, one.way, one.seconds),
-              std::tie(other.id, other.x, other.heading, other.speed, other.phase, other.stature,
-                       other.is_female, other.is_guessed, other.way, other.seconds))
-        << i;
+    const auto all_of = [](const Walker& w) {
+      return std::tie(w.id, w.x, w.heading, w.speed, w.phase, w.stature, w.is_female, w.is_guessed, w.way,
+                      w.seconds);
+    };
+    EXPECT_EQ(all_of(one), all_of(other)) << i;
   }
 }
 

@@ -1,14 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <string>
-#include <vector>
-
 #include <bch/default_characters.hpp>
 #include <bch/outline_builder.hpp>
 #include <bch/pose_shape.hpp>
@@ -16,8 +8,7 @@
 #include "layout/animation/slab_triangles.hpp"
 #include "layout/character/skinning.hpp"
 #include "tests/support/animated_cover.hpp"
-#include "tests/support/complaint.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 #include "tests/support/test_characters.hpp"
 
 // Moving discs of clips in slabs: those of each slab hold the body there at any time, against meshes cut at that very time.

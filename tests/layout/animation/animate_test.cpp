@@ -1,14 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <string>
-#include <vector>
-
 #include <bch/outline_builder.hpp>
 #include <bch/pose_shape.hpp>
 
@@ -17,8 +9,7 @@
 #include "layout/character/skinning.hpp"
 #include "tests/support/animated_cover.hpp"
 #include "tests/support/character_shapes.hpp"
-#include "tests/support/complaint.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 #include "tests/support/test_characters.hpp"
 
 // Moving discs of clips: they hold the exact outline at any time, stay close to it, and are as animate() says.

@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <bit>
-#include <functional>
-#include <limits>
-
 #include <bch/broad_phase.hpp>
 
 #include "layout/format/cut_discs.hpp"
@@ -14,7 +8,7 @@
 #include "layout/format/shape_validation.hpp"
 #include "tests/support/all_queries.hpp"
 #include "tests/support/baked_bytes.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 
 // Baked files whose checksums are right and whose content is not.
 
@@ -36,31 +30,8 @@ struct Crime {
   std::function<void(BakedBytes&)> commit;
 };
 
-/// The finest level of the first shape: a tree of several blocks.
-constexpr std::size_t deep_root = 2;
-
-std::span<float> top_block(BakedBytes& bytes) {
-  return bytes.section<float>(Section::nodes)
-      .subspan(bytes.section<detail::Tree>(Section::trees)[deep_root].top, detail::block_floats);
-}
-
-void set_child(BakedBytes& bytes, std::uint32_t lane, std::uint32_t name) {
-  top_block(bytes)[3 * detail::block_width + lane] = std::bit_cast<float>(name);
-}
-
-/// The first name of a window that is followed.
-float& first_window(BakedBytes& bytes) {
-  for (float* block = top_block(bytes).data();; block += detail::block_floats)
-    for (std::uint32_t lane = 0; lane < detail::block_width; ++lane)
-      if (block[lane] != infinity &&
-          std::bit_cast<std::uint32_t>(block[3 * detail::block_width + lane]) >= detail::leaf_window)
-        return block[3 * detail::block_width + lane];
-}
-
+/// Of what no other test of arrays does: shape_preconditions_test has the damage of a set's own.
 std::vector<Crime> crimes() {
-  const auto top = [](BakedBytes& b) -> std::uint32_t {
-    return b.section<detail::Tree>(Section::trees)[deep_root].top;
-  };
   const auto floats = [](Section section, std::size_t at, float value) {
     return [=](BakedBytes& b) { b.section<float>(section).data()[at] = value; };
   };
@@ -68,71 +39,19 @@ std::vector<Crime> crimes() {
     // Of the section's bytes, whatever its elements are.
     return [=](BakedBytes& b) { b.section<std::uint32_t>(section).data()[at] = value; };
   };
+  const auto origin = [](std::size_t at, auto member, auto value) {
+    return [=](BakedBytes& b) { b.section<ShapeOrigin>(Section::origins)[at].*member = value; };
+  };
+  const auto step = [](std::size_t at, std::int16_t value) {
+    return [=](BakedBytes& b) { b.section<std::int16_t>(Section::disc_steps)[at] = value; };
+  };
   return {
       {"depths 2: 0 does not ascend", word(Section::depths, 2, 0)},
-      {"nodes", [=](BakedBytes& b) { set_child(b, 0, top(b)); }},
-      {"", [=](BakedBytes& b) { set_child(b, 0, 0x7fffffe0); }},
-      {"", [=](BakedBytes& b) { set_child(b, 0, top(b) + 2 * detail::block_floats); }},
-      {"", [=](BakedBytes& b) { set_child(b, 0, top(b) + 1); }},
-      {"windows at 0", [=](BakedBytes& b) { first_window(b) = std::bit_cast<float>(detail::leaf_window); }},
-      {"to 2147483647", [=](BakedBytes& b) { first_window(b) = std::bit_cast<float>(~0u); }},
-      {"trees 2: the first window",
-       [](BakedBytes& b) {
-         float& name = first_window(b);
-         name = std::bit_cast<float>(std::bit_cast<std::uint32_t>(name) + 1);
-       }},
-      {"begins with padding", [](BakedBytes& b) { top_block(b)[0] = infinity; }},
-      {"trees 2", [=](BakedBytes& b) { b.section<detail::Tree>(Section::trees)[2].stride = ~0u; }},
-      {"trees 2", [=](BakedBytes& b) { b.section<detail::Tree>(Section::trees)[2].stride = 7; }},
-      {"trees 2", [=](BakedBytes& b) { b.section<detail::Tree>(Section::trees)[2].stride -= 1; }},
-      {"trees 2", [=](BakedBytes& b) { b.section<detail::Tree>(Section::trees)[2].top = 0; }},
-      {"", [=](BakedBytes& b) { b.section<detail::Tree>(Section::trees)[2].top = 0x7fffffff; }},
-      {"", [=](BakedBytes& b) { b.section<detail::Tree>(Section::trees)[2].top = ~0u; }},
-      {"", [=](BakedBytes& b) { b.section<detail::Tree>(Section::trees)[2].top |= detail::leaf_window; }},
-      {"holds a disc that is none", [](BakedBytes& b) { top_block(b)[0] = nan; }},
-      {"holds a disc that is none", [](BakedBytes& b) { top_block(b)[0] = -infinity; }},
-      {"holds a disc that is none", [](BakedBytes& b) { top_block(b)[detail::block_width] = infinity; }},
-      {"holds a disc that is none", [](BakedBytes& b) { top_block(b)[2 * detail::block_width] = -0.1f; }},
-      {"holds a disc that is none", [](BakedBytes& b) { top_block(b)[2 * detail::block_width] = infinity; }},
-      {"roots 0", floats(Section::roots, 2, -1.0f)},
-      {"roots 0", floats(Section::roots, 2, 0.0f)},
-      {"roots 1", floats(Section::roots, 4, nan)},
-      {"roots 1", [](BakedBytes& b) { b.section<detail::Root>(Section::roots)[1].row = 2; }},
-      {"roots 5: row 3",
-       [](BakedBytes& b) { b.section<detail::Root>(Section::roots)[2].row = detail::single_disc; }},
-      {"support 3", floats(Section::support, 3, 1.0f)},
-      {"reach 0", floats(Section::reach, 0, 0.0f)},
-      {"reach 2", floats(Section::reach, 2, nan)},
-      {"reach 1", floats(Section::reach, 1, 1e7f)},
-      {"support 70", floats(Section::support, 70, nan)},
-      {"inscribed 1",
-       [](BakedBytes& b) { b.section<detail::DiscBlock>(Section::inscribed)[1].radius[3] = nan; }},
-      {"extremes 2",
-       [](BakedBytes& b) { b.section<detail::Extremes>(Section::extremes)[2].y[31] = infinity; }},
-      {"profiles 1", [](BakedBytes& b) { b.section<detail::Profile>(Section::profiles)[1].y = infinity; }},
-      {"profiles 1",
-       [](BakedBytes& b) { b.section<detail::Profile>(Section::profiles)[1].sectors[31].inner = nan; }},
-      {"profiles 1",
-       [](BakedBytes& b) { b.section<detail::Profile>(Section::profiles)[1].sectors[0].outer = infinity; }},
-      {"profiles 1",
-       [](BakedBytes& b) { b.section<detail::Profile>(Section::profiles)[1].sectors[7].extent = infinity; }},
-      {"shape_contours 0", word(Section::shape_contours, 0, 1)},
-      {"shape_contours 2", word(Section::shape_contours, 4, 0)},
-      {"shape_contours 1: ends", word(Section::shape_contours, 3, 0)},
-      {"shape_contours: 1000", word(Section::shape_contours, 5, 1000)},
-      {"contours 2", [](BakedBytes& b) { b.section<detail::Contour>(Section::contours)[2].begin = 1; }},
-      {"contours: 4294967296",
-       [](BakedBytes& b) { b.section<detail::Contour>(Section::contours)[3].end = ~0u; }},
-      {"contours 1", [](BakedBytes& b) { b.section<detail::Contour>(Section::contours)[1].end = 0; }},
-      {"contours 3",
-       [](BakedBytes& b) { b.section<detail::Contour>(Section::contours)[3].disc.radius = -1; }},
-      {"points 5", [](BakedBytes& b) { b.section<Vec2>(Section::points)[5].y = nan; }},
       {"threshold",
        [](BakedBytes& b) { b.section<detail::baked::Settings>(Section::settings)[0].threshold = -1; }},
-      {"origins 1: character",
-       [](BakedBytes& b) { b.section<ShapeOrigin>(Section::origins)[1].character = 4; }},
-      {"origins 2: clip", [](BakedBytes& b) { b.section<ShapeOrigin>(Section::origins)[2].clip = 4; }},
-      {"origins 0: time", [](BakedBytes& b) { b.section<ShapeOrigin>(Section::origins)[0].seconds = nan; }},
+      {"origins 1: character", origin(1, &ShapeOrigin::character, 4u)},
+      {"origins 2: clip", origin(2, &ShapeOrigin::clip, 4u)},
+      {"origins 0: time", origin(0, &ShapeOrigin::seconds, nan)},
       {"clips 1: character has name 5", word(Section::clips, 6, 5)},
       {"clips 0: clip has name 4", word(Section::clips, 1, 4)},
       {"clips 1: it loops 2 times", word(Section::clips, 8, 2)},
@@ -150,37 +69,24 @@ std::vector<Crime> crimes() {
       {"chunk 0: a key at 0 s after one at 1 s",
        [](BakedBytes& b) { b.section<double>(Section::key_times)[1] = 0; }},
       {"clips 0: animated shape: chunk 1: a ring's end at 0 after 0", word(Section::ring_ends, 1, 0)},
-      {"disc 0 at key 0 does not overlap disc 1",
-       [](BakedBytes& b) { b.section<std::int16_t>(Section::disc_steps)[3] = 30000; }},
-      {"of -0.125 m", [](BakedBytes& b) { b.section<std::int16_t>(Section::disc_steps)[2] = -1; }},
+      {"disc 0 at key 0 does not overlap disc 1", step(3, 30000)},
+      {"of -0.125 m", step(2, -1)},
       {"clips 1: animated shape: chunk 0: disc 0 at key 1", floats(Section::disc_floats, 4, nan)},
       {"name_begin 2", word(Section::name_begin, 2, 1)},
       {"name_begin 4", word(Section::name_begin, 4, 1000)},
   };
 }
 
+/// Damage is called damage, whatever it made of the content, and checked beyond checksums.
 TEST(BakedContent, IsCheckedBeyondChecksums) {
-  const std::vector<Crime> all = crimes();
-  for (std::size_t i = 0; i < all.size(); ++i) {
+  for (const Crime& crime : crimes()) {
     BakedBytes bytes = sound_bytes();
-    all[i].commit(bytes);
+    crime.commit(bytes);
+    const std::string damage = bytes.error();
+    EXPECT_TRUE(damage.starts_with("file: section ") && damage.ends_with(": wrong checksum")) << damage;
     bytes.seal();
-    const std::string error = bytes.error();
-    EXPECT_TRUE(error.starts_with("file: ")) << i << ": " << error;
-    EXPECT_NE(error.find(all[i].error), std::string::npos)
-        << i << ": no '" << all[i].error << "' in: " << error;
-  }
-}
-
-/// Whatever it made of the content.
-TEST(BakedContent, DamageIsCalledDamage) {
-  const std::vector<Crime> all = crimes();
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    BakedBytes bytes = sound_bytes();
-    all[i].commit(bytes);
-    const std::string error = bytes.error();
-    EXPECT_TRUE(error.starts_with("file: section ") && error.ends_with(": wrong checksum"))
-        << i << ": " << error;
+    EXPECT_TRUE(bytes.error().starts_with("file: ")) << bytes.error();
+    EXPECT_TRUE(has(bytes.error(), crime.error));
   }
 }
 
@@ -201,12 +107,6 @@ TEST(BakedContent, ClipsLeaveNothing) {
   EXPECT_EQ(without(Section::chunks, 5, 1), "file: disc_steps 33: belongs to no clip");
   clips[0].discs.chunks[0].ring_ends.clear();
   EXPECT_EQ(without(Section::chunks, 1, 2), "file: disc_steps 30: belongs to no clip");
-}
-
-TEST(BakedContent, TestsATreeOfSeveralBlocks) {
-  BakedBytes bytes = sound_bytes();
-  ASSERT_LT(bytes.section<detail::Tree>(Section::trees)[deep_root].top, detail::leaf_window);
-  EXPECT_LT(std::bit_cast<std::uint32_t>(top_block(bytes)[detail::block_names]), detail::leaf_window);
 }
 
 /// A set of one tree in which only the first disc of every block is not padding. All discs are the same: two of the cut, and
@@ -256,24 +156,6 @@ TEST(BakedContent, TreesAreNoDeeperThanStacks) {
   }
 }
 
-TEST(BakedContent, ArraysBeginOnCacheLines) {
-  const detail::AlignedVector<std::uint32_t> depths = {all_depths};
-  const detail::AlignedVector<detail::Root> roots(3, detail::Root{0, 0, 1, detail::single_disc});
-  detail::ShapeArrays arrays{};
-  arrays.depths = depths;
-  arrays.roots = roots;
-  EXPECT_NO_THROW(validate(arrays));
-  arrays.roots = arrays.roots.subspan(1);
-  EXPECT_THROW(validate(arrays), std::invalid_argument);
-}
-
-TEST(BakedContent, ALevelHasAWindowOfDiscsAtLeast) {
-  Chain chain(1);
-  EXPECT_NO_THROW(validate(chain.arrays()));
-  chain.trees[0].stride = detail::block_width - 1;
-  EXPECT_THROW(validate(chain.arrays()), std::invalid_argument);
-}
-
 /// Everything that follows the set's links, also of a copy whose shapes are replaced.
 void query(const ShapeSet& set, std::uint64_t seed) {
   Random random(seed);
@@ -288,15 +170,6 @@ void query(const ShapeSet& set, std::uint64_t seed) {
     ask_all(set, crowd.agents(), pairs, row);
     ask_all_of_a_dynamic_copy(set, crowd.agents(), pairs, row);
   }
-}
-
-/// A file whose only depth is said to be 0, and that keeps its trees, had DynamicShapeSet copy roots without them.
-TEST(BakedContent, TheOnlyDepthIsNot0WhereThereAreTrees) {
-  BakedBytes bytes(ShapeSet(few_shapes(), {}), origins_of(3));
-  bytes.section<std::uint32_t>(Section::depths)[0] = 0;
-  bytes.seal();
-  EXPECT_NE(bytes.error().find("file: trees: 3 where there have to be 0"), std::string::npos)
-      << bytes.error();
 }
 
 /// A shape of many discs, in which hardly anything would be pruned if inner discs might be as large as they like.
@@ -316,7 +189,7 @@ TEST(BakedContent, InnerDiscsAreNoLargerThanTheyNeed) {
       damaged[(tree.first_inner() + k) * detail::inner_floats + 2] = radius;
     huge.section<detail::Root>(Section::roots)[0].radius = radius;
     huge.seal();
-    EXPECT_NE(huge.error().find("than what is below it needs"), std::string::npos) << radius << huge.error();
+    EXPECT_TRUE(has(huge.error(), "than what is below it needs")) << radius;
   }
 }
 

@@ -1,28 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <cstddef>
-#include <cstdint>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <limits>
 #include <new>
-#include <span>
-#include <string>
 #include <system_error>
-#include <vector>
 
 #include <bch/baked.hpp>
 
 #include "layout/baked/checksum.hpp"
 #include "layout/baked/image.hpp"
 #include "tests/support/baked_bytes.hpp"
-#include "tests/support/complaint.hpp"
-#include "tests/support/scenes.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 // Baked files that were cut, changed or made up, and the checksum that tells.
 
@@ -38,9 +25,8 @@ class SpoiledFile : public testing::Test {
   BakedBytes bytes{ShapeSet(few_shapes(), full_plan), origins_of(3), few_clips()};
 
   void expect_error(const std::string& words) {
-    const std::string error = bytes.error();
-    EXPECT_TRUE(error.starts_with("file: ")) << error;
-    EXPECT_NE(error.find(words), std::string::npos) << "no '" << words << "' in: " << error;
+    EXPECT_TRUE(bytes.error().starts_with("file: ")) << bytes.error();
+    EXPECT_TRUE(has(bytes.error(), words));
   }
 };
 
@@ -116,32 +102,28 @@ TEST_F(SpoiledFile, SaysWhatIsWrongWithTheHeader) {
 }
 
 TEST_F(SpoiledFile, SizesThatOverflow) {
-  for (std::uint32_t i = 0; i < detail::baked::section_count; ++i) {
-    auto& entry = bytes.preamble().entries[i];
+  constexpr std::uint64_t all = ~std::uint64_t{0};
+  for (detail::baked::SectionEntry& entry : bytes.preamble().entries) {
     const auto sound = entry;
-    const std::uint64_t size = entry.element_size;
-    for (const std::uint64_t count :
-         {~std::uint64_t{0}, ~std::uint64_t{0} / size, ~std::uint64_t{0} / size + 1,
-          ~std::uint64_t{0} / size - 63, std::uint64_t{1} << 63, bytes.size() / size + 1,
-          (bytes.size() - entry.offset) / size + 1, sound.count + (std::uint64_t{1} << 32)}) {
-      entry.count = count;
-      bytes.seal_header();
-      EXPECT_NE(bytes.error(), "") << i << ' ' << count;
-    }
-    entry = sound;
-    for (const std::uint64_t offset : {~std::uint64_t{0}, ~std::uint64_t{63}, std::uint64_t{0}, bytes.size(),
-                                       sound.offset + 64, sound.offset + 1, sound.offset - 64}) {
-      entry.offset = offset;
-      bytes.seal_header();
-      EXPECT_NE(bytes.error(), "") << i << ' ' << offset;
-    }
-    entry = sound;
-    for (const std::uint32_t element : {0u, 1u + entry.element_size, ~0u}) {
-      entry.element_size = element;
-      bytes.seal_header();
-      EXPECT_NE(bytes.error(), "") << i << ' ' << element;
-    }
-    entry = sound;
+    const auto expect_refused = [&](auto member, auto values) {
+      for (const auto value : values) {
+        entry.*member = value;
+        bytes.seal_header();
+        EXPECT_NE(bytes.error(), "") << &entry - bytes.preamble().entries << ' ' << value;
+        entry = sound;
+      }
+    };
+    const std::uint64_t size = entry.element_size, room = bytes.size();
+    expect_refused(
+        &detail::baked::SectionEntry::count,
+        std::vector<std::uint64_t>{all, all / size, all / size + 1, all / size - 63, std::uint64_t{1} << 63,
+                                   room / size + 1, (room - entry.offset) / size + 1,
+                                   sound.count + (std::uint64_t{1} << 32)});
+    expect_refused(&detail::baked::SectionEntry::offset,
+                   std::vector<std::uint64_t>{all, all - 63, 0, room, sound.offset + 64, sound.offset + 1,
+                                              sound.offset - 64});
+    expect_refused(&detail::baked::SectionEntry::element_size,
+                   std::vector<std::uint32_t>{0u, 1u + entry.element_size, ~0u});
   }
   bytes.seal_header();
   EXPECT_EQ(bytes.error(), "");

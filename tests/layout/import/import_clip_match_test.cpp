@@ -5,15 +5,12 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <set>
 
-#include <bch/import.hpp>
-
-#include "layout/character/skinning.hpp"
+#include "tests/support/bvh_file.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/gltf_file.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/import_test.hpp"
 
 // Clips of another skeleton are refused, and those of the character's own skeleton are not.
 
@@ -45,7 +42,7 @@ TEST(ClipMatch, HalfOfTheChannelsOrOfTheJointsIsEnough) {
 TEST(ClipMatch, ThereHasToBeABoneToCompare) {
   ClipMatch match = match_of(3, 3, 20);
   match.bones_in_file = 0;
-  EXPECT_NE(mismatch(match).find("no bone"), std::string::npos) << mismatch(match);
+  EXPECT_TRUE(test::has(mismatch(match), "no bone"));
   match.bones = 0;  // a character of single joints has none
   EXPECT_EQ(mismatch(match), "");
 }
@@ -55,7 +52,7 @@ TEST(ClipMatch, BonesHaveToPointTheSameWay) {
   match.alignment = 0.71;
   EXPECT_EQ(mismatch(match), "");
   match.alignment = 0.69;
-  EXPECT_NE(mismatch(match).find("turned otherwise"), std::string::npos) << mismatch(match);
+  EXPECT_TRUE(test::has(mismatch(match), "turned otherwise"));
 }
 
 TEST(ClipMatch, ReasonsTellSharesAndAFewNames) {
@@ -63,66 +60,38 @@ TEST(ClipMatch, ReasonsTellSharesAndAFewNames) {
   match.unmatched[0] = std::string(500, 'x');
   const std::string reason = mismatch(match);
   EXPECT_TRUE(reason.starts_with("3 of its 31 channels")) << reason;
-  EXPECT_NE(reason.find("joint 2;"), std::string::npos) << reason;
-  EXPECT_NE(reason.find("and 23 more"), std::string::npos) << reason;
+  EXPECT_TRUE(test::has(reason, "joint 2;"));
+  EXPECT_TRUE(test::has(reason, "and 23 more"));
   EXPECT_LT(reason.size(), 400u) << reason;
 }
 
-/// A joint of a BVH file, which holds further ones.
-std::string bvh_joint(const std::string& kind, const std::string& name, const std::string& inner) {
-  const std::string end = "End Site\n{\nOFFSET 0 10 0\n}\n";
-  return kind + " " + name + "\n{\nOFFSET 0 50 0\nCHANNELS " +
-         (kind == "ROOT" ? "6 Xposition Yposition Zposition " : "3 ") + "Zrotation Xrotation Yrotation\n" +
-         (inner.empty() ? end : inner) + "}\n";
-}
-
-/// A chain of joints. Its root stands 100 units up and goes 300 along x in two seconds.
-std::string bvh_chain(const std::vector<std::string>& chain) {
-  std::string joints;
-  for (std::size_t i = chain.size(); i-- > 0;)
-    joints = bvh_joint(i == 0 ? "ROOT" : "JOINT", chain[i], joints);
-  std::string turns;
-  for (std::size_t i = 0; i < chain.size(); ++i) turns += " 0 0 0";
-  return "HIERARCHY\n" + joints + "MOTION\nFrames: 3\nFrame Time: 1\n0 100 0" + turns + "\n100 100 0" +
-         turns + "\n300 100 0" + turns + "\n";
-}
-
-class ClipFiles : public testing::Test {
+class ClipFiles : public test::ImportTest {
  protected:
-  TemporaryFolder folder;
+  const std::filesystem::path strip = folder.write("strip.gltf", SkinnedStrip().text());
 
-  /// A strip on the bone from "hips" to "head", with the clip of a chain of joints.
-  ImportReport strip_with(const std::vector<std::string>& chain, bool force = false) {
+  /// A strip on the bone from "hips" to "head" gets the clip of a chain of joints.
+  ImportOptions clip_of(const std::vector<std::string>& chain, bool force = false) const {
     ImportOptions options;
-    options.clip_files = {folder.write("dance.bvh", bvh_chain(chain))};
+    options.clip_files = {folder.write("dance.bvh", test::BvhFile{.joints = chain}.text())};
     options.force_clips = force;
-    return import_character(folder.write("strip.gltf", SkinnedStrip().text()), options).report;
+    return options;
+  }
+  ImportReport strip_with(const std::vector<std::string>& chain, bool force = false) const {
+    return import_character(strip, clip_of(chain, force)).report;
   }
 
-  void expect_refused(const std::vector<std::string>& chain, const std::vector<std::string>& words) {
-    try {
-      strip_with(chain);
-      ADD_FAILURE() << "took the clip of another skeleton";
-    } catch (const ImportError& error) {
-      const std::string line = error.what();
-      for (const std::string& word : words)
-        EXPECT_NE(line.find(word), std::string::npos) << word << ": " << line;
-      EXPECT_EQ(line.find('\n'), std::string::npos);
-      EXPECT_LT(line.size(), 1000u);
-    }
+  void expect_refused(const std::vector<std::string>& chain, const std::vector<std::string>& words) const {
+    const std::string line = complaint(strip, clip_of(chain));
+    for (const std::string& word : words) EXPECT_TRUE(test::has(line, word));
+    EXPECT_LT(line.size(), 1000u);
   }
 };
-
-bool notes_have(const ImportReport& report, const std::string& part) {
-  return std::any_of(report.notes.begin(), report.notes.end(),
-                     [&](const std::string& note) { return note.find(part) != std::string::npos; });
-}
 
 TEST_F(ClipFiles, OfTheSameSkeletonAreTaken) {
   const ImportReport report = strip_with({"hips", "head"});
   EXPECT_EQ(report.clips.at(1).channels, 2u);
-  EXPECT_FALSE(notes_have(report, "reaches"));
-  EXPECT_FALSE(notes_have(report, "another skeleton"));
+  EXPECT_FALSE(test::has_note(report, "reaches"));
+  EXPECT_FALSE(test::has_note(report, "another skeleton"));
 }
 
 /// The joints have the same names, but nothing tells how large they are and how they are turned.
@@ -140,9 +109,9 @@ TEST_F(ClipFiles, OfWhichFewChannelsMatchAreRefused) {
 TEST_F(ClipFiles, AreTakenByForceWithNotes) {
   const ImportReport report = strip_with({"head", "tail"}, true);
   EXPECT_EQ(report.clips.at(1).channels, 1u);
-  EXPECT_TRUE(notes_have(report, "clip 'dance' belongs to another skeleton, but --force-clips takes it"));
+  EXPECT_TRUE(test::has_note(report, "clip 'dance' belongs to another skeleton, but --force-clips takes it"));
   // The head goes to where the file has it: 100 units up, 300 away.
-  EXPECT_TRUE(notes_have(report, "clip 'dance': a pose reaches 300."));
+  EXPECT_TRUE(test::has_note(report, "clip 'dance': a pose reaches 300."));
   EXPECT_THROW(strip_with({"tail"}, true), ImportError);
 }
 
@@ -169,7 +138,7 @@ TEST(ClipData, ClipsPlayOnTheirOwnSkeletonAlone) {
       try {
         const ImportReport report = import_character(*data / "characters" / character, options).report;
         EXPECT_TRUE(fitting.contains({character, file}));
-        EXPECT_FALSE(notes_have(report, "reaches"));
+        EXPECT_FALSE(test::has_note(report, "reaches"));
       } catch (const ImportError& error) {
         EXPECT_FALSE(fitting.contains({character, file})) << error.what();
       }

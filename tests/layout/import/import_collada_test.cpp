@@ -1,44 +1,19 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <functional>
-#include <numbers>
-#include <set>
-
-#include <bch/import.hpp>
-
-#include "layout/character/eigen.hpp"
-#include "layout/character/skinning.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/collada_file.hpp"
+#include "tests/support/import_test.hpp"
+#include "tests/support/test.hpp"
 
 // What Collada says of keys and joints, and assimp does not hear.
 
 namespace bch {
 namespace {
 
-std::string source(const std::string& id, const std::string& kind, const std::string& numbers, int count,
-                   int stride, const std::string& param) {
-  return "<source id=\"" + id + "\"><" + kind + "_array id=\"" + id + "-a\" count=\"" +
-         std::to_string(count * stride) + "\">" + numbers + "</" + kind +
-         "_array><technique_common><accessor source=\"#" + id + "-a\" count=\"" + std::to_string(count) +
-         "\" stride=\"" + std::to_string(stride) + "\">" + param + "</accessor></technique_common></source>";
-}
-
-std::string param(const std::string& name, const std::string& type = "float") {
-  return "<param name=\"" + name + "\" type=\"" + type + "\"/>";
-}
-
-std::string geometry(const std::string& id) {
-  return "<geometry id=\"" + id + "\"><mesh>" +
-         source(id + "p", "float", "0 0 0 1 0 0 0 1 0 0 0 1", 4, 3, param("X") + param("Y") + param("Z")) +
-         "<vertices id=\"" + id + "v\"><input semantic=\"POSITION\" source=\"#" + id +
-         "p\"/></vertices><triangles count=\"4\"><input semantic=\"VERTEX\" source=\"#" + id +
-         "v\" offset=\"0\"/><p>0 2 1 0 1 3 1 2 3 2 0 3</p></triangles></mesh></geometry>";
-}
+using test::collada_geometry;
+using test::collada_param;
+using test::collada_source;
+using test::filled;
 
 /// The curve of one property: times, values and kinds of keys, and tangents where there are any.
 struct Curve {
@@ -46,24 +21,25 @@ struct Curve {
   int keys = 3, stride = 1;
 
   std::string text(const std::string& id) const {
-    const bool matrix = stride == 16;
-    const std::string params = matrix        ? param("TRANSFORM", "float4x4")
-                               : stride == 3 ? param("X") + param("Y") + param("Z")
-                                             : param("ANGLE");
-    std::string sources = source(id + "i", "float", times, keys, 1, param("TIME")) +
-                          source(id + "o", "float", values, keys, stride, params) +
-                          source(id + "k", "Name", kinds, keys, 1, param("INTERPOLATION", "name"));
-    std::string inputs = "<input semantic=\"INPUT\" source=\"#" + id +
-                         "i\"/><input semantic=\"OUTPUT\" source=\"#" + id +
-                         "o\"/><input semantic=\"INTERPOLATION\" source=\"#" + id + "k\"/>";
+    const std::string params = stride == 16  ? collada_param("TRANSFORM", "float4x4")
+                               : stride == 3 ? test::xyz_params
+                                             : collada_param("ANGLE"),
+                      plane = collada_param("X") + collada_param("Y");
+    std::string sources =
+        collada_source("$i", "float", times, keys, 1, collada_param("TIME")) +
+        collada_source("$o", "float", values, keys, stride, params) +
+        collada_source("$k", "Name", kinds, keys, 1, collada_param("INTERPOLATION", "name"));
+    std::string inputs =
+        "<input semantic='INPUT' source='#$i'/><input semantic='OUTPUT' source='#$o'/>"
+        "<input semantic='INTERPOLATION' source='#$k'/>";
     if (!in.empty()) {
-      sources += source(id + "x", "float", in, keys, 2 * stride, param("X") + param("Y")) +
-                 source(id + "y", "float", out, keys, 2 * stride, param("X") + param("Y"));
-      inputs += "<input semantic=\"IN_TANGENT\" source=\"#" + id +
-                "x\"/><input semantic=\"OUT_TANGENT\" source=\"#" + id + "y\"/>";
+      sources += collada_source("$x", "float", in, keys, 2 * stride, plane) +
+                 collada_source("$y", "float", out, keys, 2 * stride, plane);
+      inputs += "<input semantic='IN_TANGENT' source='#$x'/><input semantic='OUT_TANGENT' source='#$y'/>";
     }
-    return "<animation id=\"" + id + "\">" + sources + "<sampler id=\"" + id + "s\">" + inputs +
-           "</sampler><channel source=\"#" + id + "s\" target=\"" + target + "\"/></animation>";
+    return filled("<animation id='$'>" + sources + "<sampler id='$s'>" + inputs +
+                      "</sampler><channel source='#$s' target='" + target + "'/></animation>",
+                  {{"$", id}});
   }
 };
 
@@ -71,27 +47,20 @@ std::string collada(const std::string& libraries, const std::string& nodes,
                     const std::vector<Curve>& curves) {
   std::string animations;
   for (std::size_t c = 0; c < curves.size(); ++c) animations += curves[c].text("c" + std::to_string(c));
-  return "<?xml version=\"1.0\" encoding=\"utf-8\"?>\n<!-- a > b --><COLLADA "
-         "xmlns=\"http://www.collada.org/2005/11/COLLADASchema\" "
-         "version=\"1.4.1\">\n<asset><unit name=\"m\" meter=\"1\"/><up_axis>Z_UP</up_axis></asset>" +
-         libraries + (curves.empty() ? "" : "<library_animations>" + animations + "</library_animations>") +
-         "<library_visual_scenes><visual_scene id=\"S\">" + nodes +
-         "</visual_scene></library_visual_scenes><scene><instance_visual_scene "
-         "url=\"#S\"/></scene></COLLADA>";
+  if (!curves.empty()) animations = "<library_animations>" + animations + "</library_animations>";
+  return test::collada_file(libraries + animations, nodes);
 }
 
-class ImportCollada : public testing::Test {
+std::string turning(const std::vector<Curve>& curves) {
+  return collada("<library_geometries>" + collada_geometry("g") + "</library_geometries>",
+                 "<node id='n'><translate sid='t'>0 0 0</translate><rotate sid='z'>0 0 1 0</rotate>"
+                 "<instance_geometry url='#g'/></node>",
+                 curves);
+}
+
+class ImportCollada : public test::ImportTest {
  protected:
-  TemporaryFolder folder;
-
-  std::string turning(const std::vector<Curve>& curves) {
-    return collada("<library_geometries>" + geometry("g") + "</library_geometries>",
-                   "<node id=\"n\"><translate sid=\"t\">0 0 0</translate><rotate sid=\"z\">0 0 1 "
-                   "0</rotate><instance_geometry url=\"#g\"/></node>",
-                   curves);
-  }
-
-  ImportedCharacter read(const std::string& text) { return import_character(folder.write("a.dae", text)); }
+  ImportedCharacter read(const std::string& text) const { return import("a.dae", text); }
 
   /// Compares the node's turn about the vertical with a function of time.
   void expect_degrees(const std::vector<Curve>& curves, const std::function<double(double)>& degrees) {
@@ -99,30 +68,23 @@ class ImportCollada : public testing::Test {
     ASSERT_EQ(imported.character.clips.size(), 1u);
     detail::Skinner skinner(imported.character);
     for (const double time : {0.0, 0.2, 0.5, 0.9, 0.999, 1.0, 1.3, 1.9, 2.0}) {
-      double largest = -1e9;  // the corner at (1, 0, 0) is the farthest along its own direction
       const double radians = degrees(time) * std::numbers::pi / 180;
       const Eigen::Vector2d x(std::cos(radians), std::sin(radians)), y(-std::sin(radians), std::cos(radians));
-      double least = 1e9;
+      double largest = -1e9, least = 1e9;  // the corner at (1, 0, 0) is the farthest along its own direction
       const auto pose = skinner.pose({0, static_cast<float>(time)});
-      std::vector<Eigen::Vector2d> points;
-      for (const Vec3& p : pose) points.emplace_back(static_cast<double>(p.x), static_cast<double>(p.y));
-      for (const Eigen::Vector2d& a : points)
-        for (const Eigen::Vector2d& b : points) {
-          largest = std::max(largest, (a - b).dot((x - y).normalized()));
-          least = std::min(least, (a - b).dot((x - y).normalized()));
+      for (const Vec3& a : pose)
+        for (const Vec3& b : pose) {
+          const double along =
+              Eigen::Vector2d(double{a.x} - double{b.x}, double{a.y} - double{b.y}).dot((x - y).normalized());
+          largest = std::max(largest, along), least = std::min(least, along);
         }
       EXPECT_NEAR(largest, std::sqrt(2.0), 2e-3) << "at " << time;
       EXPECT_NEAR(least, -std::sqrt(2.0), 2e-3) << "at " << time;
     }
   }
 
-  void expect_refused(const std::string& text, const std::string& reason) {
-    try {
-      read(text);
-      ADD_FAILURE() << "read, not refused for '" << reason << "'";
-    } catch (const ImportError& error) {
-      EXPECT_NE(std::string(error.what()).find(reason), std::string::npos) << error.what();
-    }
+  void expect_refused(const std::string& text, const std::string& reason) const {
+    EXPECT_TRUE(test::has(complaint("a.dae", text), reason));
   }
 };
 
@@ -176,8 +138,8 @@ TEST_F(ImportCollada, WhatIsNotRead) {
   expect_refused(turning({{"n/z.ANGLE", "0 1 2", "0 60", "STEP STEP STEP"}}), "has 2 numbers for 3 keys");
   expect_refused(turning({{"n/z.ANGLE", "0 1 2", "0 6o 90", "STEP STEP STEP"}}), "has '6o' for a number");
   std::string text = turning({{"n/z.ANGLE", "0 1 2", "0 60 90", "STEP STEP STEP"}});
-  const std::string accessor = "<accessor source=\"#c0o-a\"";
-  text.replace(text.find(accessor), accessor.size(), accessor + " offset=\"1\"");
+  const std::string accessor = test::quoted("<accessor source='#c0o-a'");
+  text.replace(text.find(accessor), accessor.size(), accessor + test::quoted(" offset='1'"));
   expect_refused(text, "has a source with an offset or with values that have no name");
   // However far into the file Collada begins.
   text = turning({bulge});
@@ -191,31 +153,33 @@ TEST_F(ImportCollada, WhatIsNotRead) {
 
 std::string skin(const std::string& id, const std::string& geometry_id, const std::string& joint_array,
                  const std::string& joints) {
-  return "<controller id=\"" + id + "\"><skin source=\"#" + geometry_id +
-         "\"><bind_shape_matrix>1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1</bind_shape_matrix>" +
-         source(id + "j", joint_array, joints, 2, 1, param("JOINT", "name")) +
-         source(id + "b", "float", "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1", 2, 16,
-                param("TRANSFORM", "float4x4")) +
-         source(id + "w", "float", "1", 1, 1, param("WEIGHT")) +
-         "<joints><input semantic=\"JOINT\" source=\"#" + id +
-         "j\"/><input semantic=\"INV_BIND_MATRIX\" source=\"#" + id +
-         "b\"/></joints><vertex_weights count=\"4\"><input semantic=\"JOINT\" source=\"#" + id +
-         "j\" offset=\"0\"/><input semantic=\"WEIGHT\" source=\"#" + id +
-         "w\" offset=\"1\"/><vcount>1 1 1 1</vcount><v>0 0 1 0 1 0 1 "
-         "0</v></vertex_weights></skin></controller>";
+  const std::string unit = "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1";
+  return filled(
+      "<controller id='$'><skin source='#" + geometry_id + "'><bind_shape_matrix>" + unit +
+          "</bind_shape_matrix>" +
+          collada_source("$j", joint_array, joints, 2, 1, collada_param("JOINT", "name")) +
+          collada_source("$b", "float", unit + " " + unit, 2, 16, collada_param("TRANSFORM", "float4x4")) +
+          collada_source("$w", "float", "1", 1, 1, collada_param("WEIGHT")) +
+          "<joints><input semantic='JOINT' source='#$j'/><input semantic='INV_BIND_MATRIX' "
+          "source='#$b'/></joints>"
+          "<vertex_weights count='4'><input semantic='JOINT' source='#$j' offset='0'/>"
+          "<input semantic='WEIGHT' source='#$w' offset='1'/><vcount>1 1 1 1</vcount><v>0 0 1 0 1 0 1 0</v>"
+          "</vertex_weights></skin></controller>",
+      {{"$", id}});
 }
 
-std::string skeleton(const std::string& id, double x) {
-  return "<node id=\"" + id + "-hips\" sid=\"Hips\" name=\"Hips\" type=\"JOINT\"><translate sid=\"t\">" +
-         std::to_string(x) + " 0 0</translate><node id=\"" + id +
-         "-spine\" sid=\"Spine\" name=\"Spine\" type=\"JOINT\"><translate sid=\"t\">0 0 "
-         "0</translate></node></node>";
+std::string skeleton(const std::string& id, int x) {
+  return filled("<node id='$-hips' sid='Hips' name='Hips' type='JOINT'><translate sid='t'>" +
+                    std::to_string(x) +
+                    " 0 0</translate><node id='$-spine' sid='Spine' name='Spine' type='JOINT'>"
+                    "<translate sid='t'>0 0 0</translate></node></node>",
+                {{"$", id}});
 }
 
 std::string user(const std::string& id, const std::string& name, const std::string& controller,
                  const std::string& root) {
-  return "<node id=\"" + id + "\" name=\"" + name + "\"><instance_controller url=\"#" + controller +
-         "\"><skeleton>#" + root + "</skeleton></instance_controller></node>";
+  return "<node id='" + id + "' name='" + name + "'><instance_controller url='#" + controller +
+         "'><skeleton>#" + root + "</skeleton></instance_controller></node>";
 }
 
 std::string libraries(const std::string& skins, const std::string& geometries) {
@@ -236,7 +200,7 @@ TEST_F(ImportCollada, JointsAreKnownByTheirSids) {
   for (const std::string kind : {"Name", "IDREF"}) {
     const std::string joints = kind == "Name" ? "Hips Spine" : "a-hips a-spine";
     const ImportedCharacter imported =
-        read(collada(libraries(skin("s", "g", kind, joints), geometry("g")), nodes, curves));
+        read(collada(libraries(skin("s", "g", kind, joints), collada_geometry("g")), nodes, curves));
     EXPECT_EQ(moving_joints(imported.character), (std::set<std::string>{"a-hips", "a-spine"})) << kind;
     EXPECT_EQ(imported.character.clips.size(), 1u) << kind;
   }
@@ -245,13 +209,13 @@ TEST_F(ImportCollada, JointsAreKnownByTheirSids) {
 TEST_F(ImportCollada, TwoPeopleWithTheSameJoints) {
   const std::string both =
       libraries(skin("s", "g", "Name", "Hips Spine") + skin("t", "h", "Name", "Hips Spine"),
-                geometry("g") + geometry("h"));
+                collada_geometry("g") + collada_geometry("h"));
   const std::string skeletons = skeleton("a", 0) + skeleton("b", 3);
   const ImportedCharacter pair = read(
       collada(both, user("one", "one", "s", "a-hips") + user("two", "two", "t", "b-hips") + skeletons, {}));
   EXPECT_EQ(moving_joints(pair.character), (std::set<std::string>{"a-hips", "a-spine", "b-hips", "b-spine"}));
   expect_refused(
-      collada(libraries(skin("s", "g", "Name", "Hips Spine"), geometry("g")),
+      collada(libraries(skin("s", "g", "Name", "Hips Spine"), collada_geometry("g")),
               user("one", "one", "s", "a-hips") + user("two", "two", "s", "b-hips") + skeletons, {}),
       "Collada joint 'Hips' may be any of 2 nodes");
 }

@@ -1,20 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-#include <string>
-#include <vector>
-
 #include "layout/import/guarded_import.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/gltf_file.hpp"
-#include "tests/support/scenes.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 // Damaged models by the thousand: each is a valid character, or a line.
 

@@ -1,21 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <numeric>
-#include <string>
-#include <vector>
-
-#include <bch/import.hpp>
-
-#include "layout/character/eigen.hpp"
-#include "layout/character/skinning.hpp"
 #include "layout/import/polygon.hpp"
-#include "tests/support/scenes.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/collada_file.hpp"
+#include "tests/support/fbx_text.hpp"
+#include "tests/support/import_test.hpp"
+#include "tests/support/test.hpp"
 
 // Faces of more than three corners: each simple one is covered once, wherever its corners lie.
 
@@ -151,15 +141,10 @@ TEST(Faces, ConvexQuadsAreCutFromTheirFirstCorner) {
 const std::array<std::array<float, 3>, 6> ell = {
     {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 0}, {1, 2, 0}, {0, 2, 0}}};
 
-class FacesOfFiles : public testing::Test {
+class FacesOfFiles : public test::ImportTest {
  protected:
-  TemporaryFolder folder;
-
   double area(const std::string& name, const std::string& text) {
-    ImportOptions options;
-    options.up = UpAxis::z;
-    options.scale = 1.0f;
-    const auto [character, report] = import_character(folder.write(name, text), options);
+    const auto [character, report] = import_character(folder.write(name, text), test::as_it_is());
     EXPECT_EQ(report.dropped_faces, 0u);
     double sum = 0;
     for (const auto& [a, b, c] : character.triangles) {
@@ -217,40 +202,24 @@ TEST_F(FacesOfFiles, Ply) {
 }
 
 TEST_F(FacesOfFiles, Collada) {
-  const std::string input = R"(<input semantic="VERTEX" source="#v" offset="0"/>)";
+  const std::string input = test::collada_input("g");
   for (const std::string& faces :
-       {"<polylist count=\"1\">" + input + "<vcount>6</vcount><p>0 1 2 3 4 5</p></polylist>",
-        "<polygons count=\"1\">" + input + "<p>0 1 2 3 4 5</p></polygons>",
-        "<tristrips count=\"2\">" + input + "<p>0 1 3 2</p><p>0 3 5 4</p></tristrips>",
-        "<trifans count=\"1\">" + input + "<p>3 4 5 0 1 2</p></trifans>"})
-    EXPECT_NEAR(area("ell.dae",
-                     R"(<?xml version="1.0" encoding="utf-8"?>
-<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
-<asset><unit name="meter" meter="1"/><up_axis>Z_UP</up_axis></asset>
-<library_geometries><geometry id="g" name="g"><mesh><source id="p"><float_array id="pa" count="18">)" +
-                         numbers("", " ", " ") + R"(</float_array><technique_common>
-<accessor source="#pa" count="6" stride="3"><param name="X" type="float"/><param name="Y" type="float"/>
-<param name="Z" type="float"/></accessor></technique_common></source>
-<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>)" +
-                         faces + R"(</mesh></geometry></library_geometries>
-<library_visual_scenes><visual_scene id="s"><node id="n"><instance_geometry url="#g"/></node></visual_scene>
-</library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)"),
-                3, 1e-5)
+       {"<polylist count='1'>" + input + "<vcount>6</vcount><p>0 1 2 3 4 5</p></polylist>",
+        "<polygons count='1'>" + input + "<p>0 1 2 3 4 5</p></polygons>",
+        "<tristrips count='2'>" + input + "<p>0 1 3 2</p><p>0 3 5 4</p></tristrips>",
+        "<trifans count='1'>" + input + "<p>3 4 5 0 1 2</p></trifans>"})
+    EXPECT_NEAR(
+        area("ell.dae", test::collada_file_of(test::collada_geometry("g", numbers("", " ", " "), 6, faces))),
+        3, 1e-5)
         << faces;
 }
 
 TEST_F(FacesOfFiles, Fbx) {
-  std::string vertices = numbers("", ",", ",");
-  vertices.pop_back();
-  EXPECT_NEAR(
-      area("ell.fbx",
-           "; FBX 7.4.0 project file\nFBXHeaderExtension:  {\n\tFBXVersion: 7400\n}\n"
-           "Objects:  {\n\tGeometry: 1000, \"Geometry::ell\", \"Mesh\" {\n\t\tVertices: *18 {\n\t\t\ta: " +
-               vertices +
-               "\n\t\t}\n\t\tPolygonVertexIndex: *6 {\n\t\t\ta: 0,1,2,3,4,-6\n\t\t}\n\t}\n"
-               "\tModel: 2000, \"Model::ell\", \"Mesh\" {\n\t}\n}\n"
-               "Connections:  {\n\tC: \"OO\",2000,0\n\tC: \"OO\",1000,2000\n}\n"),
-      3, 1e-6);
+  FbxText fbx;
+  fbx.nodes = {{"ell", "Mesh"}};
+  fbx.meshes = {{0, {}, {}, {0, 1, 2, 3, 4, -6}}};
+  for (const auto& [x, y, z] : ell) fbx.meshes[0].points.emplace_back(x, y, z);
+  EXPECT_NEAR(area("ell.fbx", fbx.text()), 3, 1e-6);
 }
 
 }  // namespace

@@ -1,147 +1,152 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-
-#include <bch/import.hpp>
+#include <sys/stat.h>
 
 #include "tests/support/gltf_file.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/import_test.hpp"
+#include "tests/support/test.hpp"
+
+// What a file must not say, and which files are read beside the one that is given.
 
 namespace bch {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-class ImportFaults : public testing::Test {
+class ImportFaults : public test::ImportTest {
  protected:
-  TemporaryFolder folder;
+  const fs::path good = folder.write("good.gltf", SkinnedStrip().text());
 
-  /// The message must be one line that names the file and the reason, and nothing may be printed.
-  static void expect_error(const std::filesystem::path& file, const std::string& reason,
-                           const ImportOptions& options = {}, std::filesystem::path named = {}) {
-    if (named.empty()) named = file;
-    testing::internal::CaptureStdout();
-    testing::internal::CaptureStderr();
-    try {
-      import_character(file, options);
-      ADD_FAILURE() << file << " was accepted, not refused for '" << reason << "'";
-    } catch (const ImportError& error) {
-      const std::string message = error.what();
-      EXPECT_EQ(message.find('\n'), std::string::npos) << message;
-      EXPECT_EQ(message.rfind(named.string() + ": ", 0), 0u) << message;
-      EXPECT_NE(message.find(reason), std::string::npos) << message;
-    }
-    EXPECT_EQ(testing::internal::GetCapturedStdout(), "");
-    EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
-  }
-
-  void expect_error(const std::string& name, const std::string& bytes, const std::string& reason) {
-    expect_error(folder.write(name, bytes), reason);
-  }
-
-  /// One change to a good strip.
-  template <class Change>
-  void expect_strip_error(Change change, const std::string& reason) {
-    SkinnedStrip strip;
-    change(strip);
-    expect_error("strip.gltf", strip.text(), reason);
+  std::string complaint_of_clips(const fs::path& clips) const {
+    ImportOptions options;
+    options.clip_files = {clips};
+    return complaint(good, options);
   }
 };
 
 TEST_F(ImportFaults, FilesThatAreNone) {
-  expect_error(folder.path() / "missing.glb", "no such file");
-  expect_error(folder.path(), "is a directory");
-  expect_error("empty.glb", "", "empty file");
-  expect_error("text.glb", "This is\nnot a model.\n", "no glTF");
-  expect_error("text.gltf", "This is\nnot a model.\n", "");
-  expect_error("unknown.zzz", "This is\nnot a model.\n", "damaged, or of no known format");
-}
-
-TEST_F(ImportFaults, EveryTruncationIsRefused) {
-  const std::string whole = SkinnedStrip().file().binary();
-  for (const std::size_t size : {1ul, 4ul, 11ul, 12ul, 19ul, 20ul, 100ul, whole.size() / 2, whole.size() - 1})
-    expect_error("cut.glb", whole.substr(0, size), "");
-  const std::string text = SkinnedStrip().text();
-  for (const std::size_t size : {1ul, 10ul, text.size() / 4, text.size() / 2, text.size() - 1})
-    expect_error("cut.gltf", text.substr(0, size), "");
-}
-
-TEST_F(ImportFaults, MessageStaysOneLineForAnyFileName) {
-  const std::filesystem::path file = folder.write("two\nlines.obj", "v 0 0 0\n");
-  try {
-    import_character(file);
-    FAIL() << "accepted";
-  } catch (const ImportError& error) {
-    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+  EXPECT_EQ(complaint(folder.file("missing.glb")), "missing.glb: no such file");
+  EXPECT_TRUE(complaint(folder.path()).ends_with("is a directory"));
+  ImportOptions options;
+  for (const float scale : {0.0f, -1.0f, nan, infinity}) {
+    options.scale = scale;
+    EXPECT_TRUE(complaint(good, options).ends_with("is not a positive number")) << scale;
   }
 }
 
-TEST_F(ImportFaults, NothingToDraw) {
-  expect_strip_error([](SkinnedStrip& s) { s.mode = 0; }, "no triangles");
-  expect_strip_error([](SkinnedStrip& s) { s.indices = {0, 77, 78}; }, "no triangles");
-  expect_error("points.ply",
-               "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float y\n"
-               "property float z\nend_header\n0 0 0\n",
-               "no triangles");
+TEST_F(ImportFaults, EveryTruncationIsRefused) {
+  const std::string whole = SkinnedStrip().file().binary(), text = SkinnedStrip().text();
+  for (const std::size_t size : {1ul, 4ul, 11ul, 12ul, 19ul, 20ul, 100ul, whole.size() / 2, whole.size() - 1})
+    EXPECT_NE(complaint("cut.glb", whole.substr(0, size)), "accepted") << size;
+  for (const std::size_t size : {1ul, 10ul, text.size() / 4, text.size() / 2, text.size() - 1})
+    EXPECT_NE(complaint("cut.gltf", text.substr(0, size)), "accepted") << size;
 }
 
-TEST_F(ImportFaults, Positions) {
-  expect_strip_error([](SkinnedStrip& s) { s.positions[4] = nan; }, "vertex 1 is not finite");
-  expect_strip_error([](SkinnedStrip& s) { s.positions[11] = infinity; }, "vertex 3 is not finite");
-  expect_strip_error([](SkinnedStrip& s) { s.positions[6] = 1e30f; }, "vertex 2 is absurdly far away");
-  expect_strip_error([](SkinnedStrip& s) { s.positions[0] = 2e6f; }, "vertex 0 is absurdly far away");
-}
-
-TEST_F(ImportFaults, WeightsAndBones) {
-  expect_strip_error([](SkinnedStrip& s) { s.weights.assign(16, 0); }, "zero weights");
-  expect_strip_error([](SkinnedStrip& s) { s.weights[5] = nan; }, "gives vertex 1 the weight nan");
-  expect_strip_error([](SkinnedStrip& s) { s.weights[5] = -0.5f; }, "gives vertex 1 the weight -0.5");
-  expect_strip_error([](SkinnedStrip& s) { s.weights[8] = 1.01f; }, "gives vertex 2 the weight 1.01");
-  expect_strip_error([](SkinnedStrip& s) { s.joints[13] = 2; }, "gives vertex 3 joint 2 of 2");
-  expect_strip_error([](SkinnedStrip& s) { s.inverse_binds[12] = nan; }, "bone 'hips' of mesh 0 'strip'");
-  expect_strip_error([](SkinnedStrip& s) { s.inverse_binds[16 + 3] = 2; }, "not affine");
-  expect_strip_error([](SkinnedStrip& s) { s.inverse_binds[0] = 1e20f; }, "absurd transform");
-}
-
-TEST_F(ImportFaults, Clips) {
-  expect_strip_error([](SkinnedStrip& s) { s.turns.assign(12, 0); }, "rotation key 0 is no rotation");
-  expect_strip_error([](SkinnedStrip& s) { s.turns[5] = nan; }, "rotation key 1 is no rotation");
-  expect_strip_error([](SkinnedStrip& s) { s.way[3] = infinity; }, "position key 1 is not finite");
-  expect_strip_error([](SkinnedStrip& s) { s.way[3] = 1e9f; }, "'hips' absurdly far away");
-  expect_strip_error([](SkinnedStrip& s) { s.times[1] = nan; }, "key 1 is at");
-  expect_strip_error([](SkinnedStrip& s) { s.times[2] = 1e9f; }, "key 2 is at");
-}
-
-TEST_F(ImportFaults, Options) {
-  const std::filesystem::path file = folder.write("strip.gltf", SkinnedStrip().text());
-  for (const float scale : {0.0f, -1.0f, nan, infinity}) {
-    ImportOptions options;
-    options.scale = scale;
-    expect_error(file, "is not a positive number", options);
+/// One change to a good strip.
+TEST_F(ImportFaults, NumbersAndNames) {
+  using Strip = SkinnedStrip;
+  const std::pair<std::function<void(Strip&)>, const char*> cases[] = {
+      {[](Strip& s) { s.mode = 0; }, "no triangles"},
+      {[](Strip& s) { s.indices[1] = 77, s.indices[2] = 78, s.indices.resize(3); }, "no triangles"},
+      {[](Strip& s) { s.positions[4] = nan; }, "vertex 1 is not finite"},
+      {[](Strip& s) { s.positions[11] = infinity; }, "vertex 3 is not finite"},
+      {[](Strip& s) { s.positions[6] = 1e30f; }, "vertex 2 is absurdly far away"},
+      {[](Strip& s) { s.positions[0] = 2e6f; }, "vertex 0 is absurdly far away"},
+      {[](Strip& s) { s.weights.assign(16, 0); }, "zero weights"},
+      {[](Strip& s) { s.weights[5] = nan; }, "gives vertex 1 the weight nan"},
+      {[](Strip& s) { s.weights[5] = -0.5f; }, "gives vertex 1 the weight -0.5"},
+      {[](Strip& s) { s.weights[8] = 1.01f; }, "gives vertex 2 the weight 1.01"},
+      {[](Strip& s) { s.joints[13] = 2; }, "gives vertex 3 joint 2 of 2"},
+      {[](Strip& s) { s.inverse_binds[12] = nan; }, "bone 'hips' of mesh 0 'strip'"},
+      {[](Strip& s) { s.inverse_binds[16 + 3] = 2; }, "not affine"},
+      {[](Strip& s) { s.inverse_binds[0] = 1e20f; }, "absurd transform"},
+      {[](Strip& s) { s.turns.assign(12, 0); }, "rotation key 0 is no rotation"},
+      {[](Strip& s) { s.turns[5] = nan; }, "rotation key 1 is no rotation"},
+      {[](Strip& s) { s.way[3] = infinity; }, "position key 1 is not finite"},
+      {[](Strip& s) { s.way[3] = 1e9f; }, "'hips' absurdly far away"},
+      {[](Strip& s) { s.times[1] = nan; }, "key 1 is at"},
+      {[](Strip& s) { s.times[2] = 1e9f; }, "key 2 is at"}};
+  for (const auto& [change, reason] : cases) {
+    Strip strip;
+    change(strip);
+    EXPECT_TRUE(test::has(complaint("strip.gltf", strip.text()), reason));
   }
 }
 
 TEST_F(ImportFaults, ClipFiles) {
-  const std::filesystem::path file = folder.write("strip.gltf", SkinnedStrip().text());
-  const auto expect_clip_error = [&](const std::filesystem::path& clips, const std::string& reason) {
-    ImportOptions options;
-    options.clip_files = {clips};
-    expect_error(file, reason, options, clips);
-  };
-  expect_clip_error(folder.path() / "missing.bvh", "no such file");
-  expect_clip_error(folder.write("box.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"), "no clips");
+  EXPECT_EQ(complaint_of_clips(folder.file("missing.bvh")), "missing.bvh: no such file");
+  EXPECT_TRUE(test::has(complaint_of_clips(folder.write("box.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")),
+                        "box.obj: no clips"));
   SkinnedStrip other;
-  other.hips = "pelvis";
-  other.head = "neck";
-  expect_clip_error(folder.write("other.gltf", other.text()), "moves no joint that the character has");
+  other.hips = "pelvis", other.head = "neck";
+  EXPECT_TRUE(test::has(complaint_of_clips(folder.write("other.gltf", other.text())),
+                        "moves no joint that the character has"));
   other = {};
-  other.head_place = "\"translation\":[0.5,0,0]";
-  expect_clip_error(folder.write("turned.gltf", other.text()), "joints are turned otherwise");
+  other.head_place = "'translation':[0.5,0,0]";
+  EXPECT_TRUE(test::has(complaint_of_clips(folder.write("turned.gltf", other.text())),
+                        "joints are turned otherwise"));
+}
+
+/// What must not be read would be a good buffer, of a name that is not there beside the model: assimp looks there, too, for what it does not
+/// find.
+class ImportFiles : public test::ImportTest {
+ protected:
+  ImportFiles() {
+    fs::create_directory(models);
+    fs::create_directory(models / "below");
+    for (const char* const name : {"models/buffer.bin", "secret.bin", "models/below/secret.bin"})
+      folder.write(name, gltf.buffer());
+  }
+
+  fs::path model(const std::string& uri) const { return folder.write("models/strip.gltf", gltf.text(uri)); }
+  bool reads(const fs::path& file) const { return import_character(file).report.triangles == 2; }
+  void expect_unread(const std::string& uri) const {
+    EXPECT_TRUE(complaint(model(uri)).starts_with("models/strip.gltf: ")) << uri;
+  }
+
+  const fs::path models = folder.file("models");
+  const GltfFile gltf = SkinnedStrip().file();
+};
+
+TEST_F(ImportFiles, SiblingsAreReadAndNothingElseIs) {
+  EXPECT_TRUE(reads(model("buffer.bin")));
+  EXPECT_TRUE(reads(model("../models/./buffer.bin")));
+  const fs::path before = fs::current_path();
+  fs::current_path(models);
+  EXPECT_TRUE(reads("strip.gltf"));
+  fs::current_path(before);
+  const std::string secret = folder.file("secret.bin");
+  for (const std::string& uri :
+       {std::string("../secret.bin"), std::string("below/secret.bin"), std::string("below/../../secret.bin"),
+        secret, "file://" + secret, "/../../../../../../.." + secret, std::string("..\\\\secret.bin"),
+        std::string("%2e%2e/secret.bin")})
+    expect_unread(uri);
+}
+
+/// Of a model that is a link itself, siblings are those of the link.
+TEST_F(ImportFiles, LinksThatLeadElsewhereAreNotFollowed) {
+  fs::create_symlink(folder.file("secret.bin"), models / "away.bin");
+  fs::create_symlink(models / "buffer.bin", models / "here.bin");
+  expect_unread("away.bin");
+  EXPECT_TRUE(reads(model("here.bin")));
+  fs::create_symlink(folder.write("elsewhere.gltf", gltf.text("buffer.bin")), models / "link.gltf");
+  EXPECT_TRUE(reads(models / "link.gltf"));
+}
+
+TEST_F(ImportFiles, PipesAreNotOpenedAndHugeFilesRefused) {
+  fs::remove(models / "buffer.bin");
+  ASSERT_EQ(mkfifo((models / "buffer.bin").c_str(), 0600), 0);
+  expect_unread("buffer.bin");  // else it would wait for a writer for ever
+  fs::remove(models / "buffer.bin");
+  constexpr std::uintmax_t huge = (std::uintmax_t{1} << 30) + 1;  // of holes
+  fs::resize_file(folder.write("models/buffer.bin", ""), huge);
+  expect_unread("buffer.bin");
+  fs::resize_file(model("buffer.bin"), huge);
+  EXPECT_TRUE(test::has(complaint(models / "strip.gltf"), "larger than 1 GiB"));
 }
 
 }  // namespace

@@ -1,35 +1,27 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdint>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <bch/import.hpp>
-
-#include "layout/character/eigen.hpp"
-#include "layout/character/skinning.hpp"
 #include "tests/support/gltf_file.hpp"
-#include "tests/support/gltf_import.hpp"
+#include "tests/support/import_test.hpp"
+#include "tests/support/quoted.hpp"
+#include "tests/support/table.hpp"
+#include "tests/support/test.hpp"
 
 // Extensions, morph targets, accessors, faces and scenes: what glTF 2.0 allows beside what exporters mostly write, and what it forbids.
 
 namespace bch {
 namespace {
 
+using test::has_note;
 using test::ImportGltf;
 using test::with;
 
 /// A node of a triangle (0, 0, 0), (1, 0, 0), (0, 2, 0) whose accessors are given.
 std::string triangle(GltfFile gltf, const std::string& positions, const std::string& rest = "",
                      const std::string& mesh = "", const std::string& node = "") {
-  gltf.add_json("\"meshes\":[{" + mesh + "\"primitives\":[{" + rest +
-                "\"attributes\":{\"POSITION\":" + positions + "}}]}]");
-  gltf.add_json("\"nodes\":[{" + node + "\"mesh\":0}],\"scenes\":[{\"nodes\":[0]}]");
+  gltf.add_json("'meshes':[{" + mesh + "'primitives':[{" + rest + "'attributes':{'POSITION':" + positions +
+                "}}]}]");
+  gltf.add_json("'nodes':[{" + node + "'mesh':0}],'scenes':[{'nodes':[0]}]");
   return gltf.text();
 }
 
@@ -40,7 +32,7 @@ const std::vector<float> corners = {0, 0, 0, 1, 0, 0, 0, 2, 0};
 TEST_F(ImportGltf, RequiredExtensionsAreReadOrRefusedByName) {
   const auto text = [](const std::string& extension) {
     GltfFile gltf;
-    gltf.add_json("\"extensionsRequired\":[\"" + extension + "\"]");
+    gltf.add_json("'extensionsRequired':['" + extension + "']");
     const std::string positions = gltf.add(corners, "VEC3");
     return triangle(std::move(gltf), positions);
   };
@@ -53,8 +45,7 @@ TEST_F(ImportGltf, RequiredExtensionsAreReadOrRefusedByName) {
 
 TEST_F(ImportGltf, OptionalExtensionsAreReadOrNamedByANote) {
   GltfFile gltf;
-  gltf.add_json(
-      "\"extensionsUsed\":[\"EXT_mesh_gpu_instancing\",\"KHR_materials_unlit\",\"KHR_node_visibility\"]");
+  gltf.add_json("'extensionsUsed':['EXT_mesh_gpu_instancing','KHR_materials_unlit','KHR_node_visibility']");
   const std::string positions = gltf.add(corners, "VEC3");
   const ImportReport report = import(triangle(std::move(gltf), positions)).report;
   const auto named = [&](const std::string& extension) {
@@ -74,7 +65,7 @@ TEST_F(ImportGltf, PositionsMayBeQuantised) {
   EXPECT_NEAR(import(triangle(normalised, positions)).report.height, 1, 1e-6f);
   GltfFile plain;
   const std::string whole = plain.add(std::vector<std::uint8_t>{0, 0, 0, 1, 0, 0, 0, 200, 0}, "VEC3");
-  EXPECT_NEAR(import(triangle(plain, whole, "", "", "\"scale\":[0.01,0.01,0.01],")).report.height, 2, 1e-5f);
+  EXPECT_NEAR(import(triangle(plain, whole, "", "", "'scale':[0.01,0.01,0.01],")).report.height, 2, 1e-5f);
 }
 
 TEST_F(ImportGltf, MorphTargetsThatMoveNothingAreNotedAndOthersRefused) {
@@ -84,17 +75,17 @@ TEST_F(ImportGltf, MorphTargetsThatMoveNothingAreNotedAndOthersRefused) {
     const std::string positions = gltf.add(corners, "VEC3");
     const std::string times = gltf.add(std::vector<float>{0, 1}, "SCALAR");
     const std::string output = gltf.add(weights, "SCALAR");
-    gltf.add_json("\"animations\":[{\"channels\":[{\"sampler\":0,\"target\":{\"node\":0,\"path\":\"" + path +
-                  "\"}}],\"samplers\":[{\"input\":" + times + ",\"output\":" + output + "}]}]");
-    return triangle(gltf, positions, "\"targets\":[{\"POSITION\":" + positions + "}],", mesh, node);
+    gltf.add_json("'animations':[{'channels':[{'sampler':0,'target':{'node':0,'path':'" + path +
+                  "'}}],'samplers':[{'input':" + times + ",'output':" + output + "}]}]");
+    return triangle(gltf, positions, "'targets':[{'POSITION':" + positions + "}],", mesh, node);
   };
   EXPECT_TRUE(
       has_note(import(text("", "", "weights", {0, 0})).report, "has morph targets, which are ignored"));
-  EXPECT_EQ(import(text("\"weights\":[0.0],", "", "weights", {0, 0})).report.triangles, 1u);
-  EXPECT_EQ(import(text("\"weights\":[0.5],", "\"weights\":[0],", "weights", {0, 0})).report.triangles, 1u);
-  expect_error(text("\"weights\":[0.5],", "", "weights", {0, 0}),
+  EXPECT_EQ(import(text("'weights':[0.0],", "", "weights", {0, 0})).report.triangles, 1u);
+  EXPECT_EQ(import(text("'weights':[0.5],", "'weights':[0],", "weights", {0, 0})).report.triangles, 1u);
+  expect_error(text("'weights':[0.5],", "", "weights", {0, 0}),
                "meshes[0].weights[0] moves vertices by a morph");
-  expect_error(text("", "\"weights\":[0.5],", "weights", {0, 0}),
+  expect_error(text("", "'weights':[0.5],", "weights", {0, 0}),
                "nodes[0].weights[0] moves vertices by a morph");
   expect_error(text("", "", "weights", {0, 1}), "animations[0] animates morph targets of node 'nodes[0]'");
   EXPECT_TRUE(has_note(import(text("", "", "pointer", {0, 1})).report, "1 channel of no node"));
@@ -108,10 +99,9 @@ TEST_F(ImportGltf, AccessorsMayBeSparse) {
   const float place[] = {0, 2, 0};
   const std::string index = gltf.add_view(&element, 1), value = gltf.add_view(place, sizeof place);
   const auto accessor = [&](const std::string& base, const std::string& count) {
-    return "{" + base +
-           "\"componentType\":5126,\"type\":\"VEC3\",\"count\":3,\"sparse\":{\"count\":" + count +
-           ",\"indices\":{\"bufferView\":" + index +
-           ",\"componentType\":5121},\"values\":{\"bufferView\":" + value + "}}}";
+    return "{" + base + "'componentType':5126,'type':'VEC3','count':3,'sparse':{'count':" + count +
+           ",'indices':{'bufferView':" + index + ",'componentType':5121},'values':{'bufferView':" + value +
+           "}}}";
   };
   const std::string base = gltf.add_view(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 7, 0}.data(), 36);
   GltfFile zeros = gltf, beyond = gltf;
@@ -119,35 +109,19 @@ TEST_F(ImportGltf, AccessorsMayBeSparse) {
     const std::string positions = file.add_accessor(json);
     return import(triangle(file, positions)).report.height;
   };
-  EXPECT_NEAR(height(gltf, accessor("\"bufferView\":" + base + ",", "1")), 2, 1e-6f);
+  EXPECT_NEAR(height(gltf, accessor("'bufferView':" + base + ",", "1")), 2, 1e-6f);
   EXPECT_NEAR(height(zeros, accessor("", "1")), 2, 1e-6f);
   const std::string bad = beyond.add_accessor(accessor("", "2"));
   expect_error(triangle(beyond, bad), "reaches beyond the 1 byte of bufferViews[" + index + "]");
 }
 
+/// What stands there, and what in its place.
 TEST_F(ImportGltf, AccessorsThatAreNotWhatTheySay) {
-  const auto text = [](const std::string& from, const std::string& to) {
-    GltfFile gltf;
-    const std::string positions = gltf.add(corners, "VEC3");
-    return with(triangle(gltf, positions), from, to);
-  };
-  expect_error(text("\"count\":3", "\"count\":4"),
-               "accessors[0] reaches beyond the 36 bytes of bufferViews[0]");
-  expect_error(text("\"count\":3", "\"count\":-3"), "accessors[0].count is no whole number");
-  expect_error(text("\"count\":3", "\"count\":1e30"), "accessors[0].count is no whole number");
-  expect_error(text("\"bufferView\":0,\"componentType\":5126,\"count\":3",
-                    "\"componentType\":5126,\"count\":20000000"),
-               "has no bytes for 20000000 elements");
-  expect_error(text("\"bufferView\":0", "\"bufferView\":7"), "accessors[0].bufferView is 7 of 1 element");
-  expect_error(text("\"mesh\":0", "\"scale\":[1,1e300,1],\"mesh\":0"),
-               "scale[1] is beyond what a float holds");
-  expect_error(text("5126", "5124"), "accessors[0].componentType is no component type");
-  expect_error(text("VEC3", "VEC2"), "accessors[0].type is 'VEC2', not VEC3");
-  expect_error(text("\"byteLength\":36}],", "\"byteLength\":40}],"), "buffers[0] holds 36 bytes, not 40");
-  expect_error(text("base64,", "base64,*"), "is no base64 at its digit 0");
-  expect_error(text("\"POSITION\":0", "\"POSITION\":\"zero\""), "POSITION is no whole number");
-  expect_error(text("\"nodes\":[0]", "\"nodes\":{}"), "nodes is no array");
-  expect_error(text("\"version\":\"2.0\"", "\"version\":\"1.0\""), "asset.version is '1.0', not 2.x");
+  GltfFile gltf;
+  const std::string positions = gltf.add(corners, "VEC3"), text = triangle(gltf, positions);
+  test::expect_table(__FILE__, "gltf_refusals.txt", [&](const auto& fields) {
+    return complaint("file.gltf", with(text, fields[0], fields[1]));
+  });
 }
 
 TEST_F(ImportGltf, StripsAndFansAreTriangles) {
@@ -180,22 +154,21 @@ TEST_F(ImportGltf, FacesThatNameNoVertexAreCounted) {
 TEST_F(ImportGltf, TheDefaultSceneIsRead) {
   GltfFile gltf;
   const std::string positions = gltf.add(corners, "VEC3");
-  gltf.add_json("\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":" + positions + "}}]}]");
+  gltf.add_json("'meshes':[{'primitives':[{'attributes':{'POSITION':" + positions + "}}]}]");
   gltf.add_json(
-      "\"nodes\":[{\"mesh\":0},{\"mesh\":0,\"scale\":[1,2,1]}],\"scene\":1,\"scenes\":[{\"nodes\":[0]},{"
-      "\"nodes\":[1]}]");
+      "'nodes':[{'mesh':0},{'mesh':0,'scale':[1,2,1]}],'scene':1,'scenes':[{'nodes':[0]},{"
+      "'nodes':[1]}]");
   const ImportReport report = import(gltf.text()).report;
   EXPECT_NEAR(report.height, 4, 1e-6f);
   EXPECT_TRUE(has_note(report, "of 2 scenes the default one is read"));
-  expect_error(with(gltf.text(), "\"scene\":1", "\"scene\":2"), "scene is 2 of 2 elements of scenes");
+  expect_error(with(gltf.text(), "'scene':1", "'scene':2"), "scene is 2 of 2 elements of scenes");
 }
 
 TEST_F(ImportGltf, NodesAreATree) {
   GltfFile gltf;
   const std::string positions = gltf.add(corners, "VEC3");
   const auto text = [&](const std::string& first, const std::string& second) {
-    return triangle(gltf, positions, "", "",
-                    "\"children\":[" + first + "]},{\"children\":[" + second + "]},{");
+    return triangle(gltf, positions, "", "", "'children':[" + first + "]},{'children':[" + second + "]},{");
   };
   expect_error(text("1", "0"), "nodes[1].children[0] is 0, a node that has a place in the scene already");
   expect_error(text("1,2", "2"), "is 2, a node that has a place in the scene already");
@@ -207,7 +180,7 @@ TEST_F(ImportGltf, NodesMayNestDeeperThanAStack) {
   GltfFile gltf;
   const std::string positions = gltf.add(corners, "VEC3");
   std::string nodes;
-  for (int n = 1; n <= depth; ++n) nodes += "\"children\":[" + std::to_string(n) + "]},{";
+  for (int n = 1; n <= depth; ++n) nodes += "'children':[" + std::to_string(n) + "]},{";
   EXPECT_EQ(import(triangle(gltf, positions, "", "", nodes)).report.triangles, 1u);
 }
 

@@ -7,24 +7,15 @@
 
 #include <algorithm>
 
-#include "layout/character/eigen.hpp"
-#include "layout/character/skinning.hpp"
 #include "tests/support/gltf_file.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/import_test.hpp"
 
 namespace bch {
 namespace {
 
-bool has_note(const ImportReport& report, const std::string& part) {
-  return std::any_of(report.notes.begin(), report.notes.end(),
-                     [&](const std::string& note) { return note.find(part) != std::string::npos; });
-}
-
-std::string all_notes(const ImportReport& report) {
-  std::string all;
-  for (const std::string& note : report.notes) all += note + "\n";
-  return all;
-}
+using Import = test::ImportTest;
+using test::farthest_in_clips;
+using test::has_note;
 
 /// A tetrahedron with its long edge along an axis and its right-handed base in the other two.
 std::string tetrahedron_obj(float width, float depth, float height, int up) {
@@ -51,30 +42,6 @@ float signed_volume(const Character& character) {
   return volume;
 }
 
-/// Expects two characters to show the same all through their clip of two seconds.
-void expect_same_poses(const Character& character, const Character& good) {
-  detail::Skinner skinner(character);
-  detail::Skinner expected(good);
-  for (const float time : {0.0f, 0.6f, 1.4f, 2.0f}) {
-    const auto pose = skinner.pose({0, time});
-    const auto wanted = expected.pose({0, time});
-    for (std::size_t v = 0; v < pose.size(); ++v)
-      EXPECT_LT((detail::to_eigen(pose[v]) - detail::to_eigen(wanted[v])).norm(), 1e-5f);
-  }
-}
-
-class Import : public testing::Test {
- protected:
-  TemporaryFolder folder;
-
-  ImportedCharacter import(const std::string& name, const std::string& bytes,
-                           const ImportOptions& options = {}) {
-    ImportedCharacter imported = import_character(folder.write(name, bytes), options);
-    validate(imported.character);
-    return imported;
-  }
-};
-
 TEST_F(Import, StaticMeshFollowsItsNodeAndPolygonsBecomeTriangles) {
   const auto [character, report] =
       import("post.obj", "v 0 0 0\nv 0.5 0 0\nv 0.5 1.8 0\nv 0 1.8 0\nv 9 9 9\nf 1 2 3 4\nl 1 5\n");
@@ -88,7 +55,7 @@ TEST_F(Import, StaticMeshFollowsItsNodeAndPolygonsBecomeTriangles) {
   EXPECT_EQ(report.dropped_faces, 1u);
   EXPECT_GE(report.dropped_vertices, 1u);
   EXPECT_NEAR(report.height, 1.8f, 1e-6f);
-  EXPECT_TRUE(has_note(report, "y up -> z up, guessed")) << all_notes(report);
+  EXPECT_TRUE(has_note(report, "y up -> z up, guessed"));
 }
 
 TEST_F(Import, GuessesTheUnitFromTheHeight) {
@@ -104,7 +71,7 @@ TEST_F(Import, GuessesTheUnitFromTheHeight) {
     const auto [character, report] =
         import("body.obj", tetrahedron_obj(0.2f * height, 0.1f * height, height, 1));
     EXPECT_NEAR(report.height, metres, 1e-4f);
-    EXPECT_TRUE(has_note(report, note)) << all_notes(report);
+    EXPECT_TRUE(has_note(report, note));
   }
 }
 
@@ -126,7 +93,7 @@ TEST_F(Import, OptionsOverrideUpAndScale) {
     const auto [character, report] = import("body.obj", body, options);
     EXPECT_NEAR(report.height, 0.5f * height, 1e-6f);
     EXPECT_GT(signed_volume(character), 0);
-    EXPECT_TRUE(has_note(report, "as the caller says")) << all_notes(report);
+    EXPECT_TRUE(has_note(report, "as the caller says"));
   }
 }
 
@@ -173,7 +140,7 @@ TEST_F(Import, NormalisesWeightsAndSaysSo) {
   SkinnedStrip strip;
   strip.weights = {0.3f, 0, 0, 0, 1, 0.25f, 0, 0, 0, 1, 0, 0, 0.5f, 0.5f, 0, 0};
   const auto [character, report] = import("strip.gltf", strip.text());
-  EXPECT_TRUE(has_note(report, "the weights of 2 vertices")) << all_notes(report);
+  EXPECT_TRUE(has_note(report, "the weights of 2 vertices"));
   const std::uint32_t mixed = character.triangles[0][1];
   const std::uint32_t begin = character.influence_begin[mixed];
   ASSERT_EQ(character.influence_begin[mixed + 1] - begin, 2u);
@@ -193,7 +160,7 @@ TEST_F(Import, KeepsMoreThanFourWeights) {
     strip.more_weights.insert(strip.more_weights.end(), {0.1f, 0.1f, 0.1f, 0});
   }
   const auto [character, report] = import("strip.gltf", strip.text());
-  EXPECT_FALSE(has_note(report, "normalised")) << all_notes(report);
+  EXPECT_FALSE(has_note(report, "normalised"));
   for (std::size_t v = 0; v < character.vertices.size(); ++v) {
     const std::uint32_t begin = character.influence_begin[v];
     ASSERT_EQ(character.influence_begin[v + 1] - begin, 2u);
@@ -206,7 +173,7 @@ TEST_F(Import, VertexWithoutWeightsFollowsTheNearest) {
   SkinnedStrip strip;
   strip.weights[12] = strip.weights[13] = 0;  // at the top, nearest to vertex 2, which follows the head
   const auto [character, report] = import("strip.gltf", strip.text());
-  EXPECT_TRUE(has_note(report, "1 vertex of mesh 0 'strip' without weights")) << all_notes(report);
+  EXPECT_TRUE(has_note(report, "1 vertex of mesh 0 'strip' without weights"));
   const Influence& given = character.influences[character.influence_begin[character.triangles[0][2]]];
   EXPECT_EQ(character.joints[character.bones[given.bone].joint].name, "head");
 }
@@ -219,9 +186,9 @@ TEST_F(Import, RepairsTheOrderOfKeysAndTheNormOfRotations) {
   std::swap_ranges(strip.turns.begin() + 4, strip.turns.begin() + 8, strip.turns.begin() + 8);
   for (float& part : strip.turns) part *= 3;
   const auto [character, report] = import("odd.gltf", strip.text());
-  EXPECT_TRUE(has_note(report, "2 lists of keys put in order")) << all_notes(report);
-  EXPECT_TRUE(has_note(report, "3 rotations normalised")) << all_notes(report);
-  expect_same_poses(character, good);
+  EXPECT_TRUE(has_note(report, "2 lists of keys put in order"));
+  EXPECT_TRUE(has_note(report, "3 rotations normalised"));
+  EXPECT_LT(farthest_in_clips(character, 0, good, 0), 1e-5f);
 }
 
 TEST_F(Import, MovesAClipThatStartsBeforeZero) {
@@ -229,9 +196,9 @@ TEST_F(Import, MovesAClipThatStartsBeforeZero) {
   const Character good = import("good.gltf", strip.text()).character;
   strip.times = {-1, 0, 1};
   const auto [character, report] = import("early.gltf", strip.text());
-  EXPECT_TRUE(has_note(report, "starts before time 0")) << all_notes(report);
+  EXPECT_TRUE(has_note(report, "starts before time 0"));
   EXPECT_EQ(character.clips.at(0).seconds, 2.0f);
-  expect_same_poses(character, good);
+  EXPECT_LT(farthest_in_clips(character, 0, good, 0), 1e-5f);
 }
 
 TEST_F(Import, RootIsTheJointThatWalks) {
@@ -256,10 +223,10 @@ TEST_F(Import, RootIsTheJointThatWalks) {
 TEST_F(Import, EveryInstanceOfAMeshCounts) {
   GltfFile gltf;
   const std::string positions = gltf.add(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 2, 0}, "VEC3");
-  gltf.add_json("\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":" + positions + "}}]}]");
+  gltf.add_json("'meshes':[{'primitives':[{'attributes':{'POSITION':" + positions + "}}]}]");
   gltf.add_json(
-      "\"nodes\":[{\"children\":[1,2],\"scale\":[0.5,0.5,0.5]},{\"mesh\":0,\"translation\":[2,0,0]},"
-      "{\"mesh\":0,\"translation\":[0,4,0]}],\"scenes\":[{\"nodes\":[0]}],\"scene\":0");
+      "'nodes':[{'children':[1,2],'scale':[0.5,0.5,0.5]},{'mesh':0,'translation':[2,0,0]},"
+      "{'mesh':0,'translation':[0,4,0]}],'scenes':[{'nodes':[0]}],'scene':0");
   const auto [character, report] = import("two.gltf", gltf.text());
   EXPECT_EQ(report.meshes, 2u);
   ASSERT_EQ(character.triangles.size(), 2u);
@@ -282,10 +249,8 @@ TEST_F(Import, ReadingTwiceGivesTheSame) {
   EXPECT_EQ(first.character.triangles, second.character.triangles);
   EXPECT_EQ(first.character.influence_begin, second.character.influence_begin);
   EXPECT_EQ(first.report.notes, second.report.notes);
-  for (std::size_t i = 0; i < first.character.influences.size(); ++i) {
-    EXPECT_EQ(first.character.influences[i].bone, second.character.influences[i].bone);
-    EXPECT_EQ(first.character.influences[i].weight, second.character.influences[i].weight);
-  }
+  EXPECT_TRUE(std::ranges::equal(first.character.influences, second.character.influences,
+                                 [](auto a, auto b) { return a.bone == b.bone && a.weight == b.weight; }));
 }
 
 }  // namespace

@@ -1,21 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
 #include <sqlite3.h>
 #include <unistd.h>
 
-#include <fstream>
-#include <functional>
-#include <iterator>
-#include <map>
-#include <memory>
-#include <string>
-#include <utility>
-
 #include "tests/support/jupedsim_file.hpp"
 #include "tests/support/recordings.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 // Recordings of JuPedSim as they lie in archives, or as somebody made them to do harm: what reading costs, and what it leaves.
 
@@ -81,11 +72,8 @@ class ArchivedJuPedSimFiles : public testing::Test {
   /// Returns every file of the folder with a number that its bytes make.
   std::map<std::string, std::size_t> contents() const {
     std::map<std::string, std::size_t> all;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder.path())) {
-      std::ifstream stream(entry.path(), std::ios::binary);
-      const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
-      all[entry.path().filename()] = std::hash<std::string>()(bytes);
-    }
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder.path()))
+      all[entry.path().filename()] = std::hash<std::string>()(test::bytes_of(entry.path()));
     return all;
   }
 

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <set>
-#include <string>
-
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/recordings.hpp"
+#include "tests/support/test.hpp"
 
 // Real recordings, found through the environment variable BCH_TEST_DATA; what they hold is written in the
 // SOURCES.md beside them.

@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
 #include <chrono>
-#include <cmath>
-#include <fstream>
-#include <iterator>
-#include <limits>
-#include <string>
 
 #include "tests/support/archive_file.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/recordings.hpp"
-#include "tests/support/scenes.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 // Recordings of the Pedestrian Dynamics Data Archive.
 
@@ -41,11 +33,6 @@ class ArchiveFiles : public testing::Test {
     return test::trajectory_complaint(folder.file("f"));
   }
 };
-
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 constexpr const char* rows = "0 1 1.5 2 - 1.76\n0 2 3 4 - -\n1 1 1.75 2 - 1.76\n";
 
@@ -151,61 +138,41 @@ TEST_F(ArchiveFiles, AreReadNoFurtherThanTheCallerLikes) {
 }
 
 TEST_F(ArchiveFiles, AreRefusedByOneLine) {
-  ArchiveFile file;
-  file.name = "positions";
-  EXPECT_EQ(complaint(file), "f: has no dataset 'trajectory'");
-  file = {};
-  file.z = "height";
-  EXPECT_EQ(complaint(file), "f: the records of 'trajectory' have no 'z'");
-  file = {};
-  file.x_is_integer = true;
-  EXPECT_EQ(complaint(file), "f: 'x' of 'trajectory' is not a floating-point number");
-  file = {};
-  file.is_plane = true;
-  EXPECT_EQ(complaint(file), "f: the dataset 'trajectory' is not one-dimensional");
-  file = {};
-  file.fps_is_text = true;
-  EXPECT_EQ(complaint(file), "f: the attribute 'fps' is not a number");
-  file = {};
-  file.fps = 0;
-  EXPECT_EQ(complaint(file), "f: the attribute 'fps' is 0 frames a second, not above 0 and at most 10000");
-  file.fps = 20'000;
-  EXPECT_EQ(complaint(file),
-            "f: the attribute 'fps' is 20000 frames a second, not above 0 and at most 10000");
-  file.fps.reset();
-  EXPECT_EQ(complaint(file), "f: says no frame rate: --fps has to give the frame numbers a second");
-  file = {};
-  file.rows.clear();
-  EXPECT_EQ(complaint(file), "f: has no rows");
-  file = {};
-  file.rows[1].y = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_EQ(complaint(file), "f: row 2: y 'nan' is not finite");
-  file.rows[1].y = 2e8;
-  EXPECT_EQ(complaint(file), "f: row 2: y '2e+08' is not within +-1e8 m");
-  file.rows[1].y = 2;
-  file.rows[2].frame = std::numeric_limits<std::int64_t>::min();
-  EXPECT_EQ(complaint(file), "f: row 3: frame '-9223372036854775808' is not within +-1e15");
-}
-
-TEST_F(ArchiveFiles, LieInOneFileAndNeedNoPlugin) {
-  ArchiveFile file;
-  file.storage = Storage::external_link;
-  EXPECT_EQ(complaint(file), "f: 'trajectory' is a link to elsewhere");
-  file.storage = Storage::soft_link;
-  EXPECT_EQ(complaint(file), "f: 'trajectory' is a link to elsewhere");
-  file.storage = Storage::external_file;
-  EXPECT_EQ(complaint(file), "f: the dataset 'trajectory' lies in other files");
-  file.storage = Storage::scaled;
-  EXPECT_EQ(complaint(file),
-            "f: the dataset 'trajectory' uses filter 5; deflate, shuffle and fletcher32 are read");
-  file.storage = Storage::big_chunks;
-  EXPECT_EQ(complaint(file), "f: the dataset 'trajectory' has chunks of more than 32 MiB");
+  using File = ArchiveFile;
+  const std::pair<std::function<void(File&)>, const char*> cases[] = {
+      {[](File& f) { f.name = "positions"; }, "has no dataset 'trajectory'"},
+      {[](File& f) { f.z = "height"; }, "the records of 'trajectory' have no 'z'"},
+      {[](File& f) { f.x_is_integer = true; }, "'x' of 'trajectory' is not a floating-point number"},
+      {[](File& f) { f.is_plane = true; }, "the dataset 'trajectory' is not one-dimensional"},
+      {[](File& f) { f.fps_is_text = true; }, "the attribute 'fps' is not a number"},
+      {[](File& f) { f.fps = 0; }, "the attribute 'fps' is 0 frames a second, not above 0 and at most 10000"},
+      {[](File& f) { f.fps = 20'000; },
+       "the attribute 'fps' is 20000 frames a second, not above 0 and at most 10000"},
+      {[](File& f) { f.fps.reset(); }, "says no frame rate: --fps has to give the frame numbers a second"},
+      {[](File& f) { f.rows.clear(); }, "has no rows"},
+      {[](File& f) { f.rows[1].y = std::nan(""); }, "row 2: y 'nan' is not finite"},
+      {[](File& f) { f.rows[1].y = 2e8; }, "row 2: y '2e+08' is not within +-1e8 m"},
+      {[](File& f) { f.rows[2].frame = std::numeric_limits<std::int64_t>::min(); },
+       "row 3: frame '-9223372036854775808' is not within +-1e15"},
+      // They lie in one file, and need no plugin.
+      {[](File& f) { f.storage = Storage::external_link; }, "'trajectory' is a link to elsewhere"},
+      {[](File& f) { f.storage = Storage::soft_link; }, "'trajectory' is a link to elsewhere"},
+      {[](File& f) { f.storage = Storage::external_file; }, "the dataset 'trajectory' lies in other files"},
+      {[](File& f) { f.storage = Storage::scaled; },
+       "the dataset 'trajectory' uses filter 5; deflate, shuffle and fletcher32 are read"},
+      {[](File& f) { f.storage = Storage::big_chunks; },
+       "the dataset 'trajectory' has chunks of more than 32 MiB"}};
+  for (const auto& [change, message] : cases) {
+    ArchiveFile file;
+    change(file);
+    EXPECT_EQ(complaint(file), std::string("f: ") + message);
+  }
 }
 
 TEST_F(ArchiveFiles, ThatAreDamagedAreReadOrRefused) {
   ArchiveFile file;
   file.write(folder.file("f"));
-  const std::string bytes = bytes_of(folder.file("f"));
+  const std::string bytes = test::bytes_of(folder.file("f"));
   ASSERT_GT(bytes.size(), 2'000u);
   for (std::size_t size = 8; size < bytes.size(); size += 1 + bytes.size() / 40) {
     const std::string message = test::trajectory_complaint(folder.write("g", bytes.substr(0, size)));

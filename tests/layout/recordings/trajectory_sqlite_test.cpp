@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
 #include <sqlite3.h>
-
-#include <fstream>
-#include <iterator>
-#include <string>
-#include <utility>
 
 #include "tests/support/jupedsim_file.hpp"
 #include "tests/support/recordings.hpp"
-#include "tests/support/scenes.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 // Recordings of JuPedSim.
 
@@ -188,8 +181,7 @@ TEST_F(JuPedSimFiles, ThatAreDamagedAreReadOrRefused) {
     for (const char* const person : {"1", "2", "3"})
       file.rows.append(",(").append(std::to_string(frame)).append(",").append(person).append(",1.5,2,0,1)");
   test::write_sqlite(folder.file("f"), file.sql());
-  std::ifstream stream(folder.file("f"), std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  const std::string bytes = test::bytes_of(folder.file("f"));
   ASSERT_GT(bytes.size(), 20'000u);
   const std::string whole = text_of(test::read_recording(folder.file("f")));
   for (std::size_t size = 16; size < bytes.size(); size += 997) {

@@ -1,17 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "layout/base/shortest.hpp"
 #include "tests/support/recordings.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/table.hpp"
+#include "tests/support/test.hpp"
 #include "tests/support/text_recordings.hpp"
 
 // Recordings as text, CSV and ndjson.
@@ -90,12 +83,10 @@ TEST_F(Trajectories, OfJuelichMayBeWrittenInManyWays) {
     const ReadRecording recording = read(header + rows);
     EXPECT_EQ(text_of(recording), "0 1 2 3 - -\n") << header;
     EXPECT_EQ(recording.info.fps, 16) << header;
-    const bool says_unit = std::string(header).find("m]") != std::string::npos ||
-                           std::string(header).find("/m") != std::string::npos ||
-                           std::string(header).find("metres") != std::string::npos;
-    const bool says_columns = std::string(header).find("rame") != std::string(header).rfind("rame") ||
-                              std::string(header).find("FR") != std::string::npos;
-    const bool has_more_names = std::string(header).find("\tA") != std::string::npos;
+    const std::string said = header;
+    const auto says = [&](const char* part) { return said.find(part) != std::string::npos; };
+    const bool says_unit = says("m]") || says("/m") || says("metres"), has_more_names = says("\tA"),
+               says_columns = said.find("rame") != said.rfind("rame") || says("FR");
     EXPECT_EQ(
         assumptions_of(recording),
         std::string(says_columns ? ""
@@ -117,12 +108,10 @@ TEST_F(Trajectories, HaveAnglesAsHeadings) {
   const std::string rate = "# framerate: 8\n", row = "3 1 1 2 0 0.2 0.3 57.29577951308232 100\n";
   const ReadRecording juelich = read(rate + "# ID\tFR\tX/m\tY/m\tZ/m\tA/m\tB/m\tANGLE\tCOLOR\n" + row);
   EXPECT_EQ(text_of(juelich), "1 3 1 2 1 -\n");
-  EXPECT_NE(assumptions_of(juelich).find("Angles are headings in degrees"), std::string::npos);
+  EXPECT_TRUE(test::has(assumptions_of(juelich), "Angles are headings in degrees"));
   EXPECT_EQ(text_of(read("id,frame,x,y,angle [rad]\n3,1,1,2,0.5\n", {.fps = 8})), "1 3 1 2 0.5 -\n");
   EXPECT_EQ(text_of(read("id,frame,x,y,heading (deg)\n3,1,1,2,-57.29577951308232\n", {.fps = 8})),
             "1 3 1 2 -1 -\n");
-  EXPECT_EQ(complaint("id,frame,x,y,heading [gon]\n3,1,1,2,9\n", {.fps = 8}),
-            "f:1: the unit 'gon' of column 'heading' is not known");
 }
 
 TEST_F(Trajectories, OptionsWinOverTheFile) {
@@ -167,8 +156,6 @@ TEST_F(Trajectories, OfTimesGetTheRateThatFitsAll) {
   EXPECT_EQ(assumptions_of(rounded), "The frame rate is taken for 30, that of most steps of time.\n");
   const ReadRecording given = read("id,time/ms,x,y\n1,0,1,2\n1,1500,1,2\n", {.fps = 4, .unit = 1});
   EXPECT_EQ(text_of(given), "0 1 1 2 - -\n6 1 1 2 - -\n");
-  EXPECT_EQ(complaint("id,t,x,y\n1,5,1,2\n"),
-            "f: has a single time, and so no frame rate: --fps has to give it");
   // Frames count where both are there.
   EXPECT_EQ(text_of(read("id,t,frame,x,y\n1,oops,3,1,2\n", {.fps = 4, .unit = 1})), "3 1 1 2 - -\n");
 }
@@ -197,7 +184,6 @@ TEST_F(Trajectories, OfTrajNetHaveFramesOfAFinerRate) {
             "The frame rate of 2.5 is that of rows, whose frame numbers go up by 10: there are 25 frame "
             "numbers a second.\n");
   const std::string alone = "{\"track\": {\"f\": 20, \"p\": 1, \"x\": 8, \"y\": 3}}";
-  EXPECT_EQ(complaint(alone), "f: says no frame rate: --fps has to give the frame numbers a second");
   EXPECT_EQ(read(alone, {.fps = 5}).info.fps, 5);
 }
 
@@ -266,6 +252,34 @@ TEST_F(Trajectories, LeaveNoFileBehind) {
   test::expect_sound(test::read_recording(folder.file("f"), little));
   EXPECT_TRUE(std::filesystem::is_empty(folder.file("tmp")));
   unsetenv("TMPDIR");
+}
+
+TEST_F(Trajectories, AreRefusedByOneLine) {
+  test::expect_table(__FILE__, "refusals.txt", [&](const auto& fields) {
+    TrajectoryOptions options;
+    std::istringstream words(fields[0]);
+    for (std::string word; words >> word;)
+      (word.starts_with("fps=") ? options.fps : options.unit) = std::stod(word.substr(word.find('=') + 1));
+    return complaint(fields[1], options);
+  });
+  EXPECT_EQ(test::trajectory_complaint(folder.path()), folder.path().filename().string() + ": is not a file");
+  EXPECT_EQ(test::trajectory_complaint(folder.file("none")),
+            "none: cannot be opened: No such file or directory");
+}
+
+TEST_F(Trajectories, NameNoMoreThanCanBe) {
+  const std::string header = "frame,id,x/m,y/m,clip,clip_time\n",
+                    row = "# framerate: 25\n# id frame x/m y/m z/m\n1 1 ", start(40, '7');
+  EXPECT_EQ(complaint(row + std::string(70'000, '1')), "f:3: is longer than 65536 bytes");
+  EXPECT_EQ(complaint(row + std::string(200, '7') + " 2 1\n"),
+            "f:3: x '" + start + "...' is not within +-1e8 m");
+  EXPECT_EQ(complaint(header + "0,1,0,0," + std::string(256, '7') + ",1\n", {.fps = 10}),
+            "f:2: the name '" + start + "...' has more than 255 bytes");
+  std::string many = header;
+  for (int k = 0; k <= 4096; ++k) many += std::to_string(k) + ",1,0,0,clip" + std::to_string(k) + ",\n";
+  EXPECT_EQ(
+      complaint(many, {.fps = 10}),
+      "f:4098: character '' and clip 'clip4096' are beyond the 4096 different pairs that a file may name");
 }
 
 }  // namespace
