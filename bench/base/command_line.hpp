@@ -4,7 +4,10 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/base/exit_codes.hpp"
@@ -43,6 +46,49 @@ inline bool parse_command_line(CLI::App& program, int argc, char** argv) {
   }
   return false;
 }
+
+/// Represents a subcommand: its name, and what runs it once the command line was read.
+using Command = std::pair<std::string, std::function<void()>>;
+
+/// Prepares a program of subcommands, which are to be added.
+inline void set_up(CLI::App& program, const std::string& version, const std::string& footer) {
+  program.footer(footer);
+  program.set_version_flag("--version", program.get_name() + " " + version);
+  program.require_subcommand(1);
+  program.get_formatter()->column_width(24);
+}
+
+/// Runs the subcommand that the command line names. Returns: the exit code.
+/// Errors:  throws UsageError, and as the subcommand throws.
+inline int run_command(CLI::App& program, const std::vector<Command>& commands, int argc, char** argv) {
+  const std::string word = argc > 1 ? argv[1] : "-";
+  std::string names;
+  for (const Command& command : commands) names += (names.empty() ? "" : ", ") + command.first;
+  const auto is_named = [&](const Command& command) { return command.first == word; };
+  if (word[0] != '-' && std::none_of(commands.begin(), commands.end(), is_named))
+    throw UsageError("no command '" + word + "' (" + names + ")");
+  if (!parse_command_line(program, argc, argv)) return exit_success;
+  for (const auto& [name, run] : commands)
+    if (program.got_subcommand(name)) run();
+  return exit_success;
+}
+
+/// Adds options to a command, or to a group of them that --help shows together.
+class OptionAdder {
+ public:
+  explicit OptionAdder(CLI::App& command, const char* group = "Options") : command_(command), group_(group) {}
+
+  /// Adds an option. `type`: what --help calls a value; `check`: what a value has to be.
+  template <class Value>
+  CLI::Option* operator()(const char* name, Value& value, const char* type, const std::string& help,
+                          const CLI::Validator& check = {}) const {
+    return command_.add_option(name, value, help)->type_name(type)->check(check)->group(group_);
+  }
+
+ private:
+  CLI::App& command_;
+  const char* group_;
+};
 
 /// Adds an option that takes one value and may be given any number of times.
 inline CLI::Option& add_repeatable_option(CLI::App& program, const char* name,

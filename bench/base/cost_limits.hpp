@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <string>
 
@@ -20,11 +22,17 @@ struct CostLimits {
   double memory = 0;                         ///< GiB of the program; 0: 4, and 1/1024 more for each shape
 
   /// Returns the two limits that depend on how many shapes were asked for.
-  double seconds_for(std::size_t shapes) const;
-  double memory_for(std::size_t shapes) const;
+  double seconds_for(std::size_t shapes) const {
+    return seconds > 0 ? seconds : 60 + static_cast<double>(shapes);
+  }
+  double memory_for(std::size_t shapes) const {
+    return memory > 0 ? memory : 4 + static_cast<double>(shapes) / 1024;
+  }
 };
 
 /// Returns an error message: "12 contours, more than 10; --max-contours raises the limit".
-std::string beyond_limit(std::size_t count, const char* what, std::size_t most, const char* option);
+inline std::string beyond_limit(std::size_t count, const char* what, std::size_t most, const char* option) {
+  return fmt::format("{} {}, more than {}; {} raises the limit", count, what, most, option);
+}
 
 }  // namespace bch::cli

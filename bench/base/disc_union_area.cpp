@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <numbers>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -59,77 +59,44 @@ double visible_area(const Circle& circle, std::vector<Arc>& hidden) {
   return sum;
 }
 
-struct Box {
-  double left, right, low, high;
-
-  explicit Box(const Circle& c)
-      : left(c.x - c.radius), right(c.x + c.radius), low(c.y - c.radius), high(c.y + c.radius) {}
-  void enlarge(const Box& by) {
-    left = std::min(left, by.left), right = std::max(right, by.right);
-    low = std::min(low, by.low), high = std::max(high, by.high);
-  }
-  bool meets(const Box& other) const {
-    return left <= other.right && other.left <= right && low <= other.high && other.low <= high;
-  }
-};
-
-/// A tree of boxes over circles, halved by the longer side: which ones may meet another is known without all of them.
-class CircleTree {
+/// Circles in square cells, each as wide as the largest circle: which ones may meet another lie in the nine cells about it.
+class CircleGrid {
  public:
-  explicit CircleTree(const std::vector<Circle>& circles) : circles_(circles), order_(circles.size()) {
-    std::iota(order_.begin(), order_.end(), std::size_t{0});
-    if (!order_.empty()) add(0, order_.size());
+  explicit CircleGrid(const std::vector<Circle>& circles) {
+    double largest = 0, extent = 0;
+    for (const Circle& c : circles) {
+      left_ = std::min(left_, c.x), low_ = std::min(low_, c.y);
+      largest = std::max(largest, c.radius);
+    }
+    for (const Circle& c : circles) extent = std::max({extent, c.x - left_, c.y - low_});
+    // Wider by far more than what is rounded, and no more than millions of cells in a row.
+    side_ = std::max({2 * largest * (1 + 1e-6), 1e-6 * extent, 1e-9});
+    for (std::size_t i = 0; i < circles.size(); ++i) cells_.push_back({cell_of(circles[i]), i});
+    std::ranges::sort(cells_);
   }
 
-  /// Calls each(i) for those whose boxes meet that of the circle, until it returns false.
+  /// Calls each(i) for those that may meet the circle, until it returns false.
   template <class Each>
   void visit(const Circle& circle, Each each) const {
-    // Wider by far more than what is rounded.
-    const double slack = 1e-9 * (std::abs(circle.x) + std::abs(circle.y) + circle.radius);
-    const Box box({circle.x, circle.y, circle.radius + slack});
-    std::size_t node = 0;
-    while (node < nodes_.size()) {
-      const Node& now = nodes_[node];
-      if (!now.box.meets(box)) {
-        node = now.skip;
-        continue;
-      }
-      ++node;
-      if (now.end - now.begin > together) continue;
-      for (std::size_t i = now.begin; i < now.end; ++i)
-        if (!each(order_[i])) return;
-    }
+    const std::uint64_t cell = cell_of(circle);
+    for (const std::uint64_t row : {cell - one_up, cell, cell + one_up})
+      for (auto at = std::ranges::lower_bound(cells_, row - 1, {}, &Entry::first);
+           at != cells_.end() && at->first <= row + 1; ++at)
+        if (!each(at->second)) return;
   }
 
  private:
-  /// Nodes stand before what is below them; `skip` is the one after all of that.
-  struct Node {
-    Box box;
-    std::size_t begin, end, skip;
-  };
-  static constexpr std::size_t together = 8;
+  using Entry = std::pair<std::uint64_t, std::size_t>;  ///< a cell, and a circle in it
+  static constexpr std::uint64_t one_up = std::uint64_t{1} << 32;
 
-  void add(std::size_t begin, std::size_t end) {
-    Box box(circles_[order_[begin]]);
-    for (std::size_t i = begin; i < end; ++i) box.enlarge(Box(circles_[order_[i]]));
-    const std::size_t node = nodes_.size();
-    nodes_.push_back({box, begin, end, 0});
-    if (end - begin > together) {
-      const bool by_x = box.right - box.left > box.high - box.low;
-      const std::size_t middle = begin + (end - begin) / 2;
-      const auto place = [this](std::size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
-      std::nth_element(place(begin), place(middle), place(end), [&](std::size_t a, std::size_t b) {
-        return by_x ? circles_[a].x < circles_[b].x : circles_[a].y < circles_[b].y;
-      });
-      add(begin, middle);
-      add(middle, end);
-    }
-    nodes_[node].skip = nodes_.size();
+  /// A number of its row, and behind it one of its column, both from 1 on.
+  std::uint64_t cell_of(const Circle& c) const {
+    const auto place = [this](double from) { return static_cast<std::uint64_t>(from / side_) + 1; };
+    return place(c.y - low_) * one_up + place(c.x - left_);
   }
 
-  const std::vector<Circle>& circles_;
-  std::vector<std::size_t> order_;
-  std::vector<Node> nodes_;
+  double left_ = HUGE_VAL, low_ = HUGE_VAL, side_ = 1;
+  std::vector<Entry> cells_;
 };
 
 }  // namespace
@@ -138,13 +105,13 @@ double union_area(std::span<const Disc> discs) {
   std::vector<Circle> circles;
   for (const Disc& d : discs)
     circles.push_back({static_cast<double>(d.x), static_cast<double>(d.y), static_cast<double>(d.radius)});
-  const CircleTree tree(circles);
+  const CircleGrid grid(circles);
   double area = 0;
   std::vector<Arc> hidden;
   for (std::size_t i = 0; i < circles.size(); ++i) {
     hidden.clear();
     bool visible = true;
-    tree.visit(circles[i], [&](std::size_t j) {
+    grid.visit(circles[i], [&](std::size_t j) {
       return visible = j == i || add_hidden_arcs(circles[i], circles[j], i < j, hidden);
     });
     if (visible) area += visible_area(circles[i], hidden);

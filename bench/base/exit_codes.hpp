@@ -40,16 +40,10 @@ class InputError : public std::runtime_error {
 /// Reports the errors of several bad files, which lead to exit_bad_input: a line for each file.
 class InputErrors : public std::runtime_error {
  public:
+  /// Takes one line at least.
   explicit InputErrors(std::vector<std::string> each)
-      : std::runtime_error(joined(each)), lines(std::move(each)) {}
+      : std::runtime_error(each.front()), lines(std::move(each)) {}
   std::vector<std::string> lines;
-
- private:
-  static std::string joined(const std::vector<std::string>& each) {
-    std::string all;
-    for (const std::string& line : each) all += (all.empty() ? "" : "; ") + line;
-    return all;
-  }
 };
 
 }  // namespace bch::cli

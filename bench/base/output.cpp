@@ -13,7 +13,6 @@
 
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/output_file.hpp"
-#include "bench/base/output_place.hpp"
 #include "bench/base/printable.hpp"
 
 namespace bch::cli {

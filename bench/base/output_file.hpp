@@ -3,7 +3,11 @@
 
 #pragma once
 
+#include <sys/stat.h>
+
+#include <compare>
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,6 +15,39 @@
 #include "bench/base/interrupt.hpp"
 
 namespace bch::cli {
+
+/// Identifies a file as the system knows it, whatever its names are: device and inode. A file that does not exist yet
+/// is known by its folder, and by its name there.
+struct FileIdentity {
+  dev_t device;
+  ino_t inode;
+  std::string name;  ///< empty where the file exists
+
+  friend auto operator<=>(const FileIdentity&, const FileIdentity&) = default;
+};
+
+/// Identifies a file by device and inode.
+/// Returns: nothing for what does not exist, and for what is no regular file (devices may be read and written
+///          at once).
+std::optional<FileIdentity> identity_of(const std::filesystem::path& file);
+std::optional<FileIdentity> identity_of(int descriptor);
+
+/// Represents the place where the bytes of an output go.
+struct OutputPlace {
+  std::filesystem::path path;        ///< behind all symbolic links; as the user wrote it for a device
+  std::optional<struct stat> there;  ///< what has the name now
+
+  bool is_special() const noexcept { return there && !S_ISREG(there->st_mode); }
+  std::filesystem::path folder() const;
+};
+
+/// Finds the place of an output and checks that it can be written: a device, or a file in a folder that takes new files.
+/// Errors:  throws InputError naming the file and the reason.
+OutputPlace writable_place(const std::string& file);
+
+/// Identifies the file at the place of an output.
+/// Returns: nothing for a device.
+std::optional<FileIdentity> identity_of(const OutputPlace& place);
 
 /// Owns a file descriptor that is closed with its owner.
 struct Descriptor {
@@ -55,6 +92,24 @@ class OutputFile {
   std::string user_name_;  ///< as the user wrote it
   std::string name_;       ///< in the folder, behind symbolic links
   std::string temporary_;  ///< in the folder; empty where the output is not a regular file
+  Descriptor folder_, file_;
+  std::optional<RemovedOnSignal> removed_;
+};
+
+/// Keeps other processes from the same work: one of them can hold a lock file of that name at a time. The file is removed with
+/// its owner, or by a signal. One that a killed process left is taken over. Where the file system knows no locks, nobody
+/// is kept out.
+class FileLock {
+ public:
+  /// Takes a folder that exists, and a name of at most RemovedOnSignal::longest_name bytes.
+  /// Errors:  throws InputError where another process holds the lock, or the file cannot be made.
+  FileLock(const std::string& folder, const std::string& name);
+  ~FileLock();
+  FileLock(const FileLock&) = delete;
+  FileLock& operator=(const FileLock&) = delete;
+
+ private:
+  std::string name_;
   Descriptor folder_, file_;
   std::optional<RemovedOnSignal> removed_;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "bench/base/output_place.hpp"
+#include "bench/base/output_file.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>

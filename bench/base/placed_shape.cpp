@@ -3,6 +3,8 @@
 
 #include "bench/base/placed_shape.hpp"
 
+#include <algorithm>
+
 #include "bench/base/disc_union_area.hpp"
 
 namespace bch::cli {
@@ -11,6 +13,23 @@ Pixel Placement::operator()(Vec2 point) const {
   const double x = static_cast<double>(point.x), y = static_cast<double>(point.y);
   // The picture's y axis points down.
   return {origin.x + scale * (cosine * x - sine * y), origin.y - scale * (sine * x + cosine * y)};
+}
+
+void Bounds::add(const Disc& disc) {
+  const double x = static_cast<double>(disc.x), y = static_cast<double>(disc.y);
+  const double r = static_cast<double>(disc.radius);
+  left = std::min(left, x - r), right = std::max(right, x + r);
+  low = std::min(low, y - r), high = std::max(high, y + r);
+}
+
+double Bounds::scale(double side) const {
+  return 0.94 * side / std::max(right - left, high - low);
+}
+
+Placement Bounds::placement(Pixel corner, double side) const {
+  const double s = scale(side);
+  return {
+      {corner.x + side / 2 - s * (left + right) / 2, corner.y + side / 2 + s * (low + high) / 2}, 1, 0, s};
 }
 
 PixelDisc placed(const Placement& placement, Disc disc) {

@@ -22,6 +22,16 @@ struct Placement {
   Pixel operator()(Vec2 point) const;
 };
 
+/// Represents the least rectangle of the ground that holds discs, metres.
+struct Bounds {
+  double left = 1e30, right = -1e30, low = 1e30, high = -1e30;
+
+  void add(const Disc& disc);
+  /// Returns the scale, and the placement, by which it fills most of a panel of the picture.
+  double scale(double side) const;
+  Placement placement(Pixel corner, double side) const;
+};
+
 struct PixelDisc {
   Pixel centre;
   double radius = 0;

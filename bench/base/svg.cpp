@@ -15,6 +15,12 @@ namespace {
 /// Pixels; nearer points of a curve look like one.
 constexpr double visible_step = 0.45;
 
+constexpr const char* common_css =
+    R"(text { font-family: "DejaVu Sans", Verdana, Arial, sans-serif; fill: #1c2733 }
+.title { font-size: 21px; font-weight: bold }
+.caption { font-size: 14px; fill: #4a5866 }
+)";
+
 /// One decimal, none where it is zero.
 std::string number(double value) {
   std::string text = fmt::format("{:.1f}", value);
@@ -32,9 +38,9 @@ void append(std::string& out, const char* format, const Values&... values) {
 Svg::Svg(double width, double height, std::string_view title, std::string_view css) {
   append(out_,
          "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
-         "role=\"img\">\n<title>{2}</title>\n<style>\n{3}</style>\n"
+         "role=\"img\">\n<title>{2}</title>\n<style>\n{3}{4}</style>\n"
          "<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>\n",
-         number(width), number(height), escaped(title), css);
+         number(width), number(height), escaped(title), common_css, css);
 }
 
 void Svg::open_group(std::string_view id, std::string_view classes) {
@@ -62,6 +68,12 @@ void Svg::circle(Pixel centre, double radius) {
 
 void Svg::line(Pixel from, Pixel to) {
   append(out_, "<path d=\"M{} {} {} {}\"/>\n", number(from.x), number(from.y), number(to.x), number(to.y));
+}
+
+void Svg::scale(double left, double right, double y) {
+  line({left, y}, {right, y});
+  line({left, y - 5}, {left, y + 5});
+  line({right, y - 5}, {right, y + 5});
 }
 
 void Svg::rectangle(Pixel corner, double width, double height, std::string_view classes) {

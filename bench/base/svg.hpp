@@ -18,11 +18,18 @@ struct Pixel {
 /// Represents an SVG picture under construction. Coordinates are written with one decimal.
 class Svg {
  public:
-  /// Begins a picture with a white ground; `css` says what classes look like, `title` is what screen readers
-  /// and tooltips say.
+  /// Begins a picture with a white ground and its title, which screen readers and tooltips say as well. `css` says what
+  /// classes look like, besides `title` and `caption`.
   Svg(double width, double height, std::string_view title, std::string_view css);
 
-  /// Opens a group, which holds everything until close_group(); no id if empty.
+  /// Draws a group, which holds what draw() draws; no id if empty.
+  template <class Draw>
+  void group(std::string_view id, std::string_view classes, const Draw& draw) {
+    open_group(id, classes);
+    draw();
+    close_group();
+  }
+  /// Opens a group, which holds everything until close_group().
   void open_group(std::string_view id, std::string_view classes = {});
   void close_group();
   /// Opens a group that shows nothing outside of the rectangle.
@@ -31,6 +38,8 @@ class Svg {
   void circle(Pixel centre, double radius);
   void line(Pixel from, Pixel to);
   void rectangle(Pixel corner, double width, double height, std::string_view classes);
+  /// Draws a line with a mark at each end.
+  void scale(double left, double right, double y);
   void text(Pixel at, std::string_view classes, std::string_view words);
 
   /// Begins a path of closed curves. Points that cannot be told apart from their neighbours are left out.

@@ -13,7 +13,7 @@
 #include <bch/default_characters.hpp>
 
 #include "bench/base/exit_codes.hpp"
-#include "bench/base/printable.hpp"
+#include "bench/base/text.hpp"
 #include "layout/character/skinning.hpp"
 
 namespace bch::cli {
@@ -89,8 +89,7 @@ std::vector<std::string> notes_of(std::span<const LoadedCharacter> characters) {
 
 std::string notes_text(std::span<const LoadedCharacter> characters) {
   std::string text;
-  for (const std::string& note : notes_of(characters))
-    text += fmt::format("  {:<10}{}\n", "note", printable_line(note));
+  for (const std::string& note : notes_of(characters)) text += fact("  note", note);
   return text;
 }
 

@@ -9,12 +9,12 @@
 
 #include "bench/base/placed_shape.hpp"
 #include "bench/base/text.hpp"
-#include "bench/cli/animated_report.hpp"
+#include "bench/cli/inspection.hpp"
 
 namespace bch::cli {
 namespace {
 
-constexpr double border = 20, gap = 16, head = 80, large = 452, fill = 0.94;
+constexpr double border = 20, gap = 16, head = 80, large = 452;
 constexpr std::size_t times = 6;  ///< that small panels show
 constexpr double small = (2 * large + gap - (times - 1) * gap) / times;
 constexpr double width = 2 * border + 2 * large + gap;
@@ -22,10 +22,7 @@ constexpr double label = 30, row = large + label + 8, bars = 90, tick = 6, below
 constexpr std::size_t most_key_colours = 5;
 
 constexpr const char* css =
-    R"(text { font-family: "DejaVu Sans", Verdana, Arial, sans-serif; fill: #1c2733 }
-.title { font-size: 21px; font-weight: bold }
-.caption { font-size: 14px; fill: #4a5866 }
-.label { font-size: 13px; text-anchor: middle }
+    R"(.label { font-size: 13px; text-anchor: middle }
 .tick { font-size: 12px; text-anchor: middle; fill: #4a5866 }
 .panel { fill: #f7f9fa; stroke: #d3dae0 }
 .outline { fill: #a9bccb; stroke: #3f566b; stroke-width: 1.1; stroke-linejoin: round }
@@ -41,42 +38,20 @@ constexpr const char* css =
 .now { fill: none; stroke: #1c2733; stroke-width: 2 }
 )";
 
-/// What panels show of the ground.
-struct Frame {
-  double left = 1e30, right = -1e30, low = 1e30, high = -1e30;  ///< metres
-
-  void add(const AnimatedChunk& chunk) {
-    for (const Disc& disc : chunk.keys) {
-      const double x = static_cast<double>(disc.x), y = static_cast<double>(disc.y);
-      const double r = static_cast<double>(disc.radius);
-      left = std::min(left, x - r), right = std::max(right, x + r);
-      low = std::min(low, y - r), high = std::max(high, y + r);
-    }
-  }
-
-  Placement placement(Pixel corner, double side) const {
-    const double scale = fill * side / std::max(right - left, high - low);
-    return {
-        {corner.x + side / 2 - scale * (left + right) / 2, corner.y + side / 2 + scale * (low + high) / 2},
-        1,
-        0,
-        scale};
-  }
-};
-
 /// What is drawn.
 struct Drawing {
   const AnimatedView& view;
   Svg& svg;
   const AnimatedShape shape;
   const std::vector<AnimatedPart> parts;
-  Frame at_time, at_all_times;
+  Bounds at_time, at_all_times;
 
   Drawing(const AnimatedView& what, Svg& on)
       : view(what), svg(on), shape(what.discs), parts(parts_of(what, shape)) {
     for (const AnimatedPart& part : parts) {
-      at_time.add(part.chunk);
-      for (const AnimatedChunk& chunk : part.discs.chunks) at_all_times.add(chunk);
+      for (const Disc& disc : part.chunk.keys) at_time.add(disc);
+      for (const AnimatedChunk& chunk : part.discs.chunks)
+        for (const Disc& disc : chunk.keys) at_all_times.add(disc);
     }
   }
 };
@@ -91,9 +66,7 @@ void draw_ring(Svg& svg, const AnimatedShape& shape, const Placement& placement,
                std::string_view classes) {
   const Outline rings = shape.shape(seconds).outline;
   if (rings.contours() == 0) return;
-  svg.open_group({}, classes);
-  draw_outline(svg, placement, rings);
-  svg.close_group();
+  svg.group({}, classes, [&] { draw_outline(svg, placement, rings); });
 }
 
 void draw_moment(const Drawing& drawing, const AnimatedPart& part, Pixel corner) {
@@ -101,14 +74,8 @@ void draw_moment(const Drawing& drawing, const AnimatedPart& part, Pixel corner)
   const double seconds = drawing.view.seconds;
   const Placement placement = drawing.at_time.placement(corner, large);
   svg.rectangle(corner, large, large, "panel");
-  if (part.outline != nullptr) {
-    svg.open_group({}, "outline");
-    draw_outline(svg, placement, *part.outline);
-    svg.close_group();
-  }
-  svg.open_group({}, "discs");
-  draw_discs_at(svg, part.shape, placement, seconds);
-  svg.close_group();
+  if (part.outline != nullptr) svg.group({}, "outline", [&] { draw_outline(svg, placement, *part.outline); });
+  svg.group({}, "discs", [&] { draw_discs_at(svg, part.shape, placement, seconds); });
   draw_ring(svg, part.shape, placement, seconds, "ring");
   svg.text({corner.x + large / 2, corner.y + large + 20}, "label",
            fmt::format("{}{:.3f} s: {}{}{}", part.heights.empty() ? "" : part.heights + ", ", seconds,
@@ -149,9 +116,7 @@ void draw_times(const Drawing& drawing, double top) {
     const Pixel corner{border + static_cast<double>(i) * (small + gap), top};
     const Placement placement = drawing.at_all_times.placement(corner, small);
     drawing.svg.rectangle(corner, small, small, "panel");
-    drawing.svg.open_group({}, "cover");
-    draw_discs_at(drawing.svg, drawing.shape, placement, at);
-    drawing.svg.close_group();
+    drawing.svg.group({}, "cover", [&] { draw_discs_at(drawing.svg, drawing.shape, placement, at); });
     for (const AnimatedPart& part : drawing.parts) draw_ring(drawing.svg, part.shape, placement, at, "cover");
     drawing.svg.text({corner.x + small / 2, corner.y + small + 20}, "label", fmt::format("{:.2f} s", at));
   }
@@ -167,10 +132,10 @@ void draw_chunks(const Drawing& drawing, const AnimatedPart& part, double scale,
     svg.rectangle({left, bottom - tall}, at(chunk.times.back()) - left, tall,
                   &chunk == &part.chunk ? "here" : "bar");
   }
-  svg.open_group({}, "keys");
-  for (const AnimatedChunk& chunk : part.discs.chunks)
-    for (const double time : chunk.times) svg.line({at(time), bottom}, {at(time), bottom + tick});
-  svg.close_group();
+  svg.group({}, "keys", [&] {
+    for (const AnimatedChunk& chunk : part.discs.chunks)
+      for (const double time : chunk.times) svg.line({at(time), bottom}, {at(time), bottom + tick});
+  });
 }
 
 /// The chunks of all parts along the time.
@@ -182,9 +147,7 @@ void draw_timeline(const Drawing& drawing, double top) {
   svg.open_group("timeline");
   for (std::size_t i = 0; i < drawing.parts.size(); ++i)
     draw_chunks(drawing, drawing.parts[i], scale, top + static_cast<double>(i + 1) * high, high - tick - 2);
-  svg.open_group({}, "now");
-  svg.line({now, top - 6}, {now, top + bars + tick});
-  svg.close_group();
+  svg.group({}, "now", [&] { svg.line({now, top - 6}, {now, top + bars + tick}); });
   for (std::size_t i = 0; i <= 4; ++i) {
     const double time = begin + seconds * static_cast<double>(i) / 4;
     const double inset = i == 0 ? 18 : i == 4 ? -18 : 0;

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "bench/cli/animated_report.hpp"
+#include "bench/cli/inspection.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <span>
 
 #include "bench/base/text.hpp"
-#include "bench/cli/inspection.hpp"
 #include "layout/baked/clips.hpp"
 #include "layout/base/planes.hpp"
 
@@ -108,19 +108,17 @@ std::string text_of(const AnimatedChunk& chunk) {
 std::string text_of(const AnimatedView& view) {
   const AnimatedFacts facts = facts_of(view.discs);
   std::string out = fmt::format("\n{} as moving discs\n", printable_line(view.clip));
-  const auto line = [&](const char* what, const std::string& text) {
-    out += fmt::format("  {:<10}{}\n", what, text);
-  };
-  line("clip", fmt::format("{:.2f} s, {}", facts.seconds, facts.loops ? "loops" : "does not loop"));
-  line("keys", fmt::format("{} in {}", grouped(facts.keys), counted(facts.chunks, "chunk")));
-  line("discs", fmt::format("{} to {} a chunk, {:.1f} in the mean", facts.fewest, facts.most, facts.mean));
-  line("baked", fmt::format("{:.1f} kB, {:.1f} kB a second", static_cast<double>(facts.bytes) / 1e3,
-                            static_cast<double>(facts.bytes) / 1e3 / facts.seconds));
+  out += fact("  clip", fmt::format("{:.2f} s, {}", facts.seconds, facts.loops ? "loops" : "does not loop"));
+  out += fact("  keys", fmt::format("{} in {}", grouped(facts.keys), counted(facts.chunks, "chunk")));
+  out += fact("  discs",
+              fmt::format("{} to {} a chunk, {:.1f} in the mean", facts.fewest, facts.most, facts.mean));
+  out += fact("  baked", fmt::format("{:.1f} kB, {:.1f} kB a second", static_cast<double>(facts.bytes) / 1e3,
+                                     static_cast<double>(facts.bytes) / 1e3 / facts.seconds));
   const AnimatedShape shape(view.discs);
-  std::string time = fmt::format("{:.2f} s", view.seconds);
+  std::string time = fmt::format("  {:.2f} s", view.seconds);
   for (const AnimatedPart& part : parts_of(view, shape)) {
-    line(time.c_str(), fmt::format("{}{}, keys at {:.3f} s", part.heights.empty() ? "" : part.heights + ": ",
-                                   text_of(part.chunk), fmt::join(part.chunk.times, ", ")));
+    out += fact(time, fmt::format("{}{}, keys at {:.3f} s", part.heights.empty() ? "" : part.heights + ": ",
+                                  text_of(part.chunk), fmt::join(part.chunk.times, ", ")));
     time.clear();
   }
   return out;

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "bench/base/exit_codes.hpp"
+#include "bench/base/options.hpp"
 #include "bench/base/output.hpp"
 #include "bench/base/threads.hpp"
 #include "bench/characters/baked_output.hpp"
@@ -13,8 +14,6 @@
 #include "bench/characters/cost_guard.hpp"
 #include "bench/cli/baked_report.hpp"
 #include "bench/cli/commands.hpp"
-#include "bench/cli/inspection.hpp"
-#include "bench/cli/options.hpp"
 
 namespace bch::cli {
 namespace {
@@ -64,26 +63,20 @@ std::function<void()> add_bake_command(CLI::App& program) {
   CLI::App& command = *program.add_subcommand(
       "bake", "Build shapes and write them to a baked file, which the other commands load");
   command.footer(
-      "query, crowd, inspect and check take the baked file in place of a character. It holds only what "
-      "queries need.\n"
-      "With --semantics boundary --leaves discs and no --slices it holds no outlines and is about a quarter "
-      "smaller.\n"
-      "Example: bch bake man.glb woman.glb --rate 30 --depths 0,all -o people.bch");
-  command.add_option("FILE", options->characters, character_help)->type_name("")->required();
-  command.add_option("-o,--output", options->output, "Baked file to write, NAME.bch")
-      ->type_name("FILE")
-      ->required();
+      R"(query, crowd, inspect and check take the baked file in place of a character. It holds only what queries need.
+With --semantics boundary --leaves discs and no --slices it holds no outlines and is about a quarter smaller.
+Example: bch bake man.glb woman.glb --rate 30 --depths 0,all -o people.bch)");
+  const OptionAdder add(command);
+  add("FILE", options->characters, "", character_help)->required();
+  add("-o,--output", options->output, "FILE", "Baked file to write, NAME.bch")->required();
   options->shapes.add_to(command);
-  command.add_option("--rate", options->rate, "N poses per second of every clip, instead of --poses")
-      ->type_name("N")
-      ->check(number_between(1e-3, 1e4))
+  add("--rate", options->rate, "N", "N poses per second of every clip, instead of --poses",
+      number_between(1e-3, 1e4))
       ->excludes("--poses");
   command.add_flag("--heights", options->heights,
                    "Keep the heights of bodies, which agents with a z need; --slices always keeps them");
-  command
-      .add_option("--animated", options->animated,
-                  "Also keep the clip of this name, or all, as moving discs for every time (repeatable)")
-      ->type_name("CLIP")
+  add("--animated", options->animated, "CLIP",
+      "Also keep the clip of this name, or all, as moving discs for every time (repeatable)")
       ->allow_extra_args(false);
   options->answer.add_levels_to(command);
   return [options] { run_bake(*options); };

@@ -8,10 +8,11 @@
 #include <cmath>
 #include <map>
 #include <new>
+#include <nlohmann/json.hpp>
 
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/text.hpp"
-#include "bench/cli/animated_report.hpp"
+#include "bench/cli/inspection.hpp"
 #include "layout/format/parts.hpp"
 #include "layout/format/shape_arrays.hpp"
 
@@ -97,36 +98,33 @@ Json slices_json(const ShapeSet& set) {
 std::string text_of(const std::string& file, const BakedShapes& baked) {
   const ShapeSet& set = baked.set;
   std::string out = printable_line(file) + "\n";
-  const auto line = [&](const char* what, const std::string& text) {
-    out += fmt::format("  {:<10}{}\n", what, printable_line(text));
-  };
-  line("format", "baked shapes");
-  line("shapes",
-       fmt::format("{}, {:.1f} kB each", grouped(set.shape_count()),
-                   static_cast<double>(set.bytes()) / 1e3 / std::max(1.0, double{1} * set.shape_count())));
-  line("depths", depths_text(set));
-  if (!set.slices().empty()) line("slices", slices_text(set));
-  if (set.has_heights() && set.slices().empty()) line("heights", "kept: agents may have a z");
-  line("threshold", fmt::format("{:g} mm", baked.origins.threshold * 1e3));
-  line("semantics", !set.slices().empty() ? "solid" : set.solid() ? "boundary, solid" : "boundary");
-  line("leaves", set.exact_leaves() ? "segments, discs" : "discs");
+  out += fact("  format", "baked shapes");
+  out += fact("  shapes", fmt::format("{}, {:.1f} kB each", grouped(set.shape_count()),
+                                      static_cast<double>(set.bytes()) / 1e3 /
+                                          std::max(1.0, double{1} * set.shape_count())));
+  out += fact("  depths", depths_text(set));
+  if (!set.slices().empty()) out += fact("  slices", slices_text(set));
+  if (set.has_heights() && set.slices().empty()) out += fact("  heights", "kept: agents may have a z");
+  out += fact("  threshold", fmt::format("{:g} mm", baked.origins.threshold * 1e3));
+  out += fact("  semantics", !set.slices().empty() ? "solid" : set.solid() ? "boundary, solid" : "boundary");
+  out += fact("  leaves", set.exact_leaves() ? "segments, discs" : "discs");
   std::map<std::uint32_t, bool> seen;
   for (const ShapeOrigin& origin : baked.origins.origins)
     if (!std::exchange(seen[origin.character], true))
-      line("character",
-           baked.origins.names[origin.character] + ": " + clips_text(baked.origins, origin.character));
+      out += fact("  character",
+                  baked.origins.names[origin.character] + ": " + clips_text(baked.origins, origin.character));
   for (const BakedClip& clip : baked.clips)
-    line("animated", fmt::format("{}: {} ({})", baked.origins.names[clip.character],
-                                 clip_name(baked.origins, clip), text_of(facts_of(clip.discs))));
+    out += fact("  animated", fmt::format("{}: {} ({})", baked.origins.names[clip.character],
+                                          clip_name(baked.origins, clip), text_of(facts_of(clip.discs))));
   return out;
 }
 
 std::string verified_text(const ShapeSet& set) {
   const bool outlines = !set.arrays().shape_contours.empty();
-  return fmt::format("  {:<10}{}\n", "verified",
-                     set.roots_only() ? "levels"
-                     : outlines       ? "nodes, levels, culling data, and that discs cover the outlines"
-                                      : "nodes, levels, culling data as far as the discs tell (no outlines)");
+  return fact("  verified", set.roots_only() ? "levels"
+                            : outlines
+                                ? "nodes, levels, culling data, and that discs cover the outlines"
+                                : "nodes, levels, culling data as far as the discs tell (no outlines)");
 }
 
 std::string table_text(const BakedShapes& baked) {

@@ -3,12 +3,12 @@
 
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include <bch/baked.hpp>
 
-#include "bench/cli/options.hpp"
+#include "bench/base/options.hpp"
 
 namespace bch::cli {
 

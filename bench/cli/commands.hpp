@@ -12,10 +12,8 @@ namespace bch::cli {
 /// Returns: a function that runs it once the command line was read.
 /// Errors:  the returned function throws UsageError, InputError, ImportError, BakedFileError, anything else for a fault.
 std::function<void()> add_bake_command(CLI::App& program);
-std::function<void()> add_check_command(CLI::App& program);
 std::function<void()> add_crowd_command(CLI::App& program);
 std::function<void()> add_inspect_command(CLI::App& program);
-std::function<void()> add_merge_command(CLI::App& program);
 std::function<void()> add_place_command(CLI::App& program);
 std::function<void()> add_query_command(CLI::App& program);
 

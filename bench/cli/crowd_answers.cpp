@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "bench/cli/crowd_answers.hpp"
+#include "bench/cli/crowd.hpp"
 
 #include <algorithm>
 #include <chrono>

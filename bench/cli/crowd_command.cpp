@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 
-#include "bench/base/command_line.hpp"
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/output.hpp"
 #include "bench/base/text.hpp"
@@ -15,8 +15,7 @@
 #include "bench/characters/cost_guard.hpp"
 #include "bench/cli/baked_report.hpp"
 #include "bench/cli/commands.hpp"
-#include "bench/cli/crowd_picture.hpp"
-#include "bench/cli/crowd_report.hpp"
+#include "bench/cli/crowd.hpp"
 
 namespace bch::cli {
 namespace {
@@ -112,30 +111,22 @@ std::function<void()> add_crowd_command(CLI::App& program) {
   CLI::App& command =
       *program.add_subcommand("crowd", "Place a random crowd and count its collisions at each depth");
   command.footer(
-      "For each depth, prints the number of colliding pairs and the share of the cylinders' collisions that "
-      "it clears.\n"
-      "Shapes are drawn evenly from the poses of all characters, so a character with fewer poses appears "
-      "less often.\n"
-      "Example: bch crowd --agents 2000 --density 1 --svg crowd.svg");
-  command.add_option("--agents", options->agents, "Number of agents [10000]")
-      ->type_name("N")
-      ->check(whole_between(1, 10'000'000));
-  command.add_option("--density", options->density, "Agents per square metre [3]")
-      ->type_name("N")
-      ->check(number_between(1e-4, 100));
+      R"(For each depth, prints the number of colliding pairs and the share of the cylinders' collisions that it clears.
+Shapes are drawn evenly from the poses of all characters, so a character with fewer poses appears less often.
+Example: bch crowd --agents 2000 --density 1 --svg crowd.svg)");
+  const OptionAdder add(command);
+  add("--agents", options->agents, "N", "Number of agents [10000]", whole_between(1, 10'000'000));
+  add("--density", options->density, "N", "Agents per square metre [3]", number_between(1e-4, 100));
   add_seed_option(command, options->seed, "positions, headings and shapes");
   add_repeatable_option(command, "--character", options->characters,
                         std::string(character_or_baked_help) + " (repeatable) [male, female]", "FILE");
   options->shapes.add_to(command);
   options->answer.add_to(command);
-  command.add_option("--json", options->json, "Write the table and the options as JSON")->type_name("FILE");
-  command.add_option("--csv", options->csv, "Write the pairs that collide at the last of --depths")
-      ->type_name("FILE");
-  command.add_option("--svg", options->svg, "Draw the middle of the crowd from above")->type_name("FILE");
-  command
-      .add_option("--svg-depth", options->svg_depth,
-                  "Depth of the discs that --svg draws, one of --depths [6, else the last]")
-      ->type_name("DEPTH");
+  add("--json", options->json, "FILE", "Write the table and the options as JSON");
+  add("--csv", options->csv, "FILE", "Write the pairs that collide at the last of --depths");
+  add("--svg", options->svg, "FILE", "Draw the middle of the crowd from above");
+  add("--svg-depth", options->svg_depth, "DEPTH",
+      "Depth of the discs that --svg draws, one of --depths [6, else the last]");
   return [options, &command] { run_crowd(command, *options); };
 }
 

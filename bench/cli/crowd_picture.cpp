@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "bench/cli/crowd_picture.hpp"
+#include "bench/cli/crowd.hpp"
 
 #include <fmt/format.h>
 
@@ -23,10 +23,7 @@ constexpr double picture_height = view_top + view_height + legend_height;
 constexpr double window_agents = 48, whole_crowd = 60;
 
 constexpr const char* style =
-    R"(text { font-family: "DejaVu Sans", Verdana, Arial, sans-serif; fill: #1c2733 }
-.title { font-size: 21px; font-weight: bold }
-.caption { font-size: 14px; fill: #4a5866 }
-.key { font-size: 14px }
+    R"(.key { font-size: 14px }
 .middle { text-anchor: middle }
 .view { fill: #f7f9fa }
 .frame { fill: none; stroke: #9aa7b3 }
@@ -79,9 +76,9 @@ struct DrawnAgent {
   Placement placement;
   State state = is_free;
   bool is_partner = false;  ///< collides, and its single cylinder overlaps that of a cleared agent
-  std::vector<PixelDisc> discs;
-  std::vector<std::size_t> slab;  ///< per disc
-  std::vector<bool> overlaps;     ///< per disc
+  std::vector<PixelDisc> discs = {};
+  std::vector<std::size_t> slab = {};  ///< per disc
+  std::vector<bool> overlaps = {};     ///< per disc
 
   void place_discs(std::uint32_t depth) {
     for (std::size_t i = 0; i < std::max<std::size_t>(1, shape->slabs.size()); ++i) {
@@ -136,12 +133,7 @@ void Scene::add_visible_agents(const CrowdPicture& picture) {
                      {{margin + window.scale() * x, view_top + view_height - window.scale() * y},
                       std::cos(crowd.heading[i]),
                       std::sin(crowd.heading[i]),
-                      window.scale()},
-                     is_free,
-                     false,
-                     {},
-                     {},
-                     {}};
+                      window.scale()}};
     agent.place_discs(picture.answers.levels[picture.level].depth);
     agent.overlaps.resize(agent.discs.size());
     drawn_index_[i] = static_cast<std::uint32_t>(agents_.size());
@@ -189,12 +181,10 @@ void draw_overlaps(Svg& svg, const DrawnAgent& agent) {
 }
 
 void draw_agent(Svg& svg, const DrawnAgent& agent) {
-  svg.open_group({}, "shape");
-  for (const Shape* part : parts_of(*agent.shape)) draw_outline(svg, agent.placement, part->outline);
-  svg.close_group();
-  svg.open_group({}, "discs");
-  draw_discs(svg, agent.discs);
-  svg.close_group();
+  svg.group({}, "shape", [&] {
+    for (const Shape* part : parts_of(*agent.shape)) draw_outline(svg, agent.placement, part->outline);
+  });
+  svg.group({}, "discs", [&] { draw_discs(svg, agent.discs); });
 }
 
 void draw_cylinder(Svg& svg, const DrawnAgent& agent) {
@@ -206,23 +196,23 @@ void draw_cylinder(Svg& svg, const DrawnAgent& agent) {
 
 /// What matters most is drawn last.
 void Scene::draw(Svg& svg) const {
-  for (std::size_t state = 0; state < states; ++state) {
-    svg.open_group(state_name[state], state_name[state]);
-    for (const DrawnAgent& agent : agents_)
-      if (agent.state == state) draw_agent(svg, agent);
-    svg.close_group();
-  }
-  svg.open_group("overlaps", "overlap");
-  for (const DrawnAgent& agent : agents_) draw_overlaps(svg, agent);
-  svg.close_group();
-  svg.open_group("partners", "partner");
-  for (const DrawnAgent& agent : agents_)
-    if (agent.is_partner) draw_cylinder(svg, agent);
-  svg.close_group();
-  svg.open_group("single-cylinders", "cylinder");
-  for (const DrawnAgent& agent : agents_)
-    if (agent.state == is_cleared) draw_cylinder(svg, agent);
-  svg.close_group();
+  const auto draw = [&](const char* id, const char* classes, const auto& is_drawn, const auto& how) {
+    svg.group(id, classes, [&] {
+      for (const DrawnAgent& agent : agents_)
+        if (is_drawn(agent)) how(svg, agent);
+    });
+  };
+  for (std::size_t state = 0; state < states; ++state)
+    draw(
+        state_name[state], state_name[state], [&](const DrawnAgent& agent) { return agent.state == state; },
+        draw_agent);
+  draw(
+      "overlaps", "overlap", [](const DrawnAgent&) { return true; }, draw_overlaps);
+  draw(
+      "partners", "partner", [](const DrawnAgent& agent) { return agent.is_partner; }, draw_cylinder);
+  draw(
+      "single-cylinders", "cylinder", [](const DrawnAgent& agent) { return agent.state == is_cleared; },
+      draw_cylinder);
 }
 
 /// A small agent that stands for all of its kind.
@@ -244,24 +234,14 @@ void draw_key(Svg& svg, const CrowdPicture& picture, State state, double x, cons
        1,
        0,
        scale},
-      state,
-      false,
-      {},
-      {},
-      {}};
+      state};
   agent.place_discs(std::min(picture.answers.levels[picture.level].depth, 4u));
   svg.open_group({}, state_name[state]);
   draw_agent(svg, agent);
-  if (state == is_cleared) {
-    svg.open_group({}, "cylinder");
-    draw_cylinder(svg, agent);
-    svg.close_group();
-  }
+  if (state == is_cleared) svg.group({}, "cylinder", [&] { draw_cylinder(svg, agent); });
   if (state == is_colliding) {
     for (const PixelDisc& disc : agent.discs) agent.overlaps.push_back(disc.centre.x > x + 0.6 * icon);
-    svg.open_group({}, "overlap");
-    draw_overlaps(svg, agent);
-    svg.close_group();
+    svg.group({}, "overlap", [&] { draw_overlaps(svg, agent); });
   }
   svg.close_group();
   svg.text({x + icon + 12, y - 4}, "key", first);
@@ -269,22 +249,18 @@ void draw_key(Svg& svg, const CrowdPicture& picture, State state, double x, cons
 }
 
 void draw_legend(Svg& svg, const CrowdPicture& picture, const Window& window) {
-  svg.open_group("legend");
-  draw_key(svg, picture, is_colliding, margin, "collides;", "overlapping discs are dark");
-  draw_key(svg, picture, is_cleared, 325, "cleared: only cylinders", "(dashed) overlap");
-  draw_key(svg, picture, is_free, 635, "free: not even", "cylinders overlap");
-  svg.close_group();
+  svg.group("legend", {}, [&] {
+    draw_key(svg, picture, is_colliding, margin, "collides;", "overlapping discs are dark");
+    draw_key(svg, picture, is_cleared, 325, "cleared: only cylinders", "(dashed) overlap");
+    draw_key(svg, picture, is_free, 635, "free: not even", "cylinders overlap");
+  });
 
   const double right = picture_width - margin, left = right - window.scale();
   const double y = view_top + view_height + 34;
-  svg.open_group("scale");
-  svg.open_group({}, "scale");
-  svg.line({left, y}, {right, y});
-  svg.line({left, y - 5}, {left, y + 5});
-  svg.line({right, y - 5}, {right, y + 5});
-  svg.close_group();
-  svg.text({(left + right) / 2, y + 22}, "key middle", "1 m");
-  svg.close_group();
+  svg.group("scale", {}, [&] {
+    svg.group({}, "scale", [&] { svg.scale(left, right, y); });
+    svg.text({(left + right) / 2, y + 22}, "key middle", "1 m");
+  });
 }
 
 }  // namespace

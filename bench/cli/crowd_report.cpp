@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "bench/cli/crowd_report.hpp"
+#include "bench/cli/crowd.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "bench/base/text.hpp"
 #include "bench/cli/baked_report.hpp"
@@ -41,25 +42,22 @@ std::string facts(const CrowdRun& run) {
   for (const LoadedCharacter& character : run.characters)
     names += fmt::format("{}{} ({})", names.empty() ? "" : ", ", file_name(character),
                          counted(character.report.triangles, "triangle"));
-  const auto line = [](const char* what, const std::string& text) {
-    return fmt::format("{:<12}{}\n", what, printable_line(text));
-  };
   const bool baked = run.characters.empty();
   const double outline = run.built.outline_seconds, hierarchy = run.built.hierarchy_seconds;
-  return line(baked ? "baked" : "characters", baked ? run.options.characters.front() : names) +
-         line("shapes", fmt::format("{} in contour hierarchies down to {:g} mm, {:.1f} kB each",
+  return fact(baked ? "baked" : "characters", baked ? run.options.characters.front() : names) +
+         fact("shapes", fmt::format("{} in contour hierarchies down to {:g} mm, {:.1f} kB each",
                                     counted(run.set.shape_count(), "pose"), run.threshold * 1e3,
                                     bytes_per_shape(run) / 1e3)) +
-         (run.set.slices().empty() ? std::string() : line("slices", slices_text(run.set))) +
+         (run.set.slices().empty() ? std::string() : fact("slices", slices_text(run.set))) +
          (baked ? std::string()
-                : line("build", fmt::format("{} a shape and thread: outline {}, hierarchy {}",
+                : fact("build", fmt::format("{} a shape and thread: outline {}, hierarchy {}",
                                             time_text(outline + hierarchy), time_text(outline),
                                             time_text(hierarchy)))) +
-         line("agents",
+         fact("agents",
               fmt::format("{} on {:.1f} m x {:.1f} m, {:g} per m2, seed {}", grouped(run.crowd.size()),
                           run.crowd.side, run.crowd.side, run.options.density, run.options.seed)) +
-         line("candidates", fmt::format("{} that can collide", counted(run.answers.pairs.size(), "pair"))) +
-         line("kernel", fmt::format("{}, {}, {} semantics, leaves {}", run.implementation,
+         fact("candidates", fmt::format("{} that can collide", counted(run.answers.pairs.size(), "pair"))) +
+         fact("kernel", fmt::format("{}, {}, {} semantics, leaves {}", run.implementation,
                                     counted(run.threads, "thread"), semantics_text(run), leaves_text(run)));
 }
 

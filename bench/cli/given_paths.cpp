@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "bench/cli/given_paths.hpp"
+#include "bench/cli/place.hpp"
 
 #include <algorithm>
 #include <cmath>

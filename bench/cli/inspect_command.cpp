@@ -4,20 +4,20 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include <bch/verify.hpp>
 
 #include "bench/base/exit_codes.hpp"
+#include "bench/base/options.hpp"
 #include "bench/base/output.hpp"
 #include "bench/base/text.hpp"
 #include "bench/base/threads.hpp"
 #include "bench/characters/baking.hpp"
 #include "bench/characters/cost_guard.hpp"
-#include "bench/cli/animated_report.hpp"
 #include "bench/cli/baked_report.hpp"
 #include "bench/cli/commands.hpp"
 #include "bench/cli/inspection.hpp"
-#include "bench/cli/options.hpp"
 
 namespace bch::cli {
 namespace {
@@ -179,15 +179,14 @@ std::function<void()> add_inspect_command(CLI::App& program) {
   const auto options = std::make_shared<InspectOptions>();
   CLI::App& command = *program.add_subcommand("inspect", "Show a character or baked file and its shapes");
   command.footer(
-      "Reads glTF 2, FBX, Collada, MD5, IQM, OBJ, PLY and STL, and clips of these and of BVH.\n"
-      "A file is rejected if reading it crashes or takes more than 2 GiB or 60 s.\n"
-      "Example: bch inspect default:male --clip walk --time 1.5 --svg walk.svg");
-  command.add_option("FILE", options->character, character_or_baked_help)->type_name("")->required();
-  command.add_option("--shape", options->shape, "Show this shape of the table in detail")->type_name("INDEX");
-  command.add_option("--clip", options->clip, "Show this clip at --time in detail")->type_name("NAME");
-  command.add_option("--time", options->time, "Seconds from the start of --clip")
-      ->type_name("SECONDS")
-      ->check(number_between(0, 1e9));
+      R"(Reads glTF 2, FBX, Collada, MD5, IQM, OBJ, PLY and STL, and clips of these and of BVH.
+A file is rejected if reading it crashes or takes more than 2 GiB or 60 s.
+Example: bch inspect default:male --clip walk --time 1.5 --svg walk.svg)");
+  const OptionAdder add(command);
+  add("FILE", options->character, "", character_or_baked_help)->required();
+  add("--shape", options->shape, "INDEX", "Show this shape of the table in detail");
+  add("--clip", options->clip, "NAME", "Show this clip at --time in detail");
+  add("--time", options->time, "SECONDS", "Seconds from the start of --clip", number_between(0, 1e9));
   command.add_flag(
       "--animated", options->animated,
       "Show the clip as moving discs, at --time and from key to key, slab by slab; also of a baked file");
@@ -196,21 +195,13 @@ std::function<void()> add_inspect_command(CLI::App& program) {
   command.add_flag(
       "--verify", options->verify,
       "Recompute what a baked file stores besides its discs and outlines, and report differences");
-  command
-      .add_option("--json", options->json,
-                  "Write the same data as JSON, with all points of a shape's outline")
-      ->type_name("FILE");
-  command
-      .add_option("--svg", options->svg,
-                  "Draw the shape: a panel for each depth of its hierarchy or, with --slices, for each slab")
-      ->type_name("FILE");
+  add("--json", options->json, "FILE", "Write the same data as JSON, with all points of a shape's outline");
+  add("--svg", options->svg, "FILE",
+      "Draw the shape: a panel for each depth of its hierarchy or, with --slices, for each slab");
   CostLimits& limits = options->shapes.limits;
-  command
-      .add_option("--max-drawn-nodes", limits.drawn_nodes,
-                  fmt::format("Nodes of the shape that --svg draws [{}]", limits.drawn_nodes))
-      ->type_name("N")
-      ->check(whole_between(1, 1'000'000'000))
-      ->group("Limits");
+  OptionAdder(command, "Limits")("--max-drawn-nodes", limits.drawn_nodes, "N",
+                                 fmt::format("Nodes of the shape that --svg draws [{}]", limits.drawn_nodes),
+                                 whole_between(1, 1'000'000'000));
   return [options, &command] { run_inspect(command, *options); };
 }
 

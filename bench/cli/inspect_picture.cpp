@@ -11,14 +11,9 @@
 namespace bch::cli {
 namespace {
 
-constexpr double panel = 210, label = 38, gap = 14, border = 20, head = 80;
-/// Part of the panel that the largest depth's discs fill.
-constexpr double fill = 0.94;
+constexpr double panel = 210, label_height = 38, panel_gap = 14, panel_border = 20, panels_top = 80;
 
-constexpr const char* css = R"(text { font-family: "DejaVu Sans", Verdana, Arial, sans-serif; fill: #1c2733 }
-.title { font-size: 21px; font-weight: bold }
-.caption { font-size: 14px; fill: #4a5866 }
-.key { font-size: 14px }
+constexpr const char* panel_css = R"(.key { font-size: 14px }
 .label { font-size: 14px; text-anchor: middle }
 .middle { text-anchor: middle }
 .panel { fill: #f7f9fa; stroke: #d3dae0 }
@@ -30,8 +25,7 @@ constexpr const char* css = R"(text { font-family: "DejaVu Sans", Verdana, Arial
 /// What all panels share.
 struct Layout {
   std::size_t columns;
-  double scale;  ///< pixels per metre
-  double x, y;   ///< the middle of all discs, metres
+  Bounds bounds;  ///< of all discs
 };
 
 /// Five columns where that leaves fewer empty places than four.
@@ -68,37 +62,23 @@ std::vector<Panel> panels_of(const ShapeFacts& facts) {
 
 /// Deeper discs stick out of the root's, so the frame is that of all of them.
 Layout lay_out(const ShapeFacts& facts, std::size_t panels) {
-  double left = 1e30, right = -1e30, low = 1e30, high = -1e30;
+  Layout layout{columns_for(panels), {}};
   for (const Shape* part : parts_of(facts.shape))
-    for (const HierarchyNode& node : part->hierarchy.nodes) {
-      const double x = static_cast<double>(node.disc.x), y = static_cast<double>(node.disc.y);
-      const double r = static_cast<double>(node.disc.radius);
-      left = std::min(left, x - r), right = std::max(right, x + r);
-      low = std::min(low, y - r), high = std::max(high, y + r);
-    }
-  return {columns_for(panels), fill * panel / std::max(right - left, high - low), (left + right) / 2,
-          (low + high) / 2};
+    for (const HierarchyNode& node : part->hierarchy.nodes) layout.bounds.add(node.disc);
+  return layout;
 }
 
 void draw_panel(Svg& svg, const Layout& layout, const Panel& shown, std::size_t index) {
-  const Pixel corner{border + static_cast<double>(index % layout.columns) * (panel + gap),
-                     head + static_cast<double>(index / layout.columns) * (panel + label)};
-  const Placement placement{
-      {corner.x + panel / 2 - layout.scale * layout.x, corner.y + panel / 2 + layout.scale * layout.y},
-      1,
-      0,
-      layout.scale};
+  const Pixel corner{panel_border + static_cast<double>(index % layout.columns) * (panel + panel_gap),
+                     panels_top + static_cast<double>(index / layout.columns) * (panel + label_height)};
+  const Placement placement = layout.bounds.placement(corner, panel);
   svg.rectangle(corner, panel, panel, "panel");
-  svg.open_group(shown.group);
-  if (shown.part != nullptr) {
-    svg.open_group({}, "outline");
-    draw_outline(svg, placement, shown.part->outline);
-    svg.close_group();
-    svg.open_group({}, "discs");
-    draw_discs(svg, placed_cut(placement, shown.part->hierarchy, shown.depth));
-    svg.close_group();
-  }
-  svg.close_group();
+  svg.group(shown.group, {}, [&] {
+    if (shown.part == nullptr) return;
+    svg.group({}, "outline", [&] { draw_outline(svg, placement, shown.part->outline); });
+    svg.group({}, "discs",
+              [&] { draw_discs(svg, placed_cut(placement, shown.part->hierarchy, shown.depth)); });
+  });
   svg.text({corner.x + panel / 2, corner.y + panel + 20}, "label", shown.label);
 }
 
@@ -115,11 +95,7 @@ double scale_length(double pixels_per_metre) {
 void draw_scale(Svg& svg, double right, double pixels_per_metre) {
   const double length = scale_length(pixels_per_metre), left = right - length * pixels_per_metre;
   const double y = 30;
-  svg.open_group("scale", "scale");
-  svg.line({left, y}, {right, y});
-  svg.line({left, y - 5}, {left, y + 5});
-  svg.line({right, y - 5}, {right, y + 5});
-  svg.close_group();
+  svg.group("scale", "scale", [&] { svg.scale(left, right, y); });
   svg.text({(left + right) / 2, y + 22}, "key middle", fmt::format("{:g} m", length));
 }
 
@@ -130,21 +106,22 @@ std::string draw_shape(const LoadedCharacter& character, const ShapeFacts& facts
   const Layout layout = lay_out(facts, panels.size());
   const std::size_t rows = (panels.size() + layout.columns - 1) / layout.columns;
   const std::size_t filled = std::min(panels.size(), layout.columns);
-  const double width =
-      2 * border + static_cast<double>(std::max<std::size_t>(filled, 3)) * (panel + gap) - gap;
-  const double height = head + static_cast<double>(rows) * (panel + label) + 8;
+  const double width = 2 * panel_border +
+                       static_cast<double>(std::max<std::size_t>(filled, 3)) * (panel + panel_gap) -
+                       panel_gap;
+  const double height = panels_top + static_cast<double>(rows) * (panel + label_height) + 8;
   const std::string title = fmt::format("{}, {}", character.character.name, shape_title(character, facts));
-  Svg svg(width, height, title, css);
-  svg.text({border, 38}, "title", title);
+  Svg svg(width, height, title, panel_css);
+  svg.text({panel_border, 38}, "title", title);
   svg.text(
-      {border, 62}, "caption",
+      {panel_border, 62}, "caption",
       facts.slabs.empty()
           ? fmt::format(
                 "Seen from above: outline of {:.3f} m², and the discs of its hierarchy cut at each depth.",
                 facts.outline_area)
           : std::string(
                 "Seen from above, slab by slab: the outline of each, and the leaf discs of its hierarchy."));
-  draw_scale(svg, width - border, layout.scale);
+  draw_scale(svg, width - panel_border, layout.bounds.scale(panel));
   for (std::size_t i = 0; i < panels.size(); ++i) draw_panel(svg, layout, panels[i], i);
   return std::move(svg).finish();
 }

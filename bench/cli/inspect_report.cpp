@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "bench/base/disc_union_area.hpp"
 #include "bench/base/placed_shape.hpp"
@@ -126,30 +127,27 @@ std::string shape_title(const LoadedCharacter& character, const ShapeFacts& fact
 std::string text_of(const LoadedCharacter& character) {
   const ImportReport& report = character.report;
   std::string out = printable_line(character.source) + "\n";
-  const auto line = [&](const char* what, const std::string& text) {
-    out += fmt::format("  {:<10}{}\n", what, printable_line(text));
-  };
-  line("format", report.format);
-  line("mesh",
-       fmt::format("{}, {} vertices, {}", counted(report.triangles, "triangle"), grouped(report.vertices),
-                   report.meshes == 1 ? "1 mesh" : fmt::format("{} meshes", report.meshes)));
+  out += fact("  format", report.format);
+  out += fact("  mesh", fmt::format("{}, {} vertices, {}", counted(report.triangles, "triangle"),
+                                    grouped(report.vertices),
+                                    report.meshes == 1 ? "1 mesh" : fmt::format("{} meshes", report.meshes)));
   if (report.dropped_faces + report.dropped_vertices > 0)
-    line("dropped",
-         fmt::format("{} and {} that no triangle uses", counted(report.dropped_faces, "face"),
-                     report.dropped_vertices == 1 ? std::string("1 vertex")
-                                                  : grouped(report.dropped_vertices) + " vertices"));
-  line("height", fmt::format("{:.3f} m at rest", report.height));
-  line("skeleton", counted(report.bones, "bone"));
-  line("clips", report.clips.empty()
-                    ? std::string("none")
-                    : fmt::format("{}, {:.2f} s together", report.clips.size(), clip_seconds(report)));
+    out += fact("  dropped",
+                fmt::format("{} and {} that no triangle uses", counted(report.dropped_faces, "face"),
+                            report.dropped_vertices == 1 ? std::string("1 vertex")
+                                                         : grouped(report.dropped_vertices) + " vertices"));
+  out += fact("  height", fmt::format("{:.3f} m at rest", report.height));
+  out += fact("  skeleton", counted(report.bones, "bone"));
+  out += fact("  clips", report.clips.empty() ? std::string("none")
+                                              : fmt::format("{}, {:.2f} s together", report.clips.size(),
+                                                            clip_seconds(report)));
   for (const ClipReport& clip : report.clips)
     out +=
         fmt::format("  {:<10}{:>8.2f} s  {}{}\n", "", clip.seconds, printable_line(clip.name),
                     clip.channels == clip.channels_in_file
                         ? ""
                         : fmt::format(" ({} of {} channels move it)", clip.channels, clip.channels_in_file));
-  for (const std::string& note : report.notes) line("note", note);
+  for (const std::string& note : report.notes) out += fact("  note", note);
   return out;
 }
 

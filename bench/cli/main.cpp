@@ -1,20 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <functional>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <vector>
-
 #include "bench/base/command_line.hpp"
-#include "bench/base/exit_codes.hpp"
 #include "bench/base/interrupt.hpp"
 #include "bench/base/run_main.hpp"
 #include "bench/cli/commands.hpp"
+#include "bench/recordings/recording_check.hpp"
 
 namespace {
 
@@ -36,25 +27,16 @@ constexpr const char* footer =
 
 int run(int argc, char** argv) {
   CLI::App program(description, "bch");
-  program.footer(footer);
-  program.set_version_flag("--version", "bch " BCH_VERSION);
-  program.require_subcommand(1);
-  program.get_formatter()->column_width(24);
-  const std::pair<const char*, std::function<void()>> commands[] = {
-      {"bake", add_bake_command(program)},   {"check", add_check_command(program)},
-      {"crowd", add_crowd_command(program)}, {"inspect", add_inspect_command(program)},
-      {"merge", add_merge_command(program)}, {"place", add_place_command(program)},
-      {"query", add_query_command(program)},
-  };
-  std::vector<std::string_view> names;
-  for (const auto& command : commands) names.emplace_back(command.first);
-  const std::string word = argc > 1 ? argv[1] : "-";
-  if (word[0] != '-' && std::ranges::find(names, word) == names.end())
-    throw UsageError(fmt::format("no command '{}' ({})", word, fmt::join(names, ", ")));
-  if (!parse_command_line(program, argc, argv)) return exit_success;
-  for (const auto& [name, command] : commands)
-    if (program.got_subcommand(name)) command();
-  return exit_success;
+  set_up(program, BCH_VERSION, footer);
+  return run_command(program,
+                     {{"bake", add_bake_command(program)},
+                      {"check", add_check_command(program)},
+                      {"crowd", add_crowd_command(program)},
+                      {"inspect", add_inspect_command(program)},
+                      {"merge", add_merge_command(program)},
+                      {"place", add_place_command(program)},
+                      {"query", add_query_command(program)}},
+                     argc, argv);
 }
 
 }  // namespace

@@ -6,11 +6,13 @@
 
 #include <algorithm>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "bench/base/exit_codes.hpp"
+#include "bench/base/options.hpp"
 #include "bench/base/output.hpp"
 #include "bench/base/progress.hpp"
 #include "bench/base/stopwatch.hpp"
@@ -19,9 +21,7 @@
 #include "bench/characters/baking.hpp"
 #include "bench/characters/characters.hpp"
 #include "bench/cli/commands.hpp"
-#include "bench/cli/given_paths.hpp"
-#include "bench/cli/options.hpp"
-#include "bench/cli/place_report.hpp"
+#include "bench/cli/place.hpp"
 #include "kernel/recordings/walker_cast.hpp"
 
 namespace bch::cli {
@@ -131,68 +131,47 @@ std::function<void()> add_place_command(CLI::App& program) {
   CLI::App& command =
       *program.add_subcommand("place", "Fill an area with people in motion who never touch each other");
   command.footer(
-      "People walk along arcs inside the area, from random positions and at random times of their clips.\n"
-      "If a clip does not walk, they stand. A clip that is shorter than --seconds is played over and over,\n"
-      "its end followed by its beginning. A candidate who would touch anybody at any time is left out.\n"
-      "The table compares this with the cylinders of poses, and with discs of 0.25 m along whole paths, as\n"
-      "people are often placed.\n"
-      "With --paths each person of a recording is a candidate once, in random order, on his way from time 0\n"
-      "on. A person whose way ends before --seconds stands there. The area is the rectangle of these ways.\n"
-      "The file has to tell its times, or its frame rate, and columns that are named or those of a known "
-      "format.\n"
-      "Example: bch place --clip walk --seconds 5 --csv placed.csv");
-  command
-      .add_option("--character", options->characters,
-                  std::string(character_help) + " (repeatable) [male, female]")
-      ->type_name("FILE")
+      R"(People walk along arcs inside the area, from random positions and at random times of their clips.
+If a clip does not walk, they stand. A clip that is shorter than --seconds is played over and over,
+its end followed by its beginning. A candidate who would touch anybody at any time is left out.
+The table compares this with the cylinders of poses, and with discs of 0.25 m along whole paths, as
+people are often placed.
+With --paths each person of a recording is a candidate once, in random order, on his way from time 0
+on. A person whose way ends before --seconds stands there. The area is the rectangle of these ways.
+The file has to tell its times, or its frame rate, and columns that are named or those of a known format.
+Example: bch place --clip walk --seconds 5 --csv placed.csv)");
+  const OptionAdder add(command);
+  add("--character", options->characters, "FILE",
+      std::string(character_help) + " (repeatable) [male, female]")
       ->allow_extra_args(false);
-  command.add_option("--clip", options->clip_names, "Name of a clip that people play (repeatable) [walk]")
-      ->type_name("NAME")
+  add("--clip", options->clip_names, "NAME", "Name of a clip that people play (repeatable) [walk]")
       ->allow_extra_args(false);
   CLI::Option* const speed =
-      command
-          .add_option("--speed", options->speed,
-                      "Speed of everybody, metres per second [that of the clip, 0 if it does not walk]")
-          ->type_name("M/S")
-          ->check(number_between(0, 20));
-  command
-      .add_option("--slices", options->shapes.slices,
-                  "Cut bodies at these heights, in metres: an arm above a foot is no contact [whole bodies]")
-      ->type_name("LIST");
-  command
-      .add_option("--obstacles", options->obstacles,
-                  "Keep people out of these walls and polygons, in well-known text")
-      ->type_name("FILE.wkt");
+      add("--speed", options->speed, "M/S",
+          "Speed of everybody, metres per second [that of the clip, 0 if it does not walk]",
+          number_between(0, 20));
+  add("--slices", options->shapes.slices, "LIST",
+      "Cut bodies at these heights, in metres: an arm above a foot is no contact [whole bodies]");
+  add("--obstacles", options->obstacles, "FILE.wkt",
+      "Keep people out of these walls and polygons, in well-known text");
   CLI::Option* const paths =
-      command
-          .add_option(
-              "--paths", options->paths,
-              "Recording, such as CSV with id,time,x,y[,heading], whose ways people take [random arcs]")
-          ->type_name("FILE");
+      add("--paths", options->paths, "FILE",
+          "Recording, such as CSV with id,time,x,y[,heading], whose ways people take [random arcs]");
   paths->excludes(speed);
-  command.add_option("--width", options->placing.width, "Width of the area, along x [10 m]")
-      ->type_name("METRES")
-      ->check(number_between(1, 1000))
+  add("--width", options->placing.width, "METRES", "Width of the area, along x [10 m]",
+      number_between(1, 1000))
       ->excludes(paths);
-  command.add_option("--depth", options->placing.depth, "Depth of the area, along y [10 m]")
-      ->type_name("METRES")
-      ->check(number_between(1, 1000))
+  add("--depth", options->placing.depth, "METRES", "Depth of the area, along y [10 m]",
+      number_between(1, 1000))
       ->excludes(paths);
-  command.add_option("--seconds", options->placing.seconds, "Time for which people move [10 s]")
-      ->type_name("SECONDS")
-      ->check(number_between(0.1, 600));
-  command
-      .add_option("--tries", options->placing.tries,
-                  "End the search after N candidates in a row that have no room [500]")
-      ->type_name("N")
-      ->check(whole_between(1, 1'000'000));
+  add("--seconds", options->placing.seconds, "SECONDS", "Time for which people move [10 s]",
+      number_between(0.1, 600));
+  add("--tries", options->placing.tries, "N",
+      "End the search after N candidates in a row that have no room [500]", whole_between(1, 1'000'000));
   add_seed_option(command, options->placing.seed, "positions, paths and times");
-  command.add_option("--fps", options->fps, "Rows of --csv per second [30]")
-      ->type_name("N")
-      ->check(number_between(1, 1000));
-  command.add_option("--csv", options->csv, "Write where everybody is at each time, for bch check")
-      ->type_name("FILE");
-  command.add_option("--json", options->json, "Write the table and everybody's path")->type_name("FILE");
+  add("--fps", options->fps, "N", "Rows of --csv per second [30]", number_between(1, 1000));
+  add("--csv", options->csv, "FILE", "Write where everybody is at each time, for bch check");
+  add("--json", options->json, "FILE", "Write the table and everybody's path");
   return [options] { run_place(*options); };
 }
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "bench/cli/place_report.hpp"
+#include "bench/cli/place.hpp"
 
 #include <fmt/format.h>
 
 #include <cmath>
 #include <iterator>
+#include <nlohmann/json.hpp>
 
 #include "bench/base/csv_input.hpp"
 #include "bench/base/text.hpp"
@@ -44,16 +45,16 @@ double clip_time(const bench::PlacedClip& clip, const bench::PlacedPerson& perso
 
 std::string text_report(const PlaceRun& run) {
   const bench::PlacingOptions& area = run.area;
-  std::string out = fmt::format("area        {:g} m x {:g} m, {:g} s, seed {}\n", area.width, area.depth,
-                                area.seconds, area.seed);
+  std::string out = fact("area", fmt::format("{:g} m x {:g} m, {:g} s, seed {}", area.width, area.depth,
+                                             area.seconds, area.seed));
   if (!area.paths.empty())
-    out += fmt::format("paths       {} of {}\n", area.paths.size(), printable_line(run.options.paths));
-  for (const std::string& assumption : run.assumptions)
-    out += fmt::format("            {}\n", printable_line(assumption));
+    out += fact("paths", fmt::format("{} of {}", area.paths.size(), run.options.paths));
+  for (const std::string& assumption : run.assumptions) out += fact("", assumption);
   for (const bench::PlacedClip& clip : run.clips)
-    out += fmt::format("clip        {}, {}: {:.2f} m/s, {:.0f} kB\n", printable_line(clip.character),
-                       printable_line(clip.name), clip.speed, static_cast<double>(clip.body.bytes()) / 1e3);
-  out += fmt::format("build       {:.1f} s for {}\n\n", run.build_seconds, counted(run.clips.size(), "clip"));
+    out += fact("clip", fmt::format("{}, {}: {:.2f} m/s, {:.0f} kB", clip.character, clip.name, clip.speed,
+                                    static_cast<double>(clip.body.bytes()) / 1e3));
+  out += fact("build", fmt::format("{:.1f} s for {}", run.build_seconds, counted(run.clips.size(), "clip"))) +
+         "\n";
   out += fmt::format("{:<36} {:>6} {:>8} {:>10} {:>8}\n", "kept apart", "people", "per m2", "candidates",
                      "seconds");
   for (std::size_t k = 0; k < run.placements.size(); ++k) {

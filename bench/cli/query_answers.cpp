@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "bench/cli/query_answers.hpp"
+#include "bench/cli/query.hpp"
 
 #include <fmt/format.h>
 
@@ -10,6 +10,7 @@
 #include <iterator>
 #include <vector>
 
+#include <bch/broad_phase.hpp>
 #include <bch/clearance.hpp>
 #include <bch/contacts.hpp>
 #include <bch/penetration.hpp>
@@ -148,30 +149,37 @@ std::string time_of_impact_rows(const QueryInput& input) {
 constexpr QueryKind kinds[] = {
     {"collide", "hit", "1 where the agents collide, else 0", collide_rows},
     {"clearance", "distance,x,y",
-     "the least gap between their discs or, with --leaves segments,\n"
-     "                 their outlines, in metres, and the unit vector from the first to the second; 0,0,0 "
-     "where\n"
-     "                 they overlap, unless --overlap deepest is given; inf,0,0 beyond --max-distance.\n"
-     "                 --points adds first_x,first_y,second_x,second_y",
+     R"(the least gap between their discs or, with --leaves segments,
+                 their outlines, in metres, and the unit vector from the first to the second; 0,0,0 where
+                 they overlap, unless --overlap deepest is given; inf,0,0 beyond --max-distance.
+                 --points adds first_x,first_y,second_x,second_y)",
      clearance_rows},
     {"within", "hit", "1 where the agents come within --max-distance of each other, else 0", within_rows},
     {"time-of-impact", "time",
-     "when the agents first touch while each moves by its dx,dy, from 0 at\n"
-     "                 the start to 1 at the end; inf where they do not touch",
+     R"(when the agents first touch while each moves by its dx,dy, from 0 at
+                 the start to 1 at the end; inf where they do not touch)",
      time_of_impact_rows, true},
     {"contacts", "first_disc,second_disc",
-     "one line for each two discs that overlap, by their\n"
-     "                 numbers in the agents' cuts, counted from 0, depth first; of bodies in slabs also\n"
-     "                 first_slab,second_slab, counted from the ground; whole bodies are in their lowest "
-     "slab",
+     R"(one line for each two discs that overlap, by their
+                 numbers in the agents' cuts, counted from 0, depth first; of bodies in slabs also
+                 first_slab,second_slab, counted from the ground; whole bodies are in their lowest slab)",
      contact_rows, false, false},
     {"penetration", "depth,x,y",
-     "how far (metres) and in which direction (unit vector) the first agent\n"
-     "                 has to move until a line separates the two; 0 where a line already does. With "
-     "--direction:\n"
-     "                 until all of it lies beyond the second, which may be far where the two are apart",
+     R"(how far (metres) and in which direction (unit vector) the first agent
+                 has to move until a line separates the two; 0 where a line already does. With --direction:
+                 until all of it lies beyond the second, which may be far where the two are apart)",
      penetration_rows},
 };
+
+/// Tells which pairs have a clearance.
+std::vector<std::uint8_t> have_clearance(const ShapeSet& set, const Agents& agents,
+                                         std::span<const Pair> pairs, const QueryOptions& options) {
+  std::vector<float> distance(pairs.size());
+  clearance(set, agents, pairs, {distance}, options);
+  std::vector<std::uint8_t> have(pairs.size());
+  std::transform(distance.begin(), distance.end(), have.begin(), [](float d) { return std::isfinite(d); });
+  return have;
+}
 
 }  // namespace
 
@@ -193,6 +201,29 @@ std::string query_help() {
   for (const QueryKind& kind : kinds)
     text += fmt::format("  {:<14} first,second,{}: {}\n", kind.name, kind.columns, kind.help);
   return text;
+}
+
+std::vector<Pair> all_pairs(const ShapeSet& set, const AgentTable& table, const std::string& what,
+                            const QueryOptions& options, std::size_t most) {
+  const Agents agents = table.agents();
+  const bool of_distance = std::isfinite(options.max_distance);
+  std::vector<Pair> pairs = candidate_pairs(set, agents, of_distance ? options.max_distance : 0, most);
+  std::sort(pairs.begin(), pairs.end(),
+            [](Pair a, Pair b) { return a.first != b.first ? a.first < b.first : a.second < b.second; });
+  std::vector<std::uint8_t> kept(pairs.size());
+  if (!of_distance)
+    collide(set, agents, pairs, kept, options);
+  else if (what == "within")
+    within(set, agents, pairs, {&options.max_distance, 1}, kept, options);
+  else
+    kept = have_clearance(set, agents, pairs, options);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    pairs[count] = pairs[i];
+    count += kept[i];
+  }
+  pairs.resize(count);
+  return pairs;
 }
 
 }  // namespace bch::cli

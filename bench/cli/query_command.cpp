@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -15,10 +16,9 @@
 #include <unordered_map>
 
 #include <bch/penetration.hpp>
-#include <bch/query.hpp>
 
-#include "bench/base/csv_input.hpp"
 #include "bench/base/exit_codes.hpp"
+#include "bench/base/number.hpp"
 #include "bench/base/output.hpp"
 #include "bench/base/threads.hpp"
 #include "bench/base/wkt_input.hpp"
@@ -26,17 +26,22 @@
 #include "bench/characters/shape_table.hpp"
 #include "bench/cli/baked_report.hpp"
 #include "bench/cli/commands.hpp"
-#include "bench/cli/options.hpp"
-#include "bench/cli/part_options.hpp"
-#include "bench/cli/query_answers.hpp"
-#include "bench/cli/query_options.hpp"
-#include "bench/cli/query_pairs.hpp"
+#include "bench/cli/query.hpp"
 #include "kernel/broad_phase/pair_limit.hpp"
 #include "layout/base/mixed_hash.hpp"
 #include "layout/base/rounding.hpp"
 
 namespace bch::cli {
 namespace {
+
+/// Returns the numbers before and behind a comma; NaN for other text.
+std::pair<double, double> numbers_of(const std::string& text) {
+  constexpr double none = std::numeric_limits<double>::quiet_NaN();
+  const std::size_t comma = text.find(',');
+  if (comma == std::string::npos) return {none, none};
+  return {parse_number(text.substr(0, comma)).value_or(none),
+          parse_number(text.substr(comma + 1)).value_or(none)};
+}
 
 /// Renumbers the agents' shapes to those in use. Returns: where these come from; no other is built.
 std::vector<ShapeSource> keep_used(std::span<const ShapeSource> sources, AgentTable& table) {
@@ -168,19 +173,6 @@ void query_baked(const QueryCommandOptions& options, const Write& write) {
   answer(options, baked.set, question, write);
 }
 
-/// Requires that --leaves concerns the question.
-void require_leaves_of(const CLI::App& command, const QueryCommandOptions& options) {
-  if (options.what == "clearance") {
-    if (options.overlap != "zero") require_absent(command, {"--leaves"}, "--overlap deepest is about discs");
-  } else if (std::isfinite(options.max_distance)) {
-    if (options.obstacles.empty())
-      require_absent(command, {"--leaves"}, "--what within is about discs, but for --obstacles");
-  } else if (options.what != "collide" && options.what != "contacts" && !options.all_pairs) {
-    require_absent(command, {"--leaves"},
-                   "belongs to --what collide, --what contacts, --what clearance and --all-pairs");
-  }
-}
-
 void answer_all(const CLI::App& command, const QueryCommandOptions& options, const Write& write) {
   if (!is_baked(options.character)) return query_character(options, write);
   require_unsettled(command, options.character);
@@ -199,43 +191,60 @@ void query_part(const CLI::App& command, QueryCommandOptions options,
   std::string table;
   answer_all(command, options, [&](const std::string& lines) { table += lines; });
   files.begin();
-  PartFile answered(files.file(answers_kind));
-  answered.add(table);
+  StreamedFile answered(files.file(answers_kind), table);
   answered.commit();
-  files.finish(run, {}, nlohmann::ordered_json::array({answered.identity()}));
+  files.finish(run, {}, nlohmann::ordered_json::array({identity_of(answered)}));
   write_standard_output(fmt::format("{}: {}\n", files.part().name(), files.manifest()));
 }
 
+/// Refuses options that mean nothing beside the others.
+void require_fitting(const CLI::App& command, const QueryCommandOptions& options) {
+  const bool collide = options.what == "collide", within = options.what == "within",
+             clearance = options.what == "clearance", limited = std::isfinite(options.max_distance),
+             walls = !options.obstacles.empty(), tests_leaves = collide || options.what == "contacts";
+  struct Misfit {
+    bool is_one;
+    std::vector<const char*> options;
+    const char* reason;
+  };
+  const Misfit misfits[] = {
+      {!walls, {"--walkable", "--obstacle-heights"}, "belongs to --obstacles"},
+      {walls, {"--directions", "--direction"}, "obstacles have directions of their own"},
+      {options.what != "penetration", {"--directions", "--direction"}, "belongs to --what penetration"},
+      {!options.all_pairs, {"--max-pairs"}, "belongs to --all-pairs"},
+      {!clearance, {"--overlap", "--points"}, "belongs to --what clearance"},
+      {!clearance && !within, {"--max-distance"}, "belongs to --what clearance and --what within"},
+      {!collide && !within && !options.all_pairs,
+       {"--semantics"},
+       "belongs to --what collide, --what within and --all-pairs"},
+      {clearance && options.overlap != "zero",
+       {"--leaves"},
+       "cannot be combined with --overlap deepest, which always measures discs"},
+      {within && !walls,
+       {"--leaves"},
+       "cannot be combined with --what within, which measures discs unless --obstacles is given"},
+      {!clearance && !within && !tests_leaves && !options.all_pairs,
+       {"--leaves"},
+       "belongs to --what collide, --what contacts, --what clearance and --all-pairs"},
+      {limited && !within, {"--semantics"}, "--max-distance is about distances, whatever is inside"},
+      {query_kind(options.what).moving, {"--all-pairs"}, "agents that collide now touch at once"},
+      {!options.direction.empty(), {"--directions"}, "--direction names the only one"},
+  };
+  for (const Misfit& misfit : misfits)
+    if (misfit.is_one) require_absent(command, misfit.options, misfit.reason);
+}
+
 void run_query(const CLI::App& command, const QueryCommandOptions& options) {
-  const bool of_obstacles = !options.obstacles.empty();
-  const int named = int{options.all_pairs} + int{!options.pairs.empty()} + int{of_obstacles};
+  const bool walls = !options.obstacles.empty();
+  const int named = int{options.all_pairs} + int{!options.pairs.empty()} + int{walls};
   if (named != 1)
     throw UsageError(named > 1 ? "PAIRS.csv, --all-pairs and --obstacles: name one of them"
                                : "PAIRS.csv, --all-pairs or --obstacles is missing");
-  if (!of_obstacles) require_absent(command, {"--walkable", "--obstacle-heights"}, "belongs to --obstacles");
-  if (of_obstacles) {
-    require_absent(command, {"--directions", "--direction"}, "obstacles have directions of their own");
-    if (!query_kind(options.what).of_obstacles)
-      throw UsageError(fmt::format("--what: '{}' cannot be asked about --obstacles", options.what));
-  }
-  if (options.what != "penetration")
-    require_absent(command, {"--directions", "--direction"}, "belongs to --what penetration");
-  if (!options.all_pairs) require_absent(command, {"--max-pairs"}, "belongs to --all-pairs");
-  const bool within = options.what == "within";
-  if (options.what != "clearance")
-    require_absent(command, {"--overlap", "--points"}, "belongs to --what clearance");
-  if (options.what != "clearance" && !within)
-    require_absent(command, {"--max-distance"}, "belongs to --what clearance and --what within");
-  if (within && !std::isfinite(options.max_distance))
+  if (walls && !query_kind(options.what).of_obstacles)
+    throw UsageError(fmt::format("--what: '{}' cannot be asked about --obstacles", options.what));
+  if (options.what == "within" && !std::isfinite(options.max_distance))
     throw UsageError("--max-distance: --what within needs one");
-  if (options.what != "collide" && !within && !options.all_pairs)
-    require_absent(command, {"--semantics"}, "belongs to --what collide, --what within and --all-pairs");
-  require_leaves_of(command, options);
-  if (std::isfinite(options.max_distance) && !within)
-    require_absent(command, {"--semantics"}, "--max-distance is about distances, whatever is inside");
-  if (query_kind(options.what).moving)
-    require_absent(command, {"--all-pairs"}, "agents that collide now touch at once");
-  if (!options.direction.empty()) require_absent(command, {"--directions"}, "--direction names the only one");
+  require_fitting(command, options);
   if (options.directions % 2 != 0)
     throw UsageError(fmt::format("--directions: '{}' is odd", options.directions));
   options.only_direction(), options.heights_of_obstacles();
@@ -248,92 +257,84 @@ void run_query(const CLI::App& command, const QueryCommandOptions& options) {
 
 }  // namespace
 
+std::optional<Vec2> QueryCommandOptions::only_direction() const {
+  if (direction.empty()) return std::nullopt;
+  const auto [to_x, to_y] = numbers_of(direction);
+  const auto x = static_cast<float>(to_x), y = static_cast<float>(to_y);
+  if (!std::isfinite(x) || !std::isfinite(y) || (x == 0 && y == 0))
+    throw UsageError(fmt::format("--direction: '{}' is not X,Y with a length", direction));
+  return Vec2{x, y};
+}
+
+std::pair<double, double> QueryCommandOptions::heights_of_obstacles() const {
+  if (obstacle_heights.empty()) return {-HUGE_VAL, HUGE_VAL};
+  const auto heights = numbers_of(obstacle_heights);
+  if (!(heights.first <= heights.second))
+    throw UsageError(
+        fmt::format("--obstacle-heights: '{}' is not BOTTOM,TOP, the lower first", obstacle_heights));
+  return heights;
+}
+
 std::function<void()> add_query_command(CLI::App& program) {
   const auto options = std::make_shared<QueryCommandOptions>();
   CLI::App& command =
       *program.add_subcommand("query", "Answer queries about pairs of agents from CSV files, as CSV");
   command.footer(
-      "Columns of AGENTS.csv:\n"
-      "  id             any text\n"
-      "  shape          the number that bch inspect prints with the same --poses\n"
-      "  x,y            position, metres\n"
-      "  heading        radians. At 0 a built-in character faces +x, and a character of a file stands as in "
-      "the file;\n"
-      "                 +z of a y-up file becomes -y. For people who face +z in a y-up file (as in glTF), or "
-      "-y in\n"
-      "                 a z-up file, the heading is the direction in which they walk plus pi/2\n"
-      "  level          index into --depths [the last]\n"
-      "  z              height of the ground, metres; a baked file has to keep heights (bake --heights)\n"
-      "  dx,dy          displacement of the agent, metres, without turning; for time-of-impact\n"
-      "Output of --what: one line per line of PAIRS.csv, in the same order, unless stated otherwise:\n" +
-      query_help() +
-      "collide and contacts test what --leaves names. within, time-of-impact and penetration use the discs "
-      "of the\n"
-      "cuts, and so does clearance unless --leaves segments is given. Discs cover more than outlines, so "
-      "agents\n"
-      "at a distance of 0 m need not collide. With --obstacles, --leaves segments applies to within, too.\n"
-      "--semantics applies to collide, to within, and to --all-pairs without --max-distance.\n"
-      "With --obstacles, each line is about one agent and the obstacles: id,... instead of "
-      "first,second,...;\n"
-      "contacts cannot be asked. FILE.wkt may have POLYGON, MULTIPOLYGON, LINESTRING, MULTILINESTRING and\n"
-      "GEOMETRYCOLLECTION; Z and M are ignored.\n"
-      "Notes on how a character's file was read go to standard error.\n"
-      "Example: bch query default:female agents.csv pairs.csv > answers.csv");
-  command.add_option("SHAPES", options->character, character_or_baked_help)->type_name("")->required();
-  command.add_option("AGENTS.csv", options->agents, "Columns id,shape,x,y,heading[,z][,level][,dx,dy]")
-      ->type_name("")
-      ->required();
-  command.add_option("PAIRS.csv", options->pairs, "Columns first,second: ids of agents")->type_name("");
+      R"(Columns of AGENTS.csv:
+  id             any text
+  shape          the number that bch inspect prints with the same --poses
+  x,y            position, metres
+  heading        radians. At 0 a built-in character faces +x, and a character of a file stands as in the file;
+                 +z of a y-up file becomes -y. For people who face +z in a y-up file (as in glTF), or -y in
+                 a z-up file, the heading is the direction in which they walk plus pi/2
+  level          index into --depths [the last]
+  z              height of the ground, metres; a baked file has to keep heights (bake --heights)
+  dx,dy          displacement of the agent, metres, without turning; for time-of-impact
+Output of --what: one line per line of PAIRS.csv, in the same order, unless stated otherwise:
+)" + query_help() +
+      R"(collide and contacts test what --leaves names. within, time-of-impact and penetration use the discs of the
+cuts, and so does clearance unless --leaves segments is given. Discs cover more than outlines, so agents
+at a distance of 0 m need not collide. With --obstacles, --leaves segments applies to within, too.
+--semantics applies to collide, to within, and to --all-pairs without --max-distance.
+With --obstacles, each line is about one agent and the obstacles: id,... instead of first,second,...;
+contacts cannot be asked. FILE.wkt may have POLYGON, MULTIPOLYGON, LINESTRING, MULTILINESTRING and
+GEOMETRYCOLLECTION; Z and M are ignored.
+Notes on how a character's file was read go to standard error.
+Example: bch query default:female agents.csv pairs.csv > answers.csv)");
+  const OptionAdder add(command);
+  add("SHAPES", options->character, "", character_or_baked_help)->required();
+  add("AGENTS.csv", options->agents, "", "Columns id,shape,x,y,heading[,z][,level][,dx,dy]")->required();
+  add("PAIRS.csv", options->pairs, "", "Columns first,second: ids of agents");
   command.add_flag("--all-pairs", options->all_pairs,
                    "Instead of PAIRS.csv: all pairs that collide or, with --max-distance, come within it");
   command.add_flag(
       "--guard-ids", options->guard_ids,
       "Put ' before ids that begin with =, +, - or @, unless they are numbers, for spreadsheets");
-  command
-      .add_option("--max-pairs", options->max_pairs,
-                  "Pairs of agents near each other, for --all-pairs [4 million plus 100 per agent]")
-      ->type_name("N")
-      ->check(whole_between(1, 1'000'000'000))
-      ->group("Limits");
-  command
-      .add_option(
-          "--obstacles", options->obstacles,
-          "Instead of PAIRS.csv: test all agents against these walls and polygons, in well-known text")
-      ->type_name("FILE.wkt");
+  OptionAdder(command, "Limits")(
+      "--max-pairs", options->max_pairs, "N",
+      "Pairs of agents near each other, for --all-pairs [4 million plus 100 per agent]",
+      whole_between(1, 1'000'000'000));
+  add("--obstacles", options->obstacles, "FILE.wkt",
+      "Instead of PAIRS.csv: test all agents against these walls and polygons, in well-known text");
   command.add_flag("--walkable", options->walkable,
                    "Polygons of --obstacles are floors to walk on, and their borders are walls");
-  command
-      .add_option("--obstacle-heights", options->obstacle_heights,
-                  "Heights of all --obstacles, metres, as agents' z; bodies above or below pass [infinite]")
-      ->type_name("BOTTOM,TOP");
+  add("--obstacle-heights", options->obstacle_heights, "BOTTOM,TOP",
+      "Heights of all --obstacles, metres, as agents' z; bodies above or below pass [infinite]");
   std::vector<std::string> names;
   for (const QueryKind& kind : query_kinds()) names.emplace_back(kind.name);
-  command
-      .add_option("--what", options->what,
-                  fmt::format("Query: {} [{}]", fmt::join(names, ", "), names.front()))
-      ->type_name("NAME")
-      ->check(one_of(names, {{"separation", "penetration"}, {"contact-time", "time-of-impact"}}));
-  command
-      .add_option("--directions", options->directions,
-                  "For penetration: try N evenly spread directions, N even, and take the best [16]")
-      ->type_name("N")
-      ->check(whole_between(2, most_directions));
-  command
-      .add_option("--direction", options->direction,
-                  "For penetration: move along this vector, of any length, instead")
-      ->type_name("X,Y");
-  command
-      .add_option(
-          "--max-distance", options->max_distance,
-          "Metres; for within: the distance; for clearance: the limit beyond which it is inf [no limit]")
-      ->type_name("M")
-      ->check(number_between(0, 2 * detail::rounding::largest_position));
-  command
-      .add_option(
-          "--overlap", options->overlap,
-          "For clearance where discs overlap: zero, or deepest: the deepest overlap of two, below 0 [zero]")
-      ->type_name("NAME")
-      ->check(one_of({"zero", "deepest"}));
+  add("--what", options->what, "NAME", fmt::format("Query: {} [{}]", fmt::join(names, ", "), names.front()),
+      one_of(names, {{"separation", "penetration"}, {"contact-time", "time-of-impact"}}));
+  add("--directions", options->directions, "N",
+      "For penetration: try N evenly spread directions, N even, and take the best [16]",
+      whole_between(2, most_directions));
+  add("--direction", options->direction, "X,Y",
+      "For penetration: move along this vector, of any length, instead");
+  add("--max-distance", options->max_distance, "M",
+      "Metres; for within: the distance; for clearance: the limit beyond which it is inf [no limit]",
+      number_between(0, 2 * detail::rounding::largest_position));
+  add("--overlap", options->overlap, "NAME",
+      "For clearance where discs overlap: zero, or deepest: the deepest overlap of two, below 0 [zero]",
+      one_of({"zero", "deepest"}));
   command.add_flag(
       "--points", options->points,
       "For clearance: also write the nearest points, relative to the positions of their agents, metres");

@@ -14,22 +14,15 @@ namespace {
 
 using namespace bch::cli;
 
-constexpr const char* description = "Measures bounding cylinder hierarchies against the paper and against exact arithmetic.";
+constexpr const char* description =
+    "Measures bounding cylinder hierarchies against the paper and against exact arithmetic.";
 
 int run(int argc, char** argv) {
   CLI::App program(description, "bch_lab");
-  program.footer("The exit codes are those of bch.");
-  program.set_version_flag("--version", "bch_lab " BCH_VERSION);
-  program.require_subcommand(1);
-  program.get_formatter()->column_width(24);
-  const std::pair<const char*, std::function<void()>> commands[] = {
-      {"report", add_report_command(program)},
-      {"stability", add_stability_command(program)},
-  };
-  if (!parse_command_line(program, argc, argv)) return exit_success;
-  for (const auto& [name, command] : commands)
-    if (program.got_subcommand(name)) command();
-  return exit_success;
+  set_up(program, BCH_VERSION, "The exit codes are those of bch.");
+  return run_command(program,
+                     {{"report", add_report_command(program)}, {"stability", add_stability_command(program)}},
+                     argc, argv);
 }
 
 }  // namespace

@@ -8,9 +8,9 @@
 
 #include "bench/base/command_line.hpp"
 #include "bench/base/exit_codes.hpp"
+#include "bench/base/options.hpp"
 #include "bench/base/output.hpp"
 #include "bench/characters/characters.hpp"
-#include "bench/cli/options.hpp"
 #include "bench/lab/commands.hpp"
 #include "bench/report/report.hpp"
 

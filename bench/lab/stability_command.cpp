@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "bench/base/exit_codes.hpp"
+#include "bench/base/options.hpp"
 #include "bench/base/output.hpp"
 #include "bench/base/threads.hpp"
-#include "bench/cli/options.hpp"
 #include "bench/lab/commands.hpp"
 #include "bench/lab/stability_report.hpp"
 #include "bench/lab/stiff_report.hpp"

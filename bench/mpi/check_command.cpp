@@ -8,9 +8,8 @@
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/output.hpp"
 #include "bench/base/threads.hpp"
-#include "bench/cli/check_parts.hpp"
-#include "bench/cli/part_options.hpp"
-#include "bench/mpi/commands.hpp"
+#include "bench/mpi/crowd.hpp"
+#include "bench/recordings/recording_check.hpp"
 #include "kernel/distributed/agreement.hpp"
 
 namespace bch::cli {
@@ -67,22 +66,16 @@ std::function<void()> add_check_command(CLI::App& program, MPI_Comm comm) {
   CLI::App& command = *program.add_subcommand(
       "check", "Check a recording as bch check does, with its parts divided among the ranks");
   command.footer(
-      "Writes the same bytes as bch check. Parts stay in the folder. A complete part of the same run that is "
-      "already there\n"
-      "is skipped. bch check --part makes the same parts.\n"
-      "Example: mpirun -n 16 bch_mpi check long.sqlite --into parts --parts 64 --json check.json");
+      R"(Writes the same bytes as bch check. Parts stay in the folder. A complete part of the same run that is already there
+is skipped. bch check --part makes the same parts.
+Example: mpirun -n 16 bch_mpi check long.sqlite --into parts --parts 64 --json check.json)");
   options->input.add_to(command);
   add_outputs_to(command, options->outputs);
-  command.add_option("--into", options->folder, "Folder of the parts, which all ranks have to see")
-      ->type_name("DIR")
-      ->required();
-  command
-      .add_option("--parts", options->parts, "Number of parts, which ranks take in turn [as many as ranks]")
-      ->type_name("N")
-      ->check(whole_between(1, 1'000'000));
-  command.add_option("--threads", options->threads, "Threads per rank [1]")
-      ->type_name("N")
-      ->check(whole_between(1, 1024));
+  const OptionAdder add(command);
+  add("--into", options->folder, "DIR", "Folder of the parts, which all ranks have to see")->required();
+  add("--parts", options->parts, "N", "Number of parts, which ranks take in turn [as many as ranks]",
+      whole_between(1, 1'000'000));
+  add("--threads", options->threads, "N", "Threads per rank [1]", whole_between(1, 1024));
   return [options, &command, comm] { check_on_ranks(command, *options, comm); };
 }
 

@@ -17,12 +17,10 @@
 
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/median.hpp"
+#include "bench/base/options.hpp"
 #include "bench/base/output.hpp"
 #include "bench/base/threads.hpp"
-#include "bench/cli/options.hpp"
-#include "bench/mpi/commands.hpp"
-#include "bench/mpi/rank_report.hpp"
-#include "bench/mpi/scenery.hpp"
+#include "bench/mpi/crowd.hpp"
 #include "kernel/distributed/agreement.hpp"
 #include "layout/base/random.hpp"
 
@@ -187,38 +185,21 @@ std::function<void()> add_crowd_command(CLI::App& program, MPI_Comm comm) {
   const auto options = std::make_shared<WalkOptions>();
   CLI::App& command = *program.add_subcommand(
       "crowd", "Walk a crowd that is divided among the ranks, and report the work and time of each rank");
-  command.add_option("file", options->file, "Baked file of shapes (bch bake); every rank maps it")
-      ->type_name("FILE")
-      ->required();
-  command.add_option("--agents", options->agents, "Total number of agents [100000]")
-      ->type_name("N")
-      ->check(whole_between(1, 4'000'000'000));
-  command
-      .add_option("--kind", options->kind,
-                  "Kind of crowd: uniform, spot (a dense place), stadium or street [uniform]")
-      ->type_name("NAME")
-      ->check(one_of(scenery_kinds));
-  command.add_option("--density", options->density, "Agents per square metre [3]")
-      ->type_name("D")
-      ->check(number_between(1e-6, 1e3));
-  command.add_option("--steps", options->steps, "Number of measured steps [10]")
-      ->type_name("N")
-      ->check(whole_between(1, 1'000'000));
-  command
-      .add_option("--imbalance", options->imbalance,
-                  "Divide the crowd anew if a rank has more than R times the mean number of pairs [1.04]")
-      ->type_name("R")
-      ->check(number_between(1, 1e6));
-  command
-      .add_option("--agent-pairs", options->agent_pairs,
-                  "Weight of an agent, in pairs, when work is balanced; 1.3 balances time [0]")
-      ->type_name("N")
-      ->check(number_between(0, 1000));
-  command.add_option("--threads", options->threads, "Threads per rank [1]")
-      ->type_name("N")
-      ->check(whole_between(1, 1024));
+  const OptionAdder add(command);
+  add("file", options->file, "FILE", "Baked file of shapes (bch bake); every rank maps it")->required();
+  add("--agents", options->agents, "N", "Total number of agents [100000]", whole_between(1, 4'000'000'000));
+  add("--kind", options->kind, "NAME",
+      "Kind of crowd: uniform, spot (a dense place), stadium or street [uniform]", one_of(scenery_kinds));
+  add("--density", options->density, "D", "Agents per square metre [3]", number_between(1e-6, 1e3));
+  add("--steps", options->steps, "N", "Number of measured steps [10]", whole_between(1, 1'000'000));
+  add("--imbalance", options->imbalance, "R",
+      "Divide the crowd anew if a rank has more than R times the mean number of pairs [1.04]",
+      number_between(1, 1e6));
+  add("--agent-pairs", options->agent_pairs, "N",
+      "Weight of an agent, in pairs, when work is balanced; 1.3 balances time [0]", number_between(0, 1000));
+  add("--threads", options->threads, "N", "Threads per rank [1]", whole_between(1, 1024));
   command.add_flag("--plain", options->is_plain, "Use CrowdCollider in one process instead, for comparison");
-  command.add_option("--json", options->json, "Write the report as JSON")->type_name("FILE");
+  add("--json", options->json, "FILE", "Write the report as JSON");
   return [options, comm] { run(*options, comm); };
 }
 

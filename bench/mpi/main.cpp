@@ -4,17 +4,14 @@
 #include <fmt/format.h>
 #include <malloc.h>
 
-#include <algorithm>
-#include <functional>
 #include <string>
-#include <utility>
 
 #include <bch/distributed_crowd.hpp>
 
 #include "bench/base/command_line.hpp"
 #include "bench/base/interrupt.hpp"
 #include "bench/base/run_main.hpp"
-#include "bench/mpi/commands.hpp"
+#include "bench/mpi/crowd.hpp"
 #include "kernel/distributed/session.hpp"
 
 namespace {
@@ -23,31 +20,20 @@ using namespace bch::cli;
 using bch::detail::Session;
 
 constexpr const char* description =
-    "Queries crowds on many processes, started by MPI: mpirun -n 4 bch_mpi crowd people.bch\n"
-    "Lengths are in metres. Headings are in radians, counter-clockwise. The ground plane is x-y.";
+    R"(Queries crowds on many processes, started by MPI: mpirun -n 4 bch_mpi crowd people.bch
+Lengths are in metres. Headings are in radians, counter-clockwise. The ground plane is x-y.)";
 constexpr const char* footer =
-    "Rank 0 writes all output. If one rank fails, all ranks end, with one message that names it.\n"
-    "The exit codes are those of bch.";
+    R"(Rank 0 writes all output. If one rank fails, all ranks end, with one message that names it.
+The exit codes are those of bch.)";
 
-int run_command(const Session& session, int argc, char** argv) {
+int run_program(const Session& session, int argc, char** argv) {
   CLI::App program(description, "bch_mpi");
-  program.footer(footer);
-  program.set_version_flag("--version", "bch_mpi " BCH_VERSION);
-  program.require_subcommand(1);
-  program.get_formatter()->column_width(24);
-  const std::pair<const char*, std::function<void()>> commands[] = {
-      {"check", add_check_command(program, session.comm())},
-      {"crowd", add_crowd_command(program, session.comm())},
-      {"simulate", add_simulate_command(program, session.comm())},
-  };
-  const std::string word = argc > 1 ? argv[1] : "-";
-  if (word[0] != '-' && std::ranges::none_of(commands, [&](const auto& one) { return one.first == word; }))
-    throw UsageError("no command '" + word + "' (check, crowd, simulate)");
-  if (argc > 1 && word[0] == '-' && session.rank() != 0) return exit_success;  // help and version once
-  if (!parse_command_line(program, argc, argv)) return exit_success;
-  for (const auto& [name, command] : commands)
-    if (program.got_subcommand(name)) command();
-  return exit_success;
+  set_up(program, BCH_VERSION, footer);
+  if (argc > 1 && argv[1][0] == '-' && session.rank() != 0) return exit_success;  // help and version once
+  return run_command(program,
+                     {{"check", add_check_command(program, session.comm())},
+                      {"crowd", add_crowd_command(program, session.comm())}},
+                     argc, argv);
 }
 
 /// Ends with an error that all ranks know of: rank 0 alone writes it.
@@ -59,7 +45,7 @@ int end_together(const Session& session, const Error& error, int code) {
 
 int run_rank(const Session& session, int argc, char** argv) {
   try {
-    return run_command(session, argc, argv);
+    return run_program(session, argc, argv);
   } catch (const bch::RankError& error) {
     return end_together(session, InputError(error.what()), exit_bad_input);
   } catch (const CheckFailed& error) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "bench/mpi/rank_report.hpp"
+#include "bench/mpi/crowd.hpp"
 
 #include <fmt/format.h>
 

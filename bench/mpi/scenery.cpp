@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "bench/mpi/scenery.hpp"
+#include "bench/mpi/crowd.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -25,19 +24,19 @@ bool in_street(double across) {
 
 const std::vector<std::string> scenery_kinds = {"uniform", "spot", "stadium", "street"};
 
-Scenery::Scenery(const std::string& kind, std::uint64_t agents, double density) : agents_(agents) {
+Scenery::Scenery(const std::string& kind, std::uint64_t agents, double density) {
   const double area = static_cast<double>(agents) / density, half = std::sqrt(area) / 2;
   const auto square = [](double share, double half_side) {
-    return Layer{share, 4 * half_side * half_side, half_side, false, false, 0, 0, 0, 0};
+    return Layer{share, half_side, false, false, 0, 0, 0, 0};
   };
   const auto ring = [&](double share, double times_density, double inner, double x) {
     const double ring_area = share * area / times_density;
     const double outer = std::sqrt(ring_area / (pi * (1 - inner * inner)));
-    return Layer{share, ring_area, 0, false, false, inner * outer, outer, x, x};
+    return Layer{share, 0, false, false, inner * outer, outer, x, x};
   };
   const auto streets = [&](bool rows) {
     const double half_side = std::sqrt(area / 2 * (block / street_width)) / 2;
-    return Layer{0.5, area / 2, half_side, rows, !rows, 0, 0, 0, 0};
+    return Layer{0.5, half_side, rows, !rows, 0, 0, 0, 0};
   };
   if (kind == "spot")
     layers_ = {square(0.75, half * std::sqrt(0.75)), ring(0.25, 4, 0, half / 3)};
@@ -72,19 +71,6 @@ CrowdAgent Scenery::agent(std::uint64_t number, std::uint32_t shapes) const {
     agent.y = layer.y + reach * (2 * random.uniform(1) - 1);
   } while (!layer.holds(agent.x, agent.y));
   return agent;
-}
-
-double Scenery::density(double x, double y) const {
-  double sum = 0;
-  for (const Layer& layer : layers_)
-    if (layer.holds(x, y)) sum += layer.share * static_cast<double>(agents_) / layer.area;
-  return sum;
-}
-
-double Scenery::half_side() const {
-  double most = 0;
-  for (const Layer& layer : layers_) most = std::max({most, layer.half_side, layer.x + layer.outer});
-  return most;
 }
 
 }  // namespace bch::cli

@@ -14,12 +14,7 @@
 
 #include "bench/base/printable.hpp"
 #include "bench/base/text.hpp"
-#include "bench/recordings/embedded.hpp"
 #include "bench/recordings/embedding.hpp"
-#include "bench/recordings/kept_frames.hpp"
-#include "bench/recordings/overlap_series.hpp"
-#include "bench/recordings/page_shapes.hpp"
-#include "bench/recordings/rounded.hpp"
 
 namespace bch::cli {
 namespace {
@@ -37,24 +32,30 @@ Json json_id(std::int64_t id) {
   return -most <= id && id <= most ? Json(id) : Json(std::to_string(id));
 }
 
+/// Of a pass it is 0.
+float depth_of(const detail::OverlapEvent& event) {
+  return std::max(0.0f, event.depth);
+}
+
 /// Returns the numbers of the deepest events, in their order.
-std::vector<std::size_t> listed(std::span<const PageEvent> events) {
+std::vector<std::size_t> listed(std::span<const detail::OverlapEvent> events) {
   std::vector<std::size_t> order(events.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   if (order.size() <= CheckPage::most_events) return order;
-  std::ranges::stable_sort(order, std::greater(), [&](std::size_t i) { return events[i].depth; });
+  std::ranges::stable_sort(order, std::greater(), [&](std::size_t i) { return depth_of(events[i]); });
   order.resize(CheckPage::most_events);
   std::ranges::sort(order);
   return order;
 }
 
-Json json_events(std::span<const PageEvent> events) {
+Json json_events(std::span<const detail::OverlapEvent> events, double fps) {
   Json list = Json::array();
   for (const std::size_t i : listed(events)) {
-    const PageEvent& event = events[i];
+    const detail::OverlapEvent& event = events[i];
     Json row{json_id(event.first), event.is_wall ? Json() : json_id(event.second)};
-    for (const double seconds : {event.from, event.to, event.worst}) row.push_back(rounded_to(1e6, seconds));
-    for (const double metres : {static_cast<double>(event.depth), event.at.x, event.at.y})
+    for (const double frame : {static_cast<double>(event.from), static_cast<double>(event.to), event.worst})
+      row.push_back(rounded_to(1e6, frame / fps));
+    for (const double metres : {static_cast<double>(depth_of(event)), event.x, event.y})
       row.push_back(rounded_to(1e4, metres));
     list.push_back(std::move(row));
   }
@@ -112,40 +113,30 @@ std::string filled(std::string_view text,
 
 }  // namespace
 
-struct CheckPage::State {
-  PageFacts facts;
-  PageShapeSource source;
-  std::size_t most_bytes;
-  KeptFrames frames;
-  PageShapes shapes;
-  OverlapSeries series;
-
-  std::string fixed_blocks() const;
-  std::string meta_block(std::span<const PageEvent> events);
-  std::string html(std::string_view data) const;
-};
+CheckPage::CheckPage(PageFacts facts, PageShapeSource shapes, std::size_t most_bytes)
+    : facts_(std::move(facts)), source_(std::move(shapes)), most_bytes_(most_bytes) {}
 
 /// What does not become less by dropping frames.
-std::string CheckPage::State::fixed_blocks() const {
-  return shapes.blocks() + series.blocks() + wall_blocks(facts, frames.corner());
+std::string CheckPage::fixed_blocks() const {
+  return shapes_.blocks() + series_.blocks() + wall_blocks(facts_, frames_.corner());
 }
 
-std::string CheckPage::State::meta_block(std::span<const PageEvent> events) {
+std::string CheckPage::meta_block(std::span<const detail::OverlapEvent> events) const {
   Json ids = Json::array();
-  for (const std::int64_t id : frames.ids()) ids.push_back(json_id(id));
-  return json_block("meta", {{"fps", facts.fps},
-                             {"step", frames.step()},
-                             {"frames", frames.seen()},
-                             {"corner", {frames.corner().x, frames.corner().y}},
-                             {"facts", json_facts(facts)},
-                             {"shapes", shapes.names()},
+  for (const std::int64_t id : frames_.ids()) ids.push_back(json_id(id));
+  return json_block("meta", {{"fps", facts_.fps},
+                             {"step", frames_.step()},
+                             {"frames", frames_.seen()},
+                             {"corner", {frames_.corner().x, frames_.corner().y}},
+                             {"facts", json_facts(facts_)},
+                             {"shapes", shapes_.names()},
                              {"ids", std::move(ids)},
                              {"allEvents", events.size()},
-                             {"events", json_events(events)}});
+                             {"events", json_events(events, facts_.fps)}});
 }
 
-std::string CheckPage::State::html(std::string_view data) const {
-  const std::string title = escaped(facts.title), rules = policy();
+std::string CheckPage::html(std::string_view data) const {
+  const std::string title = escaped(facts_.title), rules = policy();
   const std::pair<std::string_view, std::string_view> tags[] = {{"title", title},
                                                                 {"policy", rules},
                                                                 {"style", check_page_style()},
@@ -154,38 +145,26 @@ std::string CheckPage::State::html(std::string_view data) const {
   return filled(check_page_template(), tags);
 }
 
-CheckPage::CheckPage(PageFacts facts, PageShapeSource shapes, std::size_t most_bytes)
-    : state_(new State{std::move(facts), std::move(shapes), most_bytes, {}, {}, {}}) {}
-CheckPage::CheckPage(CheckPage&&) noexcept = default;
-CheckPage& CheckPage::operator=(CheckPage&&) noexcept = default;
-CheckPage::~CheckPage() = default;
-
-void CheckPage::add_frame(const PageFrame& frame) {
-  State& s = *state_;
-  const auto overlapping =
-      std::ranges::count_if(frame.people, [](const PagePerson& p) { return p.overlaps || p.in_wall; });
-  s.series.add(frame.seconds, static_cast<std::uint32_t>(overlapping),
-               static_cast<std::uint32_t>(frame.people.size()));
-  if (!s.frames.add(frame)) return;
-  for (std::size_t i = s.shapes.size(); i < s.frames.shapes().size(); ++i)
-    s.shapes.add(s.source(s.frames.shapes()[i]));
-  while (s.frames.block_size() + s.shapes.block_size() > s.most_bytes && s.frames.halve()) {
+void CheckPage::add_frame(const detail::CheckedFrame& frame) {
+  const auto overlapping = std::ranges::count_if(
+      frame.people, [](const detail::CheckedPerson& p) { return p.overlaps || p.in_wall; });
+  series_.add(frame.seconds, static_cast<std::uint32_t>(overlapping),
+              static_cast<std::uint32_t>(frame.people.size()));
+  if (!frames_.add(frame)) return;
+  for (std::size_t i = shapes_.size(); i < frames_.shapes().size(); ++i)
+    shapes_.add(source_(frames_.shapes()[i]));
+  while (frames_.block_size() + shapes_.block_size() > most_bytes_ && frames_.halve()) {
   }
 }
 
-std::uint64_t CheckPage::step() const {
-  return state_->frames.step();
-}
-
-std::string CheckPage::finish(std::span<const PageEvent> events) && {
-  State& s = *state_;
-  const std::string fixed = s.fixed_blocks();
-  std::string meta = s.meta_block(events);
-  const std::size_t rest = fixed.size() + meta.size() + s.html("").size();
-  while (rest + s.frames.block_size() > s.most_bytes && s.frames.halve()) {
+std::string CheckPage::finish(std::span<const detail::OverlapEvent> events) && {
+  const std::string fixed = fixed_blocks();
+  std::string meta = meta_block(events);
+  const std::size_t rest = fixed.size() + meta.size() + html("").size();
+  while (rest + frames_.block_size() > most_bytes_ && frames_.halve()) {
   }
-  meta = s.meta_block(events);  // tells the step
-  return s.html(meta + s.frames.blocks() + fixed);
+  meta = meta_block(events);  // tells the step
+  return html(meta + frames_.blocks() + fixed);
 }
 
 }  // namespace bch::cli

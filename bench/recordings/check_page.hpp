@@ -6,71 +6,23 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
-#include <bch/geometry.hpp>
+#include "bench/recordings/kept_frames.hpp"
+#include "bench/recordings/overlap_series.hpp"
+#include "bench/recordings/page_shapes.hpp"
+#include "kernel/recordings/check.hpp"
 
 // The page of a checked recording: one HTML file that plays it without a network.
 
 namespace bch::cli {
 
-/// Represents a point of the ground in the recording's coordinates, metres, which floats may be too coarse
-/// for.
-struct PagePoint {
-  double x = 0;
-  double y = 0;
-};
-
-/// Represents a person in a frame.
-struct PagePerson {
-  std::int64_t id = 0;      ///< that of the recording, unique in a frame
-  std::uint32_t shape = 0;  ///< any number that the source of shapes knows
-  PagePoint at = {};        ///< finite
-  float heading = 0;        ///< radians, counter-clockwise from the x axis
-  float speed = 0;          ///< metres per second
-  bool overlaps = false;    ///< with somebody
-  bool in_wall = false;
-};
-
-/// Represents two people who overlap, or a person and a wall.
-struct PageOverlap {
-  std::int64_t first = 0;
-  std::int64_t second =
-      0;  ///< a person's id, who is in the frame; of a wall nothing is kept but that it is one
-  bool is_wall = false;
-};
-
-struct PageFrame {
-  std::int64_t frame = 0;  ///< its number in the recording
-  double seconds = 0;      ///< since the recording began; more than in the frame before
-  std::span<const PagePerson> people;
-  std::span<const PageOverlap> overlaps;
-};
-
-/// Represents an overlap from its first frame to its last.
-struct PageEvent {
-  std::int64_t first = 0;
-  std::int64_t second = 0;
-  bool is_wall = false;
-  double from = 0, to = 0, worst = 0;  ///< seconds; `worst` is when it is deepest
-  float depth = 0;                     ///< metres, where it is deepest
-  PagePoint at;                        ///< where it is deepest
-};
-
-/// Holds what a person looks like in a pose: metres, in the frame of the shape, whose origin is the person's
-/// place.
-struct PageShape {
-  std::string name;
-  std::vector<std::vector<Vec2>> contours;
-  std::vector<Disc> discs = {};  ///< those of a level, which the page shows on demand; may be empty
-};
-
-/// Tells what a shape looks like, once for each number.
-using PageShapeSource = std::function<PageShape(std::uint32_t shape)>;
+/// Tells what a pose looks like, once for each number.
+using PageShapeSource = std::function<PageShape(std::uint32_t pose)>;
 
 /// Holds what is known of a recording before its first frame. Texts come from files that may be anybody's: the page
 /// shows them, whatever they are.
@@ -93,22 +45,27 @@ class CheckPage {
   static constexpr std::size_t most_events = 5000;
 
   CheckPage(PageFacts facts, PageShapeSource shapes, std::size_t most_bytes = default_most_bytes);
-  CheckPage(CheckPage&&) noexcept;
-  CheckPage& operator=(CheckPage&&) noexcept;
-  ~CheckPage();
 
   /// Adds the next frame. Shapes that it is the first to show are asked for.
-  void add_frame(const PageFrame& frame);
+  void add_frame(const detail::CheckedFrame& frame);
 
   /// Returns of how many frames one is kept so far: a power of two.
-  std::uint64_t step() const;
+  std::uint64_t step() const { return frames_.step(); }
 
   /// Returns the page. It is larger than asked only if its first frame, walls and facts alone are.
-  std::string finish(std::span<const PageEvent> events) &&;
+  std::string finish(std::span<const detail::OverlapEvent> events) &&;
 
  private:
-  struct State;
-  std::unique_ptr<State> state_;
+  std::string fixed_blocks() const;
+  std::string meta_block(std::span<const detail::OverlapEvent> events) const;
+  std::string html(std::string_view data) const;
+
+  PageFacts facts_;
+  PageShapeSource source_;
+  std::size_t most_bytes_;
+  KeptFrames frames_;
+  PageShapes shapes_;
+  OverlapSeries series_;
 };
 
 }  // namespace bch::cli

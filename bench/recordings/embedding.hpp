@@ -3,10 +3,11 @@
 
 #pragma once
 
+#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
+#include <limits>
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
@@ -62,5 +63,31 @@ inline std::string index_block(std::string_view name, const std::vector<std::uin
   for (std::size_t i = 0; i < numbers.size(); ++i) shorter[i] = static_cast<std::uint16_t>(numbers[i]);
   return number_block(name, shorter);
 }
+
+/// Returns the nearest value of an integer type of at most 32 bits: its least or largest beyond its range, 0 for what
+/// is not a number.
+template <class Integer>
+Integer rounded(double value) {
+  using Limits = std::numeric_limits<Integer>;
+  static_assert(sizeof(Integer) <= 4);
+  if (std::isnan(value)) return 0;
+  const double whole = std::round(value);
+  if (whole <= static_cast<double>(Limits::min())) return Limits::min();
+  if (whole >= static_cast<double>(Limits::max())) return Limits::max();
+  return static_cast<Integer>(whole);
+}
+
+// Files of this folder that the program carries with it.
+
+/// Returns page.html, whose tags {{title}}, {{policy}}, {{style}}, {{data}} and {{script}} are to be filled in.
+std::string_view check_page_template();
+/// Returns page.css.
+std::string_view check_page_style();
+/// Returns the scripts, one after the other, in a function of their own.
+std::string_view check_page_script();
+
+/// Hashes (SHA-256) of style and script in hexadecimal digits, by which browsers know them from what others may have slipped in.
+std::string_view check_page_style_hash();
+std::string_view check_page_script_hash();
 
 }  // namespace bch::cli

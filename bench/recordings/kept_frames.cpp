@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "bench/recordings/embedding.hpp"
-#include "bench/recordings/rounded.hpp"
 
 namespace bch::cli {
 namespace {
@@ -64,23 +63,24 @@ KeptFrames::Place KeptFrames::place_of(PagePoint at) {
   return place;
 }
 
-KeptFrames::Person KeptFrames::kept(const PagePerson& person) {
-  return {ids_.number(person.id),
-          shapes_.number(person.shape),
-          place_of(person.at),
-          kept_heading(person.heading),
-          rounded<std::uint16_t>(static_cast<double>(person.speed) * 1000),
+KeptFrames::Person KeptFrames::kept(const detail::CheckedPerson& person) {
+  const detail::Walker& walker = person.walker;
+  return {ids_.number(walker.id),
+          shapes_.number(person.pose),
+          place_of({walker.x, walker.y}),
+          kept_heading(static_cast<float>(walker.heading)),
+          rounded<std::uint16_t>(static_cast<double>(static_cast<float>(walker.speed)) * 1000),
           static_cast<std::uint8_t>((person.overlaps ? 1 : 0) | (person.in_wall ? 2 : 0))};
 }
 
-bool KeptFrames::add(const PageFrame& frame) {
+bool KeptFrames::add(const detail::CheckedFrame& frame) {
   if (seen_++ % step_ != 0) return false;
   numbers_.push_back(static_cast<double>(frame.frame));
   seconds_.push_back(frame.seconds);
-  for (const PagePerson& person : frame.people) people_.push_back(kept(person));
-  for (const PageOverlap& overlap : frame.overlaps)
-    overlaps_.push_back(
-        {ids_.number(overlap.first), overlap.is_wall ? wall_number : ids_.number(overlap.second)});
+  for (const detail::CheckedPerson& person : frame.people) people_.push_back(kept(person));
+  for (const detail::CheckedPair& pair : frame.pairs)
+    if (pair.overlap)
+      overlaps_.push_back({ids_.number(pair.first), pair.is_wall ? wall_number : ids_.number(pair.second)});
   people_begin_.push_back(static_cast<std::uint32_t>(people_.size()));
   overlaps_begin_.push_back(static_cast<std::uint32_t>(overlaps_.size()));
   return true;

@@ -9,10 +9,17 @@
 #include <unordered_map>
 #include <vector>
 
-#include "bench/recordings/check_page.hpp"
+#include "kernel/recordings/check.hpp"
 #include "layout/base/mixed_hash.hpp"
 
 namespace bch::cli {
+
+/// Represents a point of the ground in the recording's coordinates, metres, which floats may be too coarse
+/// for.
+struct PagePoint {
+  double x = 0;
+  double y = 0;
+};
 
 /// Numbers things in the order in which they first appear.
 template <class Key>
@@ -36,7 +43,7 @@ class KeptFrames {
  public:
   /// Keeps a frame, or counts it alone if it lies between two steps.
   /// Returns: whether it was kept.
-  bool add(const PageFrame& frame);
+  bool add(const detail::CheckedFrame& frame);
   /// Doubles the step and drops every second frame. With one frame or none nothing is left to drop.
   /// Returns: whether there was anything.
   bool halve();
@@ -74,7 +81,7 @@ class KeptFrames {
     std::uint32_t first, second;  ///< numbers of ids
   };
 
-  Person kept(const PagePerson& person);
+  Person kept(const detail::CheckedPerson& person);
   Place place_of(PagePoint at);
   void forget_unused_ids();
   bool narrow_ids() const { return ids().size() < 0xffff; }

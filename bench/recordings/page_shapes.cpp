@@ -9,7 +9,6 @@
 
 #include "bench/base/printable.hpp"
 #include "bench/recordings/embedding.hpp"
-#include "bench/recordings/rounded.hpp"
 
 namespace bch::cli {
 namespace {

@@ -7,9 +7,17 @@
 #include <string>
 #include <vector>
 
-#include "bench/recordings/check_page.hpp"
+#include <bch/geometry.hpp>
 
 namespace bch::cli {
+
+/// Holds what a person looks like in a pose: metres, in the frame of the shape, whose origin is the person's
+/// place.
+struct PageShape {
+  std::string name;
+  std::vector<std::vector<Vec2>> contours;
+  std::vector<Disc> discs = {};  ///< those of a level, which the page shows on demand; may be empty
+};
 
 /// Represents a point of an outline: millimetres in the shape's frame.
 struct ShapePoint {

@@ -16,7 +16,6 @@
 #include "bench/recordings/embedding.hpp"
 #include "bench/recordings/overlap_series.hpp"
 #include "bench/recordings/page_shapes.hpp"
-#include "bench/recordings/rounded.hpp"
 #include "layout/base/random.hpp"
 #include "tests/support/page_blocks.hpp"
 

@@ -25,6 +25,7 @@ namespace bch::cli {
 namespace {
 
 using Json = nlohmann::json;
+using detail::CheckedFrame, detail::CheckedPair, detail::CheckedPerson, detail::OverlapEvent;
 using test::Blocks;
 
 PageShape square(std::uint32_t shape) {
@@ -37,24 +38,30 @@ PageShape square(std::uint32_t shape) {
 struct Frame {
   std::int64_t number;
   double seconds;
-  std::vector<PagePerson> people;
-  std::vector<PageOverlap> overlaps;
+  std::vector<CheckedPerson> people;
+  std::vector<CheckedPair> pairs;
 
-  PageFrame view() const { return {number, seconds, people, overlaps}; }
+  CheckedFrame view() const { return {number, seconds, people, pairs}; }
 };
+
+CheckedPair overlap(std::int64_t first, std::int64_t second, bool is_wall) {
+  CheckedPair pair{};
+  pair.first = first, pair.second = second, pair.is_wall = is_wall, pair.overlap = true;
+  return pair;
+}
 
 Frame random_frame(detail::Random& random, std::int64_t number, std::uint32_t people, double side) {
   Frame frame{number, static_cast<double>(number) / 25, {}, {}};
-  for (std::uint32_t i = 0; i < people; ++i)
-    frame.people.push_back({1000 - 3 * static_cast<std::int64_t>(i),
-                            7 * random.below(5),
-                            {-4000 + random.uniform(side), 9000 + random.uniform(side)},
-                            static_cast<float>(random.uniform(40) - 20),
-                            static_cast<float>(random.uniform(3)),
-                            random.below(4) == 0,
-                            random.below(5) == 0});
+  for (std::uint32_t i = 0; i < people; ++i) {
+    CheckedPerson& person = frame.people.emplace_back();
+    person.walker.id = 1000 - 3 * static_cast<std::int64_t>(i), person.pose = 7 * random.below(5);
+    person.walker.x = -4000 + random.uniform(side), person.walker.y = 9000 + random.uniform(side);
+    person.walker.heading = random.uniform(40) - 20, person.walker.speed = random.uniform(3);
+    person.overlaps = random.below(4) == 0, person.in_wall = random.below(5) == 0;
+  }
   for (std::uint32_t i = 0; i + 1 < people; i += 4)
-    frame.overlaps.push_back({frame.people[i].id, frame.people[i + 1].id, i % 3 == 0});
+    frame.pairs.push_back(overlap(frame.people[i].walker.id, frame.people[i + 1].walker.id, i % 3 == 0));
+  frame.pairs.push_back({});  // who are near each other and do not overlap: not of the page
   return frame;
 }
 
@@ -67,7 +74,7 @@ std::vector<Frame> random_frames(std::uint32_t count, std::uint32_t people, doub
 }
 
 std::string page_of(const std::vector<Frame>& frames, std::size_t most_bytes = CheckPage::default_most_bytes,
-                    const std::vector<PageEvent>& events = {},
+                    const std::vector<OverlapEvent>& events = {},
                     PageFacts facts = {.title = "title", .fps = 25}) {
   CheckPage page(std::move(facts), square, most_bytes);
   for (const Frame& frame : frames) page.add_frame(frame.view());
@@ -75,32 +82,34 @@ std::string page_of(const std::vector<Frame>& frames, std::size_t most_bytes = C
 }
 
 /// Compares a row of the page with the person.
-void expect_person(const PagePerson& person, const Json& meta, const std::map<std::string, double>& row) {
-  EXPECT_EQ(meta["ids"][static_cast<std::size_t>(row.at("who"))], person.id);
-  EXPECT_EQ(meta["shapes"][static_cast<std::size_t>(row.at("shape"))], fmt::format("shape {}", person.shape));
-  EXPECT_NEAR(meta["corner"][0].get<double>() + row.at("x") / 1000, person.at.x, 0.00051);
-  EXPECT_NEAR(meta["corner"][1].get<double>() + row.at("y") / 1000, person.at.y, 0.00051);
-  EXPECT_NEAR(row.at("speed") / 1000, person.speed, 0.00051);
+void expect_person(const CheckedPerson& person, const Json& meta, const std::map<std::string, double>& row) {
+  EXPECT_EQ(meta["ids"][static_cast<std::size_t>(row.at("who"))], person.walker.id);
+  EXPECT_EQ(meta["shapes"][static_cast<std::size_t>(row.at("shape"))], fmt::format("shape {}", person.pose));
+  EXPECT_NEAR(meta["corner"][0].get<double>() + row.at("x") / 1000, person.walker.x, 0.00051);
+  EXPECT_NEAR(meta["corner"][1].get<double>() + row.at("y") / 1000, person.walker.y, 0.00051);
+  EXPECT_NEAR(row.at("speed") / 1000, person.walker.speed, 0.00051);
   EXPECT_EQ(row.at("marks"), (person.overlaps ? 1 : 0) + (person.in_wall ? 2 : 0));
-  const double turned =
-      std::remainder(row.at("heading") * std::numbers::pi / 32768 - static_cast<double>(person.heading),
-                     2 * std::numbers::pi);
+  const double turned = std::remainder(row.at("heading") * std::numbers::pi / 32768 - person.walker.heading,
+                                       2 * std::numbers::pi);
   EXPECT_LT(std::abs(turned), 1e-4);
 }
 
-/// Compares the pairs of a frame, the first of which is number `first` of the page.
-void expect_overlaps(const Blocks& blocks, const Json& meta, std::size_t first, const Frame& frame) {
+/// Compares the pairs of a frame, the first of which is number `first` of the page. Returns how many these are.
+std::size_t expect_overlaps(const Blocks& blocks, const Json& meta, std::size_t first, const Frame& frame) {
   const auto pairs = blocks("overlaps");
   const double wall = blocks.type("overlaps") == "u16" ? 65535 : 4294967295;
-  for (const PageOverlap& overlap : frame.overlaps) {
-    EXPECT_EQ(meta["ids"][static_cast<std::size_t>(pairs[2 * first])], overlap.first);
-    const double second = pairs[2 * first + 1];
-    ASSERT_EQ(second == wall, overlap.is_wall);
-    if (!overlap.is_wall) {
-      EXPECT_EQ(meta["ids"][static_cast<std::size_t>(second)], overlap.second);
+  std::size_t next = first;
+  for (const CheckedPair& pair : frame.pairs) {
+    if (!pair.overlap) continue;
+    EXPECT_EQ(meta["ids"][static_cast<std::size_t>(pairs[2 * next])], pair.first);
+    const double second = pairs[2 * next + 1];
+    EXPECT_EQ(second == wall, pair.is_wall);
+    if (!pair.is_wall) {
+      EXPECT_EQ(meta["ids"][static_cast<std::size_t>(second)], pair.second);
     }
-    ++first;
+    ++next;
   }
+  return next - first;
 }
 
 /// Compares all of a page with the frames, of which it kept one of every `step`.
@@ -125,8 +134,8 @@ void expect_frames(const std::string& html, const std::vector<Frame>& frames, st
         row[column.first] = column.second.at(static_cast<std::size_t>(begin[i]) + p);
       expect_person(frame.people[p], meta, row);
     }
-    ASSERT_EQ(overlaps_begin[i + 1] - overlaps_begin[i], static_cast<double>(frame.overlaps.size()));
-    expect_overlaps(blocks, meta, static_cast<std::size_t>(overlaps_begin[i]), frame);
+    ASSERT_EQ(overlaps_begin[i + 1] - overlaps_begin[i],
+              expect_overlaps(blocks, meta, static_cast<std::size_t>(overlaps_begin[i]), frame));
   }
 }
 
@@ -152,7 +161,8 @@ TEST(CheckPage, HoldsMorePeopleThanSixteenBitsCount) {
   EXPECT_EQ(Blocks(html).type("who"), "u32");
   EXPECT_EQ(Blocks(html).type("overlaps"), "u32");
   const auto who = Blocks(html)("who");
-  EXPECT_EQ(Blocks(html).meta()["ids"][static_cast<std::size_t>(who.back())], frames[0].people.back().id);
+  EXPECT_EQ(Blocks(html).meta()["ids"][static_cast<std::size_t>(who.back())],
+            frames[0].people.back().walker.id);
   EXPECT_EQ(Blocks(html)("overlaps")[1], 4294967295);
 }
 
@@ -192,9 +202,8 @@ TEST(CheckPage, ForgetsPeopleOfDroppedFrames) {
   std::vector<Frame> frames = random_frames(1000, 10, 30);
   std::int64_t id = 0;
   for (Frame& frame : frames) {
-    frame.overlaps.clear();
-    for (PagePerson& person : frame.people) person.id = ++id;
-    frame.overlaps.push_back({id, id - 1, false});
+    for (CheckedPerson& person : frame.people) person.walker.id = ++id;
+    frame.pairs = {overlap(id, id - 1, false)};
   }
   const std::string html = page_of(frames, 250'000);
   EXPECT_LE(html.size(), 250'000u);
@@ -207,7 +216,7 @@ TEST(CheckPage, ForgetsPeopleOfDroppedFrames) {
 TEST(CheckPage, TimelineTellsOfFramesThatAreDropped) {
   std::vector<Frame> frames = random_frames(101, 40, 30);
   for (Frame& frame : frames)
-    for (PagePerson& person : frame.people) person.overlaps = person.in_wall = false;
+    for (CheckedPerson& person : frame.people) person.overlaps = person.in_wall = false;
   frames[37].people[0].overlaps = frames[37].people[1].in_wall = true;
   const std::string html = page_of(frames, 110'000);
   EXPECT_GT(Blocks(html).meta()["step"], 1);
@@ -265,24 +274,19 @@ TEST(CheckPage, NothingFromOutsideBecomesMarkup) {
 }
 
 TEST(CheckPage, ListsTheDeepestEvents) {
-  std::vector<PageEvent> events;
+  std::vector<OverlapEvent> events;
   for (std::size_t i = 0; i < CheckPage::most_events + 100; ++i)
-    events.push_back({static_cast<std::int64_t>(i),
-                      -1,
-                      i % 2 == 0,
-                      1,
-                      2,
-                      1.5,
-                      static_cast<float>(i * 7919 % 10'007),
-                      {3, 4}});
+    events.push_back({static_cast<std::int64_t>(i), -1, i % 2 == 0, 25, 50, 37.5, 26,
+                      static_cast<float>(i * 7919 % 10'007), 3, 4});
   const Json meta = Blocks(page_of({}, CheckPage::default_most_bytes, events)).meta();
   EXPECT_EQ(meta["allEvents"], events.size());
   ASSERT_EQ(meta["events"].size(), CheckPage::most_events);
   std::vector<float> depths;
-  for (const PageEvent& event : events) depths.push_back(event.depth);
+  for (const OverlapEvent& event : events) depths.push_back(event.depth);
   std::ranges::sort(depths);
   std::int64_t before = -1;
   for (const Json& row : meta["events"]) {
+    EXPECT_EQ((std::vector<double>{row[2], row[3], row[4]}), (std::vector<double>{1, 2, 1.5}));
     EXPECT_GE(row[5].get<float>(), depths[100]);
     EXPECT_LT(before, row[0].get<std::int64_t>());
     before = row[0];
@@ -291,7 +295,9 @@ TEST(CheckPage, ListsTheDeepestEvents) {
 }
 
 TEST(CheckPage, HoldsIdsThatJavaScriptCannotCount) {
-  Frame frame{1, 0, {{.id = std::numeric_limits<std::int64_t>::max()}, {.id = std::int64_t{1} << 53}}, {}};
+  Frame frame{1, 0, std::vector<CheckedPerson>(2), {}};
+  frame.people[0].walker.id = std::numeric_limits<std::int64_t>::max();
+  frame.people[1].walker.id = std::int64_t{1} << 53;
   const Json ids = Blocks(page_of({frame})).meta()["ids"];
   EXPECT_EQ(ids[0], "9223372036854775807");
   EXPECT_EQ(ids[1], std::int64_t{1} << 53);

@@ -5,7 +5,6 @@
 #include <signal.h>
 
 #include <algorithm>
-#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -48,37 +47,6 @@ TEST(Cli, BakedShapesAnswerLikeTheirCharacter) {
   EXPECT_GT(lines(expected.out), 20u);
 }
 
-TEST(Cli, BakeTellsTheNotesOfTheImport) {
-  const TemporaryFolder folder;
-  const std::string obj = folder.write("box.obj", box);
-  const Ending inspect = bch({"inspect", obj}), bake = bch({"bake", obj, "-o", folder.file("box.bch")});
-  ASSERT_EQ(inspect.code, 0) << inspect.err;
-  ASSERT_EQ(bake.code, 0) << bake.err;
-  std::istringstream in(inspect.out);
-  std::size_t notes = 0;
-  for (std::string line; std::getline(in, line);) {
-    if (!line.starts_with("  note      ")) continue;
-    ++notes;
-    EXPECT_NE(bake.out.find("  note      " + obj + ": " + line.substr(12) + "\n"), std::string::npos)
-        << bake.out;
-  }
-  EXPECT_GT(notes, 0u) << inspect.out;
-}
-
-TEST(Cli, InspectVerifiesABakedFile) {
-  const TemporaryFolder folder;
-  for (const Arguments& how :
-       {Arguments{"--semantics", "solid"}, Arguments{"--depths", "0,3"}, Arguments{"--depths", "0"}}) {
-    const std::string file = folder.file("man.bch");
-    ASSERT_EQ(bch({"bake", "default:male", "--poses", "6", "-o", file}, how).code, 0);
-    const Ending run = bch({"inspect", "--verify", file});
-    EXPECT_EQ(run.code, 0) << run.err;
-    EXPECT_NE(run.out.find("  verified  "), std::string::npos) << run.out;
-    EXPECT_EQ(bch({"inspect", file}).out.find("verified"), std::string::npos);
-  }
-  expect_failure(bch({"inspect", "default:male", "--verify"}), 2, {"--verify", "baked"});
-}
-
 TEST(Cli, VerifyNamesALie) {
   BakedBytes bytes(ShapeSet(few_shapes(), {.outlines = true}), origins_of(3));
   bytes.section<detail::Profile>(detail::baked::Section::profiles)[1].sectors[4].outer -= 0.01f;
@@ -110,29 +78,6 @@ TEST(Cli, BakedCrowdIsTheCrowdOfItsCharacters) {
                  {"discs.bch: ", "--semantics solid"});
   expect_failure(bch({"crowd", "--character", discs, "--leaves", "segments"}), 3,
                  {"discs.bch: ", "--leaves segments"});
-}
-
-TEST(Cli, InspectDescribesABakedFile) {
-  const TemporaryFolder folder;
-  const std::string baked = folder.file("male.bch"), json_file = folder.file("male.json");
-  ASSERT_EQ(
-      bch({"bake", "default:male", "--rate", "0.1", "--threshold", "0.02", "--depths", "3", "-o", baked})
-          .code,
-      0);
-  const Ending run = bch({"inspect", baked, "--json", json_file});
-  ASSERT_EQ(run.code, 0) << run.err;
-  EXPECT_NE(run.out.find("20 mm"), std::string::npos) << run.out;
-  EXPECT_NE(run.out.find("walk slow"), std::string::npos) << run.out;
-  const auto json = read_json(json_file);
-  EXPECT_EQ(json["depths"], nlohmann::json({"3"}));
-  EXPECT_EQ(json["threshold_m"], 0.02);
-  EXPECT_EQ(json["solid"], false);
-  EXPECT_EQ(json["exact_leaves"], false);
-  ASSERT_EQ(json["shapes"].size(), json["shape_count"]);
-  EXPECT_EQ(json["shapes"][0]["character"], "default:male");
-  EXPECT_EQ(json["shapes"][0]["clip"], "walk");
-  EXPECT_EQ(json["shapes"][1]["seconds"], 10);
-  EXPECT_EQ(json["shapes"][0]["discs"], 8);
 }
 
 TEST(Cli, BakedBytesDoNotDependOnThreads) {
@@ -183,108 +128,32 @@ TEST(Cli, BakedFilesOfAnySizeGiveThreeAndOneLine) {
   expect_failure(bch({"crowd", "--character", file}), 3, {file, "not a baked file"});
 }
 
-TEST(Cli, BakedFilesAreKnownByTheirEnding) {
-  const TemporaryFolder folder;
-  for (const char* name : {"p.txt", "p", "p.bch.gz", "bch"}) {
-    const std::string file = folder.file(name);
-    expect_failure(bch({"bake", "default:male", "-o", file}), 2, {file, ".bch"});
-  }
-  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
-  const std::string upper = folder.file("P.BCH");
-  ASSERT_EQ(bch({"bake", "default:male", "--poses", "1", "-o", upper}).code, 0);
-  EXPECT_NE(bch({"inspect", upper}).out.find("baked shapes"), std::string::npos);
-}
-
+/// What a file has of a clip is what is made of the character, drawn without the outlines that only this has; the poses
+/// are those of a file without clips.
 TEST(Cli, BakedFilesKeepClipsAsMovingDiscs) {
   const TemporaryFolder folder;
   const std::string baked = folder.file("p.bch"), plain = folder.file("q.bch"), json = folder.file("p.json"),
-                    svg = folder.file("p.svg");
-  const Arguments few{"--poses", "3"};
-  // A clip that is named twice is kept once.
-  const Ending bake =
-      bch({"bake", "default:male", "--animated", "idle think", "--animated", "idle think", "-o", baked}, few);
-  ASSERT_EQ(bake.code, 0) << bake.err;
-  EXPECT_NE(bake.out.find("  animated  default:male: idle think (6.00 s, "), std::string::npos) << bake.out;
-  EXPECT_EQ(bch({"inspect", baked, "--verify", "--json", json}).code, 0);
-  const auto clips = read_json(json)["animated"];
-  ASSERT_EQ(clips.size(), 1u);
-  EXPECT_EQ(clips[0]["character"], "default:male");
-  EXPECT_EQ(clips[0]["clip"], "idle think");
-  EXPECT_GT(clips[0]["chunks"], 40);
-  // The poses are those of a file without clips.
-  ASSERT_EQ(bch({"bake", "default:male", "-o", plain}, few).code, 0);
-  const Arguments all{"--all-pairs"};
-  const std::string agents = folder.write("agents.csv", mixed_agents(5, 3, 1));
-  EXPECT_EQ(bch({"query", baked, agents}, all).out, bch({"query", plain, agents}, all).out);
-  // What the file has is what is made of the character.
-  const Arguments at{"--animated", "--clip", "idle think", "--time", "0.4", "--json", json, "--svg", svg};
-  const Ending shown = bch({"inspect", baked}, at);
-  ASSERT_EQ(shown.code, 0) << shown.err;
-  EXPECT_NE(shown.out.find("idle think as moving discs"), std::string::npos) << shown.out;
-  const auto from_file = read_json(json)["animated"];
-  ASSERT_EQ(bch({"inspect", "default:male"}, at).code, 0);
-  EXPECT_EQ(read_json(json)["animated"], from_file);
-  EXPECT_GT(from_file["at"]["discs"].size(), 50u);
-  std::ifstream picture(svg);
-  const std::string drawn{std::istreambuf_iterator<char>(picture), {}};
-  EXPECT_GT(std::count(drawn.begin(), drawn.end(), 'Z'), 5);
-  EXPECT_NE(drawn.find("class=\"outline\""), std::string::npos);
-  EXPECT_EQ(drawn.find("nan"), std::string::npos);
-}
-
-TEST(Cli, BakedClipsAreCutAsTheShapesAre) {
-  const TemporaryFolder folder;
-  const std::string baked = folder.file("p.bch"), json = folder.file("p.json"), svg = folder.file("p.svg");
-  const Arguments slices{"--slices", "1,2.5"};
-  const Ending bake =
-      bch({"bake", "default:male", "--animated", "idle think", "-o", baked, "--poses", "1"}, slices);
-  ASSERT_EQ(bake.code, 0) << bake.err;
-  EXPECT_NE(bake.out.find("idle think (6.00 s, 3 slabs, "), std::string::npos) << bake.out;
-  const Arguments at{"--animated", "--clip", "idle think", "--time", "0.4", "--json", json, "--svg", svg};
-  const Ending shown = bch({"inspect", baked}, at);
-  ASSERT_EQ(shown.code, 0) << shown.err;
-  EXPECT_NE(shown.out.find("slab 2: nothing"), std::string::npos) << shown.out;
-  const auto from_file = read_json(json)["animated"], parts = from_file["parts"];
-  ASSERT_EQ(parts.size(), 3u);
-  EXPECT_EQ(parts[0]["heights"], "slab 2");
-  EXPECT_EQ(parts[0]["at"]["discs"].size(), 0u);
-  for (const int i : {1, 2}) EXPECT_GT(parts[i]["at"]["discs"].size(), 30u);
-  EXPECT_NE(parts[1]["at"]["discs"], parts[2]["at"]["discs"]);
-  const std::string of_file = read_text(svg);
-  EXPECT_EQ(of_file.find("class=\"outline\""), std::string::npos);
-  // What the file has is what is made of the character.
-  const Ending made = bch({"inspect", "default:male", "--slices", "1,2.5"}, at);
-  ASSERT_EQ(made.code, 0) << made.err;
-  EXPECT_EQ(read_json(json)["animated"], from_file);
-  const std::string drawn = read_text(svg);
-  for (const char* what : {"class=\"outline\"", "0.00 to 1.00 m, 0.400 s", "slab 2, 0.400 s: nothing"})
-    EXPECT_NE(drawn.find(what), std::string::npos) << what;
-  EXPECT_EQ(drawn.find("nan"), std::string::npos);
-  expect_failure(bch({"inspect", baked, "--animated", "--clip", "idle think", "--time", "6.1"}), 3,
-                 {baked, "idle think", "6.1"});
-}
-
-TEST(Cli, ClipsThatCannotBeMovingDiscsAreNamed) {
-  const TemporaryFolder folder;
-  const std::string baked = folder.file("p.bch"), obj = folder.write("box.obj", box);
-  expect_failure(bch({"bake", "default:male", "--animated", "wlak", "-o", baked}), 3, {"--animated", "wlak"});
-  expect_failure(bch({"bake", obj, "--animated", "all", "-o", baked}, as_metres), 3, {"--animated", "all"});
-  EXPECT_FALSE(std::filesystem::exists(baked));
-  ASSERT_EQ(bch({"bake", "default:male", "--poses", "1", "-o", baked}).code, 0);
-  expect_failure(bch({"inspect", baked, "--animated", "--clip", "walk", "--time", "0"}), 3,
-                 {baked, "walk", "bch bake --animated"});
-  expect_failure(bch({"inspect", baked, "--clip", "walk", "--time", "0"}), 2, {"--animated"});
-  expect_failure(bch({"inspect", "default:male", "--animated"}), 2, {"--animated", "--clip"});
-}
-
-TEST(Cli, BakedFilesAreNoCharacters) {
-  const TemporaryFolder folder;
-  const std::string baked = folder.file("p.bch");
-  ASSERT_EQ(bch({"bake", "default:male", "--poses", "1", "-o", baked}).code, 0);
-  expect_failure(bch({"bake", baked, "-o", folder.file("q.bch")}), 3, {baked, "is a baked file"});
-  expect_failure(bch({"report", "--out", folder.file("report"), "--character", baked}), 3,
-                 {baked, "is a baked file"});
-  EXPECT_FALSE(std::filesystem::exists(folder.file("report/run.csv")));
+                    svg = folder.file("p.svg"), agents = folder.write("agents.csv", mixed_agents(5, 3, 1));
+  for (const Arguments& how : {Arguments{}, Arguments{"--slices", "1,2.5"}}) {
+    Arguments bake{"bake", "default:male", "--poses", "3"};
+    bake.insert(bake.end(), how.begin(), how.end());
+    ASSERT_EQ(bch(bake, {"-o", plain}).code, 0);
+    ASSERT_EQ(bch(bake, {"-o", baked, "--animated", "idle think"}).code, 0);
+    EXPECT_EQ(bch({"query", baked, agents, "--all-pairs"}).out,
+              bch({"query", plain, agents, "--all-pairs"}).out);
+    const Arguments at{"--animated", "--clip", "idle think", "--time", "0.4", "--json", json, "--svg", svg};
+    ASSERT_EQ(bch({"inspect", baked}, at).code, 0);
+    const auto of_file = read_json(json)["animated"];
+    EXPECT_EQ(read_text(svg).find("class=\"outline\""), std::string::npos);
+    Arguments character{"inspect", "default:male"};
+    character.insert(character.end(), how.begin(), how.end());
+    ASSERT_EQ(bch(character, at).code, 0);
+    EXPECT_EQ(read_json(json)["animated"], of_file);
+    const std::string drawn = read_text(svg);
+    EXPECT_GT(std::count(drawn.begin(), drawn.end(), 'Z'), 5);
+    EXPECT_NE(drawn.find("class=\"outline\""), std::string::npos);
+    EXPECT_EQ(drawn.find("nan"), std::string::npos);
+  }
 }
 
 /// A disk that is full, as far as this program may fill it.

@@ -103,31 +103,12 @@ TEST_F(CliFiles, NoTwoOutputsAreOneFile) {
   for (const auto& [json, csv] : same) {
     const Arguments outputs{"--json", file(json), "--csv", file(csv)};
     expect_failure(bch({"crowd", "--poses", "1"}, outputs), 2, {"--json and --csv: " + file(csv)});
-    expect_failure(bch({"stability", "--quick"}, outputs), 2, {"--csv and --json: "});
     EXPECT_EQ(read_text(file("a.json")), "old");
     EXPECT_FALSE(fs::exists(file("new.json")));
   }
   const Ending different =
       bch({"crowd", "--poses", "1", "--agents", "9", "--json", file("b"), "--csv", file("here/c")});
   EXPECT_EQ(different.code, 0) << different.err;
-}
-
-TEST_F(CliFiles, FilesOfAFolderAreOutputs) {
-  fs::create_directory(file("out"));
-  expect_failure(bch({"stability", "--quick", "--out", file("out"), "--csv", file("out/stability.csv")}), 2,
-                 {"--csv and --out: "});
-  expect_failure(bch({"stability", "--stiff", "--quick", "--out", file("out"), "--json",
-                      file("here/out/stiff_contact_steps.svg")}),
-                 2, {"--json and --out: "});
-  EXPECT_TRUE(fs::is_empty(file("out")));
-  for (const char* name : {"report.html", "run.csv", "depth.json", "depth.gp", "depth.svg"}) {
-    const std::string output = file("out/") + name;
-    fs::create_symlink(model, output);
-    expect_failure(bch({"report", "--quick", "--out", file("out"), "--character", model}), 2,
-                   {"--out: " + output, model + ", an input"});
-    fs::remove(output);
-  }
-  EXPECT_EQ(read_text(model), box);
 }
 
 /// Whatever a command makes of a character, it says once what it took for granted of the file.

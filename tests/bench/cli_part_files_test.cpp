@@ -7,12 +7,10 @@
 #include <signal.h>
 #include <sys/file.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <chrono>
 #include <filesystem>
-#include <thread>
+#include <utility>
 
 #include "tests/support/bch_run.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -148,38 +146,18 @@ TEST_F(CliPartFiles, ThatAreNoneAreRefusedByALine) {
   expect_failure(bch({"merge", parts}), 3, {manifest, "not a regular file"});
 }
 
-/// Starts a check, sends a signal once it writes so many files, and expects that none is there.
-void expect_nothing_left(const Arguments& arguments, const fs::path& into, std::ptrdiff_t files, int number) {
-  const pid_t child = fork();
-  if (child == 0) {
-    signal(number, SIG_DFL);
-    const int nowhere = open("/dev/null", O_RDWR);
-    dup2(nowhere, STDOUT_FILENO), dup2(nowhere, STDERR_FILENO);
-    std::vector<char*> argv{const_cast<char*>(BCH_PROGRAM)};
-    for (const std::string& argument : arguments) argv.push_back(const_cast<char*>(argument.c_str()));
-    argv.push_back(nullptr);
-    execv(BCH_PROGRAM, argv.data());
-    _exit(127);
-  }
-  const auto there = [&] { return std::distance(fs::directory_iterator(into), {}); };
-  for (int tries = 0; tries < 60'000 && there() < files; ++tries)
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  kill(child, number);
-  int status = 0;
-  waitpid(child, &status, 0);
-  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 128 + number) << status;
-  EXPECT_EQ(there(), 0) << number;
-}
-
 TEST_F(CliPartFiles, AllGoWithASignal) {
   folder.write("people.txt", two_people(150'000));
   const fs::path out = folder.file("out");
   fs::create_directory(out);
-  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
-    expect_nothing_left({"check", people, "--events", out / "e", "--frames", out / "f", "--pairs", out / "p"},
-                        out, 3, number);
-    expect_nothing_left({"check", people, "--part", "1/1", "--into", out}, out, 4, number);
-  }
+  const auto files = [&] { return std::distance(fs::directory_iterator(out), {}); };
+  const Arguments tables{"check", people, "--events", out / "e", "--frames", out / "f", "--pairs", out / "p"},
+      part{"check", people, "--part", "1/1", "--into", out};
+  for (const int number : {SIGINT, SIGTERM, SIGHUP})
+    for (const auto& [command, many] : {std::pair(tables, 3), {part, 4}}) {
+      EXPECT_EQ(run_until([&] { return files() >= many; }, number, BCH_PROGRAM, command), 128 + number);
+      EXPECT_EQ(files(), 0) << number;
+    }
 }
 
 }  // namespace

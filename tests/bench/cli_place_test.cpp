@@ -239,28 +239,6 @@ TEST(CliPlace, TakesGivenPathsAtTheirOwnTimes) {
   EXPECT_EQ(rows_of_fourth, 5u);
 }
 
-TEST(CliPlace, RefusesPathsThatCannotBeRead) {
-  const TemporaryFolder folder;
-  const std::string bad = folder.write("paths.csv", "id,time,x,y\n1,0,0,0\n1,1,far,0\n");
-  expect_failure(bch({"place", "--paths", bad}), 3, {"paths.csv:3: x 'far' is not a number"});
-  expect_failure(bch({"place", "--paths", folder.file("none.csv").string()}), 3, {"none.csv"});
-  for (const char* const text : {"id,frame,x,y\n1,0,0,0\n1,1,1,0\n", "1 0 0 0\n1 1 1 0\n"}) {
-    const Ending run = bch({"place", "--paths", folder.write("short.csv", text)});
-    expect_failure(run, 3, {"short.csv", "--paths needs it in the file", "id,time,x,y"});
-    for (const char* const other : {"--fps", "--columns", "--unit"})
-      EXPECT_EQ(run.err.find(other), std::string::npos) << run.err;
-  }
-  expect_failure(bch({"place", "--paths", bad, "--width", "5"}), 2, {"--paths", "--width"});
-  expect_failure(bch({"place", "--paths", bad, "--speed", "1"}), 2, {"--paths", "--speed"});
-}
-
-TEST(CliPlace, RefusesBakedSets) {
-  const TemporaryFolder folder;
-  const std::string baked = folder.write("crowd.bch", "");
-  expect_failure(bch({"place", "--character", "default:male", "--character", baked}), 3,
-                 {"crowd.bch: is a baked set", "how fast", "--character"});
-}
-
 TEST(CliPlace, GivesTheSamePeopleForASeed) {
   const auto people = [](const std::string& seed) {
     const TemporaryFolder folder;
@@ -274,14 +252,6 @@ TEST(CliPlace, GivesTheSamePeopleForASeed) {
   const std::string once = people("7");
   EXPECT_EQ(once, people("7"));
   EXPECT_NE(once, people("8"));
-}
-
-TEST(CliPlace, RefusesWhatHasNoRoomAndClipsThatAreNotThere) {
-  expect_failure(bch({"place", "--clip", "fly"}), 3, {"--clip", "fly"});
-  expect_failure(bch({"place", "--slices", "1,0.5"}), 2, {"--slices", "does not ascend"});
-  expect_failure(bch({"place", "--character", "default:male", "--clip", "idle think", "--speed", "9",
-                      "--width", "1", "--depth", "1"}),
-                 3, {"idle think", "does not fit"});
 }
 
 }  // namespace

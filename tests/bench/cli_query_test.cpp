@@ -5,6 +5,10 @@
 
 #include <sstream>
 
+#include <bch/baked.hpp>
+#include <bch/query.hpp>
+#include <bch/shape_set.hpp>
+
 #include "tests/support/bch_run.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -12,46 +16,6 @@
 
 namespace bch::test {
 namespace {
-
-TEST(Cli, QueryAnswersInTheOrderOfThePairs) {
-  const TemporaryFolder folder;
-  const std::string shapes = folder.write("box.obj", box), agents = folder.write("agents.csv", four_agents);
-  const std::string pairs =
-      folder.write("pairs.csv", "second,first\r\na,b\r\n\r\nc,a\r\n \"d,e\" ,a\r\na,a\r\n");
-  const Ending run = bch({"query", shapes, agents, pairs}, as_metres);
-  EXPECT_EQ(run.code, 0) << run.err;
-  EXPECT_EQ(run.out, "first,second,hit\nb,a,1\na,c,0\na,\"d,e\",0\na,a,1\n");
-  EXPECT_EQ(run.err, "  note      " + shapes + ": y up -> z up, as the caller says\n" + "  note      " +
-                         shapes + ": metres, as the caller says\n");
-}
-
-TEST(Cli, QueryGuardsIdsThatASpreadsheetWouldCompute) {
-  const TemporaryFolder folder;
-  const std::string shapes = folder.write("box.obj", box);
-  const std::string agents = folder.write("agents.csv",
-                                          "id,shape,x,y,heading\n=1+1,0,0,0,0\n-5,0,0,0,0\n\"@a,b\",0,0,0,"
-                                          "0\n-x,0,0,0,0\nb=,0,0,0,0\n-inf,0,9,9,0\n");
-  const std::string pairs = folder.write("pairs.csv", "first,second\n=1+1,-5\n\"@a,b\",-x\nb=,-5\n-inf,-5\n");
-  const Ending plain = bch({"query", shapes, agents, pairs}, as_metres);
-  EXPECT_EQ(plain.out, "first,second,hit\n=1+1,-5,1\n\"@a,b\",-x,1\nb=,-5,1\n-inf,-5,0\n") << plain.err;
-  const Ending guarded = bch({"query", shapes, agents, pairs, "--guard-ids"}, as_metres);
-  EXPECT_EQ(guarded.out, "first,second,hit\n'=1+1,-5,1\n\"'@a,b\",'-x,1\nb=,-5,1\n'-inf,-5,0\n")
-      << guarded.err;
-}
-
-TEST(Cli, QueryTakesALevelForEachAgent) {
-  const TemporaryFolder folder;
-  const std::string shapes = folder.write("box.obj", box);
-  const std::string pairs = folder.write("pairs.csv", "first,second\na,b\na,c\n");
-  const std::string agents =
-      folder.write("agents.csv", "id,shape,x,y,heading,level\na,0,0,0,0,0\nb,0,0,0.35,0,0\nc,0,0,0.35,0,1\n");
-  const Ending run = bch({"query", shapes, agents, pairs, "--depths", "0,all"}, as_metres);
-  EXPECT_EQ(run.out, "first,second,hit\na,b,1\na,c,1\n") << run.err;
-  const std::string finest =
-      folder.write("agents.csv", "id,shape,x,y,heading,level\na,0,0,0,0,1\nb,0,0,0.35,0,1\nc,0,0,0.35,0,1\n");
-  EXPECT_EQ(bch({"query", shapes, finest, pairs, "--depths", "0,all"}, as_metres).out,
-            "first,second,hit\na,b,0\na,c,0\n");
-}
 
 /// Agents on a crooked lattice, dense enough for many to collide.
 std::string lattice(int side) {
@@ -100,17 +64,6 @@ TEST(Cli, QueryLimitsAllPairs) {
   EXPECT_EQ(run.err,
             "bch: " + agents +
                 ": more than 6000000 pairs of agents are near each other; --max-pairs raises the limit\n");
-  const std::string few = folder.write("few.csv", spot(5));
-  for (const Arguments& how : {Arguments{}, Arguments{"--what", "clearance", "--max-distance", "1"}}) {
-    Arguments words{"query", shapes, few, "--all-pairs", "--max-pairs", "9"};
-    words.insert(words.end(), how.begin(), how.end());
-    EXPECT_EQ(bch(words, as_metres).code, 3);
-    words[5] = "10";
-    EXPECT_EQ(lines(bch(words, as_metres).out), 11u);
-  }
-  expect_failure(
-      bch({"query", shapes, few, folder.write("pairs.csv", "first,second\n"), "--max-pairs", "9"}, as_metres),
-      2, {"--max-pairs"});
 }
 
 /// Of so many pairs that they are answered and written piece by piece.
@@ -125,65 +78,44 @@ TEST(Cli, QueryAnswersMillionsOfPairs) {
   EXPECT_TRUE(run.out.ends_with("\n1497,1498,1\n1497,1499,1\n1498,1499,1\n"));
 }
 
-/// As spreadsheets write it, with the mark of its byte order.
-std::string utf16(const std::string& ascii, bool big_endian) {
-  std::string text = big_endian ? "\xfe\xff" : "\xff\xfe";
-  for (const char c : ascii) text += big_endian ? std::string{'\0', c} : std::string{c, '\0'};
-  return text;
+/// One body within another: those that nest are near each other where the semantics say so.
+TEST(Cli, AllPairsWithinADistanceHoldThoseThatNest) {
+  const auto square = [](float half) {
+    const std::vector<std::vector<Vec2>> rings = {
+        {{-half, -half}, {half, -half}, {half, half}, {-half, half}}};
+    return shape_from_polygons(rings);
+  };
+  const TemporaryFolder folder;
+  const std::string nest = folder.file("nest.bch");
+  save_baked(nest, ShapeSet(std::vector<Shape>{square(1), square(0.1f)}));
+  const std::string inside = folder.write("inside.csv", "id,shape,x,y,heading\na,0,0,0,0\nb,1,0.1,0,0\n"),
+                    one = folder.write("one.csv", "first,second\na,b\n"), header = "first,second,hit\n";
+  for (const char* semantics : {"solid", "boundary"}) {
+    const auto ask = [&](const std::string& pairs) {
+      return bch({"query", nest, inside, pairs, "--what", "within", "--max-distance", "0.3", "--semantics",
+                  semantics})
+          .out;
+    };
+    const bool nested = std::string(semantics) == "solid";
+    EXPECT_EQ(ask(one), header + (nested ? "a,b,1\n" : "a,b,0\n"));
+    EXPECT_EQ(ask("--all-pairs"), header + (nested ? "a,b,1\n" : ""));
+  }
 }
 
-TEST(Cli, BadAgentsNameFileLineAndValue) {
+TEST(Cli, EveryKernelWritesTheSame) {
   const TemporaryFolder folder;
-  const std::string shapes = folder.write("box.obj", box);
-  const std::string pairs = folder.write("pairs.csv", "first,second\n");
-  const std::string header = "id,shape,x,y,heading\na,0,0,0,0\n";
-  const std::pair<std::string, std::string> cases[] = {
-      {"", "agents.csv: is empty"},
-      {"id,shape,x,y\na,0,0,0\n", "agents.csv:1: has no column 'heading'"},
-      {"id,shape,x,y,heading,speed\n", "agents.csv:1: column 'speed'"},
-      {"id,shape,x,x,y,heading\n", "agents.csv:1: column 'x' is there twice"},
-      {"id,shape,x,y,heading\ra,0,0,0,0\r", "agents.csv:1: ends lines with CR alone"},
-      {utf16(header, false), "agents.csv:1: is UTF-16, not UTF-8"},
-      {utf16(header, true), "agents.csv:1: is UTF-16, not UTF-8"},
-      {header + "b,0,1.0abc,0,0\n", "agents.csv:3: x '1.0abc'"},
-      {header + "b,0,,0,0\n", "agents.csv:3: x ''"},
-      {header + "b,0,nan,0,0\n", "agents.csv:3: x 'nan'"},
-      {header + "b,0,0,-inf,0\n", "agents.csv:3: y '-inf'"},
-      {header + "b,0,0,0,1e10\n", "agents.csv:3: heading '1e10'"},
-      {header + "b,0,2e9,0,0\n", "agents.csv:3: x '2e9'"},
-      {header + "b,0,1e999,0,0\n", "agents.csv:3: x '1e999'"},
-      {header + "\nb,1,0,0,0\n", "agents.csv:4: shape '1'"},
-      {header + "b,-1,0,0,0\n", "agents.csv:3: shape '-1'"},
-      {header + "b,0.5,0,0,0\n", "agents.csv:3: shape '0.5'"},
-      {header + "a,0,0,0,0\n", "agents.csv:3: id 'a' is there twice"},
-      {header + ",0,0,0,0\n", "agents.csv:3: id ''"},
-      {header + "b,0,0,0\n", "agents.csv:3: has fewer values"},
-      {header + "b,0,0,0,0,0\n", "agents.csv:3: has more values"},
-      {header + "\"b,0,0,0,0\n", "agents.csv:3: a quote is not closed"},
-      {"id,shape,x,y,heading,level\na,0,0,0,0,4\n", "agents.csv:2: level '4'"},
-      {"id,shape,x,y,heading,level\na,0,0,0,0,\n", "agents.csv:2: level ''"},
-  };
-  for (const auto& [text, words] : cases)
-    expect_failure(bch({"query", shapes, folder.write("agents.csv", text), pairs}, as_metres), 3, {words});
-  expect_failure(bch({"query", shapes, folder.file("none.csv"), pairs}, as_metres), 3, {"none.csv: "});
-  expect_failure(bch({"query", shapes, folder.path().string(), pairs}, as_metres), 3,
-                 {folder.path().string()});
-}
-
-TEST(Cli, BadPairsNameFileLineAndValue) {
-  const TemporaryFolder folder;
-  const std::string shapes = folder.write("box.obj", box), agents = folder.write("agents.csv", four_agents);
-  const std::pair<std::string, std::string> cases[] = {
-      {"first\na\n", "pairs.csv:1: has no column 'second'"},
-      {"first,second\na,nobody\n", "pairs.csv:2: second 'nobody'"},
-      {"first,second\na,b\n,a\n", "pairs.csv:3: first ''"},
-      {"first,second\na\n", "pairs.csv:2: has fewer"},
-      {"a,b\na,b\n", "pairs.csv:1: "},
-      {"first,second\ra,b\r", "pairs.csv:1: ends lines with CR alone"},
-      {utf16("first,second\na,b\n", false), "pairs.csv:1: is UTF-16, not UTF-8"},
-  };
-  for (const auto& [text, words] : cases)
-    expect_failure(bch({"query", shapes, agents, folder.write("pairs.csv", text)}, as_metres), 3, {words});
+  const std::string agents = folder.write(
+      "agents.csv", "id,shape,x,y,heading,dx,dy\na,0,0,0,0,0,0.15\nb,0,0.4,0,0,1,0\nc,0,0,0.35,0,0,-0.05\n");
+  const Arguments query{"query", folder.write("box.obj", box), agents,
+                        folder.write("pairs.csv", "first,second\nb,a\na,c\n"), "--what"};
+  for (const char* what : {"collide", "clearance", "time-of-impact", "contacts", "penetration"}) {
+    const std::string expected = bch(query, {what}).out;
+    EXPECT_GT(lines(expected), 2u) << what;
+    for (const Implementation& each : implementations())
+      if (each.supported()) {
+        EXPECT_EQ(bch(query, {what, "--isa", each.name}).out, expected) << what;
+      }
+  }
 }
 
 }  // namespace

@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <chrono>
 #include <filesystem>
-#include <thread>
 
 #include "tests/support/bch_run.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -21,26 +15,6 @@ namespace bch::test {
 namespace {
 
 namespace fs = std::filesystem;
-using namespace std::chrono_literals;
-
-/// Starts a bake that takes minutes. Returns: its process.
-pid_t start_baking(const std::string& file, int signal_to_expect) {
-  const pid_t child = fork();
-  if (child != 0) return child;
-  signal(signal_to_expect, SIG_DFL);  // test runners may ignore it, which children inherit
-  const rlimit no_core{0, 0};
-  setrlimit(RLIMIT_CORE, &no_core);
-  const int nowhere = open("/dev/null", O_RDWR);
-  dup2(nowhere, STDOUT_FILENO);
-  dup2(nowhere, STDERR_FILENO);
-  execl(BCH_PROGRAM, BCH_PROGRAM, "bake", "default:male", "--poses", "900000", "-o", file.c_str(), nullptr);
-  _exit(127);
-}
-
-bool wait_for_a_file(const fs::path& folder) {
-  for (int tries = 0; tries < 6000 && fs::is_empty(folder); ++tries) std::this_thread::sleep_for(5ms);
-  return !fs::is_empty(folder);
-}
 
 std::vector<int> ending_signals() {
   std::vector<int> all{SIGINT, SIGTERM, SIGHUP, SIGQUIT, SIGUSR1, SIGUSR2, SIGPIPE, SIGALRM};
@@ -55,16 +29,11 @@ TEST(CliSystem, EverySignalThatCanBeCaughtLeavesNoFile) {
   for (const int number : ending_signals()) {
     SCOPED_TRACE(number);
     const TemporaryFolder folder;
-    const pid_t child = start_baking(folder.file("a.bch"), number);
-    EXPECT_TRUE(wait_for_a_file(folder.path()));
-    kill(child, number);
-    int status = 0;
-    ASSERT_EQ(waitpid(child, &status, 0), child);
+    const int code = run_until([&] { return !fs::is_empty(folder.path()); }, number, BCH_PROGRAM,
+                               {"bake", "default:male", "--poses", "900000", "-o", folder.file("a.bch")});
+    const bool asked = number == SIGINT || number == SIGTERM || number == SIGHUP;
+    EXPECT_EQ(code, asked ? 128 + number : -number);
     EXPECT_TRUE(fs::is_empty(folder.path()));
-    if (number == SIGINT || number == SIGTERM || number == SIGHUP)
-      EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 128 + number) << status;
-    else
-      EXPECT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == number) << status;
   }
 }
 

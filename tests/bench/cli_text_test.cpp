@@ -72,28 +72,6 @@ TEST(Printable, BytesThatAreNotUtf8AreWrittenOut) {
   EXPECT_EQ(printable("\xc3\xa4\xc3"), "\xc3\xa4\\xc3");
 }
 
-TEST(CliText, NamesOfFilesAndOptionsAreHarmless) {
-  const TemporaryFolder folder;
-  const std::string missing = folder.file(hostile + ".obj");
-  for (const Arguments& arguments : {Arguments{"inspect", missing},
-                                     {"query", "default:male", missing, missing},
-                                     {"crowd", "--json", missing + "/x"}}) {
-    const Ending run = bch(arguments);
-    expect_failure(run, 3, {"5m\\u202e\\u2066z"});
-    expect_harmless(run.err);
-  }
-  for (const Arguments& arguments :
-       {Arguments{hostile}, {"crowd", "--agents", hostile}, {"crowd", "--isa", hostile}}) {
-    const Ending run = bch(arguments);
-    expect_failure(run, 2, {shown});
-    expect_harmless(run.err);
-  }
-  const Ending run = bch({"inspect", folder.write(hostile + "\nb.obj", box)}, as_metres);
-  EXPECT_EQ(run.code, 0) << run.err;
-  EXPECT_TRUE(has(run.out, shown + "\\x0ab.obj")) << run.out;
-  expect_harmless(run.out);
-}
-
 /// The strip with a clip whose name is hostile.
 std::string strip_with_hostile_clip() {
   const std::string name = R"(a\u001b[2J\r\u007f\u009b5m\u202e\u2066z)";
@@ -110,20 +88,6 @@ TEST(CliText, NamesOfClipsAreHarmless) {
     EXPECT_EQ(run.code, 0) << run.err;
     EXPECT_TRUE(has(run.out, "5m\\u202e")) << run.out;
     expect_harmless(run.out);
-  }
-}
-
-TEST(CliText, ValuesOfTablesAreHarmless) {
-  const TemporaryFolder folder;
-  const std::string shapes = folder.write("box.obj", box);
-  const std::string pairs = folder.write("pairs.csv", "first,second\n");
-  for (const std::string& rows : {"b,0," + hostile + ",0,0\n", hostile + ",7,0,0,0\n",
-                                  hostile + "x,0,0,0,0\n" + hostile + "x,0,0,0,0\n"}) {
-    const Ending run =
-        bch({"query", shapes, folder.write("agents.csv", "id,shape,x,y,heading\n" + rows), pairs}, as_metres);
-    EXPECT_EQ(run.code, 3) << run.err;
-    EXPECT_EQ(lines(run.err), 1u) << run.err;
-    expect_harmless(run.err);
   }
 }
 
@@ -182,33 +146,6 @@ TEST(CliText, APictureOfANameThatIsNotUtf8IsWellFormed) {
   EXPECT_EQ(printable(read_text(svg)), read_text(svg));
 }
 
-TEST(CliText, NulBytesInTablesAreErrorsOfTheirLine) {
-  const TemporaryFolder folder;
-  const std::string shapes = folder.write("box.obj", box);
-  const std::string header = "id,shape,x,y,heading\na,0,0,0,0\n", no_pairs = "first,second\n";
-  std::string long_table = header;
-  for (int i = 0; i < 150'000; ++i)
-    long_table.append("b").append(std::to_string(i)).append(",0,1.25,1.5,0\n");
-  const std::tuple<std::string, std::string, std::string> cases[] = {
-      {header + "\0b,1,0.3,0,1\n"s, no_pairs, "agents.csv:3: "},
-      {header + "b,0,1\0000,0,0\n"s, no_pairs, "agents.csv:3: "},
-      {header + "b,0,0,0,0\n\0"s, no_pairs, "agents.csv:4: "},
-      {header + "b,0,0,0,0\0"s, no_pairs, "agents.csv:3: "},
-      {"id,shape,x,y,heading\0,level\na,0,0,0,0,0\n"s, no_pairs, "agents.csv:1: "},
-      {long_table + "\0c,0,0,0,0\n"s, no_pairs, "agents.csv:150003: "},
-      {header, "first,second\na,a\n\0a,a\n"s, "pairs.csv:3: "},
-      {header, "first,second\na,a\0bc\n"s, "pairs.csv:2: "}};
-  for (const auto& [agents, pairs, place] : cases)
-    expect_failure(
-        bch({"query", shapes, folder.write("agents.csv", agents), folder.write("pairs.csv", pairs)},
-            as_metres),
-        3, {place, "NUL byte"});
-  std::string utf16;  // without a mark
-  for (const char c : header) utf16 += {c, '\0'};
-  expect_failure(bch({"query", shapes, folder.write("agents.csv", utf16), folder.file("none")}, as_metres), 3,
-                 {"agents.csv:1: ", "UTF-16"});
-}
-
 TEST(CliText, TablesComeThroughPipes) {
   const TemporaryFolder folder;
   const std::string shapes = folder.write("box.obj", box), agents = folder.write("agents.csv", four_agents);
@@ -224,66 +161,6 @@ TEST(CliText, ValuesBeyondTheRangeOfADoubleAreNumbers) {
   EXPECT_EQ(cli::parse_number("1e400x"), std::nullopt);
   EXPECT_GT(cli::parse_number("1e400"), 1e300);
   EXPECT_LT(cli::parse_number("-1e99999"), -1e300);
-  const TemporaryFolder folder;
-  const std::string agents = folder.write("agents.csv", "id,shape,x,y,heading\na,0,1e400,0,0\n");
-  expect_failure(bch({"query", "default:male", agents, agents}), 3,
-                 {"agents.csv:2: x '1e400' is not within +-1e+09"});
-  expect_failure(bch({"crowd", "--density", "1e400"}), 2, {"'1e400' is not a number from 0.0001 to 100"});
-}
-
-TEST(CliText, TablesThatCannotBeOpenedSayWhy) {
-  const TemporaryFolder folder;
-  const std::string agents = folder.write("agents.csv", four_agents), none = folder.file("none.csv");
-  expect_failure(bch({"query", "default:male", none, agents}), 3,
-                 {"none.csv: cannot be opened: No such file"});
-  expect_failure(bch({"query", "default:male", folder.path().string(), agents}), 3,
-                 {": cannot be read: Is a directory"});
-  if (geteuid() == 0) GTEST_SKIP() << "the superuser may read every file";
-  std::filesystem::permissions(agents, std::filesystem::perms::none);
-  expect_failure(bch({"query", "default:male", agents, agents}), 3,
-                 {"agents.csv: cannot be opened: Permission denied"});
-}
-
-TEST(CliText, CountsAreWholeNumbers) {
-  for (const std::string value : {"1e3", "010", "0x10", "5.", "1e400", "-1", " 5", "+"})
-    expect_failure(bch({"crowd", "--agents", value}), 2,
-                   {"--agents", "'" + value + "' is not a whole number from 1 to 10000000"});
-  for (const char* option : {"--poses", "--threads", "--seed"})
-    expect_failure(bch({"crowd", option, "1e0"}), 2, {option, "'1e0' is not a whole number from "});
-  expect_failure(bch({"stability", "--pairs", "1e3"}), 2, {"'1e3' is not a whole number from 20"});
-  EXPECT_EQ(bch({"crowd", "--agents", "+5", "--poses", "1", "--seed", "18446744073709551615"}).code, 0);
-}
-
-TEST(CliText, EmptyValuesAreRefused) {
-  const std::pair<Arguments, std::string> cases[] = {
-      {{"crowd", "--csv", ""}, "--csv"},
-      {{"crowd", "--isa", ""}, "--isa"},
-      {{"crowd", "--svg-depth", "", "--svg", "x.svg"}, "--svg-depth"},
-      {{"crowd", "--character", "default:male", "--character", ""}, "--character"},
-      {{"bake", "default:male", "-o", ""}, "--output"},
-      {{"inspect", ""}, "FILE"},
-      {{"inspect", "default:male", "--json", ""}, "--json"},
-      {{"query", "default:male", "a.csv", ""}, "PAIRS.csv"},
-      {{"query", "default:male", "a.csv", "p.csv", "--what", "penetration", "--direction", ""},
-       "--direction"},
-      {{"report", "--out", ""}, "--out"},
-      {{"report", "--out", "", "--page"}, "--out"},
-      {{"stability", "--out", ""}, "--out"},
-  };
-  for (const auto& [arguments, option] : cases)
-    expect_failure(bch(arguments), 2, {option + ": the value is empty"});
-}
-
-TEST(CliText, ThresholdsAreTheShortestNumbers) {
-  const TemporaryFolder folder;
-  const std::string baked = folder.file("a.bch"), json = folder.file("a.json");
-  ASSERT_EQ(
-      bch({"bake", "default:male", "--poses", "1", "--threshold", "0.009999999776482582", "-o", baked}).code,
-      0);
-  ASSERT_EQ(bch({"inspect", baked, "--json", json}).code, 0);
-  EXPECT_TRUE(has(read_text(json), "\"threshold_m\": 0.01,")) << read_text(json);
-  ASSERT_EQ(bch({"crowd", "--character", baked, "--agents", "5", "--json", json}).code, 0);
-  EXPECT_TRUE(has(read_text(json), "\"threshold_m\": 0.01,")) << read_text(json);
 }
 
 TEST(CliText, IdsKeepTheQuotesThatTheyNeed) {
@@ -292,28 +169,6 @@ TEST(CliText, IdsKeepTheQuotesThatTheyNeed) {
   EXPECT_EQ(cli::csv_field("a\t"), "\"a\t\"");
   EXPECT_EQ(cli::csv_field("a\"b"), "\"a\"\"b\"");
   EXPECT_EQ(cli::csv_field(""), "");
-  const TemporaryFolder folder;
-  const std::string shapes = folder.write("box.obj", box);
-  const std::string agents = folder.write("agents.csv", "id,shape,x,y,heading\n\" a \",0,0,0,0\na,0,0,0,0\n");
-  const std::string pairs = folder.write("pairs.csv", "first,second\n\" a \",a\n");
-  const Ending run = bch({"query", shapes, agents, pairs}, as_metres);
-  EXPECT_EQ(run.out, "first,second,hit\n\" a \",a,1\n") << run.err;
-  // The answer can be asked again.
-  EXPECT_EQ(
-      bch({"query", shapes, agents, folder.write("again.csv", "first,second\n\" a \",a\n")}, as_metres).out,
-      run.out);
-}
-
-TEST(CliText, QuarterTurnsHaveAComponentOfZero) {
-  const TemporaryFolder folder;
-  const std::string shapes = folder.write("box.obj", box);
-  const std::string agents =
-      folder.write("agents.csv", "id,shape,x,y,heading\na,0,0,0,0\nb,0,0,0.2,0\nc,0,0.45,0,0\n");
-  const std::string pairs = folder.write("pairs.csv", "first,second\na,b\nb,a\na,c\nc,a\n");
-  const Ending run = bch({"query", shapes, agents, pairs, "--what", "penetration"}, as_metres);
-  ASSERT_EQ(run.code, 0) << run.err;
-  EXPECT_FALSE(has(run.out, "e-1")) << run.out;
-  EXPECT_TRUE(has(run.out, ",0,-1\n") && has(run.out, ",0,1\n") && has(run.out, ",1,0\n")) << run.out;
 }
 
 TEST(CliText, AFolderThatIsGoneIsNoFaultOfTheProgram) {
@@ -326,18 +181,6 @@ TEST(CliText, AFolderThatIsGoneIsNoFaultOfTheProgram) {
                                "' && exec '" + BCH_PROGRAM + "' " + command;
     expect_failure(run_program("/bin/sh", {"-c", script}), 3, {});
   }
-}
-
-TEST(CliText, APageOfTablesThatLackAColumnNamesIt) {
-  const TemporaryFolder folder;
-  const Arguments page{"report", "--out", folder.path().string(), "--page"};
-  folder.write("run.csv", "a,b\n1,2\n");
-  expect_failure(bch(page), 3, {"run.csv has no column 'what'"});
-  folder.write("run.csv", "what,value\nseed,1\n");
-  expect_failure(bch(page), 3, {"run.csv has no row with what 'command'"});
-  folder.write("run.csv", "what,value\ncommand,bch\n");
-  folder.write("threshold.csv", "a,b\n1,2\n");
-  expect_failure(bch(page), 3, {"threshold.csv has no "});
 }
 
 }  // namespace

@@ -67,18 +67,6 @@ TEST_F(BchMpi, ReportsOfEveryRankWhatItDid) {
   }
 }
 
-TEST_F(BchMpi, SimulatesTheCutOfAnyCrowd) {
-  const Ending cut =
-      run({"-n", "1", BCH_MPI_PROGRAM, "simulate", people, "--agents", "1000000", "--ranks", "9"});
-  ASSERT_EQ(cut.code, 0) << cut.err;
-  EXPECT_NE(cut.out.find("9 ranks, squares of "), std::string::npos) << cut.out;
-  for (const char* const kind : {"uniform", "stadium", "street"})
-    EXPECT_EQ(count(cut.out, std::string("| ") + kind + " | "), 1u) << cut.out;
-  std::string agents = cut.out.substr(cut.out.find("| uniform | ") + 12, 9);
-  std::erase(agents, ' ');
-  EXPECT_NEAR(std::stod(agents), 1e6, 2e4) << cut.out;  // in whole squares
-}
-
 TEST_F(BchMpi, AFileThatOneRankCannotReadEndsAllWithOneLine) {
   Arguments both = crowd("1");
   for (const char* const word : {":", "-n", "1", BCH_MPI_PROGRAM, "crowd", "nowhere.bch"})

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "bench/base/exit_codes.hpp"
-#include "bench/cli/options.hpp"
+#include "bench/base/options.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace bch::fuzz {

@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 #include <thread>
 
 #include "tests/support/temporary_folder.hpp"
@@ -43,6 +44,13 @@ void redirect(int descriptor, const fs::path& file) {
   _exit(127);
 }
 
+/// Waits until a process ends. Returns its exit code, or minus the signal.
+int end_of(pid_t child) {
+  int status = 0;
+  waitpid(child, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+}
+
 }  // namespace
 
 std::string read_text(const fs::path& file) {
@@ -62,10 +70,28 @@ Ending run_program(const std::string& program, const std::vector<std::string>& a
     std::this_thread::sleep_for(streams.interrupt_after);
     kill(child, SIGINT);
   }
-  int status = 0;
-  waitpid(child, &status, 0);
-  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  const int code = end_of(child);
   return {code, streams.out.empty() ? read_text(out) : std::string(), read_text(err)};
+}
+
+int run_until(const std::function<bool()>& until, int number, const std::string& program,
+              const std::vector<std::string>& arguments) {
+  const pid_t child = fork();
+  if (child == 0) {
+    signal(number, SIG_DFL);  // test runners may ignore it, which children inherit
+    const rlimit no_core{0, 0};
+    setrlimit(RLIMIT_CORE, &no_core);
+    become(program, arguments, "/dev/null", "/dev/null", 0);
+  }
+  bool is_so = until();
+  for (int tries = 0; tries < 60'000 && !is_so; ++tries) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    is_so = until();
+  }
+  kill(child, number);
+  const int code = end_of(child);
+  if (!is_so) throw std::runtime_error("nothing was seen of " + program);
+  return code;
 }
 
 }  // namespace bch::test

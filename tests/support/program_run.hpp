@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -26,5 +27,10 @@ struct Streams {
 
 Ending run_program(const std::string& program, const std::vector<std::string>& arguments,
                    const Streams& streams = {});
+
+/// Starts a program and sends it a signal once `until` holds. Returns the code of its Ending.
+/// Errors:  throws std::runtime_error where that is not so within a minute.
+int run_until(const std::function<bool()>& until, int signal, const std::string& program,
+              const std::vector<std::string>& arguments);
 
 }  // namespace bch::test

@@ -147,17 +147,20 @@ constexpr std::int64_t wall_key = -1;
 /// What people do in each other, from frame to frame.
 class Events {
  public:
-  void add(Key key, double seconds, float depth, cli::PagePoint at) {
+  void add(const detail::CheckedPair& pair, double x, double y) {
+    const Key key{pair.first, pair.is_wall ? wall_key : pair.second};
+    const double frame = static_cast<double>(pair.frame);
     seen_.insert(key);
-    const auto [open, is_new] = open_.try_emplace(
-        key,
-        cli::PageEvent{key.first, key.second, key.second == wall_key, seconds, seconds, seconds, depth, at});
-    cli::PageEvent& event = open->second;
-    event.to = seconds;
-    if (depth <= event.depth) return;
-    event.depth = depth;
-    event.worst = seconds;
-    event.at = at;
+    const auto [open, is_new] =
+        open_.try_emplace(key, detail::OverlapEvent{pair.first, pair.second, pair.is_wall, pair.frame,
+                                                    pair.frame, frame, 0, pair.depth, x, y});
+    detail::OverlapEvent& event = open->second;
+    event.to = pair.frame;
+    ++event.frames;
+    if (pair.depth <= event.depth) return;
+    event.depth = pair.depth;
+    event.worst = frame;
+    event.x = x, event.y = y;
   }
   void end_frame() {
     for (auto open = open_.begin(); open != open_.end();) {
@@ -167,18 +170,18 @@ class Events {
     }
     seen_.clear();
   }
-  const std::vector<cli::PageEvent>& done() const { return done_; }
+  const std::vector<detail::OverlapEvent>& done() const { return done_; }
 
  private:
-  std::map<Key, cli::PageEvent> open_;
+  std::map<Key, detail::OverlapEvent> open_;
   std::set<Key> seen_;
-  std::vector<cli::PageEvent> done_;
+  std::vector<detail::OverlapEvent> done_;
 };
 
 /// A frame that has been checked.
 struct Checked {
-  std::vector<cli::PagePerson> people;
-  std::vector<cli::PageOverlap> overlaps;
+  std::vector<detail::CheckedPerson> people;
+  std::vector<detail::CheckedPair> pairs;
 };
 
 class Recording {
@@ -189,28 +192,32 @@ class Recording {
   cli::PageShape drawn(std::uint32_t shape) const { return poses_.drawn.at(shape); }
   const Events& events() const { return events_; }
 
-  Checked frame(double seconds) {
-    const Crowd crowd = crowd_at(walkers_, corridor_, seconds);
+  Checked frame(std::int64_t number) {
+    const Crowd crowd = crowd_at(walkers_, corridor_, static_cast<double>(number) / fps);
     const CrowdCollisions hits = collider_.collide_all(set_, crowd.agents(), obstacles_);
     Checked checked;
     for (std::uint32_t i = 0; i < crowd.id.size(); ++i) {
-      checked.people.push_back({crowd.id[i], crowd.shape[i], place(crowd, i),
-                                static_cast<float>(crowd.heading[i]), static_cast<float>(crowd.speed[i]),
-                                !hits.agents[i].empty(), !hits.obstacles[i].empty()});
-      if (!hits.obstacles[i].empty()) {
-        checked.overlaps.push_back({crowd.id[i], 0, true});
-        events_.add({crowd.id[i], wall_key}, seconds, 0.01f, place(crowd, i));
-      }
+      detail::CheckedPerson& person = checked.people.emplace_back();
+      person.walker.id = crowd.id[i], person.shape = person.pose = crowd.shape[i];
+      person.walker.x = crowd.x[i], person.walker.y = crowd.y[i];
+      person.walker.heading = crowd.heading[i], person.walker.speed = crowd.speed[i];
+      person.overlaps = !hits.agents[i].empty(), person.in_wall = !hits.obstacles[i].empty();
+      if (person.in_wall) add(number, {crowd.id[i], wall_key}, 0.01f, crowd.x[i], crowd.y[i], checked);
     }
-    add_pairs(crowd, hits.agents, seconds, checked);
+    add_pairs(crowd, hits.agents, number, checked);
     events_.end_frame();
     return checked;
   }
 
  private:
-  static cli::PagePoint place(const Crowd& crowd, std::uint32_t i) { return {crowd.x[i], crowd.y[i]}; }
+  void add(std::int64_t number, Key who, float depth, double x, double y, Checked& checked) {
+    detail::CheckedPair& pair = checked.pairs.emplace_back();
+    pair.frame = number, pair.first = who.first, pair.second = who.second;
+    pair.is_wall = who.second == wall_key, pair.overlap = true, pair.depth = depth;
+    events_.add(pair, x, y);
+  }
 
-  void add_pairs(const Crowd& crowd, const Rows<std::uint32_t>& rows, double seconds, Checked& checked) {
+  void add_pairs(const Crowd& crowd, const Rows<std::uint32_t>& rows, std::int64_t number, Checked& checked) {
     std::vector<Pair> pairs;
     for (std::uint32_t i = 0; i < crowd.id.size(); ++i)
       for (const std::uint32_t j : rows[i])
@@ -219,9 +226,8 @@ class Recording {
     penetration(set_, crowd.agents(), pairs, 16, depths);
     for (std::size_t k = 0; k < pairs.size(); ++k) {
       const auto [i, j] = pairs[k];
-      checked.overlaps.push_back({crowd.id[i], crowd.id[j], false});
-      events_.add({crowd.id[i], crowd.id[j]}, seconds, depths[k].depth,
-                  {(crowd.x[i] + crowd.x[j]) / 2, (crowd.y[i] + crowd.y[j]) / 2});
+      add(number, {crowd.id[i], crowd.id[j]}, depths[k].depth, (crowd.x[i] + crowd.x[j]) / 2,
+          (crowd.y[i] + crowd.y[j]) / 2, checked);
     }
   }
 
@@ -234,25 +240,25 @@ class Recording {
   Events events_;
 };
 
-nlohmann::json expected_frame(const cli::PageFrame& frame) {
+nlohmann::json expected_frame(const detail::CheckedFrame& frame) {
   nlohmann::json people = nlohmann::json::array();
-  for (const cli::PagePerson& person : frame.people)
-    people.push_back({person.id, person.at.x, person.at.y, person.overlaps, person.in_wall});
+  for (const detail::CheckedPerson& person : frame.people)
+    people.push_back({person.walker.id, person.walker.x, person.walker.y, person.overlaps, person.in_wall});
   return {{"frame", frame.frame}, {"seconds", frame.seconds}, {"people", people}};
 }
 
 /// The contours of everybody in a frame, in the coordinates of the recording.
-nlohmann::json expected_outlines(const Recording& recording, const cli::PageFrame& frame) {
+nlohmann::json expected_outlines(const Recording& recording, const detail::CheckedFrame& frame) {
   nlohmann::json all = nlohmann::json::array();
-  for (const cli::PagePerson& person : frame.people) {
-    const auto heading = static_cast<double>(person.heading);
+  for (const detail::CheckedPerson& person : frame.people) {
+    const double heading = person.walker.heading;
     const double cosine = std::cos(heading), sine = std::sin(heading);
     nlohmann::json contours = nlohmann::json::array();
-    for (const auto& contour : recording.drawn(person.shape).contours) {
+    for (const auto& contour : recording.drawn(person.pose).contours) {
       nlohmann::json points = nlohmann::json::array();
       for (const Vec2 point : contour) {
         const auto x = static_cast<double>(point.x), y = static_cast<double>(point.y);
-        points.push_back({person.at.x + cosine * x - sine * y, person.at.y + sine * x + cosine * y});
+        points.push_back({person.walker.x + cosine * x - sine * y, person.walker.y + sine * x + cosine * y});
       }
       contours.push_back(points);
     }
@@ -261,17 +267,18 @@ nlohmann::json expected_outlines(const Recording& recording, const cli::PageFram
   return all;
 }
 
-nlohmann::json expected_events(const std::vector<cli::PageEvent>& events) {
+nlohmann::json expected_events(const std::vector<detail::OverlapEvent>& events) {
   nlohmann::json list = nlohmann::json::array();
-  for (const cli::PageEvent& event : events)
-    list.push_back({{"first", event.first},
-                    {"second", event.second},
-                    {"wall", event.is_wall},
-                    {"lasts", event.to - event.from + 1 / fps},  // every frame stands for its time
-                    {"worst", event.worst},
-                    {"depth", event.depth},
-                    {"x", event.at.x},
-                    {"y", event.at.y}});
+  for (const detail::OverlapEvent& event : events)
+    list.push_back(
+        {{"first", event.first},
+         {"second", event.second},
+         {"wall", event.is_wall},
+         {"lasts", static_cast<double>(event.to - event.from + 1) / fps},  // every frame stands for its time
+         {"worst", event.worst / fps},
+         {"depth", event.depth},
+         {"x", event.x},
+         {"y", event.y}});
   return list;
 }
 
@@ -310,8 +317,8 @@ void write_sample(int argc, char** argv) {
       number(argc, argv, 6, cli::CheckPage::default_most_bytes));
   nlohmann::json frames = nlohmann::json::array(), outlines;
   for (std::uint32_t i = 0; i < count; ++i) {
-    const Checked checked = recording.frame(i / fps);
-    const cli::PageFrame frame{500 + i, i / fps, checked.people, checked.overlaps};
+    const Checked checked = recording.frame(i);
+    const detail::CheckedFrame frame{500 + i, i / fps, checked.people, checked.pairs};
     page.add_frame(frame);
     if (people <= 100) frames.push_back(expected_frame(frame));
     if (people <= 100 && i == count / 2) outlines = expected_outlines(recording, frame);

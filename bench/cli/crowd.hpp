@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <bch/collide.hpp>
+
+#include "bench/base/options.hpp"
+#include "bench/characters/crowd.hpp"
+#include "bench/characters/shape_table.hpp"
+
+namespace bch::cli {
+
+/// Holds the answers for all pairs at one level of detail.
+struct LevelAnswers {
+  std::uint32_t depth = 0;
+  double discs = 0;  ///< of a shape, mean
+  std::vector<std::uint8_t> hits;
+  std::uint64_t hit_count = 0;
+  std::uint64_t cleared = 0;        ///< pairs that the single cylinder hits and this level does not
+  double nanoseconds_per_pair = 0;  ///< median of the runs
+  std::uint32_t runs = 0;
+};
+
+struct CrowdAnswers {
+  std::vector<Pair> pairs;           ///< every pair that can collide at any level, sorted
+  std::vector<LevelAnswers> levels;  ///< as in the shape set
+
+  const LevelAnswers& finest() const { return levels.back(); }
+};
+
+/// Answers all candidates at every level, one batch call a level, and takes the time of it.
+/// Precondition: level 0 of the set is depth 0.
+CrowdAnswers answer_crowd(const ShapeSet& set, const Crowd& crowd, const QueryOptions& options);
+
+struct CrowdOptions {
+  std::vector<std::string> characters{"default:male", "default:female"};
+  ShapeOptions shapes;
+  AnswerOptions answer;
+  std::uint32_t agents = 10000;
+  double density = 3;
+  std::uint64_t seed = 1;
+  std::string json, csv, svg;
+  std::string svg_depth;
+};
+
+/// Holds everything that a run of `bch crowd` knows in the end.
+struct CrowdRun {
+  const CrowdOptions& options;
+  std::span<const LoadedCharacter> characters;  ///< none: the shapes were baked
+  double threshold;                             ///< of all hierarchies, metres
+  const BuiltShapes& built;                     ///< empty likewise
+  const ShapeSet& set;
+  const Crowd& crowd;
+  const CrowdAnswers& answers;
+  const char* implementation;
+  unsigned threads;
+};
+
+std::string text_report(const CrowdRun& run);
+nlohmann::ordered_json json_report(const CrowdRun& run);
+/// Lists the colliding pairs at the finest level as CSV.
+std::string csv_report(const CrowdRun& run);
+
+struct CrowdPicture {
+  std::span<const Shape> shapes;
+  const Crowd& crowd;
+  const CrowdAnswers& answers;
+  std::uint32_t level = 0;  ///< whose discs are drawn and whose answers are coloured
+  double density = 0;
+};
+
+/// Draws the middle of the crowd from above as SVG: outlines filled, discs over them. Colours show whether an
+/// agent collides, only its single cylinder does, or neither. They differ in lightness as much as in hue, so
+/// that they can be told apart with colour blindness and in grey print.
+std::string draw_crowd(const CrowdPicture& picture);
+
+}  // namespace bch::cli

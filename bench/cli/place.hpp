@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <array>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "bench/base/options.hpp"
+#include "bench/placing/placing.hpp"
+
+namespace bch::cli {
+
+/// Holds what `bch place` is asked for.
+struct PlaceOptions {
+  std::vector<std::string> characters{"default:male", "default:female"};
+  std::vector<std::string> clip_names{"walk"};
+  ShapeOptions shapes;  ///< of which slices alone are asked for
+  bench::PlacingOptions placing;
+  std::optional<double> speed;  ///< none: that of the clip
+  double fps = 30;
+  std::string csv, json;
+  std::string obstacles;  ///< a file of well-known text; empty: none
+  std::string paths;      ///< a recording; empty: arcs
+};
+
+/// The ways to keep people apart that are compared, in the order of rows.
+inline constexpr std::array spacings{bench::Spacing::bodies, bench::Spacing::cylinders,
+                                     bench::Spacing::paths};
+
+/// Holds a filled area, and what it took.
+struct TimedPlacement {
+  bench::Placement placement;
+  double seconds;
+};
+
+/// Holds everything that a run of `bch place` knows in the end.
+struct PlaceRun {
+  const PlaceOptions& options;
+  bench::PlacingOptions area;            ///< what is filled
+  std::vector<std::string> assumptions;  ///< of what the file of paths does not say
+  std::vector<bench::PlacedClip> clips;
+  double build_seconds;                    ///< of the moving bodies
+  std::vector<TimedPlacement> placements;  ///< as `spacings`
+};
+
+std::string text_report(const PlaceRun& run);
+nlohmann::ordered_json json_report(const PlaceRun& run);
+/// Writes the people whose bodies are kept apart as a recording: id, time, x, y, stature, heading, character, clip,
+/// clip_time.
+std::string csv_report(const PlaceRun& run);
+
+/// The ways of the people of a recording, each from time 0 on.
+struct GivenPaths {
+  std::vector<bench::GivenPath> paths;   ///< by ascending id
+  std::vector<std::string> assumptions;  ///< of what the file does not say
+  double width = 0, depth = 0;           ///< of the rectangle that holds all paths, metres; at least 1 m
+};
+
+/// Reads a recording as `bch check` does, with headings as there, and keeps so many seconds of each way. Who arrives sooner stands there.
+/// Errors:  throws TrajectoryError, naming the file and the line.
+GivenPaths read_paths(const std::string& file, double seconds);
+
+}  // namespace bch::cli

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cmath>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <bch/geometry.hpp>
+#include <bch/obstacles.hpp>
+#include <bch/query.hpp>
+
+#include "bench/base/csv_input.hpp"
+#include "bench/base/options.hpp"
+#include "bench/recordings/parts.hpp"
+
+namespace bch::cli {
+
+/// Holds the input of a query.
+struct QueryInput {
+  const ShapeSet& set;
+  const AgentTable& table;
+  std::span<const Pair> pairs;
+  QueryOptions options;
+  std::uint32_t directions;                ///< of a penetration
+  std::optional<Vec2> direction;           ///< of a penetration: the only one
+  bool points;                             ///< of a clearance: with point_columns
+  const ObstacleSet* obstacles = nullptr;  ///< all agents against these, in place of pairs
+
+  std::size_t size() const { return obstacles == nullptr ? pairs.size() : table.id.size(); }
+};
+
+/// Represents one of the questions that --what names.
+struct QueryKind {
+  const char* name;
+  const char* columns;  ///< beside first,second
+  const char* help;     ///< what they are, in the words of --help
+  /// Returns the answer as CSV, without the header, in the order of the pairs or agents.
+  std::string (*rows)(const QueryInput& input);
+  bool moving = false;       ///< asks how agents move
+  bool of_obstacles = true;  ///< can be asked about obstacles
+};
+
+/// More columns of a clearance.
+constexpr const char* point_columns = ",first_x,first_y,second_x,second_y";
+/// More columns of contacts, of sets of bodies in slabs.
+constexpr const char* slab_columns = ",first_slab,second_slab";
+
+/// Returns all kinds of queries; the first is the default.
+std::span<const QueryKind> query_kinds();
+
+const QueryKind& query_kind(const std::string& name);
+
+/// Returns the names of the first columns: what an answer is about.
+const char* subject_columns(const ObstacleSet* obstacles);
+
+/// Returns the help on all kinds of queries, a line for each.
+std::string query_help();
+
+/// Returns all pairs that collide or, with a finite max_distance, are within it, in the order of the agents' lines. `what`: "within" counts
+/// as that query does, also who stands inside whom; else distances count alone.
+/// Errors:  throws std::length_error where there are more pairs of neighbours than `most`.
+std::vector<Pair> all_pairs(const ShapeSet& set, const AgentTable& table, const std::string& what,
+                            const QueryOptions& options, std::size_t most);
+
+/// Holds what the command line of bch query says.
+struct QueryCommandOptions {
+  std::string character, agents, pairs, obstacles;
+  bool all_pairs = false, walkable = false, guard_ids = false;
+  std::string what = query_kinds().front().name;
+  std::uint32_t directions = 16;
+  std::string direction;         ///< empty: the best of many
+  std::string obstacle_heights;  ///< empty: infinite
+  double max_distance = HUGE_VAL;
+  std::size_t max_pairs = 0;  ///< of neighbours, for all_pairs; 0: what is usual
+  std::string overlap = "zero";
+  bool points = false;
+  PartOptions part;
+  std::optional<Part> only;  ///< of pairs, or of agents by obstacles
+  ShapeOptions shapes;
+  AnswerOptions answer;
+
+  /// Errors:  throws UsageError.
+  std::optional<Vec2> only_direction() const;
+  /// Errors:  throws UsageError.
+  std::pair<double, double> heights_of_obstacles() const;
+  /// Returns whether the heights of bodies count.
+  bool compares_heights(const AgentTable& agents) const {
+    return !agents.z.empty() || !obstacle_heights.empty();
+  }
+};
+
+}  // namespace bch::cli

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "bench/base/output.hpp"
+#include "bench/base/threads.hpp"
+#include "bench/recordings/recording_check.hpp"
+#include "bench/recordings/recording_page.hpp"
+
+namespace bch::cli {
+namespace {
+
+struct CheckCommandOptions {
+  CheckInput input;
+  CheckOutputs outputs;
+  std::string html;
+  PartOptions part;
+  std::uint32_t threads = 0;
+};
+
+void check_whole(const CheckCommandOptions& options) {
+  std::vector<OutputOption> files = options.outputs.files();
+  files.push_back({"--html", options.html});
+  require_outputs(files, options.input.files());
+  const OpenedCheck opened(options.input);  // before there are threads: see import_in_child()
+  const Threads threads(options.threads);
+  CheckTables tables(options.outputs);
+  std::optional<RecordingPage> page;
+  if (!options.html.empty()) page.emplace(opened.recording);
+  const detail::CheckSummary summary = opened.check(
+      opened.options(options.input), [&](const detail::CheckedFrame& frame, const ShapeSet& shapes) {
+        tables.add(frame);
+        if (page) page->add(frame, shapes);
+      });
+  tables.finish(opened.recording, summary);
+  if (page) write_file(options.html, std::move(*page).finish(summary));
+  tell(opened.recording, summary, options.outputs);
+}
+
+void run_check(const CLI::App& command, const CheckCommandOptions& options) {
+  if (!options.part.are_given()) return check_whole(options);
+  require_absent(command, {"--events", "--frames", "--pairs", "--json", "--fail-above"},
+                 "--part writes parts of all: it belongs to bch merge");
+  require_absent(command, {"--html"}, "a page is not made in parts");
+  require_outputs({}, options.input.files());
+  const Threads threads(options.threads);
+  write_standard_output(
+      check_part(options.input, options.part.files(), run_of(command, options.input.files())));
+}
+
+}  // namespace
+
+std::function<void()> add_check_command(CLI::App& program) {
+  const auto options = std::make_shared<CheckCommandOptions>();
+  CLI::App& command = *program.add_subcommand(
+      "check", "Put bodies on a recorded or simulated crowd, and find who runs into whom");
+  command.footer(
+      R"(Reads JuPedSim's SQLite and HDF5, PeTrack and Juelich text, the Pedestrian Dynamics Data Archive's
+HDF5, Pathfinder's CSV, TrajNet++, ETH/UCY, and plain CSV with columns id, frame or time, x, y. The
+format is recognized by the content of the file, not by its name. If the file does not state the
+frame rate or the unit of length, the program asks for --fps or --unit, and for --columns where they
+have no names and their rows do not tell them. It prints every assumption.
+Each row becomes a pedestrian of the person's stature, in the stride that belongs to the person's
+speed, with the head above the recorded position.
+Two people overlap if their outlines overlap, seen from above; with --slices, if they overlap at the
+same height. The exit code is 1 if overlaps exceed --fail-above, and else 0, whatever is found.
+Example: bch check trajectories.sqlite --slices 0.4,0.85,1.05 --events events.csv)");
+  options->input.add_to(command);
+  add_outputs_to(command, options->outputs);
+  OptionAdder(command)("--html", options->html, "FILE.html",
+                       "Write a web page that plays the recording; it needs no network");
+  options->part.add_to(command);
+  add_threads_option(command, options->threads);
+  return [options, &command] { run_check(command, *options); };
+}
+
+}  // namespace bch::cli

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/recordings/recording_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "bench/base/exit_codes.hpp"
+#include "bench/base/number.hpp"
+#include "bench/base/wkt_input.hpp"
+#include "bench/characters/characters.hpp"
+#include "kernel/recordings/baked_cast.hpp"
+
+namespace bch::cli {
+namespace {
+
+/// Errors:  throws UsageError.
+double metres_of(const std::string& unit) {
+  if (unit == "m") return 1;
+  if (unit == "cm") return 0.01;
+  if (unit == "mm") return 0.001;
+  const std::optional<double> metres = parse_number(unit);
+  if (!metres || !(*metres > 0 && *metres <= 1e6))
+    throw UsageError(fmt::format("--unit: '{}' is neither m, cm or mm nor a length in metres", unit));
+  return *metres;
+}
+
+detail::TrajectoryOptions trajectory_options(const CheckInput& input) {
+  detail::TrajectoryOptions wanted;
+  if (input.fps > 0) wanted.fps = input.fps;
+  if (!input.unit.empty()) wanted.unit = metres_of(input.unit);
+  if (!input.columns.empty()) wanted.columns = input.columns;
+  return wanted;
+}
+
+/// The floor to walk on, of an option's file or of the recording.
+std::string floor_of(const CheckInput& input, const detail::TrajectoryInfo& info) {
+  return input.walls.empty() ? info.geometry : read_wkt(input.walls);
+}
+
+/// The walls about a floor, where there is one.
+std::optional<ObstacleSet> walls_of(const CheckInput& input, const std::string& floor) {
+  if (!input.walls.empty()) return obstacles_of(input.walls, floor, Polygons::walkable);
+  if (floor.empty()) return std::nullopt;
+  try {
+    return obstacles_from_wkt(floor, Polygons::walkable);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(input.file + ": its geometry: " + error.what());
+  }
+}
+
+/// The baked set that people have their shapes of, if that is asked for.
+/// Errors:  throws UsageError where something else is asked for beside it, or where only it would have an effect.
+std::optional<BakedShapes> baked_of(const CheckInput& input) {
+  if (std::none_of(input.characters.begin(), input.characters.end(), is_baked)) {
+    if (!input.clip_speeds.empty() || input.facing != 0)
+      throw UsageError("--clip-speed and --facing are for a baked set, --character NAME.bch");
+    return std::nullopt;
+  }
+  const std::string& file = input.characters[0];
+  if (input.characters.size() > 1)
+    throw UsageError("--character: " + file + " and others: a baked set has all characters of a check");
+  if (!input.shapes.clips.empty() || !input.shapes.slices.empty() || input.depth != "all")
+    throw UsageError("--clips, --slices and --depth: " + file + " is baked already");
+  return load_baked(file);
+}
+
+std::vector<detail::ClipSpeed> clip_speeds_of(const CheckInput& input) {
+  std::vector<detail::ClipSpeed> speeds;
+  for (const std::string& text : input.clip_speeds) {
+    const std::size_t equals = std::min(text.rfind('='), text.size());
+    const std::optional<double> speed =
+        equals == text.size() ? std::nullopt : parse_number(text.substr(equals + 1));
+    if (!speed || !(*speed >= 0 && *speed <= 20))
+      throw UsageError(
+          fmt::format("--clip-speed: '{}' is not a clip and a speed of 0 to 20 m/s, as walk=1.3", text));
+    speeds.push_back({text.substr(0, equals), *speed});
+  }
+  return speeds;
+}
+
+/// Characters of one's own.
+detail::Cast cast_of(const CheckInput& input, const std::optional<BakedShapes>& baked) {
+  detail::Cast cast;
+  if (baked) {
+    try {
+      return detail::baked_cast(*baked, input.characters[0], clip_speeds_of(input));
+    } catch (const std::invalid_argument& error) {
+      throw InputError(error.what());
+    }
+  }
+  std::vector<LoadedCharacter> characters = load_characters(input.characters, input.shapes.import_options());
+  const std::vector<std::string> notes = notes_of(characters);
+  for (LoadedCharacter& loaded : characters) {
+    try {
+      cast.push_back(detail::cast_member(std::move(loaded.character), file_name(loaded)));
+    } catch (const std::invalid_argument& error) {
+      throw InputError(error.what());
+    }
+  }
+  if (!cast.empty()) cast[0].assumptions.insert(cast[0].assumptions.begin(), notes.begin(), notes.end());
+  return cast;
+}
+
+/// What a recording says of itself, and what was found out about the characters.
+detail::TrajectoryInfo info_of(const CheckInput& input, const detail::TrajectoryReader& reader,
+                               const OpenedCheck& opened) {
+  const detail::Cast& cast = opened.cast;
+  detail::TrajectoryInfo info = reader.info();
+  if (opened.baked)
+    info.assumptions.push_back(
+        fmt::format("{}: people face {:g} degrees from +x (--facing)", input.characters[0], input.facing));
+  for (const auto& member : cast)
+    info.assumptions.insert(info.assumptions.end(), member.assumptions.begin(), member.assumptions.end());
+  return info;
+}
+
+/// Segments, where they are asked for and there.
+Leaves leaves_of(const CheckInput& input, const std::optional<BakedShapes>& baked) {
+  const bool has_segments = !baked || baked->set.exact_leaves();
+  return input.leaves == "discs" || !has_segments ? Leaves::discs : Leaves::segments;
+}
+
+}  // namespace
+
+std::vector<std::string> CheckInput::files() const {
+  std::vector<std::string> files = shapes.inputs(characters);
+  files.insert(files.end(), {file, walls});
+  return files;
+}
+
+void CheckInput::add_to(CLI::App& command) {
+  const OptionAdder add(command);
+  add("FILE", file, "", "Recording to check")->required();
+  add("--fps", fps, "N", "Frames per second, instead of the rate that the file states",
+      number_between(1e-3, 1e4));
+  add("--columns", columns, "NAMES",
+      "Column names of text or CSV, in order, such as frame,id,x,skip,y, instead of its header");
+  add("--unit", unit, "UNIT", "Unit of length, instead of the file's: m, cm, mm, or a number of metres");
+  add("--walls", walls, "FILE.wkt", "Walkable area as well-known text (WKT), instead of the file's own");
+  add_bodies_to(command);
+  add("--depth", depth, "N", "Depth of the discs to test: 0, 1, 2 ..., or all for the whole tree [all]");
+  add_leaves_option(command, leaves, 4);
+  add("--max-distance", max_distance, "M",
+      "Also write to --pairs the pairs with a gap of at most M metres [0: overlaps only]",
+      number_between(0, 10));
+  OptionAdder(command, "Limits")(
+      "--max-pairs", max_pairs, "N",
+      "Pairs of people near each other in a frame, or in 4096 rows [4 million plus 100 per person]",
+      whole_between(1, 1'000'000'000));
+}
+
+void CheckInput::add_bodies_to(CLI::App& command) {
+  const OptionAdder add(command);
+  CLI::Option* const character =
+      add("--character", characters, "FILE",
+          "Bodies, assigned by id or as the rows name them (repeatable), or one baked set [built-in]")
+          ->allow_extra_args(false);
+  add("--clips", shapes.clips, "FILE",
+      "Add the clips of this file to the characters, matched by bone name (repeatable)")
+      ->allow_extra_args(false)
+      ->needs(character);
+  add("--slices", shapes.slices, "H,H...",
+      "Cut bodies into slabs at these heights, in metres; slabs collide only at the same height [uncut]");
+  add("--clip-speed", clip_speeds, "CLIP=M/S",
+      "For a baked set: walking speed in a clip, 0 where people stand (repeatable)")
+      ->allow_extra_args(false)
+      ->needs(character);
+  add("--facing", facing, "DEGREES",
+      "For a baked set: direction that its people face, counter-clockwise from +x [0]",
+      number_between(-360, 360))
+      ->needs(character);
+}
+
+void add_outputs_to(CLI::App& command, CheckOutputs& outputs) {
+  const OptionAdder add(command);
+  add("--events", outputs.events, "FILE.csv",
+      "Write one line per event, an overlap over time: who, from when, to when, how deep");
+  add("--frames", outputs.frames, "FILE.csv",
+      "Write one line per frame: number of people, density, overlaps");
+  add("--pairs", outputs.pairs, "FILE.csv",
+      "Write one line per overlapping pair of each frame: depth and direction");
+  add("--json", outputs.json, "FILE.json", "Write the summary and all events as JSON");
+  add("--fail-above", outputs.fail_above, "P",
+      "Exit with code 1 if more than P percent of person-seconds are in overlap [never]",
+      number_between(0, 100));
+}
+
+OpenedCheck::OpenedCheck(const CheckInput& input)
+    : baked(baked_of(input)),
+      cast(cast_of(input, baked)),
+      reader(detail::open_trajectory(input.file, trajectory_options(input))),
+      floor(floor_of(input, reader->info())),
+      walls(walls_of(input, floor)),
+      recording{
+          input.file,
+          info_of(input, *reader, *this),
+          baked ? baked->set.slab_count() : static_cast<std::uint32_t>(input.shapes.planes().size() + 1),
+          baked ? baked->set.depths().back() : parse_depth("--depth", input.depth),
+          leaves_of(input, baked),
+          static_cast<std::uint32_t>(cast.size()),
+          baked.has_value(),
+          walls.has_value(),
+          floor} {}
+
+detail::CheckOptions OpenedCheck::options(const CheckInput& input) const {
+  detail::CheckOptions how;
+  how.plan = {.depths = {recording.depth}, .slices = input.shapes.planes()};
+  how.leaves = recording.leaves;
+  how.cast = cast;
+  how.baked = baked ? &baked->set : nullptr;
+  how.facing = input.facing * std::numbers::pi / 180;
+  how.max_distance = input.max_distance;
+  how.most_pairs = input.max_pairs;
+  how.walls = walls ? &*walls : nullptr;
+  how.coarse = recording.info.rows < detail::coarse_from ? 1 : 3;
+  return how;
+}
+
+detail::CheckSummary OpenedCheck::check(
+    const detail::CheckOptions& options,
+    const std::function<void(const detail::CheckedFrame&, const ShapeSet&)>& seen) const {
+  try {
+    return detail::check(*reader, options, seen);
+  } catch (const detail::TooManyPairs& error) {
+    throw InputError(recording.file + ": " + error.what() + "; --max-pairs raises the limit");
+  }
+}
+
+}  // namespace bch::cli

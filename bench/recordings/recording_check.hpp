@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <memory>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <bch/baked.hpp>
+#include <bch/obstacles.hpp>
+
+#include "bench/base/options.hpp"
+#include "bench/base/output.hpp"
+#include "bench/base/streamed_file.hpp"
+#include "bench/recordings/parts.hpp"
+#include "kernel/recordings/check.hpp"
+
+namespace bch::cli {
+
+/// Holds what is known of a checked recording besides the answers.
+struct CheckedRecording {
+  std::string file;
+  detail::TrajectoryInfo info;
+  std::uint32_t slabs, depth;
+  Leaves leaves;
+  std::uint32_t characters;  ///< of one's own; 0: built-in pedestrians
+  bool baked;                ///< those are of a baked set
+  bool walls;
+  std::string floor;  ///< to walk on, as well-known text, or empty
+};
+
+constexpr const char* frame_columns = "frame,seconds,people,density,overlapping,overlapping_pairs,in_walls\n";
+constexpr const char* pair_columns = "frame,seconds,first,second,kind,depth,gap,x,y\n";
+constexpr const char* event_columns = "first,second,kind,from,to,frames,worst,depth,x,y\n";
+
+/// Names the files that the answers of a check go to; an empty name is none.
+struct CheckOutputs {
+  std::string events, frames, pairs, json;
+  double fail_above = 100;  ///< percent of person-seconds
+
+  std::vector<OutputOption> files() const;
+};
+
+/// Represents the tables of a check.
+struct CheckTables {
+  StreamedFile frames, pairs, events;
+  std::string json;
+
+  explicit CheckTables(const CheckOutputs& outputs);
+  void add(const detail::CheckedFrame& frame);
+  /// Writes what is told of the whole, and gives all files their names.
+  void finish(const CheckedRecording& recording, const detail::CheckSummary& summary);
+};
+
+/// Returns the line of a frame, or of each of its pairs.
+std::string frame_line(const detail::CheckedFrame& frame);
+std::string pair_lines(const detail::CheckedFrame& frame);
+/// Returns the line of an event.
+std::string event_line(const detail::OverlapEvent& event, double fps);
+
+/// Returns the summary for people.
+std::string check_text(const CheckedRecording& recording, const detail::CheckSummary& summary);
+/// Writes all of it for programs; without a name nothing. Events go to the file one by one, because there may be millions.
+void write_check_json(const std::string& file, const CheckedRecording& recording,
+                      const detail::CheckSummary& summary);
+
+/// Returns what the bodies are, in a few words.
+std::string bodies_text(const CheckedRecording& recording);
+
+/// Returns the share of person-frames in overlap, in percent.
+double percent_in_overlap(const detail::CheckSummary& summary);
+
+/// Writes the summary to standard output.
+/// Errors:  throws CheckFailed where more person-seconds are in overlap than outputs.fail_above.
+void tell(const CheckedRecording& recording, const detail::CheckSummary& summary,
+          const CheckOutputs& outputs);
+
+/// Holds what is checked, and how: all that the answers depend on.
+struct CheckInput {
+  std::string file, walls, unit, columns;
+  double fps = 0;  ///< 0: what the file says
+  double max_distance = 0;
+  std::size_t max_pairs = 0;  ///< 0: what is usual
+  ShapeOptions shapes;        ///< of which slices and clips alone are asked for
+  std::vector<std::string> characters;
+  std::string depth = "all", leaves = "segments";
+  std::vector<std::string> clip_speeds;  ///< NAME=SPEED each; these and the next of a baked set alone
+  double facing = 0;                     ///< degrees
+
+  void add_to(CLI::App& command);
+  std::vector<std::string> files() const;
+
+ private:
+  void add_bodies_to(CLI::App& command);
+};
+
+/// Adds the options of where answers go.
+void add_outputs_to(CLI::App& command, CheckOutputs& outputs);
+
+/// Represents a recording that is open, with its walls and the characters that people have.
+struct OpenedCheck {
+  std::optional<BakedShapes> baked;
+  detail::Cast cast;
+  std::unique_ptr<detail::TrajectoryReader> reader;
+  std::string floor;  ///< as WKT, or empty
+  std::optional<ObstacleSet> walls;
+  CheckedRecording recording;
+
+  /// Opens the recording. Errors: throws UsageError, InputError, TrajectoryError.
+  explicit OpenedCheck(const CheckInput& input);
+  /// Returns what to ask check(); as long as this lives.
+  detail::CheckOptions options(const CheckInput& input) const;
+  /// Checks the recording by detail::check(). Errors: throws InputError also on too many pairs.
+  detail::CheckSummary check(
+      const detail::CheckOptions& options,
+      const std::function<void(const detail::CheckedFrame&, const ShapeSet&)>& seen) const;
+};
+
+/// Checks a part of a recording's frames, unless that is done already. Returns a line about it.
+std::string check_part(const CheckInput& input, const PartFiles& files, const nlohmann::ordered_json& run);
+
+/// Writes what one run would.
+/// Errors:  throws InputError; CheckFailed as outputs.fail_above asks for.
+void merge_check(const WholeRun& whole, const CheckOutputs& outputs);
+
+/// Adds a subcommand to the program, as those of bench/cli/commands.hpp are.
+std::function<void()> add_check_command(CLI::App& program);
+std::function<void()> add_merge_command(CLI::App& program);
+
+}  // namespace bch::cli
