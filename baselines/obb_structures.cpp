@@ -83,8 +83,17 @@ template <class Facets>
 using ObbModel = BoxModel<ObbTree, Facets>;
 using RectangleModel = BoxModel<RectangleTree, FlatSegments>;
 
-ObbTree contour_tree(const Body& body) {
-  const Outline& outline = body.shape.outline;
+}  // namespace
+
+std::vector<Facet> projected_facets(std::span<const Vec3> positions,
+                                    std::span<const std::array<std::uint32_t, 3>> triangles) {
+  std::vector<Facet> facets = triangle_facets(positions, triangles);
+  for (Facet& facet : facets)
+    for (Eigen::Vector3f& p : facet) p.z() = 0;
+  return facets;
+}
+
+std::vector<Facet> contour_facets(const Outline& outline) {
   validate(outline);
   std::vector<Facet> facets;
   for (std::size_t c = 0; c < outline.contours(); ++c) {
@@ -95,10 +104,8 @@ ObbTree contour_tree(const Body& body) {
           {Eigen::Vector3f(p.x, p.y, 0), Eigen::Vector3f(q.x, q.y, 0), Eigen::Vector3f(q.x, q.y, 0)});
     }
   }
-  return build_obb_tree(std::move(facets));
+  return facets;
 }
-
-}  // namespace
 
 std::unique_ptr<Structure> build_obb_full(std::span<const Body> bodies, const BuildOptions&) {
   return build_models<ObbModel<SolidTriangles>>(bodies, [](const Body& body) -> ObbModel<SolidTriangles> {
@@ -107,21 +114,20 @@ std::unique_ptr<Structure> build_obb_full(std::span<const Body> bodies, const Bu
 }
 
 std::unique_ptr<Structure> build_obb_contour(std::span<const Body> bodies, const BuildOptions&) {
-  return build_models<ObbModel<OutlineSegments>>(
-      bodies, [](const Body& body) -> ObbModel<OutlineSegments> { return {contour_tree(body)}; });
+  return build_models<ObbModel<OutlineSegments>>(bodies, [](const Body& body) -> ObbModel<OutlineSegments> {
+    return {build_obb_tree(contour_facets(body.shape.outline))};
+  });
 }
 
 std::unique_ptr<Structure> build_obb_contour_2d(std::span<const Body> bodies, const BuildOptions&) {
-  return build_models<RectangleModel>(
-      bodies, [](const Body& body) -> RectangleModel { return {RectangleTree(contour_tree(body))}; });
+  return build_models<RectangleModel>(bodies, [](const Body& body) -> RectangleModel {
+    return {RectangleTree(build_obb_tree(contour_facets(body.shape.outline)))};
+  });
 }
 
 std::unique_ptr<Structure> build_obb_projected(std::span<const Body> bodies, const BuildOptions&) {
   return build_models<ObbModel<FlatTriangles>>(bodies, [](const Body& body) -> ObbModel<FlatTriangles> {
-    std::vector<Facet> facets = triangle_facets(body.positions, body.triangles);
-    for (Facet& facet : facets)
-      for (Eigen::Vector3f& p : facet) p.z() = 0;
-    return {build_obb_tree(std::move(facets))};
+    return {build_obb_tree(projected_facets(body.positions, body.triangles))};
   });
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <bch/geometry.hpp>
+#include <bch/outline.hpp>
 
 namespace bch::baselines {
 
@@ -57,10 +58,14 @@ struct ObbTree {
 /// beyond 2^22 facets.
 ObbTree build_obb_tree(std::vector<Facet> facets);
 
-/// Returns the facets of triangles. Errors: throws std::invalid_argument on no triangles or an index out of
-/// range.
+/// Return the facets of triangles, in space and as they are seen from above. Errors: throw std::invalid_argument on no
+/// triangles or an index out of range.
 std::vector<Facet> triangle_facets(std::span<const Vec3> positions,
                                    std::span<const std::array<std::uint32_t, 3>> triangles);
+std::vector<Facet> projected_facets(std::span<const Vec3> positions,
+                                    std::span<const std::array<std::uint32_t, 3>> triangles);
+/// Returns the segments of an outline. Errors: throws std::invalid_argument on an outline that validate() rejects.
+std::vector<Facet> contour_facets(const Outline& outline);
 
 /// The margin of half-extents, times the shape's reach; derived in obb_overlap.hpp.
 constexpr double box_margin = 0x1p-17;

@@ -3,15 +3,11 @@
 
 #include "bench/report/coverage.hpp"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <utility>
-
-#include "bench/base/disc_union_area.hpp"
 
 namespace bch::report {
 namespace {
@@ -93,15 +89,6 @@ Coverage rasterise(const Outline& outline, std::span<const Disc> discs) {
   }
   const auto area = [](std::int64_t pixels) { return static_cast<double>(pixels) * pixel * pixel; };
   return {area(of_discs), area(of_both), area(of_outline)};
-}
-
-std::vector<double> excess_areas(std::span<const Shape> shapes, std::uint32_t depth) {
-  std::vector<double> per_cent(shapes.size());
-  tbb::parallel_for(std::size_t{0}, shapes.size(), [&](std::size_t i) {
-    const Coverage area = rasterise(shapes[i].outline, cli::discs_of(shapes[i].hierarchy, depth));
-    per_cent[i] = 100 * (area.filled / area.outline - 1);
-  });
-  return per_cent;
 }
 
 }  // namespace bch::report

@@ -26,9 +26,4 @@ struct Coverage {
 
 Coverage rasterise(const Outline& outline, std::span<const Disc> discs);
 
-/// Returns what discs and the inside of an outline cover beyond the outline, per cent of the area inside it,
-/// of each shape.
-/// Runs on all threads.
-std::vector<double> excess_areas(std::span<const Shape> shapes, std::uint32_t depth);
-
 }  // namespace bch::report

@@ -9,9 +9,7 @@
 #include <bch/scene_plan.hpp>
 
 #include "bench/base/stopwatch.hpp"
-#include "bench/report/experiment.hpp"
-#include "bench/report/statistics.hpp"
-#include "bench/report/subject.hpp"
+#include "bench/report/subjects.hpp"
 
 // Level of detail by the density of a crowd, which the paper suggests and does not measure.
 
@@ -23,23 +21,24 @@ constexpr std::uint32_t compared_depths[] = {0, 3, 6, all_depths};
 constexpr double speed = 1.3, frames_per_second = 10;  // metres a second
 constexpr int frames = 50;
 
+using Levels = std::vector<std::uint8_t>;
+
 /// How agents are tested: all at a depth, or each at that of the density around him.
 struct Detail {
-  std::string name;
-  const ShapeSet* set;
-  std::vector<std::uint8_t> (*levels)(const cli::Crowd& crowd);
+  const char* name;
+  const ShapeSet& set;
+  Levels (*levels)(const cli::Crowd& crowd);
 };
 
 template <std::uint8_t Level>
-std::vector<std::uint8_t> same_level(const cli::Crowd& crowd) {
-  return std::vector<std::uint8_t>(crowd.size(), Level);
+Levels same_level(const cli::Crowd& crowd) {
+  return Levels(crowd.size(), Level);
 }
 
-std::vector<std::uint8_t> levels_by_density(const cli::Crowd& crowd) {
-  std::vector<std::uint8_t> levels;
+Levels levels_by_density(const cli::Crowd& crowd) {
+  Levels levels;
   for (const double density : local_densities(crowd.x, crowd.y)) {
-    const auto* const depth =
-        std::find(std::begin(compared_depths), std::end(compared_depths), depth_at_density(density));
+    const auto* const depth = std::ranges::find(compared_depths, depth_at_density(density));
     levels.push_back(static_cast<std::uint8_t>(depth - std::begin(compared_depths)));
   }
   return levels;
@@ -53,7 +52,6 @@ struct Stop {
 
 struct StopCounts {
   std::size_t false_stops = 0, true_stops = 0, missed = 0, colliding = 0;
-  std::vector<double> tests, counting;  ///< nanoseconds of a frame
   std::map<std::pair<std::uint32_t, std::uint32_t>, Stop> stops;
 
   void add(Pair pair, int frame, bool is_hit, bool meshes_meet) {
@@ -80,65 +78,57 @@ void walk(cli::Crowd& crowd) {
   }
 }
 
-std::vector<StopCounts> walk_and_test(Run& run, std::span<const Detail> details, double density) {
-  const baselines::Structure& meshes = run.contestants().structure("OBB full mesh");
+/// Counts stops, and adds the times of all frames.
+std::vector<StopCounts> walk_and_test(Run& run, const baselines::Structure& meshes,
+                                      std::span<const Detail> details, double density, Table& times) {
   bench::Workload workload{
       "walking", cli::place_crowd(run.sizes().people, density, meshes.shape_count(), run.seed()), {}};
-  std::vector<StopCounts> outcomes(details.size());
+  std::vector<StopCounts> counts(details.size());
   bench::Hits truth, hits;
   for (int frame = 0; frame < frames; ++frame, walk(workload.crowd)) {
-    const std::vector<std::uint8_t> roots = same_level<0>(workload.crowd);
-    workload.pairs = candidate_pairs(*details[0].set, workload.crowd.at_level(roots));
+    const Levels roots = same_level<0>(workload.crowd);
+    workload.pairs = candidate_pairs(details[0].set, workload.crowd.at_level(roots));
     truth.resize(workload.pairs.size()), hits.resize(workload.pairs.size());
     meshes.query(workload.agents(), workload.pairs, truth);
     for (std::size_t k = 0; k < details.size(); ++k) {
       const bench::Stopwatch counting(1);
-      const std::vector<std::uint8_t> levels = details[k].levels(workload.crowd);
-      outcomes[k].counting.push_back(counting.nanoseconds());
+      const Levels levels = details[k].levels(workload.crowd);
+      const double counted = counting.nanoseconds();
       const bench::Stopwatch tests(1);
-      collide(*details[k].set, workload.crowd.at_level(levels), workload.pairs, hits, bench::disc_query);
-      outcomes[k].tests.push_back(tests.nanoseconds());
+      collide(details[k].set, workload.crowd.at_level(levels), workload.pairs, hits, bench::disc_query);
+      times.add({density, details[k].name, frame, tests.nanoseconds() / run.sizes().people,
+                 counted / run.sizes().people});
       for (std::size_t i = 0; i < hits.size(); ++i)
-        outcomes[k].add(workload.pairs[i], frame, hits[i] != 0, truth[i] != 0);
+        counts[k].add(workload.pairs[i], frame, hits[i] != 0, truth[i] != 0);
     }
   }
-  for (StopCounts& outcome : outcomes)
-    for (const auto& [pair, stop] : outcome.stops) outcome.finish(stop);
-  return outcomes;
-}
-
-void run_detail(Run& run) {
-  const std::span<const Shape> shapes = run.scene().shapes();
-  const ShapeSet cuts(shapes,
-                      {std::vector<std::uint32_t>(std::begin(compared_depths), std::end(compared_depths))});
-  const ShapeSet fixed_set(with_fixed_cylinders(shapes, 0.25f), {{0}});
-  const Detail details[] = {
-      {"single cylinder", &cuts, same_level<0>}, {"depth 3", &cuts, same_level<1>},
-      {"depth 6", &cuts, same_level<2>},         {"all depths", &cuts, same_level<3>},
-      {"by density", &cuts, levels_by_density},  {"fixed cylinder 0.25 m", &fixed_set, same_level<0>}};
-  Table table({"people per m2", "detail", "false stops per person and second",
-               "true stops per person and second", "missed (%)", "tests of a frame (ns a person)",
-               "lower quartile (ns)", "upper quartile (ns)", "levels of a frame (ns a person)"});
-  double done = 0;
-  for (const double density : densities) {
-    const std::vector<StopCounts> outcomes = walk_and_test(run, details, density);
-    const double people = run.sizes().people, seconds = frames / frames_per_second;
-    for (std::size_t k = 0; k < outcomes.size(); ++k) {
-      const StopCounts& outcome = outcomes[k];
-      const Quartiles frame = quartiles(outcome.tests);
-      // Both of a pair stop.
-      table.add({density, details[k].name, 2 * static_cast<double>(outcome.false_stops) / people / seconds,
-                 2 * static_cast<double>(outcome.true_stops) / people / seconds,
-                 100 * share(outcome.missed, outcome.colliding).mean, frame.median / people,
-                 frame.low / people, frame.high / people, quartiles(outcome.counting).median / people});
-    }
-    run.done(++done / static_cast<double>(std::size(densities)));
-  }
-  run.write("detail", table);
+  for (StopCounts& count : counts)
+    for (const auto& [pair, stop] : count.stops) count.finish(stop);
+  return counts;
 }
 
 }  // namespace
 
-const Experiment detail_experiment{"detail", "Detail by density", 30, false, run_detail};
+void run_detail(Run& run) {
+  const std::span<const Shape> shapes = run.scene.shapes();
+  const ShapeSet cuts(shapes, {{std::begin(compared_depths), std::end(compared_depths)}});
+  const ShapeSet fixed_set(with_fixed_cylinders(shapes, 0.25f), {{0}});
+  const Detail details[] = {
+      {"single cylinder", cuts, same_level<0>}, {"depth 3", cuts, same_level<1>},
+      {"depth 6", cuts, same_level<2>},         {"all depths", cuts, same_level<3>},
+      {"by density", cuts, levels_by_density},  {"fixed cylinder 0.25 m", fixed_set, same_level<0>}};
+  Structures structures(run.scene);
+  Table table({"people per m2", "detail", "people", "seconds", "false stops", "true stops",
+               "colliding (pair-frames)", "missed (pair-frames)"});
+  Table times({"people per m2", "detail", "frame", "tests (ns a person)", "levels (ns a person)"});
+  for (const double density : densities) {
+    const auto counts = walk_and_test(run, structures.of("OBB full mesh"), details, density, times);
+    for (std::size_t k = 0; k < counts.size(); ++k)
+      table.add({density, details[k].name, run.sizes().people, frames / frames_per_second,
+                 counts[k].false_stops, counts[k].true_stops, counts[k].colliding, counts[k].missed});
+  }
+  run.write("detail", table);
+  run.write("detail_times", times);
+}
 
 }  // namespace bch::report

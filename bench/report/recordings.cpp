@@ -1,25 +1,23 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <fmt/format.h>
+#include "kernel/recordings/check.hpp"
+
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <optional>
+#include <map>
+#include <utility>
 
 #include <bch/collide.hpp>
 #include <bch/hierarchy.hpp>
 
 #include "bench/base/stopwatch.hpp"
-#include "bench/base/text.hpp"
-#include "bench/report/experiment.hpp"
-#include "bench/report/recorded_crowds.hpp"
-#include "bench/report/statistics.hpp"
-#include "kernel/recordings/check.hpp"
+#include "bench/report/report.hpp"
 
-// Bodies on recorded people, who never overlap, so that whatever does is a false alarm; and beside them on simulated ones.
+// Bodies on recorded people, who never overlap, so that whatever does is a false alarm, and beside them on simulated ones; and what
+// a simulator's own radius hides: bodies that overlap while the discs that it moves are clear of each other, and the other way round.
 
 namespace bch::report {
 namespace {
@@ -27,9 +25,31 @@ namespace {
 using detail::CheckedFrame;
 using detail::CheckedPerson;
 using detail::OverlapCount;
-using detail::OverlapCounts;
 
-constexpr const char* all_recordings = "all of people";
+constexpr double near = 1.2;  // metres, of neighbours
+
+/// A recording of the test data, and what its file does not say.
+struct Source {
+  const char *file, *made_by;
+  detail::TrajectoryOptions options = {};
+};
+
+/// How bodies are tested.
+struct Bodies {
+  const char* name;
+  std::uint32_t depth = all_depths;
+  Leaves leaves = Leaves::segments;
+  std::vector<float> slices = {};
+
+  detail::CheckOptions options() const {
+    detail::CheckOptions options;
+    options.plan = {.depths = {depth}, .slices = slices};
+    options.leaves = leaves;
+    return options;
+  }
+};
+const Bodies outlines{"segments"};
+const Bodies four_slabs{"4 slabs", all_depths, Leaves::segments, {0.4f, 0.85f, 1.05f}};
 
 /// Fixed cylinders of everybody, by their indices in detail::compared_discs.
 constexpr std::array<std::size_t, 2> fixed{1, 3};
@@ -38,177 +58,225 @@ std::string fixed_name(std::size_t disc) {
   return fmt::format("fixed cylinder {:.2f} m", detail::compared_discs[disc]);
 }
 
+std::unique_ptr<detail::TrajectoryReader> open(const Run& run, const Source& source) {
+  return detail::open_trajectory(run.options.recordings / source.file, source.options);
+}
+
+/// The recordings that are there and not too long.
+std::vector<Source> wanted_sources(const Run& run) {
+  std::vector<Source> sources = {
+      {"juelich_bottleneck_040_c_56_h.txt", "people"},
+      {"juelich_unidirectional_uo-050-180-180.txt", "people", {.fps = 16, .unit = 0.01}},
+      {"data_archive_00_01a.h5", "people"},
+      {"single_file_n56_cam1.csv", "people", {.fps = 25}},
+      {"jpscore_corner_traj.txt", "simulator"},
+      {"jupedsim_v2_demo.sqlite", "simulator"},
+      {"pathfinder.csv", "simulator"}};
+  std::erase_if(sources, [&](const Source& source) {
+    return !std::filesystem::exists(run.options.recordings / source.file) ||
+           open(run, source)->info().rows > run.sizes().rows;
+  });
+  return sources;
+}
+
+double square_distance(const CheckedPerson& a, const CheckedPerson& b) {
+  const double x = a.walker.x - b.walker.x, y = a.walker.y - b.walker.y;
+  return x * x + y * y;
+}
+
 /// Neighbours of some frames, whose test is timed where there are enough.
 class TimedPairs {
  public:
-  TimedPairs(const Sizes& sizes, std::int64_t last_frame) : sizes_(sizes), last_frame_(last_frame) {}
+  TimedPairs(const Run& run, std::int64_t last_frame) : sizes_(run.sizes()), last_frame_(last_frame) {}
 
   /// Takes a frame; times the pairs once there are enough, or at the end.
   void add(const CheckedFrame& frame, const ShapeSet& shapes, Leaves leaves) {
-    if (time_ || frame.people.empty()) return;
+    if (!times_.empty() || frame.people.empty()) return;
     const std::uint32_t given_up = frame.people[0].pose - frame.people[0].shape;
-    if (given_up != given_up_) clear();  // their shapes are gone
+    if (given_up != given_up_) crowd_ = {}, pairs_.clear();  // their shapes are gone
     given_up_ = given_up;
-    const auto first = static_cast<std::uint32_t>(shape_.size());
+    const auto first = static_cast<std::uint32_t>(crowd_.size());
     for (const CheckedPerson& person : frame.people) {
-      shape_.push_back(person.shape);
-      x_.push_back(person.walker.x), y_.push_back(person.walker.y);
-      heading_.push_back(person.walker.heading);
+      crowd_.shape.push_back(person.shape), crowd_.heading.push_back(person.walker.heading);
+      crowd_.x.push_back(person.walker.x), crowd_.y.push_back(person.walker.y);
     }
     for (std::uint32_t i = 0; i < frame.people.size(); ++i)
       for (std::uint32_t j = i + 1; j < frame.people.size(); ++j)
         if (square_distance(frame.people[i], frame.people[j]) <= near * near)
           pairs_.push_back({first + i, first + j});
-    if (pairs_.size() >= sizes_.pairs || frame.frame == last_frame_) measure(shapes, leaves);
+    if (!pairs_.empty() && (pairs_.size() >= sizes_.pairs || frame.frame == last_frame_))
+      measure(shapes, leaves);
   }
 
-  /// Nanoseconds a pair; NaN where nothing was timed.
-  double time() const { return time_.value_or(std::nan("")); }
-  double time_of_cylinder(std::size_t k) const { return cylinder_times_[k]; }
+  /// Nanoseconds a pair in each run; none where nothing was timed.
+  const std::vector<double>& times() const { return times_; }
+  const std::vector<double>& times_of_cylinder(std::size_t k) const { return cylinder_times_[k]; }
 
  private:
-  void clear() { shape_.clear(), x_.clear(), y_.clear(), heading_.clear(), pairs_.clear(); }
-
-  double time_of(const ShapeSet& shapes, std::span<const std::uint32_t> shape, Leaves leaves) const {
+  std::vector<double> times_of(const ShapeSet& shapes, Leaves leaves) const {
     std::vector<std::uint8_t> answers(pairs_.size());
     std::vector<double> times;
     oneapi::tbb::task_arena one(1);
     for (std::uint32_t run = 0; run < sizes_.runs; ++run)
       one.execute([&] {
         const bench::Stopwatch watch(1);
-        collide(shapes, {shape, x_, y_, heading_}, pairs_, answers,
-                {.semantics = Semantics::solid, .leaves = leaves});
+        collide(shapes, crowd_.agents(), pairs_, answers, {.semantics = Semantics::solid, .leaves = leaves});
         times.push_back(watch.nanoseconds() / static_cast<double>(pairs_.size()));
       });
-    return quartiles(times).median;
+    return times;
   }
 
   void measure(const ShapeSet& shapes, Leaves leaves) {
-    if (pairs_.empty()) return;
-    time_ = time_of(shapes, shape_, leaves);
-    const std::vector<std::uint32_t> same(shape_.size(), 0);
+    times_ = times_of(shapes, leaves);
+    crowd_.shape.assign(crowd_.size(), 0);
     for (std::size_t k = 0; k < fixed.size(); ++k) {
       Shape disc;
       disc.hierarchy = fixed_cylinder(static_cast<float>(detail::compared_discs[fixed[k]]));
-      cylinder_times_[k] = time_of(ShapeSet({&disc, 1}), same, Leaves::discs);
+      cylinder_times_[k] = times_of(ShapeSet({&disc, 1}), Leaves::discs);
     }
   }
 
   const Sizes& sizes_;
   const std::int64_t last_frame_;
   std::uint32_t given_up_ = 0;
-  std::vector<std::uint32_t> shape_;
-  std::vector<double> x_, y_, heading_;
+  cli::Crowd crowd_;
   std::vector<Pair> pairs_;
-  std::optional<double> time_;
-  std::array<double, fixed.size()> cylinder_times_{};
+  std::vector<double> times_;
+  std::array<std::vector<double>, fixed.size()> cylinder_times_;
 };
 
-/// What a kind of bodies says of a recording.
-struct BodyOverlaps {
-  OverlapCount all;
-  OverlapCounts by_density;
-  double time = std::nan("");
-  std::array<double, fixed.size()> cylinder_times{};
+/// The two tables of the experiment `recordings`.
+struct RecordingTables {
+  Table counts{{"recording", "made by", "structure", "from people per m2", "person-frames",
+                "in overlap (person-frames)", "neighbours", "in overlap (neighbours)"}};
+  Table times{{"recording", "structure", "run", "ns/pair"}};
+
+  /// `overlaps`: returns the overlapping person-frames and neighbours of a count.
+  template <class Overlaps>
+  void add(const Source& source, const std::string& structure, const detail::CheckSummary& summary,
+           std::span<const double> taken, Overlaps overlaps) {
+    for (std::size_t k = 0; k < summary.by_density.size(); ++k) {
+      const OverlapCount& count = summary.by_density[k];
+      const auto [people, pairs] = overlaps(count);
+      counts.add({source.file, source.made_by, structure, detail::density_classes[k], count.people, people,
+                  count.near_pairs, pairs});
+    }
+    for (std::size_t i = 0; i < taken.size(); ++i) times.add({source.file, structure, i, taken[i]});
+  }
 };
 
-BodyOverlaps outcome_of(const Run& run, const Source& source, const Bodies& of) {
+void check_recording(const Run& run, const Source& source, const Bodies& bodies, bool with_fixed,
+                     RecordingTables& tables) {
   const auto reader = open(run, source);
-  BodyOverlaps outcome;
-  TimedPairs timed(run.sizes(), reader->info().last_frame);
+  TimedPairs timed(run, reader->info().last_frame);
   const detail::CheckSummary summary = detail::check(
-      *reader, of.options(),
-      [&](const CheckedFrame& frame, const ShapeSet& shapes) { timed.add(frame, shapes, of.leaves); });
-  outcome.all = summary.all, outcome.by_density = summary.by_density;
-  outcome.time = timed.time();
-  for (std::size_t k = 0; k < fixed.size(); ++k) outcome.cylinder_times[k] = timed.time_of_cylinder(k);
-  return outcome;
+      *reader, bodies.options(),
+      [&](const CheckedFrame& frame, const ShapeSet& shapes) { timed.add(frame, shapes, bodies.leaves); });
+  for (std::size_t k = 0; k < fixed.size() && with_fixed; ++k)
+    tables.add(
+        source, fixed_name(fixed[k]), summary, timed.times_of_cylinder(k),
+        [&](const OverlapCount& all) { return std::pair(all.discs[fixed[k]], all.disc_pairs[fixed[k]]); });
+  tables.add(source, bodies.name, summary, timed.times(),
+             [](const OverlapCount& all) { return std::pair(all.overlapping, all.overlapping_pairs); });
 }
 
-/// Counts of one of the compared discs in the places of those of bodies.
-OverlapCount of_disc(OverlapCount count, std::size_t disc) {
-  count.overlapping = count.discs[disc], count.overlapping_pairs = count.disc_pairs[disc];
-  return count;
-}
+/// How often bodies overlap, the simulator's discs do, or both.
+struct Verdicts {
+  std::array<std::uint64_t, 4> count{};  ///< by bodies + 2 discs
 
-/// The two tables of the experiment.
-class RecordingTables {
+  void add(bool bodies, bool discs) { ++count[bodies + 2 * discs]; }
+};
+
+/// Compares the overlaps of bodies with those of discs of one radius.
+class DiscComparison {
  public:
-  void add(const Source& source, const std::string& structure, const OverlapCount& all, double time) {
-    summary_.add({source.file, std::string(source.made_by), structure, all.people,
-                  percent(all.overlapping, all.people), all.near_pairs,
-                  percent(all.overlapping_pairs, all.near_pairs), time});
+  explicit DiscComparison(double radius) : square_reach_(4 * radius * radius) {}
+
+  void add(const CheckedFrame& frame) {
+    const auto people = frame.people;
+    std::vector<bool> in_discs(people.size());
+    auto next = frame.pairs.begin();
+    for (std::size_t i = 0; i < people.size(); ++i)
+      for (std::size_t k = i + 1; k < people.size(); ++k) {
+        const double distance = square_distance(people[i], people[k]);
+        const bool discs = distance < square_reach_;
+        const float depth = depth_of(frame, next, people[i], people[k]);
+        if (discs) in_discs[i] = in_discs[k] = true;
+        if (distance <= near * near) neighbours_.add(depth >= 0, discs);
+        if (depth < 0 && !discs) continue;
+        auto& seen = of_two_[{people[i].walker.id, people[k].walker.id}];
+        seen.first |= depth >= 0, seen.second |= discs;
+        if (!discs) deepest_ = std::max(deepest_, depth);
+      }
+    for (std::size_t i = 0; i < people.size(); ++i) people_.add(people[i].overlaps, in_discs[i]);
   }
-  void add(const std::string& recording, const std::string& structure, const OverlapCounts& counts) {
-    for (std::size_t k = 0; k < counts.size(); ++k)
-      if (counts[k].people > 0)
-        densities_.add({recording, structure, detail::density_classes[k], counts[k].people,
-                        percent(counts[k].overlapping, counts[k].people), counts[k].near_pairs,
-                        percent(counts[k].overlapping_pairs, counts[k].near_pairs)});
-  }
-  void write(const Run& run) const {
-    run.write("recordings", summary_);
-    run.write("recordings_density", densities_);
+
+  void write(Table& table, const Source& source, const Bodies& bodies, double radius) const {
+    Verdicts of_two;  // what is said of two people in the whole recording
+    for (const auto& [ids, seen] : of_two_) of_two.add(seen.first, seen.second);
+    for (const auto& [counted, verdicts] :
+         {std::pair("neighbours", neighbours_), {"person-frames", people_}, {"encounters", of_two}}) {
+      const auto& [neither, bodies_alone, discs_alone, both] = verdicts.count;
+      table.add({source.file, source.made_by, bodies.name, radius, counted,
+                 neither + bodies_alone + discs_alone + both, both, bodies_alone, discs_alone,
+                 100 * static_cast<double>(deepest_)});
+    }
   }
 
  private:
-  Table summary_{{"recording", "made by", "structure", "person-frames", "in overlap (% of person-frames)",
-                  "neighbours", "in overlap (% of neighbours)", "ns/pair"}};
-  Table densities_{{"recording", "structure", "from people per m2", "person-frames",
-                    "in overlap (% of person-frames)", "neighbours", "in overlap (% of neighbours)"}};
-};
+  using NextPair = std::span<const detail::CheckedPair>::iterator;
 
-OverlapCounts of_disc(OverlapCounts counts, std::size_t disc) {
-  for (OverlapCount& count : counts) count = of_disc(count, disc);
-  return counts;
-}
-
-void add_fixed(const Source& source, const BodyOverlaps& outcome, RecordingTables& tables) {
-  for (std::size_t k = 0; k < fixed.size(); ++k) {
-    tables.add(source, fixed_name(fixed[k]), of_disc(outcome.all, fixed[k]), outcome.cylinder_times[k]);
-    tables.add(source.file, fixed_name(fixed[k]), of_disc(outcome.by_density, fixed[k]));
+  /// Returns how deep the bodies of two people overlap; below 0 where they do not. Asked for in the order of the frame's pairs.
+  static float depth_of(const CheckedFrame& frame, NextPair& next, const CheckedPerson& a,
+                        const CheckedPerson& b) {
+    const auto wanted = std::pair(a.walker.id, b.walker.id);
+    const auto is_over = [&](const detail::CheckedPair& pair) {
+      return pair.is_wall || !pair.overlap || std::pair(pair.first, pair.second) < wanted;
+    };
+    while (next != frame.pairs.end() && is_over(*next)) ++next;
+    return next != frame.pairs.end() && std::pair(next->first, next->second) == wanted ? next->depth : -1;
   }
-}
 
-void run_recordings(Run& run) {
-  const std::vector<Source> recorded = wanted_sources(run);
-  if (recorded.empty()) return;
-  const std::vector<Bodies> compared = all_bodies();
-  std::vector<OverlapCounts> together(compared.size());
-  RecordingTables tables;
-  double done = 0;
-  for (const Source& source : recorded)
-    for (std::size_t i = 0; i < compared.size(); ++i) {
-      const BodyOverlaps outcome = outcome_of(run, source, compared[i]);
-      if (i == 0) add_fixed(source, outcome, tables);
-      tables.add(source, compared[i].name, outcome.all, outcome.time);
-      tables.add(source.file, compared[i].name, outcome.by_density);
-      for (std::size_t k = 0; k < together[i].size() && source.made_by == made_by_people; ++k)
-        together[i][k] += outcome.by_density[k];
-      run.done(++done / static_cast<double>(recorded.size() * compared.size()));
-    }
-  for (const std::size_t disc : fixed)
-    tables.add(all_recordings, fixed_name(disc), of_disc(together[0], disc));
-  for (std::size_t i = 0; i < compared.size(); ++i) tables.add(all_recordings, compared[i].name, together[i]);
-  tables.write(run);
-}
-
-std::string overlapping(const Results& results, std::string_view of) {
-  return range_in(results("recordings"), of, "in overlap (% of neighbours)");
-}
-
-std::string time_of_pair(const Results& results, std::string_view of) {
-  return range_in(results("recordings"), of, "ns/pair");
-}
+  const double square_reach_;
+  Verdicts neighbours_, people_;
+  std::map<std::pair<std::int64_t, std::int64_t>, std::pair<bool, bool>> of_two_;
+  float deepest_ = 0;
+};
 
 }  // namespace
 
-const Experiment recordings_experiment{
-    "recordings",
-    "Recorded people",
-    40,
-    false,
-    run_recordings,
-    {{"neighbours in overlap", overlapping}, {"time of neighbours", time_of_pair}}};
+void run_recordings(Run& run) {
+  const Bodies compared[] = {{"single cylinder of the pose", 0, Leaves::discs},
+                             {"depth 3", 3, Leaves::discs},
+                             {"depth 6", 6, Leaves::discs},
+                             {"all depths", all_depths, Leaves::discs},
+                             outlines,
+                             four_slabs};
+  const std::vector<Source> sources = wanted_sources(run);
+  if (sources.empty()) return;
+  RecordingTables tables;
+  for (const Source& source : sources)
+    for (const Bodies& bodies : compared) {
+      check_recording(run, source, bodies, &bodies == compared, tables);
+    }
+  run.write("recordings", tables.counts);
+  run.write("recordings_times", tables.times);
+}
+
+void run_simulated(Run& run) {
+  const std::vector<Source> sources = wanted_sources(run);
+  if (sources.empty()) return;
+  Table table({"recording", "made by", "structure", "radius of discs (m)", "counted", "all", "both overlap",
+               "bodies alone", "discs alone", "deepest while discs are clear (cm)"});
+  for (const Source& source : sources)
+    for (const Bodies& bodies : {outlines, four_slabs}) {
+      DiscComparison comparison(run.sizes().disc_radius);
+      const auto reader = open(run, source);
+      detail::check(*reader, bodies.options(),
+                    [&](const CheckedFrame& frame, const ShapeSet&) { comparison.add(frame); });
+      comparison.write(table, source, bodies, run.sizes().disc_radius);
+    }
+  run.write("simulated", table);
+}
 
 }  // namespace bch::report

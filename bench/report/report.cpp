@@ -3,30 +3,96 @@
 
 #include "bench/report/report.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <mutex>
-#include <nlohmann/json.hpp>
+#include <fmt/chrono.h>
+#include <sys/utsname.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <ctime>
+#include <fstream>
+
+#include "bch_commit.hpp"
 #include "bench/base/output.hpp"
 #include "bench/base/progress.hpp"
-#include "bench/report/provenance.hpp"
+#include "bench/stability/tables.hpp"
+#include "bench/workload/contender.hpp"
 
 namespace bch::report {
 namespace {
 
-using Json = nlohmann::ordered_json;
+constexpr Experiment all_experiments[] = {
+    {"error_time", run_error_time, true},
+    {"construction", run_construction},
+    {"query_time", run_query_time},
+    {"distance", run_distance, true},
+    {"real", run_real, true},
+    {"depth", run_depth, true},
+    {"volume", run_volume},
+    {"threshold", run_threshold, true},
+    {"mesh_detail", run_mesh_detail},
+    {"density", run_density},
+    {"detail", run_detail},
+    {"motions", run_motions, true},
+    {"recordings", run_recordings},
+    {"simulated", run_simulated},
+    {"stability", run_stability},
+};
 
-bool wants(const Options& options, const Experiment& experiment) {
-  const auto& names = options.experiments;
-  return names.empty() || std::find(names.begin(), names.end(), experiment.name) != names.end();
+bool wants(const Options& options, std::string_view experiment) {
+  return options.experiments.empty() || std::ranges::count(options.experiments, experiment) > 0;
 }
 
-std::vector<const Experiment*> wanted(const Options& options) {
-  std::vector<const Experiment*> these;
-  for (const Experiment& experiment : experiments())
-    if (wants(options, experiment)) these.push_back(&experiment);
-  return these;
+std::string processor_name() {
+  std::ifstream stream("/proc/cpuinfo");
+  for (std::string line; std::getline(stream, line);)
+    if (line.starts_with("model name")) return line.substr(std::min(line.find(": ") + 2, line.size()));
+  return "unknown";
+}
+
+std::string system_name() {
+  utsname name;
+  return uname(&name) == 0 ? fmt::format("{} {}, {}", name.sysname, name.release, name.machine) : "unknown";
+}
+
+/// What was run, on what, by what.
+Table facts_of(const Options& options) {
+  std::vector<std::string_view> sets;
+  for (const Implementation& one : implementations())
+    if (one.supported()) sets.emplace_back(one.name);
+  const double gibibytes =
+      static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE)) / (1 << 30);
+  const Sizes& sizes = options.sizes;
+#ifdef __clang__
+  constexpr const char* compiler = "Clang " __clang_version__;
+#else
+  constexpr const char* compiler = "GCC " __VERSION__;
+#endif
+  const std::pair<const char*, Cell> facts[] = {
+      {"processor", processor_name()},
+      {"cores", sysconf(_SC_NPROCESSORS_ONLN)},
+      {"instruction sets", fmt::format("{}", fmt::join(sets, ", "))},
+      {"memory (GiB)", fmt::format("{:.1f}", gibibytes)},
+      {"system", system_name()},
+      {"compiler", compiler},
+      {"build", BCH_BUILD},
+      {"commit", BCH_COMMIT},
+      {"time", fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr)))},
+      {"command", options.command},
+      {"characters", fmt::format("{}", fmt::join(options.characters, ", "))},
+      {"real characters", options.real_characters.string()},
+      {"recordings", options.recordings.string()},
+      {"seed", options.seed},
+      {"poses of a character", sizes.poses},
+      {"pairs of a workload", sizes.pairs},
+      {"agents of the crowd", sizes.agents},
+      {"cases of people who slide", sizes.cases},
+      {"runs of what is timed", sizes.runs},
+      {"people who are packed", sizes.people},
+      {"packings", sizes.packings},
+      {"radius of discs of simulators (m)", sizes.disc_radius}};
+  Table table({"what", "value"});
+  for (const auto& [what, value] : facts) table.add({what, value});
+  return table;
 }
 
 std::vector<std::string> files_in(const std::filesystem::path& folder, std::string_view ending) {
@@ -38,59 +104,45 @@ std::vector<std::string> files_in(const std::filesystem::path& folder, std::stri
   return files;
 }
 
-bool is_clip(const std::filesystem::path& file) {
-  return file.filename().string().starts_with("clip_");
-}
-
-/// What was run, on what, by what.
-Table facts_of(const Options& options) {
-  Table table({"what", "value"});
-  for (const auto& [what, value] : provenance()) table.add({what, value});
-  table.add({"command", options.command});
-  std::string characters;
-  for (const std::string& one : options.characters) characters += (characters.empty() ? "" : ", ") + one;
-  table.add({"characters", characters});
-  table.add({"real characters", options.real_characters.string()});
-  table.add({"recordings", options.recordings.string()});
-  table.add({"seed", options.seed});
-  const Sizes& sizes = options.sizes;
-  table.add({"poses of a character", sizes.poses});
-  table.add({"pairs of a workload", sizes.pairs});
-  table.add({"agents of the crowd", sizes.agents});
-  table.add({"cases of people who slide", sizes.cases});
-  table.add({"runs of what is timed", sizes.runs});
-  table.add({"people who are packed", sizes.people});
-  table.add({"packings", sizes.packings});
-  table.add({"radius of discs of simulators (m)", sizes.disc_radius});
-  return table;
-}
-
 /// Files that are characters, in the order of their names: glTF files, and FBX files of the folder `native`, which its clips
 /// follow where they fit.
 std::vector<cli::LoadedCharacter> load_real_characters(const std::filesystem::path& folder) {
   std::vector<cli::LoadedCharacter> loaded;
+  std::vector<std::string> native = files_in(folder / "native", ".fbx");
+  const auto clips = std::stable_partition(native.begin(), native.end(), [](const std::string& file) {
+    return !std::filesystem::path(file).filename().string().starts_with("clip_");
+  });
   ImportOptions with_clips;
-  for (const auto& file : files_in(folder / "native", ".fbx"))
-    if (is_clip(file)) with_clips.clip_files.push_back(file);
+  with_clips.clip_files.assign(clips, native.end());
   for (const auto& file : files_in(folder, ".glb")) loaded.push_back(cli::load_character(file, {}));
-  for (const auto& file : files_in(folder / "native", ".fbx")) {
-    if (is_clip(file)) continue;
+  for (auto file = native.begin(); file != clips; ++file) {
     try {
-      loaded.push_back(cli::load_character(file, with_clips));
+      loaded.push_back(cli::load_character(*file, with_clips));
     } catch (const ImportError&) {  // another skeleton
-      loaded.push_back(cli::load_character(file, {}));
+      loaded.push_back(cli::load_character(*file, {}));
     }
   }
   return loaded;
 }
 
-Json json_of(const Experiment& experiment, const Table& facts) {
-  Json json{{"experiment", experiment.name}, {"title", experiment.title}};
-  for (const auto& row : facts.rows()) json["run"][row[0]] = row[1];
-  return json;
+}  // namespace
+
+std::span<const Experiment> experiments() {
+  return all_experiments;
 }
 
-}  // namespace
+void Run::write(const std::string& name, const Table& table) const {
+  cli::write_file(options.folder / (name + ".csv"), table.csv());
+}
+
+void run_stability(Run& run) {
+  run.write("stability", table_of(bench::stability_rows(run.sizes().contacts, run.seed())));
+  const std::uint32_t each = std::max(2u, run.sizes().cases / 5);
+  const bench::StiffReport stiff =
+      bench::stiff_contact({run.sizes().pressed, std::min(200u, run.sizes().people), each, each});
+  run.write("stiff_press", press_table(stiff));
+  run.write("stiff_touch", touch_table(stiff));
+}
 
 void run_report(const Options& options) {
   bench::Scene scene({.characters = options.characters,
@@ -99,40 +151,25 @@ void run_report(const Options& options) {
                       .sizes = {options.sizes.pairs, options.sizes.agents}});
   // First, as a bad file should neither cost minutes nor leave files, and an import wants a process without threads.
   scene.characters();
-  const bool has_real = !options.real_characters.empty() &&
-                        (wants(options, real_experiment) || wants(options, motions_experiment));
+  const bool has_real =
+      !options.real_characters.empty() && (wants(options, "real") || wants(options, "motions"));
   const auto real =
       has_real ? load_real_characters(options.real_characters) : std::vector<cli::LoadedCharacter>();
   cli::make_folder(options.folder);
-  const Table facts = facts_of(options);
-  cli::write_file(options.folder / "run.csv", csv_of(facts));
+  cli::write_file(options.folder / "run.csv", facts_of(options).csv());
 
-  const auto these = wanted(options);
-  double total = 0;
-  for (const Experiment* experiment : these) total += experiment->seconds;
-  cli::Progress progress("report", static_cast<std::size_t>(total));
-  double before = 0;
-  std::size_t shown = 0;
-  for (const Experiment* experiment : these) {
-    Json json = json_of(*experiment, facts);
-    const auto write = [&](const std::string& name, const Table& table) {
-      cli::write_file(options.folder / (name + ".csv"), csv_of(table));
-      json["tables"][name] = json_of(table);
-    };
-    std::mutex counting;  // experiments tell from any thread
-    const auto done = [&](double share) {
-      const std::lock_guard lock(counting);
-      for (const double now = before + share * experiment->seconds; static_cast<double>(shown + 1) <= now;
-           ++shown)
-        progress.advance();
-    };
-    Run run(scene, real, options.recordings, options.sizes, options.seed, write, done);
-    if (!experiment->needs_distances || run.distances() != nullptr) experiment->run(run);
-    done(1);
-    before += experiment->seconds;
-    cli::write_json(options.folder / (std::string(experiment->name) + ".json"), json);
+  std::vector<Experiment> wanted;
+  std::ranges::copy_if(all_experiments, std::back_inserter(wanted), [&](const Experiment& experiment) {
+    return wants(options, experiment.name) &&
+           (!experiment.needs_distances || bench::has_kind("fcl_obb_full"));
+  });
+  cli::Progress progress("report", wanted.size());
+  progress.show();
+  for (const Experiment& experiment : wanted) {
+    Run run{options, scene, real};
+    experiment.run(run);
+    progress.advance();
   }
-  make_page(options.folder);
 }
 
 }  // namespace bch::report

@@ -3,13 +3,44 @@
 
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "bench/report/experiment.hpp"
+#include "bench/base/table.hpp"
+#include "bench/workload/scene.hpp"
+
+// The paper's experiments. They write what they measure, value by value, as CSV files; report.py says what that means.
 
 namespace bch::report {
+
+using bench::Cell;
+using bench::Table;
+using bench::unknown;
+
+/// Holds how much is measured, and of discs of which radius.
+struct Sizes {
+  std::uint32_t poses = 100;      ///< of a character
+  std::uint32_t pairs = 20'000;   ///< of a workload
+  std::uint32_t agents = 10'000;  ///< of the crowd
+  std::uint32_t cases = 500;      ///< of people who slide at each other
+  std::uint32_t runs = 9;         ///< of what is timed
+  std::uint32_t people = 1'000;   ///< that are packed
+  std::uint32_t packings = 3;
+  std::uint32_t contacts = 400;    ///< that are near, of a row of the stability tables
+  double pressed = 4;              ///< seconds of penalty forces
+  std::uint64_t rows = 1'000'000;  ///< of a recording; longer ones are left out
+  double disc_radius = 0.2;        ///< metres, of the discs that simulators move
+};
+constexpr Sizes full_sizes;
+constexpr Sizes quick_sizes{20, 2'000, 2'000, 100, 3, 200, 2, 40, 1, 20'000};
+constexpr Sizes smallest_sizes{2, 60, 80, 6, 1, 10, 1, 4, 0.1, 3'000};
+
+/// Limits the poses of a character in experiments that take up to a hundred megabytes, or long, for these.
+constexpr std::uint32_t most_costly_poses = 40;
 
 struct Options {
   std::filesystem::path folder;
@@ -22,17 +53,47 @@ struct Options {
   std::string command;  ///< that does all this again
 };
 
-/// Runs experiments, in the order of the page, and writes into the folder of each
-///   NAME*.csv   its tables,
-///   NAME.json   the same, with machine, compiler, commit, seed, options and command;
-/// and run.csv with the latter. Then make_page().
+/// Represents the context of an experiment: what it runs on and where its tables go.
+struct Run {
+  const Options& options;
+  bench::Scene& scene;
+  std::span<const cli::LoadedCharacter> real_characters;  ///< none where there is no folder of them
+
+  const Sizes& sizes() const { return options.sizes; }
+  std::uint64_t seed() const { return options.seed; }
+  /// Writes NAME.csv.
+  void write(const std::string& name, const Table& table) const;
+};
+
+struct Experiment {
+  std::string_view name;
+  void (*run)(Run& run);
+  bool needs_distances = false;  ///< cannot do without FCL
+};
+
+/// Returns all experiments, in the order of the page.
+std::span<const Experiment> experiments();
+
+void run_error_time(Run& run);
+void run_construction(Run& run);
+void run_query_time(Run& run);
+void run_distance(Run& run);
+void run_real(Run& run);
+void run_depth(Run& run);
+void run_volume(Run& run);
+void run_threshold(Run& run);
+void run_mesh_detail(Run& run);
+void run_density(Run& run);
+void run_detail(Run& run);
+void run_motions(Run& run);
+void run_recordings(Run& run);
+void run_simulated(Run& run);
+void run_stability(Run& run);
+
+/// Runs experiments, in the order of the page, and writes the tables of each, NAME*.csv, into the folder; and run.csv with machine,
+/// compiler, commit, seed, options and command.
 /// Errors:  throws cli::InputError where something cannot be read or written, as cli::load_character() does, and
 ///          whatever an experiment finds wrong.
 void run_report(const Options& options);
-
-/// Writes report.html from the CSV files in the folder and from nothing else: what experiments left there, at whatever
-/// time. Beside it the scripts of the charts and what gnuplot made of them, where there is gnuplot.
-/// Errors:  throws cli::InputError on files that are missing or not those of an experiment.
-void make_page(const std::filesystem::path& folder);
 
 }  // namespace bch::report

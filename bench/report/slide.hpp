@@ -4,17 +4,21 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
 #include <bch/shape_set.hpp>
 
 #include "baselines/pair_distances.hpp"
-#include "baselines/structure.hpp"
 #include "bench/characters/crowd.hpp"
 #include "layout/base/random.hpp"
 
 namespace bch::report {
+
+/// Answers the pairs of agents.
+using Answer =
+    std::function<void(const Agents& agents, std::span<const Pair> pairs, std::span<std::uint8_t> hits)>;
 
 /// Represents the cases of the paper's experiment on errors. In each case, two people stand apart, turned at
 /// random. The first one slides along the x axis past the second, on a line up to half a metre beside the
@@ -26,16 +30,13 @@ class SlideCases {
   /// Draws the cases, which are the same for the same shapes and seed everywhere.
   SlideCases(std::span<const Shape> shapes, std::uint32_t cases, std::uint64_t seed);
 
-  std::size_t size() const { return pairs_.size(); }
+  std::size_t size() const { return from_.size(); }
   Agents agents() const { return crowd_.agents(); }
-  std::span<const Pair> pairs() const { return pairs_; }
 
   /// Returns where on the x axis the first person is when a collision is detected, metres: one place a case,
-  /// NaN where there is none. Both overloads run on all threads. The answer is asked for at every millimetre,
-  /// and that interval is then bisected to a micrometre. With a set, the search begins where time_of_impact()
-  /// finds the first contact.
-  std::vector<double> contacts(const ShapeSet& set, Leaves leaves = Leaves::discs) const;
-  std::vector<double> contacts(const baselines::Structure& structure, std::uint32_t max_depth) const;
+  /// NaN where there is none. The answer is asked for at every millimetre, and that interval is then bisected to a
+  /// micrometre. Runs on all threads.
+  std::vector<double> contacts(const Answer& answer) const;
 
   /// Returns how far the bodies are from each other at such places, centimetres; 0 where they meet, NaN as
   /// above.
@@ -43,16 +44,9 @@ class SlideCases {
 
  private:
   void draw(detail::Random& random, std::size_t of);
-  /// Slides until `meet` says that the two of some agents do, but not before so many steps.
-  template <class Meet>
-  double contact(std::size_t of, double first_step, Meet meet) const;
 
-  cli::Crowd crowd_;  ///< agents 2 i and 2 i + 1 are case i
-  std::vector<Pair> pairs_;
+  cli::Crowd crowd_;          ///< agents 2 i and 2 i + 1 are case i
   std::vector<double> from_;  ///< where even boxes about boxes do not meet yet
 };
-
-/// Returns the values that are numbers, not NaN.
-std::vector<double> known(std::span<const double> values);
 
 }  // namespace bch::report

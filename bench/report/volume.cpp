@@ -3,123 +3,161 @@
 
 #include <oneapi/tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
-#include <limits>
+#include <map>
 #include <numbers>
+#include <utility>
 
 #include <bch/scene_plan.hpp>
 
 #include "bench/base/disc_union_area.hpp"
 #include "bench/report/coverage.hpp"
-#include "bench/report/experiment.hpp"
-#include "bench/report/paper_volume.hpp"
-#include "bench/report/subject.hpp"
+#include "bench/report/subjects.hpp"
 #include "layout/base/planes.hpp"
+#include "layout/character/eigen.hpp"
+#include "layout/character/skinning.hpp"
+#include "layout/enclosing_disc/enclosing_disc.hpp"
 
-// Represented volume: figure 7 and table 1 of the paper, and what cuts over the outline cover. All shapes are cylinders over
-// the ground, so that their volumes are to each other as their areas are.
+// Represented volume: figure 7 and table 1 of the paper, in its own terms; and what cuts over the outline and outlines of slabs
+// cover. All shapes are cylinders over the ground, so that their volumes are to each other as their areas are.
 
 namespace bch::report {
 namespace {
 
 constexpr std::uint32_t volume_depths[] = {0, 3, 6, 9, all_depths};
+/// The page takes the built-in man and woman for the paper's two, and the bulky man for its man once more.
+constexpr const char *man = "default:male", *bulky_man = "default:bulky";
 
-struct Areas {
-  double discs, filled, outline;  ///< rasterised, square metres
-  double exact_discs, exact_outline;
-};
-
-Areas areas_of(const Shape& shape, std::uint32_t depth) {
-  const std::vector<Disc> discs = cli::discs_of(shape.hierarchy, depth);
-  const Coverage grid = rasterise(shape.outline, discs);
-  return {grid.discs, grid.filled, grid.outline, cli::union_area(discs), area(shape.outline)};
+/// Returns whether the triangles enclose a volume: each edge is passed one way as often as the other.
+bool is_closed(std::span<const std::array<std::uint32_t, 3>> triangles) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, int>
+      balance;  // of passes from the lower to the higher index
+  for (const auto& t : triangles)
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t from = t[i], to = t[(i + 1) % 3];
+      balance[std::minmax(from, to)] += from < to ? 1 : -1;
+    }
+  return std::ranges::all_of(balance, [](const auto& edge) { return edge.second == 0; });
 }
 
-/// Adds the volumes of a character at a depth, normalised by the volume of the single cylinder of the same
-/// pose.
-void add_depth(Run& run, const std::string& character, std::span<const Shape> shapes, std::uint32_t depth,
-               Table& table, Table& poses) {
-  std::vector<Areas> all(shapes.size());
-  tbb::parallel_for(std::size_t{0}, shapes.size(),
-                    [&](std::size_t i) { all[i] = areas_of(shapes[i], depth); });
-  std::vector<double> normalised, exact, apart;
-  for (std::size_t i = 0; i < shapes.size(); ++i) {
-    const double radius = static_cast<double>(shapes[i].hierarchy.nodes[0].disc.radius);
-    const double cylinder = std::numbers::pi * radius * radius;
-    normalised.push_back(all[i].filled / cylinder);
-    exact.push_back(all[i].exact_discs / cylinder);
-    apart.push_back(100 * std::abs(all[i].discs / all[i].exact_discs - 1));
-    poses.add({character, cut_name(depth), i, radius, all[i].filled, all[i].discs, all[i].exact_discs,
-               all[i].outline, all[i].exact_outline});
+/// Returns the volume inside a closed mesh whose triangles run counter-clockwise seen from outside, cubic
+/// metres. A region inside two parts of the mesh counts twice.
+double enclosed_volume(std::span<const Vec3> positions,
+                       std::span<const std::array<std::uint32_t, 3>> triangles) {
+  double volume = 0;  // of the tetrahedra that triangles make with the origin
+  for (const auto& [a, b, c] : triangles) {
+    const auto at = [&](std::uint32_t i) -> Eigen::Vector3d {
+      return detail::to_eigen(positions[i]).cast<double>();
+    };
+    volume += at(a).dot(at(b).cross(at(c)));
   }
-  const Estimate filled = estimate(normalised, run.seed()), discs = estimate(exact, run.seed());
-  table.add({character, cut_name(depth), filled.mean, filled.low, filled.high, quartiles(normalised).median,
-             filled.deviation, discs.mean, discs.deviation, quartiles(apart).median, quartiles(apart).high});
+  return volume / 6;
 }
 
-void add_outline(Run& run, const std::string& character, std::span<const Shape> shapes, Table& table) {
-  std::vector<double> normalised, apart;
-  for (const Shape& shape : shapes) {
-    const double radius = static_cast<double>(shape.hierarchy.nodes[0].disc.radius),
-                 exact = area(shape.outline);
-    normalised.push_back(exact / (std::numbers::pi * radius * radius));
-    apart.push_back(100 * std::abs(rasterise(shape.outline, {}).outline / exact - 1));
+double height_of(const Heights& heights) {
+  return static_cast<double>(heights.top) - static_cast<double>(heights.bottom);
+}
+
+/// The area of a pose's single cylinder.
+double cylinder_of(const Shape& shape) {
+  const double radius = static_cast<double>(shape.hierarchy.nodes[0].disc.radius);
+  return std::numbers::pi * radius * radius;
+}
+
+std::string name_of_character(Run& run, std::size_t shape) {
+  return cli::file_name(run.scene.characters()[run.scene.sources()[shape].character]);
+}
+
+/// Adds, of each pose, the single cylinder, the area of the leaf discs over all projected triangles, and the volume of the mesh.
+void add_paper_volumes(const cli::LoadedCharacter& loaded, std::span<const ShapeSource> poses, Table& table) {
+  const Character& character = loaded.character;
+  detail::Skinner skinner(character);
+  const bool closed = is_closed(character.triangles);
+  std::vector<std::vector<Vec2>> from_above;
+  std::vector<double> volumes, leaves(poses.size());
+  for (const ShapeSource& pose : poses) {
+    const auto positions = skinner.pose(pose.at);
+    auto& points = from_above.emplace_back();
+    for (const Vec3& p : positions) points.push_back({p.x, p.y});
+    volumes.push_back(closed ? enclosed_volume(positions, character.triangles) : unknown);
   }
-  const Estimate exact = estimate(normalised, run.seed());
-  table.add({character, "outline", exact.mean, exact.low, exact.high, quartiles(normalised).median,
-             exact.deviation, exact.mean, exact.deviation, quartiles(apart).median, quartiles(apart).high});
+  tbb::parallel_for(std::size_t{0}, poses.size(), [&](std::size_t i) {
+    const Hierarchy hierarchy = projected_hierarchy(from_above[i], character.triangles);
+    leaves[i] = rasterise({}, cli::discs_of(hierarchy, all_depths)).discs;
+  });
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    table.add({cli::file_name(loaded), i, static_cast<double>(loaded.report.height),
+               static_cast<double>(detail::smallest_enclosing_disc(from_above[i]).radius), leaves[i],
+               volumes[i]});
+}
+
+void measure_paper_volumes(Run& run) {
+  Table table(
+      {"character", "pose", "height (m)", "radius (m)", "leaf discs, raster (m2)", "mesh volume (m3)"});
+  const auto& characters = run.scene.characters();
+  for (std::uint32_t c = 0; c < characters.size(); ++c) {
+    std::vector<ShapeSource> poses;
+    std::ranges::copy_if(run.scene.sources(), std::back_inserter(poses),
+                         [&](const ShapeSource& source) { return source.character == c; });
+    add_paper_volumes(characters[c], poses, table);
+  }
+  const auto is = [&](const char* source) {
+    return std::ranges::count(characters, source, &cli::LoadedCharacter::source) > 0;
+  };
+  if (is(man) && !is(bulky_man)) {
+    const std::vector<cli::LoadedCharacter> bulky = {cli::load_character(bulky_man, {})};
+    add_paper_volumes(bulky[0], cli::list_random_shapes(bulky, run.sizes().poses, run.seed()), table);
+  }
+  run.write("volume_paper", table);
+}
+
+/// Adds the areas of a cut of every shape, or of its outline, as shares of the pose's single cylinder.
+void add_areas(Run& run, const std::string& structure, std::uint32_t depth, bool outline, Table& table) {
+  const std::vector<Shape>& shapes = run.scene.shapes();
+  std::vector<std::vector<Cell>> rows(shapes.size());
+  tbb::parallel_for(std::size_t{0}, shapes.size(), [&](std::size_t i) {
+    const std::vector<Disc> discs = outline ? std::vector<Disc>() : cli::discs_of(shapes[i].hierarchy, depth);
+    const Coverage grid = rasterise(shapes[i].outline, discs);
+    const double exact = outline ? area(shapes[i].outline) : cli::union_area(discs),
+                 raster = outline ? grid.outline : grid.discs, cylinder = cylinder_of(shapes[i]);
+    rows[i] = {name_of_character(run, i),
+               structure,
+               i,
+               (outline ? exact : grid.filled) / cylinder,
+               exact / cylinder,
+               100 * std::abs(raster / exact - 1)};
+  });
+  for (const std::vector<Cell>& row : rows) table.add(row);
 }
 
 /// Adds the volumes of slabs, each as high as it is: those of their outlines, which exact leaves represent.
-void add_volume_of_slabs(Run& run, const std::string& character, std::span<const Shape> whole,
-                         std::size_t begin, std::uint32_t slabs, Table& table) {
+void add_volumes_of_slabs(Run& run, std::uint32_t slabs, Table& table) {
   const std::vector<float> planes = standing_slices(slabs);
-  std::vector<double> normalised;
-  for (std::size_t i = 0; i < whole.size(); ++i) {
-    const Shape& shape = run.scene().shapes_in_slabs(slabs)[begin + i];
-    const auto height = [](const Heights& heights) {
-      return static_cast<double>(heights.top) - static_cast<double>(heights.bottom);
-    };
+  const std::vector<Shape>& shapes = run.scene.shapes_in_slabs(slabs);
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
     double volume = 0;
-    for (std::size_t j = 0; j < shape.slabs.size(); ++j)
-      if (shape.slabs[j].outline.contours() > 0)
-        volume += area(shape.slabs[j].outline) * height(detail::heights_of_slab(shape.heights, planes, j));
-    const double radius = static_cast<double>(whole[i].hierarchy.nodes[0].disc.radius);
-    normalised.push_back(volume / (std::numbers::pi * radius * radius * height(shape.heights)));
+    for (std::size_t j = 0; j < shapes[i].slabs.size(); ++j) {
+      const Outline& outline = shapes[i].slabs[j].outline;
+      if (outline.contours() > 0)
+        volume += area(outline) * height_of(detail::heights_of_slab(shapes[i].heights, planes, j));
+    }
+    const double cylinder = cylinder_of(run.scene.shapes()[i]) * height_of(shapes[i].heights);
+    table.add({name_of_character(run, i), slabs_name(slabs, Leaves::segments), i, volume / cylinder, unknown,
+               unknown});
   }
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  const Estimate exact = estimate(normalised, run.seed());
-  table.add({character, slabs_name(slabs, Leaves::segments), exact.mean, exact.low, exact.high,
-             quartiles(normalised).median, exact.deviation, none, none, none, none});
-}
-
-void run_volume(Run& run) {
-  measure_paper_volumes(run);
-  Table table({"character", "structure", "normalised volume", "95 % low", "95 % high", "median",
-               "standard deviation", "discs alone, exact", "deviation of that",
-               "raster off exact, median (%)", "raster off exact, upper quartile (%)"});
-  Table poses({"character", "structure", "pose", "radius (m)", "filled, raster (m2)", "discs, raster (m2)",
-               "discs, exact (m2)", "outline, raster (m2)", "outline, exact (m2)"});
-  const std::span<const Shape> shapes = run.scene().shapes();
-  for (std::uint32_t c = 0, begin = 0; c < run.scene().characters().size(); ++c) {
-    const auto& character = run.scene().characters()[c];
-    std::uint32_t end = begin;
-    while (end < shapes.size() && run.scene().sources()[end].character == c) ++end;
-    const auto of_one = shapes.subspan(begin, end - begin);
-    for (const std::uint32_t depth : volume_depths)
-      add_depth(run, cli::file_name(character), of_one, depth, table, poses);
-    add_outline(run, cli::file_name(character), of_one, table);
-    for (const std::uint32_t slabs : compared_slabs)
-      add_volume_of_slabs(run, cli::file_name(character), of_one, begin, slabs, table);
-    begin = end;
-    run.done(static_cast<double>(c + 1) / static_cast<double>(run.scene().characters().size()));
-  }
-  run.write("volume", table);
-  run.write("volume_poses", poses);
 }
 
 }  // namespace
 
-const Experiment volume_experiment{"volume", "Represented volume", 30, false, run_volume};
+void run_volume(Run& run) {
+  measure_paper_volumes(run);
+  Table table(
+      {"character", "structure", "shape", "normalised volume", "discs alone, exact", "raster off exact (%)"});
+  for (const std::uint32_t depth : volume_depths) add_areas(run, cut_name(depth), depth, false, table);
+  add_areas(run, "outline", all_depths, true, table);
+  for (const std::uint32_t slabs : compared_slabs) add_volumes_of_slabs(run, slabs, table);
+  run.write("volume", table);
+}
 
 }  // namespace bch::report

@@ -29,55 +29,48 @@ StabilitySetup named(double value) {
   return setup;
 }
 
+/// The setups of a family: one for each value, which `change` makes of the usual one.
+template <class Change>
+Setups varied(std::initializer_list<double> values, Change change) {
+  Setups setups;
+  for (const double value : values) change(setups.emplace_back(named(value)), value);
+  return setups;
+}
+
 auto of_reach(double reach) {
   return [reach](Random& random) { return usual_specimens(random, reach); };
 }
 
 Setups offset_setups() {
-  Setups setups;
-  for (const double offset : {0.0, 1.0, 1e2, 1e4, 1e5, 1e6, 1e7, 1e8, 9.9e8, 1.1e9}) {
-    StabilitySetup& setup = setups.emplace_back(named(offset));
-    setup.x = offset, setup.y = -offset;
-    setup.outside = offset > 1e9;
-  }
-  return setups;
+  return varied({0.0, 1.0, 1e2, 1e4, 1e5, 1e6, 1e7, 1e8, 9.9e8, 1.1e9},
+                [](StabilitySetup& setup, double offset) {
+                  setup.x = offset, setup.y = -offset;
+                  setup.outside = offset > 1e9;
+                });
 }
 
 Setups scale_setups() {
-  Setups setups;
-  for (const double reach :
-       {9e-7, 1.001e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 1e3, 1e4, 1e5, 0.999e6, 1.1e6}) {
-    StabilitySetup& setup = setups.emplace_back(named(reach));
-    setup.make = of_reach(reach);
-    setup.outside = reach < 1e-6 || reach > 1e6;
-  }
-  return setups;
+  return varied(
+      {9e-7, 1.001e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0, 1e3, 1e4, 1e5, 0.999e6, 1.1e6},
+      [](StabilitySetup& setup, double reach) {
+        setup.make = of_reach(reach);
+        setup.outside = reach < 1e-6 || reach > 1e6;
+      });
 }
 
 Setups ratio_setups() {
-  Setups setups;
-  for (const double ratio : {1.0, 10.0, 1e2, 1e3, 1e4, 1e5, 1e6, 1e9}) {
-    StabilitySetup& setup = setups.emplace_back(named(ratio));
+  return varied({1.0, 10.0, 1e2, 1e3, 1e4, 1e5, 1e6, 1e9}, [](StabilitySetup& setup, double ratio) {
     setup.make = of_reach(1e5);
     setup.make_other = of_reach(1e5 / ratio);
-  }
-  return setups;
+  });
 }
 
-Setups ladder_setups(double (*step)(double)) {
-  Setups setups;
-  for (const int steps : {-64, -32, -16, -8, -4, -2, -1, 0, 1, 2, 4, 8, 16, 32, 64}) {
-    StabilitySetup& setup = setups.emplace_back(named(steps));
-    setup.gap = [=](Random&, double radii, double) { return steps * step(radii); };
-  }
-  return setups;
-}
-
-Setups float_ladder_setups() {
-  return ladder_setups(float_step);
-}
-Setups double_ladder_setups() {
-  return ladder_setups(double_step);
+template <double (*step)(double)>
+Setups ladder_setups() {
+  return varied({-64, -32, -16, -8, -4, -2, -1, 0, 1, 2, 4, 8, 16, 32, 64},
+                [](StabilitySetup& setup, double steps) {
+                  setup.gap = [=](Random&, double radii, double) { return steps * step(radii); };
+                });
 }
 
 /// Either way, half of them exactly so much and half a thousandth less at most.
@@ -89,35 +82,28 @@ auto about(double heading) {
 }
 
 Setups rotation_setups() {
-  Setups setups;
   using std::numbers::pi;
-  for (const double heading :
-       {1e-20, 1e-10, 1e-7, 1e-3, 1.0, pi / 2, pi, 1e3, 1e6, 1e9, 1.1e9, infinity, not_a_number}) {
-    StabilitySetup& setup = setups.emplace_back(named(heading));
-    setup.heading = about(heading);
-    setup.outside = !(heading <= 1e9);
-  }
-  return setups;
+  return varied({1e-20, 1e-10, 1e-7, 1e-3, 1.0, pi / 2, pi, 1e3, 1e6, 1e9, 1.1e9, infinity, not_a_number},
+                [](StabilitySetup& setup, double heading) {
+                  setup.heading = about(heading);
+                  setup.outside = !(heading <= 1e9);
+                });
 }
 
 Setups slender_setups() {
-  Setups setups;
-  for (const double slenderness : {1.0, 10.0, 100.0, 1e3, 1e4}) {
-    StabilitySetup& setup = setups.emplace_back(named(slenderness));
+  return varied({1.0, 10.0, 100.0, 1e3, 1e4}, [](StabilitySetup& setup, double slenderness) {
     setup.make = [slenderness](Random& random) {
       Specimens specimens;
       for (int i = 0; i < 12; ++i)
         specimens.push_back(contour_specimen(ring(random, 24, 0.2, 0.4, 0, 0, slenderness), 0.02));
       return specimens;
     };
-  }
-  return setups;
+  });
 }
 
 Setups contour_setups() {
-  Setups setups;
-  for (const std::uint32_t corners : {3u, 10u, 100u, 1'000u, 10'000u, 100'000u, 1'000'000u}) {
-    StabilitySetup& setup = setups.emplace_back(named(corners));
+  return varied({3, 10, 100, 1'000, 10'000, 100'000, 1'000'000}, [](StabilitySetup& setup, double count) {
+    const auto corners = static_cast<std::uint32_t>(count);
     setup.make = [corners](Random& random) {
       const double rough =
           corners > 100 ? 10.0 / corners : 0.2;  // so that a corner is not longer than the outline
@@ -127,58 +113,45 @@ Setups contour_setups() {
       return specimens;
     };
     setup.cost = corners < 100'000 ? 2 : corners / 10'000;
-  }
-  return setups;
+  });
 }
 
 Setups slab_setups() {
-  Setups setups;
-  for (const std::uint32_t slabs : {2u, 3u, 4u, 8u, 16u, 64u}) {
-    StabilitySetup& setup = setups.emplace_back(named(slabs));
+  return varied({2, 3, 4, 8, 16, 64}, [](StabilitySetup& setup, double count) {
+    const auto slabs = static_cast<std::uint32_t>(count);
     setup.make = [slabs](Random& random) { return slab_specimens(random, slabs); };
     for (std::uint32_t plane = 1; plane < slabs; ++plane)
       setup.plan.slices.push_back(2 * static_cast<float>(plane) / static_cast<float>(slabs));
     setup.cost = std::max(1u, slabs / 4);
-  }
-  return setups;
+  });
 }
 
 Setups height_setups() {
-  Setups setups;
-  for (const double height : {0.0, 1.0, 1e2, 1e4, 1e6, 1e8, 9.9e8, 1.1e9}) {
-    StabilitySetup& setup = setups.emplace_back(named(height));
+  return varied({0.0, 1.0, 1e2, 1e4, 1e6, 1e8, 9.9e8, 1.1e9}, [](StabilitySetup& setup, double height) {
     setup.make = prism_specimens;
     setup.plan.heights = true;
     setup.placing = Placing::stacked;
     setup.z = height;
     setup.outside = height > 1e9;
-  }
-  return setups;
+  });
 }
 
 Setups triangle_setups() {
-  Setups setups;
-  const std::pair<const char*, Soup> kinds[] = {{"collinear", Soup::collinear},
-                                                {"duplicate", Soup::duplicate},
-                                                {"folded", Soup::folded},
-                                                {"needle", Soup::needle}};
-  for (const auto& [name, kind] : kinds) {
-    StabilitySetup& setup = setups.emplace_back();
-    setup.value = name;
-    setup.make = [soup = kind](Random& random) { return soup_specimens(random, soup); };
+  constexpr const char* names[] = {"collinear", "duplicate", "folded", "needle"};
+  Setups setups(std::size(names));
+  for (std::size_t i = 0; i < setups.size(); ++i) {
+    setups[i].value = names[i];
+    setups[i].make = [i](Random& random) { return soup_specimens(random, static_cast<Soup>(i)); };
   }
   return setups;
 }
 
 Setups coincident_setups() {
-  Setups setups;
-  for (const double offset : {0.0, 1e3, 9.9e8}) {
-    StabilitySetup& setup = setups.emplace_back(named(offset));
+  return varied({0.0, 1e3, 9.9e8}, [](StabilitySetup& setup, double offset) {
     setup.value = fmt::format("at {:g} m, and one bit beside", offset);
     setup.placing = Placing::coincident;
     setup.x = setup.y = offset;
-  }
-  return setups;
+  });
 }
 
 /// A flat contour whose heights are `height`, far below what its length has of resolution.
@@ -236,61 +209,39 @@ Setups extreme_setups() {
   return setups;
 }
 
-double percent(std::uint64_t part, std::uint64_t whole) {
-  return whole == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(whole);
-}
-
-struct FamilySetups {
-  StabilityFamily family;
-  Setups (*setups)();
-};
-
-constexpr FamilySetups all_families[] = {
-    {{"offset", "Far from the origin", "distance of the agents from the origin, metres"}, offset_setups},
-    {{"scale", "Small and large shapes", "reach of the shapes, metres"}, scale_setups},
-    {{"ratio", "A large and a small shape", "ratio of their reaches"}, ratio_setups},
-    {{"ladder_float", "A ladder of gaps, float", "gap, units in the last place of a float"},
-     float_ladder_setups},
-    {{"ladder_double", "A ladder of gaps, double", "gap, units in the last place of a double"},
-     double_ladder_setups},
-    {{"rotation", "Tiny, odd and large headings", "heading, radians"}, rotation_setups},
-    {{"slender", "Slender shapes", "length by width"}, slender_setups},
-    {{"contour", "Outlines of few and many corners", "corners"}, contour_setups},
-    {{"slabs", "Bodies in slabs", "slabs"}, slab_setups},
-    {{"heights", "One on top of the other", "height of the ground, metres"}, height_setups},
-    {{"triangles", "Triangles without area, in meshes", nullptr}, triangle_setups},
-    {{"coincident", "One shape twice at one place", nullptr}, coincident_setups},
-    {{"extremes", "The ends of the range", nullptr}, extreme_setups},
+constexpr StabilityFamily families[] = {
+    {"offset", "Far from the origin", "distance of the agents from the origin, metres", offset_setups},
+    {"scale", "Small and large shapes", "reach of the shapes, metres", scale_setups},
+    {"ratio", "A large and a small shape", "ratio of their reaches", ratio_setups},
+    {"ladder_float", "A ladder of gaps, float", "gap, units in the last place of a float",
+     ladder_setups<float_step>},
+    {"ladder_double", "A ladder of gaps, double", "gap, units in the last place of a double",
+     ladder_setups<double_step>},
+    {"rotation", "Tiny, odd and large headings", "heading, radians", rotation_setups},
+    {"slender", "Slender shapes", "length by width", slender_setups},
+    {"contour", "Outlines of few and many corners", "corners", contour_setups},
+    {"slabs", "Bodies in slabs", "slabs", slab_setups},
+    {"heights", "One on top of the other", "height of the ground, metres", height_setups},
+    {"triangles", "Triangles without area, in meshes", nullptr, triangle_setups},
+    {"coincident", "One shape twice at one place", nullptr, coincident_setups},
+    {"extremes", "The ends of the range", nullptr, extreme_setups},
 };
 
 }  // namespace
 
 std::span<const StabilityFamily> stability_families() {
-  static const std::vector<StabilityFamily> families = [] {
-    std::vector<StabilityFamily> list;
-    for (const FamilySetups& each : all_families) list.push_back(each.family);
-    return list;
-  }();
   return families;
 }
 
 std::vector<StabilityRow> stability_rows(std::uint32_t pairs, std::uint64_t seed) {
   std::vector<std::pair<const char*, StabilitySetup>> work;
-  for (const FamilySetups& each : all_families)
-    for (StabilitySetup& setup : each.setups()) work.emplace_back(each.family.name, std::move(setup));
+  for (const StabilityFamily& family : families)
+    for (StabilitySetup& setup : family.setups()) work.emplace_back(family.name, std::move(setup));
   std::vector<StabilityRow> rows(work.size());
   tbb::parallel_for(std::size_t{0}, work.size(), [&](std::size_t i) {
     rows[i] = run_setup(work[i].first, work[i].second, pairs, seed + i);
   });
   return rows;
-}
-
-double missed(const StabilityRow& row, const Errors& errors) {
-  return percent(errors.misses, row.meeting);
-}
-
-double falsely_hit(const StabilityRow& row, const Errors& errors) {
-  return percent(errors.false_positives, row.pairs - row.meeting);
 }
 
 double largest_error(const Errors& errors) {

@@ -42,10 +42,13 @@ struct StabilityRow {
   std::string refused;   ///< the exception's message; nothing is answered then
 };
 
+struct StabilitySetup;
+
 struct StabilityFamily {
   const char* name;   ///< a word, for file names
   const char* title;  ///< a line
   const char* axis;   ///< what the value is; null: values are not numbers, there is no picture
+  std::vector<StabilitySetup> (*setups)();
 };
 std::span<const StabilityFamily> stability_families();
 
@@ -53,9 +56,6 @@ std::span<const StabilityFamily> stability_families();
 /// `pairs`: for every row, half of which go to outlines. Runs in the caller's TBB arena.
 std::vector<StabilityRow> stability_rows(std::uint32_t pairs, std::uint64_t seed = 1);
 
-/// Return the errors in percent of the pairs that meet, and of those that do not.
-double missed(const StabilityRow& row, const Errors& errors);
-double falsely_hit(const StabilityRow& row, const Errors& errors);
 /// Returns the larger of the two errors by reach: metres per metre of reach.
 double largest_error(const Errors& errors);
 

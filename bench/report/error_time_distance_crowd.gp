@@ -1,5 +1,0 @@
-pairs = "crowd"
-error = "distance at detection (cm)"
-fronts = "error_time_distance.csv"
-set output "error_time_distance_crowd.svg"
-load "error_time_panel.gp"

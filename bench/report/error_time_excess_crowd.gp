@@ -1,5 +1,0 @@
-pairs = "crowd"
-error = "excess area (%)"
-fronts = "error_time_excess.csv"
-set output "error_time_excess_crowd.svg"
-load "error_time_panel.gp"

@@ -1,5 +1,0 @@
-pairs = "near miss"
-error = "excess area (%)"
-fronts = "error_time_excess.csv"
-set output "error_time_excess_near.svg"
-load "error_time_panel.gp"

@@ -1,5 +1,0 @@
-pairs = "near miss"
-error = "false positives (%)"
-fronts = "error_time_false.csv"
-set output "error_time_false_near.svg"
-load "error_time_panel.gp"

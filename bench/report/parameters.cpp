@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <algorithm>
+#include <deque>
+
+#include <bch/default_characters.hpp>
+
+#include "bench/base/stopwatch.hpp"
+#include "bench/report/subjects.hpp"
+#include "bench/workload/mesh_detail.hpp"
+#include "layout/character/skinning.hpp"
+#include "layout/hierarchy/builder.hpp"
+
+// What a limit of the depth (figure 6, right, of the paper), the size of leaves and the detail of a mesh cost and give.
+
+namespace bch::report {
+namespace {
+
+constexpr std::uint32_t deepest = 12;
+constexpr double thresholds[] = {0.0025, 0.005, 0.01, 0.02, 0.04, 0.08};  // metres
+constexpr std::size_t few_triangles = 716;                                // a quarter of the man's
+
+/// Nodes of a shape down to a depth, on average.
+double nodes_to_depth(std::span<const Shape> shapes, std::uint32_t depth) {
+  double sum = 0;  // a binary tree of so many leaves
+  for (const Shape& shape : shapes) sum += 2 * static_cast<double>(cut(shape.hierarchy, depth).size()) - 1;
+  return sum / static_cast<double>(shapes.size());
+}
+
+/// Returns the outlines with hierarchies of other leaves; adds what it took to build them.
+std::vector<Shape> with_threshold(std::vector<Shape> shapes, double threshold, Table& builds) {
+  detail::HierarchyBuilder builder;
+  for (const bool timed : {false, true})  // memory is there the second time
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+      const bench::Stopwatch watch(1);
+      builder.contour(shapes[i].outline, static_cast<float>(threshold), SplitRule::centroid,
+                      shapes[i].hierarchy);
+      if (timed) builds.add({100 * threshold, i, watch.nanoseconds() / 1000});
+    }
+  return shapes;
+}
+
+/// Builds trees over poses of a man, and asks them for pairs of these; the meshes decide which collide.
+void measure_detail(Run& run, const Character& character, SubjectTables& tables, Table& builds) {
+  const std::string triangles = fmt::format("{}", character.triangles.size());
+  std::vector<baselines::Body> bodies;
+  detail::Skinner skinner(character);
+  PoseShaper shaper(character);
+  for (const PoseTime& at : sample_poses(character, std::min(run.sizes().poses, most_costly_poses))) {
+    const auto positions = skinner.pose(at);
+    const bench::Stopwatch watch(1);
+    const Shape& shape = shaper.shape(at);
+    builds.add({triangles, "BCH outline", bodies.size(), watch.nanoseconds() / 1000});
+    bodies.push_back({{positions.begin(), positions.end()}, character.triangles, shape});
+  }
+  const bench::Stopwatch watch(1);
+  const auto tree = baselines::kind("obb_full").build(bodies, {});
+  builds.add({triangles, "OBB full mesh", "all, mean",
+              watch.nanoseconds() / 1000 / static_cast<double>(bodies.size())});
+  const auto plain = baselines::kind("reference").build(bodies, {}),
+             roots = baselines::kind("single").build(bodies, {});
+  const std::vector<Shape> shapes = shapes_of(bodies);
+  const ShapeSet set(shapes);
+  std::vector<Subject> subjects = {subject_of("OBB full mesh", *tree), subject_of(kernel_name, set),
+                                   subject_of("BCH outline", *plain)};
+  subjects[0].size = tree_size({"OBB full mesh", "obb_full"}, bodies);
+  subjects[1].size = subjects[2].size = tree_size(shapes);
+  tables.add(subjects, triangles);
+  for (const bool colliding : {true, false}) {
+    const bench::Workload workload =
+        bench::random_pairs(colliding ? "colliding" : "near_miss", colliding ? 31 : 32, shapes,
+                            run.sizes().pairs / 4, [&](const Agents& agents, Pair pair) {
+                              return roots->query(agents, pair) && tree->query(agents, pair) == colliding;
+                            });
+    require_same(subjects[1], subjects[2], workload);
+    tables.time_pairs(workload);
+  }
+}
+
+}  // namespace
+
+void run_depth(Run& run) {
+  const auto& shapes = run.scene.shapes();
+  Structures structures(run.scene);
+  std::deque<ShapeSet> sets;
+  std::vector<Subject> series[4];
+  for (std::uint32_t d = 0; d <= deepest + 1; ++d) {
+    const std::uint32_t depth = d <= deepest ? d : all_depths;
+    const ShapeSet& set = sets.emplace_back(shapes, ShapeSetPlan{{depth}});
+    series[0].push_back(subject_of(kernel_name, set, bench::disc_query, depth));
+    for (int k = 1; const std::string_view name : {"OBB outline", "OBB full mesh", "BCH outline"})
+      series[k++].push_back(subject_of(name, structures.of(name), depth));
+    series[0].back().size.nodes = series[3].back().size.nodes = nodes_to_depth(shapes, depth);
+  }
+  const SlideCases cases(shapes, run.sizes().cases, run.seed());
+  const auto distances = baselines::fcl_mesh_distances(run.scene.bodies());
+  SubjectTables tables(run);
+  for (const std::vector<Subject>& subjects : series) {
+    tables.add(subjects);
+    tables.slide(cases, *distances);
+    tables.time_pairs(run.scene.workload("colliding"));
+    tables.time_pairs(run.scene.workload("near_miss"));
+  }
+  tables.write("depth");
+}
+
+void run_threshold(Run& run) {
+  Table builds({"threshold (cm)", "shape", "build (us)"});
+  std::deque<ShapeSet> sets;
+  std::deque<std::unique_ptr<baselines::Structure>> references;
+  std::vector<Subject> subjects;
+  for (const double threshold : thresholds) {
+    const std::vector<Shape> shapes = with_threshold(run.scene.shapes(), threshold, builds);
+    const ShapeSet& set = sets.emplace_back(shapes);
+    std::vector<baselines::Body> bodies(shapes.size());
+    for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i].shape = shapes[i];
+    const auto& plain = *references.emplace_back(baselines::kind("reference").build(bodies, {}));
+    Subject& subject = subjects.emplace_back(subject_of(kernel_name, set));
+    subject.tests = subject_of("BCH outline", plain).tests;  // the kernel counts none
+    subject.threshold = threshold, subject.size = tree_size(shapes);
+    subject.bytes = static_cast<double>(set.bytes()) / set.shape_count();
+  }
+  SubjectTables tables(run);
+  tables.add(subjects);
+  tables.time_pairs(run.scene.workload("colliding"));
+  tables.time_pairs(run.scene.workload("near_miss"));
+  tables.slide(SlideCases(run.scene.shapes(), run.sizes().cases, run.seed()),
+               *baselines::fcl_mesh_distances(run.scene.bodies()));
+  tables.write("threshold");
+  run.write("threshold_builds", builds);
+}
+
+void run_mesh_detail(Run& run) {
+  Table builds({"triangles", "structure", "pose", "build (us)"});
+  SubjectTables tables(run);
+  const Character man = default_male();
+  const Character characters[] = {bench::coarser(man, few_triangles), man, bench::with_relief(man, 1),
+                                  bench::with_relief(man, 2)};
+  for (const Character& character : characters) {
+    measure_detail(run, character, tables, builds);
+  }
+  tables.write("mesh_detail");
+  run.write("mesh_detail_builds", builds);
+}
+
+}  // namespace bch::report

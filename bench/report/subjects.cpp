@@ -1,0 +1,280 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/report/subjects.hpp"
+
+#include <oneapi/tbb/task_arena.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "baselines/obb_tree.hpp"
+#include "bench/base/stopwatch.hpp"
+#include "bench/base/text.hpp"
+#include "bench/workload/answer_checks.hpp"
+#include "bench/workload/contender.hpp"
+
+namespace bch::report {
+namespace {
+
+constexpr std::size_t counted_pairs = 2'000;
+constexpr double shortest_run = 1e7;  ///< nanoseconds
+
+constexpr Contestant all_contestants[] = {
+    {"single cylinder", "single"},
+    {"fixed cylinder 0.25 m", "fixed"},
+    {"fixed cylinder 0.40 m", "fixed", false, 0.4f},
+    {"BCH outline", "reference", true},
+    {"BCH outline unverified", "paper_descent", true},
+    {"BCH outline by centre", "reference", true, 0, true},
+    {"BCH projected", "bch_projected", true},
+    {"OBB outline", "obb_contour", true},
+    {"OBB projected", "obb_projected", true},
+    {"OBB full mesh", "obb_full", true},
+    {"OBB outline in 2D", "obb_contour_2d", true},
+    {"FCL OBB outline", "fcl_obb_contour"},
+    {"FCL OBBRSS outline", "fcl_obbrss_contour"},
+    {"FCL OBB full mesh", "fcl_obb_full"},
+    {"FCL OBBRSS full mesh", "fcl_obbrss_full"},
+};
+
+MeanTests mean_tests(const baselines::Structure& structure, const bench::Workload& workload,
+                     std::uint32_t max_depth) {
+  baselines::TestCounts counts;
+  const std::size_t pairs = std::min(counted_pairs, workload.pairs.size());
+  for (std::size_t i = 0; i < pairs; ++i)
+    structure.query(workload.agents(), workload.pairs[i], max_depth, counts);
+  const auto each = [&](std::uint64_t tests) {
+    return static_cast<double>(tests) / static_cast<double>(pairs);
+  };
+  return {each(counts.nodes), each(counts.leaves)};
+}
+
+/// Times a call in an arena of its own size: with one thread, the caller's time is then all of the time that
+/// the call takes. Other threads are woken first, which takes about a millisecond and does not happen between
+/// the frames of a simulation.
+double time_run(const std::function<void()>& call, int threads) {
+  tbb::task_arena arena(threads);
+  if (threads > 1) arena.execute(call);
+  const bench::Stopwatch watch(threads);
+  std::uint32_t calls = 0;
+  do {
+    arena.execute(call);
+    ++calls;
+  } while (watch.nanoseconds() < shortest_run);
+  return watch.nanoseconds() / calls;
+}
+
+template <class Items, class Size>
+TreeSize mean_size(const Items& items, Size size) {
+  TreeSize mean{0, 0};
+  for (const auto& item : items) {
+    const TreeSize one = size(item);
+    mean.nodes += one.nodes / static_cast<double>(items.size());
+    mean.height += one.height / static_cast<double>(items.size());
+  }
+  return mean;
+}
+
+TreeSize size_of(const Hierarchy& hierarchy) {
+  return {static_cast<double>(hierarchy.nodes.size()), static_cast<double>(height(hierarchy))};
+}
+
+TreeSize size_of(const Shape& shape) {
+  TreeSize size = size_of(shape.hierarchy);
+  for (const Shape& slab : shape.slabs) {
+    const TreeSize part = size_of(slab.hierarchy);
+    size = {size.nodes + part.nodes, std::max(size.height, part.height)};
+  }
+  return size;
+}
+
+TreeSize size_of_projected(const baselines::Body& body) {
+  std::vector<Vec2> vertices;
+  for (const Vec3& p : body.positions) vertices.push_back({p.x, p.y});
+  return size_of(projected_hierarchy(vertices, body.triangles));
+}
+
+TreeSize size_of_boxes(std::string_view kind, const baselines::Body& body) {
+  const baselines::ObbTree tree = baselines::build_obb_tree(
+      kind.starts_with("obb_contour") ? baselines::contour_facets(body.shape.outline)
+      : kind == "obb_projected"       ? baselines::projected_facets(body.positions, body.triangles)
+                                      : baselines::triangle_facets(body.positions, body.triangles));
+  return {static_cast<double>(tree.nodes.size()), static_cast<double>(tree.height)};
+}
+
+}  // namespace
+
+std::string slabs_name(std::uint32_t slabs, Leaves leaves) {
+  return fmt::format("BCH in {} slabs{}", slabs, leaves == Leaves::discs ? " with discs" : "");
+}
+
+std::string cut_name(std::uint32_t depth) {
+  return depth == 0 ? "single cylinder" : "BCH outline to depth " + cli::depth_name(depth);
+}
+
+TreeSize tree_size(std::span<const Shape> shapes) {
+  return mean_size(shapes, [](const Shape& shape) { return size_of(shape); });
+}
+
+TreeSize tree_size(const Contestant& contestant, std::span<const baselines::Body> bodies) {
+  const std::string_view kind = contestant.kind;
+  if (contestant.is_disc()) return {1, 0};
+  if (kind == "bch_projected") return mean_size(bodies, size_of_projected);
+  if (kind.starts_with("obb_"))
+    return mean_size(bodies, [&](const baselines::Body& body) { return size_of_boxes(kind, body); });
+  if (kind != "reference") return {};
+  return tree_size(shapes_of(contestant.centre ? with_hierarchies(bodies, 0.01f, SplitRule::centre)
+                                               : std::vector<baselines::Body>(bodies.begin(), bodies.end())));
+}
+
+Subject subject_of(std::string_view name, const baselines::Structure& structure, std::uint32_t max_depth) {
+  return {std::string(name), max_depth,
+          [&structure, max_depth](const Agents& agents, std::span<const Pair> pairs,
+                                  std::span<std::uint8_t> hits) {
+            structure.query(agents, pairs, hits, max_depth);
+          },
+          [&structure, max_depth](const bench::Workload& workload) {
+            return mean_tests(structure, workload, max_depth);
+          }};
+}
+
+Subject subject_of(std::string_view name, const ShapeSet& set, const QueryOptions& query,
+                   std::uint32_t depth) {
+  return {std::string(name),
+          depth,
+          [&set, query](const Agents& agents, std::span<const Pair> pairs, std::span<std::uint8_t> hits) {
+            collide(set, agents, pairs, hits, query);
+          },
+          [](const bench::Workload&) { return MeanTests{}; },
+          std::string(bench::name_of(query.semantics)),
+          query.leaves == Leaves::segments ? "double" : "single"};
+}
+
+bench::Hits answers(const Subject& subject, const bench::Workload& workload) {
+  bench::Hits hits(workload.pairs.size());
+  subject.answer(workload.agents(), workload.pairs, hits);
+  return hits;
+}
+
+void require_same(const Subject& a, const Subject& b, const bench::Workload& workload) {
+  if (answers(a, workload) != answers(b, workload))
+    throw std::logic_error(workload.name + ": two answers to the same question differ");
+}
+
+std::vector<std::vector<double>> times(std::span<const Subject> subjects, const bench::Workload& workload,
+                                       std::uint32_t runs, int threads) {
+  bench::Hits hits(workload.pairs.size());
+  std::vector<std::vector<double>> taken(subjects.size());
+  for (const Subject& subject : subjects)
+    subject.answer(workload.agents(), workload.pairs, hits);  // caches, page faults
+  for (std::uint32_t run = 0; run < runs; ++run)
+    for (std::size_t i = 0; i < subjects.size(); ++i)
+      taken[i].push_back(
+          time_run([&] { subjects[i].answer(workload.agents(), workload.pairs, hits); }, threads) /
+          static_cast<double>(workload.pairs.size()));
+  return taken;
+}
+
+void SubjectTables::add(std::span<const Subject> subjects, const std::string& of) {
+  subjects_ = subjects, first_ = count_;
+  for (const Subject& s : subjects)
+    subjects_table_.add({count_++, of, s.structure, cli::depth_name(s.depth), 100 * s.threshold, s.semantics,
+                         s.arithmetic, s.size.nodes, s.size.height, s.bytes});
+}
+
+void SubjectTables::count_pairs(const bench::Workload& workload) {
+  has_pairs_ = true;
+  for (std::size_t i = 0; i < subjects_.size(); ++i) {
+    const bench::Hits hits = answers(subjects_[i], workload);
+    const MeanTests tests = subjects_[i].tests(workload);
+    pairs_.add(
+        {first_ + i, workload.name, hits.size(), std::ranges::count(hits, 1), tests.nodes, tests.leaves});
+  }
+}
+
+void SubjectTables::time_pairs(const bench::Workload& workload) {
+  count_pairs(workload);
+  const auto taken = times(subjects_, workload, run_.sizes().runs);
+  for (std::size_t i = 0; i < taken.size(); ++i)
+    for (std::size_t run = 0; run < taken[i].size(); ++run)
+      times_.add({first_ + i, workload.name, run, taken[i][run]});
+}
+
+std::vector<std::vector<double>> SubjectTables::slide(const SlideCases& cases,
+                                                      const baselines::PairDistances& distances) {
+  has_slides_ = true;
+  std::vector<std::vector<double>> all;
+  for (std::size_t i = 0; i < subjects_.size(); ++i) {
+    const std::vector<double>& places = all.emplace_back(cases.contacts(subjects_[i].answer));
+    const std::vector<double> apart = cases.distances(distances, places);
+    for (std::size_t k = 0; k < places.size(); ++k) slides_.add({first_ + i, k, places[k], apart[k]});
+  }
+  return all;
+}
+
+void SubjectTables::write(const std::string& name) const {
+  run_.write(name, subjects_table_);
+  if (has_pairs_) run_.write(name + "_pairs", pairs_), run_.write(name + "_times", times_);
+  if (has_slides_) run_.write(name + "_slides", slides_);
+}
+
+std::vector<Contestant> contestants() {
+  std::vector<Contestant> here;
+  std::ranges::copy_if(all_contestants, std::back_inserter(here),
+                       [](const Contestant& one) { return bench::has_kind(one.kind); });
+  return here;
+}
+
+const baselines::Structure& Structures::of(const Contestant& contestant) {
+  const auto found = made_.find(contestant.name);
+  if (found != made_.end()) return *found->second;
+  if (contestant.centre && centre_bodies_.empty())
+    centre_bodies_ = with_hierarchies(scene_.bodies(), 0.01f, SplitRule::centre);
+  const std::span<const baselines::Body> bodies = contestant.centre ? centre_bodies_ : scene_.bodies();
+  auto made = baselines::kind(contestant.kind).build(bodies, {.fixed_radius = contestant.fixed_radius});
+  return *made_.emplace(contestant.name, std::move(made)).first->second;
+}
+
+const baselines::Structure& Structures::of(std::string_view name) {
+  const auto* const found = std::ranges::find(all_contestants, name, &Contestant::name);
+  if (found == std::end(all_contestants))
+    throw std::invalid_argument("no contestant '" + std::string(name) + "'");
+  return of(*found);
+}
+
+void Structures::require_right(const Contestant& contestant, const bench::Workload& workload,
+                               std::uint32_t max_depth) {
+  const bench::Hits hits = answers(subject_of(contestant.name, of(contestant), max_depth), workload);
+  std::string wrong;
+  if (contestant.centre) {
+    const ShapeSet set(shapes_of(centre_bodies_), {{max_depth}});
+    if (hits != answers(subject_of(kernel_name, set), workload))
+      wrong = "a kernel over the same discs says otherwise";
+  } else {
+    wrong = bench::wrong_structure(scene_, workload, baselines::kind(contestant.kind), hits, max_depth);
+  }
+  bench::require_right(contestant.name, workload, wrong);
+}
+
+std::vector<baselines::Body> with_hierarchies(std::span<const baselines::Body> bodies, float threshold,
+                                              SplitRule rule) {
+  std::vector<baselines::Body> others(bodies.begin(), bodies.end());
+  for (baselines::Body& body : others)
+    body.shape.hierarchy = contour_hierarchy(body.shape.outline, threshold, rule);
+  return others;
+}
+
+std::vector<Shape> shapes_of(std::span<const baselines::Body> bodies) {
+  std::vector<Shape> shapes;
+  for (const baselines::Body& body : bodies) shapes.push_back(body.shape);
+  return shapes;
+}
+
+std::vector<Shape> with_fixed_cylinders(std::span<const Shape> shapes, float radius) {
+  std::vector<Shape> fixed(shapes.begin(), shapes.end());
+  for (Shape& shape : fixed) shape.hierarchy = fixed_cylinder(radius);
+  return fixed;
+}
+
+}  // namespace bch::report

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <bch/collide.hpp>
+
+#include "baselines/pair_distances.hpp"
+#include "baselines/structure.hpp"
+#include "bench/report/report.hpp"
+#include "bench/report/slide.hpp"
+
+// What experiments compare: structures, cuts and sets that answer the same pairs.
+
+namespace bch::report {
+
+constexpr std::string_view kernel_name = "BCH outline in the batch kernel";
+/// The name of the batch kernel with exact leaves.
+constexpr std::string_view exact_leaves_name = "BCH outline with exact leaves";
+/// The numbers of slabs that are compared, and the name of a body in so many: "BCH in 3 slabs", "BCH in 3 slabs with discs".
+constexpr std::uint32_t compared_slabs[] = {2, 3, 4, 8};
+std::string slabs_name(std::uint32_t slabs, Leaves leaves);
+/// Returns the name of a cut of the outline's hierarchy: "single cylinder", "BCH outline to depth 3".
+std::string cut_name(std::uint32_t depth);
+
+/// Holds the mean number of tests that a traversal makes of a pair; NaN where it is not counted.
+struct MeanTests {
+  double nodes = unknown;   ///< of two discs or boxes
+  double leaves = unknown;  ///< of two triangles or segments
+};
+
+/// Holds the mean size of trees over shapes; NaN of a structure whose tree is not accessible.
+struct TreeSize {
+  double nodes = unknown;
+  double height = unknown;  ///< edges on the longest way from the root to a leaf
+};
+/// Returns the size of hierarchies: for bodies in slabs, the nodes of all slabs and the largest height.
+TreeSize tree_size(std::span<const Shape> shapes);
+
+/// Represents anything that answers pairs: a structure down to some depth, or a kernel over a set.
+struct Subject {
+  std::string structure;
+  std::uint32_t depth;
+  Answer answer;
+  std::function<MeanTests(const bench::Workload&)> tests;  ///< over its first pairs
+  std::string semantics = "boundary", arithmetic = "single";
+  double threshold = unknown;  ///< of leaves, metres
+  TreeSize size = {};
+  double bytes = unknown;  ///< of a shape
+};
+
+/// Makes a subject, which refers to the structure or set: it must outlive it.
+Subject subject_of(std::string_view name, const baselines::Structure& structure,
+                   std::uint32_t max_depth = all_depths);
+Subject subject_of(std::string_view name, const ShapeSet& set, const QueryOptions& query = bench::disc_query,
+                   std::uint32_t depth = all_depths);
+
+bench::Hits answers(const Subject& subject, const bench::Workload& workload);
+
+/// Checks that two subjects give the same answers.
+/// Errors:  throws std::logic_error naming the workload where the two answer some pair differently.
+void require_same(const Subject& a, const Subject& b, const bench::Workload& workload);
+
+/// Returns the nanoseconds a pair of each subject in each run. All of them are timed in turn, so that what slows the machine down for a
+/// while slows all of them, and ratios stay. A run takes 10 ms at least.
+/// Threads: each call runs in an arena of that many, whose time Stopwatch takes.
+std::vector<std::vector<double>> times(std::span<const Subject> subjects, const bench::Workload& workload,
+                                       std::uint32_t runs, int threads = 1);
+
+/// Collects the tables of an experiment over subjects, whose rows refer to subjects by number:
+///   NAME.csv         what the subjects are
+///   NAME_pairs.csv   their hits and tests of the pairs of workloads
+///   NAME_times.csv   their times of these pairs, run by run
+///   NAME_slides.csv  where people who slide at each other are detected, and how far apart their meshes then are
+class SubjectTables {
+ public:
+  explicit SubjectTables(Run& run) : run_(run) {}
+
+  /// Adds subjects, which all that follows is of. `of`: what they are made of.
+  void add(std::span<const Subject> subjects, const std::string& of = "");
+  void count_pairs(const bench::Workload& workload);
+  void time_pairs(const bench::Workload& workload);
+  /// Lets every subject end the slides. Returns: the places, a subject.
+  std::vector<std::vector<double>> slide(const SlideCases& cases, const baselines::PairDistances& distances);
+  /// Writes the tables, those of slides and pairs where there are some.
+  void write(const std::string& name) const;
+
+ private:
+  Run& run_;
+  std::span<const Subject> subjects_;
+  std::size_t first_ = 0, count_ = 0;
+  bool has_pairs_ = false, has_slides_ = false;
+  Table subjects_table_{{"subject", "of", "structure", "depth", "threshold (cm)", "semantics", "arithmetic",
+                         "nodes a shape", "height", "bytes a shape"}};
+  Table pairs_{{"subject", "pairs", "asked", "hits", "node tests a pair", "leaf tests a pair"}};
+  Table times_{{"subject", "pairs", "run", "ns/pair"}};
+  Table slides_{{"subject", "case", "place (m)", "distance (cm)"}};
+};
+
+/// Represents a structure by the name that tables have for it.
+struct Contestant {
+  std::string_view name;  ///< "OBB outline"
+  std::string_view kind;  ///< of baselines::kinds()
+  bool has_depth = false;
+  float fixed_radius = 0.25f;
+  bool centre = false;  ///< the hierarchy is split in the middle of the extent
+
+  bool is_disc() const { return kind == "single" || kind == "fixed"; }
+};
+
+/// Returns the paper's structures, then others; those of FCL only where the build has it.
+std::vector<Contestant> contestants();
+
+TreeSize tree_size(const Contestant& contestant, std::span<const baselines::Body> bodies);
+
+/// Holds structures over all bodies of a scene, each made when it is first asked for.
+class Structures {
+ public:
+  explicit Structures(bench::Scene& scene) : scene_(scene) {}
+
+  const baselines::Structure& of(const Contestant& contestant);
+  /// Errors:  throws std::invalid_argument on a name that no contestant has.
+  const baselines::Structure& of(std::string_view name);
+
+  /// Checks a structure's answers for a workload of the scene.
+  /// Errors:  throws std::runtime_error where wrong_structure() finds the answers wrong, or, for hierarchies
+  ///          that are not the scene's, where they differ from those of a kernel over the same hierarchies.
+  void require_right(const Contestant& contestant, const bench::Workload& workload,
+                     std::uint32_t max_depth = all_depths);
+
+ private:
+  bench::Scene& scene_;
+  std::vector<baselines::Body> centre_bodies_;
+  std::map<std::string, std::unique_ptr<baselines::Structure>, std::less<>> made_;
+};
+
+/// Returns the bodies with hierarchies of another kind.
+std::vector<baselines::Body> with_hierarchies(std::span<const baselines::Body> bodies, float threshold,
+                                              SplitRule rule);
+/// Returns the shapes of bodies.
+std::vector<Shape> shapes_of(std::span<const baselines::Body> bodies);
+/// Returns shapes as they are, but with one cylinder around the origin for each.
+std::vector<Shape> with_fixed_cylinders(std::span<const Shape> shapes, float radius);
+
+}  // namespace bch::report
