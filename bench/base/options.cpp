@@ -71,12 +71,12 @@ void require_unsettled(const CLI::App& command, const std::string& baked_file) {
 }
 
 void add_seed_option(CLI::App& command, std::uint64_t& seed, const std::string& what) {
-  OptionAdder(command)("--seed", seed, "N", "Random seed for " + what + " [1]",
+  OptionAdder{command}("--seed", seed, "N", "Random seed for " + what + " [1]",
                        whole_between(0, std::numeric_limits<std::uint64_t>::max()));
 }
 
 void add_threads_option(CLI::App& command, std::uint32_t& threads) {
-  OptionAdder(command)("--threads", threads, "N", "Number of threads [all that the machine has]",
+  OptionAdder{command}("--threads", threads, "N", "Number of threads [all that the machine has]",
                        whole_between(1, 1024));
 }
 
@@ -163,7 +163,7 @@ std::vector<std::string> ShapeOptions::inputs(std::vector<std::string> files) co
 }
 
 void add_leaves_option(CLI::App& command, std::string& leaves, int centimetres) {
-  OptionAdder(command)(
+  OptionAdder{command}(
       "--leaves", leaves, "NAME",
       fmt::format("Test at depth all: segments of the outlines, or discs, which hit up to {} cm "
                   "earlier [segments]",
@@ -186,7 +186,7 @@ void AnswerOptions::add_to(CLI::App& command) {
   add_levels_to(command);
   std::vector<std::string_view> names;
   for (const Implementation& each : implementations()) names.push_back(each.name);
-  OptionAdder(command)(
+  OptionAdder{command}(
       "--isa", isa, "NAME",
       fmt::format("Instruction set of the kernel: {} [the best that runs here]", fmt::join(names, ", ")));
 }

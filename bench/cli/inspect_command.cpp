@@ -199,7 +199,7 @@ Example: bch inspect default:male --clip walk --time 1.5 --svg walk.svg)");
   add("--svg", options->svg, "FILE",
       "Draw the shape: a panel for each depth of its hierarchy or, with --slices, for each slab");
   CostLimits& limits = options->shapes.limits;
-  OptionAdder(command, "Limits")("--max-drawn-nodes", limits.drawn_nodes, "N",
+  OptionAdder{command, "Limits"}("--max-drawn-nodes", limits.drawn_nodes, "N",
                                  fmt::format("Nodes of the shape that --svg draws [{}]", limits.drawn_nodes),
                                  whole_between(1, 1'000'000'000));
   return [options, &command] { run_inspect(command, *options); };

@@ -89,8 +89,8 @@ struct QueryCommandOptions {
   /// Errors:  throws UsageError.
   std::pair<double, double> heights_of_obstacles() const;
   /// Returns whether the heights of bodies count.
-  bool compares_heights(const AgentTable& agents) const {
-    return !agents.z.empty() || !obstacle_heights.empty();
+  bool compares_heights(const AgentTable& table) const {
+    return !table.z.empty() || !obstacle_heights.empty();
   }
 };
 

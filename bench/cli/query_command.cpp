@@ -310,7 +310,7 @@ Example: bch query default:female agents.csv pairs.csv > answers.csv)");
   command.add_flag(
       "--guard-ids", options->guard_ids,
       "Put ' before ids that begin with =, +, - or @, unless they are numbers, for spreadsheets");
-  OptionAdder(command, "Limits")(
+  OptionAdder{command, "Limits"}(
       "--max-pairs", options->max_pairs, "N",
       "Pairs of agents near each other, for --all-pairs [4 million plus 100 per agent]",
       whole_between(1, 1'000'000'000));

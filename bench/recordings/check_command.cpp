@@ -70,7 +70,7 @@ same height. The exit code is 1 if overlaps exceed --fail-above, and else 0, wha
 Example: bch check trajectories.sqlite --slices 0.4,0.85,1.05 --events events.csv)");
   options->input.add_to(command);
   add_outputs_to(command, options->outputs);
-  OptionAdder(command)("--html", options->html, "FILE.html",
+  OptionAdder{command}("--html", options->html, "FILE.html",
                        "Write a web page that plays the recording; it needs no network");
   options->part.add_to(command);
   add_threads_option(command, options->threads);

@@ -38,7 +38,7 @@ std::function<void()> add_merge_command(CLI::App& program) {
       "files, options and version. A page (check --html) cannot be made in parts.\n"
       "Example: seq 8 | xargs -P 4 -I{} bch check long.sqlite --part {}/8 --into parts && bch merge parts "
       "--json check.json");
-  OptionAdder(command)("PARTS", options->parts, "", "Folder of the parts, or their manifests")->required();
+  OptionAdder{command}("PARTS", options->parts, "", "Folder of the parts, or their manifests")->required();
   add_outputs_to(command, options->outputs);
   return [options, &command] { run_merge(command, *options); };
 }

@@ -28,8 +28,8 @@ constexpr double unlimited = std::numeric_limits<double>::infinity();
 void raise(Random& random, ObstacleScene& scene) {
   for (std::size_t i = 0; i < scene.is_area.size(); ++i) {
     const double bottom = random.below(2) == 0 ? random.uniform(4, 8) : 4 + 0.25 * random.below(16);
-    scene.bottom.push_back(is_endless || random.below(4) == 0 ? -unlimited : bottom);
-    scene.top.push_back(is_endless || random.below(4) == 0 ? unlimited : bottom + 0.5 * random.below(3));
+    scene.bottom.push_back(random.below(4) == 0 ? -unlimited : bottom);
+    scene.top.push_back(random.below(4) == 0 ? unlimited : bottom + 0.5 * random.below(3));
   }
 }
 
@@ -196,7 +196,6 @@ TEST_P(ObstaclesWithHeights, AreAsPartsSayOfThoseLevelWithThem) {
     Question question{{}, test::distances_for(random, agents), {}};
     question.options.semantics = is_sliced() ? Semantics::solid : Semantics::boundary;
     question.options.distance_leaves = k % 2 == 0 ? Leaves::discs : Leaves::segments;
-    question.distances = test::distances_for(random, agents);
     for (std::uint32_t i = 0; i < agents; ++i) {
       crowd.z.push_back(random.below(3) == 0 ? 5 : random.uniform(3, 8));
       question.way.push_back(random.uniform(-1, 1));

@@ -182,11 +182,11 @@ TEST_F(Obstacles, AnswerFarAwayAsAtTheOrigin) {
   const QueryOptions exact_distances{.distance_leaves = Leaves::segments};
   const Answers outlines =
       all_answers(set, crowd.agents(), scene.set(), exact_distances, distances, {way, way});
-  const auto move = [&](double way) {
+  const auto move = [&](double by) {
     for (auto* values : {&scene.x, &crowd.x})
-      for (double& value : *values) value += way;
+      for (double& value : *values) value += by;
     for (auto* values : {&scene.y, &crowd.y})
-      for (double& value : *values) value -= way;
+      for (double& value : *values) value -= by;
   };
   for (const double far : {0x1p20, 0x1p27, 0x1.8p29}) {
     move(far);
