@@ -10,7 +10,6 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <utility>
 
 #include "tests/support/bch_run.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -154,7 +153,8 @@ TEST_F(CliPartFiles, AllGoWithASignal) {
   const Arguments tables{"check", people, "--events", out / "e", "--frames", out / "f", "--pairs", out / "p"},
       part{"check", people, "--part", "1/1", "--into", out};
   for (const int number : {SIGINT, SIGTERM, SIGHUP})
-    for (const auto& [command, many] : {std::pair(tables, 3), {part, 4}}) {
+    for (const Arguments& command : {tables, part}) {
+      const int many = command == tables ? 3 : 4;
       EXPECT_EQ(run_until([&] { return files() >= many; }, number, BCH_PROGRAM, command), 128 + number);
       EXPECT_EQ(files(), 0) << number;
     }
