@@ -503,8 +503,8 @@ for error_name, error_caption in {
     draws(f"error_time_{error_name}_near", "The same against the time of a near miss.", error_name, "near miss")(draw_error_time)
 
 
-@draws("construction", "Time to build a structure of one pose, without the outline where it is made from one: medians; bars are quartiles over poses.", "structure", {"xscale": "log"})
 @draws("construction_stages", "The stages from keys of a clip to a flat shape with levels and inscribed discs, likewise.", "stage", {})
+@draws("construction", "Time to build a structure of one pose, without the outline where it is made from one: medians; bars are quartiles over poses.", "structure", {"xscale": "log"})
 def draw_construction(data, out, names, options):
     rows = out["construction" if names == "structure" else "construction_stages"]
     ax = chart("time of a pose, one thread (us)", "", (6.4, 0.6 + 0.24 * max(len(rows), 14)), **options)
@@ -542,7 +542,7 @@ def draw_kernels(data, out):
 @draws("distance", "Distance of the meshes at detection: median, quartiles (box), 5 % and 95 % (whiskers), mean (diamond) and the paper's mean (cross).", wide=True)
 def draw_distance(data, out):
     rows, slides = out["distance"], data["distance_slides"].groups("subject")
-    ax = chart("", "distance of the meshes at detection (cm)", (11, 4.8))
+    ax = chart("", "distance of the meshes at detection (cm)", (13, 4.8))
     ax.boxplot([known(slides[i].column("distance (cm)")) for i in range(len(rows))], whis=(5, 95), showfliers=False,
                widths=0.5, **{f"{part}props": {"color": COLOURS[1]} for part in ("box", "whisker", "cap", "median")})
     places = range(1, len(rows) + 1)
@@ -583,19 +583,6 @@ def draw_depth_time(data, out):
     legend(ax)
 
 
-@draws("volume", "Our own addition: volume as a share of the pose's single cylinder, mean and standard deviation over poses.")
-def draw_volume(data, out):
-    ax = chart("", "share of the single cylinder's volume")
-    characters = out["volume"].groups("character")
-    for i, (character, rows) in enumerate(characters.items()):
-        places = [x + 0.2 * (i - (len(characters) - 1) / 2) for x in range(len(rows))]
-        ax.errorbar(places, rows.column("normalised volume"), rows.column("standard deviation"), label=character, elinewidth=1,
-                    **style(i + 1, linestyle="none"))
-    ax.set_xticks(range(len(rows)), rows.column("structure"), rotation=30, ha="right")
-    ax.set_ylim(0)
-    legend(ax)
-
-
 @draws("volume_paper", "Figure 7: volume of the single cylinder and of the hierarchy, as multiples of the mesh's: mean and standard deviation over poses; crosses are the paper's means.")
 def draw_volume_paper(data, out):
     ax = chart("", "volume as a multiple of the mesh's")
@@ -611,13 +598,26 @@ def draw_volume_paper(data, out):
     legend(ax, 3)
 
 
+@draws("volume", "Our own addition: volume as a share of the pose's single cylinder, mean and standard deviation over poses.")
+def draw_volume(data, out):
+    ax = chart("", "share of the single cylinder's volume")
+    characters = out["volume"].groups("character")
+    for i, (character, rows) in enumerate(characters.items()):
+        places = [x + 0.2 * (i - (len(characters) - 1) / 2) for x in range(len(rows))]
+        ax.errorbar(places, rows.column("normalised volume"), rows.column("standard deviation"), label=character, elinewidth=1,
+                    **style(i + 1, linestyle="none"))
+    ax.set_xticks(range(len(rows)), rows.column("structure"), rotation=30, ha="right")
+    ax.set_ylim(0)
+    legend(ax)
+
+
 def number_ticks(axis, values):
     axis.set_ticks(values, [brief(value) for value in values], minor=False)
     axis.set_minor_locator(matplotlib.ticker.NullLocator())
 
 
-@draws("threshold_distance", "Mean distance at detection, with its 95 % interval, against the threshold.")
 @draws("threshold_cost", "Times of a pair and of building a hierarchy, and size of a shape, each as a multiple of that at 1 cm.", True)
+@draws("threshold_distance", "Mean distance at detection, with its 95 % interval, against the threshold.")
 def draw_threshold(data, out, cost=False):
     rows = out["threshold"]
     ax = chart("threshold (cm)", "times the value at 1 cm" if cost else "mean distance at detection (cm)", xscale="log",
@@ -636,8 +636,8 @@ def draw_threshold(data, out, cost=False):
     legend(ax, 3)
 
 
-@draws("mesh_detail", "Time of a pair against the number of triangles, one thread; bars are quartiles.")
 @draws("mesh_detail_build", "Time to build a pose's structure; the outline's hierarchy with the outline.", True)
+@draws("mesh_detail", "Time of a pair against the number of triangles, one thread; bars are quartiles.")
 def draw_mesh_detail(data, out, build=False):
     ax = chart("triangles", "time to build a pose, one thread (us)" if build else "time of a pair, one thread (ns)", xscale="log",
                yscale="log")
@@ -654,13 +654,13 @@ def draw_mesh_detail(data, out, build=False):
 @draws("density", "Highest density without overlap: mean, and 95 % interval over packings.", wide=True)
 def draw_density(data, out):
     rows, free = out["density"], {"places": "", "headings": ", turning", "headings and poses": ", posing, too"}
-    dots(chart("people per square metre", "", (8.5, 5), xlim=(0, 1.08 * max(rows.column("95 % high")))),
+    dots(chart("people per square metre", "", (13, 4.8), xlim=(0, 1.08 * max(rows.column("95 % high")))),
          [row["structure"] + free[row["free"]] for row in rows],
          *(rows.column(name) for name in ("densest (people/m2)", "95 % low", "95 % high")))
 
 
-@draws("detail", "False stops of a person in a second against the density of the crowd.", "false stops per person and second", "false stops per person and second", None)
 @draws("detail_time", "Time of a frame's tests, for a person, against the density.", "tests of a frame (ns a person)", "time of a frame, all threads (ns a person)", "tests")
+@draws("detail", "False stops of a person in a second against the density of the crowd.", "false stops per person and second", "false stops per person and second", None)
 def draw_detail(data, out, column, label, spread_of):
     ax = chart("people per square metre", label, yscale="linear" if spread_of else "log")
     for i, (kind, rows) in enumerate(out["detail"].groups("detail").items()):
@@ -668,14 +668,16 @@ def draw_detail(data, out, column, label, spread_of):
     legend(ax, 3)
 
 
-@draws("recordings", "Neighbours who are called overlapping, and are not, against the time of a pair; a point for each recording of people.", "ns/pair", "pair of neighbours, one thread (ns)", "none")
 @draws("recordings_density", "The same against the density around them, all recordings of people together.", "from people per m2", "people per square metre, from", "-")
+@draws("recordings", "Neighbours who are called overlapping, and are not, against the time of a pair; a point for each recording of people.", "ns/pair", "pair of neighbours, one thread (ns)", "none")
 def draw_recordings(data, out, x, label, line):
     ax = chart(label, "neighbours in overlap (%), who were not", xscale="log" if line == "none" else "linear")
     rows = out["recordings"].where(**{"made by": "people"}) if line == "none" else \
         out["recordings_density"].where(recording="all of people")
     for i, (structure, of) in enumerate(rows.groups("structure").items()):
         series(ax, of, x, "in overlap (% of neighbours)", structure, **style(i, linestyle=line))
+    if line == "none":
+        number_ticks(ax.xaxis, (5, 10, 20, 50, 100, 200))
     ax.set_ylim(0)
     legend(ax, 3)
 
@@ -689,16 +691,20 @@ def draw_stability(data, out):
     for rows, panels in zip(families, axes):
         places = rows.column("conditioning")
         for ax, (what, title) in zip(panels, titles.items()):
-            ax.set(title=title, xlabel=rows[0]["axis"])
-            if min(places) >= 0 and rows[0]["family"] != "slabs":  # 0 stands at the left edge
-                ax.set_xscale("symlog", linthresh=min(place for place in places if place > 0), linscale=0.4)
+            ax.set(title=title if rows is families[0] else "", xlabel=rows[0]["axis"])
+            if min(places) > 0 and rows[0]["family"] != "slabs":
+                ax.set_xscale("log")
+            elif min(places) == 0:  # which stands at the left edge
+                ax.set_xscale("symlog", linthresh=sorted(places)[1])
             if "error" in what:
                 ax.set_yscale("symlog", linthresh=1e-12, linscale=0.4)
                 ax.axhline(PROMISED_GAP, color=COLOURS[7], linestyle="--", label="promised")
-                ax.set_yticks([0] + [10.0 ** e for e in range(-12, 7, 3)])
+                ax.set_yticks([0] + [10.0 ** e for e in range(-9, 7, 3)])
             for i, (name, label) in enumerate({"float": "plain float", "double": "plain double", "bch": "bch"}.items()):
                 series(ax, rows, "conditioning", f"{name}: {what}", label, **style(i))
             ax.set_ylim(0)
+            ax.set_xlim(left=0 if min(places) == 0 else None)
+        panels[0].set_ylabel(rows[0]["title"])
     legend(ax, 4)
 
 
@@ -811,10 +817,7 @@ def verdicts(out):
     return {name: holds() for name, (table, holds) in findings.items() if table in out}
 
 
-def page(data):
-    out = summarised(data)
-    judged = verdicts(out)
-
+def page(data, out, judged):
     def figure(name):
         _, caption, wide = FIGURES[name]
         svg = re.sub(r' (width|height)="[^"]*pt"', "", drawn(name, data, out), count=2).replace(INK, "currentColor")
@@ -847,31 +850,31 @@ def page(data):
     return environment.get_template("page.html").render(
         run=data["run"], T=out, titles=TITLES, verdicts=judged, pick=pick, pick_most=pick_most, span=span, tables=tables, figures=figures, figure=figure, is_nan=is_nan,
         is_number=lambda rows, column: any(isinstance(row[column], (int, float)) and not is_nan(row[column]) for row in rows),
-        KERNEL=KERNEL, EXACT=EXACT), judged
+        KERNEL=KERNEL, EXACT=EXACT)
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("folder", type=pathlib.Path, help="what bch_lab report wrote")
-    parser.add_argument("--figure", metavar="NAME", help="draw this figure alone, such as error_time_distance_crowd")
+    parser.add_argument("--figure", metavar="NAME", choices=FIGURES, help="draw this figure alone, such as error_time_distance_crowd")
     parser.add_argument("--output", metavar="SVG", type=pathlib.Path, help="where to write it")
     options = parser.parse_args()
     if (options.figure is None) != (options.output is None):
         parser.error("--figure and --output need each other")
     data = Folder(options.folder)
-    if options.figure:
-        svg = drawn(options.figure, data, summarised(data), paper="white").replace(INK, "#1a1a1a")
-        options.output.write_text('<?xml version="1.0" encoding="utf-8"?>\n' + svg, encoding="utf-8")
-        return
     try:
-        text, judged = page(data)
+        out = summarised(data)
+        if options.figure:
+            svg = drawn(options.figure, data, out, paper="white").replace(INK, "#1a1a1a")
+            options.output.write_text('<?xml version="1.0" encoding="utf-8"?>\n' + svg, encoding="utf-8")
+            return
+        judged = verdicts(out)
+        (options.folder / "index.html").write_text(page(data, out, judged), encoding="utf-8")
     except LookupError as error:
-        sys.exit(f"{options.folder}: expected tables of this version, found others: {error}")
-    target = options.folder / "index.html"
-    target.write_text(text, encoding="utf-8")
+        sys.exit(f"{options.folder}: expected all tables of an experiment, as this version writes them; missing: {error}")
     for name, holds in judged.items():
         print(f"{name}: {'reproduced' if holds else 'reversed'}")
-    print(target)
+    print(options.folder / "index.html")
 
 
 if __name__ == "__main__":
