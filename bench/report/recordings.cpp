@@ -180,12 +180,8 @@ void check_recording(const Run& run, const Source& source, const Bodies& bodies,
              [](const OverlapCount& all) { return std::pair(all.overlapping, all.overlapping_pairs); });
 }
 
-/// How often bodies overlap, the simulator's discs do, or both.
-struct Verdicts {
-  std::array<std::uint64_t, 4> count{};  ///< by bodies + 2 discs
-
-  void add(bool bodies, bool discs) { ++count[bodies + 2 * discs]; }
-};
+/// How often neither bodies nor the simulator's discs overlap, the bodies alone, the discs alone, and both.
+using Verdicts = std::array<std::uint64_t, 4>;
 
 /// Compares the overlaps of bodies with those of discs of one radius.
 class DiscComparison {
@@ -202,21 +198,21 @@ class DiscComparison {
         const bool discs = distance < square_reach_;
         const float depth = depth_of(frame, next, people[i], people[k]);
         if (discs) in_discs[i] = in_discs[k] = true;
-        if (distance <= near * near) neighbours_.add(depth >= 0, discs);
+        if (distance <= near * near) ++neighbours_[(depth >= 0) + 2 * discs];
         if (depth < 0 && !discs) continue;
         auto& seen = of_two_[{people[i].walker.id, people[k].walker.id}];
         seen.first |= depth >= 0, seen.second |= discs;
         if (!discs) deepest_ = std::max(deepest_, depth);
       }
-    for (std::size_t i = 0; i < people.size(); ++i) people_.add(people[i].overlaps, in_discs[i]);
+    for (std::size_t i = 0; i < people.size(); ++i) ++people_[people[i].overlaps + 2 * in_discs[i]];
   }
 
   void write(Table& table, const Source& source, const Bodies& bodies, double radius) const {
-    Verdicts of_two;  // what is said of two people in the whole recording
-    for (const auto& [ids, seen] : of_two_) of_two.add(seen.first, seen.second);
+    Verdicts of_two{};  // what is said of two people in the whole recording
+    for (const auto& [ids, seen] : of_two_) ++of_two[seen.first + 2 * seen.second];
     for (const auto& [counted, verdicts] :
          {std::pair("neighbours", neighbours_), {"person-frames", people_}, {"encounters", of_two}}) {
-      const auto& [neither, bodies_alone, discs_alone, both] = verdicts.count;
+      const auto& [neither, bodies_alone, discs_alone, both] = verdicts;
       table.add({source.file, source.made_by, bodies.name, radius, counted,
                  neither + bodies_alone + discs_alone + both, both, bodies_alone, discs_alone,
                  100 * static_cast<double>(deepest_)});
@@ -238,7 +234,7 @@ class DiscComparison {
   }
 
   const double square_reach_;
-  Verdicts neighbours_, people_;
+  Verdicts neighbours_{}, people_{};
   std::map<std::pair<std::int64_t, std::int64_t>, std::pair<bool, bool>> of_two_;
   float deepest_ = 0;
 };
