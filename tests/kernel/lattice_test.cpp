@@ -181,8 +181,7 @@ TEST_F(Lattice, NeighboursInACrowdAreThoseOfTheOutlines) {
     }
   EXPECT_NE(boundary, solid);
   CrowdCollider collider;
-  for (const Implementation& implementation : implementations()) {
-    if (!implementation.supported()) continue;
+  for (const Implementation& implementation : test::supported()) {
     for (const ShapeSet& set : sets)
       for (const Semantics semantics : {Semantics::boundary, Semantics::solid}) {
         const auto rows = collider.collide_all(set, crowd.agents(), {semantics, &implementation});

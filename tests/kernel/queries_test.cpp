@@ -302,12 +302,6 @@ const Placement placements[] = {{"anywhere", anywhere},   {"at contact", at_cont
                                 {"on a grid", on_a_grid}, {"far from the origin", far_from_the_origin},
                                 {"far apart", far_apart}};
 
-template <class Visit>
-void for_implementations(Visit visit) {
-  for (const Implementation& each : implementations())
-    if (each.supported()) visit(each);
-}
-
 class QueriesOf : public testing::TestWithParam<std::tuple<Kind, Levels>> {};
 
 TEST_P(QueriesOf, EqualBruteForce) {
@@ -348,26 +342,36 @@ TEST_P(QueriesOf, PenetrationsSuffice) {
   }
 }
 
-/// Broad and narrow phase of a crowd, everybody with everybody.
+/// Broad and narrow phase of crowds, everybody with everybody.
 TEST_P(QueriesOf, NeighboursEqualBruteForce) {
   const auto& [kind, levels] = GetParam();
   Random random(2702);
   const World world{kind.shapes(random), levels.plan};
-  const PairScene scene = at_contact(random, world, 40);
-  const auto count = static_cast<std::uint32_t>(scene.crowd.x.size());
-  std::vector<std::vector<std::uint32_t>> expected(count);
-  for (std::uint32_t i = 0; i < count; ++i)
-    for (std::uint32_t j = 0; j < i; ++j)
-      if (world.brute_force.collisions.boundary(scene.crowd.agents(), {i, j}, Method::brute_force))
-        expected[i].push_back(j), expected[j].push_back(i);
   CrowdCollider collider;
-  for_implementations([&](const Implementation& each) {
-    const auto rows = collider.collide_all(world.set, scene.crowd.agents(), {.implementation = &each});
-    for (std::uint32_t i = 0; i < count; ++i) {
-      std::ranges::sort(expected[i]);
-      EXPECT_TRUE(std::ranges::equal(rows[i], expected[i])) << each.name << ", agent " << i;
-    }
-  });
+  for (const std::uint32_t pairs : {40u, 0u, 1u, 15u}) {
+    const PairScene scene = at_contact(random, world, pairs);
+    const auto count = static_cast<std::uint32_t>(scene.crowd.x.size());
+    std::vector<std::vector<std::uint32_t>> boundary(count), solid(count);
+    for (std::uint32_t i = 0; i < count; ++i)
+      for (std::uint32_t j = 0; j < count; ++j) {
+        if (i == j) continue;
+        const bool hit =
+            world.brute_force.collisions.boundary(scene.crowd.agents(), {i, j}, Method::brute_force);
+        if (hit) boundary[i].push_back(j);
+        if (hit || (world.set.solid() &&
+                    world.brute_force.collisions.solid(scene.crowd.agents(), {i, j}, Method::depth_first)))
+          solid[i].push_back(j);
+      }
+    for (const Semantics semantics : {Semantics::boundary, Semantics::solid})
+      for (const Implementation& each : test::supported()) {
+        if (semantics == Semantics::solid && !world.set.solid()) continue;
+        const auto rows = collider.collide_all(world.set, scene.crowd.agents(), {semantics, &each});
+        const auto& expected = semantics == Semantics::solid ? solid : boundary;
+        for (std::uint32_t i = 0; i < count; ++i)
+          EXPECT_TRUE(std::ranges::equal(rows[i], expected[i]))
+              << each.name << ", agent " << i << " of " << count;
+      }
+  }
 }
 
 std::string name_of(const testing::TestParamInfo<std::tuple<Kind, Levels>>& of) {
@@ -419,7 +423,7 @@ TEST_F(Queries, OfPairsThatShareAnAgentEqualBruteForce) {
 
 TEST_F(Queries, InBatchesOfAnySizeAndOffset) {
   const std::vector<PairAnswers> whole = ask(world.set, questions);
-  for_implementations([&](const Implementation& each) {
+  for (const Implementation& each : test::supported()) {
     const std::size_t width = each.kernels->width;
     for (const std::size_t size : std::vector<std::size_t>{0, 1, width - 1, width, width + 1, 3 * width, 127,
                                                            128, 129, 255, 256, 257, 513, 1025})
@@ -430,7 +434,7 @@ TEST_F(Queries, InBatchesOfAnySizeAndOffset) {
             {begin, begin + static_cast<std::ptrdiff_t>(size)},
             std::string(each.name) + ", " + std::to_string(size) + " pairs from " + std::to_string(offset));
       }
-  });
+  }
 }
 
 TEST_F(Queries, OnAnyNumberOfThreads) {
@@ -463,8 +467,7 @@ TEST_F(Queries, AmongManyShapesAreTheSame) {
   const ShapeSet large(test::repeated(world.shapes), world.plan);
   for (std::size_t i = 0; i < questions.crowd.shape.size(); ++i)
     questions.crowd.shape[i] += static_cast<std::uint32_t>(i * world.shapes.size() % large.shape_count());
-  for_implementations(
-      [&](const Implementation& each) { expect_same(ask(large, questions, each), expected, each.name); });
+  expect_answers(large, questions, expected, "many shapes");
 }
 
 /// Supports and inscribed discs decide pairs early, and nothing else.
@@ -472,8 +475,7 @@ TEST_F(Queries, WithoutCullingAreTheSame) {
   const std::vector<PairAnswers> expected = ask(world.set, questions);
   const ShapeSet plain(world.shapes, {.depths = world.plan.depths, .culling = false});
   EXPECT_LT(plain.bytes(), world.set.bytes());
-  for_implementations(
-      [&](const Implementation& each) { expect_same(ask(plain, questions, each), expected, each.name); });
+  expect_answers(plain, questions, expected, "without culling");
 }
 
 /// A descent that leaves out what cannot count finds what brute force finds.

@@ -145,8 +145,8 @@ void expect_same(const std::vector<PairAnswers>& found, const std::vector<PairAn
 
 void expect_answers(const ShapeSet& set, const Questions& questions, const std::vector<PairAnswers>& expected,
                     const std::string& what) {
-  for (const Implementation& each : implementations())
-    if (each.supported()) expect_same(ask(set, questions, each), expected, what + ", " + each.name);
+  for (const Implementation& each : supported())
+    expect_same(ask(set, questions, each), expected, what + ", " + each.name);
 }
 
 std::vector<PairAnswers> ask(const ShapeSet& set, const Questions& of, const Implementation& implementation) {

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <ranges>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,6 +21,11 @@
 // All queries over pairs at once: what they are asked, what they answer, and what brute force does.
 
 namespace bch::test {
+
+/// Returns the implementations that this processor runs.
+inline auto supported() {
+  return implementations() | std::views::filter([](const Implementation& each) { return each.supported(); });
+}
 
 /// Pairs, and what every query is to know of them.
 struct Questions : PairScene {
