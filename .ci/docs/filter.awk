@@ -18,8 +18,8 @@ name ~ /\.c$/ {
   next
 }
 
-# The C interface: one header, one module.
-name ~ /\.h$/ { print FNR == 1 ? "/** \\defgroup h_bch c_api: the C interface" : FNR == 2 ? "\\{ */" : $0; next }
+# The C interface: each header is a module.
+name ~ /\.h$/ { print FNR == 1 ? "/** \\defgroup h_" substr(name, 1, length(name) - 2) " c_api: " name : FNR == 2 ? "\\{ */" : $0; next }
 END { if (name ~ /\.h$/) print "/** \\} */" }
 
 # Headers: each is a module in the place of its first four lines. Its description is what it declares, with links but for names

@@ -2,12 +2,8 @@
 // Copyright (c) 2026 the bch authors
 
 #include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <filesystem>
 
 #include <bch/default_characters.hpp>
-#include <bch/import.hpp>
 
 #include "kernel/c_api/arguments.hpp"
 #include "kernel/c_api/objects.hpp"
@@ -30,46 +26,6 @@ std::unique_ptr<bch_character> default_character(int32_t which) {
       return character_of(default_bulky_male(), "default:bulky");
     default:
       throw Failure(BCH_INVALID_ARGUMENT, "which is " + std::to_string(which));
-  }
-}
-
-ImportOptions import_options_of(const bch_import_options& given) {
-  ImportOptions options;
-  if (given.up != -1) options.up = one_of(given.up, UpAxis::z, "options->up");
-  if (given.scale != 0) options.scale = given.scale;
-  for (const char* file : array_of(given.clip_files, given.clip_file_count, "options->clip_files"))
-    options.clip_files.emplace_back(&required(file, "a path of options->clip_files"));
-  options.force_clips = given.force_clips != 0;
-  options.most_triangles = given.most_triangles;
-  return options;
-}
-
-ImportLimits limits_of(const bch_import_options& given, bool& cancelled) {
-  if (!(given.seconds > 0 && given.seconds <= 1e6))
-    throw Failure(BCH_INVALID_ARGUMENT, "options->seconds is " + std::to_string(given.seconds));
-  ImportLimits limits;
-  limits.time = std::chrono::milliseconds(static_cast<std::int64_t>(std::ceil(1000 * given.seconds)));
-  limits.memory = given.memory;
-  if (given.progress != nullptr)
-    limits.go_on = [&] { return !(cancelled = cancelled || given.progress(given.user, 0, 0) != 0); };
-  return limits;
-}
-
-std::unique_ptr<bch_character> import(const char* path, const bch_import_options& given) {
-  bool cancelled = false;
-  const ImportOptions options = import_options_of(given);
-  const ImportLimits limits = limits_of(given, cancelled);
-  require_file(path);
-  try {
-    ImportedCharacter imported = import_in_child(path, options, limits);
-    auto character =
-        character_of(std::move(imported.character), std::filesystem::path(path).filename().string());
-    for (const std::string& note : imported.report.notes) character->notes += note + "\n";
-    character->report = std::move(imported.report);
-    return character;
-  } catch (const ImportError& error) {
-    if (cancelled) throw Failure(BCH_CANCELLED, error.what());
-    throw;
   }
 }
 
@@ -101,15 +57,6 @@ double bch_pedestrian_strides_per_second(double metres_per_second) {
   return pedestrian_strides_per_second(metres_per_second);
 }
 
-bch_status bch_character_import(const char* path, const bch_import_options* options,
-                                bch_character** character) {
-  return guarded([&] {
-    required(path, "path");
-    required(character, "character");
-    hand_out(import(path, sized<bch_import_options>(options, BCH_IMPORT_OPTIONS_INIT, "options")), character);
-  });
-}
-
 bch_status bch_character_get_info(const bch_character* handle, bch_character_info* info) {
   return guarded([&] {
     const bch_character& of = object_of(handle, "character");
@@ -117,7 +64,7 @@ bch_status bch_character_get_info(const bch_character* handle, bch_character_inf
     bch_character_info all = BCH_CHARACTER_INFO_INIT;
     all.joints = static_cast<uint32_t>(character.joints.size());
     all.clips = static_cast<uint32_t>(character.clips.size());
-    all.height = of.report.height;
+    all.height = of.height;
     all.vertices = character.vertices.size();
     all.triangles = character.triangles.size();
     all.name = of.name.c_str();

@@ -8,10 +8,7 @@
 #include <new>
 
 #include <bch/baked.hpp>
-#include <bch/import.hpp>
 #include <bch/version.hpp>
-
-#include "layout/recordings/trajectory.hpp"
 
 namespace bch::c_api {
 namespace {
@@ -39,10 +36,6 @@ bch_status status_of_exception() noexcept {
   } catch (const Failure& error) {
     return remember(error.status, error.what());
   } catch (const BakedFileError& error) {
-    return remember(BCH_BAD_FILE, error.what());
-  } catch (const detail::TrajectoryError& error) {
-    return remember(BCH_BAD_FILE, error.what());
-  } catch (const ImportError& error) {
     return remember(BCH_BAD_FILE, error.what());
   } catch (const std::bad_alloc&) {
     return remember(BCH_NO_MEMORY, "out of memory");

@@ -9,6 +9,10 @@
 
 #include "kernel/c_api/failure.hpp"
 
+// Of the library of files.
+struct bch_trajectory;
+struct bch_check;
+
 namespace bch::c_api {
 
 /// Holds the objects of the C interface that live. A pointer from outside is looked up before it is read, so that one that was

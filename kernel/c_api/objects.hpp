@@ -9,7 +9,6 @@
 
 #include <bch/baked.hpp>
 #include <bch/character.hpp>
-#include <bch/import.hpp>
 #include <bch/pose_shape.hpp>
 #include <bch/shape_set_builder.hpp>
 
@@ -20,8 +19,8 @@
 struct bch_character {
   std::shared_ptr<const bch::Character> character;
   std::string name;
-  bch::ImportReport report = {};
-  std::string notes = {};  ///< of the report, a line each
+  float height = 0;        ///< of an imported one's rest pose, metres
+  std::string notes = {};  ///< of its import, a line each
 };
 
 /// Holds a set of its own, or one that a dynamic set lends.

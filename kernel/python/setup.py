@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 the bch authors
 
-"""Makes the wheel: the package and the shared library, which is taken from a build of the project."""
+"""Makes the wheel: the package and the shared libraries, which are taken from a build of the project."""
 
 import os
 import re
@@ -18,20 +18,22 @@ abi = re.search(r"define BCH_ABI_VERSION (\d+)", (root / "kernel/c_api/include/b
 version = ".".join(re.findall(r"define BCH_VERSION_\w+ (\d+)", (root / "layout/include/bch/version.hpp").read_text()))
 
 
-class WithLibrary(build_py):
-    """Builds the shared library, and puts it beside the modules without what only debuggers read."""
+class WithLibraries(build_py):
+    """Builds the shared libraries, and puts them beside the modules without what only debuggers read, and what describes them."""
 
     def run(self):
         super().run()
         if not (build / "CMakeCache.txt").exists():
             raise SystemExit(f"no build in {build}: run `cmake --workflow --preset build` first, or set BCH_BUILD")
-        subprocess.run(["cmake", "--build", build, "--target", "bch_c"], check=True)
-        to = Path(self.build_lib) / "bch" / f"libbch.so.{abi}"
-        subprocess.run(["strip", "--strip-unneeded", "-o", to, build / f"libbch.so.{abi}"], check=True)
+        subprocess.run(["cmake", "--build", build, "--target", "bch_c", "bch_c_files"], check=True)
+        for library in (f"libbch.so.{abi}", f"libbch_files.so.{abi}"):
+            to = Path(self.build_lib) / "bch" / library
+            subprocess.run(["strip", "--strip-unneeded", "-o", to, build / library], check=True)
+        self.copy_file(str(root / "kernel/c_api/abi.txt"), str(Path(self.build_lib) / "bch" / "abi.txt"))
 
 
 class OfPlatform(bdist_wheel):
-    """A wheel for every Python 3 of a platform: the library does not depend on Python."""
+    """A wheel for every Python 3 of a platform: the libraries do not depend on Python."""
 
     def finalize_options(self):
         super().finalize_options()
@@ -45,6 +47,6 @@ work = build / "python"
 work.mkdir(parents=True, exist_ok=True)
 setup(
     version=version,
-    cmdclass={"build_py": WithLibrary, "bdist_wheel": OfPlatform},
+    cmdclass={"build_py": WithLibraries, "bdist_wheel": OfPlatform},
     options={"build": {"build_base": str(work)}, "egg_info": {"egg_base": str(work)}},
 )

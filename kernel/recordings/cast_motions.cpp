@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "kernel/recordings/walker_cast.hpp"
-#include "layout/recordings/row.hpp"
+#include "layout/recordings/shown.hpp"
 
 namespace bch::detail {
 namespace {

@@ -7,24 +7,6 @@
 #include "layout/recordings/trajectory.hpp"
 
 namespace bch::detail::trajectory {
-namespace {
-
-std::string one_line(std::string_view text) {
-  std::string line(text);
-  for (char& c : line)
-    if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = ' ';
-  return line;
-}
-
-}  // namespace
-
-std::string shown(std::string_view text) {
-  constexpr std::size_t longest = 40;
-  std::string line = one_line(text.substr(0, longest));
-  if (text.size() > longest) line += "...";
-  line.insert(line.begin(), '\'');
-  return line += '\'';
-}
 
 std::string Places::row(std::uint64_t number) const {
   return (has_lines ? "line " : "row ") + std::to_string(number);

@@ -10,9 +10,9 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "layout/recordings/shown.hpp"
 #include "layout/recordings/trajectory.hpp"
 
 // Private to the readers of recordings: rows, in the order of a file.
@@ -37,9 +37,6 @@ struct Row {
   std::uint32_t motion = TrackedPerson::no_motion;  ///< index into Recording::motions
   std::uint64_t number = 0;                         ///< of its line or row in the file, from 1
 };
-
-/// Returns text from a file for a message: in quotes, without control characters, not long.
-std::string shown(std::string_view text);
 
 /// Names the rows of a file, for messages.
 struct Places {

@@ -290,11 +290,63 @@ class Errors(unittest.TestCase):
             self.expect(OSError, ["b.bch"], bch.import_character, wrong)
             self.expect(OSError, ["nowhere"], self.shapes.save, Path(folder) / "nowhere" / "c.bch")
 
-    def test_a_library_that_is_not_there(self):
-        environment = dict(os.environ, BCH_LIBRARY="/nowhere/libbch.so")
-        ended = subprocess.run([sys.executable, "-c", "import bch"], env=environment, capture_output=True, text=True)
+
+class Libraries(unittest.TestCase):
+    """libbch is loaded with the package, and libbch_files, which needs many packages, when a file is read."""
+
+    def run_script(self, script, **environment):
+        environment = dict(os.environ, **environment)
+        command = [sys.executable, "-W", "error", "-c", textwrap.dedent(script)]
+        return subprocess.run(command, env=environment, capture_output=True, text=True)
+
+    def test_one_that_is_not_there(self):
+        ended = self.run_script("import bch", BCH_LIBRARY="/nowhere/libbch.so")
         self.assertEqual(ended.returncode, 1)
         self.assertIn("ImportError: bch: /nowhere/libbch.so", ended.stderr)
+
+    def test_files_are_loaded_when_they_are_read(self):
+        ended = self.run_script("""
+            import bch, pathlib
+            maps = pathlib.Path("/proc/self/maps")
+            loaded = lambda: [name for name in ("libbch_files", "libassimp", "libsqlite3") if name in maps.read_text()]
+            bch.bake(bch.default_male(), poses=2)
+            print(loaded())
+            try:
+                bch.import_character("/nowhere.glb")
+            except FileNotFoundError:
+                print(loaded())
+        """)
+        self.assertEqual((ended.stdout, ended.stderr), ("[]\n['libbch_files', 'libassimp', 'libsqlite3']\n", ""))
+
+    def test_files_without_their_library(self):
+        script = """
+            import bch
+            assert len(bch.bake(bch.default_male(), poses=2)) == 2
+            for read in (bch.import_character, bch.read_trajectory, bch.check):
+                try:
+                    read("a.file")
+                except ImportError as error:
+                    print(error)
+        """
+        package = Path(bch.__file__).parent
+        private = f"BCH_PRIVATE_{bch.__version__}"
+        with tempfile.TemporaryDirectory() as folder:
+            first, files = Path(folder) / "libbch.so.1", Path(folder) / "libbch_files.so.1"
+
+            def expect(words):
+                ended = self.run_script(script, BCH_LIBRARY=str(first))
+                self.assertEqual(ended.stderr, "")
+                lines = [line for line in ended.stdout.splitlines() if words in line and "need Debian's libassimp5, " in line]
+                self.assertEqual(len(lines), 3, ended.stdout)
+
+            first.write_bytes((package / first.name).read_bytes())
+            expect("libbch_files.so.1: cannot open shared object file")
+            files.write_bytes((package / files.name).read_bytes().replace(b"libassimp.so.5", b"libassimp.so.x"))
+            expect("libassimp.so.x: cannot open shared object file")
+            # Nor does the loader take two of different releases.
+            files.write_bytes((package / files.name).read_bytes())
+            first.write_bytes(first.read_bytes().replace(private.encode(), private[:-1].encode() + b"x"))
+            expect(f"version `{private}' not found")
 
 
 class Sets(unittest.TestCase):
@@ -325,8 +377,7 @@ class Sets(unittest.TestCase):
 
     def test_obstacles_with_heights(self):
         box = bch.ShapeSet.from_polygons([[[(0, 0), (1, 0), (1, 1), (0, 1)]]], plan=bch.Plan(heights=True), heights=[(0.0, 1.5)])
-        shape, x, y = np.zeros(3, np.uint32), np.zeros(3), np.zeros(3)
-        agents = bch.Agents(shape, x, y, np.zeros(3), z=np.array([0.0, 2, 9]))
+        agents = bch.Agents(np.zeros(3, np.uint32), np.zeros(3), np.zeros(3), np.zeros(3), z=np.array([0.0, 2, 9]))
         points = np.array([0.5, 0.5, 2, 2]), np.array([-1.0, 2, -1, 2])
         walls = bch.Obstacles(*points, np.array([0, 2, 4], np.uint64), heights=np.array([(1.0, 3.0), (-np.inf, np.inf)]))
         np.testing.assert_array_equal(bch.collide(box, agents, walls), [1, 1, 0])
@@ -335,15 +386,10 @@ class Sets(unittest.TestCase):
             bch.Obstacles(*points, np.array([0, 2, 4], np.uint64), heights=np.zeros(2))
         with self.assertRaisesRegex(ValueError, "obstacle 1: heights from 3 to 2 m"):
             bch.Obstacles(*points, np.array([0, 2, 4], np.uint64), heights=np.array([(0.0, 1), (3, 2)]))
-
-    def test_wkt_with_heights(self):
-        box = bch.ShapeSet.from_polygons([[[(0, 0), (1, 0), (1, 1), (0, 1)]]], plan=bch.Plan(heights=True), heights=[(0.0, 1.5)])
-        agents = bch.Agents(np.zeros(1, np.uint32), np.zeros(1), np.zeros(1), np.zeros(1))
         wall = "LINESTRING(-1 0.5, 2 0.5)"
-        for heights, hit in (((1.0, 3.0), 1), ((1.6, 3.0), 0), ((-np.inf, -0.1), 0), ((-np.inf, np.inf), 1)):
-            walls = bch.Obstacles.from_wkt(wall, heights=heights)
-            self.assertEqual(bch.collide(box, agents, walls).tolist(), [hit], heights)
-        self.assertEqual(bch.collide(box, agents, bch.Obstacles.from_wkt(wall)).tolist(), [1])
+        for heights, hits in (((1.0, 3.0), [1, 1, 0]), ((1.6, 3.0), [0, 1, 0]), ((-np.inf, np.inf), [1, 1, 1])):
+            self.assertEqual(bch.collide(box, agents, bch.Obstacles.from_wkt(wall, heights=heights)).tolist(), hits)
+        self.assertEqual(bch.collide(box, agents, bch.Obstacles.from_wkt(wall)).tolist(), [1, 1, 1])
         with self.assertRaisesRegex(ValueError, "obstacle 0: heights from 3 to 2 m"):
             bch.Obstacles.from_wkt(wall, heights=(3, 2))
 
@@ -404,16 +450,6 @@ class Sets(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "of 1 characters, and there are 2"):
             bch.bake([male, male], poses=[male.sample_poses(2)])
         self.assertEqual(len(bch.Obstacles(np.empty(0), np.empty(0), np.zeros(1, np.uint64))), 0)
-
-    def test_walls(self):
-        shapes, agents = squares(5)
-        wall = bch.Obstacles.from_wkt("LINESTRING(-9 0.7, 9 0.7)")
-        exact = bch.clearance(shapes, agents, wall, leaves="segments")
-        np.testing.assert_allclose(exact, 0.2, atol=1e-5)
-        self.assertTrue((bch.clearance(shapes, agents, wall) < exact).all())
-        for distance in (0.1999, 0.2001):
-            near = bch.within(shapes, agents, wall, distance, leaves="segments")
-            np.testing.assert_array_equal(near, exact <= distance)
 
     def test_copies(self):
         shapes, agents = squares(5)
@@ -547,7 +583,7 @@ class Recordings(unittest.TestCase):
 
         handle = _recordings._open(path, 10, 1, None)
         rows, count = np.empty(4, bch.TRACKED), ctypes.c_size_t()
-        _library.check(_library.lib.bch_trajectory_read_moving(handle.pointer, rows.ctypes.data, 4, ctypes.byref(count)))
+        _library.check(_library.lib.bch_trajectory_read(handle.pointer, rows.ctypes.data, 4, ctypes.byref(count)))
         with self.assertRaisesRegex(ValueError, "has been read from"):
             _library.Handle("check", "run", handle.pointer, ctypes.byref(_library.CheckOptions()))
         try:
@@ -563,50 +599,43 @@ class Recordings(unittest.TestCase):
         worst = found.events[np.argmax(found.events["depth"])]
         self.assertEqual((worst["first"], worst["second"], worst["kind"]), (5, 7, bch.OVERLAP))
         self.assertLess(abs(worst["worst"] - 50), 5)
-        self.assertEqual(len(found.frames), 100)
+        self.assertEqual((len(found.frames), found.summary["person_frames"]), (100, 200))
         self.assertEqual(found.frames["overlapping"].sum(), found.summary["overlapping"])
-        self.assertEqual(found.summary["person_frames"], 200)
         gaps = found.pairs[found.pairs["kind"] == bch.NEAR]
         self.assertTrue((gaps["gap"] <= 0.5).all() and len(gaps) > 5)
-        again = bch.check(self.path, unit=1, max_distance=0.5, threads=1)
-        for one, other in zip(found[:3], again[:3]):
-            self.assertEqual(one.tobytes(), other.tobytes())
         passing = Path(self.folder.name) / "passing.csv"
         rows = [f"1,{k},{8997 + 2 * k},5\n2,{k},{9003 - 2 * k},5\n" for k in range(4)]
         passing.write_text("id,frame,x,y\n" + "".join(rows))
-        seen = bch.check(passing, fps=1, unit=1)
-        self.assertEqual((len(seen.events), seen.events["kind"][0], seen.events["worst"][0]), (1, bch.PASS, 1))
-        self.assertTrue(0.2 < seen.events["after"][0] < 0.5)
-        self.assertAlmostEqual(seen.events["x"][0], 8999 + 2 * float(seen.events["after"][0]), 4)
-        self.assertEqual(seen.events["y"][0], 5)
-        self.assertTrue(seen.pairs["kind"][0] == bch.PASS and 0.5 < seen.pairs["gap"][0] < 2)
-        with self.assertRaisesRegex(Exception, "frames 0 to 99: more than 5 pairs of people are near each other"):
-            bch.check(self.path, unit=1, max_pairs=5)
-        free = bch.check(self.path, unit=1, walls=bch.Obstacles.from_wkt("LINESTRING(-9 0.6, 9 0.6)"))
-        self.assertEqual(free.summary["in_walls"], 0)
-        pairs = lambda **more: bch.check(self.path, unit=1, **more).summary["overlapping_near_pairs"]
-        counts = [pairs(depth=0), pairs(depth=3), pairs(leaves="discs"), pairs()]
+        (seen,) = bch.check(passing, fps=1, unit=1, threads=1).events
+        self.assertEqual((seen["kind"], seen["worst"], seen["y"]), (bch.PASS, 1, 5))
+        self.assertTrue(0.2 < seen["after"] < 0.5)
+        self.assertAlmostEqual(seen["x"], 8999 + 2 * float(seen["after"]), 4)
+
+    def test_options_of_checks(self):
+        check = lambda **more: bch.check(self.path, unit=1, **more)
+        overlaps = lambda **more: check(**more).summary["overlapping_near_pairs"]
+        self.assertEqual(check(walls=bch.Obstacles.from_wkt("LINESTRING(-9 0.6, 9 0.6)")).summary["in_walls"], 0)
+        counts = [overlaps(depth=0), overlaps(depth=3), overlaps(leaves="discs"), overlaps()]
         self.assertEqual(counts, sorted(counts, reverse=True))
         self.assertGreater(counts[0], counts[2])
-        own = bch.check(self.path, unit=1, characters=[bch.default_male(), bch.default_female()])
-        self.assertGreater(own.summary["overlapping_near_pairs"], 0)
-        self.assertEqual(own.assumptions[: len(found.assumptions)], found.assumptions)
-        self.assertTrue(any("walks, by its feet, at " in line for line in own.assumptions))
-        self.assertNotEqual(own.pairs.tobytes(), found.pairs[found.pairs["kind"] != bch.NEAR].tobytes())
         baked = bch.bake([bch.default_male()], poses=100)
-        with self.assertRaisesRegex(ValueError, "does not say how fast people walk"):
-            bch.check(self.path, unit=1, characters=baked)
-        with self.assertRaisesRegex(TypeError, "clip_speeds and facing are for"):
-            bch.check(self.path, unit=1, facing=1.5)
-        of_set = bch.check(self.path, unit=1, characters=baked, clip_speeds={"walk": 1.3})
-        self.assertGreater(of_set.summary["overlapping_near_pairs"], 0)
-        self.assertTrue(any("walks in walk at 1.3 m/s" in line for line in of_set.assumptions))
-        with self.assertRaisesRegex(TypeError, r"characters\[0\] is a str"):
-            bch.check(self.path, unit=1, characters=["default:male"])
-        with self.assertRaisesRegex(ValueError, "leaves is 'discs and segments'"):
-            bch.check(self.path, unit=1, leaves="discs and segments")
-        with self.assertRaisesRegex(TypeError, "walls is a str"):
-            bch.check(self.path, walls="LINESTRING(0 0, 1 1)")
+        for more, assumed in (
+            ({"characters": [bch.default_male(), bch.default_female()]}, "walks, by its feet, at "),
+            ({"characters": baked, "clip_speeds": {"walk": 1.3}}, "walks in walk at 1.3 m/s"),
+        ):
+            found = check(**more)
+            self.assertGreater(found.summary["overlapping_near_pairs"], 0)
+            self.assertTrue(any(assumed in line for line in found.assumptions))
+        for kind, words, more in (
+            (Exception, "frames 0 to 99: more than 5 pairs of people are near each other", {"max_pairs": 5}),
+            (ValueError, "does not say how fast people walk", {"characters": baked}),
+            (TypeError, "clip_speeds and facing are for", {"facing": 1.5}),
+            (TypeError, r"characters\[0\] is a str", {"characters": ["default:male"]}),
+            (ValueError, "leaves is 'discs and segments'", {"leaves": "discs and segments"}),
+            (TypeError, "walls is a str", {"walls": "LINESTRING(0 0, 1 1)"}),
+        ):
+            with self.assertRaisesRegex(kind, words):
+                check(**more)
 
 
 class Interrupts(unittest.TestCase):

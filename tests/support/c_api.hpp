@@ -7,6 +7,8 @@
 
 #include <memory>
 #include <string>
+#include <tuple>
+#include <type_traits>
 
 #include <bch/bch.h>
 #include <bch/baked.hpp>
@@ -27,23 +29,23 @@ using OwnedSet = Owned<bch_shape_set, bch_shape_set_free>;
 using OwnedBuilder = Owned<bch_shape_set_builder, bch_shape_set_builder_free>;
 using OwnedCharacter = Owned<bch_character, bch_character_free>;
 using OwnedShaper = Owned<bch_pose_shaper, bch_pose_shaper_free>;
-using OwnedDynamicSet = Owned<bch_dynamic_shape_set, bch_dynamic_shape_set_free>;
 using OwnedBroadPhase = Owned<bch_broad_phase, bch_broad_phase_free>;
 using OwnedCollider = Owned<bch_crowd_collider, bch_crowd_collider_free>;
 using OwnedFinder = Owned<bch_contact_finder, bch_contact_finder_free>;
-using OwnedScenePlan = Owned<bch_scene_plan, bch_scene_plan_free>;
 using OwnedObstacles = Owned<bch_obstacles, bch_obstacles_free>;
 
 inline void expect_ok(bch_status status) {
   EXPECT_EQ(status, BCH_OK) << bch_status_name(status) << ": " << bch_last_error();
 }
 
-/// Takes what a function of the C interface hands out by its last argument.
-template <class Handle, class Make>
-Handle made(Make make) {
-  typename Handle::pointer object = nullptr;
-  expect_ok(make(&object));
-  return Handle(object);
+/// Makes an object of the C interface by a function that hands it out by its last argument, and that has the others before it.
+template <auto free, class... Parameters, class... Arguments>
+auto made(bch_status (*make)(Parameters...), Arguments... arguments) {
+  using To = std::tuple_element_t<sizeof...(Parameters) - 1, std::tuple<Parameters...>>;
+  using Object = std::remove_pointer_t<std::remove_pointer_t<To>>;
+  Object* object = nullptr;
+  expect_ok(make(arguments..., &object));
+  return Owned<Object, free>(object);
 }
 
 /// The same set for the C interface, by way of a file.
@@ -51,7 +53,7 @@ inline OwnedSet c_set(const ShapeSet& set) {
   const TemporaryFolder folder;
   const std::string file = folder.file("shapes.bch");
   save_baked(file, set);
-  return made<OwnedSet>([&](bch_shape_set** to) { return bch_shape_set_load(file.c_str(), BCH_READ, to); });
+  return made<bch_shape_set_free>(bch_shape_set_load, file.c_str(), BCH_READ);
 }
 
 inline bch_agents c_agents(const Crowd& crowd) {

@@ -2,354 +2,396 @@
 // Copyright (c) 2026 the bch authors
 
 #include <gtest/gtest.h>
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/task_arena.h>
 
-#include <new>
-#include <utility>
+#include <algorithm>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
 #include <vector>
 
-#include <bch/baked.hpp>
 #include <bch/broad_phase.hpp>
-#include <bch/clearance.hpp>
-#include <bch/collide.hpp>
-#include <bch/contacts.hpp>
-#include <bch/default_characters.hpp>
-#include <bch/dynamic_shape_set.hpp>
-#include <bch/obstacles.hpp>
-#include <bch/outline_builder.hpp>
-#include <bch/pose_shape.hpp>
-#include <bch/shape_set_builder.hpp>
 
-#include "layout/baked/image.hpp"
-#include "layout/character/skinning.hpp"
-#include "tests/support/allocation_count.hpp"
+#include "tests/support/allocation_faults.hpp"
 #include "tests/support/baked_bytes.hpp"
+#include "tests/support/c_api.hpp"
+#include "tests/support/c_api_queries.hpp"
+#include "tests/support/program_run.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-// Every allocation fails once, and once with all that follow it.
+// Every function of the C interface that lacks memory writes nothing, and succeeds when it is called again. Thus what it calls of the C++
+// library leaves everything as it was.
 
 namespace bch {
 namespace {
 
-/// Runs `act`, which leaves nothing behind, with its first, second ... allocation failing, until none is left that
-/// could: each time it throws std::bad_alloc, has leaked nothing, and `check` finds what was there before as it was.
-/// Returns: how many allocations it takes.
-template <class Act, class Check>
-std::size_t fail_each(Act act, Check check) {
-  act();  // what is made once in a program is made
-  for (std::size_t after = 0;; ++after)
-    for (const test::Failing mode : {test::Failing::one, test::Failing::all}) {
-      const std::size_t live = test::live_allocations();
-      bool thrown = false;
-      test::fail_allocations(mode, after);
-      try {
-        act();
-      } catch (const std::bad_alloc&) {
-        thrown = true;
-      }
-      const std::size_t failures = test::stop_failing_allocations();
-      const std::size_t leaked = test::live_allocations() - live;
-      EXPECT_EQ(leaked, 0u) << "allocation " << after;
-      if (failures == 0) {
-        EXPECT_FALSE(thrown);
-        return after;
-      }
-      EXPECT_TRUE(thrown) << "allocation " << after;
-      check();
-      if (testing::Test::HasFailure()) return after;
-    }
+using test::Attempt;
+using test::expect_ok;
+using test::fail_each;
+using test::made;
+
+const std::vector<std::uint32_t> depths = {0, 2, all_depths};
+constexpr float none = 77;
+
+bch_plan c_plan() {
+  bch_plan plan = BCH_PLAN_INIT;
+  plan.depths = depths.data(), plan.depth_count = depths.size(), plan.heights = 1;
+  return plan;
 }
 
-template <class Act>
-std::size_t fail_each(Act act) {
-  return fail_each(act, [] {});
+/// The same for a function that makes an object.
+template <class Object>
+void fail_each_making(std::size_t least, const std::function<bch_status(Object**)>& make,
+                      bch_status (*free)(Object*), std::size_t step = 1) {
+  fail_each(
+      least,
+      [&](Attempt& attempt) {
+        Object* object = nullptr;
+        attempt([&] { return make(&object); }, [&] { return object == nullptr; });
+        EXPECT_NE(object, nullptr);
+        expect_ok(free(object));
+      },
+      step);
 }
 
-const ShapeSetPlan plan{{0, 2, all_depths}, true};
+/// The same for a function that writes numbers: none of them before all are there.
+template <class Number, class Ask>
+void fail_each_writing(std::size_t least, std::vector<Number>& numbers, Ask ask) {
+  const auto untouched = [&] { return std::count(numbers.begin(), numbers.end(), Number(none)); };
+  fail_each(least, [&](Attempt& attempt) {
+    numbers.assign(numbers.size(), Number(none));
+    attempt(ask, [&] { return untouched() == std::ssize(numbers); });
+    EXPECT_EQ(untouched(), 0);
+  });
+}
 
-std::vector<PreparedShape> prepared(std::span<const Shape> shapes) {
-  std::vector<PreparedShape> all;
-  for (std::size_t s = 0; s < shapes.size(); ++s) all.emplace_back(plan).prepare(shapes[s], s);
-  return all;
+std::string bytes_of(const bch_shape_set* set) {
+  static const TemporaryFolder folder;
+  const std::string file = folder.file("set.bch");
+  expect_ok(bch_shape_set_save(set, file.c_str()));
+  return test::read_text(file);
 }
 
 class AllocationFaults : public testing::Test {
  protected:
   AllocationFaults() {
     test::Random random(91);
-    for (int i = 0; i < 300; ++i)
-      crowd.add({random.below(3), random.uniform(0, 8), random.uniform(0, 8), random.uniform(-4, 4),
-                 static_cast<std::uint8_t>(random.below(3))});
+    for (int i = 0; i < 100; ++i)
+      crowd.add({random.below(shapes.shape_count()), random.uniform(0, 4), random.uniform(0, 4),
+                 random.uniform(-4, 4), static_cast<std::uint8_t>(random.below(3))});
+    agents = test::c_agents(crowd);
+    options.threads = work.threads = 1;
   }
 
-  /// On this thread alone, so that the allocations come in one order; and by two.
-  template <class Act, class Check>
-  void fail_each_with_threads(Act act, Check check, std::size_t least) {
-    for (const int threads : {1, 2}) {
-      const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 2);
-      tbb::task_arena arena(threads);
-      EXPECT_GE(fail_each([&] { arena.execute(act); }, check), least);
-    }
+  /// A builder that has a shape already, which stays whatever happens to the next.
+  test::OwnedBuilder begun() const {
+    auto builder = made<bch_shape_set_builder_free>(bch_shape_set_builder_create, &plan);
+    add_discs(builder);
+    return builder;
+  }
+  static void add_discs(const test::OwnedBuilder& to) {
+    const bch_disc discs[] = {{0, 0, 0.25f}, {0, 0.25f, 0.125f}};
+    expect_ok(bch_shape_set_builder_add_discs(to.get(), discs, 2, nullptr));
+  }
+  static std::string finished(const test::OwnedBuilder& builder) {
+    return bytes_of(made<bch_shape_set_free>(bch_shape_set_builder_finish, builder.get()).get());
   }
 
-  const std::vector<Shape> shapes = test::few_shapes();
-  const ShapeSet set{shapes, plan};
+  /// What a function adds to a builder it adds once, after whatever failed, and what it could not add leaves nothing behind.
+  void fail_each_adding(std::size_t least, const std::function<bch_status(bch_shape_set_builder*)>& add,
+                        std::size_t step = 1) {
+    const auto expected = begun();
+    expect_ok(add(expected.get()));
+    const std::string with = finished(expected), without = finished(begun());
+    fail_each(
+        least,
+        [&](Attempt& attempt) {
+          const auto builder = begun();
+          attempt([&] { return add(builder.get()); });
+          EXPECT_EQ(finished(builder), with);
+          const auto other = begun();
+          const bool failed = attempt.fails([&] { return add(other.get()); });
+          EXPECT_EQ(finished(other), failed ? without : with);
+        },
+        step);
+  }
+
+  test::OwnedCharacter man() const { return made<bch_character_free>(bch_character_default, BCH_MALE); }
+  test::OwnedShaper standing(const test::OwnedCharacter& of) const {
+    auto shaper = made<bch_pose_shaper_free>(bch_pose_shaper_create, of.get(), &plan);
+    expect_ok(bch_pose_shaper_make(shaper.get(), {BCH_REST_POSE, 0}, 0));
+    return shaper;
+  }
+
+  const ShapeSet shapes{test::few_shapes(), {.depths = depths, .heights = true}};
+  const test::OwnedSet set = test::c_set(shapes);
+  const bch_plan plan = c_plan();
   test::Crowd crowd;
+  bch_agents agents;
+  bch_query_options options = BCH_QUERY_OPTIONS_INIT;
+  bch_work work = BCH_WORK_INIT;
+  const bch_pose poses[2] = {{BCH_REST_POSE, 0}, {0, 0}};
 };
 
-TEST_F(AllocationFaults, Outline) {
-  const Character character = default_male();
-  detail::Skinner skinner(character);
-  const auto pose = skinner.pose({});
-  const std::vector<Vec3> positions(pose.begin(), pose.end());
-  EXPECT_GT(fail_each([&] {
-              Outline outline;
-              OutlineBuilder(character.triangles, positions.size(), positions).build(positions, outline);
-            }),
-            10u);
+TEST_F(AllocationFaults, Queries) {
+  fail_each_making<bch_broad_phase>(1, bch_broad_phase_create, bch_broad_phase_free);
+  fail_each_making<bch_crowd_collider>(1, bch_crowd_collider_create, bch_crowd_collider_free);
+  fail_each_making<bch_contact_finder>(1, bch_contact_finder_create, bch_contact_finder_free);
+  for (const bool at_heights : {false, true}) {  // where clearances and times need memory
+    crowd.z.assign(at_heights ? crowd.x.size() : 0, 0);
+    if (at_heights) crowd.z[1] = 0.5;
+    test::CScene scene(shapes, crowd, candidate_pairs(shapes, crowd.agents()));
+    for (const std::uint32_t threads : {1, 2}) {
+      scene.options.threads = threads;
+      for (std::size_t q = 0; q < all_queries(scene).size(); ++q) {
+        const test::CQuery with_memory = all_queries(scene)[q];
+        const std::string before = with_memory.answers();
+        SCOPED_TRACE(with_memory.name);
+        expect_ok(with_memory.ask());
+        if (!with_memory.needs_memory && before.size() == with_memory.answers().size()) continue;
+        fail_each(1, [&](Attempt& attempt) {
+          const test::CQuery query = all_queries(scene)[q];  // whose object has no memory yet
+          attempt(query.ask, [&] { return query.answers() == before; });
+          EXPECT_TRUE(query.answers() == with_memory.answers());
+        });
+      }
+    }
+  }
 }
 
-TEST_F(AllocationFaults, Hierarchy) {
-  EXPECT_GT(fail_each([&] { contour_hierarchy(shapes[0].outline, 0.01f); }), 5u);
+TEST_F(AllocationFaults, Obstacles) {
+  fail_each_making<bch_obstacles>(
+      10,
+      [](bch_obstacles** to) {
+        return bch_obstacles_from_wkt_at("POLYGON((2 2, 4 2, 4 4, 2 4), (2.5 2.5, 3 2.5, 3 3))", 1, -1, 3,
+                                         to);
+      },
+      bch_obstacles_free);
+  const double x[] = {0, 1, 1}, y[] = {0, 0, 1};
+  const std::uint64_t paths[] = {0, 2, 3};
+  bch_obstacle_arrays arrays = BCH_OBSTACLE_ARRAYS_INIT;
+  arrays.x = x, arrays.y = y, arrays.path_offsets = paths, arrays.path_count = 2;
+  fail_each_making<bch_obstacles>(
+      5, [&](bch_obstacles** to) { return bch_obstacles_create(&arrays, to); }, bch_obstacles_free);
 }
 
-TEST_F(AllocationFaults, ShapesOfAPoseGoOnAfterwards) {
-  const Character character = default_female();
-  PoseShaper shaper(character);
-  const std::vector<PoseTime> poses = sample_poses(character, 3);
-  const Shape expected = shaper.shape(poses[1]);
-  EXPECT_GT(fail_each([&] { PoseShaper(character).shape(poses[0]); },
-                      [&] { EXPECT_EQ(shaper.shape(poses[1]).outline.points, expected.outline.points); }),
-            20u);
+TEST_F(AllocationFaults, NumbersThatFunctionsTell) {
+  std::vector<std::size_t> count(1);
+  std::vector<bch_disc> discs(1'000);
+  fail_each_writing(0, count, [&] {
+    return bch_shape_set_get_discs(set.get(), 0, 2, discs.data(), discs.size(), count.data());
+  });
+  fail_each_writing(2, count,
+                    [&] { return bch_shape_set_verify(set.get(), 10, nullptr, nullptr, count.data()); });
+  std::vector<std::uint32_t> begin(2);
+  fail_each_writing(0, begin, [&] { return bch_shape_set_get_slab_offsets(set.get(), 0, 2, begin.data()); });
+  std::vector<double> densities(agents.count);
+  fail_each_writing(1, densities, [&] {
+    return bch_local_densities(agents.x, agents.y, agents.count, 1, densities.data());
+  });
+  const auto character = man();
+  std::vector<std::uint64_t> sampled(5);
+  fail_each_writing(0, sampled, [&] {
+    return bch_character_sample_poses(character.get(), 5, reinterpret_cast<bch_pose*>(sampled.data()));
+  });
+  // The threads that a call asks for are made where there is memory for them.
+  const bch_pair pair{0, 1};
+  std::vector<std::uint8_t> hit(1);
+  fail_each(0, [&](Attempt& attempt) {
+    const auto ask = [&](std::uint32_t threads) {
+      options.threads = threads;
+      return bch_collide(set.get(), &agents, &pair, 1, &options, hit.data());
+    };
+    expect_ok(ask(2));
+    hit[0] = 77;
+    attempt([&] { return ask(1); }, [&] { return hit[0] == 77; });
+    EXPECT_NE(hit[0], 77);
+  });
+}
+
+TEST_F(AllocationFaults, Files) {
+  const TemporaryFolder folder;
+  const ShapeOrigins origins = test::origins_of(shapes.shape_count());
+  const auto file = folder.write("a.bch", test::BakedBytes(shapes, origins, test::few_clips()).text());
+  const std::string copy = folder.file("b.bch"), bytes = bytes_of(set.get());
+  for (const std::int32_t access : {BCH_READ, BCH_MAP})
+    fail_each_making<bch_shape_set>(
+        5, [&](bch_shape_set** to) { return bch_shape_set_load(file.c_str(), access, to); },
+        bch_shape_set_free);
+  fail_each(5, [&](Attempt& attempt) {
+    attempt([&] { return bch_shape_set_save(set.get(), copy.c_str()); });
+    EXPECT_EQ(test::read_text(copy), bytes);
+  });
+}
+
+TEST_F(AllocationFaults, BuildersAndWhatTheyAdd) {
+  fail_each_making<bch_shape_set_builder>(
+      3, [&](bch_shape_set_builder** to) { return bch_shape_set_builder_create(&plan, to); },
+      bch_shape_set_builder_free);
+  const bch_vec2 corners[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  const std::uint64_t square[] = {0, 4};
+  const bch_heights heights{0, 1};
+  const bch_capsule limb{{-0.25f, 0}, {0.25f, 0.125f}, 0.125f};
+  const bch_disc disc{0.5f, 0, 0.25f};
+  const bch_vec3 positions[] = {{1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 2}};
+  const std::uint32_t triangles[] = {0, 1, 2, 0, 2, 3};
+  const auto character = man();
+  const auto shaper = standing(character);
+  const bch_character* const people[] = {character.get()};
+  const bch_shape_source sources[] = {{0, {BCH_REST_POSE, 0}, 1}, {0, {0, 0}, 0}};
+  using To = bch_shape_set_builder*;
+  fail_each_adding(
+      5, [&](To to) { return bch_shape_set_builder_add_polygons(to, corners, square, 1, &heights); });
+  fail_each_adding(5,
+                   [&](To to) { return bch_shape_set_builder_add_capsules(to, &limb, 1, 0.01f, nullptr); });
+  fail_each_adding(2, [&](To to) { return bch_shape_set_builder_add_discs(to, &disc, 1, &heights); });
+  fail_each_adding(2, [&](To to) { return bch_shape_set_builder_add_cylinder(to, 0.25f, nullptr); });
+  fail_each_adding(20, [&](To to) { return bch_shape_set_builder_add_mesh(to, positions, 4, triangles, 2); });
+  fail_each_adding(5, [&](To to) { return bch_shape_set_builder_add_shape(to, shaper.get()); });
+  fail_each_adding(
+      20, [&](To to) { return bch_shape_set_builder_add_poses(to, character.get(), poses, 2, &work); }, 7);
+  fail_each_adding(
+      20, [&](To to) { return bch_shape_set_builder_add_sources(to, people, 1, sources, 2, &work); }, 11);
+}
+
+/// A set that could not be finished is finished later, or gets more shapes instead; its builder begins another one.
+TEST_F(AllocationFaults, Finish) {
+  const bch_vec2 corners[] = {{0, 0}, {1, 0}, {1, 1}};
+  const std::uint64_t offsets[] = {0, 3};
+  const auto add = [&](const test::OwnedBuilder& to, std::size_t polygons) {
+    for (std::size_t i = 0; i < polygons; ++i)
+      expect_ok(bch_shape_set_builder_add_polygons(to.get(), corners, offsets, 1, nullptr));
+  };
+  for (const std::size_t polygons : {0, 1}) {  // discs alone are kept in another way
+    const auto of = [&](std::size_t count) {
+      auto builder = begun();
+      add(builder, count);
+      return builder;
+    };
+    const std::string expected = finished(of(polygons)), more = finished(of(polygons + 1));
+    fail_each(5, [&](Attempt& attempt) {
+      const auto builder = of(polygons);
+      bch_shape_set* whole = nullptr;
+      const auto finish = [&] { return bch_shape_set_builder_finish(builder.get(), &whole); };
+      attempt(finish, [&] { return whole == nullptr; });
+      EXPECT_EQ(bytes_of(whole), expected);
+      expect_ok(bch_shape_set_free(whole));
+      add_discs(builder), add(builder, polygons);
+      if (attempt.fails(finish)) {
+        add(builder, 1);
+        EXPECT_EQ(finished(builder), more);
+      } else {
+        expect_ok(bch_shape_set_free(whole));
+      }
+    });
+  }
+}
+
+/// Room is made for many.
+TEST_F(AllocationFaults, BuildersOfManyShapes) {
+  const bch_vec2 corners[] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+  const std::uint64_t square[] = {0, 4};
+  const auto fill = [&](auto add_one) {
+    auto builder = begun();
+    for (int i = 0; i < 70; ++i)
+      add_one([&] { return bch_shape_set_builder_add_polygons(builder.get(), corners, square, 1, nullptr); });
+    return finished(builder);
+  };
+  const std::string expected = fill([](auto add) { expect_ok(add()); });
+  fail_each(5, [&](Attempt& attempt) { EXPECT_EQ(fill([&](auto add) { attempt(add); }), expected); });
 }
 
 /// A shaper that ran out of memory makes the same shape later, at whichever allocation it was.
 TEST_F(AllocationFaults, AShaperMakesTheShapeThatItCouldNot) {
-  const Character character = default_female();
-  const PoseTime at = sample_poses(character, 3)[1];
-  for (const std::vector<float>& slices : {std::vector<float>{}, {0.5f, 1.2f}}) {
-    const ShapeSetPlan of_shaper{.slices = slices};
-    const auto content = [&](const Shape& shape) {
-      return test::BakedBytes(ShapeSet({&shape, 1}, of_shaper), {}).text();
+  const auto character = man();
+  const float slices[] = {0.5f, 1.2f};
+  bch_plan cut = plan;
+  cut.slices = slices, cut.slice_count = 2;
+  for (const bch_plan& of : {plan, cut}) {
+    const auto make = [&](auto try_to) {
+      const auto shaper = made<bch_pose_shaper_free>(bch_pose_shaper_create, character.get(), &of);
+      try_to([&] { return bch_pose_shaper_make(shaper.get(), {0, 0.25f}, 0); });
+      const auto builder = made<bch_shape_set_builder_free>(bch_shape_set_builder_create, &of);
+      expect_ok(bch_shape_set_builder_add_shape(builder.get(), shaper.get()));
+      return finished(builder);
     };
-    const std::string expected = content(PoseShaper(character, of_shaper).shape(at));
-    for (std::size_t after = 0;; ++after) {
-      PoseShaper shaper(character, of_shaper);
-      bool thrown = false;
-      test::fail_allocations(test::Failing::one, after);
-      try {
-        shaper.shape(at);
-      } catch (const std::bad_alloc&) {
-        thrown = true;
-      }
-      const bool failed = test::stop_failing_allocations() > 0;
-      EXPECT_EQ(thrown, failed);
-      ASSERT_EQ(content(shaper.shape(at)), expected) << after;
-      if (failed) continue;
-      EXPECT_GT(after, 20u);
-      break;
-    }
-  }
-}
-
-TEST_F(AllocationFaults, Set) {
-  EXPECT_GT(fail_each([&] { ShapeSet(shapes, plan); }), 15u);
-}
-
-/// A builder that could not add a shape still adds it later, and makes the same set.
-TEST_F(AllocationFaults, SetBuilder) {
-  // Enough that room is made for all that are expected.
-  std::vector<Shape> many;
-  while (many.size() < 70) many.insert(many.end(), shapes.begin(), shapes.end());
-  const std::vector<PreparedShape> flat = prepared(many);
-  const std::string expected = test::BakedBytes(ShapeSet(many, plan), {}).text();
-  for (std::size_t after = 0;; ++after) {
-    ShapeSetBuilder builder(plan, 100);
-    std::size_t failures = 0;
-    for (const PreparedShape& shape : flat) {
-      test::fail_allocations(test::Failing::all, after);
-      try {
-        builder.add(shape);
-        failures += test::stop_failing_allocations();
-      } catch (const std::bad_alloc&) {
-        failures += test::stop_failing_allocations();
-        builder.add(shape);
-      }
-    }
-    const ShapeSet built = std::move(builder).finish();
-    ASSERT_EQ(test::BakedBytes(built, {}).text(), expected) << after;
-    if (failures == 0) {
-      EXPECT_GT(after, 5u);
-      return;
-    }
-  }
-}
-
-/// What could not be added leaves nothing behind.
-TEST_F(AllocationFaults, SetBuilderThatFinishesWithoutAShape) {
-  const std::vector<PreparedShape> flat = prepared(shapes);
-  const ShapeSet fewer(std::span<const Shape>(shapes).first(shapes.size() - 1), plan);
-  const std::string expected = test::BakedBytes(fewer, test::origins_of(shapes.size() - 1)).text();
-  for (std::size_t after = 0;; ++after) {
-    ShapeSetBuilder builder(plan);
-    for (std::size_t s = 0; s + 1 < flat.size(); ++s) builder.add(flat[s]);
-    test::fail_allocations(test::Failing::all, after);
-    try {
-      builder.add(flat.back());
-    } catch (const std::bad_alloc&) {
-    }
-    if (test::stop_failing_allocations() == 0) {
-      EXPECT_GT(after, 2u);
-      return;
-    }
-    const ShapeSet built = std::move(builder).finish();
-    ASSERT_EQ(test::BakedBytes(built, test::origins_of(shapes.size() - 1)).text(), expected) << after;
+    const std::string expected = make([](auto call) { expect_ok(call()); });
+    fail_each(20, [&](Attempt& attempt) { EXPECT_EQ(make([&](auto call) { attempt(call); }), expected); });
   }
 }
 
 /// A shape that could not be replaced is the one before, and so are all others.
-TEST_F(AllocationFaults, DynamicSet) {
-  test::Random random(92);
-  PreparedShape large(plan);
-  large.prepare(test::contour_shape(test::star(random, 200, 0.3, 0.5)), 0);
-  const std::string expected = test::BakedBytes(set, test::origins_of(shapes.size())).text();
-  for (std::size_t after = 0;; ++after) {
-    DynamicShapeSet dynamic(set);
-    bool thrown = false;
-    test::fail_allocations(test::Failing::all, after);
-    try {
-      dynamic.replace(1, large);
-    } catch (const std::bad_alloc&) {
-      thrown = true;
-    }
-    if (test::stop_failing_allocations() == 0) {
-      EXPECT_GT(after, 1u);  // nodes and points: other parts have room
-      break;
-    }
-    EXPECT_TRUE(thrown);
-    std::vector<std::uint8_t> hits(crowd.shape.size() - 1), before(hits.size());
-    std::vector<Pair> pairs;
-    for (std::uint32_t i = 0; i < hits.size(); ++i) pairs.push_back({i, i + 1});
-    collide(dynamic.set(), crowd.agents(), pairs, hits, {Semantics::solid});
-    collide(set, crowd.agents(), pairs, before, {Semantics::solid});
-    ASSERT_EQ(hits, before) << after;
-    dynamic.replace(1, large);  // now it goes
-    ASSERT_NE(dynamic.set().view().roots[plan.depths.size()].radius,
-              set.view().roots[plan.depths.size()].radius);
-  }
-}
-
-TEST_F(AllocationFaults, Image) {
-  EXPECT_GT(fail_each([&] { detail::BakedImage(set, test::origins_of(shapes.size()), test::few_clips()); }),
-            9u);
-}
-
-TEST_F(AllocationFaults, Load) {
-  const TemporaryFolder folder;
-  const auto file =
-      folder.write("a.bch", test::BakedBytes(set, test::origins_of(shapes.size()), test::few_clips()).text());
-  for (const FileAccess access : {FileAccess::read, FileAccess::map})
-    EXPECT_GT(fail_each([&] { load_baked(file, access); }), 9u);
-}
-
-TEST_F(AllocationFaults, Pairs) {
-  BroadPhase broad_phase;
-  const std::vector<Pair> expected = candidate_pairs(set, crowd.agents());
-  ASSERT_GT(expected.size(), 300u);
-  fail_each_with_threads([&] { BroadPhase().find(set, crowd.agents()); },
-                         [&] {
-                           const auto pairs = broad_phase.find(set, crowd.agents());
-                           EXPECT_EQ(std::vector<Pair>(pairs.begin(), pairs.end()), expected);
-                         },
-                         5);
-}
-
-/// One that ran out of memory answers the next call.
-TEST_F(AllocationFaults, CrowdColliderAnswersTheNextCall) {
-  const auto answer = CrowdCollider().collide_all(set, crowd.agents());
-  const std::size_t expected = answer.values.size();
-  ASSERT_GT(expected, 100u);
-  for (std::size_t after = 0;; ++after) {
-    CrowdCollider collider;
-    test::fail_allocations(test::Failing::all, after);
-    try {
-      collider.collide_all(set, crowd.agents());
-    } catch (const std::bad_alloc&) {
-    }
-    const std::size_t failures = test::stop_failing_allocations();
-    ASSERT_EQ(collider.collide_all(set, crowd.agents()).values.size(), expected) << after;
-    if (failures > 0) continue;
-    EXPECT_GT(after, 5u);
-    return;
-  }
-}
-
-TEST_F(AllocationFaults, Contacts) {
-  const std::vector<Pair> pairs = candidate_pairs(set, crowd.agents());
-  ContactFinder finder;
-  const std::size_t expected = ContactFinder().find(set, crowd.agents(), pairs).values.size();
-  ASSERT_GT(expected, 100u);
-  fail_each_with_threads([&] { ContactFinder().find(set, crowd.agents(), pairs); },
-                         [&] { EXPECT_EQ(finder.find(set, crowd.agents(), pairs).values.size(), expected); },
-                         2);
-  const std::vector<Disc> body = {{0, 0, 0.3f}, {0, 0.3f, 0.2f}};
-  const ShapeSet bodies(std::vector<Shape>(1, shape_from_discs(body)));
-  test::Crowd people;
-  for (std::uint32_t i = 0; i < 100; ++i) people.add({0, 0.4 * (i % 10), 0.4 * (i / 10), 0, 0});
-  const auto of_crowd = [&](ContactFinder& of) {
-    return of.find_all(bodies, people.agents()).contacts.values.size();
-  };
-  const std::size_t of_people = of_crowd(finder);
-  ASSERT_GT(of_people, 100u);
-  fail_each_with_threads(
-      [&] {
-        ContactFinder own;
-        of_crowd(own);
-      },
-      [&] { EXPECT_EQ(of_crowd(finder), of_people); }, 2);
-}
-
-constexpr const char* walls =
-    "LINESTRING(0 0, 5 5, 9 1) POLYGON((2 2, 4 2, 4 4, 2 4), (2.5 2.5, 3 2.5, 3 3)) LINESTRING(1 9, 9 9, 9 "
-    "1)";
-
-TEST_F(AllocationFaults, Obstacles) {
-  EXPECT_GT(fail_each([] { obstacles_from_wkt(walls); }, [] {}), 10u);
-  const ObstacleSet obstacles = obstacles_from_wkt(walls);
-  std::vector<std::uint8_t> hits(crowd.x.size());
-  CrowdCollider collider;
-  const auto answer = [&] {
-    return collider.collide_all(set, crowd.agents(), obstacles).obstacles.values.size();
-  };
-  const std::size_t expected = answer();
-  ASSERT_GT(expected, 0u);
-  fail_each_with_threads([&] { collide(set, crowd.agents(), obstacles, hits); },
-                         [&] { EXPECT_EQ(answer(), expected); }, 2);
-}
-
-/// Answers that need no memory come without any, once TBB has its own.
-TEST_F(AllocationFaults, QueriesWithoutMemory) {
-  const std::vector<Pair> pairs = candidate_pairs(set, crowd.agents());
-  std::vector<std::uint8_t> hits(pairs.size());
-  std::vector<float> distance(pairs.size());
-  std::vector<Vec2> direction(pairs.size());
-  const auto ask = [&] {
-    collide(set, crowd.agents(), pairs, hits);
-    clearance(set, crowd.agents(), pairs, {distance, direction});
-  };
-  tbb::task_arena arena(1);
-  arena.execute(ask);
-  const auto expected_hits = std::exchange(hits, std::vector<std::uint8_t>(pairs.size()));
-  const auto expected_distance = std::exchange(distance, std::vector<float>(pairs.size()));
-  arena.execute([&] {
-    test::fail_allocations(test::Failing::all, 0);
-    ask();
-    EXPECT_EQ(test::stop_failing_allocations(), 0u);
+TEST_F(AllocationFaults, DynamicSets) {
+  fail_each_making<bch_dynamic_shape_set>(
+      5, [&](bch_dynamic_shape_set** to) { return bch_dynamic_shape_set_create(set.get(), to); },
+      bch_dynamic_shape_set_free);
+  const auto character = man();
+  const auto shaper = standing(character);
+  fail_each(5, [&](Attempt& attempt) {
+    const auto dynamic = made<bch_dynamic_shape_set_free>(bch_dynamic_shape_set_create, set.get());
+    const bch_shape_set* lent = nullptr;
+    expect_ok(bch_dynamic_shape_set_get_shapes(dynamic.get(), &lent));
+    const auto discs = [&] {
+      std::string all;
+      std::vector<bch_disc> of(1'000);
+      for (std::uint32_t shape = 0; shape < shapes.shape_count(); ++shape) {
+        std::size_t count = 0;
+        expect_ok(bch_shape_set_get_discs(lent, shape, 2, of.data(), of.size(), &count));
+        all += test::bytes(std::span(of).first(count));
+      }
+      return all;
+    };
+    const std::string before = discs();
+    attempt([&] { return bch_dynamic_shape_set_replace(dynamic.get(), 1, shaper.get()); },
+            [&] { return discs() == before; });
+    EXPECT_TRUE(discs() != before);
   });
-  EXPECT_EQ(hits, expected_hits);
-  EXPECT_EQ(distance, expected_distance);
+  const std::uint32_t which[] = {2, 0};
+  fail_each(
+      20,
+      [&](Attempt& attempt) {
+        const auto dynamic = made<bch_dynamic_shape_set_free>(bch_dynamic_shape_set_create, set.get());
+        attempt([&] {
+          return bch_dynamic_shape_set_replace_poses(dynamic.get(), character.get(), which, poses, 2, 0.01f,
+                                                     &work);
+        });
+      },
+      7);
+}
+
+TEST_F(AllocationFaults, CharactersAndScenes) {
+  fail_each_making<bch_character>(
+      10'000, [](bch_character** to) { return bch_character_default(BCH_FEMALE, to); }, bch_character_free,
+      2'003);
+  const bch_vec3 positions[] = {{1, 0, 0}, {2, 0, 0}, {2, 1, 0}};
+  const std::uint32_t triangles[] = {0, 1, 2};
+  bch_character_arrays arrays = BCH_CHARACTER_ARRAYS_INIT;
+  arrays.vertices = positions, arrays.vertex_count = 3;
+  arrays.triangles = triangles, arrays.triangle_count = 1;
+  fail_each_making<bch_character>(
+      5, [&](bch_character** to) { return bch_character_create(&arrays, to); }, bch_character_free);
+  const auto character = man();
+  fail_each_making<bch_pose_shaper>(
+      20, [&](bch_pose_shaper** to) { return bch_pose_shaper_create(character.get(), &plan, to); },
+      bch_pose_shaper_free, 3);
+  bch_scene_agents of = BCH_SCENE_AGENTS_INIT;
+  of.poses = poses, of.count = 2;
+  fail_each_making<bch_scene_plan>(
+      5, [&](bch_scene_plan** to) { return bch_scene_plan_create(&of, nullptr, to); }, bch_scene_plan_free);
+}
+
+/// A mistake that there is no memory to describe.
+TEST_F(AllocationFaults, Messages) {
+  for (const bool memory : {true, false}) {
+    float radius = 0;
+    test::fail_allocations(memory ? test::Failing::none : test::Failing::all, 0);
+    const bch_status status = bch_shape_set_get_radius(nullptr, 0, &radius);
+    const bch_status far = bch_shape_set_get_radius(set.get(), 1'000, &radius);
+    test::stop_failing_allocations();
+    EXPECT_TRUE(status == BCH_INVALID_ARGUMENT || (!memory && status == BCH_NO_MEMORY)) << status;
+    EXPECT_EQ(far, memory ? BCH_OUT_OF_RANGE : BCH_NO_MEMORY);
+  }
 }
 
 }  // namespace

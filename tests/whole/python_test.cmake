@@ -34,7 +34,7 @@ if(NOT output MATCHES "^${WORK}/bch-python/")
 endif()
 
 foreach(test answers package)
-  run(${in_work} BCH_EXPECTED=${BUILD}/tests/python_expected ${python} -W error ${SOURCE}/tests/python/test_${test}.py)
+  run(${in_work} ${python} -W error ${SOURCE}/tests/python/test_${test}.py)
 endforeach()
 
 # The first example of the chapter, and the others, which need matplotlib.

@@ -318,24 +318,62 @@ TEST(Objects, NothingThatComputesAnAnswerFusesMultiplyAndAdd) {
 }
 
 #ifdef BCH_C_LIBRARY
-/// The shared library exports what bch.h declares: no more, no less.
-TEST(Objects, TheLibraryExportsTheFunctionsOfItsHeader) {
-  const std::string header = read(fs::path(BCH_SOURCE) / "kernel/c_api/include/bch/bch.h");
+/// The functions that a header of the C interface declares.
+std::set<std::string> declared_in(const std::string& name) {
+  const std::string header = read(fs::path(BCH_SOURCE) / "kernel/c_api/include/bch" / name);
   static const std::regex function(R"(\nBCH_API [\w *]*?\b(bch_\w+)\()");
-  std::set<std::string> declared, exported;
+  std::set<std::string> declared;
   for (auto match = std::sregex_iterator(header.begin(), header.end(), function);
        match != std::sregex_iterator(); ++match)
     declared.insert((*match)[1]);
   std::size_t marks = 0;
   for (std::size_t at = 0; (at = header.find("\nBCH_API ", at)) != std::string::npos; ++at) ++marks;
   EXPECT_EQ(declared.size(), marks);
-  EXPECT_GT(declared.size(), 50u);
-  std::istringstream lines(output_of("" BCH_NM " -D --defined-only '" BCH_C_LIBRARY "'"));
+  return declared;
+}
+
+/// The functions that a library exports, by the node of symbol versions, up to its number, that has them.
+std::map<std::string, std::set<std::string>> exported_by(const std::string& library) {
+  std::map<std::string, std::set<std::string>> exported;
+  std::istringstream lines(output_of("" BCH_NM " -D --defined-only '" + library + "'"));
   for (std::string address, type, name; lines >> address >> type >> name;) {
+    if (type == "A") continue;  // a node itself
     EXPECT_EQ(type, "T") << name;
-    exported.insert(name);
+    const std::size_t node = name.find("@@");
+    exported[node == std::string::npos ? "" : name.substr(node + 2, name.rfind('_') - node - 2)].insert(
+        name.substr(0, node));
   }
-  EXPECT_EQ(exported, declared);
+  return exported;
+}
+
+/// The shared libraries export what their headers declare: no more, no less. One thing aside: what the library of files needs
+/// of the other one, which users cannot call by accident.
+TEST(Objects, LibrariesExportTheFunctionsOfTheirHeaders) {
+  auto first = exported_by(BCH_C_LIBRARY);
+  EXPECT_GT(first["BCH"].size(), 50u);
+  EXPECT_EQ(first["BCH"], declared_in("bch.h"));
+  EXPECT_LE(first["BCH_PRIVATE"].size(), 10u);
+  for (const std::string& name : first["BCH_PRIVATE"]) EXPECT_TRUE(name.starts_with("_ZN3bch5c_api")) << name;
+  EXPECT_EQ(first.size(), 2u);
+#ifdef BCH_C_FILES_LIBRARY
+  auto files = exported_by(BCH_C_FILES_LIBRARY);
+  EXPECT_EQ(files[""], declared_in("bch_files.h"));
+  EXPECT_EQ(files.size(), 1u);
+#endif
+}
+
+/// Who asks for collisions loads no readers of files.
+TEST(Objects, TheLibraryNeedsThreadsAlone) {
+  std::istringstream lines(output_of("" BCH_OBJDUMP " -p '" BCH_C_LIBRARY "'"));
+  const std::regex common(R"(lib(tbb|stdc\+\+|c\+\+(abi)?|unwind|m|gcc_s|c)\.so.*|ld-linux.*)");
+  std::size_t found = 0;
+  for (std::string word; lines >> word;) {
+    if (word != "NEEDED") continue;
+    lines >> word;
+    ++found;
+    EXPECT_TRUE(std::regex_match(word, common)) << word;
+  }
+  EXPECT_GE(found, 3u);
 }
 #endif
 

@@ -120,7 +120,7 @@ class _Arrays:
             ]
         )
         self._kept.append(channels)
-        return _library.Clip(encoded(motion.name, "a name"), number(motion.seconds, "seconds of a motion"), channels, len(channels))
+        return _library.Clip(encoded(motion.name, "a name"), number(motion.seconds, "seconds of a motion"), ctypes.addressof(channels), len(channels))
 
     def influences(self, bones: npt.ArrayLike, weights: npt.ArrayLike, vertices: int, to: Any) -> None:
         """Set the influences of vertices. A weight of 0 is no influence."""
@@ -190,12 +190,12 @@ def make_character(
         triangle_count=len(corners),
         parents=address(parents),
         rests=arrays.maps([joint.rest for joint in joints], "the rest of joint"),
-        joint_names=names,
+        joint_names=ctypes.addressof(names),
         joint_count=len(joints),
         bone_joints=address(bone_joints),
         inverse_binds=arrays.maps([bone.inverse_bind for bone in bones], "the inverse_bind of bone"),
         bone_count=len(bones),
-        clips=clips,
+        clips=ctypes.addressof(clips),
         clip_count=len(motions),
         to_ground=None if to_ground is None else arrays.maps([to_ground], "to_ground"),
     )

@@ -138,7 +138,7 @@ def read_trajectory(
     done = 0
     while done < len(rows):
         rest = rows[done : done + _MOST_PEOPLE]  # Ctrl-C gets through between the calls
-        _check(lib.bch_trajectory_read_moving(handle.pointer, address(rest), len(rest), byref(count)))
+        _check(lib.bch_trajectory_read(handle.pointer, address(rest), len(rest), byref(count)))
         if count.value == 0:
             break
         done += count.value

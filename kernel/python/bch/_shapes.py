@@ -254,7 +254,7 @@ def import_character(
             up=axis,
             scale=number(scale, "scale"),
             force_clips=bool(force_clips),
-            clip_files=files,
+            clip_files=ctypes.addressof(files),
             clip_file_count=len(paths),
             most_triangles=bounded(max_triangles, "max_triangles", 1, 2**63 - 1),
             seconds=number(timeout, "timeout"),

@@ -3,16 +3,20 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include <bch/bch.hpp>
 
 #include "tests/support/c_api.hpp"
-#include "tests/support/gltf_file.hpp"
 #include "tests/support/program_run.hpp"
 
-// Sets that are built by the C interface have the bytes of those that the C++ library builds.
+// Characters, sets and scenes that the C interface makes: sets have the bytes of those that the C++ library makes.
 
 namespace bch {
 namespace {
@@ -20,18 +24,16 @@ namespace {
 using test::expect_ok;
 using test::made;
 
-test::OwnedCharacter female() {
-  return made<test::OwnedCharacter>([](bch_character** to) { return bch_character_default(BCH_FEMALE, to); });
+test::OwnedCharacter person(std::int32_t which) {
+  return made<bch_character_free>(bch_character_default, which);
 }
 
 test::OwnedSet finished(const test::OwnedBuilder& builder) {
-  return made<test::OwnedSet>(
-      [&](bch_shape_set** to) { return bch_shape_set_builder_finish(builder.get(), to); });
+  return made<bch_shape_set_free>(bch_shape_set_builder_finish, builder.get());
 }
 
 test::OwnedBuilder builder_of(const bch_plan* plan) {
-  return made<test::OwnedBuilder>(
-      [&](bch_shape_set_builder** to) { return bch_shape_set_builder_create(plan, to); });
+  return made<bch_shape_set_builder_free>(bch_shape_set_builder_create, plan);
 }
 
 std::string bytes_of(const bch_shape_set* set) {
@@ -48,20 +50,23 @@ std::string bytes_of(const ShapeSet& set, const ShapeOrigins& origins) {
   return test::read_text(file);
 }
 
-const std::vector<std::uint32_t> depths = {0, 3, all_depths};
-const std::vector<float> slices = {0.6f, 1.1f};
-
-bch_plan c_plan() {
-  bch_plan plan = BCH_PLAN_INIT;
-  plan.depths = depths.data(), plan.depth_count = depths.size();
-  plan.slices = slices.data(), plan.slice_count = slices.size();
-  plan.threshold = 0.02f;
-  return plan;
+/// The corners of a shape's outline, in order of x and y, to a millimetre.
+std::vector<std::pair<double, double>> corners_of(const bch_shape_set* set, std::uint32_t shape) {
+  bch_vec2 points[8];
+  bch_outline outline = BCH_OUTLINE_INIT;
+  outline.points = points, outline.point_capacity = 8;
+  expect_ok(bch_shape_set_get_outline(set, shape, 0, &outline));
+  EXPECT_EQ(outline.offset_count, 2u);
+  std::vector<std::pair<double, double>> all;
+  for (std::size_t i = 0; i < outline.point_count; ++i)
+    all.emplace_back(std::round(1000 * points[i].x) / 1000, std::round(1000 * points[i].y) / 1000);
+  std::sort(all.begin(), all.end());
+  return all;
 }
 
 TEST(CApiBuilding, SetsOfPosesHaveTheBytesOfTheLibrary) {
   const Character character = default_female();
-  const ShapeSetPlan plan{.depths = depths, .slices = slices};
+  const ShapeSetPlan plan{.depths = {0, 3, all_depths}, .slices = {0.6f, 1.1f}};
   const std::vector<PoseTime> times = sample_poses(character, 20);
   PoseShaper shaper(character, plan, 0.02f);
   ShapeOrigins origins{static_cast<double>(0.02f), {"default:female"}, {}};
@@ -73,20 +78,26 @@ TEST(CApiBuilding, SetsOfPosesHaveTheBytesOfTheLibrary) {
   }
   const std::string expected = bytes_of(ShapeSet(shapes, plan), origins);
 
-  const auto c_character = female();
+  const auto female = person(BCH_FEMALE);
+  const bch_character* const people[] = {female.get()};
   std::vector<bch_pose> poses(20);
-  expect_ok(bch_character_sample_poses(c_character.get(), 20, poses.data()));
-  const bch_plan with_slices = c_plan();
-  const auto builder = builder_of(&with_slices);
+  expect_ok(bch_character_sample_poses(female.get(), 20, poses.data()));
+  std::vector<bch_shape_source> sources;
+  for (const bch_pose& at : poses) sources.push_back({0, at, 0});
+  bch_plan c_plan = BCH_PLAN_INIT;
+  c_plan.depths = plan.depths.data(), c_plan.depth_count = 3;
+  c_plan.slices = plan.slices.data(), c_plan.slice_count = 2;
+  c_plan.threshold = 0.02f;
+  const auto builder = builder_of(&c_plan);
   for (const std::uint32_t threads : {0u, 1u, 2u}) {
     bch_work work = BCH_WORK_INIT;
     work.threads = threads;
-    expect_ok(bch_shape_set_builder_add_poses(builder.get(), c_character.get(), poses.data(), 20, &work));
+    expect_ok(bch_shape_set_builder_add_poses(builder.get(), female.get(), poses.data(), 20, &work));
+    EXPECT_EQ(bytes_of(finished(builder).get()), expected) << threads;
+    expect_ok(bch_shape_set_builder_add_sources(builder.get(), people, 1, sources.data(), 20, &work));
     EXPECT_EQ(bytes_of(finished(builder).get()), expected) << threads;
   }
-
-  const auto c_shaper = made<test::OwnedShaper>(
-      [&](bch_pose_shaper** to) { return bch_pose_shaper_create(c_character.get(), &with_slices, to); });
+  const auto c_shaper = made<bch_pose_shaper_free>(bch_pose_shaper_create, female.get(), &c_plan);
   for (const bch_pose& pose : poses) {
     expect_ok(bch_pose_shaper_make(c_shaper.get(), pose, 0));
     expect_ok(bch_shape_set_builder_add_shape(builder.get(), c_shaper.get()));
@@ -104,92 +115,58 @@ TEST(CApiBuilding, BodiesOfOnesOwnAreThoseOfTheLibrary) {
   const std::vector<Vec2> chair = {{-0.4f, -0.3f}, {0.4f, -0.3f}, {0.4f, 0.3f}, {-0.4f, 0.3f}};
   const Capsule limb{{-0.2f, 0}, {0.2f, 0.1f}, 0.1f};
   const Disc disc{0.1f, 0, 0.2f};
-  const ShapeSet own(std::vector<Shape>{shape_from_polygons({&chair, 1}),
-                                        shape_from_capsules({&limb, 1}, 0.002f),
-                                        {{}, fixed_cylinder(0.3f)}},
-                     {.heights = true});
+  std::vector<Shape> own = {shape_from_polygons({&chair, 1}),
+                            shape_from_capsules({&limb, 1}, 0.002f),
+                            {{}, fixed_cylinder(0.3f)},
+                            shape_from_discs({&disc, 1})};
+  own[3].heights = {0.5f, 1};
+  ShapeOrigins origins{static_cast<double>(0.01f), {"polygons", "capsules", "cylinder", "discs"}, {}};
+  for (std::uint32_t i = 0; i < 4; ++i) origins.origins.push_back({i, ShapeOrigin::rest_pose, 0});
+
   bch_plan plan = BCH_PLAN_INIT;
   plan.heights = 1;
   const auto builder = builder_of(&plan);
+  const bch_vec2 corners[] = {{-0.4f, -0.3f}, {0.4f, -0.3f}, {0.4f, 0.3f}, {-0.4f, 0.3f}};
   const std::uint64_t offsets[] = {0, 4};
   const bch_capsule c_limb{{-0.2f, 0}, {0.2f, 0.1f}, 0.1f};
-  expect_ok(bch_shape_set_builder_add_polygons(builder.get(), reinterpret_cast<const bch_vec2*>(chair.data()),
-                                               offsets, 1, nullptr));
+  const bch_disc c_disc{0.1f, 0, 0.2f};
+  const bch_heights heights{0.5f, 1};
+  expect_ok(bch_shape_set_builder_add_polygons(builder.get(), corners, offsets, 1, nullptr));
   expect_ok(bch_shape_set_builder_add_capsules(builder.get(), &c_limb, 1, 0.002f, nullptr));
   expect_ok(bch_shape_set_builder_add_cylinder(builder.get(), 0.3f, nullptr));
-  const auto set = finished(builder);
-  EXPECT_EQ(bytes_of(set.get()), bytes_of(own, {static_cast<double>(0.01f),
-                                                {"polygons", "capsules", "cylinder"},
-                                                {{0, ShapeOrigin::rest_pose, 0},
-                                                 {1, ShapeOrigin::rest_pose, 0},
-                                                 {2, ShapeOrigin::rest_pose, 0}}}));
+  expect_ok(bch_shape_set_builder_add_discs(builder.get(), &c_disc, 1, &heights));
+  EXPECT_EQ(bytes_of(finished(builder).get()), bytes_of(ShapeSet(own, {.heights = true}), origins));
 
-  // Discs, with heights: they do not meet what is above them.
-  const bch_disc c_disc{disc.x, disc.y, disc.radius};
-  const bch_heights low{0, 1}, high{1.5f, 2};
-  expect_ok(bch_shape_set_builder_add_discs(builder.get(), &c_disc, 1, &low));
-  expect_ok(bch_shape_set_builder_add_discs(builder.get(), &c_disc, 1, &high));
-  const auto discs = finished(builder);
-  test::Crowd crowd;
-  crowd.add({0, 0, 0, 0, 0}), crowd.add({1, 0, 0, 0, 0}), crowd.add({1, 0, 0, 0, 0});
-  crowd.z = {0, 0, -1};
-  const bch_agents agents = test::c_agents(crowd);
-  const bch_pair pairs[] = {{0, 1}, {0, 2}};
-  std::uint8_t hits[2];
-  expect_ok(bch_collide(discs.get(), &agents, pairs, 2, nullptr, hits));
-  EXPECT_EQ(hits[0], 0);
-  EXPECT_EQ(hits[1], 1);
-}
-
-TEST(CApiBuilding, AMeshStandsWhereItsVerticesAre) {
   const bch_vec3 positions[] = {{1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 2}};
   const std::uint32_t triangles[] = {0, 1, 2, 0, 2, 3};
-  const auto builder = builder_of(nullptr);
-  expect_ok(bch_shape_set_builder_add_mesh(builder.get(), positions, 4, triangles, 2));
-  const auto set = finished(builder);
-  bch_outline outline = BCH_OUTLINE_INIT;
-  bch_vec2 points[8];
-  outline.points = points, outline.point_capacity = 8;
-  expect_ok(bch_shape_set_get_outline(set.get(), 0, 0, &outline));
-  ASSERT_EQ(outline.point_count, 4u);
-  EXPECT_EQ(outline.offset_count, 2u);
-  for (const bch_vec2& corner : {bch_vec2{1, 0}, bch_vec2{2, 0}, bch_vec2{2, 1}, bch_vec2{1, 1}})
-    EXPECT_TRUE(std::any_of(points, points + 4,
-                            [&](const bch_vec2& p) {
-                              return std::abs(p.x - corner.x) < 1e-6f && std::abs(p.y - corner.y) < 1e-6f;
-                            }))
-        << corner.x << " " << corner.y;
+  const auto other = builder_of(nullptr);
+  expect_ok(bch_shape_set_builder_add_mesh(other.get(), positions, 4, triangles, 2));
+  const std::vector<std::pair<double, double>> square = {{1, 0}, {1, 1}, {2, 0}, {2, 1}};
+  EXPECT_EQ(corners_of(finished(other).get(), 0), square);
 }
 
-/// The poses of a crowd in two frames, and then the same in a set that is new.
+/// Each shape is replaced by another's pose, the last one by a shaper.
 TEST(CApiBuilding, ReplacedShapesAreThoseOfNewSets) {
-  const auto character = female();
-  std::vector<bch_pose> poses(24);
-  expect_ok(bch_character_sample_poses(character.get(), 24, poses.data()));
+  const auto female = person(BCH_FEMALE);
+  std::vector<bch_pose> poses(6);
+  expect_ok(bch_character_sample_poses(female.get(), 6, poses.data()));
   const auto builder = builder_of(nullptr);
-  const auto of = [&](std::span<const bch_pose> some) {
-    expect_ok(
-        bch_shape_set_builder_add_poses(builder.get(), character.get(), some.data(), some.size(), nullptr));
+  const auto of = [&](const bch_pose* some) {
+    expect_ok(bch_shape_set_builder_add_poses(builder.get(), female.get(), some, 3, nullptr));
     return finished(builder);
   };
-  const auto start = of(std::span(poses).first(12)), later = of(std::span(poses).last(12));
-  const auto dynamic = made<test::OwnedDynamicSet>(
-      [&](bch_dynamic_shape_set** to) { return bch_dynamic_shape_set_create(start.get(), to); });
-  std::vector<std::uint32_t> which;
-  for (std::uint32_t i = 0; i < 12; ++i) which.push_back(11 - i);
-  std::vector<bch_pose> backwards(poses.rbegin(), poses.rbegin() + 12);
-  bch_work work = BCH_WORK_INIT;
-  work.threads = 2;
-  expect_ok(bch_dynamic_shape_set_replace_poses(dynamic.get(), character.get(), which.data(),
-                                                backwards.data(), 11, 0.01f, &work));
-  const auto shaper = made<test::OwnedShaper>(
-      [&](bch_pose_shaper** to) { return bch_pose_shaper_create(character.get(), nullptr, to); });
-  expect_ok(bch_pose_shaper_make(shaper.get(), backwards[11], 0));
-  expect_ok(bch_dynamic_shape_set_replace(dynamic.get(), 0, shaper.get()));
-
+  const auto start = of(&poses[0]), later = of(&poses[3]);
+  const auto dynamic = made<bch_dynamic_shape_set_free>(bch_dynamic_shape_set_create, start.get());
+  const std::uint32_t which[] = {1, 0};
+  const bch_pose backwards[] = {poses[4], poses[3]};
+  expect_ok(
+      bch_dynamic_shape_set_replace_poses(dynamic.get(), female.get(), which, backwards, 2, 0.01f, nullptr));
+  const auto shaper = made<bch_pose_shaper_free>(bch_pose_shaper_create, female.get(), nullptr);
+  expect_ok(bch_pose_shaper_make(shaper.get(), poses[5], 0));
+  expect_ok(bch_dynamic_shape_set_replace(dynamic.get(), 2, shaper.get()));
   const bch_shape_set* present = nullptr;
   expect_ok(bch_dynamic_shape_set_get_shapes(dynamic.get(), &present));
-  for (std::uint32_t shape = 0; shape < 12; ++shape) {
+  for (std::uint32_t shape = 0; shape < 3; ++shape) {
     bch_disc a[1000], b[1000];
     std::size_t discs_a = 0, discs_b = 0;
     expect_ok(bch_shape_set_get_discs(present, shape, 0, a, 1000, &discs_a));
@@ -200,7 +177,7 @@ TEST(CApiBuilding, ReplacedShapesAreThoseOfNewSets) {
 }
 
 TEST(CApiBuilding, CallersHearOfProgressAndCancel) {
-  const auto character = female();
+  const auto character = person(BCH_FEMALE);
   std::vector<bch_pose> poses(400);
   expect_ok(bch_character_sample_poses(character.get(), 400, poses.data()));
   struct Heard {
@@ -235,31 +212,208 @@ TEST(CApiBuilding, CallersHearOfProgressAndCancel) {
   }
 }
 
-TEST(CApiBuilding, CharactersOfFilesAreImported) {
-  const TemporaryFolder folder;
-  const std::string file = folder.write("strip.gltf", SkinnedStrip{}.text());
-  const auto character = made<test::OwnedCharacter>(
-      [&](bch_character** to) { return bch_character_import(file.c_str(), nullptr, to); });
+/// A triangle of centimetres that follows a knee, at (1, 0) m, and its last corner by half. Clips move the knee in every way.
+struct Post {
+  const bch_vec3 vertices[3] = {{0, 0, 0}, {100, 0, 0}, {0, 200, 100}};
+  const std::uint32_t triangles[3] = {0, 1, 2};
+  const std::int32_t parents[2] = {-1, 0};
+  const bch_affine3 identity{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+  const bch_affine3 rests[2] = {identity, {{{1, 0, 0, 100}, {0, 1, 0, 0}, {0, 0, 1, 0}}}};
+  const bch_affine3 binds[2] = {identity, {{{1, 0, 0, -100}, {0, 1, 0, 0}, {0, 0, 1, 0}}}};
+  const char* const names[2] = {"foot", "knee"};
+  const std::uint32_t bones[2] = {0, 1};
+  const std::uint64_t begin[4] = {0, 1, 2, 4};
+  const bch_influence influences[4] = {{1, 1}, {1, 1}, {0, 0.5f}, {1, 0.5f}};
+  const float times[2] = {0, 1}, from_rest[6] = {100, 0, 0, 300, 0, 0}, at_rest[6] = {100, 0, 0, 100, 0, 0},
+              swings[12] = {0, 0, 0, 800}, turns[8] = {0, 0, 0, 1, 0, 0, std::sqrt(0.5f), std::sqrt(0.5f)},
+              grows[6] = {1, 1, 1, 3, 1, 1};
+  std::vector<bch_channel> channels = {
+      {1, {times, from_rest, nullptr, 2, BCH_LINEAR}, {}, {}},
+      {1, {times, at_rest, swings, 2, BCH_CUBIC}, {}, {}},
+      {1, {}, {times, turns, nullptr, 2, BCH_LINEAR}, {}},
+      {1, {}, {}, {times, grows, nullptr, 2, BCH_STEP}},
+  };
+  std::vector<bch_clip> clips = {{"slide", 1, &channels[0], 1},
+                                 {"swing", 1, &channels[1], 1},
+                                 {"turn", 1, &channels[2], 1},
+                                 {nullptr, 1, &channels[3], 1}};
+  const bch_affine3 to_ground{{{0.01f, 0, 0, 0}, {0, 0.01f, 0, 0}, {0, 0, 0.01f, 0}}};
+  bch_character_arrays arrays{sizeof(bch_character_arrays),
+                              0,
+                              "post",
+                              vertices,
+                              3,
+                              triangles,
+                              1,
+                              parents,
+                              rests,
+                              names,
+                              2,
+                              bones,
+                              binds,
+                              2,
+                              begin,
+                              influences,
+                              clips.data(),
+                              4,
+                              &to_ground};
+};
+
+TEST(CApiBuilding, CharactersOfArraysMoveAsTheseSay) {
+  const Post post;
+  const auto character = made<bch_character_free>(bch_character_create, &post.arrays);
   bch_character_info info = BCH_CHARACTER_INFO_INIT;
   expect_ok(bch_character_get_info(character.get(), &info));
-  EXPECT_EQ(info.triangles, 2u);
-  EXPECT_STREQ(info.name, "strip.gltf");
-  const char* name = nullptr;
-  float seconds = 0;
-  expect_ok(bch_character_get_clip(character.get(), 0, &name, &seconds));
-  EXPECT_STREQ(name, "walk");
-  EXPECT_GT(seconds, 0);
-  EXPECT_EQ(bch_character_get_clip(character.get(), info.clips, &name, &seconds), BCH_OUT_OF_RANGE);
+  EXPECT_STREQ(info.name, "post");
+  EXPECT_EQ(info.joints, 2u);
+  EXPECT_EQ(info.clips, 4u);
+  EXPECT_EQ(info.vertices, 3u);
+  EXPECT_EQ(info.triangles, 1u);
+  const bch_pose poses[] = {{BCH_REST_POSE, 0}, {0, 0.5f}, {1, 0.5f}, {2, 1}, {3, 0.9f}, {3, 1}};
+  const std::vector<std::pair<double, double>> corners[] = {
+      {{0, 0}, {0, 2}, {1, 0}},       {{0.5, 2}, {1, 0}, {2, 0}}, {{0.5, 2}, {1, 0}, {2, 0}},
+      {{-0.5, 0.5}, {1, -1}, {1, 0}}, {{0, 0}, {0, 2}, {1, 0}},   {{-2, 0}, {-1, 2}, {1, 0}}};
+  const auto builder = builder_of(nullptr);
+  expect_ok(bch_shape_set_builder_add_poses(builder.get(), character.get(), poses, 6, nullptr));
+  const auto set = finished(builder);
+  for (std::uint32_t i = 0; i < 6; ++i) EXPECT_EQ(corners_of(set.get(), i), corners[i]) << i;
 
-  bch_import_options options = BCH_IMPORT_OPTIONS_INIT;
-  options.progress = [](void*, std::uint64_t, std::uint64_t) { return 1; };
-  bch_character* none = nullptr;
-  EXPECT_EQ(bch_character_import(file.c_str(), &options, &none), BCH_CANCELLED);
-  options = BCH_IMPORT_OPTIONS_INIT;
-  options.most_triangles = 1;
-  EXPECT_EQ(bch_character_import(file.c_str(), &options, &none), BCH_BAD_FILE);
-  EXPECT_EQ(bch_character_import("/nowhere/a.glb", nullptr, &none), BCH_FILE_NOT_FOUND);
+  // Without a skeleton a character is a mesh, where its vertices are.
+  bch_character_arrays alone = BCH_CHARACTER_ARRAYS_INIT;
+  alone.vertices = post.vertices, alone.vertex_count = 3, alone.triangles = post.triangles,
+  alone.triangle_count = 1;
+  const auto mesh = made<bch_character_free>(bch_character_create, &alone);
+  expect_ok(bch_shape_set_builder_add_poses(builder.get(), mesh.get(), poses, 1, nullptr));
+  const std::vector<std::pair<double, double>> as_given = {{0, 0}, {0, 200}, {100, 0}};
+  EXPECT_EQ(corners_of(finished(builder).get(), 0), as_given);
+}
+
+TEST(CApiBuilding, WhatIsWrongWithArrays) {
+  const auto expect_refused = [&](auto spoil, const char* word) {
+    Post post;
+    spoil(post);
+    bch_character* none = nullptr;
+    EXPECT_EQ(bch_character_create(&post.arrays, &none), BCH_INVALID_ARGUMENT) << word;
+    EXPECT_NE(std::string(bch_last_error()).find(word), std::string::npos) << bch_last_error();
+    EXPECT_EQ(none, nullptr);
+  };
+  const std::uint64_t descending[] = {9, 0, 0, 0};
+  const float late[] = {1, 0};
+  expect_refused([](Post& of) { of.arrays.vertices = nullptr; }, "arrays->vertices is NULL");
+  expect_refused([](Post& of) { of.arrays.triangle_count = SIZE_MAX / 2; }, "arrays->triangle_count");
+  expect_refused([](Post& of) { of.arrays.vertex_count = 2; }, "vertex");
+  expect_refused([](Post& of) { of.arrays.root_joint = 1'000; }, "root joint 1000");
+  expect_refused([](Post& of) { of.arrays.bone_joints = nullptr; }, "arrays->bone_joints is NULL");
+  expect_refused([](Post& of) { of.arrays.influence_offsets = nullptr, of.arrays.bone_count = 0; }, "bone 0");
+  expect_refused([&](Post& of) { of.arrays.influence_offsets = descending; }, "influence_offsets[1] is 0");
+  expect_refused([&](Post& of) { of.channels[0].positions.times = late; }, "out of order");
+  expect_refused([](Post& of) { of.channels[1].positions.tangents = nullptr; },
+                 "the tangents of a curve is NULL");
+  expect_refused([](Post& of) { of.channels[0].positions.interpolation = 3; },
+                 "interpolation of a curve is 3");
+}
+
+TEST(CApiBuilding, ScenesArePlanned) {
+  const std::uint32_t characters[] = {0, 0, 1, 0}, depths[] = {0, BCH_ALL_DEPTHS, 0, 0};
+  const bch_pose poses[] = {{0, 0.1f}, {0, 0.4f}, {0, 0.6f}, {0, 0.1f}};
+  const double distances[] = {1, 2, 3, 30};
+  const float slices[] = {0.5f, 1.1f};
+  bch_scene_agents of = BCH_SCENE_AGENTS_INIT;
+  of.character = characters, of.poses = poses, of.distance = distances, of.depth = depths, of.count = 4;
+  bch_scene_use use = BCH_SCENE_USE_INIT;
+  use.solid = 1, use.slices = slices, use.slice_count = 2, use.whole_from = 20;
+  use.pose_step = 0.5f, use.pairs_per_shape = 20;
+  const auto plan = made<bch_scene_plan_free>(bch_scene_plan_create, &of, &use);
+
+  const std::uint32_t* shape = nullptr;
+  const std::uint8_t* level = nullptr;
+  const bch_shape_source* sources = nullptr;
+  std::size_t count = 0;
+  expect_ok(bch_scene_plan_get_agents(plan.get(), &shape, &level, &count));
+  EXPECT_EQ(std::vector<std::uint32_t>(shape, shape + count), (std::vector<std::uint32_t>{0, 0, 1, 2}));
+  EXPECT_EQ(std::vector<std::uint8_t>(level, level + count), (std::vector<std::uint8_t>{0, 1, 0, 0}));
+  bch_plan set_plan = BCH_PLAN_INIT;
+  expect_ok(bch_scene_plan_get_set(plan.get(), &set_plan));
+  EXPECT_EQ(std::vector<std::uint32_t>(set_plan.depths, set_plan.depths + set_plan.depth_count),
+            (std::vector<std::uint32_t>{0, BCH_ALL_DEPTHS}));
+  EXPECT_EQ(std::vector<float>(set_plan.slices, set_plan.slices + set_plan.slice_count),
+            (std::vector<float>{0.5f, 1.1f}));
+  EXPECT_EQ(set_plan.culling, 0);  // it does not pay for 20 pairs
+  expect_ok(bch_scene_plan_get_shapes(plan.get(), &sources, &count));
+  ASSERT_EQ(count, 3u);
+  EXPECT_EQ(sources[1].character, 1u);
+  EXPECT_EQ(sources[1].at.seconds, 0.5f);
+  EXPECT_EQ(sources[1].whole, 0);
+  EXPECT_EQ(sources[2].whole, 1);
+
+  const auto male = person(BCH_MALE), female = person(BCH_FEMALE);
+  const bch_character* const people[] = {male.get(), female.get()};
+  const auto builder = builder_of(&set_plan);
+  expect_ok(bch_shape_set_builder_add_sources(builder.get(), people, 2, sources, count, nullptr));
+  const auto set = finished(builder);
+  for (const auto& [made, from, seconds] :
+       {std::tuple(0u, "default:male", 0.0f), {1u, "default:female", 0.5f}}) {
+    bch_shape_origin origin;
+    expect_ok(bch_shape_set_get_origin(set.get(), made, &origin));
+    EXPECT_STREQ(origin.character, from);
+    EXPECT_EQ(origin.seconds, seconds);
+  }
+  std::uint32_t offsets[4];
+  expect_ok(bch_shape_set_get_slab_offsets(set.get(), 2, 1, offsets));
+  EXPECT_EQ(offsets[1], offsets[3]);  // a whole body is in one slab
+}
+
+TEST(CApiBuilding, WhatIsWrongWithScenes) {
+  const bch_pose pose{0, 0};
+  const double behind = -1;
+  bch_scene_agents of = BCH_SCENE_AGENTS_INIT;
+  of.count = 1;
+  bch_scene_plan* none = nullptr;
+  EXPECT_EQ(bch_scene_plan_create(&of, nullptr, &none), BCH_INVALID_ARGUMENT);
+  EXPECT_STREQ(bch_last_error(), "agents->poses is NULL");
+  of.poses = &pose, of.distance = &behind;
+  EXPECT_EQ(bch_scene_plan_create(&of, nullptr, &none), BCH_INVALID_ARGUMENT);
+  of.distance = nullptr;
+  bch_scene_use use = BCH_SCENE_USE_INIT;
+  use.leaves = 2;
+  EXPECT_EQ(bch_scene_plan_create(&of, &use, &none), BCH_INVALID_ARGUMENT);
   EXPECT_EQ(none, nullptr);
+
+  const auto male = person(BCH_MALE);
+  const bch_character* const people[] = {male.get()};
+  const auto builder = builder_of(nullptr);
+  const bch_shape_source beyond{1, pose, 0}, late{0, {1'000, 0}, 0};
+  EXPECT_EQ(bch_shape_set_builder_add_sources(builder.get(), people, 1, &beyond, 1, nullptr),
+            BCH_OUT_OF_RANGE);
+  EXPECT_STREQ(bch_last_error(), "sources[0].character is 1 of 1");
+  EXPECT_EQ(bch_shape_set_builder_add_sources(builder.get(), people, 1, &late, 1, nullptr), BCH_OUT_OF_RANGE);
+}
+
+TEST(CApiBuilding, BestSlicesAreThoseOfTheLibrary) {
+  std::vector<float> planes;
+  for (int i = 1; i < 18; ++i) planes.push_back(0.1f * static_cast<float>(i));
+  const auto female = person(BCH_FEMALE);
+  const std::vector<const bch_character*> characters(12, female.get());
+  std::vector<bch_pose> poses(12);
+  expect_ok(bch_character_sample_poses(female.get(), 12, poses.data()));
+  const Character own = default_female();
+  PoseShaper shaper(own, {.slices = planes});
+  std::vector<Shape> shapes;
+  for (const bch_pose& at : poses) shapes.push_back(shaper.shape({at.clip, at.seconds}));
+  float found[17];
+  std::size_t count = 0;
+  const auto ask = [&](std::size_t among, std::uint32_t slabs) {
+    return bch_best_slices(characters.data(), poses.data(), poses.size(), planes.data(), among, slabs, found,
+                           &count);
+  };
+  expect_ok(ask(planes.size(), 3));
+  EXPECT_EQ(std::vector<float>(found, found + count), best_slices(shapes, planes, 3));
+  expect_ok(ask(2, 9));
+  EXPECT_EQ(count, 2u);
+  EXPECT_EQ(ask(2, 0), BCH_INVALID_ARGUMENT);
+  poses[7].clip = 1'000;
+  EXPECT_EQ(ask(2, 3), BCH_OUT_OF_RANGE);
+  EXPECT_EQ(std::string(bch_last_error()).substr(0, 24), "poses[7].clip is 1000 of");
 }
 
 }  // namespace

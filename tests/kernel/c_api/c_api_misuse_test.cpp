@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cstring>
-#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -18,12 +17,7 @@ namespace bch {
 namespace {
 
 using test::expect_ok;
-
-std::string about(const char* what, std::size_t number) {
-  std::ostringstream text;
-  text << what << number;
-  return text.str();
-}
+using test::made;
 
 class CApiMisuse : public testing::Test {
  protected:
@@ -119,8 +113,9 @@ TEST_F(CApiMisuse, SizesOfThePastAndOfTheFuture) {
   EXPECT_EQ(hit, 1);
   hit = 77;
   future.later[1] = 5;
-  expect_error(bch_collide(set.get(), &agents, &pair, 1, &future.known, &hit), BCH_INVALID_ARGUMENT,
-               about("options->size is ", sizeof future) + ", and fields that this version does not know");
+  expect_error(
+      bch_collide(set.get(), &agents, &pair, 1, &future.known, &hit), BCH_INVALID_ARGUMENT,
+      "options->size is " + std::to_string(sizeof future) + ", and fields that this version does not know");
 
   // Of the past: what it does not have yet is as if it had been left alone.
   options.semantics = 99;
@@ -131,7 +126,7 @@ TEST_F(CApiMisuse, SizesOfThePastAndOfTheFuture) {
   expect_error(ask(), BCH_INVALID_ARGUMENT, "options->semantics is 99");
   for (const std::uint32_t size : {0u, 3u, 5000u}) {
     options.size = size;
-    expect_error(ask(), BCH_INVALID_ARGUMENT, about("options->size is ", size));
+    expect_error(ask(), BCH_INVALID_ARGUMENT, "options->size is " + std::to_string(size));
   }
 
   // No version ends inside a member.
@@ -143,7 +138,8 @@ TEST_F(CApiMisuse, SizesOfThePastAndOfTheFuture) {
       expect_ok(ask());
       hit = 77;
     } else {
-      expect_error(ask(), BCH_INVALID_ARGUMENT, about("options->size is ", size) + ", inside a member");
+      expect_error(ask(), BCH_INVALID_ARGUMENT,
+                   "options->size is " + std::to_string(size) + ", inside a member");
     }
   }
   bch_clearance_out cut = BCH_CLEARANCE_OUT_INIT;
@@ -185,7 +181,7 @@ TEST_F(CApiMisuse, ValuesAndTheirPlaces) {
   expect_error(bch_shape_set_get_discs(set.get(), 50, 0, &disc, 1, &count), BCH_OUT_OF_RANGE, "50");
   EXPECT_EQ(count, 9u);
   expect_error(bch_collide(set.get(), &agents, &pair, SIZE_MAX / 2, nullptr, &hit), BCH_INVALID_ARGUMENT,
-               about("pairs has ", SIZE_MAX / 2));
+               "pairs has " + std::to_string(SIZE_MAX / 2));
   bch_shape_set* none = nullptr;
   expect_error(bch_shape_set_load("/nowhere/a.bch", BCH_READ, &none), BCH_FILE_NOT_FOUND,
                "/nowhere/a.bch: no such");
@@ -196,110 +192,82 @@ TEST_F(CApiMisuse, ValuesAndTheirPlaces) {
 }
 
 TEST_F(CApiMisuse, PlansAndBodies) {
-  bch_plan plan = BCH_PLAN_INIT;
-  bch_shape_set_builder* builder = nullptr;
   const float slices[] = {1, 0.5f};
+  bch_shape_set_builder* none = nullptr;
+  bch_plan plan = BCH_PLAN_INIT;
   plan.slices = slices, plan.slice_count = 2;
-  expect_error(bch_shape_set_builder_create(&plan, &builder), BCH_INVALID_ARGUMENT, "slice");
+  expect_error(bch_shape_set_builder_create(&plan, &none), BCH_INVALID_ARGUMENT, "slice");
   plan = BCH_PLAN_INIT;
   plan.threshold = -1;
-  expect_error(bch_shape_set_builder_create(&plan, &builder), BCH_INVALID_ARGUMENT, "plan->threshold");
-  plan.threshold = 0.01f;
-  expect_ok(bch_shape_set_builder_create(&plan, &builder));
+  expect_error(bch_shape_set_builder_create(&plan, &none), BCH_INVALID_ARGUMENT, "plan->threshold");
+  EXPECT_EQ(none, nullptr);
+  const auto builder = made<bch_shape_set_builder_free>(bch_shape_set_builder_create, nullptr);
   const bch_vec2 corners[] = {{0, 0}, {1, 0}, {1, 1}};
-  const std::uint64_t offsets[] = {0, 3}, wrong[] = {3, 0};
-  expect_error(bch_shape_set_builder_add_polygons(builder, corners, wrong, 1, nullptr), BCH_INVALID_ARGUMENT,
-               "offsets[1]");
-  expect_error(bch_shape_set_builder_add_polygons(builder, corners, offsets, 0, nullptr),
-               BCH_INVALID_ARGUMENT, "");
-  expect_error(bch_shape_set_builder_add_cylinder(builder, -1, nullptr), BCH_INVALID_ARGUMENT, "-1");
-  bch_character* man = nullptr;
-  expect_ok(bch_character_default(BCH_MALE, &man));
-  const bch_pose poses[] = {{0, 0}, {1'000, 0}};
-  expect_error(bch_shape_set_builder_add_poses(builder, man, poses, 2, nullptr), BCH_OUT_OF_RANGE,
+  const std::uint64_t whole[] = {0, 3}, wrong[] = {3, 0}, second[] = {1, 4};
+  const auto add = [&](const bch_vec2* points, const std::uint64_t* offsets, std::size_t polygons) {
+    return bch_shape_set_builder_add_polygons(builder.get(), points, offsets, polygons, nullptr);
+  };
+  expect_error(add(corners, wrong, 1), BCH_INVALID_ARGUMENT, "offsets[1]");
+  expect_error(add(corners, whole, 0), BCH_INVALID_ARGUMENT, "");
+  expect_error(add(nullptr, second, 1), BCH_INVALID_ARGUMENT, "corners is NULL");
+  expect_error(add(corners, whole, SIZE_MAX), BCH_INVALID_ARGUMENT, "offsets has");
+  expect_error(bch_shape_set_builder_add_cylinder(builder.get(), -1, nullptr), BCH_INVALID_ARGUMENT, "-1");
+
+  const auto man = made<bch_character_free>(bch_character_default, BCH_MALE);
+  bch_character* other = nullptr;
+  expect_error(bch_character_default(7, &other), BCH_INVALID_ARGUMENT, "which is 7");
+  const char* name = nullptr;
+  expect_error(bch_character_get_clip(man.get(), 1'000, &name, nullptr), BCH_OUT_OF_RANGE, "clip is 1000 of");
+  const bch_pose poses[] = {{0, 0}, {1'000, 0}}, rest[] = {{BCH_REST_POSE, 0}, {BCH_REST_POSE, 0}};
+  expect_error(bch_shape_set_builder_add_poses(builder.get(), man.get(), poses, 2, nullptr), BCH_OUT_OF_RANGE,
                "poses[1].clip is 1000");
-  bch_dynamic_shape_set* dynamic = nullptr;
-  expect_ok(bch_dynamic_shape_set_create(set.get(), &dynamic));
+  const auto dynamic = made<bch_dynamic_shape_set_free>(bch_dynamic_shape_set_create, set.get());
   const std::uint32_t twice[] = {0, 0};
-  const bch_pose rest[] = {{BCH_REST_POSE, 0}, {BCH_REST_POSE, 0}};
-  expect_error(bch_dynamic_shape_set_replace_poses(dynamic, man, twice, rest, 2, 0.01f, nullptr),
+  expect_error(bch_dynamic_shape_set_replace_poses(dynamic.get(), man.get(), twice, rest, 2, 0.01f, nullptr),
                BCH_INVALID_ARGUMENT, "shapes[1] is 0, as one before");
-  bch_pose_shaper* shaper = nullptr;
-  expect_ok(bch_pose_shaper_create(man, nullptr, &shaper));
-  expect_error(bch_dynamic_shape_set_replace(dynamic, 0, shaper), BCH_INVALID_ARGUMENT,
+  const auto shaper = made<bch_pose_shaper_free>(bch_pose_shaper_create, man.get(), nullptr);
+  expect_error(bch_dynamic_shape_set_replace(dynamic.get(), 0, shaper.get()), BCH_INVALID_ARGUMENT,
                "shaper has made no shape");
-  expect_error(bch_character_default(7, &man), BCH_INVALID_ARGUMENT, "which is 7");
-  expect_ok(bch_pose_shaper_free(shaper));
-  expect_ok(bch_dynamic_shape_set_free(dynamic));
-  expect_ok(bch_character_free(man));
-  expect_ok(bch_shape_set_builder_free(builder));
-}
 
-/// Arrays of offsets name the lengths of others.
-TEST_F(CApiMisuse, Offsets) {
-  bch_shape_set_builder* builder = nullptr;
-  expect_ok(bch_shape_set_builder_create(nullptr, &builder));
-  const std::uint64_t second[] = {1, 4}, whole[] = {0, 3};
-  const bch_vec2 corners[] = {{0, 0}, {1, 0}, {1, 1}};
-  expect_error(bch_shape_set_builder_add_polygons(builder, nullptr, second, 1, nullptr), BCH_INVALID_ARGUMENT,
-               "corners is NULL");
-  expect_error(bch_shape_set_builder_add_polygons(builder, corners, whole, SIZE_MAX, nullptr),
-               BCH_INVALID_ARGUMENT, "offsets has");
-  expect_ok(bch_shape_set_builder_free(builder));
-  const double x[] = {0, 1, 1}, y[] = {0, 0, 1};
-  bch_obstacle_arrays arrays = BCH_OBSTACLE_ARRAYS_INIT;
-  arrays.x = x, arrays.y = y, arrays.path_offsets = whole, arrays.path_count = SIZE_MAX;
-  bch_obstacles* obstacles = nullptr;
-  expect_error(bch_obstacles_create(&arrays, &obstacles), BCH_INVALID_ARGUMENT, "arrays->path_offsets has");
-  arrays.path_count = 1, arrays.obstacle_offsets = whole, arrays.obstacle_count = SIZE_MAX;
-  expect_error(bch_obstacles_create(&arrays, &obstacles), BCH_INVALID_ARGUMENT,
-               "arrays->obstacle_offsets has");
-  arrays.obstacle_offsets = nullptr;
-  const double up = 2, down = 1;
-  arrays.bottom = &up, arrays.top = &down;
-  expect_error(bch_obstacles_create(&arrays, &obstacles), BCH_INVALID_ARGUMENT,
-               "obstacles: obstacle 0: heights from 2 to 1 m");
-  expect_error(bch_obstacles_from_wkt_at("LINESTRING(0 0, 1 1)", 0, up, down, &obstacles),
-               BCH_INVALID_ARGUMENT, "obstacles: obstacle 0: heights from 2 to 1 m");
-  arrays.top = nullptr;
-  expect_ok(bch_obstacles_create(&arrays, &obstacles));
-  std::uint32_t owner = 9;
-  expect_error(bch_obstacles_get_owner(obstacles, 77, &owner), BCH_OUT_OF_RANGE, "segment is 77 of 2");
-  EXPECT_EQ(owner, 9u);
-  expect_ok(bch_obstacles_free(obstacles));
-}
-
-TEST_F(CApiMisuse, OutlinesOfSlabsThatAreNot) {
   bch_vec2 point{8, 9};
   std::uint64_t offset = 7;
   bch_outline outline = BCH_OUTLINE_INIT;
   outline.points = &point, outline.point_capacity = 1, outline.offsets = &offset, outline.offset_capacity = 1;
-  bch_character* man = nullptr;
-  bch_pose_shaper* shaper = nullptr;
-  expect_ok(bch_character_default(BCH_MALE, &man));
-  expect_ok(bch_pose_shaper_create(man, nullptr, &shaper));
-  expect_ok(bch_pose_shaper_make(shaper, {BCH_REST_POSE, 0}, 0));
-  expect_error(bch_pose_shaper_get_outline(shaper, 1, &outline), BCH_OUT_OF_RANGE, "slab is 1");
+  expect_ok(bch_pose_shaper_make(shaper.get(), rest[0], 0));
+  expect_error(bch_pose_shaper_get_outline(shaper.get(), 1, &outline), BCH_OUT_OF_RANGE, "slab is 1");
   expect_error(bch_shape_set_get_outline(set.get(), 0, 1, &outline), BCH_OUT_OF_RANGE, "slab is 1");
   EXPECT_EQ(point.x, 8);
   EXPECT_EQ(offset, 7u);
   EXPECT_EQ(outline.offset_count, 0u);
-  const char* name = nullptr;
-  expect_error(bch_character_get_clip(man, 1'000, &name, nullptr), BCH_OUT_OF_RANGE, "clip is 1000 of");
-  expect_ok(bch_pose_shaper_free(shaper));
-  expect_ok(bch_character_free(man));
 }
 
-TEST_F(CApiMisuse, EachThreadHasItsLastError) {
+TEST_F(CApiMisuse, Obstacles) {
+  const double x[] = {0, 1, 1}, y[] = {0, 0, 1}, up = 2, down = 1;
+  const std::uint64_t whole[] = {0, 3};
+  bch_obstacle_arrays arrays = BCH_OBSTACLE_ARRAYS_INIT;
+  arrays.x = x, arrays.y = y, arrays.path_offsets = whole, arrays.path_count = SIZE_MAX;
+  bch_obstacles* none = nullptr;
+  expect_error(bch_obstacles_create(&arrays, &none), BCH_INVALID_ARGUMENT, "arrays->path_offsets has");
+  arrays.path_count = 1, arrays.obstacle_offsets = whole, arrays.obstacle_count = SIZE_MAX;
+  expect_error(bch_obstacles_create(&arrays, &none), BCH_INVALID_ARGUMENT, "arrays->obstacle_offsets has");
+  arrays.obstacle_offsets = nullptr, arrays.bottom = &up, arrays.top = &down;
+  const char* const word = "obstacles: obstacle 0: heights from 2 to 1 m";
+  expect_error(bch_obstacles_create(&arrays, &none), BCH_INVALID_ARGUMENT, word);
+  expect_error(bch_obstacles_from_wkt_at("LINESTRING(0 0, 1 1)", 0, up, down, &none), BCH_INVALID_ARGUMENT,
+               word);
+  EXPECT_EQ(none, nullptr);
+  arrays.top = nullptr;
+  const auto obstacles = made<bch_obstacles_free>(bch_obstacles_create, &arrays);
+  std::uint32_t owner = 9;
+  expect_error(bch_obstacles_get_owner(obstacles.get(), 77, &owner), BCH_OUT_OF_RANGE, "segment is 77 of 2");
+  EXPECT_EQ(owner, 9u);
+}
+
+TEST_F(CApiMisuse, TheLastErrorStays) {
   expect_error(bch_collide(nullptr, &agents, &pair, 1, nullptr, &hit), BCH_INVALID_ARGUMENT, "set is NULL");
-  std::thread([&] {
-    EXPECT_STREQ(bch_last_error(), "");
-    expect_error(bch_collide(set.get(), nullptr, &pair, 1, nullptr, &hit), BCH_INVALID_ARGUMENT,
-                 "agents is NULL");
-  }).join();
-  EXPECT_STREQ(bch_last_error(), "set is NULL");
   expect_ok(ask());
   EXPECT_STREQ(bch_last_error(), "set is NULL");
+  std::thread([] { EXPECT_STREQ(bch_last_error(), ""); }).join();
 }
 
 }  // namespace

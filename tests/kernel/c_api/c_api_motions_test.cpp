@@ -28,7 +28,6 @@ using test::made;
 using test::MotionCase;
 
 using OwnedAnimated = test::Owned<bch_animated_shape, bch_animated_shape_free>;
-using OwnedMoments = test::Owned<bch_moment_set, bch_moment_set_free>;
 
 /// Moving discs in arrays, as callers have them.
 struct Arrays {
@@ -52,10 +51,7 @@ struct Arrays {
     arrays.times = times.data(), arrays.discs = reinterpret_cast<const bch_disc*>(all.data());
     arrays.ring_ends = ends.data();
   }
-  OwnedAnimated shape() const {
-    return made<OwnedAnimated>(
-        [&](bch_animated_shape** to) { return bch_animated_shape_create(&arrays, to); });
-  }
+  OwnedAnimated shape() const { return made<bch_animated_shape_free>(bch_animated_shape_create, &arrays); }
 };
 
 std::vector<Disc> discs_of(const bch_animated_shape* shape, double seconds) {
@@ -67,59 +63,51 @@ std::vector<Disc> discs_of(const bch_animated_shape* shape, double seconds) {
   return discs;
 }
 
+void expect_body(const bch_animated_shape* shape, const AnimatedShape& expected, std::size_t slabs) {
+  bch_animated_shape_info info = BCH_ANIMATED_SHAPE_INFO_INIT;
+  expect_ok(bch_animated_shape_get_info(shape, &info));
+  EXPECT_EQ(info.loops != 0, expected.loops());
+  EXPECT_EQ(info.begin, expected.begin());
+  EXPECT_EQ(info.end, expected.end());
+  EXPECT_EQ(info.reach, expected.reach());
+  EXPECT_EQ(info.bytes, expected.bytes());
+  EXPECT_EQ(info.slabs, slabs);
+  EXPECT_GE(info.chunks, std::max<std::size_t>(slabs, 1));
+  EXPECT_GE(info.keys, 2 * info.chunks);
+  for (const double seconds : {-1.0, 0.2, expected.end(), 7.0})
+    EXPECT_EQ(discs_of(shape, seconds), expected.discs(seconds));
+}
+
 TEST(CApiMotions, BodiesAreTheirArrays) {
   test::Random random(3141);
-  for (int i = 0; i < 20; ++i) {
-    const AnimatedDiscs discs = i % 3 == 0 ? test::loose_discs(random) : test::ringed_body(random, 1 + i % 2);
-    const AnimatedShape expected(discs);
-    const OwnedAnimated shape = Arrays(discs).shape();
-    bch_animated_shape_info info = BCH_ANIMATED_SHAPE_INFO_INIT;
-    expect_ok(bch_animated_shape_get_info(shape.get(), &info));
-    EXPECT_EQ(info.loops != 0, expected.loops());
-    EXPECT_EQ(info.begin, expected.begin());
-    EXPECT_EQ(info.end, expected.end());
-    EXPECT_EQ(info.reach, expected.reach());
-    EXPECT_EQ(info.bytes, expected.bytes());
-    EXPECT_EQ(info.chunks, discs.chunks.size());
-    for (const double seconds : {-1.0, 0.2, expected.end(), 7.0})
-      EXPECT_EQ(discs_of(shape.get(), seconds), expected.discs(seconds));
-  }
+  for (const AnimatedDiscs& discs :
+       {test::loose_discs(random), test::ringed_body(random, 1), test::ringed_body(random, 2)})
+    expect_body(Arrays(discs).shape().get(), AnimatedShape(discs), 0);
 }
 
 TEST(CApiMotions, ClipsAreAnimated) {
   constexpr std::uint32_t clip = 40;
   const Character character = default_pedestrian(Sex::female, 1.7);
-  const AnimatedDiscs discs = animate(character, clip, {.spacing = 0.05f});
-  const auto of = made<test::OwnedCharacter>(
-      [](bch_character** to) { return bch_character_pedestrian(BCH_PEDESTRIAN_FEMALE, 1.7, 0, to); });
+  const auto of = made<bch_character_free>(bch_character_pedestrian, BCH_PEDESTRIAN_FEMALE, 1.7, 0);
   bch_animate_options options = BCH_ANIMATE_OPTIONS_INIT;
-  options.spacing = 0.05f;
-  const auto shape = made<OwnedAnimated>(
-      [&](bch_animated_shape** to) { return bch_animated_shape_animate(of.get(), clip, &options, to); });
-  for (const double seconds : {0.0, 0.31, 1.0})
-    EXPECT_EQ(discs_of(shape.get(), seconds), AnimatedShape(discs).discs(seconds));
+  options.spacing = 0.05f, options.inset = 0.05f, options.error = 0.01f;
+  const auto animated = [&] {
+    return made<bch_animated_shape_free>(bch_animated_shape_animate, of.get(), clip, &options);
+  };
+  AnimateOptions own{.spacing = 0.05f, .inset = 0.05f, .error = 0.01f};
+  expect_body(animated().get(), AnimatedShape(animate(character, clip, own)), 0);
   const float planes[] = {0.4f, 1};
   options.slices = planes, options.slice_count = 2;
-  const auto cut = made<OwnedAnimated>(
-      [&](bch_animated_shape** to) { return bch_animated_shape_animate(of.get(), clip, &options, to); });
-  const AnimatedShape expected(animate(character, clip, {.spacing = 0.05f, .slices = {0.4f, 1}}));
-  EXPECT_EQ(discs_of(cut.get(), 0.31), expected.discs(0.31));
-  bch_animated_shape_info info = BCH_ANIMATED_SHAPE_INFO_INIT;
-  expect_ok(bch_animated_shape_get_info(cut.get(), &info));
-  EXPECT_EQ(info.slabs, 3u);
-  EXPECT_GE(info.chunks, 3u);
+  own.slices = {0.4f, 1};
+  for (const bool loops : {false, true}) {
+    options.loops = loops, own.loops = loops;
+    expect_body(animated().get(), AnimatedShape(animate(character, clip, own)), 3);
+  }
   bch_animated_shape* none = nullptr;
   EXPECT_EQ(bch_animated_shape_animate(of.get(), 9999, nullptr, &none), BCH_OUT_OF_RANGE);
   options.loops = 2;
   EXPECT_EQ(bch_animated_shape_animate(of.get(), clip, &options, &none), BCH_INVALID_ARGUMENT);
-  for (const bool loops : {false, true}) {
-    options.loops = loops;
-    const auto told = made<OwnedAnimated>(
-        [&](bch_animated_shape** to) { return bch_animated_shape_animate(of.get(), clip, &options, to); });
-    expect_ok(bch_animated_shape_get_info(told.get(), &info));
-    EXPECT_EQ(info.loops, loops);
-  }
-  options.error = 0;
+  options.loops = 1, options.error = 0;
   EXPECT_EQ(bch_animated_shape_animate(of.get(), clip, &options, &none), BCH_INVALID_ARGUMENT);
   EXPECT_EQ(none, nullptr);
 }
@@ -139,14 +127,12 @@ TEST(CApiMotions, SetsKeepThem) {
   ASSERT_EQ(baked.clips.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(baked.clips[i].discs, clips[i].discs);
   EXPECT_EQ(baked.clips[1].clip, ShapeOrigin::rest_pose);
-  const auto loaded = made<test::OwnedSet>(
-      [&](bch_shape_set** to) { return bch_shape_set_load(file.c_str(), BCH_READ, to); });
+  const auto loaded = made<bch_shape_set_free>(bch_shape_set_load, file.c_str(), BCH_READ);
   expect_ok(bch_shape_set_get_clip_count(loaded.get(), &count));
   EXPECT_EQ(count, 2u);
   const char *character = nullptr, *clip = nullptr;
-  const auto shape = made<OwnedAnimated>([&](bch_animated_shape** to) {
-    return bch_shape_set_get_clip(loaded.get(), 0, &character, &clip, to);
-  });
+  const auto shape =
+      made<bch_animated_shape_free>(bch_shape_set_get_clip, loaded.get(), 0, &character, &clip);
   EXPECT_STREQ(character, "man.glb");
   EXPECT_STREQ(clip, "walk");
   EXPECT_EQ(discs_of(shape.get(), 2), AnimatedShape(clips[0].discs).discs(2));
@@ -156,61 +142,44 @@ TEST(CApiMotions, SetsKeepThem) {
   EXPECT_EQ(bch_shape_set_get_clip(loaded.get(), 2, nullptr, nullptr, nullptr), BCH_OUT_OF_RANGE);
 }
 
-TEST(CApiMotions, MomentsAnswerEveryQuery) {
+TEST(CApiMotions, MomentsAreShown) {
   test::Random random(3142);
-  std::vector<AnimatedShape> bodies;
-  std::vector<OwnedAnimated> c_bodies;
-  std::vector<const bch_animated_shape*> pointers;
-  for (int i = 0; i < 3; ++i) {
-    const AnimatedDiscs discs = test::ringed_body(random);
-    bodies.emplace_back(discs), c_bodies.push_back(Arrays(discs).shape());
-    pointers.push_back(c_bodies.back().get());
-  }
-  const auto moments = made<OwnedMoments>([&](bch_moment_set** to) {
-    return bch_moment_set_create(pointers.data(), pointers.size(), nullptr, to);
-  });
-  const std::vector<std::uint32_t> body = {0, 1, 2, 1, 0};
-  const std::vector<double> seconds = {0.1, 0.5, -2, 0.5, 0.2}, x = {0, 0.3, 0.35, 9, 10},
-                            y = {0, 0.1, 0.2, 0, 0}, heading = {0, 1, 2, 3, 4};
-  std::vector<std::uint32_t> shape(body.size());
+  const AnimatedDiscs discs[] = {test::ringed_body(random), test::ringed_body(random)};
+  const AnimatedShape bodies[] = {AnimatedShape(discs[0]), AnimatedShape(discs[1])};
+  const OwnedAnimated c_bodies[] = {Arrays(discs[0]).shape(), Arrays(discs[1]).shape()};
+  const bch_animated_shape* const pointers[] = {c_bodies[0].get(), c_bodies[1].get()};
+  const auto moments = made<bch_moment_set_free>(bch_moment_set_create, pointers, 2, nullptr);
+  const std::vector<std::uint32_t> body = {0, 1, 1, 0};
+  const std::vector<double> seconds = {0.1, 0.5, 0.5, -2};
+  std::vector<std::uint32_t> shape(body.size()), own_shape(body.size());
   bch_work work = BCH_WORK_INIT;
   work.threads = 2;
   expect_ok(
       bch_moment_set_show(moments.get(), body.data(), seconds.data(), body.size(), &work, shape.data()));
-  EXPECT_EQ(shape[1], shape[3]);
+  const AnimatedShape* const both[] = {&bodies[0], &bodies[1]};
+  MomentSet own(both);
+  own.show(body, seconds, own_shape);
+  EXPECT_EQ(shape, own_shape);
   const bch_shape_set* shapes = nullptr;
   expect_ok(bch_moment_set_get_shapes(moments.get(), &shapes));
-  bch_agents agents = BCH_AGENTS_INIT;
-  agents.shape = shape.data(), agents.x = x.data(), agents.y = y.data(), agents.heading = heading.data();
-  agents.count = body.size();
-  const std::vector<bch_pair> pairs = {{0, 1}, {1, 2}, {0, 2}, {3, 4}};
-  std::vector<std::uint8_t> hits(pairs.size()), expected(pairs.size());
-  expect_ok(bch_collide(shapes, &agents, pairs.data(), pairs.size(), nullptr, hits.data()));
-  std::vector<const AnimatedShape*> all;
-  for (const AnimatedShape& each : bodies) all.push_back(&each);
-  MomentSet own(all);
-  std::vector<std::uint32_t> own_shape(body.size());
-  own.show(body, seconds, own_shape);
-  const std::vector<Pair> own_pairs = {{0, 1}, {1, 2}, {0, 2}, {3, 4}};
-  collide(own.set(), {own_shape, x, y, heading}, own_pairs, expected);
-  EXPECT_EQ(hits, expected);
-  EXPECT_EQ(std::count(hits.begin(), hits.end(), 0) % 4 == 0, false);
+  const auto radius_of = [](const bch_shape_set* set, std::uint32_t i) {
+    float radius = 0;
+    expect_ok(bch_shape_set_get_radius(set, i, &radius));
+    return radius;
+  };
+  for (const std::uint32_t i : shape) EXPECT_EQ(radius_of(shapes, i), own.set().bounding_radius(i));
   // A set that was lent is void after the next call, and never freed by the caller.
   EXPECT_EQ(bch_shape_set_free(const_cast<bch_shape_set*>(shapes)), BCH_INVALID_ARGUMENT);
   expect_ok(
       bch_moment_set_show(moments.get(), body.data(), seconds.data(), body.size(), nullptr, shape.data()));
-  EXPECT_EQ(bch_collide(shapes, &agents, pairs.data(), pairs.size(), nullptr, hits.data()),
-            BCH_INVALID_ARGUMENT);
-  // The builder adds the same shape.
-  const auto builder = made<test::OwnedBuilder>(
-      [](bch_shape_set_builder** to) { return bch_shape_set_builder_create(nullptr, to); });
-  expect_ok(bch_shape_set_builder_add_moment(builder.get(), pointers[1], 0.5));
-  const auto one = made<test::OwnedSet>(
-      [&](bch_shape_set** to) { return bch_shape_set_builder_finish(builder.get(), to); });
   float radius = 0;
-  expect_ok(bch_shape_set_get_radius(one.get(), 0, &radius));
-  EXPECT_EQ(radius, own.set().bounding_radius(own_shape[1]));
+  EXPECT_EQ(bch_shape_set_get_radius(shapes, 0, &radius), BCH_INVALID_ARGUMENT);
+  // The builder adds the same shape.
+  const auto builder = made<bch_shape_set_builder_free>(bch_shape_set_builder_create, nullptr);
+  expect_ok(bch_shape_set_builder_add_moment(builder.get(), pointers[1], 0.5));
   EXPECT_EQ(bch_shape_set_builder_add_moment(builder.get(), pointers[1], NAN), BCH_INVALID_ARGUMENT);
+  const auto one = made<bch_shape_set_free>(bch_shape_set_builder_finish, builder.get());
+  EXPECT_EQ(radius_of(one.get(), 0), own.set().bounding_radius(own_shape[1]));
 }
 
 bch_motion c_motion(const MotionCase& of, const bch_animated_shape* shape) {
@@ -222,7 +191,7 @@ TEST(CApiMotions, TouchWhenTheyDo) {
   test::Random random(3143);
   std::vector<MotionCase> cases;
   std::vector<OwnedAnimated> shapes;
-  for (int i = 0; i < 24; ++i) cases.push_back(test::random_motion(random));
+  for (int i = 0; i < 8; ++i) cases.push_back(test::random_motion(random));
   std::vector<bch_motion> motions;
   std::vector<Motion> own;
   for (const MotionCase& each : cases) {
@@ -238,19 +207,18 @@ TEST(CApiMotions, TouchWhenTheyDo) {
   expect_ok(bch_first_contact(motions.data(), motions.size(), test::c_pairs(pairs), pairs.size(), -1, 3, 0.01,
                               2, times.data()));
   EXPECT_EQ(times, expected);
-  EXPECT_GT(std::count_if(times.begin(), times.end(), [](double t) { return t < 3; }), 20);
+  EXPECT_GT(std::count_if(times.begin(), times.end(), [](double t) { return t < 3; }), 2);
   double free = 0;
   expect_ok(bch_free_until(motions.data(), motions.data() + 1, motions.size() - 1, -1, 3, 0.01, &free));
   EXPECT_EQ(free, free_until(own[0], std::span(own).subspan(1), {-1, 3}, 0.01));
   constexpr const char* text = "POLYGON((0 0, 1 0, 1 1, 0 1))";
-  const auto walls =
-      made<test::OwnedObstacles>([&](bch_obstacles** to) { return bch_obstacles_from_wkt(text, 0, to); });
+  const auto walls = made<bch_obstacles_free>(bch_obstacles_from_wkt, text, 0);
   times.assign(own.size(), 0), expected.assign(own.size(), 0);
   first_contact(own, obstacles_from_wkt(text), {-1, 3}, expected, 0.01);
   expect_ok(
       bch_obstacles_first_contact(motions.data(), motions.size(), walls.get(), -1, 3, 0.01, 2, times.data()));
   EXPECT_EQ(times, expected);
-  EXPECT_GT(std::count_if(times.begin(), times.end(), [](double t) { return t < 3; }), 5);
+  EXPECT_GT(std::count_if(times.begin(), times.end(), [](double t) { return t < 3; }), 0);
 }
 
 TEST(CApiMotions, NameWhatIsWrong) {

@@ -3,13 +3,16 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
+#include <algorithm>
+#include <map>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <bch/bch.hpp>
 
 #include "tests/support/c_api.hpp"
+#include "tests/support/c_api_queries.hpp"
 #include "tests/support/scenes.hpp"
 
 // What the C interface answers is what the C++ library does, bit by bit.
@@ -17,24 +20,19 @@
 namespace bch {
 namespace {
 
-using test::c_agents;
-using test::c_pairs;
+using test::bytes;
 using test::expect_ok;
 using test::made;
 
-template <class Own, class Other>
-void expect_same(std::span<const Own> own, std::span<const Other> other, const char* what) {
-  static_assert(sizeof(Own) == sizeof(Other));
-  ASSERT_EQ(own.size(), other.size()) << what;
-  EXPECT_TRUE(own.empty() || std::memcmp(own.data(), other.data(), own.size_bytes()) == 0) << what;
+std::string bytes_of(const std::vector<Penetration>& depths) {
+  std::vector<bch_penetration_depth> all;
+  for (const auto& [depth, x, y] : depths) all.push_back({depth, 0, x, y});
+  return bytes(all);
 }
-
-/// Members one by one, as the bytes between them have any value.
-void expect_same_depths(const std::vector<Penetration>& own,
-                        const std::vector<bch_penetration_depth>& other) {
-  ASSERT_EQ(own.size(), other.size());
-  for (std::size_t i = 0; i < own.size(); ++i)
-    ASSERT_EQ(own[i], (Penetration{other[i].depth, other[i].x, other[i].y})) << i;
+template <class Value>
+std::string bytes_of(const Rows<Value>& rows) {
+  EXPECT_GT(rows.values.size(), 10u);
+  return bytes(rows.offsets) + bytes(rows.values);
 }
 
 struct Case {
@@ -47,19 +45,7 @@ std::ostream& operator<<(std::ostream& to, const Case& of) {
 
 class CApi : public testing::TestWithParam<Case> {
  protected:
-  CApi() {
-    scene = random_scene(random, set, 10'000);
-    if (!GetParam().slices.empty())
-      for (std::size_t i = 0; i < scene.crowd.x.size(); ++i)
-        scene.crowd.z.push_back(i % 3 == 0 ? 0 : random.uniform(-1, 1));
-    options.semantics = BCH_SOLID, options.max_distance = 0.7, options.overlap = BCH_OVERLAP_DEEPEST;
-    for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
-      x.push_back(random.uniform(-2, 2)), y.push_back(random.uniform(-2, 2));
-      directions.push_back({static_cast<float>(x.back()), static_cast<float>(y.back())});
-    }
-  }
-
-  std::vector<Shape> shapes() const {
+  static std::vector<Shape> shapes() {
     std::vector<Shape> all = test::synthetic_shapes(281, 12);
     if (GetParam().slices.empty()) return all;
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -72,254 +58,173 @@ class CApi : public testing::TestWithParam<Case> {
     return all;
   }
 
+  test::Crowd crowd() {
+    test::Crowd all;
+    for (int i = 0; i < 1'000; ++i) {
+      all.add({random.below(12), random.uniform(-13, 13), random.uniform(-13, 13), random.uniform(-7, 7),
+               static_cast<std::uint8_t>(random.below(3))});
+      if (!GetParam().slices.empty()) all.z.push_back(i % 3 == 0 ? 0 : random.uniform(-1, 1));
+    }
+    return all;
+  }
+
   test::Random random{282};
   const ShapeSet set{shapes(), {.depths = {0, 3, all_depths}, .slices = GetParam().slices}};
-  const test::OwnedSet c_set = test::c_set(set);
-  test::PairScene scene;
-  std::vector<double> x, y;
-  std::vector<Vec2> directions;
-  bch_query_options options = BCH_QUERY_OPTIONS_INIT;
-  const QueryOptions own{.semantics = Semantics::solid, .max_distance = 0.7, .overlap = Overlap::deepest};
+  const test::Crowd people = crowd();
+  const Agents agents = people.agents();
+  const std::vector<Pair> pairs = candidate_pairs(set, agents, 0.4);
+  test::CScene scene{set, people, pairs};
+  const bch_shape_set* const in = scene.set.get();
 };
 
 INSTANTIATE_TEST_SUITE_P(Of, CApi, testing::Values(Case{"Whole", {}}, Case{"Slabs", {0.5f, 1.2f}}),
                          [](const auto& of) { return of.param.name; });
 
-TEST_P(CApi, AnswersAboutPairsAreThoseOfTheLibrary) {
+/// All answers of the C++ library, by the names of all_queries().
+std::map<std::string, std::string> answers_of(const test::CScene& scene, const QueryOptions& by) {
+  const ShapeSet& set = scene.shapes;
   const Agents agents = scene.crowd.agents();
-  const bch_agents of = c_agents(scene.crowd);
-  const std::size_t n = scene.pairs.size();
-  const bch_pair* const pairs = c_pairs(scene.pairs);
-  for (const std::uint32_t threads : {0u, 1u, 3u}) {
-    options.threads = threads;
-    std::vector<std::uint8_t> hits(n), c_hits(n, 7);
-    collide(set, agents, scene.pairs, hits, own);
-    expect_ok(bch_collide(c_set.get(), &of, pairs, n, &options, c_hits.data()));
-    EXPECT_EQ(hits, c_hits);
+  const std::size_t n = scene.pairs.size(), people = agents.size();
+  const std::span<const double> x = scene.x, y = scene.y, nearer = scene.nearer;
+  const ObstacleSet walls = obstacles_from_wkt(test::walls_text);
+  std::vector<Vec2> along;
+  for (const auto& [dx, dy] : scene.along) along.push_back({dx, dy});
+  std::map<std::string, std::string> all{{"validate", ""}};
 
-    const double near[] = {0.3};
-    within(set, agents, scene.pairs, near, hits, own);
-    expect_ok(bch_within(c_set.get(), &of, pairs, n, near, 1, &options, c_hits.data()));
-    EXPECT_EQ(hits, c_hits);
+  std::vector<std::uint8_t> hits(n);
+  std::vector<Penetration> depths(n);
+  std::vector<float> distance(n);
+  std::vector<Vec2> direction(n);
+  std::vector<DiscPair> discs(n);
+  std::vector<NearestPoints> points(n);
+  collide(set, agents, scene.pairs, hits, by), all["collide"] = bytes(hits);
+  within(set, agents, scene.pairs, nearer.first(n), hits, by), all["within"] = bytes(hits);
+  penetration(set, agents, scene.pairs, 16, depths), all["penetration"] = bytes_of(depths);
+  along.resize(n);
+  penetration_along(set, agents, scene.pairs, along, depths), all["penetration along"] = bytes_of(depths);
+  time_of_impact(set, agents, scene.pairs, {x.first(n), y.first(n)}, distance);
+  all["time of impact"] = bytes(distance);
+  clearance(set, agents, scene.pairs, {distance, direction, discs, points}, by);
+  all["clearance"] = bytes(distance) + bytes(direction) + bytes(discs) + bytes(points);
 
-    std::vector<float> distance(n), c_distance(n);
-    std::vector<Vec2> direction(n);
-    std::vector<DiscPair> discs(n);
-    std::vector<NearestPoints> points(n);
-    std::vector<bch_vec2> c_direction(n);
-    std::vector<bch_disc_pair> c_discs(n);
-    std::vector<bch_nearest_points> c_points(n);
-    clearance(set, agents, scene.pairs, {distance, direction, discs, points}, own);
-    bch_clearance_out out = BCH_CLEARANCE_OUT_INIT;
-    out.distance = c_distance.data(), out.direction = c_direction.data();
-    out.discs = c_discs.data(), out.points = c_points.data();
-    expect_ok(bch_clearance(c_set.get(), &of, pairs, n, &options, &out));
-    EXPECT_EQ(distance, c_distance);
-    expect_same<Vec2, bch_vec2>(direction, c_direction, "direction");
-    expect_same<DiscPair, bch_disc_pair>(discs, c_discs, "discs");
-    expect_same<NearestPoints, bch_nearest_points>(points, c_points, "points");
+  all["candidates"] = bytes(candidate_pairs(set, agents, 0.4));
+  CrowdCollider collider;
+  all["collide all"] = bytes_of(collider.collide_all(set, agents, by));
+  const CrowdCollisions both = collider.collide_all(set, agents, walls, by);
+  all["collide all and walls"] = bytes_of(both.agents) + bytes_of(both.obstacles);
+  ContactFinder finder;
+  all["contacts"] = bytes(scene.pairs) + bytes_of(finder.find(set, agents, scene.pairs, by));
+  const CrowdContacts contacts = finder.find_all(set, agents, by);
+  all["all contacts"] = bytes(contacts.pairs) + bytes_of(contacts.contacts);
 
-    std::vector<Penetration> depths(n);
-    std::vector<bch_penetration_depth> c_depths(n);
-    penetration(set, agents, scene.pairs, 16, depths);
-    expect_ok(bch_penetration(c_set.get(), &of, pairs, n, 16, &options, c_depths.data()));
-    expect_same_depths(depths, c_depths);
-    penetration_along(set, agents, scene.pairs, directions, depths);
-    expect_ok(bch_penetration_along(c_set.get(), &of, pairs, n,
-                                    reinterpret_cast<const bch_vec2*>(directions.data()), &options,
-                                    c_depths.data()));
-    expect_same_depths(depths, c_depths);
+  hits.resize(people), depths.resize(people), distance.resize(people);
+  direction.resize(people), discs.resize(people), points.resize(people);
+  collide(set, agents, walls, hits, by), all["walls: collide"] = bytes(hits);
+  within(set, agents, walls, nearer.first(people), hits, by), all["walls: within"] = bytes(hits);
+  penetration(set, agents, walls, depths), all["walls: penetration"] = bytes_of(depths);
+  time_of_impact(set, agents, {x.first(people), y.first(people)}, walls, distance);
+  all["walls: time of impact"] = bytes(distance);
+  clearance(set, agents, walls, {distance, direction, discs, points}, by);
+  all["walls: clearance"] = bytes(distance) + bytes(direction) + bytes(discs) + bytes(points);
+  return all;
+}
 
-    time_of_impact(set, agents, scene.pairs, {x, y}, distance);
-    expect_ok(
-        bch_time_of_impact(c_set.get(), &of, pairs, n, x.data(), y.data(), &options, c_distance.data()));
-    EXPECT_EQ(distance, c_distance);
+TEST_P(CApi, AnswersAreThoseOfTheLibrary) {
+  std::map<std::string, std::string> before;
+  for (const bool other : {false, true}) {
+    const QueryOptions by{.semantics = other ? Semantics::solid : Semantics::boundary,
+                          .leaves = other ? Leaves::segments : Leaves::discs,
+                          .max_distance = other ? 0.7 : 0.5,
+                          .overlap = other ? Overlap::deepest : Overlap::zero,
+                          .distance_leaves = other ? Leaves::discs : Leaves::segments};
+    scene.options.semantics = other, scene.options.leaves = other, scene.options.overlap = other;
+    scene.options.distance_leaves = !other, scene.options.max_distance = by.max_distance;
+    scene.options.threads = other ? 3 : 0;
+    const auto expected = answers_of(scene, by);
+    EXPECT_NE(before["collide"], expected.at("collide"));
+    EXPECT_NE(before["clearance"], expected.at("clearance"));
+    before = expected;
+    for (const test::CQuery& query : all_queries(scene)) {
+      expect_ok(query.ask());
+      EXPECT_TRUE(query.answers() == expected.at(query.name)) << query.name;
+    }
   }
 }
 
-TEST_P(CApi, EveryOptionArrives) {
-  const Agents agents = scene.crowd.agents();
-  const bch_agents of = c_agents(scene.crowd);
-  const std::size_t n = scene.pairs.size();
-  std::vector<float> distance(n), c_distance(n);
-  std::vector<std::uint8_t> hits(n), c_hits(n);
-  bch_clearance_out out = BCH_CLEARANCE_OUT_INIT;
-  out.distance = c_distance.data();
-  std::size_t different = 0;
-  for (const bool one : {false, true})
-    for (const bool other : {false, true}) {
-      const QueryOptions mine{.semantics = one ? Semantics::solid : Semantics::boundary,
-                              .leaves = other ? Leaves::segments : Leaves::discs,
-                              .overlap = one ? Overlap::deepest : Overlap::zero,
-                              .distance_leaves = other ? Leaves::segments : Leaves::discs};
-      bch_query_options same = BCH_QUERY_OPTIONS_INIT;
-      same.semantics = one, same.leaves = other, same.overlap = one, same.distance_leaves = other;
-      const std::vector<float> before = distance;
-      collide(set, agents, scene.pairs, hits, mine);
-      clearance(set, agents, scene.pairs, {distance}, mine);
-      expect_ok(bch_collide(c_set.get(), &of, c_pairs(scene.pairs), n, &same, c_hits.data()));
-      expect_ok(bch_clearance(c_set.get(), &of, c_pairs(scene.pairs), n, &same, &out));
-      EXPECT_EQ(hits, c_hits);
-      EXPECT_EQ(distance, c_distance);
-      different += before != distance;
-    }
-  EXPECT_EQ(different, 3u);  // the deepest overlaps are those of discs, whatever the leaves
+TEST_P(CApi, ImplementationsAnswerWhereTheProcessorRunsThem) {
+  std::vector<std::uint8_t> hits(pairs.size());
   for (std::uint32_t i = 0; bch_implementation_name(i) != nullptr; ++i) {
     bch_query_options by = BCH_QUERY_OPTIONS_INIT;
     by.implementation = bch_implementation_name(i);
-    const bch_status status = bch_collide(c_set.get(), &of, c_pairs(scene.pairs), n, &by, c_hits.data());
+    const bch_status status =
+        bch_collide(in, &scene.agents, test::c_pairs(pairs), pairs.size(), &by, hits.data());
     EXPECT_EQ(status, bch_implementation_supported(i) ? BCH_OK : BCH_INVALID_ARGUMENT) << by.implementation;
   }
 }
 
-TEST_P(CApi, AnswersAboutCrowdsAreThoseOfTheLibrary) {
-  test::Crowd& crowd = scene.crowd;
-  for (std::size_t i = 0; i < crowd.x.size(); ++i)
-    crowd.x[i] = random.uniform(-40, 40), crowd.y[i] = random.uniform(-40, 40);
-  const Agents agents = crowd.agents();
-  const bch_agents of = c_agents(crowd);
-
-  const auto phase = made<test::OwnedBroadPhase>(bch_broad_phase_create);
-  const bch_pair* pairs = nullptr;
-  std::size_t count = 0;
-  expect_ok(bch_broad_phase_find(phase.get(), c_set.get(), &of, 0.4, &options, &pairs, &count));
-  expect_same<Pair, bch_pair>(candidate_pairs(set, agents, 0.4), {pairs, count}, "candidates");
-
-  CrowdCollider collider;
-  const auto c_collider = made<test::OwnedCollider>(bch_crowd_collider_create);
-  Rows<std::uint32_t> rows = collider.collide_all(set, agents, own);
-  bch_index_rows c_rows, touched;
-  expect_ok(bch_crowd_collider_collide_all(c_collider.get(), c_set.get(), &of, nullptr, &options, &c_rows,
-                                           nullptr));
-  EXPECT_GT(rows.values.size(), 100u);
-  ASSERT_EQ(rows.size(), c_rows.rows);
-  expect_same<std::uint64_t, std::uint64_t>(rows.offsets, {c_rows.offsets, c_rows.rows + 1}, "offsets");
-  expect_same<std::uint32_t, std::uint32_t>(rows.values, {c_rows.values, rows.values.size()}, "neighbours");
-
-  const char* const text = "LINESTRING(-40 0, 40 1) POLYGON((-9 -9, 9 -9, 9 9, -9 9))";
-  const ObstacleSet walls = obstacles_from_wkt(text);
-  const auto c_walls =
-      made<test::OwnedObstacles>([&](bch_obstacles** to) { return bch_obstacles_from_wkt(text, 0, to); });
-  const CrowdCollisions both = collider.collide_all(set, agents, walls, own);
-  expect_ok(bch_crowd_collider_collide_all(c_collider.get(), c_set.get(), &of, c_walls.get(), &options,
-                                           &c_rows, &touched));
-  EXPECT_GT(both.obstacles.values.size(), 10u);
-  expect_same<std::uint32_t, std::uint32_t>(both.agents.values, {c_rows.values, both.agents.values.size()},
-                                            "agents");
-  expect_same<std::uint64_t, std::uint64_t>(both.obstacles.offsets, {touched.offsets, touched.rows + 1},
-                                            "offsets");
-  expect_same<std::uint32_t, std::uint32_t>(both.obstacles.values,
-                                            {touched.values, both.obstacles.values.size()}, "obstacles");
-
-  ContactFinder finder;
-  const auto c_finder = made<test::OwnedFinder>(bch_contact_finder_create);
-  bch_contact_rows contacts;
-  const CrowdContacts all = finder.find_all(set, agents, own);
-  expect_ok(bch_contact_finder_find_all(c_finder.get(), c_set.get(), &of, &options, &contacts));
-  ASSERT_EQ(all.contacts.size(), contacts.rows);
-  expect_same<Pair, bch_pair>(all.pairs, {contacts.pairs, contacts.rows}, "pairs");
-  expect_same<DiscPair, bch_disc_pair>(all.contacts.values, {contacts.values, all.contacts.values.size()},
-                                       "all");
-  const Rows<DiscPair> some = finder.find(set, agents, scene.pairs, own);
-  expect_ok(bch_contact_finder_find(c_finder.get(), c_set.get(), &of, c_pairs(scene.pairs),
-                                    scene.pairs.size(), &options, &contacts));
-  expect_same<std::uint64_t, std::uint64_t>(some.offsets, {contacts.offsets, contacts.rows + 1}, "offsets");
-  expect_same<DiscPair, bch_disc_pair>(some.values, {contacts.values, some.values.size()}, "contacts");
-}
-
-TEST_P(CApi, AnswersAboutObstaclesAreThoseOfTheLibrary) {
+TEST_P(CApi, ObstaclesAreThoseOfTheLibrary) {
   const std::vector<double> points_x = {-9, 9, -1, 1, 1, -1}, points_y = {0, 1, -1, -1, 1, 1};
   const std::vector<std::uint64_t> paths = {0, 2, 6}, obstacles = {0, 1, 2};
   const std::vector<std::uint8_t> areas = {0, 1};
   const std::vector<double> bottom = {-HUGE_VAL, 0.5}, top = {0.25, 2};
   const ObstacleSet walls({points_x, points_y, paths, obstacles, areas, bottom, top});
   bch_obstacle_arrays arrays = BCH_OBSTACLE_ARRAYS_INIT;
-  arrays.x = points_x.data(), arrays.y = points_y.data(), arrays.path_offsets = paths.data(),
-  arrays.path_count = 2;
+  arrays.x = points_x.data(), arrays.y = points_y.data();
+  arrays.path_offsets = paths.data(), arrays.path_count = 2;
   arrays.obstacle_offsets = obstacles.data(), arrays.obstacle_count = 2, arrays.is_area = areas.data();
   arrays.bottom = bottom.data(), arrays.top = top.data();
-  const auto c_walls =
-      made<test::OwnedObstacles>([&](bch_obstacles** to) { return bch_obstacles_create(&arrays, to); });
+  const auto own = made<bch_obstacles_free>(bch_obstacles_create, &arrays);
   std::uint32_t count = 0, segments = 0, owner = 9;
-  expect_ok(bch_obstacles_get_counts(c_walls.get(), &count, &segments));
+  expect_ok(bch_obstacles_get_counts(own.get(), &count, &segments));
   EXPECT_EQ(count, walls.obstacle_count());
   EXPECT_EQ(segments, walls.segment_count());
-  expect_ok(bch_obstacles_get_owner(c_walls.get(), 3, &owner));
+  expect_ok(bch_obstacles_get_owner(own.get(), 3, &owner));
   EXPECT_EQ(owner, walls.obstacle_of(3));
 
-  const Agents agents = scene.crowd.agents();
-  const bch_agents of = c_agents(scene.crowd);
-  const std::size_t n = agents.size();
-  std::vector<std::uint8_t> hits(n), c_hits(n);
-  collide(set, agents, walls, hits, own);
-  expect_ok(bch_obstacles_collide(c_set.get(), &of, c_walls.get(), &options, c_hits.data()));
-  EXPECT_EQ(hits, c_hits);
+  const auto expect_same_hits = [&](const ObstacleSet& among, const test::OwnedObstacles& same) {
+    std::vector<std::uint8_t> hits(agents.size()), c_hits(hits);
+    collide(set, agents, among, hits);
+    expect_ok(bch_obstacles_collide(in, &scene.agents, same.get(), nullptr, c_hits.data()));
+    EXPECT_EQ(hits, c_hits);
+  };
+  expect_same_hits(walls, own);
   const char* const text = "LINESTRING(-9 0, 9 1) POLYGON((-1 -1, 1 -1, 1 1, -1 1))";
-  for (const double from : {-HUGE_VAL, 0.5, 100.0}) {
-    const auto c_text_walls = made<test::OwnedObstacles>(
-        [&](bch_obstacles** to) { return bch_obstacles_from_wkt_at(text, 1, from, 101, to); });
-    collide(set, agents, obstacles_from_wkt(text, Polygons::walkable, from, 101), hits, own);
-    expect_ok(bch_obstacles_collide(c_set.get(), &of, c_text_walls.get(), &options, c_hits.data()));
-    EXPECT_EQ(hits, c_hits) << from;
-  }
-  const std::vector<double> near(n, 0.25);
-  within(set, agents, walls, near, hits, own);
-  expect_ok(bch_obstacles_within(c_set.get(), &of, c_walls.get(), near.data(), n, &options, c_hits.data()));
-  EXPECT_EQ(hits, c_hits);
-  std::vector<float> distance(n), c_distance(n);
-  std::vector<DiscPair> discs(n);
-  std::vector<bch_disc_pair> c_discs(n);
-  clearance(set, agents, walls, {.distance = distance, .discs = discs}, own);
-  bch_clearance_out out = BCH_CLEARANCE_OUT_INIT;
-  out.distance = c_distance.data(), out.discs = c_discs.data();
-  expect_ok(bch_obstacles_clearance(c_set.get(), &of, c_walls.get(), &options, &out));
-  EXPECT_EQ(distance, c_distance);
-  expect_same<DiscPair, bch_disc_pair>(discs, c_discs, "discs");
-  std::vector<Penetration> depths(n);
-  std::vector<bch_penetration_depth> c_depths(n);
-  penetration(set, agents, walls, depths);
-  expect_ok(bch_obstacles_penetration(c_set.get(), &of, c_walls.get(), &options, c_depths.data()));
-  expect_same_depths(depths, c_depths);
-  const std::vector<double> way_x(n, 1.5), way_y(n, -0.5);
-  time_of_impact(set, agents, {way_x, way_y}, walls, distance);
-  expect_ok(bch_obstacles_time_of_impact(c_set.get(), &of, c_walls.get(), way_x.data(), way_y.data(),
-                                         &options, c_distance.data()));
-  EXPECT_EQ(distance, c_distance);
+  for (const double from : {-HUGE_VAL, 0.5, 100.0})
+    expect_same_hits(obstacles_from_wkt(text, Polygons::walkable, from, 101),
+                     made<bch_obstacles_free>(bch_obstacles_from_wkt_at, text, 1, from, 101));
 }
 
 TEST_P(CApi, TellsWhatASetHas) {
   bch_shape_set_info info = BCH_SHAPE_SET_INFO_INIT;
-  expect_ok(bch_shape_set_get_info(c_set.get(), &info));
+  expect_ok(bch_shape_set_get_info(in, &info));
   EXPECT_EQ(info.shapes, set.shape_count());
   EXPECT_EQ(info.levels, set.level_count());
   EXPECT_EQ(info.slabs, set.slab_count());
   EXPECT_EQ(info.solid != 0, set.solid());
   EXPECT_EQ(info.has_heights != 0, set.has_heights());
   EXPECT_EQ(info.exact_leaves != 0, set.exact_leaves());
-  expect_same<std::uint32_t, std::uint32_t>(set.depths(), {info.depths, info.levels}, "depths");
-  expect_same<float, float>(set.slices(), {info.slices, info.slabs - 1}, "slices");
-  for (std::uint32_t shape = 0; shape < info.shapes; ++shape) {
-    float radius = 0;
-    expect_ok(bch_shape_set_get_radius(c_set.get(), shape, &radius));
-    EXPECT_EQ(radius, set.bounding_radius(shape));
-    for (std::uint32_t level = 0; level < info.levels; ++level) {
-      const std::vector<Disc> discs = set.discs(shape, level);
-      std::size_t count = 0;
-      expect_ok(bch_shape_set_get_discs(c_set.get(), shape, level, nullptr, 0, &count));
-      std::vector<bch_disc> c_discs(count);
-      expect_ok(bch_shape_set_get_discs(c_set.get(), shape, level, c_discs.data(), count, &count));
-      expect_same<Disc, bch_disc>(discs, c_discs, "discs");
-      std::vector<std::uint32_t> offsets(info.slabs + 1);
-      expect_ok(bch_shape_set_get_slab_offsets(c_set.get(), shape, level, offsets.data()));
-      EXPECT_EQ(offsets, set.slab_begin(shape, level));
-    }
-  }
+  EXPECT_TRUE(std::ranges::equal(set.depths(), std::span(info.depths, info.levels)));
+  EXPECT_TRUE(std::ranges::equal(set.slices(), std::span(info.slices, info.slabs - 1)));
+  const std::uint32_t shape = 5, level = 1;
+  float radius = 0;
+  expect_ok(bch_shape_set_get_radius(in, shape, &radius));
+  EXPECT_EQ(radius, set.bounding_radius(shape));
+  const std::vector<Disc> discs = set.discs(shape, level);
+  std::size_t count = 0;
+  expect_ok(bch_shape_set_get_discs(in, shape, level, nullptr, 0, &count));
+  ASSERT_EQ(discs.size(), count);
+  std::vector<bch_disc> c_discs(count);
+  expect_ok(bch_shape_set_get_discs(in, shape, level, c_discs.data(), count, &count));
+  EXPECT_EQ(bytes(discs), bytes(c_discs));
+  std::vector<std::uint32_t> offsets(info.slabs + 1);
+  expect_ok(bch_shape_set_get_slab_offsets(in, shape, level, offsets.data()));
+  EXPECT_EQ(offsets, set.slab_begin(shape, level));
   std::size_t findings = 9;
-  expect_ok(bch_shape_set_verify(c_set.get(), 10, nullptr, nullptr, &findings));
+  expect_ok(bch_shape_set_verify(in, 10, nullptr, nullptr, &findings));
   EXPECT_EQ(findings, 0u);
 }
 
-/// A slab's contours, or those of a whole body.
+/// The contours of a slab, of a whole body, or of all slabs.
 Outline outline_of(const bch_shape_set* set, std::uint32_t shape, std::uint32_t slab) {
   bch_outline outline = BCH_OUTLINE_INIT;
   expect_ok(bch_shape_set_get_outline(set, shape, slab, &outline));
@@ -336,18 +241,18 @@ Outline outline_of(const bch_shape_set* set, std::uint32_t shape, std::uint32_t 
 
 TEST_P(CApi, TellsOutlines) {
   const std::vector<Shape> of = shapes();
-  const auto expect_equal = [](const Outline& expected, const Outline& found) {
-    EXPECT_EQ(expected.points, found.points);
-    EXPECT_EQ(expected.contour_begin, found.contour_begin);
-  };
-  for (std::uint32_t shape = 0; shape < of.size(); ++shape) {
-    if (of[shape].slabs.empty()) expect_equal(of[shape].outline, outline_of(c_set.get(), shape, 0));
-    for (std::uint32_t slab = 0; slab < of[shape].slabs.size(); ++slab)
-      expect_equal(of[shape].slabs[slab].outline, outline_of(c_set.get(), shape, slab));
-    if (of[shape].slabs.empty()) continue;
+  for (const std::uint32_t shape : {2u, 3u}) {
+    const std::vector<Shape> slabs = of[shape].slabs.empty() ? std::vector{of[shape]} : of[shape].slabs;
     Outline all;
-    for (const Shape& slab : of[shape].slabs) test::append(all, slab.outline);
-    EXPECT_EQ(all.points.size(), outline_of(c_set.get(), shape, BCH_ALL_SLABS).points.size());
+    for (std::uint32_t slab = 0; slab < slabs.size(); ++slab) {
+      const Outline found = outline_of(in, shape, slab);
+      EXPECT_EQ(found.points, slabs[slab].outline.points);
+      EXPECT_EQ(found.contour_begin, slabs[slab].outline.contour_begin);
+      test::append(all, found);
+    }
+    if (slabs.size() > 1) {
+      EXPECT_EQ(all.points.size(), outline_of(in, shape, BCH_ALL_SLABS).points.size());
+    }
   }
 }
 

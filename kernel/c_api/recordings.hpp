@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <bch/bch_files.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "kernel/c_api/failure.hpp"
+#include "layout/recordings/trajectory.hpp"
+
+struct bch_trajectory {
+  std::unique_ptr<bch::detail::TrajectoryReader> reader;
+  std::string assumptions;                ///< a line each
+  std::vector<bch_named_motion> motions;  ///< whose texts are the reader's
+  bool is_read = false;                   ///< some of it
+  std::int64_t frame = 0;                 ///< of the people who wait
+  std::vector<bch::detail::TrackedPerson> waiting = {};
+};
+
+struct bch_check {
+  std::vector<bch_check_frame> frames;
+  std::vector<bch_check_pair> pairs;
+  std::vector<bch_check_event> events;
+  bch_check_summary summary = BCH_CHECK_SUMMARY_INIT;
+  std::string assumptions;  ///< a line each
+};
+
+namespace bch::c_api {
+
+/// Runs the body of a function that reads a recording, which may turn out to be bad at any frame.
+template <class Body>
+bch_status guarded_reading(Body body) noexcept {
+  return guarded([&] {
+    try {
+      body();
+    } catch (const detail::TrajectoryError& error) {
+      throw Failure(BCH_BAD_FILE, error.what());
+    }
+  });
+}
+
+/// Checks a recording. It is made of the kernel's code, which is in libbch.so alone: that library has this function for libbch_files.so.
+std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check_options& given);
+
+}  // namespace bch::c_api

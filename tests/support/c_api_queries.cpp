@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "tests/support/c_api_queries.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <memory>
+#include <span>
+
+namespace bch::test {
+namespace {
+
+std::vector<double> drawn(std::uint64_t seed, std::size_t count, double low, double high) {
+  Random random(seed);
+  std::vector<double> all(count);
+  for (double& one : all) one = random.uniform(low, high);
+  return all;
+}
+
+/// Padding has any value.
+template <class Value>
+void clear_padding(std::vector<Value>&) {}
+void clear_padding(std::vector<bch_penetration_depth>& depths) {
+  for (bch_penetration_depth& one : depths) one.unused = 0;
+}
+
+/// A query that writes into an array.
+template <class Value>
+CQuery into(const char* name, bool needs_memory, std::size_t count, std::function<bch_status(Value*)> ask) {
+  const auto values = std::make_shared<std::vector<Value>>(count);
+  std::memset(static_cast<void*>(values->data()), 77, count * sizeof(Value));
+  return {name, needs_memory, [values, ask] { return ask(values->data()); },
+          [values] {
+            clear_padding(*values);
+            return bytes(*values);
+          }};
+}
+
+template <class Offsets, class Values>
+std::string row_bytes(std::size_t rows, const Offsets* offsets, const Values* values) {
+  if (offsets == nullptr) return {};
+  return bytes(std::span(offsets, rows + 1)) + bytes(std::span(values, offsets[rows]));
+}
+
+/// A query that fills all arrays of a clearance.
+CQuery clearance_into(const char* name, bool needs_memory, std::size_t count,
+                      const std::function<bch_status(const bch_clearance_out*)>& ask) {
+  // One array after the other, in one: nine numbers for each pair.
+  const auto values = std::make_shared<std::vector<float>>(9 * count, 77.0f);
+  bch_clearance_out out = BCH_CLEARANCE_OUT_INIT;
+  out.distance = values->data();
+  out.direction = reinterpret_cast<bch_vec2*>(&(*values)[count]);
+  out.discs = reinterpret_cast<bch_disc_pair*>(&(*values)[3 * count]);
+  out.points = reinterpret_cast<bch_nearest_points*>(&(*values)[5 * count]);
+  return {name, needs_memory, [values, out, ask] { return ask(&out); }, [values] { return bytes(*values); }};
+}
+
+void add_queries_of_pairs(const CScene& scene, std::vector<CQuery>& to) {
+  const bch_shape_set* const set = scene.set.get();
+  const bch_pair* const pairs = c_pairs(scene.pairs);
+  const std::size_t n = scene.pairs.size();
+  const bool in_parts = scene.shapes.slab_count() > 1 || !scene.crowd.z.empty();
+  const auto* const all = &scene;
+  to.push_back(
+      {"validate", false, [=] { return bch_validate_agents(set, &all->agents); }, [] { return ""; }});
+  to.push_back(into<std::uint8_t>("collide", false, n, [=](auto* out) {
+    return bch_collide(set, &all->agents, pairs, n, &all->options, out);
+  }));
+  to.push_back(into<std::uint8_t>("within", false, n, [=](auto* out) {
+    return bch_within(set, &all->agents, pairs, n, all->nearer.data(), n, &all->options, out);
+  }));
+  to.push_back(into<bch_penetration_depth>("penetration", false, n, [=](auto* out) {
+    return bch_penetration(set, &all->agents, pairs, n, 16, &all->options, out);
+  }));
+  to.push_back(into<bch_penetration_depth>("penetration along", false, n, [=](auto* out) {
+    return bch_penetration_along(set, &all->agents, pairs, n, all->along.data(), &all->options, out);
+  }));
+  to.push_back(into<float>("time of impact", in_parts, n, [=](auto* out) {
+    return bch_time_of_impact(set, &all->agents, pairs, n, all->x.data(), all->y.data(), &all->options, out);
+  }));
+  to.push_back(clearance_into("clearance", in_parts, n, [=](auto* out) {
+    return bch_clearance(set, &all->agents, pairs, n, &all->options, out);
+  }));
+}
+
+void add_queries_of_crowds(const CScene& scene, std::vector<CQuery>& to) {
+  const bch_shape_set* const set = scene.set.get();
+  const auto* const all = &scene;
+  struct Found {
+    OwnedBroadPhase phase = made<bch_broad_phase_free>(bch_broad_phase_create);
+    OwnedCollider collider = made<bch_crowd_collider_free>(bch_crowd_collider_create);
+    OwnedFinder finder = made<bch_contact_finder_free>(bch_contact_finder_create);
+    const bch_pair* pairs = nullptr;
+    std::size_t count = 0;
+    bch_index_rows rows{}, touched{};
+    bch_contact_rows contacts{};
+  };
+  const auto phase = std::make_shared<Found>();
+  to.push_back({"candidates", false,
+                [=] {
+                  return bch_broad_phase_find(phase->phase.get(), set, &all->agents, 0.4, &all->options,
+                                              &phase->pairs, &phase->count);
+                },
+                [=] { return bytes(std::span(phase->pairs, phase->count)); }});
+  for (const bch_obstacles* const walls :
+       std::initializer_list<const bch_obstacles*>{nullptr, all->walls.get()}) {
+    const auto found = std::make_shared<Found>();
+    to.push_back({walls == nullptr ? "collide all" : "collide all and walls", walls != nullptr,
+                  [=] {
+                    return bch_crowd_collider_collide_all(found->collider.get(), set, &all->agents, walls,
+                                                          &all->options, &found->rows,
+                                                          walls == nullptr ? nullptr : &found->touched);
+                  },
+                  [=] {
+                    return row_bytes(found->rows.rows, found->rows.offsets, found->rows.values) +
+                           row_bytes(found->touched.rows, found->touched.offsets, found->touched.values);
+                  }});
+  }
+  for (const bool of_crowd : {false, true}) {
+    const auto found = std::make_shared<Found>();
+    to.push_back({of_crowd ? "all contacts" : "contacts", false,
+                  [=] {
+                    return of_crowd ? bch_contact_finder_find_all(found->finder.get(), set, &all->agents,
+                                                                  &all->options, &found->contacts)
+                                    : bch_contact_finder_find(found->finder.get(), set, &all->agents,
+                                                              c_pairs(all->pairs), all->pairs.size(),
+                                                              &all->options, &found->contacts);
+                  },
+                  [=] {
+                    const bch_contact_rows& rows = found->contacts;
+                    return bytes(std::span(rows.pairs, rows.rows)) +
+                           row_bytes(rows.rows, rows.offsets, rows.values);
+                  }});
+  }
+}
+
+void add_queries_of_obstacles(const CScene& scene, std::vector<CQuery>& to) {
+  const bch_shape_set* const set = scene.set.get();
+  const bch_obstacles* const walls = scene.walls.get();
+  const std::size_t n = scene.agents.count;
+  const auto* const all = &scene;
+  to.push_back(into<std::uint8_t>("walls: collide", true, n, [=](auto* out) {
+    return bch_obstacles_collide(set, &all->agents, walls, &all->options, out);
+  }));
+  to.push_back(into<std::uint8_t>("walls: within", true, n, [=](auto* out) {
+    return bch_obstacles_within(set, &all->agents, walls, all->nearer.data(), n, &all->options, out);
+  }));
+  to.push_back(into<bch_penetration_depth>("walls: penetration", true, n, [=](auto* out) {
+    return bch_obstacles_penetration(set, &all->agents, walls, &all->options, out);
+  }));
+  to.push_back(into<float>("walls: time of impact", true, n, [=](auto* out) {
+    return bch_obstacles_time_of_impact(set, &all->agents, walls, all->x.data(), all->y.data(), &all->options,
+                                        out);
+  }));
+  to.push_back(clearance_into("walls: clearance", true, n, [=](auto* out) {
+    return bch_obstacles_clearance(set, &all->agents, walls, &all->options, out);
+  }));
+}
+
+std::vector<bch_vec2> directions(const std::vector<double>& x, const std::vector<double>& y) {
+  std::vector<bch_vec2> all;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    all.push_back({static_cast<float>(x[i]), static_cast<float>(y[i])});
+  return all;
+}
+
+}  // namespace
+
+CScene::CScene(const ShapeSet& of, Crowd people, std::vector<Pair> asked)
+    : shapes(of),
+      set(c_set(of)),
+      crowd(std::move(people)),
+      agents(c_agents(crowd)),
+      pairs(std::move(asked)),
+      x(drawn(1, std::max(pairs.size(), crowd.x.size()), -2, 2)),
+      y(drawn(2, x.size(), -2, 2)),
+      nearer(drawn(3, x.size(), 0, 0.5)),
+      along(directions(x, y)),
+      walls(made<bch_obstacles_free>(bch_obstacles_from_wkt, walls_text, 0)) {}
+
+std::vector<CQuery> all_queries(const CScene& scene) {
+  std::vector<CQuery> all;
+  add_queries_of_pairs(scene, all);
+  add_queries_of_crowds(scene, all);
+  add_queries_of_obstacles(scene, all);
+  return all;
+}
+
+}  // namespace bch::test
