@@ -6,10 +6,10 @@
 #include "bench/base/command_line.hpp"
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/interrupt.hpp"
+#include "bench/base/options.hpp"
 #include "bench/base/output.hpp"
 #include "bench/base/run_main.hpp"
 #include "bench/base/threads.hpp"
-#include "bench/base/options.hpp"
 #include "bench/report/report.hpp"
 #include "bench/stability/tables.hpp"
 
