@@ -3,74 +3,81 @@
 
 #pragma once
 
-#include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
-#include "bench/ratios/suite.hpp"
+#include "bench/workload/contender.hpp"
+#include "bench/workload/scene.hpp"
 
 namespace bch::bench {
 
-constexpr float leaf_threshold = 0.01f;  ///< metres, of the hierarchies that tables build
+constexpr float leaf_threshold = 0.01f;  ///< metres, of the hierarchies that benchmarks build
 
-/// Judges a ratio: "PASS", or by how much it misses what it needs: "needs 20: 19 % short".
-std::string verdict(double ratio, double needed);
-/// Judges a value that must not exceed `most`: "PASS", or "at most 1.5: 8 % over".
-std::string verdict_at_most(double value, double most);
+/// Registers a benchmark with Google Benchmark. Its contender is made, which checks its answers, when it is first
+/// run; wrong answers are an error of the benchmark, which is then not timed. Each call runs in an arena of so many
+/// threads. One thread is timed by its own clock, which does not count other programs, several by the wall's. The
+/// counter `per_item` is the seconds of an item. What `make` refers to must outlive all runs.
+void add(const std::string& name, std::function<Contender()> make, int threads = 1);
+/// Registers NAME, and NAME/threads:<n> for powers of two, and for all threads of the machine.
+void add_for_threads(const std::string& name, const std::function<Contender()>& make);
 
-/// Represents a part of what is printed: benchmarks that are timed together, and what is told of them.
-struct Table {
-  std::string name;
-  std::string benchmarks;  ///< a regular expression of their names
-  std::function<void(const Results&)> print;
-};
+/// Returns whether a benchmark's answers were wrong.
+bool any_wrong();
 
-/// The following functions add benchmarks and return the tables of them. The scene must outlive the suite.
+/// Returns a function that makes a value by a pointer when it is first called, and keeps it: what several
+/// benchmarks share.
+template <class Make>
+auto once(Make make) {
+  return [ make, kept = std::make_shared<std::invoke_result_t<Make&>>() ]() -> auto& {
+    if (!*kept) *kept = make();
+    return **kept;
+  };
+}
 
-/// Adds the benchmarks `collide/<workload>/<semantics>/<leaves>/<instruction set>[/threads:<n>]` and
-/// `collide/<workload>/boundary/<kind>`: collide(), and structures of others.
-std::vector<Table> collide_tables(Suite& suite, Scene& scene);
-/// Adds the benchmarks `threads/<n>` and `batches/<size>`: one query of many pairs, and queries of a few.
-std::vector<Table> call_tables(Suite& suite, Scene& scene);
-/// Adds the benchmarks `crowd/<agents>/<what>`: pairs and answers of whole crowds.
-std::vector<Table> crowd_tables(Suite& suite, Scene& scene);
-/// Adds the benchmarks `<query>/<workload>/<instruction set|reference>[/threads:<n>]`: the queries beside
-/// collide().
-std::vector<Table> query_tables(Suite& suite, Scene& scene);
-/// Adds the benchmarks `obstacles/<query>`: a crowd on a floor plan.
-std::vector<Table> obstacle_tables(Suite& suite, Scene& scene);
-/// Adds the benchmarks `motions/<first_contact|sampled>/<free|touching>` and `motions/bytes`: people who
-/// walk, as animated shapes.
-std::vector<Table> motion_tables(Suite& suite, Scene& scene);
-/// Adds the benchmarks `bodies/<find_all|loop>`: a crowd of bodies of discs.
-std::vector<Table> body_tables(Suite& suite);
-/// Adds the benchmarks `shapes/<count>`: a crowd of so many different shapes, up to `most`.
-std::vector<Table> shape_count_tables(Suite& suite, Scene& scene, std::uint32_t most);
-/// Adds the benchmarks `plans/<row>/<bake|query>`: sets by different plans.
-std::vector<Table> plan_tables(Suite& suite, Scene& scene);
-/// Adds the benchmarks `slices/<row>/<workload>/<leaves>` and `slices/<row>/build`: bodies in slabs.
-std::vector<Table> slice_tables(Suite& suite, Scene& scene);
-/// Adds the benchmarks `construction/<character>/<instruction set>/<stage>` of the characters, and
-/// `growth/<triangles>/<stage>` of the built-in man with fewer and with more triangles.
-std::vector<Table> build_tables(Suite& suite, Scene& scene);
-/// Adds the benchmarks `load/<part>`: a baked file of the scene's poses, in the file cache.
-std::vector<Table> load_tables(Suite& suite, Scene& scene);
-/// Adds the benchmarks `check/<crowd>/<frames>[/threads:<n>]`: whole recordings, in memory.
-std::vector<Table> check_tables(Suite& suite, Scene& scene);
-/// Adds the benchmarks `moments/<poses|shown|grid|own>`: a crowd of animated shapes at times of a walk.
-std::vector<Table> moment_tables(Suite& suite, Scene& scene);
+/// Makes a contender of collide() for pairs. All but the query's options must outlive it. `wrong` returns what is
+/// wrong with the answers; empty: nothing.
+/// Errors:  throws std::runtime_error on wrong answers.
+Contender collide_contender(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs,
+                            const QueryOptions& query, const std::function<std::string(const Hits&)>& wrong);
+/// Makes one of a workload of shapes that are not the scene's, for discs as leaves.
+Contender collide_contender(const ShapeSet& set, std::span<const Shape> shapes, const Workload& workload);
 
-/// Returns the name of a benchmark of collide().
-std::string collide_name(std::string_view workload, const QueryOptions& query,
-                         std::string_view implementation);
-/// Returns the numbers of threads to measure with: powers of two, and all of the machine's.
-std::vector<int> thread_counts();
-/// Returns a name as a benchmark's that is timed by so many threads.
-std::string with_threads(const std::string& name, int threads);
-/// Returns the name of the instruction set that every processor of this kind has.
-std::string base_implementation();
-/// Returns the names of the instruction sets that run here and are wider than one lane.
-std::vector<std::string> wide_implementations();
+/// Returns the instruction sets that run here.
+std::vector<const Implementation*> supported_implementations();
+
+// The following functions register benchmarks; the scene must outlive them.
+
+/// collide/<workload>/<semantics>/<leaves>/<instruction set>[/threads:<n>]: collide();
+/// collide/<workload>/boundary/<kind>: structures of others.
+void add_collide(Scene& scene);
+/// <query>/<workload>/<instruction set|reference>[/threads:<n>]: the queries beside collide(), and
+/// clearance/near_miss/<fcl_walls|fcl_segments>.
+void add_queries(Scene& scene);
+/// threads/<n>, batches/<size>: one query of many pairs, and queries of a few; crowd/<agents>/<step|pairs>: pairs and
+/// answers of whole crowds; shapes/<count>: a crowd of so many different shapes.
+void add_crowds(Scene& scene);
+/// bodies/<find_all|loop>: a crowd of bodies of discs.
+void add_bodies();
+/// obstacles/<query>: a crowd on a floor plan.
+void add_obstacles(Scene& scene);
+/// motions/<first_contact|sampled>/<free|touching>, motions/bytes: people who walk, as animated shapes.
+void add_motions(Scene& scene);
+/// moments/<poses|shown|grid|own>: a crowd of animated shapes at times of a walk.
+void add_moments(Scene& scene);
+/// plans/<plan>/<bake|query>: sets by different plans; slices/<slabs>/<workload>/<leaves>, slices/<slabs>/build: bodies
+/// in slabs.
+void add_sets(Scene& scene);
+/// live/<agents>/<depth>: frames of a crowd whose characters are all posed anew, on all threads.
+void add_live(Scene& scene);
+/// construction/<character>/<instruction set>/<stage>, construction/<character>/clipper; growth/<triangles>/<stage>:
+/// the built-in man with fewer and with more triangles.
+void add_construction(Scene& scene);
+/// load/<part>: a baked file of the scene's poses, in the file cache.
+void add_load(Scene& scene);
+/// check/<crowd>/<frames>/threads:2: whole recordings, in memory; an item is a person in a frame.
+void add_checks(Scene& scene);
 
 }  // namespace bch::bench

@@ -5,33 +5,24 @@
 
 #include <fmt/format.h>
 
-#include <functional>
+#include <algorithm>
+#include <stdexcept>
+
+#include "bench/workload/contender.hpp"
 
 namespace bch::bench {
 namespace {
 
 using baselines::Truth;
 
-/// The pairs on which two lists of answers do not stand to each other as they should.
-std::string compare(const Hits& hits, const Hits& others, std::string_view relation,
-                    const std::function<bool(bool, bool)>& holds) {
+/// Counts the pairs that are answered otherwise; with `no_miss` only those that miss a hit of the others.
+std::string compare(const Hits& hits, const Hits& others, std::string_view what, bool no_miss) {
   std::size_t wrong = 0, first = 0;
-  for (std::size_t i = 0; i < hits.size(); ++i) {
-    if (holds(hits[i] != 0, others[i] != 0)) continue;
-    if (wrong++ == 0) first = i;
-  }
+  for (std::size_t i = hits.size(); i-- > 0;)
+    if (no_miss ? hits[i] < others[i] : hits[i] != others[i]) ++wrong, first = i;
   if (wrong == 0) return {};
-  return fmt::format("{} fails for {} of {} pairs, the first of them {}", relation, wrong, hits.size(),
-                     first);
-}
-
-std::string expect_equal(const Hits& hits, const Hits& others, std::string_view what) {
-  return compare(hits, others, fmt::format("equal to {}", what), [](bool a, bool b) { return a == b; });
-}
-
-std::string expect_no_miss(const Hits& hits, const Hits& others, std::string_view what) {
-  return compare(hits, others, fmt::format("never missing a hit of {}", what),
-                 [](bool a, bool b) { return a || !b; });
+  return fmt::format("{} {} fails for {} of {} pairs, the first of them {}",
+                     no_miss ? "never missing a hit of" : "equal to", what, wrong, hits.size(), first);
 }
 
 /// The first other kind with the same truth: who wrote it does not matter, as all have to agree.
@@ -43,9 +34,18 @@ const baselines::Kind* peer_of(const baselines::Kind& kind) {
 
 }  // namespace
 
+void require_right(std::string_view name, const Workload& workload, const std::string& wrong) {
+  if (!wrong.empty()) throw std::runtime_error(fmt::format("{} on {}: {}", name, workload.name, wrong));
+}
+
+bool has_kind(std::string_view kind) {
+  return std::ranges::any_of(baselines::kinds(),
+                             [&](const baselines::Kind& row) { return row.name == kind; });
+}
+
 std::string wrong_kernel(Scene& scene, const Workload& workload, const QueryOptions& query,
                          const Hits& hits) {
-  return expect_equal(hits, scene.expected(query, workload), "brute force");
+  return compare(hits, scene.expected(query, workload), "brute force", false);
 }
 
 std::string wrong_answers(const baselines::Reference& reference, const Agents& agents,
@@ -61,19 +61,20 @@ std::string wrong_answers(const baselines::Reference& reference, const Agents& a
 
 std::string wrong_structure(Scene& scene, const Workload& workload, const baselines::Kind& kind,
                             const Hits& hits, std::uint32_t max_depth) {
+  const auto expect_no_miss = [&](std::string_view other, std::string_view what) {
+    return compare(hits, scene.hits(other, workload), what, true);
+  };
   if (kind.exact != Truth::none && max_depth != all_depths)
-    return expect_no_miss(hits, scene.hits(kind.name, workload), "itself at all depths");
+    return expect_no_miss(kind.name, "itself at all depths");
   std::string wrong;
   if (kind.name == "reference") wrong = wrong_kernel(scene, workload, disc_query, hits);
-  if (kind.name == "paper_descent")
-    wrong = expect_no_miss(hits, scene.hits("reference", workload), "reference");
-  if (const auto* peer = kind.exact == Truth::none ? nullptr : peer_of(kind);
-      peer != nullptr && wrong.empty())
-    wrong = expect_equal(hits, scene.hits(peer->name, workload), peer->name);
+  if (kind.name == "paper_descent") wrong = expect_no_miss("reference", "reference");
+  const baselines::Kind* const peer = kind.exact == Truth::none ? nullptr : peer_of(kind);
+  if (peer != nullptr && wrong.empty())
+    wrong = compare(hits, scene.hits(peer->name, workload), peer->name, false);
   if (wrong.empty() && (kind.never_misses_outlines || kind.exact == Truth::projection))
-    wrong = expect_no_miss(hits, scene.hits("obb_contour", workload), "obb_contour");
-  if (wrong.empty() && kind.exact == Truth::projection)
-    wrong = expect_no_miss(hits, scene.hits("obb_full", workload), "obb_full");
+    wrong = expect_no_miss("obb_contour", "obb_contour");
+  if (wrong.empty() && kind.exact == Truth::projection) wrong = expect_no_miss("obb_full", "obb_full");
   return wrong;
 }
 

@@ -9,10 +9,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include <bch/default_characters.hpp>
-
 #include "baselines/welzl.hpp"
-#include "bench/workload/mesh_detail.hpp"
 
 namespace bch::bench {
 namespace {
@@ -93,58 +90,49 @@ const detail::BuildImplementation& other_than(const detail::BuildImplementation&
 
 }  // namespace
 
-struct BuildStages::Others {
-  OutlineBuilder outline;
-  detail::HierarchyBuilder hierarchy;
-  detail::InteriorBuilder interior;
-
-  Others(const Character& character, const detail::BuildImplementation& implementation)
-      : outline(character.triangles, character.vertices.size(), character.vertices, implementation),
-        hierarchy(implementation),
-        interior(implementation) {}
-};
-
 BuildStages::BuildStages(const Character& character, std::uint32_t poses,
                          const detail::BuildImplementation& implementation)
+    : BuildStages(Unchecked{}, character, poses, implementation) {
+  const BuildStages other(Unchecked{}, character, poses, other_than(implementation));
+  for (std::size_t pose = 0; pose < times_.size(); ++pose) check(pose, other);
+}
+
+BuildStages::BuildStages(Unchecked, const Character& character, std::uint32_t poses,
+                         const detail::BuildImplementation& implementation)
     : times_(sample_poses(character, poses)),
-      positions_(times_.size()),
-      outlines_(times_.size()),
-      hierarchies_(times_.size()),
       skinner_(character),
       outline_builder_(character.triangles, character.vertices.size(), character.vertices, implementation),
       hierarchy_builder_(implementation),
       welzl_builder_(by_welzl()),
       interior_builder_(implementation) {
-  Others others(character, other_than(implementation));
-  for (std::size_t pose = 0; pose < times_.size(); ++pose) make_and_check(pose, others);
+  for (std::size_t pose = 0; pose < times_.size(); ++pose) {
+    const auto positions = skinner_.ground_pose(times_[pose]);
+    positions_.emplace_back(positions.begin(), positions.end());
+    outline(pose);
+    outlines_.push_back(outline_);
+    hierarchy(pose);
+    hierarchies_.push_back(hierarchy_);
+    interior(pose);
+    interiors_.push_back(interior_);
+  }
 }
 
-void BuildStages::make_and_check(std::size_t pose, Others& others) {
-  const auto positions = skinner_.ground_pose(times_[pose]);
-  positions_[pose].assign(positions.begin(), positions.end());
-  outline(pose);
-  outlines_[pose] = outline_;
-  others.outline.build(positions_[pose], outline_);
-  require(same(outline_, outlines_[pose]), "outline", pose);
-  hierarchy(pose);
-  hierarchies_[pose] = hierarchy_;
-  others.hierarchy.contour(outlines_[pose], threshold, SplitRule::centroid, hierarchy_);
-  require(same(hierarchy_, hierarchies_[pose], 0), "hierarchy", pose);
-  hierarchy_welzl(pose);
-  require(same(hierarchy_, hierarchies_[pose], 1e-6f), "hierarchy_welzl", pose);
-  interior(pose);
-  const detail::Interior alone = interior_;
-  require(same(others.interior.build(outlines_[pose], hierarchies_[pose].reach), alone), "interior", pose);
-  levels(pose);
-  require(holds_cut(tree_, hierarchies_[pose], depths[std::size(depths) - 1]), "levels", pose);
+void BuildStages::check(std::size_t pose, const BuildStages& other) {
   const auto is_as_alone = [&] {
     return same(outline_, outlines_[pose]) && same(hierarchy_, hierarchies_[pose], 0) &&
            holds_cut(tree_, hierarchies_[pose], depths[std::size(depths) - 1]);
   };
+  require(same(other.outlines_[pose], outlines_[pose]), "outline", pose);
+  require(same(other.hierarchies_[pose], hierarchies_[pose], 0), "hierarchy", pose);
+  require(same(other.interiors_[pose], interiors_[pose]), "interior", pose);
+  hierarchy_welzl(pose);
+  require(same(hierarchy_, hierarchies_[pose], 1e-6f), "hierarchy_welzl", pose);
+  levels(pose);
+  require(holds_cut(tree_, hierarchies_[pose], depths[std::size(depths) - 1]), "levels", pose);
   this->pose(pose);
   require(is_as_alone(), "pose", pose);
   all(pose);
-  require(is_as_alone() && same(interior_, alone), "all", pose);
+  require(is_as_alone() && same(interior_, interiors_[pose]), "all", pose);
 }
 
 void BuildStages::skin(std::size_t pose) {
@@ -205,16 +193,6 @@ void BuildStages::flatten(const Hierarchy& hierarchy, bool culling) {
   if (!culling) return;
   supports_ = flattener_.supports();
   use(supports_);
-}
-
-MenInDetail::MenInDetail() : man_(default_male()), coarse_(coarser(man_, 1'000)) {}
-
-Character MenInDetail::make(std::size_t i) const {
-  return finer(base(i), times(i));
-}
-
-std::uint32_t MenInDetail::poses(std::size_t i) const {
-  return static_cast<std::uint32_t>(std::clamp<std::size_t>(1'000'000 / triangles(i), 10, 100));
 }
 
 }  // namespace bch::bench

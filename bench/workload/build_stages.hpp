@@ -55,8 +55,10 @@ class BuildStages {
   void all(std::size_t pose);
 
  private:
-  struct Others;  ///< what builders are compared with
-  void make_and_check(std::size_t pose, Others& others);
+  struct Unchecked {};
+  BuildStages(Unchecked, const Character& character, std::uint32_t poses,
+              const detail::BuildImplementation& implementation);
+  void check(std::size_t pose, const BuildStages& other);
   void look_inside(const Outline& outline, double reach);
   void make_hierarchy(std::size_t pose);
   void flatten(const Hierarchy& hierarchy, bool culling);
@@ -65,6 +67,7 @@ class BuildStages {
   std::vector<std::vector<Vec2>> positions_;
   std::vector<Outline> outlines_;
   std::vector<Hierarchy> hierarchies_;
+  std::vector<detail::Interior> interiors_;
 
   detail::Skinner skinner_;
   OutlineBuilder outline_builder_;
@@ -91,24 +94,6 @@ constexpr BuildStage build_stages[] = {
     {"hierarchy", &BuildStages::hierarchy}, {"hierarchy_welzl", &BuildStages::hierarchy_welzl},
     {"levels", &BuildStages::levels},       {"interior", &BuildStages::interior},
     {"pose", &BuildStages::pose},           {"all", &BuildStages::all},
-};
-
-/// Holds the built-in man with fewer triangles and with more, from 1 000 to beyond 100 000.
-class MenInDetail {
- public:
-  MenInDetail();
-
-  std::size_t count() const { return 8; }
-  std::size_t triangles(std::size_t i) const { return base(i).triangles.size() << 2 * times(i); }
-  Character make(std::size_t i) const;
-  /// Returns how many different poses to take, so that their memory stays below a gigabyte.
-  std::uint32_t poses(std::size_t i) const;
-
- private:
-  const Character& base(std::size_t i) const { return i % 2 == 0 ? coarse_ : man_; }
-  static int times(std::size_t i) { return static_cast<int>(i / 2); }
-
-  Character man_, coarse_;
 };
 
 }  // namespace bch::bench

@@ -17,8 +17,8 @@ namespace {
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-/// The middle of two vertices, at the end of the character's.
-std::uint32_t add_middle(Character& character, std::uint32_t a, std::uint32_t b) {
+/// Adds the middle of two vertices behind the character's others.
+void add_middle(Character& character, std::uint32_t a, std::uint32_t b) {
   std::map<std::uint32_t, float> weights;
   for (const std::uint32_t end : {a, b})
     for (std::uint32_t i = character.influence_begin[end]; i < character.influence_begin[end + 1]; ++i)
@@ -27,7 +27,6 @@ std::uint32_t add_middle(Character& character, std::uint32_t a, std::uint32_t b)
   character.influence_begin.push_back(static_cast<std::uint32_t>(character.influences.size()));
   character.vertices.push_back(detail::vec3(
       0.5f * (detail::to_eigen(character.vertices[a]) + detail::to_eigen(character.vertices[b]))));
-  return static_cast<std::uint32_t>(character.vertices.size() - 1);
 }
 
 /// Returns the normals of the surface at each vertex, at rest.
@@ -42,36 +41,26 @@ std::vector<Eigen::Vector3f> normals_of(const Character& character) {
   return normals;
 }
 
-/// Moves the middles of edges, which stand behind the vertices that there were.
-class Relief {
- public:
-  void begin(const Character& character) { normals_ = normals_of(character); }
-
-  void move_middle(Character& character, std::uint32_t a, std::uint32_t b) {
-    constexpr double most = 0.125;  // of the edge's length
-    const float length =
-        (detail::to_eigen(character.vertices[a]) - detail::to_eigen(character.vertices[b])).norm();
-    const Eigen::Vector3f normal = (normals_[a].normalized() + normals_[b].normalized()).normalized();
-    const auto share = static_cast<float>(random_.uniform(2 * most) - most);
-    Vec3& middle = character.vertices.back();
-    middle = detail::vec3(detail::to_eigen(middle) + share * length * normal);
-  }
-
- private:
-  detail::Random random_{5};
-  std::vector<Eigen::Vector3f> normals_;
-};
-
-void cut(Character& character, Relief* relief = nullptr) {
-  if (relief != nullptr) relief->begin(character);
+/// Cuts every triangle into four. The middles of edges move along the surface's normal, in or out, by up to so large a
+/// share of the edge's length.
+void cut(Character& character, double relief, detail::Random& random) {
+  const std::vector<Eigen::Vector3f> normals = normals_of(character);
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middle_of;
-  const auto middle = [&](std::uint32_t a, std::uint32_t b) {
-    const std::pair<std::uint32_t, std::uint32_t> edge = std::minmax(a, b);
-    const auto found = middle_of.find(edge);
-    if (found != middle_of.end()) return found->second;
-    const std::uint32_t added = add_middle(character, edge.first, edge.second);
-    if (relief != nullptr) relief->move_middle(character, edge.first, edge.second);
-    return middle_of[edge] = added;
+  const auto middle = [&](std::uint32_t v, std::uint32_t w) {
+    const auto [a, b] = std::minmax(v, w);
+    const auto [found, is_new] =
+        middle_of.try_emplace({a, b}, static_cast<std::uint32_t>(character.vertices.size()));
+    if (!is_new) return found->second;
+    add_middle(character, a, b);
+    if (relief > 0) {
+      const float length =
+          (detail::to_eigen(character.vertices[a]) - detail::to_eigen(character.vertices[b])).norm();
+      const Eigen::Vector3f normal = (normals[a].normalized() + normals[b].normalized()).normalized();
+      const auto share = static_cast<float>(random.uniform(2 * relief) - relief);
+      Vec3& at = character.vertices.back();
+      at = detail::vec3(detail::to_eigen(at) + share * length * normal);
+    }
+    return found->second;
   };
   Triangles finer;
   for (const auto [a, b, c] : character.triangles) {
@@ -79,6 +68,12 @@ void cut(Character& character, Relief* relief = nullptr) {
     finer.insert(finer.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
   }
   character.triangles = std::move(finer);
+}
+
+Character cut_times(Character character, int times, double relief) {
+  detail::Random random(5);
+  for (int i = 0; i < times; ++i) cut(character, relief, random);
+  return character;
 }
 
 Triangles merged(const Character& character, float cell) {
@@ -124,16 +119,11 @@ void drop_vertices(Character& character) {
 }  // namespace
 
 Character finer(const Character& character, int times) {
-  Character result = character;
-  for (int i = 0; i < times; ++i) cut(result);
-  return result;
+  return cut_times(character, times, 0);
 }
 
 Character with_relief(const Character& character, int times) {
-  Character result = character;
-  Relief relief;
-  for (int i = 0; i < times; ++i) cut(result, &relief);
-  return result;
+  return cut_times(character, times, 0.125);
 }
 
 Character coarser(const Character& character, std::size_t most) {

@@ -43,38 +43,19 @@ bool come_near(std::span<const PathKey> a, std::span<const PathKey> b) {
   return false;
 }
 
-/// Two bodies at a time, as agents of a set of their own.
-struct BothAt {
-  ShapeSet shapes;
-  std::vector<std::uint32_t> shape = {0, 1};
-  std::vector<double> x, y, heading;
-
-  BothAt(std::vector<Shape> both, const Motion& a, const Motion& b, double time) : shapes(both) {
-    for (const Motion* const each : {&a, &b}) {
-      const PathKey key = at(each->path, time);
-      x.push_back(key.x), y.push_back(key.y), heading.push_back(key.heading);
-    }
+/// Returns how far two bodies are from each other at a time, by clearance() of shapes made for that time.
+double gap_at(const Motion& a, const Motion& b, double time) {
+  std::vector<Shape> shapes;
+  cli::Crowd crowd;
+  for (const Motion* const each : {&a, &b}) {
+    const PathKey key = at(each->path, time);
+    add_agent(crowd, static_cast<std::uint32_t>(shapes.size()), key.x, key.y, key.heading);
+    shapes.push_back(each->shape->shape(time - each->clip_begin));
   }
-  Agents agents() const { return {shape, x, y, heading}; }
-  double gap() const {
-    constexpr Pair both{0, 1};
-    float gap = 0;
-    clearance(shapes, agents(), {&both, 1}, {.distance = {&gap, 1}});
-    return double{gap};
-  }
-};
-
-/// Returns the body of a motion at a time.
-Shape body_at(const Motion& motion, double time) {
-  return motion.shape->shape(time - motion.clip_begin);
-}
-
-/// Calls look(time) at every millisecond before a time at which two bodies may meet.
-template <class Look>
-void for_each_millisecond(const Motion& a, const Motion& b, double until, Look look) {
-  const double reaches = a.shape->reach() + b.shape->reach();
-  for (int k = 0; k * 0.001 < std::min(until, MotionScene::seconds); ++k)
-    if (distance(at(a.path, k * 0.001), at(b.path, k * 0.001)) <= reaches) look(k * 0.001);
+  constexpr Pair both{0, 1};
+  float gap = 0;
+  clearance(ShapeSet(shapes), crowd.agents(), {&both, 1}, {.distance = {&gap, 1}});
+  return double{gap};
 }
 
 AnimatedClip animated_clip(const Character& character, std::uint32_t clip, double most_seconds) {
@@ -152,51 +133,39 @@ std::vector<Pair> MotionScene::pairs(bool touching) const {
 void MotionScene::check(std::uint32_t pairs) const {
   tbb::parallel_for(std::size_t{0}, std::min<std::size_t>(pairs, pairs_.size()), [&](std::size_t i) {
     const Motion &a = motions_[pairs_[i].first], &b = motions_[pairs_[i].second];
-    const auto gap_at = [&](double time) {
-      return BothAt({body_at(a, time), body_at(b, time)}, a, b, time).gap();
-    };
     const auto require = [&](bool right, const char* what, double time) {
       if (!right) throw std::runtime_error(fmt::format("first contact of pair {} {} {} s", i, what, time));
     };
-    for_each_millisecond(a, b, contacts_[i],
-                         [&](double time) { require(gap_at(time) > 0, "is behind", time); });
+    const double reaches = a.shape->reach() + b.shape->reach(), until = std::min(contacts_[i], seconds);
+    for (int k = 0; k * 0.001 < until; ++k)
+      if (distance(at(a.path, k * 0.001), at(b.path, k * 0.001)) <= reaches)
+        require(gap_at(a, b, k * 0.001) > 0, "is behind", k * 0.001);
     if (contacts_[i] < never)
-      require(gap_at(contacts_[i]) <= tolerance + rounding, "is too early at", contacts_[i]);
+      require(gap_at(a, b, contacts_[i]) <= tolerance + rounding, "is too early at", contacts_[i]);
   });
 }
 
-namespace {
-
-/// Returns all poses of all clips, as the animated bodies are at these times.
-ShapeSet poses_of(std::span<const AnimatedClip> clips, double per_second) {
-  std::vector<Shape> poses;
-  for (const AnimatedClip& clip : clips)
-    for (double k = 0; k <= std::floor(clip.seconds * per_second); ++k)
-      poses.push_back(clip.shape.shape(k / per_second));
-  return ShapeSet(poses);
-}
-
-}  // namespace
-
 SampledMotions::SampledMotions(const MotionScene& scene, double samples_per_second, double poses_per_second)
     : samples_per_second_(samples_per_second),
-      samples_(static_cast<std::uint32_t>(MotionScene::seconds * samples_per_second) + 1),
-      poses_(poses_of(scene.clips(), poses_per_second)) {
+      samples_(static_cast<std::uint32_t>(MotionScene::seconds * samples_per_second) + 1) {
+  std::vector<Shape> poses;  // all of all clips, as the animated bodies are at these times
   std::vector<std::uint32_t> first_pose{0};
-  for (const AnimatedClip& clip : scene.clips())
-    first_pose.push_back(first_pose.back() + static_cast<std::uint32_t>(clip.seconds * poses_per_second) + 1);
+  for (const AnimatedClip& clip : scene.clips()) {
+    for (double k = 0; k <= std::floor(clip.seconds * poses_per_second); ++k)
+      poses.push_back(clip.shape.shape(k / poses_per_second));
+    first_pose.push_back(static_cast<std::uint32_t>(poses.size()));
+  }
+  poses_.emplace(poses);
   for (std::uint32_t motion = 0; motion < scene.motions().size(); ++motion) {
     const Motion& of = scene.motions()[motion];
-    const std::uint32_t first = first_pose[scene.clip(motion)],
-                        count = first_pose[scene.clip(motion) + 1] - first;
+    const std::uint32_t clip = scene.clip(motion), first = first_pose[clip];
+    const detail::AnimatedTree& tree = scene.clips()[clip].shape.tree();
     for (std::uint32_t k = 0; k < samples_; ++k) {
       const double time = k / samples_per_second;
       const PathKey key = at(of.path, time);
-      const AnimatedClip& clip = scene.clips()[scene.clip(motion)];
-      const double pose =
-          std::round(detail::time_in_clip(clip.shape.tree(), time - of.clip_begin) * poses_per_second);
-      shape_.push_back(first + std::min(static_cast<std::uint32_t>(pose), count - 1));
-      x_.push_back(key.x), y_.push_back(key.y), heading_.push_back(key.heading);
+      const double pose = std::round(detail::time_in_clip(tree, time - of.clip_begin) * poses_per_second);
+      add_agent(all_, std::min(first + static_cast<std::uint32_t>(pose), first_pose[clip + 1] - 1), key.x,
+                key.y, key.heading);
     }
   }
 }
@@ -205,20 +174,19 @@ double SampledMotions::first_contact(const Pair& pair) const {
   const auto batch = std::max(1u, static_cast<std::uint32_t>(samples_per_second_ / 10));
   std::vector<Pair> pairs;
   for (std::uint32_t k = 0; k < batch; ++k) pairs.push_back({k, batch + k});
-  // Agents that are together, because those between the ones of pairs are looked at, too.
-  std::vector<std::uint32_t> shape(2 * batch);
-  std::vector<double> x(2 * batch), y(2 * batch), heading(2 * batch);
   Hits hits(batch);
   for (std::uint32_t from = 0; from < samples_; from += batch) {
     const std::uint32_t count = std::min(batch, samples_ - from);
-    const auto take = [&](const auto& all, auto& some) {
-      for (const std::uint32_t motion : {0u, 1u})
-        std::copy_n(all.begin() + (motion == 0 ? pair.first : pair.second) * samples_ + from, count,
-                    some.begin() + motion * batch);
+    // Agents that are together, because those between the ones of pairs are looked at, too.
+    const auto together = [&](const auto& all) {
+      std::remove_cvref_t<decltype(all)> some(2 * batch);
+      std::copy_n(all.begin() + pair.first * samples_ + from, count, some.begin());
+      std::copy_n(all.begin() + pair.second * samples_ + from, count, some.begin() + batch);
+      return some;
     };
-    take(shape_, shape), take(x_, x), take(y_, y), take(heading_, heading);
-    collide(poses_, {shape, x, y, heading}, std::span(pairs).first(count), std::span(hits).first(count),
-            disc_query);
+    const cli::Crowd crowd{0, together(all_.shape), together(all_.x), together(all_.y),
+                           together(all_.heading)};
+    collide(*poses_, crowd.agents(), std::span(pairs).first(count), std::span(hits).first(count), disc_query);
     const auto hit = std::find(hits.begin(), hits.begin() + count, 1);
     if (hit != hits.begin() + count)
       return (from + static_cast<double>(hit - hits.begin())) / samples_per_second_;

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -12,6 +13,7 @@
 #include <bch/time_of_impact.hpp>
 
 #include "bench/characters/characters.hpp"
+#include "bench/characters/crowd.hpp"
 
 namespace bch::bench {
 
@@ -81,9 +83,8 @@ class SampledMotions {
  private:
   double samples_per_second_;
   std::uint32_t samples_;  ///< of a motion
-  ShapeSet poses_;
-  std::vector<std::uint32_t> shape_;
-  std::vector<double> x_, y_, heading_;  ///< motion by motion
+  std::optional<ShapeSet> poses_;
+  cli::Crowd all_;  ///< an agent a sample, motion by motion
 };
 
 }  // namespace bch::bench

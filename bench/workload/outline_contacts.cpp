@@ -25,11 +25,11 @@ namespace {
 using baselines::Point2;
 using baselines::Segment2;
 
-constexpr double never = std::numeric_limits<double>::infinity();
-constexpr double samples_per_second = 1000;
+constexpr double never_meeting = std::numeric_limits<double>::infinity();
+constexpr double looks_per_second = 1000;
 
 struct Box {
-  Point2 low{never, never}, high{-never, -never};
+  Point2 low{never_meeting, never_meeting}, high{-never_meeting, -never_meeting};
 
   void add(const Point2& p) {
     low = {std::min(low.x, p.x), std::min(low.y, p.y)}, high = {std::max(high.x, p.x), std::max(high.y, p.y)};
@@ -115,9 +115,9 @@ class ClipOutlines {
  public:
   explicit ClipOutlines(const AnimatedClip& clip) : tree_(clip.shape.tree()) {
     PoseShaper shaper(*clip.character);
-    const auto count = static_cast<std::size_t>(std::lround(clip.seconds * samples_per_second));
+    const auto count = static_cast<std::size_t>(std::lround(clip.seconds * looks_per_second));
     for (std::size_t k = 0; k < count; ++k) {
-      const auto time = static_cast<float>(static_cast<double>(k) / samples_per_second);
+      const auto time = static_cast<float>(static_cast<double>(k) / looks_per_second);
       outlines_.push_back(shaper.make_outlines({clip.clip, time}).outline);
       double square = 0;
       for (const Vec2& p : outlines_.back().points)
@@ -129,7 +129,7 @@ class ClipOutlines {
   /// Returns which outline is shown at a time since the clip was at its beginning.
   std::size_t index(double seconds) const {
     const double in_clip = detail::time_in_clip(tree_, seconds);
-    return static_cast<std::size_t>(std::lround(in_clip * samples_per_second)) % outlines_.size();
+    return static_cast<std::size_t>(std::lround(in_clip * looks_per_second)) % outlines_.size();
   }
   const Outline& outline(std::size_t index) const { return outlines_[index]; }
   /// Returns the radius of the circle about the agent that holds an outline.
@@ -150,8 +150,8 @@ struct Shown {
 /// Returns the first sample at which the outlines of two meet, or infinity.
 double first_meeting(const Shown& a, const Shown& b, std::uint64_t& compared) {
   PlacedOutline of_a, of_b;
-  for (std::size_t k = 0; k <= static_cast<std::size_t>(MotionScene::seconds * samples_per_second); ++k) {
-    const double time = static_cast<double>(k) / samples_per_second;
+  for (std::size_t k = 0; k <= static_cast<std::size_t>(MotionScene::seconds * looks_per_second); ++k) {
+    const double time = static_cast<double>(k) / looks_per_second;
     const PathKey key_a = at(a.motion.path, time), key_b = at(b.motion.path, time);
     const double x = key_b.x - key_a.x, y = key_b.y - key_a.y;
     const std::size_t in_a = a.outlines.index(time - a.motion.clip_begin),
@@ -162,7 +162,7 @@ double first_meeting(const Shown& a, const Shown& b, std::uint64_t& compared) {
     of_b.place(b.outlines.outline(in_b), x, y, key_b.heading);
     if (meet(of_a, of_b)) return time;
   }
-  return never;
+  return never_meeting;
 }
 
 }  // namespace
@@ -182,7 +182,7 @@ OutlineContacts outline_contacts(const MotionScene& scene) {
   OutlineContacts found;
   for (std::size_t i = 0; i < meetings.size(); ++i) {
     found.compared += compared[i];
-    if (meetings[i] == never) continue;
+    if (meetings[i] == never_meeting) continue;
     const double ahead = meetings[i] - scene.contacts()[i];
     ++found.meeting;
     if (ahead < 0)

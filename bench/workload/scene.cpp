@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "baselines/reference.hpp"
-#include "bench/workload/distance_answers.hpp"
 #include "layout/character/skinning.hpp"
 
 namespace bch::bench {

@@ -35,13 +35,6 @@ Point root_offset(const Shape& shape, double heading) {
   return {turn.cosine * x - turn.sine * y, turn.sine * x + turn.cosine * y};
 }
 
-void add(cli::Crowd& crowd, std::uint32_t shape, Point at, double heading) {
-  crowd.shape.push_back(shape);
-  crowd.x.push_back(at.x);
-  crowd.y.push_back(at.y);
-  crowd.heading.push_back(heading);
-}
-
 void add_candidate(detail::Random& random, std::span<const Shape> shapes, cli::Crowd& crowd) {
   const auto count = static_cast<std::uint32_t>(shapes.size());
   const std::uint32_t a = random.below(count), b = random.below(count);
@@ -54,19 +47,17 @@ void add_candidate(detail::Random& random, std::span<const Shape> shapes, cli::C
   const double distance = most * std::sqrt(random.uniform(1));  // uniform over the area
   const detail::Rotation turn = detail::rotation(angle);
   const Point from = root_offset(shapes[a], heading_a), to = root_offset(shapes[b], heading_b);
-  add(crowd, a, at, heading_a);
-  add(crowd, b, {at.x + from.x + distance * turn.cosine - to.x, at.y + from.y + distance * turn.sine - to.y},
-      heading_b);
-}
-
-void resize(cli::Crowd& crowd, std::size_t agents) {
-  crowd.shape.resize(agents);
-  crowd.x.resize(agents);
-  crowd.y.resize(agents);
-  crowd.heading.resize(agents);
+  add_agent(crowd, a, at.x, at.y, heading_a);
+  add_agent(crowd, b, at.x + from.x + distance * turn.cosine - to.x,
+            at.y + from.y + distance * turn.sine - to.y, heading_b);
 }
 
 }  // namespace
+
+void add_agent(cli::Crowd& crowd, std::uint32_t shape, double x, double y, double heading) {
+  crowd.shape.push_back(shape);
+  crowd.x.push_back(x), crowd.y.push_back(y), crowd.heading.push_back(heading);
+}
 
 std::span<const std::string_view> workload_names() {
   return names;
@@ -89,7 +80,8 @@ Workload random_pairs(std::string_view name, std::uint64_t seed, std::span<const
       workload.pairs.push_back(pair);
       in_vain = 0;
     } else {
-      resize(workload.crowd, agent);
+      auto& [side, shape, x, y, heading] = workload.crowd;
+      shape.resize(agent), x.resize(agent), y.resize(agent), heading.resize(agent);
     }
   }
   return workload;

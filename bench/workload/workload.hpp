@@ -32,6 +32,8 @@ struct WorkloadSizes {
   std::uint32_t agents = 10'000;  ///< of the crowd
 };
 
+void add_agent(cli::Crowd& crowd, std::uint32_t shape, double x, double y, double heading);
+
 /// Returns the names of the workloads, in the order of reports:
 ///   colliding     distinct pairs whose meshes intersect
 ///   near_miss     distinct pairs whose root discs overlap while the meshes do not intersect
@@ -55,6 +57,9 @@ Workload random_pairs(std::string_view name, std::uint64_t seed, std::span<const
 /// The density and the seed of the crowd, and of others that are measured beside it.
 constexpr double agents_per_square_metre = 3;
 constexpr std::uint64_t crowd_seed = 34;
+
+constexpr double clearance_limit =
+    0.5;  ///< metres: of clearances that are asked for, and the candidates' margin
 
 /// Returns the crowd, or with a margin the candidates.
 Workload crowd_pairs(const ShapeSet& set, std::uint32_t agents, double margin = 0);

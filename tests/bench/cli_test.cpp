@@ -17,7 +17,7 @@ namespace {
 /// Of the programs beside it those that were built: not every build has them all.
 TEST(Cli, TheOtherProgramsGiveTheSameExitCodes) {
   const std::filesystem::path folder = std::filesystem::path(BCH_PROGRAM).parent_path();
-  for (const std::string name : {"bch_live_crowd", "bch_ratios"}) {
+  for (const std::string name : {"bch_lab", "bch_ratios"}) {
     const std::string program = folder / name;
     if (!std::filesystem::exists(program)) continue;
     EXPECT_EQ(run_program(program, {"--help"}).code, 0) << name;

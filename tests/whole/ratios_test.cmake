@@ -1,32 +1,66 @@
-# bch_ratios starts, finds its own answers right, and prints what it must. Nothing is timed.
+# bch_ratios starts and finds its own answers right; ratios.py runs it and prints what it must. Nothing is timed.
+# Usage: cmake -DRATIOS=... -DSCRIPT=... -DPYTHON=... -DWORK=... -P ratios_test.cmake
 set(sizes --poses=2 --pairs=200 --agents=300)
 
-execute_process(COMMAND ${RATIOS} ${sizes} --runs=1 --shapes=5000 OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE code)
-if(NOT code EQUAL 0 OR NOT output MATCHES "colliding, solid: 200 pairs" OR NOT output MATCHES "OBB tree, outline \\| 4630" OR
-    NOT output MATCHES "an agent of a crowd of 1 000 000" OR NOT output MATCHES "a pair among 5 000 shapes" OR NOT output MATCHES "sse2 [^\n]*at most 90" OR
-    NOT output MATCHES "hierarchy over the same builder" OR NOT output MATCHES "183 296 " OR NOT output MATCHES "map_alone" OR
-    NOT output MATCHES "plan of a scene" OR NOT output MATCHES "clearance within 0.5 m, near_miss" OR NOT output MATCHES "whether within 0.1 m, crowd" OR NOT output MATCHES "time of impact within 0.5 s, crowd" OR
-    NOT output MATCHES "collide_all  [^\n]*over collide's" OR NOT output MATCHES "300 agents on a floor")
-  message(FATAL_ERROR "bch_ratios: ${code}\n${output}")
-endif()
+# Runs a command, whose exit code has to be as expected. Sets output.
+function(run expected)
+  execute_process(COMMAND ${ARGN} OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE code)
+  if(NOT code EQUAL ${expected})
+    message(FATAL_ERROR "exit code ${code}, where ${expected} is expected, of ${ARGN}\n${output}")
+  endif()
+  set(output "${output}" PARENT_SCOPE)
+endfunction()
 
-# With an option of Google Benchmark's its own report: here of what no table tells.
-execute_process(COMMAND ${RATIOS} ${sizes} --runs=1 --benchmark_min_time=0.0001 --benchmark_filter=-^\(check|crowd|growth|motions|shapes|threads\)/
-  OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE code)
-if(NOT code EQUAL 0 OR output MATCHES "ERROR OCCURRED")
-  message(FATAL_ERROR "bch_ratios: ${code}\n${output}")
-endif()
-set(names penetration/colliding/reference contacts/crowd/scalar collide_all/crowd/sse2 load/checksum_alone plans/3/bake
+function(expect_output)
+  foreach(pattern IN LISTS ARGN)
+    if(NOT output MATCHES "${pattern}")
+      message(FATAL_ERROR "'${pattern}' is not in\n${output}")
+    endif()
+  endforeach()
+endfunction()
+
+set(script ${PYTHON} ${SCRIPT})
+run(0 ${script} --program ${RATIOS} --runs 1 -- ${sizes} --benchmark_filter=-shapes/50000)
+foreach(table kernel leaves peers calls crowd distances responses obstacles motions bodies shapes plans slices live construction growth load
+    moments checks paper)
+  expect_output("# ${table}: 1 runs")
+endforeach()
+expect_output("collide/colliding: boundary/reference / solid/discs/sse2 +[0-9.]+ x +(PASS|needs) " "crowd/1000000/step#MiB +[0-9.]+  "
+  "shapes: 5000 / 200 +[0-9.]+ x" "shapes/50000 / shapes/200: not in this build" "construction/1/sse2/all +[0-9 .]+ ns [^\n]*90000"
+  "hierarchy_welzl / hierarchy" "growth: 183296/all@n_log_n / 996/all@n_log_n" "ns an item +map +read +map_alone" "plans/mixed [^\n]*bytes"
+  "live/1000 [^\n]*shapes_ms" "collide_all/crowd/[a-z0-9]+ / collide/crowd" "obb_contour / reference +[0-9.]+ x +4630 ns")
+
+# Here of what no table tells.
+run(0 ${RATIOS} ${sizes} --benchmark_min_time=0.0001 --benchmark_filter=-^\(check|crowd|growth|live|motions|shapes|threads\)/)
+set(names penetration/colliding/reference contacts/crowd/scalar collide_all/crowd/sse2 load/checksum_alone plans/all/bake
   construction/1/sse2/hierarchy_welzl)
 foreach(workload colliding near_miss no_hit crowd candidates paper500 paper500_cached)
   list(APPEND names collide/${workload}/boundary/segments/sse2 collide/${workload}/solid/discs/scalar
     collide/${workload}/boundary/obb_full clearance/${workload}/reference within/${workload}/reference time_of_impact/${workload}/sse2)
 endforeach()
 foreach(name IN LISTS names)
-  if(NOT output MATCHES "${name} [^\n]*per_item=")
-    message(FATAL_ERROR "bch_ratios: no ${name}\n${output}")
-  endif()
+  expect_output("${name} [^\n]*per_item=")
 endforeach()
+
+# Goals, of times that are given; wrong answers are an error.
+function(write_times file seconds more)
+  set(benchmark "\"run_type\": \"iteration\", \"repetition_index\": 0")
+  file(WRITE ${WORK}/${file} "{\"benchmarks\": [{\"run_name\": \"batches/16\", ${benchmark}, \"per_item\": ${seconds}${more}},
+    {\"run_name\": \"batches/512\", ${benchmark}, \"per_item\": 1e-8}]}")
+endfunction()
+file(MAKE_DIRECTORY ${WORK})
+write_times(met.json 1.5e-8 "")
+write_times(missed.json 2e-8 "")
+write_times(wrong.json 2e-8 ", \"error_occurred\": true, \"error_message\": \"pair 7 is answered wrongly\"")
+run(0 ${script} --json ${WORK}/met.json --strict)
+expect_output("batches: 16 / 512 +1.50 x +PASS .at most 1.6." "threads/1 / threads/2: not in this build")
+run(0 ${script} --json ${WORK}/missed.json)
+expect_output("batches: 16 / 512 +2.00 x +at most 1.6: 25 % over")
+run(1 ${script} --json ${WORK}/missed.json --strict)
+run(1 ${script} --json ${WORK}/wrong.json)
+expect_output("batches/16: pair 7 is answered wrongly")
+run(0 ${script} --program ${RATIOS} --against ${RATIOS} --table bodies --runs 2)
+expect_output("bodies/loop +[0-9 .]+ / +[0-9 .]+ ns +[0-9.]+ x" "mean [0-9.]+ x")
 
 execute_process(COMMAND ${RATIOS} --character=absent.glb OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE code TIMEOUT 600)
 if(code EQUAL 0 OR NOT output MATCHES "absent.glb")

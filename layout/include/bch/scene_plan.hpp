@@ -29,7 +29,7 @@ struct SceneAgent {
 };
 
 /// Gives the number of pairs per shape from which culling data pays: the time to build it over the time that it saves per pair
-/// of a crowd, measured by `bch_ratios --table plans`.
+/// of a crowd, measured by `ratios.py --table plans`.
 constexpr double pairs_for_culling = 500;
 
 /// Describes the queries and levels of detail that a scene is planned for.
@@ -70,7 +70,7 @@ struct ScenePlan {
 std::uint32_t depth_at_density(double people_per_square_metre);
 
 /// Returns planes that clear most false collisions of standing people about 1.75 m tall, metres, for 1, 2, 3, 4 or 8 slabs. They were
-/// measured (`bch_ratios --table slices`, `bch_lab report --experiment error_time`); best_slices() finds planes for other bodies.
+/// measured (`ratios.py --table slices`, `bch_lab report --experiment error_time`); best_slices() finds planes for other bodies.
 /// Errors:  throws std::invalid_argument on another number.
 std::vector<float> standing_slices(std::uint32_t slabs);
 

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <bch/pose_shape.hpp>
+#include <bch/scene_plan.hpp>
+#include <bch/shape_set_builder.hpp>
+
+#include "baselines/slab_bodies.hpp"
+#include "bench/ratios/ratios.hpp"
+#include "bench/workload/answer_checks.hpp"
+
+namespace bch::bench {
+namespace {
+
+/// A set of poses by a plan, and what makes it anew.
+class Baked {
+ public:
+  Baked(Scene& scene, const ShapeSetPlan& plan, std::vector<ShapeSource> sources)
+      : plan_(plan), sources_(std::move(sources)), prepared_(plan) {
+    for (const cli::LoadedCharacter& character : scene.characters())
+      shapers_.emplace_back(character.character, plan, leaf_threshold);
+    set_.emplace(build());
+  }
+
+  ShapeSet build() {
+    ShapeSetBuilder builder(plan_, sources_.size());
+    for (std::size_t i = 0; i < sources_.size(); ++i) {
+      prepared_.prepare(shapers_[sources_[i].character].shape(sources_[i].at, sources_[i].whole), i);
+      builder.add(prepared_);
+    }
+    return std::move(builder).finish();
+  }
+
+  const ShapeSetPlan& plan() const { return plan_; }
+  const ShapeSet& set() const { return *set_; }
+
+  Contender contender() {
+    const auto bytes = static_cast<double>(set_->bytes()) / set_->shape_count();
+    return {[this] { build(); }, sources_.size(), {{"bytes", bytes}}};
+  }
+
+ private:
+  ShapeSetPlan plan_;
+  std::vector<ShapeSource> sources_;
+  std::vector<PoseShaper> shapers_;
+  PreparedShape prepared_;
+  std::optional<ShapeSet> set_;
+};
+
+std::function<std::uint32_t(double)> always(std::uint32_t depth) {
+  return [depth](double) { return depth; };
+}
+
+/// Who looks stands in the middle of the crowd, 58 m wide.
+std::uint32_t by_distance(double metres) {
+  return metres < 5 ? all_depths : metres < 10 ? 6 : metres < 20 ? 3 : 0;
+}
+
+/// The scene's crowd, and its shapes and levels as a plan for it has them.
+struct Planned {
+  const Workload& workload;
+  SceneUse use;
+  ScenePlan plan;
+  Baked baked;
+
+  Planned(Scene& scene, const SceneUse& of)
+      : workload(scene.workload("crowd")),
+        use(of),
+        plan(plan_of(scene)),
+        baked(scene, plan.set, plan.shapes) {}
+
+  ScenePlan plan_of(Scene& scene) const {
+    const cli::Crowd& crowd = workload.crowd;
+    std::vector<SceneAgent> agents;
+    for (std::size_t i = 0; i < crowd.size(); ++i)
+      agents.push_back({scene.sources()[crowd.shape[i]],
+                        std::hypot(crowd.x[i] - 0.5 * crowd.side, crowd.y[i] - 0.5 * crowd.side)});
+    return plan_scene(agents, use);
+  }
+
+  /// Answers are compared with the reference's over the scene's own shapes.
+  Contender query(Scene& scene) const {
+    const cli::Crowd& crowd = workload.crowd;
+    const QueryOptions query{.semantics = use.solid ? Semantics::solid : Semantics::boundary,
+                             .leaves = use.leaves};
+    return collide_contender(
+        baked.set(), {plan.agent_shape, crowd.x, crowd.y, crowd.heading, plan.agent_level}, workload.pairs,
+        query, [&](const Hits& hits) {
+          return wrong_answers({scene.shapes(), plan.set, query.leaves}, crowd.at_level(plan.agent_level),
+                               workload.pairs, hits, query.semantics);
+        });
+  }
+};
+
+void add_plan(Scene& scene, const std::string& name, const SceneUse& use) {
+  const auto planned = once([&scene, use] { return std::make_shared<Planned>(scene, use); });
+  add(name + "/bake", [planned] { return planned().baked.contender(); });
+  add(name + "/query", [planned, &scene] { return planned().query(scene); });
+}
+
+/// Answers of bodies in slabs are compared with those pair by pair of parts.
+Contender query_slabs(Scene& scene, const Baked& sliced, std::uint32_t slabs, std::string_view name,
+                      Leaves leaves) {
+  const Workload& workload = scene.workload(name);
+  return collide_contender(
+      sliced.set(), workload.agents(), workload.pairs, {.semantics = Semantics::solid, .leaves = leaves},
+      [&](const Hits& hits) -> std::string {
+        const baselines::SlabBodies reference(scene.shapes_in_slabs(slabs), sliced.plan(), leaves);
+        for (std::size_t i = 0; i < hits.size(); ++i)
+          if (hits[i] !=
+              reference.collide(workload.agents(), workload.pairs[i], baselines::Method::depth_first))
+            return fmt::format("{} in slabs: pair {} is answered wrongly", name, i);
+        return {};
+      });
+}
+
+void add_slabs(Scene& scene, std::uint32_t slabs) {
+  const auto sliced = once([&scene, slabs] {
+    return std::make_shared<Baked>(scene, ShapeSetPlan{.slices = standing_slices(slabs)}, scene.sources());
+  });
+  for (const std::string_view name : {"crowd", "near_miss", "colliding"})
+    for (const Leaves leaves : {Leaves::discs, Leaves::segments})
+      add(fmt::format("slices/{}/{}/{}", slabs, name, name_of(leaves)),
+          [sliced, &scene, slabs, name, leaves] {
+            return query_slabs(scene, sliced(), slabs, name, leaves);
+          });
+  add(fmt::format("slices/{}/build", slabs), [sliced] { return sliced().contender(); });
+}
+
+}  // namespace
+
+void add_sets(Scene& scene) {
+  add_plan(scene, "plans/single_cylinder", {.depth = always(0)});
+  add_plan(scene, "plans/depth_3", {.depth = always(3)});
+  add_plan(scene, "plans/depth_6", {.depth = always(6)});
+  add_plan(scene, "plans/all", {});
+  add_plan(scene, "plans/mixed", {.depth = by_distance});
+  add_plan(scene, "plans/all_solid", {.solid = true});
+  add_plan(scene, "plans/all_discs", {.leaves = Leaves::discs});
+  add_plan(scene, "plans/one_frame", {.leaves = Leaves::discs, .pairs_per_shape = 0});
+  for (const std::uint32_t slabs : {1u, 2u, 3u, 4u, 8u}) add_slabs(scene, slabs);
+}
+
+}  // namespace bch::bench
