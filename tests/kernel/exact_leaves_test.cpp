@@ -58,7 +58,7 @@ TEST_F(ExactLeaves, MissNoOutlinesThatMeetAndTakeNoOthersForMeeting) {
   std::size_t crossing = 0, near = 0, tested = 0;
   double largest = 0;
   for (const Scene& scene : scenes)
-    for (const auto& implementation : test::supported()) {
+    for (const Implementation& implementation : test::supported()) {
       const auto hits =
           answers(set, scene.crowd.agents(), scene.pairs, {Semantics::boundary, &implementation});
       for (std::size_t i = 0; i < hits.size(); ++i) {

@@ -4,8 +4,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <limits>
-#include <ranges>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,8 +23,11 @@
 namespace bch::test {
 
 /// Returns the implementations that this processor runs.
-inline auto supported() {
-  return implementations() | std::views::filter([](const Implementation& each) { return each.supported(); });
+inline std::vector<std::reference_wrapper<const Implementation>> supported() {
+  std::vector<std::reference_wrapper<const Implementation>> found;
+  for (const Implementation& each : implementations())
+    if (each.supported()) found.emplace_back(each);
+  return found;
 }
 
 /// Pairs, and what every query is to know of them.
