@@ -14,6 +14,7 @@
 
 #include "tests/support/bch_run.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/two_who_meet.hpp"
 
 // What the program writes, word for word, as the files in golden/ have it:
 //   # a comment
@@ -109,15 +110,6 @@ std::string outcome_of(const std::string& line) {
 /// Whether a line is one of an outcome.
 bool is_outcome(const std::string& line) {
   return !line.empty() && std::string_view("0123456789>!").find(line[0]) != std::string_view::npos;
-}
-
-/// Two people who walk through each other in 4 s, and a third who is never near them.
-std::string two_who_meet() {
-  std::string text = "# framerate: 25\n# id frame x/m y/m z/m\n";
-  for (int k = 0; k < 100; ++k)
-    text += fmt::format("7 {0} {1:.3f} 0 1.8\n5 {0} {2:.3f} 0.1 1.7\n12 {0} 3 {3:.3f} 1.6\n", k,
-                        -2.4 + 0.048 * k, 2.4 - 0.048 * k, 5 + 0.04 * k);
-  return text;
 }
 
 class CliGolden : public testing::TestWithParam<const char*> {

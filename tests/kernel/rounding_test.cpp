@@ -15,6 +15,7 @@
 
 #include "baselines/placement.hpp"
 #include "layout/base/heading.hpp"
+#include "tests/support/implementations.hpp"
 #include "tests/support/near_tangent.hpp"
 
 // The bound of layout/base/rounding.hpp, attacked where it matters: discs that touch, far from their agents' origins, judged by
@@ -104,13 +105,6 @@ void count_bare(Tally& tally, const NearTangent& pair) {
       std::max(tally.deepest_bare_miss, -pair.gap / (detail::rounding::unit_roundoff * pair.reaches()));
 }
 
-std::vector<const Implementation*> supported() {
-  std::vector<const Implementation*> rows;
-  for (const auto& implementation : implementations())
-    if (implementation.supported()) rows.push_back(&implementation);
-  return rows;
-}
-
 using Tallies = std::vector<Tally>;  ///< one an implementation
 
 /// The same pairs for all of them.
@@ -125,20 +119,20 @@ void attack(const test::TangentShapes& shapes, std::uint64_t seed, Tallies& tall
     scene.pairs.push_back(i % 2 == 0 ? Pair{2 * i, 2 * i + 1} : Pair{2 * i + 1, 2 * i});
   }
   std::vector<std::uint8_t> hits(block);
-  const auto implementations = supported();
+  const auto implementations = test::supported();
   for (std::size_t k = 0; k < implementations.size(); ++k) {
     collide(shapes.set(), scene.crowd.agents(), scene.pairs, hits,
-            {Semantics::boundary, implementations[k], Leaves::discs});
+            {Semantics::boundary, &implementations[k].get(), Leaves::discs});
     for (std::uint32_t i = 0; i < block; ++i) count(tallies[k], near[i], hits[i] != 0);
   }
 }
 
 Tallies attack(std::uint64_t pairs) {
   const test::TangentShapes shapes(1968, 2000, 8000);
-  tbb::enumerable_thread_specific<Tallies> local([] { return Tallies(supported().size()); });
+  tbb::enumerable_thread_specific<Tallies> local([] { return Tallies(test::supported().size()); });
   tbb::parallel_for(std::uint64_t{0}, (pairs + block - 1) / block,
                     [&](std::uint64_t i) { attack(shapes, 0x5eed + i, local.local()); });
-  Tallies all(supported().size());
+  Tallies all(test::supported().size());
   for (const Tallies& some : local)
     for (std::size_t k = 0; k < all.size(); ++k) all[k].add(some[k]);
   return all;
@@ -156,7 +150,7 @@ TEST(RoundingBound, NearTangentPairsAgainstExactArithmetic) {
   const Tallies tallies = attack(pairs);
   for (std::size_t k = 0; k < tallies.size(); ++k) {
     const Tally& tally = tallies[k];
-    const char* const name = supported()[k]->name;
+    const char* const name = test::supported()[k].get().name;
     std::printf(
         "%s: %llu pairs, %llu meet, %llu of them by discs above their cuts, misses: %llu; false positives up "
         "to "

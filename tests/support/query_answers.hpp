@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <limits>
 #include <span>
 #include <string>
@@ -16,19 +15,12 @@
 #include <bch/penetration.hpp>
 #include <bch/time_of_impact.hpp>
 
+#include "tests/support/implementations.hpp"
 #include "tests/support/scenes.hpp"
 
 // All queries over pairs at once: what they are asked, what they answer, and what brute force does.
 
 namespace bch::test {
-
-/// Returns the implementations that this processor runs.
-inline std::vector<std::reference_wrapper<const Implementation>> supported() {
-  std::vector<std::reference_wrapper<const Implementation>> found;
-  for (const Implementation& each : implementations())
-    if (each.supported()) found.emplace_back(each);
-  return found;
-}
 
 /// Pairs, and what every query is to know of them.
 struct Questions : PairScene {
