@@ -3,7 +3,6 @@
 
 #include "bench/characters/baking.hpp"
 
-#include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <cmath>
@@ -11,28 +10,37 @@
 #include <utility>
 #include <vector>
 
-#include <bch/pose_shape.hpp>
 #include <bch/shape_set_builder.hpp>
 
 #include "bench/base/progress.hpp"
-#include "kernel/runtime/ordered_build.hpp"
+#include "kernel/baking/pose_baker.hpp"
 
 namespace bch::cli {
 ShapeSet bake_shapes(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,
                      double threshold, const ShapeSetPlan& plan,
                      const std::function<void(std::span<const float> nodes)>& added,
                      const CostLimits& limits) {
+  std::vector<detail::BakedCharacter> named;
+  for (const LoadedCharacter& each : characters) named.push_back({&each.character, each.source});
+  detail::PoseBaker baker(std::move(named), plan, static_cast<float>(threshold), limits.nodes);
   ShapeSetBuilder builder(plan, sources.size());
   Progress progress("baking shapes", sources.size());
-  tbb::enumerable_thread_specific<ShapeMaker> makers(
-      [&] { return ShapeMaker(characters, threshold, plan, limits); });
-  detail::add_in_order(
-      builder, plan, sources.size(),
-      [&](std::size_t i) -> const Shape& { return makers.local().make(sources[i]); },
-      [&](std::size_t) {
-        if (added) added(builder.nodes());
-        progress.advance();
-      });
+  detail::BakeSteps steps;
+  steps.outlined = [&](std::size_t i, const Shape& outlines) {
+    require_contours(characters[sources[i].character], sources[i].at, outlines, limits);
+  };
+  steps.added = [&](std::size_t) {
+    if (added) added(builder.nodes());
+    progress.advance();
+  };
+  try {
+    baker.add(builder, sources, steps);
+  } catch (const std::length_error& error) {
+    throw InputError(std::string(error.what()) + "; --max-nodes raises the limit");
+  } catch (const std::logic_error& error) {
+    // Out of the domain: a pose kilometres wide, say. domain_error and invalid_argument are both logic errors.
+    throw InputError(error.what());
+  }
   return std::move(builder).finish();
 }
 

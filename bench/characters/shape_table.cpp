@@ -79,6 +79,15 @@ namespace {
 
 }  // namespace
 
+void require_contours(const LoadedCharacter& from, PoseTime at, const Shape& shape,
+                      const CostLimits& limits) {
+  std::size_t contours = shape.outline.contours();
+  for (const Shape& slab : shape.slabs) contours += slab.outline.contours();
+  if (contours > limits.contours)
+    reject(from, at,
+           "its outline has " + beyond_limit(contours, "contours", limits.contours, "--max-contours"));
+}
+
 ShapeMaker::ShapeMaker(std::span<const LoadedCharacter> characters, double threshold,
                        const ShapeSetPlan& plan, const CostLimits& limits)
     : characters_(characters),
@@ -97,11 +106,7 @@ const Shape& ShapeMaker::make(const ShapeSource& source) {
     }
     const auto begin = Clock::now();
     const Shape& shape = shaper->make_outlines(source.at);
-    std::size_t contours = shape.outline.contours();
-    for (const Shape& slab : shape.slabs) contours += slab.outline.contours();
-    if (contours > limits_.contours)
-      reject(from, source.at,
-             "its outline has " + beyond_limit(contours, "contours", limits_.contours, "--max-contours"));
+    require_contours(from, source.at, shape, limits_);
     const auto middle = Clock::now();
     shaper->make_hierarchies();
     timing_ = {seconds_between(begin, middle), seconds_between(middle, Clock::now())};

@@ -35,6 +35,10 @@ std::vector<ShapeSource> list_shapes_at_rate(std::span<const LoadedCharacter> ch
 /// Returns the name of a pose's clip, "walk", or "rest pose".
 std::string clip_name(const LoadedCharacter& character, PoseTime at);
 
+/// Checks the number of a shape's contours, in all slabs, before hierarchies are made of them.
+/// Errors:  throws InputError naming the character, clip and time, beyond the limit.
+void require_contours(const LoadedCharacter& from, PoseTime at, const Shape& shape, const CostLimits& limits);
+
 struct ShapeTiming {
   double outline = 0;    ///< seconds: skinning and outline
   double hierarchy = 0;  ///< seconds; all, where no outline is made

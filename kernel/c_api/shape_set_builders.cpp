@@ -1,20 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <oneapi/tbb/enumerable_thread_specific.h>
-
 #include <array>
 #include <cmath>
 #include <optional>
 
 #include <bch/shape_set_builder.hpp>
 
+#include "kernel/baking/pose_baker.hpp"
 #include "kernel/c_api/arguments.hpp"
 #include "kernel/c_api/objects.hpp"
 #include "kernel/c_api/own_characters.hpp"
 #include "kernel/c_api/posing.hpp"
 #include "kernel/c_api/work.hpp"
-#include "kernel/runtime/ordered_build.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/shape_set/builder_end.hpp"
 
@@ -65,12 +63,12 @@ ShapeOrigin origin_of(ShapeOrigins& origins, const std::string& name, const Char
 }
 
 /// The same where characters take turns: `known` is what was answered before about this one.
-ShapeOrigin origin_of(ShapeOrigins& origins, const bch_character& of, const bch_pose& at,
+ShapeOrigin origin_of(ShapeOrigins& origins, const bch_character& of, PoseTime at,
                       std::optional<ShapeOrigin>& known) {
-  if (known && at.clip == BCH_REST_POSE) return {known->character, ShapeOrigin::rest_pose, 0};
+  if (known && at.clip == PoseTime::rest) return {known->character, ShapeOrigin::rest_pose, 0};
   if (known && known->clip != ShapeOrigin::rest_pose)
     return {known->character, known->character + 1 + at.clip, at.seconds};
-  known = origin_of(origins, of.name, *of.character, {at.clip, at.seconds});
+  known = origin_of(origins, of.name, *of.character, at);
   return *known;
 }
 
@@ -115,49 +113,22 @@ void add_own(bch_shape_set_builder* handle, const char* kind, const bch_heights*
   add_without_pose(to, kind, shape);
 }
 
-/// What a thread makes shapes of several characters with.
-class Shapers {
- public:
-  Shapers(std::span<const bch_character* const> characters, const bch_shape_set_builder& to)
-      : characters_(characters), to_(to), shapers_(characters.size()) {}
-
-  PoseShaper& of(std::uint32_t character) {
-    std::optional<PoseShaper>& shaper = shapers_[character];
-    if (!shaper) shaper.emplace(*characters_[character]->character, to_.plan, to_.threshold);
-    return *shaper;
-  }
-
- private:
-  std::span<const bch_character* const> characters_;
-  const bch_shape_set_builder& to_;
-  std::vector<std::optional<PoseShaper>> shapers_;
-};
-
-/// Adds the shapes of poses. `source_of(i)` tells the i-th.
-template <class SourceOf>
-void add_poses(bch_shape_set_builder& to, std::span<const bch_character* const> characters, std::size_t count,
-               SourceOf source_of, const bch_work* given) {
-  Work work(given, count);
-  tbb::enumerable_thread_specific<Shapers> shapers([&] { return Shapers(characters, to); });
-  on_threads(work.threads(), [&] {
-    detail::add_in_order(
-        *to.builder, to.plan, count,
-        [&](std::size_t i) -> const Shape& {
-          const bch_shape_source source = source_of(i);
-          const Shape& shape =
-              shape_of_pose(shapers.local().of(source.character), source.at, i, source.whole != 0);
-          work.part_done();
-          return shape;
-        },
-        [](std::size_t) {});
+/// Adds the shapes of sources.
+void add_sources(bch_shape_set_builder& to, std::span<const bch_character* const> characters,
+                 std::span<const ShapeSource> sources, const bch_work* given) {
+  std::vector<detail::BakedCharacter> named;
+  for (const bch_character* const each : characters) named.push_back({each->character.get(), each->name});
+  detail::PoseBaker baker(std::move(named), to.plan, to.threshold);
+  Work work(given, sources.size());
+  all_or_none(to, [&] {
+    on_threads(work.threads(), [&] {
+      baker.add(*to.builder, sources, {.outlined = [&](std::size_t, const Shape&) { work.part_done(); }});
+    });
+    work.all_done();
+    std::vector<std::optional<ShapeOrigin>> known(characters.size());
+    for (const auto& [character, at, whole] : sources)
+      to.origins.origins.push_back(origin_of(to.origins, *characters[character], at, known[character]));
   });
-  work.all_done();
-  std::vector<std::optional<ShapeOrigin>> known(characters.size());
-  for (std::size_t i = 0; i < count; ++i) {
-    const bch_shape_source source = source_of(i);
-    to.origins.origins.push_back(
-        origin_of(to.origins, *characters[source.character], source.at, known[source.character]));
-  }
 }
 
 void check_sources(std::span<const bch_character* const> characters,
@@ -188,6 +159,24 @@ std::vector<std::vector<Vec2>> polygons_of(const bch_vec2* corners, const uint64
   return all;
 }
 
+/// Makes the set of all shapes of a builder, which is then empty.
+void finish(bch_shape_set_builder& builder, bch_shape_set** set) {
+  required(set, "set");
+  auto next = std::make_unique<ShapeSetBuilder>(builder.plan);
+  // All that may need memory comes first, so that the shapes are here or there.
+  bch_shape_set* made = nullptr;
+  hand_out(std::make_unique<bch_shape_set>(BakedShapes{ShapeSetBuilder(builder.plan).finish(), {}}), &made);
+  try {
+    made->own->set = std::move(*builder.builder).finish();
+  } catch (...) {
+    take_back(made, "set");
+    throw;
+  }
+  made->own->origins = std::move(builder.origins);
+  builder.clear(std::move(next));
+  *set = made;
+}
+
 }  // namespace
 }  // namespace bch::c_api
 
@@ -208,15 +197,10 @@ bch_status bch_shape_set_builder_add_poses(bch_shape_set_builder* handle, const 
     const bch_character& of = object_of(character, "character");
     const auto all = array_of(poses, count, "poses");
     check_poses(*of.character, all);
+    std::vector<ShapeSource> sources;
+    for (const bch_pose& pose : all) sources.push_back({0, {pose.clip, pose.seconds}});
     const bch_character* const characters[] = {&of};
-    all_or_none(builder, [&] {
-      add_poses(
-          builder, characters, count,
-          [&](std::size_t i) {
-            return bch_shape_source{0, all[i], 0};
-          },
-          work);
-    });
+    add_sources(builder, characters, sources, work);
   });
 }
 
@@ -229,10 +213,10 @@ bch_status bch_shape_set_builder_add_sources(bch_shape_set_builder* handle,
     const auto of = array_of(characters, character_count, "characters");
     const auto all = array_of(sources, count, "sources");
     check_sources(of, all);
-    all_or_none(builder, [&] {
-      add_poses(
-          builder, of, count, [&](std::size_t i) { return all[i]; }, work);
-    });
+    std::vector<ShapeSource> shapes;
+    for (const auto& [character, at, whole] : all)
+      shapes.push_back({character, {at.clip, at.seconds}, whole != 0});
+    add_sources(builder, of, shapes, work);
   });
 }
 
@@ -308,22 +292,21 @@ bch_status bch_shape_set_builder_add_moment(bch_shape_set_builder* handle, const
 }
 
 bch_status bch_shape_set_builder_finish(bch_shape_set_builder* handle, bch_shape_set** set) {
+  return guarded([&] { finish(object_of(handle, "builder"), set); });
+}
+
+bch_status bch_bake(const bch_character* const* characters, size_t character_count, uint32_t poses,
+                    const bch_plan* plan, const bch_work* work, bch_shape_set** set) {
   return guarded([&] {
-    bch_shape_set_builder& builder = object_of(handle, "builder");
+    const auto of = array_of(characters, character_count, "characters");
     required(set, "set");
-    auto next = std::make_unique<ShapeSetBuilder>(builder.plan);
-    // All that may need memory comes first, so that the shapes are here or there.
-    bch_shape_set* made = nullptr;
-    hand_out(std::make_unique<bch_shape_set>(BakedShapes{ShapeSetBuilder(builder.plan).finish(), {}}), &made);
-    try {
-      made->own->set = std::move(*builder.builder).finish();
-    } catch (...) {
-      take_back(made, "set");
-      throw;
-    }
-    made->own->origins = std::move(builder.origins);
-    builder.clear(std::move(next));
-    *set = made;
+    std::vector<ShapeSource> sources;
+    for (std::uint32_t i = 0; i < of.size(); ++i)
+      for (const PoseTime at : sample_poses(*object_of(of[i], "a character of characters").character, poses))
+        sources.push_back({i, at});
+    bch_shape_set_builder builder(plan);
+    add_sources(builder, of, sources, work);
+    finish(builder, set);
   });
 }
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "kernel/runtime/ordered_build.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 #include "layout/shape_set/builder_end.hpp"
 
@@ -15,12 +14,18 @@ namespace {
 constexpr std::uint32_t samples = 16;  ///< poses of a character
 constexpr std::size_t shapes_a_task = 256;
 
+std::vector<BakedCharacter> named(std::span<const Character> characters) {
+  std::vector<BakedCharacter> all;
+  for (const Character& character : characters) all.push_back({&character, character.name});
+  return all;
+}
+
 }  // namespace
 
 PosedShapes::PosedShapes(std::span<const Character> characters, const ShapeSetPlan& plan)
     : characters_(characters),
       plan_(plan),
-      shapers_([count = characters.size()] { return Shapers(count); }),
+      baker_(named(characters), plan, 0.01f),
       builder_(plan),
       set_(&builder_.set()) {}
 
@@ -30,12 +35,9 @@ void PosedShapes::clear() {
 }
 
 void PosedShapes::add(std::span<const CrowdAgent> agents) {
-  const auto make = [&](std::size_t i) -> const Shape& {
-    std::optional<PoseShaper>& shaper = shapers_.local()[agents[i].shape];
-    if (!shaper) shaper.emplace(characters_[agents[i].shape], plan_);
-    return shaper->shape(agents[i].pose);
-  };
-  add_in_order(builder_, plan_, agents.size(), make, [](std::size_t) {});
+  std::vector<ShapeSource> sources;
+  for (const CrowdAgent& agent : agents) sources.push_back({agent.shape, agent.pose});
+  baker_.add(builder_, sources);
   set_ = &builder_.set();
 }
 

@@ -3,15 +3,13 @@
 
 #pragma once
 
-#include <oneapi/tbb/enumerable_thread_specific.h>
-
-#include <optional>
 #include <span>
 #include <vector>
 
 #include <bch/distributed_crowd.hpp>
-#include <bch/pose_shape.hpp>
 #include <bch/shape_set_builder.hpp>
+
+#include "kernel/baking/pose_baker.hpp"
 
 namespace bch::detail {
 
@@ -36,12 +34,9 @@ class PosedShapes {
   std::span<const Character> characters() const { return characters_; }
 
  private:
-  /// Holds what a thread makes shapes with: a shaper of each character that it came across.
-  using Shapers = std::vector<std::optional<PoseShaper>>;
-
   std::span<const Character> characters_;
   ShapeSetPlan plan_;
-  tbb::enumerable_thread_specific<Shapers> shapers_;
+  PoseBaker baker_;
   ShapeSetBuilder builder_;
   const ShapeSet* set_;  ///< the builder's
 };

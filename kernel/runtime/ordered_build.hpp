@@ -46,10 +46,12 @@ void add_in_order(ShapeSetBuilder& builder, const ShapeSetPlan& plan, std::size_
     builder.add(places[i % places.size()]);
     added(i);
   };
+  tbb::task_group_context own(tbb::task_group_context::isolated);  // see for_ranges()
   tbb::parallel_pipeline(places.size(),
                          tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, take) &
                              tbb::make_filter<std::size_t, std::size_t>(tbb::filter_mode::parallel, build) &
-                             tbb::make_filter<std::size_t, void>(tbb::filter_mode::serial_in_order, add));
+                             tbb::make_filter<std::size_t, void>(tbb::filter_mode::serial_in_order, add),
+                         own);
 }
 
 }  // namespace bch::detail

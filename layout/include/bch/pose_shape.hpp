@@ -5,10 +5,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include <bch/character.hpp>
+#include <bch/scene_plan.hpp>
 #include <bch/shape_set.hpp>
 
 namespace bch {
@@ -51,6 +55,24 @@ class PoseShaper {
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// Says what bake() makes of characters.
+struct BakeOptions {
+  std::uint32_t poses = 100;             ///< of each character, spread evenly over its clips, one character after the other
+  std::vector<ShapeSource> shapes = {};  ///< which poses of which characters, for instance ScenePlan::shapes; none: `poses`
+  ShapeSetPlan plan = {};
+  float threshold = 0.01f;  ///< metres; the radius below which discs are not divided
+  /// Hears on the caller's thread, twenty times a second at most, how many shapes are made. Returning false cancels.
+  std::function<bool(std::size_t done, std::size_t total)> progress = {};
+};
+
+/// Makes a set of characters in many poses, on all threads of the caller's TBB arena: the same bytes for any number of them.
+/// Errors:  throws std::invalid_argument as validate(Character) does, on a bad plan and on a character that is not there; what
+///          PoseShaper::shape() throws, with the names of the character, clip and time; std::length_error on a set
+///          that is too large; and std::system_error of std::errc::operation_canceled where it is cancelled.
+ShapeSet bake(std::span<const Character> characters, const BakeOptions& options = {});
+/// Makes a set of one character.
+ShapeSet bake(const Character& character, const BakeOptions& options = {});
 
 /// Holds the options of animate(), which say how close its discs are to a body, in metres. The defaults are for people.
 struct AnimateOptions {

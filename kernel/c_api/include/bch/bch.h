@@ -314,6 +314,11 @@ BCH_API bch_status bch_shape_set_free(bch_shape_set* set);
 
 /* Building sets ----------------------------------------------------------------------------------------------------- */
 
+/** Makes a set of characters, each in `poses` poses that are spread evenly over its clips, one character after the other. Many threads
+ * make them. A plan and work of NULL are the defaults; a builder makes sets of other poses and other bodies. */
+BCH_API bch_status bch_bake(const bch_character* const* characters, size_t character_count, uint32_t poses,
+                            const bch_plan* plan, const bch_work* work, bch_shape_set** set);
+
 /** Makes shapes of one character in pose after pose. */
 typedef struct bch_pose_shaper bch_pose_shaper;
 /** Makes a shaper of a character, for sets of a plan. */

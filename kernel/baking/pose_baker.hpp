@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <oneapi/tbb/enumerable_thread_specific.h>
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <bch/pose_shape.hpp>
+#include <bch/scene_plan.hpp>
+#include <bch/shape_set_builder.hpp>
+
+namespace bch::detail {
+
+/// Names a character for errors; it must outlive whoever is given it.
+struct BakedCharacter {
+  const Character* character;
+  std::string name;
+};
+
+/// Holds what happens between the steps of a baker; functions may be empty. Any thread calls them.
+struct BakeSteps {
+  std::function<void(std::size_t i, const Shape&)> outlined =
+      {};                                         ///< before the hierarchies are made; throws to refuse
+  std::function<void(std::size_t i)> added = {};  ///< in order, one call at a time
+};
+
+/// Makes shapes of characters in poses, on the threads of the caller's arena, and adds them to a builder in the order of the poses: the same
+/// bytes for any number of threads. What threads learned of the meshes is kept for the next poses.
+class PoseBaker {
+ public:
+  /// Takes characters that are valid, and what PoseShaper takes.
+  /// Errors:  throws std::invalid_argument on a bad plan.
+  PoseBaker(std::vector<BakedCharacter> characters, const ShapeSetPlan& plan, float threshold,
+            std::optional<std::size_t> most_nodes = {});
+
+  /// Adds the shapes of poses. After an exception only some of them have been added.
+  /// Errors:  throws what PoseShaper::shape() and `steps` throw, the former with the names of the character, clip and time, and
+  ///          std::invalid_argument on a character that is not there.
+  void add(ShapeSetBuilder& to, std::span<const ShapeSource> sources, const BakeSteps& steps = {});
+
+ private:
+  /// What a thread makes shapes with: a shaper of each character that it came across.
+  using Shapers = std::vector<std::optional<PoseShaper>>;
+
+  const Shape& make(const ShapeSource& source, std::size_t i, const BakeSteps& steps);
+  std::string name_of(const ShapeSource& source) const;
+
+  std::vector<BakedCharacter> characters_;
+  ShapeSetPlan plan_;
+  float threshold_;
+  std::optional<std::size_t> most_nodes_;
+  tbb::enumerable_thread_specific<Shapers> shapers_;
+};
+
+}  // namespace bch::detail
