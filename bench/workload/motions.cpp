@@ -145,14 +145,20 @@ void MotionScene::check(std::uint32_t pairs) const {
   });
 }
 
-SampledMotions::SampledMotions(const MotionScene& scene, double samples_per_second, double poses_per_second)
+SampledMotions::SampledMotions(const MotionScene& scene, double samples_per_second, double poses_per_second,
+                               SampledAs as)
     : samples_per_second_(samples_per_second),
+      query_(as == SampledAs::bodies ? disc_query : QueryOptions()),
       samples_(static_cast<std::uint32_t>(MotionScene::seconds * samples_per_second) + 1) {
-  std::vector<Shape> poses;  // all of all clips, as the animated bodies are at these times
+  std::vector<Shape> poses;  // all of all clips
   std::vector<std::uint32_t> first_pose{0};
   for (const AnimatedClip& clip : scene.clips()) {
-    for (double k = 0; k <= std::floor(clip.seconds * poses_per_second); ++k)
-      poses.push_back(clip.shape.shape(k / poses_per_second));
+    PoseShaper shaper(*clip.character);
+    for (double k = 0; k <= std::floor(clip.seconds * poses_per_second); ++k) {
+      const double time = k / poses_per_second;
+      poses.push_back(as == SampledAs::bodies ? clip.shape.shape(time)
+                                              : shaper.shape({clip.clip, static_cast<float>(time)}));
+    }
     first_pose.push_back(static_cast<std::uint32_t>(poses.size()));
   }
   poses_.emplace(poses);
@@ -186,7 +192,7 @@ double SampledMotions::first_contact(const Pair& pair) const {
     };
     const cli::Crowd crowd{0, together(all_.shape), together(all_.x), together(all_.y),
                            together(all_.heading)};
-    collide(*poses_, crowd.agents(), std::span(pairs).first(count), std::span(hits).first(count), disc_query);
+    collide(*poses_, crowd.agents(), std::span(pairs).first(count), std::span(hits).first(count), query_);
     const auto hit = std::find(hits.begin(), hits.begin() + count, 1);
     if (hit != hits.begin() + count)
       return (from + static_cast<double>(hit - hits.begin())) / samples_per_second_;

@@ -70,18 +70,23 @@ class MotionScene {
   std::vector<double> contacts_;
 };
 
+/// Selects what is shown at a sample: the bodies that clips are, by their discs, or exact outlines of poses made for that time.
+enum class SampledAs { bodies, outlines };
+
 /// Samples the motions of a scene at even times, by the nearest of poses that are built beforehand: what is
 /// asked without first_contact().
 class SampledMotions {
  public:
   /// Takes a scene, which must outlive this.
-  SampledMotions(const MotionScene& scene, double samples_per_second, double poses_per_second);
+  SampledMotions(const MotionScene& scene, double samples_per_second, double poses_per_second,
+                 SampledAs as = SampledAs::bodies);
 
   /// Returns the first sample at which two motions collide, or infinity. It asks collide() in batches of a tenth of a second.
   double first_contact(const Pair& pair) const;
 
  private:
   double samples_per_second_;
+  QueryOptions query_;
   std::uint32_t samples_;  ///< of a motion
   std::optional<ShapeSet> poses_;
   cli::Crowd all_;  ///< an agent a sample, motion by motion
