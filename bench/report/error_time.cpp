@@ -9,7 +9,6 @@
 
 #include "baselines/slab_bodies.hpp"
 #include "bench/base/disc_union_area.hpp"
-#include "bench/report/coverage.hpp"
 #include "bench/report/subjects.hpp"
 #include "bench/workload/answer_checks.hpp"
 #include "bench/workload/contender.hpp"
@@ -49,8 +48,9 @@ std::vector<std::uint32_t> depths_of(const Run& run, bool with_roots) {
 ExcessAreas excess_areas(std::span<const Shape> shapes, std::uint32_t depth) {
   ExcessAreas per_cent(shapes.size());
   tbb::parallel_for(std::size_t{0}, shapes.size(), [&](std::size_t i) {
-    const Coverage area = rasterise(shapes[i].outline, cli::discs_of(shapes[i].hierarchy, depth));
-    per_cent[i] = 100 * (area.filled / area.outline - 1);
+    const Outline& outline = shapes[i].outline;
+    const double covered = cli::covered_area(outline, cli::discs_of(shapes[i].hierarchy, depth));
+    per_cent[i] = 100 * (covered / area(outline) - 1);
   });
   return per_cent;
 }
@@ -117,12 +117,9 @@ void add_slabs(Run& run, Points& points) {
   }
 }
 
-/// The area of those that are discs; boxes cut short are not measured.
+/// The area of the single cylinder; boxes cut short, and fixed cylinders, which do not cover outlines, are not measured.
 ExcessAreas excess_of(Run& run, const Contestant& contestant, std::uint32_t depth) {
-  const std::vector<Shape>& shapes = run.scene.shapes();
-  if (contestant.kind == "single") return excess_areas(shapes, 0);
-  if (contestant.kind == "fixed")
-    return excess_areas(with_fixed_cylinders(shapes, contestant.fixed_radius), 0);
+  if (contestant.kind == "single") return excess_areas(run.scene.shapes(), 0);
   return depth == all_depths ? no_excess : ExcessAreas{};
 }
 

@@ -276,7 +276,7 @@ def volume(data, out):
         by_mesh = rows[0]["height (m)"] / estimate(mesh, data.seed)[0]
         for quantity, values in {RADIUS: rows.column("radius (m)"),
                                  CYLINDER: [math.pi * row["radius (m)"] ** 2 * by_mesh for row in rows],
-                                 LEAVES: [row["leaf discs, raster (m2)"] * by_mesh for row in rows], MESH: mesh}.items():
+                                 LEAVES: [row["leaf discs (m2)"] * by_mesh for row in rows], MESH: mesh}.items():
             paper = PAPER_VOLUMES.get(character, {}).get(quantity, (math.nan,) * 3)
             mean, deviation, low, high = estimate(values, data.seed)
             quantities.append({
@@ -287,13 +287,11 @@ def volume(data, out):
     for character, shapes in data["volume"].groups("character").items():
         for structure, rows in shapes.groups("structure").items():
             mean, deviation, low, high = estimate(rows.column("normalised volume"), data.seed)
-            alone, alone_deviation, *_ = estimate(rows.column("discs alone, exact"), data.seed)
-            _, off_median, off_high = quartiles(rows.column("raster off exact (%)"))
+            alone, alone_deviation, *_ = estimate(rows.column("discs alone"), data.seed)
             out["volume"].append({
                 "character": character, "structure": structure, "normalised volume": mean, "95 % low": low, "95 % high": high,
                 "median": quartiles(rows.column("normalised volume"))[1], "standard deviation": deviation,
-                "discs alone, exact": alone, "deviation of that": alone_deviation, "raster off exact, median (%)": off_median,
-                "raster off exact, upper quartile (%)": off_high})
+                "discs alone": alone, "deviation of that": alone_deviation})
 
 
 def threshold(data, out):

@@ -12,7 +12,6 @@
 #include <bch/scene_plan.hpp>
 
 #include "bench/base/disc_union_area.hpp"
-#include "bench/report/coverage.hpp"
 #include "bench/report/subjects.hpp"
 #include "layout/base/planes.hpp"
 #include "layout/character/eigen.hpp"
@@ -84,7 +83,7 @@ void add_paper_volumes(const cli::LoadedCharacter& loaded, std::span<const Shape
   }
   tbb::parallel_for(std::size_t{0}, poses.size(), [&](std::size_t i) {
     const Hierarchy hierarchy = projected_hierarchy(from_above[i], character.triangles);
-    leaves[i] = rasterise({}, cli::discs_of(hierarchy, all_depths)).discs;
+    leaves[i] = cli::union_area(cli::discs_of(hierarchy, all_depths));
   });
   for (std::size_t i = 0; i < poses.size(); ++i)
     table.add({cli::file_name(loaded), i, static_cast<double>(loaded.report.height),
@@ -93,8 +92,7 @@ void add_paper_volumes(const cli::LoadedCharacter& loaded, std::span<const Shape
 }
 
 void measure_paper_volumes(Run& run) {
-  Table table(
-      {"character", "pose", "height (m)", "radius (m)", "leaf discs, raster (m2)", "mesh volume (m3)"});
+  Table table({"character", "pose", "height (m)", "radius (m)", "leaf discs (m2)", "mesh volume (m3)"});
   const auto& characters = run.scene.characters();
   for (std::uint32_t c = 0; c < characters.size(); ++c) {
     std::vector<ShapeSource> poses;
@@ -112,23 +110,27 @@ void measure_paper_volumes(Run& run) {
   run.write("volume_paper", table);
 }
 
-/// Adds the areas of a cut of every shape, or of its outline, as shares of the pose's single cylinder.
-void add_areas(Run& run, const std::string& structure, std::uint32_t depth, bool outline, Table& table) {
+/// What is covered with the inside of the outline, and by discs alone.
+struct Areas {
+  double covered, discs;
+};
+
+/// Adds the areas of every shape as shares of the pose's single cylinder.
+template <class AreasOf>
+void add_areas(Run& run, const std::string& structure, AreasOf areas_of, Table& table) {
   const std::vector<Shape>& shapes = run.scene.shapes();
-  std::vector<std::vector<Cell>> rows(shapes.size());
-  tbb::parallel_for(std::size_t{0}, shapes.size(), [&](std::size_t i) {
-    const std::vector<Disc> discs = outline ? std::vector<Disc>() : cli::discs_of(shapes[i].hierarchy, depth);
-    const Coverage grid = rasterise(shapes[i].outline, discs);
-    const double exact = outline ? area(shapes[i].outline) : cli::union_area(discs),
-                 raster = outline ? grid.outline : grid.discs, cylinder = cylinder_of(shapes[i]);
-    rows[i] = {name_of_character(run, i),
-               structure,
-               i,
-               (outline ? exact : grid.filled) / cylinder,
-               exact / cylinder,
-               100 * std::abs(raster / exact - 1)};
-  });
-  for (const std::vector<Cell>& row : rows) table.add(row);
+  std::vector<Areas> areas(shapes.size());
+  tbb::parallel_for(std::size_t{0}, shapes.size(), [&](std::size_t i) { areas[i] = areas_of(shapes[i]); });
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    const double cylinder = cylinder_of(shapes[i]);
+    table.add(
+        {name_of_character(run, i), structure, i, areas[i].covered / cylinder, areas[i].discs / cylinder});
+  }
+}
+
+Areas areas_of_cut(const Shape& shape, std::uint32_t depth) {
+  const std::vector<Disc> discs = cli::discs_of(shape.hierarchy, depth);
+  return {cli::covered_area(shape.outline, discs), cli::union_area(discs)};
 }
 
 /// Adds the volumes of slabs, each as high as it is: those of their outlines, which exact leaves represent.
@@ -143,8 +145,8 @@ void add_volumes_of_slabs(Run& run, std::uint32_t slabs, Table& table) {
         volume += area(outline) * height_of(detail::heights_of_slab(shapes[i].heights, planes, j));
     }
     const double cylinder = cylinder_of(run.scene.shapes()[i]) * height_of(shapes[i].heights);
-    table.add({name_of_character(run, i), slabs_name(slabs, Leaves::segments), i, volume / cylinder, unknown,
-               unknown});
+    table.add(
+        {name_of_character(run, i), slabs_name(slabs, Leaves::segments), i, volume / cylinder, unknown});
   }
 }
 
@@ -152,10 +154,16 @@ void add_volumes_of_slabs(Run& run, std::uint32_t slabs, Table& table) {
 
 void run_volume(Run& run) {
   measure_paper_volumes(run);
-  Table table(
-      {"character", "structure", "shape", "normalised volume", "discs alone, exact", "raster off exact (%)"});
-  for (const std::uint32_t depth : volume_depths) add_areas(run, cut_name(depth), depth, false, table);
-  add_areas(run, "outline", all_depths, true, table);
+  Table table({"character", "structure", "shape", "normalised volume", "discs alone"});
+  for (const std::uint32_t depth : volume_depths)
+    add_areas(
+        run, cut_name(depth), [depth](const Shape& shape) { return areas_of_cut(shape, depth); }, table);
+  add_areas(
+      run, "outline",
+      [](const Shape& shape) {
+        return Areas{area(shape.outline), unknown};
+      },
+      table);
   for (const std::uint32_t slabs : compared_slabs) add_volumes_of_slabs(run, slabs, table);
   run.write("volume", table);
 }
