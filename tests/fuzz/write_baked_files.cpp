@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "tests/support/baked_bytes.hpp"
+#include "tests/support/scenes.hpp"
+
+// Writes baked files of several plans, each behind a byte that chooses options, into a folder.
+
+int main(int argc, char** argv) {
+  using namespace bch;
+  if (argc != 2) return std::puts("usage: write_baked_files FOLDER"), 2;
+  test::Random random(1);
+  const std::vector<Shape> shapes{test::contour_shape(test::star(random, 5, 0.2, 0.4), 0.1f),
+                                  test::contour_shape(test::star(random, 12, 0.1, 0.4), 0.02f)};
+  const ShapeSetPlan plans[] = {{{0}},
+                                {{all_depths}, true, false},
+                                {{0, 1, all_depths}, true, true},
+                                {.depths = {0, all_depths}, .slices = {0.4f, 1}},
+                                {.depths = {0}, .slices = {0.4f}}};
+  int count = 0;
+  for (const ShapeSetPlan& plan : plans)
+    for (const char mode : {'\0', '\1', '\3', '\5', '\7'}) {
+      const std::filesystem::path file = std::filesystem::path(argv[1]) / ("seed" + std::to_string(count++));
+      std::ofstream(file, std::ios::binary)
+          << mode
+          << test::BakedBytes(ShapeSet(shapes, plan), test::origins_of(shapes.size()), test::few_clips())
+                 .text();
+    }
+}
