@@ -5,9 +5,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstring>
+#include <functional>
 #include <limits>
+#include <memory>
 #include <set>
 #include <string>
 #include <tuple>
@@ -19,12 +20,9 @@
 
 namespace bch::fuzz {
 
-/// A struct of the C interface with what a caller of another version has: bytes behind its end.
-template <class Struct>
-struct Versioned {
-  Struct known;
-  std::uint8_t later[64];
-};
+constexpr std::uint32_t most = 8;             // agents, pairs, points, parts
+constexpr std::uint32_t room = 3 * most + 1;  // of every array: corners of triangles, offsets
+constexpr std::uint8_t untouched = 77;        // in the outputs
 
 /// A caller of the C interface who does as the bytes of an input say, and knows what has to come of it.
 class Program {
@@ -36,11 +34,31 @@ class Program {
 
   Bytes bytes;
 
-  /// Checks what a status and its message are; a fault of the library is one in any case.
-  /// Returns: whether the call succeeded.
-  static bool succeeded(bch_status status);
-
   bool chance(std::uint32_t one_of) { return bytes.below(one_of) == one_of - 1; }
+
+  /// Checks what a status and its message are, and what was to be looked at after the call; a fault of the library is one in any case.
+  /// Returns: whether the call succeeded.
+  bool finish(bch_status status) {
+    require(status >= BCH_OK && status < BCH_INTERNAL, "no fault of the library");
+    if (status != BCH_OK) {
+      const std::string message = bch_last_error();
+      require(!message.empty(), "errors have a message");
+      require(message.find('\n') == std::string::npos, "messages are one line");
+    }
+    for (const auto& look : after_) look(status == BCH_OK);
+    after_.clear(), memory_.clear(), lent_.clear();
+    return status == BCH_OK;
+  }
+  /// What is looked at after the call, which succeeded or did not.
+  void after(std::function<void(bool)> look) { after_.push_back(std::move(look)); }
+
+  /// Memory until the end of the call.
+  template <class Value>
+  Value* fresh(std::size_t count = 1) {
+    const auto values = std::make_shared<std::vector<Value>>(count);
+    memory_.push_back(values);
+    return values->data();
+  }
 
   /// A handle: one of the last few that were handed out, which live or were freed; NULL; or what is no such object.
   template <class Object>
@@ -51,24 +69,21 @@ class Program {
     return objects<Object>().last[kind % 4];
   }
 
-  /// Takes what a function hands out by its last argument.
-  template <class Object, class Make>
-  void make(Make call) {
-    Object* object = nullptr;
-    if (!succeeded(call(&object))) return require(object == nullptr, "nothing is handed out on an error");
-    require(object != nullptr, "an object is handed out");
-    objects<Object>().living.insert(object);
-    keep(object);
+  /// Keeps a handle for later calls, in the place of one before.
+  template <class Object>
+  void keep(Object* object, bool lives) {
+    objects<Object>().last[bytes.below(4)] = object;
+    all_.push_back(object);
+    if (lives) objects<Object>().living.insert(object);
   }
 
-  /// The same for what an input begins with, which never fails and is every handle of its kind.
+  /// Makes what an input begins with, which never fails and is every handle of its kind.
   template <class Object, class Make>
   Object* begin_with(Make call) {
     Object* object = nullptr;
     require(call(&object) == BCH_OK, "what inputs begin with is made");
-    objects<Object>().living.insert(object);
+    keep(object, true);
     objects<Object>().last.fill(object);
-    all_.push_back(object);
     return object;
   }
 
@@ -77,79 +92,40 @@ class Program {
   void free(bch_status (*call)(Object*)) {
     Object* const object = handle<Object>();
     const bool living = objects<Object>().living.erase(object) > 0;
-    require(succeeded(call(object)) == (living || object == nullptr), "what lives can be freed, once");
+    require(finish(call(object)) == (living || object == nullptr), "what lives can be freed, once");
   }
 
-  /// Keeps a handle for later calls, in the place of one before.
-  template <class Object>
-  void keep(Object* object) {
-    objects<Object>().last[bytes.below(4)] = object;
-    all_.push_back(object);
-  }
-
-  /// How many entries an array has that has room for so many; at times more than memory has.
-  std::size_t count(std::uint32_t room) {
+  /// How many entries an array has: mostly all that there are, at times more than memory has.
+  std::size_t count() {
     if (chance(128)) return std::numeric_limits<std::size_t>::max() - bytes.below(2);
-    return bytes.below(room + 1);
+    return chance(4) ? bytes.below(most + 1) : most;
   }
 
-  /// A pointer to an array, mostly.
-  template <class Value>
-  Value* array(Value* values) {
-    return chance(128) ? nullptr : values;
-  }
-
-  /// A number about 0, or one that is odd: `smallest` apart from those that are none.
+  /// A number about 0, or one that is odd.
   template <class Real>
-  Real number(Real smallest = Real(0x1p-5)) {
+  Real number() {
     using Limits = std::numeric_limits<Real>;
     constexpr Real odd[] = {Limits::quiet_NaN(), Limits::infinity(),   -Limits::infinity(), Limits::max(),
                             Limits::lowest(),    Limits::denorm_min(), Real(-0.0)};
     if (chance(256)) return odd[bytes.below(std::size(odd))];
-    return static_cast<Real>(bytes.take<std::int8_t>()) * smallest;
+    return static_cast<Real>(bytes.take<std::int8_t>()) * Real(0x1p-5);
   }
 
   /// A small number, or any.
-  std::uint32_t index(std::uint32_t most) {
-    return chance(256) ? bytes.take<std::uint32_t>() : bytes.below(most);
+  std::uint32_t index(std::uint32_t bound = 3) {
+    return chance(256) ? bytes.take<std::uint32_t>() : bytes.below(bound);
   }
 
-  /// Where each of `parts` begins in an array with this room: ascending, mostly.
-  void fill_offsets(std::uint64_t* offsets, std::uint32_t parts, std::uint32_t room) {
-    std::uint64_t at = 0;
-    for (std::uint32_t i = 0; i <= parts; ++i) {
-      if (chance(64)) at = chance(4) ? ~std::uint64_t{0} - bytes.below(2) : bytes.below(room + 1);
-      offsets[i] = at;
-      at = std::min<std::uint64_t>(at + bytes.below(6), std::max<std::uint64_t>(at, room));
-    }
+  /// Remembers an array that was lent, whose length comes later; reads those that wait for a length.
+  template <class Value>
+  void lend(const Value* const* values) {
+    lent_.push_back([values](std::size_t count) {
+      std::vector<std::uint8_t> copy(count * sizeof(Value));
+      if (count > 0) std::memcpy(copy.data(), *values, copy.size());
+    });
   }
-
-  /// Gives a struct a size: the right one mostly, one of the past, of the future, absurd, or one that cuts a member.
-  template <class Struct>
-  Struct* sized(Versioned<Struct>& of) {
-    std::memset(of.later, 0, sizeof of.later);
-    of.known.size = sizeof of.known;
-    if (!chance(32)) return &of.known;
-    const std::uint32_t kind = bytes.below(5);
-    if (kind == 0) of.known.size = 4 + bytes.below(sizeof of.known - 4);
-    if (kind == 1) of.known.size = bytes.below(4);
-    if (kind == 2) of.known.size = 4097 + bytes.take<std::uint8_t>();
-    if (kind >= 3) of.known.size = sizeof of.known + bytes.below(sizeof of.later + 1);
-    if (kind == 4) of.later[bytes.below(sizeof of.later)] = bytes.take<std::uint8_t>();
-    return &of.known;
-  }
-
-  bch_query_options* options() {
-    if (chance(8)) return nullptr;
-    options_.known = BCH_QUERY_OPTIONS_INIT;
-    const std::uint8_t bits = bytes.take<std::uint8_t>();
-    options_.known.semantics = bits & 1, options_.known.leaves = bits >> 1 & 1;
-    options_.known.distance_leaves = bits >> 2 & 1, options_.known.overlap = bits >> 3 & 1;
-    if (bits >= 0xf0) options_.known.leaves = bytes.take<std::int32_t>();
-    options_.known.threads = chance(32) ? 1025 + bytes.take<std::uint8_t>() : 1;
-    options_.known.max_distance = chance(4) ? number<double>() : static_cast<double>(INFINITY);
-    if (chance(4)) options_.known.implementation = implementation();
-    return sized(options_);
+  void read_lent(std::size_t count) const {
+    for (const auto& read : lent_) read(count);
   }
 
  private:
@@ -162,11 +138,12 @@ class Program {
   std::tuple<Objects<bch_shape_set>, Objects<bch_pose_shaper>, Objects<bch_shape_set_builder>,
              Objects<bch_dynamic_shape_set>, Objects<bch_broad_phase>, Objects<bch_crowd_collider>,
              Objects<bch_contact_finder>, Objects<bch_obstacles>, Objects<bch_character>,
-             Objects<bch_scene_plan>>
+             Objects<bch_scene_plan>, Objects<bch_animated_shape>>
       objects_;
   std::vector<void*> all_;
-  Versioned<bch_query_options> options_{};
-  std::string name_;
+  std::vector<std::function<void(bool)>> after_;
+  std::vector<std::function<void(std::size_t)>> lent_;
+  std::vector<std::shared_ptr<void>> memory_;
 
   template <class Object>
   Objects<Object>& objects() {
@@ -180,12 +157,6 @@ class Program {
     return reinterpret_cast<void*>(std::uintptr_t{1} << which);
   }
 
-  const char* implementation() {
-    if (const std::uint32_t which = bytes.below(6); which < 4) return bch_implementation_name(which);
-    name_ = bytes.text();
-    return name_.c_str();
-  }
-
   template <class Object>
   void free_all(bch_status (*call)(Object*)) {
     for (Object* const object : objects<Object>().living)
@@ -193,26 +164,12 @@ class Program {
   }
 };
 
-inline bool Program::succeeded(bch_status status) {
-  require(status >= BCH_OK && status < BCH_INTERNAL, "no fault of the library");
-  if (status == BCH_OK) return true;
-  const std::string message = bch_last_error();
-  require(!message.empty(), "errors have a message");
-  require(message.find('\n') == std::string::npos, "messages are one line");
-  return false;
-}
-
 inline Program::~Program() {
-  free_all(bch_pose_shaper_free);
-  free_all(bch_shape_set_builder_free);
-  free_all(bch_dynamic_shape_set_free);
-  free_all(bch_shape_set_free);
-  free_all(bch_broad_phase_free);
-  free_all(bch_crowd_collider_free);
-  free_all(bch_contact_finder_free);
-  free_all(bch_obstacles_free);
-  free_all(bch_character_free);
-  free_all(bch_scene_plan_free);
+  free_all(bch_pose_shaper_free), free_all(bch_shape_set_builder_free);
+  free_all(bch_dynamic_shape_set_free), free_all(bch_shape_set_free);
+  free_all(bch_broad_phase_free), free_all(bch_crowd_collider_free), free_all(bch_contact_finder_free);
+  free_all(bch_obstacles_free), free_all(bch_character_free), free_all(bch_scene_plan_free);
+  free_all(bch_animated_shape_free);
 }
 
 }  // namespace bch::fuzz
