@@ -7,66 +7,11 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "layout/base/shortest.hpp"
+#include "layout/character/affine_rows.hpp"
 #include "layout/character/eigen.hpp"
-#include "layout/character/rotation_blend.hpp"
 
 namespace bch::detail {
 namespace {
-
-/// Returns the index of the first key after a time. The channels of a clip mostly have the same times, so the
-/// last channel's place is tried first.
-template <class Value>
-std::size_t key_after(const std::vector<Key<Value>>& keys, float seconds, std::size_t guess) {
-  if (guess > 0 && guess < keys.size() && keys[guess - 1].time <= seconds && seconds < keys[guess].time)
-    return guess;
-  const auto after = std::upper_bound(keys.begin(), keys.end(), seconds,
-                                      [](float time, const Key<Value>& key) { return time < key.time; });
-  return static_cast<std::size_t>(after - keys.begin());
-}
-
-Eigen::Vector3d blend(const Vec3& a, const Vec3& b, float t) {
-  return (to_eigen(a) + t * (to_eigen(b) - to_eigen(a))).cast<double>();
-}
-Eigen::Quaterniond blend(const Quaternion& a, const Quaternion& b, float t) {
-  return slerp(a, b, t);
-}
-
-/// A point of a cubic curve as a value; `earlier` is the key before it.
-Eigen::Vector3d value_of(const Eigen::Vector3d& point, const Vec3&) {
-  return point;
-}
-Eigen::Quaterniond value_of(const Eigen::Vector4d& point, const Quaternion& earlier) {
-  constexpr double least_norm = 1e-6;  // keys of opposite signs lead through 0, which is no rotation
-  const double norm = std::sqrt(point.squaredNorm());
-  return norm < least_norm ? to_eigen(earlier).cast<double>() : Eigen::Quaterniond(point / norm);
-}
-
-/// The cubic Hermite spline of glTF 2.0, appendix C.5, between key a and the next one.
-template <class Value>
-auto cubic(const std::vector<Key<Value>>& keys, const Curve<Value>& curve, std::size_t a, float seconds) {
-  const Key<Value>&from = keys[a], &to = keys[a + 1];
-  const double length = static_cast<double>(to.time) - static_cast<double>(from.time);
-  const double t = (static_cast<double>(seconds) - static_cast<double>(from.time)) / length;
-  const double rest = 1 - t;
-  const auto point = (rest * rest * (1 + 2 * t) * coefficients(from.value).template cast<double>() +
-                      t * t * (3 - 2 * t) * coefficients(to.value).template cast<double>() +
-                      length * t * rest * rest * coefficients(curve.tangents[a].out).template cast<double>() -
-                      length * t * t * rest * coefficients(curve.tangents[a + 1].in).template cast<double>())
-                         .eval();
-  return value_of(point, from.value);
-}
-
-/// The value at a time; before the first key and behind the last one theirs.
-template <class Value>
-auto interpolate(const std::vector<Key<Value>>& keys, const Curve<Value>& curve, float seconds,
-                 std::size_t& guess) {
-  const std::size_t after = guess = key_after(keys, seconds, guess);
-  const Key<Value>&a = keys[after == 0 ? 0 : after - 1], &b = keys[after == keys.size() ? after - 1 : after];
-  if (&a != &b && curve.interpolation == Interpolation::cubic) return cubic(keys, curve, after - 1, seconds);
-  const bool holds = &a == &b || curve.interpolation == Interpolation::step;
-  return blend(a.value, b.value, holds ? 0 : (seconds - a.time) / (b.time - a.time));
-}
 
 template <class Position>
 auto from_above(Position& position) {
@@ -82,70 +27,81 @@ void put_middle_at_origin(std::vector<Position>& positions) {
   for (Position& position : positions) from_above(position) -= middle;
 }
 
-AffineRows linear_rows(const Eigen::Matrix3d& linear) {
-  AffineRows rows;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) rows.row[i][j] = linear(i, j);
-  return rows;
+void move_on_ground(Affine3d& map, double x, double y) {
+  map.rows[0][3] += x;
+  map.rows[1][3] += y;
+}
+
+void require_count(std::size_t expected, const char* what, std::size_t found) {
+  if (found != expected)
+    throw std::invalid_argument("shape: expected " + std::to_string(expected) + " " + what + ", found " +
+                                std::to_string(found));
+}
+void require_finite(bool finite, const char* what, std::size_t i) {
+  if (!finite)
+    throw std::invalid_argument("shape: expected finite " + std::string(what) + ", found others at index " +
+                                std::to_string(i));
+}
+
+Affine3d finite_map(const Transforms& maps, std::size_t i, const char* what) {
+  const Affine3d map = maps[i];
+  bool finite = true;
+  for (const auto& row : map.rows)
+    for (const double number : row) finite = finite && std::isfinite(number);
+  require_finite(finite, what, i);
+  return map;
+}
+
+void take_joints(const Transforms& maps, std::vector<Affine3d>& to) {
+  constexpr const char* what = "joint transforms";
+  require_count(to.size(), what, maps.size());
+  for (std::size_t j = 0; j < to.size(); ++j) to[j] = finite_map(maps, j, what);
+}
+
+void put(const Vec3& position, Vec3& to) {
+  to = position;
+}
+void put(const Vec3& position, Vec2& to) {
+  to = {position.x, position.y};
+}
+
+template <class Position>
+void take_vertices(std::span<const Vec3> from, std::vector<Position>& to) {
+  const auto is_finite = [](const Vec3& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+  };
+  constexpr const char* what = "posed vertices";
+  require_count(to.size(), what, from.size());
+  unsigned finite = 1;  // all of them, so that the loop is done by whole registers
+  for (std::size_t v = 0; v < from.size(); ++v) {
+    finite &= is_finite(from[v]);
+    put(from[v], to[v]);
+  }
+  if (finite == 0)
+    for (std::size_t v = 0; v < from.size(); ++v) require_finite(is_finite(from[v]), what, v);
 }
 
 }  // namespace
 
 Skinner::Skinner(const Character& character)
     : character_(&character),
-      channel_of_joint_(character.joints.size()),
-      to_ground_(character.to_ground),
+      clip_pose_(character),
+      to_ground_(widened(character.to_ground)),
+      joint_to_parent_(character.joints.size()),
       joint_to_world_(character.joints.size()),
       blend_(character) {
-  for (const Joint& joint : character.joints) {
-    Eigen::Matrix3f rotation, scaling;
-    to_eigen(joint.rest).computeRotationScaling(&rotation, &scaling);
-    rest_.push_back(
-        {AffineRows(joint.rest), linear_rows(rotation.cast<double>()), linear_rows(scaling.cast<double>())});
-  }
   for (const std::uint32_t bone : blend_.bones()) {
     joint_of_bone_.push_back(character.bones[bone].joint);
-    inverse_bind_.emplace_back(character.bones[bone].inverse_bind);
+    inverse_bind_.push_back(widened(character.bones[bone].inverse_bind));
   }
   bone_to_shape_.resize(inverse_bind_.size());
 }
 
-/// The joint relative to its parent. Only the parts that the channel animates replace those of the rest
-/// transform. `guess`: where keys of this time were last.
-AffineRows Skinner::local_transform(std::size_t joint, float seconds, std::size_t& guess) const {
-  const auto& [rest, rest_rotation, rest_scaling] = rest_[joint];
-  const Channel* const channel = channel_of_joint_[joint];
-  if (channel == nullptr) return rest;
-  AffineRows local = rest;
-  if (!channel->rotations.empty() || !channel->scales.empty()) {
-    AffineRows rotation = rest_rotation, scaling = rest_scaling;
-    if (!channel->rotations.empty())
-      rotation = linear_rows(
-          interpolate(channel->rotations, channel->rotation_curve, seconds, guess).toRotationMatrix());
-    if (!channel->scales.empty())
-      scaling = linear_rows(
-          interpolate(channel->scales, channel->scale_curve, seconds, guess).asDiagonal().toDenseMatrix());
-    local = rotation * scaling;
-    for (int i = 0; i < 3; ++i) local.row[i][3] = rest.row[i][3];
-  }
-  if (!channel->positions.empty()) {
-    const Eigen::Vector3d position = interpolate(channel->positions, channel->position_curve, seconds, guess);
-    for (int i = 0; i < 3; ++i) local.row[i][3] = position[i];
-  }
-  return local;
-}
-
-void Skinner::place_joints(PoseTime at) {
-  std::fill(channel_of_joint_.begin(), channel_of_joint_.end(), nullptr);
-  if (at.clip != PoseTime::rest)
-    for (const Channel& channel : character_->clips[at.clip].channels)
-      channel_of_joint_[channel.joint] = &channel;
-
-  std::size_t guess = 0;
+void Skinner::place_joints() {
   for (std::size_t j = 0; j < joint_to_world_.size(); ++j) {
     const std::int32_t parent = character_->joints[j].parent;
-    joint_to_world_[j] = (parent < 0 ? to_ground_ : joint_to_world_[static_cast<std::size_t>(parent)]) *
-                         local_transform(j, at.seconds, guess);
+    joint_to_world_[j] =
+        (parent < 0 ? to_ground_ : joint_to_world_[static_cast<std::size_t>(parent)]) * joint_to_parent_[j];
   }
 }
 
@@ -154,44 +110,80 @@ void Skinner::place_joints(PoseTime at) {
 void Skinner::place_bones() {
   double origin[2] = {};
   if (character_->root_joint >= 0) {
-    const AffineRows& root = joint_to_world_[static_cast<std::size_t>(character_->root_joint)];
-    for (int i = 0; i < 2; ++i) origin[i] = root.row[i][3];
+    const Affine3d& root = joint_to_world_[static_cast<std::size_t>(character_->root_joint)];
+    for (int i = 0; i < 2; ++i) origin[i] = root.rows[i][3];
   }
   for (std::size_t b = 0; b < bone_to_shape_.size(); ++b) {
-    AffineRows to_shape = joint_to_world_[joint_of_bone_[b]];
-    for (int i = 0; i < 2; ++i) to_shape.row[i][3] -= origin[i];
+    Affine3d to_shape = joint_to_world_[joint_of_bone_[b]];
+    move_on_ground(to_shape, -origin[0], -origin[1]);
     bone_to_shape_[b] = to_shape * inverse_bind_[b];
   }
 }
 
-template <class Position>
-void Skinner::place_vertices(PoseTime at, std::vector<Position>& positions) {
-  const Character& c = *character_;
-  if (at.clip != PoseTime::rest) {
-    if (at.clip >= c.clips.size())
-      throw std::invalid_argument("character '" + c.name + "' has no clip " + std::to_string(at.clip));
-    if (!(at.seconds >= 0 && at.seconds <= c.clips[at.clip].seconds))
-      throw std::invalid_argument("clip '" + c.clips[at.clip].name + "' has no time " + shortest(at.seconds) +
-                                  " s");
-  }
-  place_joints(at);
+void Skinner::place(PoseTime at) {
+  clip_pose_.place(at, joint_to_parent_);
+  place_joints();
   place_bones();
+}
 
-  positions.resize(c.vertices.size());
+void Skinner::place(const LocalPose& pose) {
+  take_joints(pose.joints, joint_to_parent_);
+  place_joints();
+  place_bones();
+}
+
+void Skinner::place(const WorldPose& pose) {
+  take_joints(pose.joints, joint_to_world_);
+  place_bones();
+}
+
+void Skinner::place(const SkinningPalette& pose) {
+  constexpr const char* what = "bone matrices";
+  require_count(character_->bones.size(), what, pose.bones.size());
+  require_finite(std::isfinite(pose.x) && std::isfinite(pose.y), "origins", 0);
+  for (std::size_t b = 0; b < bone_to_shape_.size(); ++b) {
+    bone_to_shape_[b] = finite_map(pose.bones, blend_.bones()[b], what);
+    move_on_ground(bone_to_shape_[b], -pose.x, -pose.y);
+  }
+}
+
+template <class Position>
+std::span<const Position> Skinner::place_vertices(const Pose& pose, std::vector<Position>& positions) {
+  positions.resize(character_->vertices.size());
+  if (const auto* const posed = std::get_if<PosedVertices>(&pose.kind())) {
+    take_vertices(posed->positions, positions);
+    return positions;
+  }
+  std::visit(
+      [&]<class Kind>(const Kind& kind) {
+        if constexpr (!std::is_same_v<Kind, PosedVertices>) place(kind);
+      },
+      pose.kind());
   if (const auto vertex = blend_.blend(bone_to_shape_, std::span(positions)))
-    throw std::domain_error("character '" + c.name + "': posed vertex " + std::to_string(*vertex) +
+    throw std::domain_error("character '" + character_->name + "': posed vertex " + std::to_string(*vertex) +
                             " is not finite");
-  if (c.root_joint < 0) put_middle_at_origin(positions);
+  if (character_->root_joint < 0) put_middle_at_origin(positions);
+  return positions;
 }
 
-std::span<const Vec3> Skinner::pose(PoseTime at) {
-  place_vertices(at, positions_);
-  return positions_;
+std::span<const Vec3> Skinner::pose(const Pose& pose) {
+  return place_vertices(pose, positions_);
 }
 
-std::span<const Vec2> Skinner::ground_pose(PoseTime at) {
-  place_vertices(at, ground_positions_);
-  return ground_positions_;
+std::span<const Vec2> Skinner::ground_pose(const Pose& pose) {
+  return place_vertices(pose, ground_positions_);
+}
+
+std::span<const Affine3d> Skinner::joints(PoseTime at, JointFrame frame) {
+  clip_pose_.place(at, joint_to_parent_);
+  if (frame == JointFrame::parent) return joint_to_parent_;
+  place_joints();
+  return joint_to_world_;
+}
+
+std::span<const Affine3d> Skinner::blend(std::span<const WeightedPose> poses) {
+  clip_pose_.blend(poses, joint_to_parent_);
+  return joint_to_parent_;
 }
 
 }  // namespace bch::detail

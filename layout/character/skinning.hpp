@@ -8,54 +8,57 @@
 
 #include <bch/character.hpp>
 #include <bch/geometry.hpp>
+#include <bch/pose.hpp>
 
-#include "layout/character/affine_rows.hpp"
+#include "layout/character/clip_pose.hpp"
 #include "layout/character/vertex_blend.hpp"
 
 namespace bch::detail {
 
-/// Poses one character again and again without allocating after the first time.
+/// Poses one character again and again without allocating after the first time. A pose goes one way, from wherever it comes in: clip,
+/// joints in their parents' frames, joints in the world, bones, vertices.
 class Skinner {
  public:
   /// Takes a character, which must outlive this and must be valid (see validate()).
   explicit Skinner(const Character& character);
 
-  /// Poses the mesh by linear blend skinning at a time of a clip, keys interpolated as the channels' curves say, times clamped to
-  /// the first and last key.
+  /// Poses the mesh by linear blend skinning.
   /// Returns: one position a vertex, in metres, z up, relative to the root joint's point on the ground: a
   ///          clip that walks away leaves its shape where it is, while its yaw stays. Valid until the next
   ///          call.
-  /// Errors:  throws std::invalid_argument on a clip or a time that is not there, std::domain_error on a
-  ///          position that is not finite.
-  std::span<const Vec3> pose(PoseTime at);
+  /// Errors:  throws std::invalid_argument on a clip or a time that is not there, on another number of transforms or positions than of
+  ///          joints, bones or vertices, and on one that is not finite; std::domain_error on a position that is not finite.
+  std::span<const Vec3> pose(const Pose& pose);
 
   /// Returns x and y of pose(), with the same bits, in three quarters of the time. Heights may have any
   /// value.
-  std::span<const Vec2> ground_pose(PoseTime at);
+  std::span<const Vec2> ground_pose(const Pose& pose);
+
+  /// Returns the transforms of all joints at a time of a clip, valid until the next call.
+  std::span<const Affine3d> joints(PoseTime at, JointFrame frame);
+  /// Returns those of a blend(), in the frames of the parents.
+  std::span<const Affine3d> blend(std::span<const WeightedPose> poses);
 
   const Character& character() const noexcept { return *character_; }
 
  private:
-  /// Represents a joint relative to its parent where no clip moves it, and its linear part's factors.
-  struct Rest {
-    AffineRows whole, rotation, scaling;
-  };
-
-  AffineRows local_transform(std::size_t joint, float seconds, std::size_t& guess) const;
-  void place_joints(PoseTime at);
+  void place_joints();
   void place_bones();
+  void place(PoseTime at);
+  void place(const LocalPose& pose);
+  void place(const WorldPose& pose);
+  void place(const SkinningPalette& pose);
   template <class Position>
-  void place_vertices(PoseTime at, std::vector<Position>& positions);
+  std::span<const Position> place_vertices(const Pose& pose, std::vector<Position>& positions);
 
   const Character* character_;
-  std::vector<Rest> rest_;
-  std::vector<const Channel*> channel_of_joint_;
-  AffineRows to_ground_;
-  std::vector<AffineRows> joint_to_world_;
+  ClipPose clip_pose_;
+  Affine3d to_ground_;
+  std::vector<Affine3d> joint_to_parent_, joint_to_world_;
   VertexBlend blend_;
   // These arrays hold the bones that move a vertex.
   std::vector<std::uint32_t> joint_of_bone_;
-  std::vector<AffineRows> inverse_bind_, bone_to_shape_;
+  std::vector<Affine3d> inverse_bind_, bone_to_shape_;
   // These arrays hold the vertices. Each one gets its memory when its function is called first.
   std::vector<Vec3> positions_;
   std::vector<Vec2> ground_positions_;

@@ -142,11 +142,11 @@ VertexBlend::VertexBlend(const Character& character) : vertex_(character.vertice
 }
 
 template <class Position>
-std::optional<std::uint32_t> VertexBlend::blend_all(std::span<const AffineRows> maps,
+std::optional<std::uint32_t> VertexBlend::blend_all(std::span<const Affine3d> maps,
                                                     std::span<Position> positions) {
   for (std::size_t b = 0; b < maps.size(); ++b)
     for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t j = 0; j < 4; ++j) rows_[3 * b + i].at[j] = static_cast<float>(maps[b].row[i][j]);
+      for (std::size_t j = 0; j < 4; ++j) rows_[3 * b + i].at[j] = static_cast<float>(maps[b].rows[i][j]);
 
   const Work<Position> work{rows_.data(), weighted_.data(), first_row_.data(), vertex_.data(),
                             positions.data()};
@@ -167,11 +167,11 @@ std::optional<std::uint32_t> VertexBlend::blend_all(std::span<const AffineRows> 
   return static_cast<std::uint32_t>(first - positions.begin());
 }
 
-std::optional<std::uint32_t> VertexBlend::blend(std::span<const AffineRows> maps, std::span<Vec3> positions) {
+std::optional<std::uint32_t> VertexBlend::blend(std::span<const Affine3d> maps, std::span<Vec3> positions) {
   return blend_all(maps, positions);
 }
 
-std::optional<std::uint32_t> VertexBlend::blend(std::span<const AffineRows> maps, std::span<Vec2> positions) {
+std::optional<std::uint32_t> VertexBlend::blend(std::span<const Affine3d> maps, std::span<Vec2> positions) {
   return blend_all(maps, positions);
 }
 

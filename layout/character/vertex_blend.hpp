@@ -11,9 +11,9 @@
 
 #include <bch/character.hpp>
 #include <bch/geometry.hpp>
+#include <bch/pose.hpp>
 
 #include "layout/base/aligned_vector.hpp"
-#include "layout/character/affine_rows.hpp"
 
 namespace bch::detail {
 
@@ -34,9 +34,9 @@ class VertexBlend {
 
   /// Writes where every vertex goes. maps[i] is that of bones()[i].
   /// Returns: the first vertex whose position is not finite, if there is one.
-  std::optional<std::uint32_t> blend(std::span<const AffineRows> maps, std::span<Vec3> positions);
+  std::optional<std::uint32_t> blend(std::span<const Affine3d> maps, std::span<Vec3> positions);
   /// Writes x and y alone, with the same bits, for views from above.
-  std::optional<std::uint32_t> blend(std::span<const AffineRows> maps, std::span<Vec2> positions);
+  std::optional<std::uint32_t> blend(std::span<const Affine3d> maps, std::span<Vec2> positions);
 
  private:
   /// Holds vertices that so many bones move, up to `end` of the order.
@@ -45,7 +45,7 @@ class VertexBlend {
   };
 
   template <class Position>
-  std::optional<std::uint32_t> blend_all(std::span<const AffineRows> maps, std::span<Position> positions);
+  std::optional<std::uint32_t> blend_all(std::span<const Affine3d> maps, std::span<Position> positions);
 
   std::vector<std::uint32_t> bones_;
   std::vector<Run> runs_;

@@ -26,20 +26,20 @@ struct PoseShaper::State {
   std::vector<Outline> slab_outlines;
   Shape shape;
 
-  void make_outlines(PoseTime at, bool whole);
+  void make_outlines(const Pose& pose, bool whole);
   void make_hierarchy(Shape& of);
 };
 
-void PoseShaper::State::make_outlines(PoseTime at, bool whole) {
-  if (extremes) return extremes->find(skinner.ground_pose(at));
+void PoseShaper::State::make_outlines(const Pose& pose, bool whole) {
+  if (extremes) return extremes->find(skinner.ground_pose(pose));
   if (plan.slices.empty() && !plan.heights)
-    return outline_builder->build(skinner.ground_pose(at), shape.outline);
+    return outline_builder->build(skinner.ground_pose(pose), shape.outline);
   const std::span<const float> planes = whole ? std::span<const float>() : plan.slices;
   const std::size_t slabs = planes.size() + 1;
   // Outlines change places with those of the shape, so that both keep their memory.
   slab_outlines.resize(slabs);
   shape.slabs.resize(planes.empty() ? 0 : slabs);
-  shape.heights = outline_builder->build(skinner.pose(at), planes, slab_outlines);
+  shape.heights = outline_builder->build(skinner.pose(pose), planes, slab_outlines);
   if (planes.empty()) return std::swap(shape.outline, slab_outlines[0]);
   for (std::size_t i = 0; i < slabs; ++i) std::swap(shape.slabs[i].outline, slab_outlines[i]);
 }
@@ -71,13 +71,13 @@ void PoseShaper::limit_nodes(std::size_t most) {
   state_->hierarchy_builder.limit_nodes(most);
 }
 
-const Shape& PoseShaper::shape(PoseTime at, bool whole) {
-  make_outlines(at, whole);
+const Shape& PoseShaper::shape(const Pose& pose, bool whole) {
+  make_outlines(pose, whole);
   return make_hierarchies();
 }
 
-const Shape& PoseShaper::make_outlines(PoseTime at, bool whole) {
-  state_->make_outlines(at, whole);
+const Shape& PoseShaper::make_outlines(const Pose& pose, bool whole) {
+  state_->make_outlines(pose, whole);
   return state_->shape;
 }
 
@@ -86,6 +86,18 @@ const Shape& PoseShaper::make_hierarchies() {
   if (shape.slabs.empty()) state_->make_hierarchy(shape);
   for (Shape& slab : shape.slabs) state_->make_hierarchy(slab);
   return shape;
+}
+
+std::span<const Affine3d> PoseShaper::joint_transforms(PoseTime at, JointFrame frame) {
+  return state_->skinner.joints(at, frame);
+}
+
+std::span<const Affine3d> PoseShaper::blend(std::span<const WeightedPose> poses) {
+  return state_->skinner.blend(poses);
+}
+
+std::span<const Vec3> PoseShaper::pose_vertices(const Pose& pose) {
+  return state_->skinner.pose(pose);
 }
 
 }  // namespace bch

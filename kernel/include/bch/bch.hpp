@@ -35,6 +35,7 @@
 #include <bch/character.hpp>
 #include <bch/default_characters.hpp>
 #include <bch/outline_builder.hpp>
+#include <bch/pose.hpp>
 #include <bch/pose_shape.hpp>
 #include <bch/scene_plan.hpp>
 #endif

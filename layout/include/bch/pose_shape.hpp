@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <bch/character.hpp>
+#include <bch/pose.hpp>
 #include <bch/scene_plan.hpp>
 #include <bch/shape_set.hpp>
 
@@ -28,6 +29,7 @@ class PoseShaper {
   /// not divided.
   /// Errors:  throws std::invalid_argument on a bad plan.
   explicit PoseShaper(const Character& character, const ShapeSetPlan& plan = {}, float threshold = 0.01f);
+  PoseShaper(const Character&&, const ShapeSetPlan& = {}, float = 0.01f) = delete;  ///< nothing would keep the character
   PoseShaper(PoseShaper&&) noexcept;
   PoseShaper& operator=(PoseShaper&&) noexcept;
   ~PoseShaper();
@@ -35,21 +37,29 @@ class PoseShaper {
   /// Sets the largest number of nodes of a hierarchy, 2^22 by default. Shapes of more nodes throw std::length_error.
   void limit_nodes(std::size_t most);
 
-  /// Makes the shape of a pose at a time of a clip. Keys are interpolated as the channels' curves say, and times are clamped to the
-  /// first and last key. The root's way over the ground is removed from the shape; its turn stays in it.
+  /// Makes the shape of a pose: a time of a clip, joint transforms, bone matrices or posed vertices. Keys of a clip are interpolated as
+  /// the channels' curves say, and times are clamped to the first and last key. The way of the root joint over the ground is removed
+  /// from the shape, but for bone matrices and vertices; its turn stays in it.
   /// Returns: the shape down to the deepest depth, valid until the next call. It has primitives where that depth is all_depths, because
   ///          exact leaves need them. With slices it has only its slabs, each with outline and hierarchy. With slices, or with the
   ///          plan's heights, it also has the heights of the body.
-  /// Errors:  throws std::invalid_argument on a clip or a time that does not exist and as OutlineBuilder and contour_hierarchy()
-  ///          do, std::domain_error on a position that is not finite. The shape made before is lost.
+  /// Errors:  throws std::invalid_argument on a clip or a time that does not exist, transforms or vertices of another number than the
+  ///          character has or that are not finite, and as OutlineBuilder and contour_hierarchy() do, std::domain_error on a position
+  ///          that is not finite. The shape made before is lost.
   /// `whole`: does not cut the body, whatever the plan's slices; the body is then one part at all of its heights.
-  const Shape& shape(PoseTime at, bool whole = false);
+  const Shape& shape(const Pose& pose, bool whole = false);
 
   /// Makes the outlines of a pose, the first step of shape(), for callers that need only outlines or time each step. It makes
   /// none for a plan of depth 0 alone without slices and heights.
-  const Shape& make_outlines(PoseTime at, bool whole = false);
+  const Shape& make_outlines(const Pose& pose, bool whole = false);
   /// Makes the hierarchies over the last outlines, the second step of shape().
   const Shape& make_hierarchies();
+
+  // Like the functions of these names in pose.hpp, in memory of this object: valid until the next call of the same function or of another
+  // one for the same character.
+  std::span<const Affine3d> joint_transforms(PoseTime at, JointFrame frame = JointFrame::parent);
+  std::span<const Affine3d> blend(std::span<const WeightedPose> poses);
+  std::span<const Vec3> pose_vertices(const Pose& pose);
 
  private:
   struct State;

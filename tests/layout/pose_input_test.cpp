@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <bch/pose_shape.hpp>
+
+#include "layout/character/affine_rows.hpp"
+#include "layout/character/eigen.hpp"
+#include "tests/support/allocation_count.hpp"
+#include "tests/support/character_shapes.hpp"
+#include "tests/support/test.hpp"
+#include "tests/support/test_characters.hpp"
+
+// Poses that are given as transforms, matrices or vertices have the shape of the clip that these are of.
+
+namespace bch {
+namespace {
+
+using test::complaint;
+
+static_assert(!std::is_constructible_v<PoseShaper, Character>);
+static_assert(!std::is_constructible_v<PoseShaper, const Character>);
+static_assert(!std::is_constructible_v<PoseShaper, Character, ShapeSetPlan, float>);
+static_assert(std::is_constructible_v<PoseShaper, Character&> &&
+              std::is_constructible_v<PoseShaper, const Character&>);
+
+/// Returns the bone matrices of a pose, its root joint over the origin.
+std::vector<Affine3d> palette(const Character& character, std::vector<Affine3d> joints) {
+  double x = 0, y = 0;
+  if (character.root_joint >= 0) {
+    const Affine3d& root = joints[static_cast<std::size_t>(character.root_joint)];
+    x = root.rows[0][3], y = root.rows[1][3];
+  }
+  for (Affine3d& joint : joints) joint.rows[0][3] -= x, joint.rows[1][3] -= y;
+  std::vector<Affine3d> bones;
+  for (const Bone& bone : character.bones) {
+    using detail::operator*;
+    bones.push_back(joints[bone.joint] * detail::widened(bone.inverse_bind));
+  }
+  return bones;
+}
+
+Affine3 narrowed(const Affine3d& map) {
+  Affine3 narrow;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 4; ++j) narrow.rows[i][j] = static_cast<float>(map.rows[i][j]);
+  return narrow;
+}
+
+std::vector<Affine3> narrowed(const std::vector<Affine3d>& maps) {
+  std::vector<Affine3> narrow;
+  for (const Affine3d& map : maps) narrow.push_back(narrowed(map));
+  return narrow;
+}
+
+/// The numbers of maps as a renderer keeps them: 4x4 matrices, column by column.
+template <class Number>
+std::vector<Number> columns(const std::vector<Affine3d>& maps) {
+  std::vector<Number> numbers;
+  for (const Affine3d& map : maps)
+    for (int j = 0; j < 4; ++j) {
+      for (int i = 0; i < 3; ++i) numbers.push_back(static_cast<Number>(map.rows[i][j]));
+      numbers.push_back(j == 3);
+    }
+  return numbers;
+}
+
+void expect_same(const Shape& shape, const Shape& expected) {
+  EXPECT_EQ(shape.outline.points, expected.outline.points);
+  EXPECT_EQ(shape.outline.contour_begin, expected.outline.contour_begin);
+  ASSERT_EQ(shape.hierarchy.nodes.size(), expected.hierarchy.nodes.size());
+  for (std::size_t i = 0; i < expected.hierarchy.nodes.size(); ++i)
+    ASSERT_EQ(shape.hierarchy.nodes[i].disc, expected.hierarchy.nodes[i].disc);
+}
+
+/// Expects that every way to give a pose has its vertices and its shape.
+void expect_one_pose(const Character& character, PoseTime at, PoseShaper& by_clip, PoseShaper& by_pose) {
+  const auto local = joint_transforms(character, at),
+             world = joint_transforms(character, at, JointFrame::world), bones = palette(character, world);
+  const auto narrow_bones = narrowed(bones);
+  const auto matrices = columns<float>(bones);
+  const auto numbers = columns<double>(local);
+  const std::vector<Vec3> vertices = pose_vertices(character, at);
+  const Pose poses[] = {
+      LocalPose{local},
+      LocalPose{Transforms::column_major(numbers.data(), local.size())},
+      WorldPose{world},
+      SkinningPalette{bones},
+      SkinningPalette{narrow_bones},
+      SkinningPalette{Transforms::column_major(matrices.data(), bones.size())},
+      PosedVertices{vertices},
+  };
+  const Shape& expected = by_clip.shape(at);
+  for (const Pose& pose : poses) {
+    SCOPED_TRACE(character.name + ", way " + std::to_string(&pose - poses));
+    EXPECT_EQ(pose_vertices(character, pose), vertices);
+    expect_same(by_pose.shape(pose), expected);
+  }
+}
+
+std::vector<PoseTime> times_of_all_clips(const Character& character) {
+  std::vector<PoseTime> times{{}};
+  for (std::uint32_t clip = 0; clip < character.clips.size(); ++clip)
+    for (const float share : {0.0f, 0.37f, 1.0f})
+      times.push_back({clip, share * character.clips[clip].seconds});
+  return times;
+}
+
+TEST(PoseInput, HasTheBitsOfTheClipInEveryWay) {
+  for (const Character& character : test::people()) {
+    PoseShaper by_clip(character), by_pose(character);
+    for (const PoseTime& at : times_of_all_clips(character)) expect_one_pose(character, at, by_clip, by_pose);
+  }
+}
+
+TEST(PoseInput, HasTheBitsOfTheClipInSlabsAndAsARoot) {
+  const Character woman = default_female();
+  for (const ShapeSetPlan& plan : {ShapeSetPlan{.slices = {0.4f, 1}}, ShapeSetPlan{.depths = {0}}}) {
+    PoseShaper by_clip(woman, plan), by_pose(woman, plan);
+    for (const PoseTime& at : sample_poses(woman, 5)) {
+      const Shape& expected = by_clip.shape(at);
+      const std::vector<Vec3> vertices = pose_vertices(woman, at);
+      const auto world = joint_transforms(woman, at, JointFrame::world);
+      for (const Pose& pose : {Pose(PosedVertices{vertices}), Pose(WorldPose{world})}) {
+        const Shape& shape = by_pose.shape(pose);
+        expect_same(shape, expected);
+        EXPECT_EQ(shape.heights, expected.heights);
+        ASSERT_EQ(shape.slabs.size(), expected.slabs.size());
+        for (std::size_t i = 0; i < expected.slabs.size(); ++i)
+          expect_same(shape.slabs[i], expected.slabs[i]);
+      }
+    }
+  }
+}
+
+/// A mesh that no joint carries stands about the middle of its rectangle, but where its vertices are given.
+TEST(PoseInput, HasTheBitsOfTheClipWithoutARoot) {
+  Character man = default_male();
+  man.root_joint = -1;
+  PoseShaper by_clip(man), by_pose(man);
+  for (const PoseTime& at : sample_poses(man, 3)) expect_one_pose(man, at, by_clip, by_pose);
+}
+
+float farthest(std::span<const Vec3> a, std::span<const Vec3> b) {
+  float most = 0;
+  for (std::size_t v = 0; v < a.size(); ++v)
+    most = std::max(most, (detail::to_eigen(a[v]) - detail::to_eigen(b[v])).norm());
+  return most;
+}
+
+TEST(PoseInput, IsNearTheClipInFloat) {
+  const Character man = default_male();
+  for (const PoseTime& at : sample_poses(man, 10)) {
+    const std::vector<Vec3> vertices = pose_vertices(man, at);
+    const auto local = narrowed(joint_transforms(man, at)),
+               world = narrowed(joint_transforms(man, at, JointFrame::world));
+    EXPECT_LT(farthest(pose_vertices(man, LocalPose{local}), vertices), 2e-6f);
+    EXPECT_LT(farthest(pose_vertices(man, WorldPose{world}), vertices), 5e-6f);
+  }
+}
+
+TEST(PoseInput, PalettesMayBeAnywhereOnTheGround) {
+  const Character man = default_male();
+  const PoseTime at{2, 7.0f};
+  auto bones = palette(man, joint_transforms(man, at, JointFrame::world));
+  for (Affine3d& bone : bones) bone.rows[0][3] += 1024, bone.rows[1][3] -= 512;
+  EXPECT_LT(farthest(pose_vertices(man, SkinningPalette{bones, 1024, -512}), pose_vertices(man, at)), 1e-6f);
+}
+
+TEST(PoseInput, JointsHaveNames) {
+  Character man = default_male();
+  EXPECT_EQ(man.joints[find_joint(man, "left ankle")].name, "left ankle");
+  man.joints[3].name = "left ankle";
+  EXPECT_EQ(complaint<std::invalid_argument>([&] { find_joint(man, "left ankle"); }),
+            "character 'default male': expected one joint 'left ankle', found 2");
+  EXPECT_EQ(complaint<std::invalid_argument>([&] { find_joint(man, "tail"); }),
+            "character 'default male': expected one joint 'tail', found 0");
+}
+
+TEST(PoseInput, IsRejectedWhereItDoesNotFit) {
+  const Character man = default_male();
+  PoseShaper shaper(man);
+  const auto complaint_of = [&](const Pose& pose) {
+    return complaint<std::invalid_argument>([&] { shaper.shape(pose); });
+  };
+  auto local = joint_transforms(man, {});
+  const auto fewer = std::span(local).first(26);
+  EXPECT_EQ(complaint_of(LocalPose{fewer}), "shape: expected 27 joint transforms, found 26");
+  EXPECT_EQ(complaint_of(WorldPose{fewer}), "shape: expected 27 joint transforms, found 26");
+  EXPECT_EQ(complaint_of(SkinningPalette{fewer}), "shape: expected 27 bone matrices, found 26");
+  EXPECT_EQ(complaint_of(SkinningPalette{local, 0, std::nan("")}),
+            "shape: expected finite origins, found others at index 0");
+  std::vector<Vec3> vertices = pose_vertices(man, {});
+  EXPECT_EQ(complaint_of(PosedVertices{std::span(vertices).first(9)}),
+            "shape: expected " + std::to_string(man.vertices.size()) + " posed vertices, found 9");
+  vertices[7].z = std::numeric_limits<float>::infinity();
+  EXPECT_EQ(complaint_of(PosedVertices{vertices}),
+            "shape: expected finite posed vertices, found others at index 7");
+  vertices[7] = {3e6f, 0, 0};
+  EXPECT_EQ(complaint_of(PosedVertices{vertices}), "outline: reach 3e+06 m is outside 1e-6 to 1e6 m");
+  local[3].rows[2][1] = std::nan("");
+  EXPECT_EQ(complaint_of(LocalPose{local}),
+            "shape: expected finite joint transforms, found others at index 3");
+  expect_same(shaper.shape(PosedVertices{pose_vertices(man, {})}), PoseShaper(man).shape({}));
+}
+
+TEST(PoseInput, AllocatesNothingTheSecondTime) {
+  const Character woman = default_female();
+  const std::vector<PoseTime> times = sample_poses(woman, 10);
+  PoseShaper shaper(woman), source(woman);
+  const auto run = [&] {
+    for (const PoseTime& at : times) {
+      shaper.shape(LocalPose{source.joint_transforms(at)});
+      shaper.shape(WorldPose{source.joint_transforms(at, JointFrame::world)});
+      shaper.shape(PosedVertices{source.pose_vertices(at)});
+      const WeightedPose mean[] = {{at, 1}, {times[0], 2}};
+      shaper.shape(LocalPose{source.blend(mean)});
+    }
+  };
+  run();
+  const std::size_t before = test::allocation_count();
+  run();
+  EXPECT_EQ(test::allocation_count(), before);
+}
+
+float apart(const std::vector<Affine3d>& a, const std::vector<Affine3d>& b) {
+  double most = 0;
+  for (std::size_t j = 0; j < a.size(); ++j)
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < 4; ++k) most = std::max(most, std::abs(a[j].rows[i][k] - b[j].rows[i][k]));
+  return static_cast<float>(most);
+}
+
+TEST(Blend, OfOnePoseIsThatPose) {
+  for (const Character& character : test::people())
+    for (const PoseTime& at : sample_poses(character, 4)) {
+      const auto alone = joint_transforms(character, at);
+      const WeightedPose one[] = {{{0, 0.5f}, 0}, {at, 0.25f}}, same[] = {{at, 3}, {at, 5}};
+      EXPECT_EQ(blend(character, one), alone);
+      EXPECT_LT(apart(blend(character, same), alone), 1e-6f);
+    }
+}
+
+/// Two joints that a clip turns, moves and scales.
+Character hinge(float angle) {
+  Character c = default_male();
+  const auto turn = [](float by) {
+    return detail::quaternion(Eigen::Quaternionf(Eigen::AngleAxisf(by, Eigen::Vector3f::UnitY())));
+  };
+  Channel channel;
+  channel.joint = 4;
+  channel.positions = {{0, {1, 2, 3}}, {1, {3, 2, 7}}};
+  channel.rotations = {{0, turn(0)}, {1, turn(angle)}};
+  channel.scales = {{0, {1, 1, 1}}, {1, {3, 1, 2}}};
+  c.clips = {{"hinge", 1, {channel}}};
+  return c;
+}
+
+TEST(Blend, TakesMeansOfWhatClipsMove) {
+  const float angle = 1.2f;
+  Character c = hinge(angle);
+  const WeightedPose poses[] = {{{0, 0}, 1}, {{0, 1}, 1}};
+  const auto mean = blend(c, poses);
+  // Half-way, a mean of two quaternions is on the arc between them.
+  const float cosine = std::cos(angle / 2), sine = std::sin(angle / 2);
+  const float expected[3][4] = {
+      {2 * cosine, 0, 1.5f * sine, 2}, {0, 1, 0, 2}, {-2 * sine, 0, 1.5f * cosine, 5}};
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 4; ++k) EXPECT_NEAR(mean[4].rows[i][k], expected[i][k], 1e-6) << i << k;
+  for (const std::size_t still : {3u, 5u}) EXPECT_EQ(mean[still], detail::widened(c.joints[still].rest));
+  // A quaternion and its negative are one rotation.
+  Quaternion& end = c.clips[0].channels[0].rotations[1].value;
+  end = {-end.x, -end.y, -end.z, -end.w};
+  EXPECT_EQ(blend(c, poses), mean);
+}
+
+TEST(Blend, RejectsWhatHasNoMean) {
+  const Character man = default_male();
+  const auto complaint_of = [&](std::vector<WeightedPose> poses) {
+    return complaint<std::invalid_argument>([&] { blend(man, poses); });
+  };
+  EXPECT_EQ(complaint_of({}), "blend: expected a weight above 0, found none");
+  EXPECT_EQ(complaint_of({{{}, 0}}), "blend: expected a weight above 0, found none");
+  EXPECT_EQ(complaint_of({{{}, 1}, {{}, -2}}), "blend: expected weights from 0 on, found -2 of pose 1");
+  EXPECT_EQ(complaint_of({{{99, 0}, 1}, {{}, 1}}), "character 'default male' has no clip 99");
+}
+
+}  // namespace
+}  // namespace bch
