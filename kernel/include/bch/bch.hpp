@@ -32,6 +32,7 @@
 
 // The component characters.
 #if __has_include(<bch/character.hpp>)
+#include <bch/axes.hpp>
 #include <bch/character.hpp>
 #include <bch/default_characters.hpp>
 #include <bch/outline_builder.hpp>
