@@ -98,7 +98,8 @@ Character default_pedestrian(Sex sex, double stature, double shoulders) {
     // The body walks as it is drawn, and is scaled below.
     const Stride stride{speed * shape.stature / stature, pedestrian_strides_per_second(speed), shoulders};
     character.clips.push_back(bake(character, joints, "walk " + shortest(static_cast<float>(speed)) + " m/s",
-                                   2, Travel::authored, striding(manner, stride)));
+                                   1 / stride.strides_per_second, Travel::authored,
+                                   striding(manner, stride)));
   }
   character.root_joint = static_cast<std::int32_t>(joint_index(BodyJoint::head));
   scale(character, static_cast<float>(stature / shape.stature));

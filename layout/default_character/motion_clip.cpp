@@ -71,15 +71,16 @@ Vector3d way_over_ground(const std::vector<Vector3d>& before, const std::vector<
   return way;
 }
 
-std::vector<HumanPose> grounded(const Soles& soles, int count, Travel travel, const Motion& motion) {
+std::vector<HumanPose> grounded(const Soles& soles, const std::vector<double>& times, Travel travel,
+                                const Motion& motion) {
   std::vector<HumanPose> poses;
   std::vector<Vector3d> before;
   Vector3d travelled = Vector3d::Zero();
-  for (int k = 0; k < count; ++k) {
-    HumanPose pose = motion(static_cast<double>(k) / keys_per_second);
+  for (const double time : times) {
+    HumanPose pose = motion(time);
     const std::vector<Vector3d> points = soles.place(pose);
     if (travel == Travel::by_feet) {
-      if (k > 0) travelled += way_over_ground(before, points);
+      if (!poses.empty()) travelled += way_over_ground(before, points);
       before = points;
     }
     pose.pelvis += travelled;
@@ -90,7 +91,7 @@ std::vector<HumanPose> grounded(const Soles& soles, int count, Travel travel, co
 }
 
 /// The keys of a joint, or a single one if it never moves.
-Channel channel(std::uint32_t joint, const std::vector<HumanPose>& poses) {
+Channel channel(std::uint32_t joint, const std::vector<double>& times, const std::vector<HumanPose>& poses) {
   Channel c;
   c.joint = joint;
   bool moves = false;
@@ -98,7 +99,7 @@ Channel channel(std::uint32_t joint, const std::vector<HumanPose>& poses) {
     Eigen::Quaterniond turn = poses[k].turn[joint].normalized();
     if (k > 0 && turn.dot(poses[k - 1].turn[joint]) < 0) turn.coeffs() *= -1;
     moves = moves || turn.angularDistance(poses[0].turn[joint]) > 1e-6;
-    const float time = static_cast<float>(k) / keys_per_second;
+    const auto time = static_cast<float>(times[k]);
     c.rotations.push_back({time, quaternion(turn.cast<float>())});
     if (joint == 0) c.positions.push_back({time, vec3(poses[k].pelvis.cast<float>())});
   }
@@ -108,12 +109,14 @@ Channel channel(std::uint32_t joint, const std::vector<HumanPose>& poses) {
 
 }  // namespace
 
-Clip bake(const Character& character, const JointPositions& joints, std::string name, int seconds,
+Clip bake(const Character& character, const JointPositions& joints, std::string name, double seconds,
           Travel travel, const Motion& motion) {
   Clip clip{std::move(name), static_cast<float>(seconds), {}};
-  const Soles soles(character, joints);
-  const std::vector<HumanPose> poses = grounded(soles, seconds * keys_per_second + 1, travel, motion);
-  for (std::uint32_t j = 0; j < body_joint_count; ++j) clip.channels.push_back(channel(j, poses));
+  const double spans = std::ceil(seconds * keys_per_second);
+  std::vector<double> times;
+  for (int k = 0; k <= static_cast<int>(spans); ++k) times.push_back(k * seconds / spans);
+  const std::vector<HumanPose> poses = grounded(Soles(character, joints), times, travel, motion);
+  for (std::uint32_t j = 0; j < body_joint_count; ++j) clip.channels.push_back(channel(j, times, poses));
   return clip;
 }
 

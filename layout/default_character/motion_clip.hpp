@@ -19,10 +19,10 @@ using Motion = std::function<HumanPose(double seconds)>;
 /// slide.
 enum class Travel { authored, by_feet };
 
-/// Writes a motion down as keys, 16 a second. The height of the pelvis is corrected so that the
+/// Writes a motion down as keys, evenly spread, at least 16 a second. The height of the pelvis is corrected so that the
 /// lowest vertex of the soles is on the ground at each key. `character` has a skin and a skeleton at
-/// `joints`. Precondition: a whole number of seconds.
-Clip bake(const Character& character, const JointPositions& joints, std::string name, int seconds,
+/// `joints`.
+Clip bake(const Character& character, const JointPositions& joints, std::string name, double seconds,
           Travel travel, const Motion& motion);
 
 }  // namespace bch::detail

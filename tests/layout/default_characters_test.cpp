@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the bch authors
 
 #include <bch/default_characters.hpp>
+#include <bch/pose.hpp>
 
 #include <random>
 
@@ -242,6 +243,25 @@ TEST(Pedestrians, FeetOnTheGroundStayWhereTheyAre) {
       const float way = scale * (pelvis.positions.back().value.x - pelvis.positions.front().value.x);
       EXPECT_NEAR(way / pelvis.positions.back().time, pedestrian_speed_step * clip, 1e-4)
           << character.clips[clip].name;
+    }
+  }
+}
+
+/// A clip is one stride: its last pose is its first one, that much further on.
+TEST(Pedestrians, StridesCanBeRepeated) {
+  for (const Sex sex : {Sex::female, Sex::male}) {
+    const Character character = default_pedestrian(sex, 1.7, sex == Sex::male ? 0.7 : 0);
+    for (std::uint32_t clip = 0; clip < pedestrian_speeds; ++clip) {
+      const float seconds = character.clips[clip].seconds;
+      const double speed = pedestrian_speed_step * clip;
+      EXPECT_NEAR(static_cast<double>(seconds) * pedestrian_strides_per_second(speed), 1, 1e-6);
+      const std::vector<Vec3> first = pose_vertices(character, {clip, 0}),
+                              last = pose_vertices(character, {clip, seconds});
+      for (std::size_t v = 0; v < first.size(); ++v) ASSERT_LT(distance(first[v], last[v]), 2e-6f) << clip;
+      const auto head = [&](float at) {
+        return joint_transforms(character, {clip, at}, JointFrame::world)[4].rows[0][3];
+      };
+      EXPECT_NEAR(head(seconds) - head(0), speed * static_cast<double>(seconds), 1e-6);
     }
   }
 }

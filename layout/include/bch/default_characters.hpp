@@ -35,8 +35,8 @@ constexpr std::uint32_t pedestrian_speeds = 74;
 constexpr double pedestrian_speed_step = 0.03;
 
 /// Returns a pedestrian for recorded and simulated crowds: the built-in man or woman of a given stature. The pedestrian walks at every
-/// speed, keeps the arms close, and stands under the head, which is what cameras track. Each clip has the stride at one speed, which
-/// begins with the left heel's contact. Steps are taken at 1.3 Hz when people shuffle and at 0.5 Hz more for every metre per second:
+/// speed, keeps the arms close, and stands under the head, which is what cameras track. Each clip is one stride at one speed: it
+/// begins and ends with the left heel's contact, in the same pose, and can be repeated. Steps are taken at 1.3 Hz when people shuffle and at 0.5 Hz more for every metre per second:
 /// about 2 Hz and 0.7 m at 1.4 m/s. The step length goes to 0 with the speed. `shoulders` is the angle of the shoulders to the
 /// walking direction, counter-clockwise: people turn them when they pass each other closely.
 /// Units:   metres, radians; a stature from 0.8 to 2.4, a turn from -1 to 1.
