@@ -15,9 +15,9 @@
 #include "kernel/broad_phase/crowd_grid.hpp"
 #include "kernel/broad_phase/radix_sort.hpp"
 #include "kernel/broad_phase/sorted_discs.hpp"
-#include "kernel/runtime/floating_point_state.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 #include "kernel/simd/slab_pairs.hpp"
+#include "layout/base/floating_point_state.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/base/shortest.hpp"
 

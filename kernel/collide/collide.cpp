@@ -4,10 +4,10 @@
 #include <bch/collide.hpp>
 
 #include "kernel/collide/answer.hpp"
-#include "kernel/runtime/floating_point_state.hpp"
 #include "kernel/runtime/pair_validation.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 #include "kernel/runtime/validation.hpp"
+#include "layout/base/floating_point_state.hpp"
 
 namespace bch {
 

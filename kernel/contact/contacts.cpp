@@ -10,10 +10,10 @@
 
 #include <bch/broad_phase.hpp>
 
-#include "kernel/runtime/floating_point_state.hpp"
 #include "kernel/runtime/pair_validation.hpp"
 #include "kernel/runtime/part_items.hpp"
 #include "kernel/runtime/task_ranges.hpp"
+#include "layout/base/floating_point_state.hpp"
 #include "layout/format/shape_arrays.hpp"
 
 namespace bch {

@@ -13,10 +13,10 @@
 #include "kernel/distance/clearance_arguments.hpp"
 #include "kernel/distance/distance_input.hpp"
 #include "kernel/distance/nearest_features.hpp"
-#include "kernel/runtime/floating_point_state.hpp"
 #include "kernel/runtime/pair_validation.hpp"
 #include "kernel/runtime/part_items.hpp"
 #include "kernel/runtime/task_ranges.hpp"
+#include "layout/base/floating_point_state.hpp"
 #include "layout/base/rounding.hpp"
 
 namespace bch {

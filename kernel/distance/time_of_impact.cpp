@@ -10,10 +10,10 @@
 #include "kernel/distance/apart_pairs.hpp"
 #include "kernel/distance/distance_input.hpp"
 #include "kernel/distance/time_of_impact_arguments.hpp"
-#include "kernel/runtime/floating_point_state.hpp"
 #include "kernel/runtime/pair_validation.hpp"
 #include "kernel/runtime/part_items.hpp"
 #include "kernel/runtime/task_ranges.hpp"
+#include "layout/base/floating_point_state.hpp"
 
 namespace bch {
 

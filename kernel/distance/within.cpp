@@ -9,10 +9,10 @@
 #include "kernel/collide/answer.hpp"
 #include "kernel/distance/clearance_arguments.hpp"
 #include "kernel/distance/distance_input.hpp"
-#include "kernel/runtime/floating_point_state.hpp"
 #include "kernel/runtime/pair_validation.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 #include "kernel/simd/gaps.hpp"
+#include "layout/base/floating_point_state.hpp"
 
 namespace bch {
 

@@ -9,9 +9,9 @@
 
 #include "kernel/motion/contact_search.hpp"
 #include "kernel/motion/motion_parts.hpp"
-#include "kernel/runtime/floating_point_state.hpp"
 #include "kernel/runtime/pair_validation.hpp"
 #include "kernel/runtime/task_ranges.hpp"
+#include "layout/base/floating_point_state.hpp"
 
 namespace bch {
 

@@ -16,9 +16,9 @@
 #include <bch/time_of_impact.hpp>
 
 #include "kernel/motion/moment_table.hpp"
-#include "kernel/runtime/floating_point_state.hpp"
 #include "kernel/runtime/pair_validation.hpp"
 #include "kernel/runtime/task_ranges.hpp"
+#include "layout/base/floating_point_state.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/shape_set/animated_tree.hpp"
 #include "layout/shape_set/moment_flattener.hpp"

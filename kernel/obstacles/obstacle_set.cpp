@@ -13,7 +13,7 @@
 #include "kernel/obstacles/box_tree_memory.hpp"
 #include "kernel/obstacles/distance_grid_memory.hpp"
 #include "kernel/obstacles/segment.hpp"
-#include "kernel/runtime/floating_point_state.hpp"
+#include "layout/base/floating_point_state.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/base/shortest.hpp"
 

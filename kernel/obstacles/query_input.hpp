@@ -9,9 +9,9 @@
 #include <bch/obstacles.hpp>
 
 #include "kernel/obstacles/body_query.hpp"
-#include "kernel/runtime/floating_point_state.hpp"
 #include "kernel/runtime/pair_validation.hpp"
 #include "kernel/runtime/task_ranges.hpp"
+#include "layout/base/floating_point_state.hpp"
 
 namespace bch::detail {
 

@@ -11,11 +11,11 @@
 #include <stdexcept>
 #include <string>
 
-#include "kernel/runtime/floating_point_state.hpp"
 #include "kernel/runtime/pair_validation.hpp"
 #include "kernel/runtime/part_items.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 #include "kernel/simd/slab_pairs.hpp"
+#include "layout/base/floating_point_state.hpp"
 #include "layout/base/heading.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/format/cut_discs.hpp"

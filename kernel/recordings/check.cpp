@@ -11,8 +11,8 @@
 #include "kernel/recordings/events.hpp"
 #include "kernel/recordings/frame_block.hpp"
 #include "kernel/recordings/frame_run.hpp"
-#include "kernel/runtime/floating_point_state.hpp"
 #include "kernel/runtime/task_ranges.hpp"
+#include "layout/base/floating_point_state.hpp"
 
 namespace bch::detail {
 namespace {

@@ -11,7 +11,7 @@
 
 #include <bch/shape_set_builder.hpp>
 
-#include "kernel/runtime/floating_point_state.hpp"
+#include "layout/base/floating_point_state.hpp"
 
 namespace bch::detail {
 

@@ -10,9 +10,9 @@
 #include <bch/query.hpp>
 
 #include "kernel/runtime/agent_check.hpp"
-#include "kernel/runtime/floating_point_state.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 #include "kernel/runtime/validation.hpp"
+#include "layout/base/floating_point_state.hpp"
 
 namespace bch::detail {
 namespace {

@@ -12,7 +12,7 @@
 #include <algorithm>
 #include <cstddef>
 
-#include "kernel/runtime/floating_point_state.hpp"
+#include "layout/base/floating_point_state.hpp"
 
 namespace bch::detail {
 

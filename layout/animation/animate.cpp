@@ -16,6 +16,7 @@
 #include "layout/animation/disc_ring.hpp"
 #include "layout/animation/parts_apart.hpp"
 #include "layout/animation/slab_triangles.hpp"
+#include "layout/base/floating_point_state.hpp"
 #include "layout/base/planes.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/character/skinning.hpp"
@@ -241,6 +242,7 @@ void require(float value, const char* what) {
 }  // namespace detail
 
 AnimatedDiscs animate(const Character& character, std::uint32_t clip, const AnimateOptions& options) {
+  const detail::FloatingPointStateGuard floats;
   detail::require(options.spacing, "a spacing");
   detail::require(options.inset, "an inset");
   detail::require(options.error, "an error");

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "layout/base/floating_point_state.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/format/shape_validation.hpp"
 
@@ -52,6 +53,7 @@ void require_origins(std::span<const ShapeOrigin> origins, std::size_t shapes, s
 }  // namespace
 
 void validate(const Arrays& arrays, const std::function<void(std::size_t)>& before_nodes) {
+  const FloatingPointStateGuard floats;
   detail::validate(arrays.shapes, before_nodes);
   require_settings(arrays.settings);
   require_origins(arrays.origins, arrays.shapes.shape_count(),

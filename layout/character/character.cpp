@@ -6,6 +6,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "layout/base/floating_point_state.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/character/eigen.hpp"
 
@@ -117,6 +118,7 @@ void validate_clips(const Character& c) {
 }  // namespace
 
 void validate(const Character& c) {
+  const FloatingPointStateGuard floats;
   if (c.triangles.empty()) reject(c, "no triangles");
   validate_joints(c);
   validate_influences(c);
@@ -128,6 +130,7 @@ void validate(const Character& c) {
 }
 
 std::vector<PoseTime> sample_poses(const Character& character, std::uint32_t count) {
+  const FloatingPointStateGuard floats;
   double total = 0;
   for (const Clip& clip : character.clips) total += static_cast<double>(clip.seconds);
   if (character.clips.empty()) return {PoseTime{}};

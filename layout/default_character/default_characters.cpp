@@ -8,6 +8,7 @@
 
 #include <bch/default_characters.hpp>
 
+#include "layout/base/floating_point_state.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/character/eigen.hpp"
 #include "layout/default_character/body_weights.hpp"
@@ -79,10 +80,12 @@ void scale(Character& character, float factor) {
 }  // namespace
 
 double pedestrian_strides_per_second(double metres_per_second) {
+  const FloatingPointStateGuard floats;
   return 0.5 * (1.3 + 0.5 * metres_per_second);
 }
 
 Character default_pedestrian(Sex sex, double stature, double shoulders) {
+  const FloatingPointStateGuard floats;
   if (!(stature >= 0.8 && stature <= 2.4))
     throw std::invalid_argument("stature of a pedestrian is " + shortest(stature) +
                                 ", not from 0.8 to 2.4 m");
@@ -107,6 +110,7 @@ Character default_pedestrian(Sex sex, double stature, double shoulders) {
 }
 
 Character default_male() {
+  const FloatingPointStateGuard floats;
   const BodyShape shape = male_shape();
   const JointPositions joints = joint_positions(shape);
   Character character = at_rest("default male", shape, joints);
@@ -115,6 +119,7 @@ Character default_male() {
 }
 
 Character default_bulky_male() {
+  const FloatingPointStateGuard floats;
   const BodyShape shape = bulky_male_shape();
   const JointPositions joints = joint_positions(shape);
   Character character = at_rest("default bulky male", shape, joints);
@@ -123,6 +128,7 @@ Character default_bulky_male() {
 }
 
 Character default_female() {
+  const FloatingPointStateGuard floats;
   const BodyShape shape = female_shape();
   const JointPositions joints = joint_positions(shape);
   Character character = at_rest("default female", shape, joints);

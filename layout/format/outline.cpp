@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "layout/base/floating_point_state.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/format/contours.hpp"
@@ -49,12 +50,14 @@ void require_not_clockwise(const Outline& outline, std::size_t c, double twice_a
 }  // namespace
 
 double area(const Outline& outline) {
+  const FloatingPointStateGuard floats;
   double twice = 0;
   for (std::size_t c = 0; c < outline.contours(); ++c) twice += twice_area(outline.contour(c));
   return 0.5 * twice;
 }
 
 Outline outline_from_polygons(std::span<const std::vector<Vec2>> polygons) {
+  const FloatingPointStateGuard floats;
   if (polygons.empty()) throw std::invalid_argument("outline: there are no polygons");
   Outline outline;
   for (std::size_t p = 0; p < polygons.size(); ++p) {
@@ -82,6 +85,7 @@ Outline outline_from_polygons(std::span<const std::vector<Vec2>> polygons) {
 }
 
 double validate(const Outline& outline) {
+  const FloatingPointStateGuard floats;
   const auto& begin = outline.contour_begin;
   if (begin.size() < 2 || begin.front() != 0 || begin.back() != outline.points.size())
     throw std::invalid_argument("outline: contour offsets do not fit " +

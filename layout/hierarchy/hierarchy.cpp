@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "layout/base/floating_point_state.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/hierarchy/builder.hpp"
@@ -31,6 +32,7 @@ namespace {
 }  // namespace
 
 void validate(const Hierarchy& hierarchy) {
+  const FloatingPointStateGuard floats;
   if (hierarchy.nodes.empty()) throw std::invalid_argument("hierarchy: it has no nodes");
   require_reach(hierarchy.reach);
   const auto farthest = static_cast<float>(hierarchy.reach * (1 + 0x1p-20));
@@ -45,6 +47,7 @@ void validate(const Hierarchy& hierarchy) {
 }
 
 Hierarchy contour_hierarchy(const Outline& outline, float threshold, SplitRule rule) {
+  const FloatingPointStateGuard floats;
   Hierarchy hierarchy;
   HierarchyBuilder builder;
   builder.contour(outline, threshold, rule, hierarchy);
@@ -54,6 +57,7 @@ Hierarchy contour_hierarchy(const Outline& outline, float threshold, SplitRule r
 
 Hierarchy projected_hierarchy(std::span<const Vec2> vertices,
                               std::span<const std::array<std::uint32_t, 3>> triangles) {
+  const FloatingPointStateGuard floats;
   Hierarchy hierarchy;
   HierarchyBuilder builder;
   builder.projected(vertices, triangles, hierarchy);
@@ -62,6 +66,7 @@ Hierarchy projected_hierarchy(std::span<const Vec2> vertices,
 }
 
 Hierarchy fixed_cylinder(float radius) {
+  const FloatingPointStateGuard floats;
   const double size = radius;
   require_reach(size);
   Hierarchy hierarchy;

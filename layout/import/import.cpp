@@ -6,6 +6,7 @@
 #include <new>
 #include <set>
 
+#include "layout/base/floating_point_state.hpp"
 #include "layout/import/clips.hpp"
 #include "layout/import/mesh.hpp"
 #include "layout/import/scene.hpp"
@@ -97,6 +98,7 @@ ImportedCharacter importing::character_of(const SceneFile& file, const ImportOpt
 }
 
 ImportedCharacter import_character(const std::filesystem::path& file, const ImportOptions& options) {
+  const FloatingPointStateGuard floats;
   return naming(file, [&] { return character_of(SceneFile(file, options), options); });
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "layout/base/build_implementation.hpp"
+#include "layout/base/floating_point_state.hpp"
 #include "layout/base/planes.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/outline/candidates.hpp"
@@ -226,23 +227,28 @@ OutlineBuilder::OutlineBuilder(std::span<const std::array<std::uint32_t, 3>> tri
     : OutlineBuilder(triangles, vertices, bind_pose, best_build_implementation()) {}
 
 OutlineBuilder::OutlineBuilder(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices,
-                               std::span<const Vec3> bind_pose, const BuildImplementation& implementation)
-    : state_(std::make_unique<State>(triangles, vertices, bind_pose, implementation)) {}
+                               std::span<const Vec3> bind_pose, const BuildImplementation& implementation) {
+  const FloatingPointStateGuard floats;
+  state_ = std::make_unique<State>(triangles, vertices, bind_pose, implementation);
+}
 
 OutlineBuilder::OutlineBuilder(OutlineBuilder&&) noexcept = default;
 OutlineBuilder& OutlineBuilder::operator=(OutlineBuilder&&) noexcept = default;
 OutlineBuilder::~OutlineBuilder() = default;
 
 void OutlineBuilder::build(std::span<const Vec2> positions, Outline& outline) {
+  const FloatingPointStateGuard floats;
   state_->build(positions, outline);
 }
 
 void OutlineBuilder::build(std::span<const Vec3> positions, Outline& outline) {
+  const FloatingPointStateGuard floats;
   state_->build(positions, outline);
 }
 
 Heights OutlineBuilder::build(std::span<const Vec3> positions, std::span<const float> planes,
                               std::span<Outline> slabs) {
+  const FloatingPointStateGuard floats;
   return state_->build(positions, planes, slabs);
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <tuple>
 
+#include "layout/base/floating_point_state.hpp"
 #include "layout/base/shortest.hpp"
 
 namespace bch {
@@ -53,6 +54,7 @@ std::size_t count_within(const std::vector<StandingPlace>& places, double x, dou
 }  // namespace
 
 std::vector<double> local_densities(std::span<const double> x, std::span<const double> y, double radius) {
+  const FloatingPointStateGuard floats;
   require(x, y, radius);
   std::vector<StandingPlace> places;
   for (std::size_t i = 0; i < x.size(); ++i) places.push_back({std::floor(y[i] / radius), x[i], y[i]});

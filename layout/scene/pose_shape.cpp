@@ -8,6 +8,7 @@
 #include <bch/outline_builder.hpp>
 #include <bch/pose_shape.hpp>
 
+#include "layout/base/floating_point_state.hpp"
 #include "layout/character/skinning.hpp"
 #include "layout/hierarchy/builder.hpp"
 #include "layout/outline/extreme_vertices.hpp"
@@ -54,9 +55,10 @@ void PoseShaper::State::make_hierarchy(Shape& of) {
   if (plan.depths.back() == all_depths) hierarchy_builder.add_primitives(of.hierarchy);
 }
 
-PoseShaper::PoseShaper(const Character& character, const ShapeSetPlan& plan, float threshold)
-    : state_(new State{plan, threshold, Skinner(character), {}, {}, {}, {}, {}}) {
+PoseShaper::PoseShaper(const Character& character, const ShapeSetPlan& plan, float threshold) {
+  const FloatingPointStateGuard floats;
   validate(plan);
+  state_.reset(new State{plan, threshold, Skinner(character), {}, {}, {}, {}, {}});
   if (plan.depths.back() == 0 && plan.slices.empty() && !plan.heights)
     state_->extremes.emplace(character.triangles, character.vertices.size());
   else
@@ -77,11 +79,13 @@ const Shape& PoseShaper::shape(const Pose& pose, bool whole) {
 }
 
 const Shape& PoseShaper::make_outlines(const Pose& pose, bool whole) {
+  const FloatingPointStateGuard floats;
   state_->make_outlines(pose, whole);
   return state_->shape;
 }
 
 const Shape& PoseShaper::make_hierarchies() {
+  const FloatingPointStateGuard floats;
   Shape& shape = state_->shape;
   if (shape.slabs.empty()) state_->make_hierarchy(shape);
   for (Shape& slab : shape.slabs) state_->make_hierarchy(slab);

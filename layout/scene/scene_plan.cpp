@@ -10,6 +10,7 @@
 #include <string>
 #include <tuple>
 
+#include "layout/base/floating_point_state.hpp"
 #include "layout/base/shortest.hpp"
 
 namespace bch {
@@ -105,6 +106,7 @@ std::vector<float> standing_slices(std::uint32_t slabs) {
 }
 
 ScenePlan plan_scene(std::span<const SceneAgent> agents, const SceneUse& use) {
+  const FloatingPointStateGuard floats;
   require(use);
   for (std::size_t i = 0; i < agents.size(); ++i) {
     if (!(agents[i].distance >= 0) || !std::isfinite(agents[i].distance))

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "layout/base/floating_point_state.hpp"
 #include "layout/base/planes.hpp"
 #include "layout/base/ring_edges.hpp"
 #include "layout/base/shortest.hpp"
@@ -165,6 +166,7 @@ namespace bch {
 using namespace detail;
 
 void validate(const AnimatedDiscs& discs) {
+  const FloatingPointStateGuard floats;
   if (!(discs.heights.bottom <= discs.heights.top))
     reject("heights from " + shortest(discs.heights.bottom) + " to " + shortest(discs.heights.top) + " m");
   if (discs.slabs.empty() && discs.slices.empty())

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "layout/base/floating_point_state.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/hierarchy/builder.hpp"
 #include "layout/shape_set/animated_tree.hpp"
@@ -128,6 +129,7 @@ void make_shape(const ChunkAt& at, double reach, Shape& shape) {
 }  // namespace
 
 AnimatedShape::AnimatedShape(const AnimatedDiscs& discs) : slices_(discs.slices), heights_(discs.heights) {
+  const FloatingPointStateGuard floats;
   validate(discs);
   tree_ = tree_of(discs.chunks, discs.loops);
   for (const AnimatedDiscs& slab : discs.slabs) {
@@ -175,6 +177,7 @@ std::size_t AnimatedShape::bytes() const noexcept {
 }
 
 std::vector<Disc> AnimatedShape::discs(double seconds) const {
+  const FloatingPointStateGuard floats;
   std::vector<Disc> discs;
   const auto add = [&](const AnimatedShape& body) {
     const ChunkAt at(*body.tree_, seconds);
@@ -192,6 +195,7 @@ Shape AnimatedShape::shape(double seconds) const {
 }
 
 void AnimatedShape::shape(double seconds, Shape& shape) const {
+  const FloatingPointStateGuard floats;
   shape.heights = heights_;
   shape.slabs.resize(slabs_.size());
   for (std::size_t i = 0; i < slabs_.size(); ++i) slabs_[i].shape(seconds, shape.slabs[i]);

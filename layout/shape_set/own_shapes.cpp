@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "layout/base/floating_point_state.hpp"
 #include "layout/base/heading.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/base/shortest.hpp"
@@ -63,6 +64,7 @@ std::vector<Vec2> polygon_about(const ExactCapsule& capsule, double tolerance) {
 }  // namespace
 
 Shape shape_from_discs(std::span<const Disc> discs) {
+  const detail::FloatingPointStateGuard floats;
   // In braces after an outline, GCC 12 destroys the outline twice where this throws.
   Shape shape;
   shape.hierarchy = detail::disc_hierarchy(discs);
@@ -70,6 +72,7 @@ Shape shape_from_discs(std::span<const Disc> discs) {
 }
 
 Shape shape_from_polygons(std::span<const std::vector<Vec2>> polygons, float threshold) {
+  const detail::FloatingPointStateGuard floats;
   Shape shape;
   shape.outline = outline_from_polygons(polygons);
   shape.hierarchy = contour_hierarchy(shape.outline, threshold);
@@ -77,6 +80,7 @@ Shape shape_from_polygons(std::span<const std::vector<Vec2>> polygons, float thr
 }
 
 Shape shape_from_capsules(std::span<const Capsule> capsules, float tolerance, float threshold) {
+  const detail::FloatingPointStateGuard floats;
   if (!(tolerance > 0))
     throw std::invalid_argument("shape: a tolerance of " + detail::shortest(tolerance) + " m");
   std::vector<std::vector<Vec2>> polygons;

@@ -12,6 +12,7 @@
 #include <bch/shape_set.hpp>
 #include <bch/shape_set_builder.hpp>
 
+#include "layout/base/floating_point_state.hpp"
 #include "layout/base/planes.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/format/contours.hpp"
@@ -44,6 +45,7 @@ bool is_solid(const ShapeArrays& arrays) {
 }
 
 ShapeSet build(std::span<const Shape> shapes, const ShapeSetPlan& plan) {
+  const FloatingPointStateGuard floats;
   PreparedShape prepared(plan);
   ShapeSetBuilder builder(plan, shapes.size());
   for (std::size_t s = 0; s < shapes.size(); ++s) {
@@ -219,6 +221,7 @@ std::vector<std::uint32_t> ShapeSet::slab_begin(std::uint32_t shape, std::uint32
 }
 
 float ShapeSet::bounding_radius(std::uint32_t shape) const {
+  const FloatingPointStateGuard floats;
   require(shape < shape_count(), "shape", shape, shape_count());
   double farthest = 0;
   visit_parts(view(), shape, [&](std::uint32_t part, std::uint32_t) {

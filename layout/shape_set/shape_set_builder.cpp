@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "layout/base/floating_point_state.hpp"
 #include "layout/shape_set/builder_end.hpp"
 #include "layout/shape_set/shape_flattener.hpp"
 #include "layout/shape_set/shape_storage.hpp"
@@ -40,6 +41,7 @@ PreparedShape& PreparedShape::operator=(PreparedShape&&) noexcept = default;
 PreparedShape::~PreparedShape() = default;
 
 void PreparedShape::prepare(const Shape& shape, std::size_t index) {
+  const FloatingPointStateGuard floats;
   state_->flattener.flatten(shape, index, state_->flat);
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "layout/base/floating_point_state.hpp"
 #include "layout/format/parts.hpp"
 #include "layout/shape_set/flat_shape.hpp"
 #include "layout/shape_set/verify_parts.hpp"
@@ -67,6 +68,7 @@ std::string text_of(const Finding& finding) {
 }
 
 std::vector<Finding> verify(const ShapeSet& set, std::size_t most) {
+  const FloatingPointStateGuard floats;
   std::vector<Finding> findings;
   const ShapeArrays& arrays = set.arrays();
   const auto verify_part = [&](std::uint32_t shape, std::uint32_t slab, std::uint32_t part) {

@@ -20,7 +20,7 @@
 #include <bch/penetration.hpp>
 #include <bch/time_of_impact.hpp>
 
-#include "kernel/runtime/floating_point_state.hpp"
+#include "layout/base/floating_point_state.hpp"
 #include "tests/support/float_state.hpp"
 #include "tests/support/scenes.hpp"
 

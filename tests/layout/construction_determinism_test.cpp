@@ -14,6 +14,7 @@
 #include <bch/shape_set.hpp>
 
 #include "tests/support/baked_bytes.hpp"
+#include "tests/support/float_state.hpp"
 #include "tests/support/scenes.hpp"
 
 // What construction makes, as hashes of baked files: the same bytes for every compiler, optimisation and processor. Where
@@ -43,6 +44,35 @@ TEST(ConstructionDeterminism, OfCharactersInPoses) {
   EXPECT_EQ(hash_of(default_male(), {.depths = {0, 3, all_depths}}), 0x9afeb98147d88264);
   EXPECT_EQ(hash_of(default_female(), {.depths = {0, all_depths}, .slices = {0.4f, 1.0f}}),
             0xf2584443ac69e9d8);
+}
+
+/// Hashes of all that makes shapes: of given outlines, of capsules and discs, of characters as outlines, roots and moving discs.
+std::vector<std::uint64_t> hashes_of_all(std::vector<Shape> given) {
+  for (Shape& shape : given) shape.hierarchy = contour_hierarchy(shape.outline, 0.02f);
+  const std::vector<Capsule> arm{{{0.1f, 0}, {0.1f, 0.7f}, 0.05f}};
+  const std::vector<Disc> pair{{0, -0.2f, 0.15f}, {1e-40f, 0.2f, 0.15f}};
+  const Character woman = default_pedestrian(Sex::female, 1.63);
+  return {hash_of(given, {{0, 3, all_depths}, true}),
+          hash_of({shape_from_capsules(arm)}, {}),
+          hash_of({shape_from_discs(pair)}, {}),
+          hash_of(default_male(), {.slices = {0.4f, 1.0f}}),
+          hash_of(woman, {.depths = {0}, .outlines = false}),
+          hash_of({AnimatedShape(animate(woman, 0)).shape(0.3)}, {})};
+}
+
+/// Whoever links with -ffast-math begins with denormal numbers off.
+TEST(ConstructionDeterminism, OfTheThreadsFloatingPointState) {
+  const std::vector<Shape> given = test::synthetic_shapes(7, 16);
+  const std::vector<std::uint64_t> expected = hashes_of_all(given);
+  const unsigned before = test::float_state();
+  for (const test::FloatState& state : test::odd_float_states()) {
+    test::set_float_state(state.bits);
+    const std::vector<std::uint64_t> here = hashes_of_all(given);
+    const unsigned after = test::float_state();
+    test::set_float_state(before);
+    EXPECT_EQ(here, expected) << state.name;
+    EXPECT_EQ(after, state.bits) << state.name;
+  }
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "kernel/runtime/floating_point_state.hpp"
+#include "layout/base/floating_point_state.hpp"
 
 #include "layout/base/floating_point_register.hpp"
 
