@@ -2,18 +2,18 @@
 // Copyright (c) 2026 the bch authors
 
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <exception>
+#include <span>
+#include <utility>
 #include <vector>
 
-#include <bch/clearance.hpp>
-#include <bch/collide.hpp>
-#include <bch/penetration.hpp>
-#include <bch/shape_set.hpp>
+#include <bch/bch.hpp>
 
-// Prints what must not depend on compiler flags: collisions of a crowd of polygons, a hash of its distances and depths, and whether NaN
-// is refused. Input is of integers over powers of two, which every flag leaves exact.
+// Prints what must not depend on anybody's compiler flags: a hash of every query's answers, and whether NaN is refused. Input is of
+// integers over powers of two, which every flag leaves exact.
 
 namespace {
 
@@ -28,67 +28,175 @@ std::uint32_t random_index(std::uint32_t count) {
   return static_cast<std::uint32_t>(random_number(count));
 }
 
-std::vector<bch::Shape> polygons() {
-  std::vector<bch::Shape> shapes;
-  for (int k = 0; k < 16; ++k) {
-    // Stars of eight corners about the origin.
-    constexpr float way[8][2] = {{1, 0},  {.75f, .75f},   {0, 1},  {-.75f, .75f},
-                                 {-1, 0}, {-.75f, -.75f}, {0, -1}, {.75f, -.75f}};
-    std::vector<bch::Vec2> corners;
-    for (const auto& [x, y] : way) {
-      const float length = .125f + static_cast<float>(random_index(64)) / 256;
-      corners.push_back({x * length, y * length});
-    }
-    shapes.push_back(bch::shape_from_polygons({&corners, 1}));
-  }
-  return shapes;
+std::vector<double> random_numbers(std::size_t count, double range) {
+  std::vector<double> numbers;
+  for (std::size_t i = 0; i < count; ++i) numbers.push_back(random_number(range));
+  return numbers;
 }
 
-void add(std::uint64_t& hash, std::uint64_t bits) {
-  hash = (hash ^ bits) * 1099511628211u;
+/// A star of eight corners about the origin.
+bch::Shape star() {
+  constexpr float way[8][2] = {{1, 0},  {.75f, .75f},   {0, 1},  {-.75f, .75f},
+                               {-1, 0}, {-.75f, -.75f}, {0, -1}, {.75f, -.75f}};
+  std::vector<bch::Vec2> corners;
+  for (const auto& [x, y] : way) {
+    const float length = .125f + static_cast<float>(random_index(64)) / 256;
+    corners.push_back({x * length, y * length});
+  }
+  return bch::shape_from_polygons({&corners, 1});
+}
+
+std::vector<bch::Shape> shapes() {
+  std::vector<bch::Shape> all;
+  for (int k = 0; k < 16; ++k) all.push_back(star());
+  const std::vector<bch::Capsule> arm{{{-.25f, 0}, {.25f, .125f}, .0625f}};
+  all.push_back(bch::shape_from_capsules(arm));
+  return all;
+}
+
+/// Bodies of two slabs, at heights of their own.
+std::vector<bch::Shape> shapes_in_slabs() {
+  std::vector<bch::Shape> all(17);
+  for (bch::Shape& body : all) {
+    body.heights = {0, 1.5f + static_cast<float>(random_index(8)) / 16};
+    body.slabs.push_back(star());
+    body.slabs.push_back(star());
+  }
+  return all;
+}
+
+/// Two discs that come and go.
+bch::AnimatedShape swinging() {
+  const bch::AnimatedChunk chunk{
+      {0, 1, 2},
+      2,
+      {{0, 0, .25f}, {.25f, 0, .25f}, {0, 0, .25f}, {.5f, 0, .25f}, {0, 0, .25f}, {.25f, 0, .25f}},
+      {}};
+  return bch::AnimatedShape({.chunks = {chunk}, .loops = true});
+}
+
+/// Hashes the answers of one query, bit by bit.
+class Hash {
+ public:
+  explicit Hash(const char* query) : query_(query) {}
+  Hash(const Hash&) = delete;
+  ~Hash() { std::printf("%s %016llx\n", query_, static_cast<unsigned long long>(hash_)); }
+
+  template <class Value>
+  void add(std::span<const Value> values) {
+    for (const std::byte byte : std::as_bytes(values))
+      hash_ = (hash_ ^ static_cast<std::uint64_t>(byte)) * 1099511628211u;
+  }
+  template <class Value>
+  void add(const std::vector<Value>& values) {
+    add(std::span<const Value>(values));
+  }
+  template <class Value>
+  void add(const bch::Rows<Value>& rows) {
+    add(rows.offsets), add(rows.values);
+  }
+  void add(const std::vector<bch::Penetration>& ways) {  // without what pads them
+    for (const auto& [depth, x, y] : ways) add(std::vector{double{depth}, x, y});
+  }
+
+ private:
+  const char* query_;
+  std::uint64_t hash_ = 14695981039346656037u;
+};
+
+struct Crowd {
+  std::vector<std::uint32_t> shape;
+  std::vector<double> x, y, heading;
+
+  explicit Crowd(std::size_t count)
+      : x(random_numbers(count, 32)), y(random_numbers(count, 32)), heading(random_numbers(count, 8)) {
+    for (std::size_t i = 0; i < count; ++i) shape.push_back(random_index(17));
+  }
+  operator bch::Agents() const { return {shape, x, y, heading}; }
+};
+
+/// Both for pairs, and for agents among obstacles.
+template <class... Others>
+void ask_of_distances(const bch::ShapeSet& set, const bch::Agents& agents, std::size_t count,
+                      const Others&... others) {
+  std::vector<float> values(count);
+  std::vector<bch::Vec2> directions(count);
+  std::vector<bch::DiscPair> discs(count);
+  std::vector<std::uint8_t> hits(count);
+  const std::vector<double> gaps = random_numbers(count, .5);
+  Hash clearance("clearance"), within("within"), collide("collide");
+  for (const bch::Leaves leaves : {bch::Leaves::discs, bch::Leaves::segments}) {
+    bch::clearance(set, agents, others..., {values, directions, discs}, {.distance_leaves = leaves});
+    clearance.add(values), clearance.add(directions), clearance.add(discs);
+    bch::within(set, agents, others..., gaps, hits, {.distance_leaves = leaves});
+    within.add(hits);
+    bch::collide(set, agents, others..., hits, {.leaves = leaves});
+    collide.add(hits);
+  }
+  bch::clearance(set, agents, others..., {values, directions},
+                 {.max_distance = .25, .overlap = bch::Overlap::deepest});
+  clearance.add(values), clearance.add(directions);
+}
+
+void ask_all(const bch::ShapeSet& set, const Crowd& crowd) {
+  const bch::Agents agents = crowd;
+  const std::size_t count = agents.size();
+  const std::vector<bch::Pair> pairs = bch::candidate_pairs(set, agents, .25);
+  Hash("candidate_pairs").add(pairs);
+  bch::CrowdCollider collider;
+  Hash("collide_all").add(collider.collide_all(set, agents));
+  Hash("contacts").add(bch::ContactFinder().find_all(set, agents).contacts);
+  ask_of_distances(set, agents, pairs.size(), pairs);
+  std::vector<bch::Penetration> ways(pairs.size());
+  bch::penetration(set, agents, pairs, 16, ways);
+  Hash("penetration").add(ways);
+  std::vector<float> times(pairs.size());
+  const std::vector<double> x = random_numbers(pairs.size(), 1), y = random_numbers(pairs.size(), 1);
+  bch::time_of_impact(set, agents, pairs, {x, y}, times);
+  Hash("time_of_impact").add(times);
+
+  const bch::ObstacleSet walls =
+      bch::obstacles_from_wkt("POLYGON((4 4, 8 4, 7 9, 4 4)) LINESTRING(0 16, 32 17, 16 30)");
+  ask_of_distances(set, agents, count, walls);
+  ways.resize(count), times.resize(count);
+  bch::penetration(set, agents, walls, ways);
+  Hash("penetration").add(ways);
+  bch::time_of_impact(set, agents, {std::span(x).first(count), std::span(y).first(count)}, walls, times);
+  Hash("time_of_impact").add(times);
+}
+
+void ask_of_motions(const Crowd& crowd) {
+  const bch::AnimatedShape body = swinging();
+  std::vector<std::vector<bch::PathKey>> paths;
+  std::vector<bch::Motion> motions;
+  std::vector<bch::Pair> pairs;
+  for (std::uint32_t i = 0; i < 200; ++i) {
+    paths.push_back({{0, crowd.x[i], crowd.y[i], 0}, {8, crowd.y[i], crowd.x[i], crowd.heading[i]}});
+    motions.push_back({&body, paths.back(), crowd.heading[i]});
+    if (i > 0) pairs.push_back({i - 1, i});
+  }
+  std::vector<double> times(pairs.size());
+  bch::first_contact(motions, pairs, {0, 8}, times);
+  Hash("first_contact").add(times);
 }
 
 }  // namespace
 
 int main() {
-  const bch::ShapeSet set(polygons());
-  constexpr std::uint32_t count = 4000;
-  std::vector<std::uint32_t> shape(count);
-  std::vector<double> x(count), y(count), heading(count);
-  for (std::uint32_t i = 0; i < count; ++i) {
-    shape[i] = random_index(16);
-    x[i] = random_number(32);
-    y[i] = random_number(32);
-    heading[i] = random_number(8);
-  }
-  const bch::Agents agents{shape, x, y, heading};
-
-  bch::CrowdCollider collider;
-  const bch::Rows<std::uint32_t> rows = collider.collide_all(set, agents);
-  std::vector<bch::Pair> pairs;
-  for (std::uint32_t agent = 0; agent < count; ++agent) {
-    for (const std::uint32_t other : rows[agent]) pairs.push_back({agent, other});
-  }
-  std::vector<float> distance(pairs.size());
-  bch::clearance(set, agents, pairs, {distance}, {.overlap = bch::Overlap::deepest});
-  std::vector<bch::Penetration> depth(pairs.size());
-  bch::penetration(set, agents, pairs, 16, depth);
-
-  std::uint64_t hash = 14695981039346656037u;
-  for (std::size_t k = 0; k < pairs.size(); ++k) {
-    add(hash, std::uint64_t{pairs[k].first} << 32 | pairs[k].second);
-    add(hash, std::bit_cast<std::uint32_t>(distance[k]));
-    add(hash, std::bit_cast<std::uint32_t>(depth[k].depth));
-  }
-  std::printf("%zu collisions, hash %016llx\n", pairs.size(), static_cast<unsigned long long>(hash));
-
-  x[7] = std::bit_cast<double>(std::uint64_t{0x7ff8} << 48);
+  Crowd crowd(4000);
+  const bch::ShapeSet set(shapes());
+  ask_all(set, crowd);
+  ask_all(bch::ShapeSet(shapes_in_slabs(), {.slices = {.75f}}), crowd);
+  ask_of_motions(crowd);
+#if defined(__cpp_exceptions)
+  crowd.x[7] = std::bit_cast<double>(std::uint64_t{0x7ff8} << 48);
   try {
-    collider.collide_all(set, agents);
+    bch::candidate_pairs(set, crowd);
     std::printf("NaN is accepted\n");
     return 1;
   } catch (const std::exception& error) {
     std::printf("%s\n", error.what());
-    return 0;
   }
+#endif
+  return 0;
 }
