@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "layout/base/floating_point_state.hpp"
 #include "layout/character/skinning.hpp"
 
 namespace bch {
@@ -34,18 +35,21 @@ std::uint32_t find_joint(const Character& character, std::string_view name) {
 }
 
 std::vector<Affine3d> joint_transforms(const Character& character, PoseTime at, JointFrame frame) {
+  const FloatingPointStateGuard floats;
   Skinner skinner(character);
   const auto joints = skinner.joints(at, frame);
   return {joints.begin(), joints.end()};
 }
 
 std::vector<Affine3d> blend(const Character& character, std::span<const WeightedPose> poses) {
+  const FloatingPointStateGuard floats;
   Skinner skinner(character);
   const auto joints = skinner.blend(poses);
   return {joints.begin(), joints.end()};
 }
 
 std::vector<Vec3> pose_vertices(const Character& character, const Pose& pose) {
+  const FloatingPointStateGuard floats;
   Skinner skinner(character);
   const auto positions = skinner.pose(pose);
   return {positions.begin(), positions.end()};

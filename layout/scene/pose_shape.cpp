@@ -93,14 +93,17 @@ const Shape& PoseShaper::make_hierarchies() {
 }
 
 std::span<const Affine3d> PoseShaper::joint_transforms(PoseTime at, JointFrame frame) {
+  const FloatingPointStateGuard floats;
   return state_->skinner.joints(at, frame);
 }
 
 std::span<const Affine3d> PoseShaper::blend(std::span<const WeightedPose> poses) {
+  const FloatingPointStateGuard floats;
   return state_->skinner.blend(poses);
 }
 
 std::span<const Vec3> PoseShaper::pose_vertices(const Pose& pose) {
+  const FloatingPointStateGuard floats;
   return state_->skinner.pose(pose);
 }
 
