@@ -1,16 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
 #include <cstdio>
-#include <string>
-
-#include <bch/default_characters.hpp>
 
 #include "tests/support/baseline_scene.hpp"
+#include "tests/support/test.hpp"
 
 // What theory says of limited depth: exact hits stay hits at every depth.
 

@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <cinttypes>
 #include <cstdio>
-#include <string>
 
 #include "baselines/oracle.hpp"
 #include "baselines/placement.hpp"
 #include "tests/support/baseline_scene.hpp"
 #include "tests/support/brute_force.hpp"
 #include "tests/support/character_shapes.hpp"
+#include "tests/support/test.hpp"
 #include "tests/support/test_characters.hpp"
 
 // Every structure against every other, and a share of the answers against brute force. 1 of `brute_share`

@@ -1,17 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
-#include <cmath>
-#include <numbers>
-#include <vector>
 
 #include "baselines/obb_overlap.hpp"
 #include "baselines/obb_tree.hpp"
-#include "tests/support/complaint.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 
 // The boxes themselves: that the test of two separates. That it misses nothing, the answers of their trees tell.
 

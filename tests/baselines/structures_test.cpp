@@ -3,19 +3,9 @@
 
 #include "baselines/structure.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <set>
-#include <string>
-
-#include <bch/default_characters.hpp>
-#include <bch/outline_builder.hpp>
-
 #include "tests/support/baseline_scene.hpp"
 #include "tests/support/brute_force.hpp"
-#include "tests/support/complaint.hpp"
+#include "tests/support/test.hpp"
 
 // The interface all structures share: names, counts, order, bad input; and solids that touch exactly.
 

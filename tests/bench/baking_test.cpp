@@ -3,22 +3,15 @@
 
 #include "bench/characters/baking.hpp"
 
-#include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
-
-#include <filesystem>
-#include <numeric>
-#include <string>
-
-#include <bch/default_characters.hpp>
 
 #include "bench/base/exit_codes.hpp"
 #include "bench/characters/baked_output.hpp"
 #include "layout/baked/file_bytes.hpp"
 #include "layout/format/shape_set_view.hpp"
 #include "tests/support/baked_bytes.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 // Batches of poses: files that are written meanwhile, tasks that throw in the midst.
 

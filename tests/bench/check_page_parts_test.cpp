@@ -1,23 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
-#include <numbers>
-#include <span>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include "bench/recordings/embedding.hpp"
 #include "bench/recordings/overlap_series.hpp"
 #include "bench/recordings/page_shapes.hpp"
 #include "layout/base/random.hpp"
 #include "tests/support/page_blocks.hpp"
+#include "tests/support/test.hpp"
 
 // What the page is made from: texts and numbers that are embedded, outlines with fewer corners, the series of overlaps.
 

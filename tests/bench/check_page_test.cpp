@@ -4,20 +4,12 @@
 #include "bench/recordings/check_page.hpp"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <numbers>
-#include <set>
-#include <string>
-#include <vector>
 
 #include "layout/base/random.hpp"
 #include "tests/support/page_blocks.hpp"
+#include "tests/support/test.hpp"
 
 // What a page holds is what was put in, whatever it is, and it is no larger than asked.
 

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
 #include <signal.h>
 
-#include <algorithm>
-#include <iterator>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "layout/format/shape_set_view.hpp"
 #include "tests/support/baked_bytes.hpp"
 #include "tests/support/bch_run.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 // `bch bake`, and the other commands on the files that it writes.
 

@@ -2,13 +2,11 @@
 // Copyright (c) 2026 the bch authors
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "tests/support/bch_run.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 #include "tests/support/two_who_meet.hpp"
 
 // `bch check`.

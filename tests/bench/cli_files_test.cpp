@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <filesystem>
-
 #include "tests/support/bch_run.hpp"
 #include "tests/support/gltf_file.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 // Outputs never destroy inputs or each other, whatever their names are; and what is said of an input.
 

@@ -3,16 +3,13 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <filesystem>
-
 #include "tests/support/bch_run.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 // Files of parts and tables: what they may not overwrite, who may write them, what is no part, what a signal leaves.
 

@@ -1,26 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <numbers>
-#include <sstream>
-
-#include <bch/broad_phase.hpp>
-#include <bch/collide.hpp>
-#include <bch/default_characters.hpp>
-#include <bch/pose_shape.hpp>
 
 #include "kernel/recordings/walker_cast.hpp"
 #include "tests/support/bch_run.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 // `bch place`.
 

@@ -1,16 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <sstream>
-
-#include <bch/baked.hpp>
-#include <bch/query.hpp>
-#include <bch/shape_set.hpp>
-
 #include "tests/support/bch_run.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 // `bch query`.
 

@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <filesystem>
-
 #include "tests/support/bch_run.hpp"
 #include "tests/support/character_shapes.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 // What all commands of the program have in common.
 

@@ -2,7 +2,6 @@
 // Copyright (c) 2026 the bch authors
 
 #include <fcntl.h>
-#include <gtest/gtest.h>
 #include <stdlib.h>
 #include <unistd.h>
 
@@ -14,7 +13,7 @@
 #include "bench/base/printable.hpp"
 #include "tests/support/bch_run.hpp"
 #include "tests/support/gltf_file.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 // Text that comes from elsewhere: what a terminal gets to see of it, and values that are not what they look like.
 

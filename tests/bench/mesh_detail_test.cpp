@@ -3,11 +3,8 @@
 
 #include "bench/workload/mesh_detail.hpp"
 
-#include <gtest/gtest.h>
-
-#include <bch/default_characters.hpp>
-
 #include "layout/character/eigen.hpp"
+#include "tests/support/test.hpp"
 
 namespace bch::bench {
 namespace {

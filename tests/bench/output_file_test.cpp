@@ -3,19 +3,14 @@
 
 #include "bench/base/output_file.hpp"
 
-#include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <climits>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/output.hpp"
-#include "tests/support/complaint.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 // What is written is whole or not there, whoever else writes into the same folder.
 

@@ -3,9 +3,7 @@
 
 #include "bench/stability/stability.hpp"
 
-#include <gtest/gtest.h>
-
-#include <string>
+#include "tests/support/test.hpp"
 
 // The hard cases of `bch stability`, few pairs of each. That they are hard is part of what is tested: plain tests in float and
 // in double have to fail there.

@@ -3,7 +3,7 @@
 
 #include "bench/stability/stiff_contact.hpp"
 
-#include <gtest/gtest.h>
+#include "tests/support/test.hpp"
 
 // What the README says to who makes a depth the spring of a force, on a small scale.
 

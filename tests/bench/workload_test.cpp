@@ -3,14 +3,8 @@
 
 #include "bench/workload/workload.hpp"
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
 #include "bench/workload/motions.hpp"
+#include "tests/support/test.hpp"
 
 namespace bch::bench {
 namespace {

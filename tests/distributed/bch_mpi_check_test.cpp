@@ -1,16 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <filesystem>
-#include <map>
-#include <sstream>
-#include <string>
-
 #include "tests/support/bch_run.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 // `bch_mpi check`.
 

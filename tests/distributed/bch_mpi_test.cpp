@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
 #include <nlohmann/json.hpp>
-#include <string>
-#include <vector>
 
 #include "tests/support/bch_run.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 namespace bch {
 namespace {

@@ -1,19 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <vector>
-
-#include <bch/collide.hpp>
-#include <bch/pose_shape.hpp>
-#include <bch/scene_plan.hpp>
-
-#include "tests/support/complaint.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 #include "tests/support/test_characters.hpp"
 
 namespace bch {

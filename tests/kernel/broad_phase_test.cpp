@@ -1,28 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/broad_phase.hpp>
-
-#include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <stdexcept>
-#include <string>
-#include <tuple>
-#include <utility>
-
-#include <bch/clearance.hpp>
-#include <bch/collide.hpp>
-#include <bch/time_of_impact.hpp>
 
 #include "layout/base/heading.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/format/shape_set_view.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 
 namespace bch {
 namespace {

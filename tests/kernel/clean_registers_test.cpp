@@ -2,25 +2,11 @@
 // Copyright (c) 2026 the bch authors
 
 #include <cpuid.h>
-#include <gtest/gtest.h>
-
-#include <cstdint>
-#include <functional>
-#include <string>
-#include <vector>
-
-#include <bch/clearance.hpp>
-#include <bch/collide.hpp>
-#include <bch/contacts.hpp>
-#include <bch/default_characters.hpp>
-#include <bch/outline_builder.hpp>
-#include <bch/penetration.hpp>
-#include <bch/time_of_impact.hpp>
 
 #include "layout/base/build_implementation.hpp"
 #include "layout/culling/interior.hpp"
 #include "layout/hierarchy/builder.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 
 // Whoever leaves something in the upper halves of the registers makes all SSE code after him slow, up to five times.
 

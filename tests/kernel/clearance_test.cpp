@@ -1,22 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/clearance.hpp>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <utility>
-#include <vector>
-
-#include <bch/collide.hpp>
-
 #include "baselines/clearance_reference.hpp"
 #include "baselines/oracle.hpp"
 #include "tests/support/clearances.hpp"
 #include "tests/support/differential.hpp"
+#include "tests/support/test.hpp"
 
 namespace bch {
 namespace {

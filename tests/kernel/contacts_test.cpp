@@ -1,21 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/contacts.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <stdexcept>
-#include <string>
-
-#include <bch/broad_phase.hpp>
-
 #include "baselines/contact_reference.hpp"
 #include "layout/format/shape_arrays.hpp"
 #include "tests/support/differential.hpp"
+#include "tests/support/test.hpp"
 
 namespace bch {
 namespace {

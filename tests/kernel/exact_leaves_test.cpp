@@ -1,18 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
 #include <oneapi/tbb/parallel_for.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <string>
-#include <vector>
-
-#include <bch/collide.hpp>
-#include <bch/contacts.hpp>
-#include <bch/default_characters.hpp>
 
 #include "baselines/oracle.hpp"
 #include "baselines/reference.hpp"
@@ -21,6 +10,7 @@
 #include "layout/format/shape_set_view.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/query_references.hpp"
+#include "tests/support/test.hpp"
 #include "tests/support/touching_scene.hpp"
 
 // Exact leaves: that leaf segments decide like brute force over all segments, miss no outlines that meet, and take no others

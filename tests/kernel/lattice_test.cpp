@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <limits>
-#include <string>
-#include <vector>
-
 #include "tests/support/query_answers.hpp"
+#include "tests/support/test.hpp"
 #include "tests/support/touching_scene.hpp"
 
 // Footprints with integer corners at integer positions and heading 0, as simulators have them. Many corners are exactly

@@ -1,23 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/penetration.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
-
-#include <bch/clearance.hpp>
-#include <bch/collide.hpp>
-
 #include "baselines/oracle.hpp"
 #include "baselines/penetration_reference.hpp"
 #include "layout/base/heading.hpp"
 #include "tests/support/differential.hpp"
 #include "tests/support/penetrations.hpp"
+#include "tests/support/test.hpp"
 
 namespace bch {
 namespace {

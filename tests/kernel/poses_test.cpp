@@ -1,17 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
-#include <bch/collide.hpp>
-#include <bch/default_characters.hpp>
-
 #include "baselines/oracle.hpp"
 #include "baselines/reference.hpp"
 #include "tests/support/character_shapes.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 #include "tests/support/test_characters.hpp"
 
 // The whole way from a character to answers, on all default poses and on real characters.

@@ -1,21 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <string>
-#include <vector>
-
-#include <bch/clearance.hpp>
-#include <bch/collide.hpp>
-#include <bch/contacts.hpp>
-#include <bch/penetration.hpp>
-#include <bch/time_of_impact.hpp>
-
-#include "tests/support/complaint.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 
 // What queries over pairs refuse, and that they do nothing then. collide_input_test has agents and pairs of every kind.
 

@@ -3,20 +3,16 @@
 
 #include "layout/base/rounding.hpp"
 
-#include <gtest/gtest.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdlib>
-
-#include <bch/collide.hpp>
 
 #include "baselines/placement.hpp"
 #include "layout/base/heading.hpp"
 #include "tests/support/implementations.hpp"
 #include "tests/support/near_tangent.hpp"
+#include "tests/support/test.hpp"
 
 // The bound of layout/base/rounding.hpp, attacked where it matters: discs that touch, far from their agents' origins, judged by
 // exact arithmetic.

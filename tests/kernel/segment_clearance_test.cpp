@@ -1,24 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <stdexcept>
-#include <utility>
-#include <vector>
-
-#include <bch/clearance.hpp>
-#include <bch/collide.hpp>
-#include <bch/default_characters.hpp>
-
 #include "baselines/segment_clearance.hpp"
 #include "layout/base/rounding.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/clearances.hpp"
 #include "tests/support/differential.hpp"
+#include "tests/support/test.hpp"
 #include "tests/support/touching_scene.hpp"
 
 // clearance() with exact leaves: the distance of the outlines.

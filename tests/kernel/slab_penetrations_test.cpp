@@ -1,17 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <vector>
-
-#include <bch/collide.hpp>
-
 #include "tests/support/penetrations.hpp"
 #include "tests/support/slab_comparison.hpp"
+#include "tests/support/test.hpp"
 
 // Depths of bodies in slabs, and at different heights, against the definition: what the scalar references say of every pair of
 // parts that may meet.

@@ -1,23 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <utility>
-#include <vector>
-
-#include <bch/collide.hpp>
-#include <bch/contacts.hpp>
-#include <bch/time_of_impact.hpp>
 
 #include "tests/support/clearances.hpp"
 #include "tests/support/penetrations.hpp"
 #include "tests/support/slab_comparison.hpp"
+#include "tests/support/test.hpp"
 
 // Distances, times and contacts of bodies in slabs, and at different heights, against the definition: what the scalar references
 // say of every pair of parts that may meet. And all queries again, in other orders, splits and numbers of threads.

@@ -1,25 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
 
-#include <algorithm>
 #include <atomic>
-#include <cmath>
-#include <cstdint>
-#include <stdexcept>
-#include <vector>
 
-#include <bch/broad_phase.hpp>
-#include <bch/collide.hpp>
-#include <bch/contacts.hpp>
-
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 
 // Queries inside of a caller's own tasks.
 

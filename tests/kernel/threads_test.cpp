@@ -1,27 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
 #include <optional>
-#include <span>
 #include <thread>
-#include <vector>
-
-#include <bch/broad_phase.hpp>
-#include <bch/clearance.hpp>
-#include <bch/collide.hpp>
-#include <bch/contacts.hpp>
-#include <bch/dynamic_shape_set.hpp>
-#include <bch/obstacles.hpp>
-#include <bch/penetration.hpp>
-#include <bch/time_of_impact.hpp>
 
 #include "kernel/collide/answer.hpp"
 #include "kernel/crowd/neighbour_rows.hpp"
 #include "kernel/runtime/pair_validation.hpp"
 #include "tests/support/query_answers.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 
 // For ThreadSanitizer: the functions that tasks run, and whole calls, which then run on tests/support/plain_threads.
 

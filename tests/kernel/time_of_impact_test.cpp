@@ -1,22 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/time_of_impact.hpp>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <numbers>
-#include <string>
-#include <vector>
-
-#include <bch/clearance.hpp>
-#include <bch/collide.hpp>
-
 #include "baselines/oracle.hpp"
 #include "baselines/time_of_impact_reference.hpp"
 #include "tests/support/differential.hpp"
+#include "tests/support/test.hpp"
 
 namespace bch {
 namespace {

@@ -1,24 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <limits>
 #include <ostream>
-#include <stdexcept>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <bch/clearance.hpp>
 
 #include "baselines/oracle.hpp"
 #include "kernel/simd/gaps.hpp"
 #include "tests/support/clearances.hpp"
 #include "tests/support/differential.hpp"
+#include "tests/support/test.hpp"
 
 namespace bch {
 namespace {

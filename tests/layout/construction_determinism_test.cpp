@@ -1,21 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
 #define XXH_INLINE_ALL  // nothing is linked
 #include <xxhash.h>
-
-#include <cstdint>
-#include <string>
-#include <vector>
-
-#include <bch/default_characters.hpp>
-#include <bch/pose_shape.hpp>
-#include <bch/shape_set.hpp>
 
 #include "tests/support/baked_bytes.hpp"
 #include "tests/support/float_state.hpp"
 #include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 
 // What construction makes, as hashes of baked files: the same bytes for every compiler, optimisation and processor. Where
 // they change on purpose, so do these.

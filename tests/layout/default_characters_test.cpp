@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/default_characters.hpp>
-#include <bch/pose.hpp>
-
 #include <random>
 
 #include "baselines/welzl.hpp"

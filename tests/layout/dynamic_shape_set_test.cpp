@@ -1,12 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/dynamic_shape_set.hpp>
-
 #include <ostream>
-
-#include <bch/broad_phase.hpp>
-#include <bch/collide.hpp>
 
 #include "layout/format/shape_validation.hpp"
 #include "layout/shape_set/shape_storage.hpp"

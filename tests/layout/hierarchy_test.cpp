@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/hierarchy.hpp>
-
 #include "layout/base/rounding.hpp"
 #include "layout/enclosing_disc/enclosing_disc.hpp"
 #include "layout/hierarchy/builder.hpp"

@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/outline_builder.hpp>
-
-#include <bch/default_characters.hpp>
-
 #include "layout/base/build_implementation.hpp"
 #include "layout/character/skinning.hpp"
 #include "layout/outline/grid_geometry.hpp"

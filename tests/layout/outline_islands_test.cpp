@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <bch/outline_builder.hpp>
-
 #include "layout/base/build_implementation.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/island_soups.hpp"
 #include "tests/support/outline_arrangement.hpp"
+#include "tests/support/test.hpp"
 
 // Outlines of many disjoint islands. The large ones would take minutes if each island were compared with all others,
 // beyond this test's time limit.

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/hierarchy.hpp>
-#include <bch/outline_builder.hpp>
-
 #include "layout/hierarchy/builder.hpp"
 #include "layout/outline/extreme_vertices.hpp"
 #include "tests/support/outline_checks.hpp"

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/outline_builder.hpp>
-#include <bch/pose_shape.hpp>
-
 #include "layout/character/skinning.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/character_shapes.hpp"

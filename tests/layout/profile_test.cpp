@@ -3,8 +3,6 @@
 
 #include "layout/culling/profile.hpp"
 
-#include <bch/hierarchy.hpp>
-
 #include "layout/base/rounding.hpp"
 #include "layout/culling/interior.hpp"
 #include "layout/format/contours.hpp"

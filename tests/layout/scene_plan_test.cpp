@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/scene_plan.hpp>
-
-#include <bch/collide.hpp>
-#include <bch/pose_shape.hpp>
-
 #include "layout/character/skinning.hpp"
 #include "tests/support/test.hpp"
 #include "tests/support/test_characters.hpp"

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/shape_set.hpp>
-#include <bch/shape_set_builder.hpp>
-
 #include "layout/format/cut_discs.hpp"
 #include "layout/format/leaf_segments.hpp"
 #include "layout/hierarchy/subtrees.hpp"

@@ -1,22 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <string>
-#include <vector>
-
-#include <bch/hierarchy.hpp>
-#include <bch/outline_builder.hpp>
-
 #include "layout/character/skinning.hpp"
 #include "tests/support/character_shapes.hpp"
-#include "tests/support/complaint.hpp"
 #include "tests/support/outline_checks.hpp"
 #include "tests/support/outline_soups.hpp"
 #include "tests/support/slab_soups.hpp"
+#include "tests/support/test.hpp"
 #include "tests/support/test_characters.hpp"
 
 // Outlines of slabs against the exact arrangement of meshes that are clipped corner by corner.

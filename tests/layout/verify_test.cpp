@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/verify.hpp>
-
-#include <bch/dynamic_shape_set.hpp>
-#include <bch/pose_shape.hpp>
-
 #include "layout/format/shape_validation.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/damaged_arrays.hpp"

@@ -32,6 +32,8 @@
 #include <utility>
 #include <vector>
 
+#include <bch/bch.hpp>
+
 #include "tests/support/complaint.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -1,24 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cstdint>
-#include <functional>
-#include <span>
-#include <string>
-#include <vector>
-
-#include <bch/broad_phase.hpp>
-
 #include "tests/support/allocation_faults.hpp"
 #include "tests/support/baked_bytes.hpp"
 #include "tests/support/c_api.hpp"
 #include "tests/support/c_api_queries.hpp"
 #include "tests/support/program_run.hpp"
-#include "tests/support/scenes.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 // Every function of the C interface that lacks memory writes nothing, and succeeds when it is called again. Thus what it calls of the C++
 // library leaves everything as it was.

@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <vector>
-
-#include <bch/broad_phase.hpp>
-
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/c_api_queries.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 
 // Queries of pairs need no memory, and objects keep theirs: those of the C interface, and what they call of the C++ library.
 

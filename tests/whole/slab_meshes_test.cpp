@@ -1,24 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
 #include <iostream>
 #include <optional>
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <bch/collide.hpp>
-#include <bch/outline_builder.hpp>
 
 #include "layout/character/skinning.hpp"
 #include "tests/support/baseline_scene.hpp"
 #include "tests/support/brute_force.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/outline_soups.hpp"
+#include "tests/support/test.hpp"
 #include "tests/support/test_characters.hpp"
 
 // Never a miss: wherever meshes have a point in common, bodies in slabs collide, at every level. What meshes do is decided by

@@ -1,20 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstring>
-#include <string>
-#include <tuple>
-#include <utility>
-#include <vector>
-
-#include <bch/bch.hpp>
-
 #include "tests/support/c_api.hpp"
 #include "tests/support/program_run.hpp"
+#include "tests/support/test.hpp"
 
 // Characters, sets and scenes that the C interface makes: sets have the bytes of those that the C++ library makes.
 

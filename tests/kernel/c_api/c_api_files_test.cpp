@@ -2,15 +2,10 @@
 // Copyright (c) 2026 the bch authors
 
 #include <bch/bch_files.h>
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-#include <vector>
 
 #include "tests/support/c_api.hpp"
 #include "tests/support/gltf_file.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 // What the C interface reads from files: characters and recordings. Their objects and errors are those of the library of queries.
 

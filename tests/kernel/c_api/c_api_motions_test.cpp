@@ -1,22 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <vector>
-
-#include <bch/collide.hpp>
-#include <bch/default_characters.hpp>
-#include <bch/obstacles.hpp>
-#include <bch/pose_shape.hpp>
-#include <bch/time_of_impact.hpp>
-
 #include "tests/support/baked_bytes.hpp"
 #include "tests/support/c_api.hpp"
 #include "tests/support/moving_bodies.hpp"
+#include "tests/support/test.hpp"
 
 // Bodies that move by themselves, by the C interface: they and their answers are those of the C++ library.
 

@@ -1,19 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <map>
-#include <span>
-#include <string>
-#include <vector>
-
-#include <bch/bch.hpp>
-
 #include "tests/support/c_api.hpp"
 #include "tests/support/c_api_queries.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 
 // What the C interface answers is what the C++ library does, bit by bit.
 

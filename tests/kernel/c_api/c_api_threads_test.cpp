@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <atomic>
-#include <string>
 #include <thread>
-#include <vector>
 
 #include "tests/support/c_api_queries.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 
 // The C interface from several threads at once, for ThreadSanitizer. Threads are the caller's: what the library gives to
 // TBB runs on tests/support/plain_threads, as for threads_test.cpp.

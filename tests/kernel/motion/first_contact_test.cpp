@@ -3,8 +3,6 @@
 
 #include <oneapi/tbb/task_arena.h>
 
-#include <bch/time_of_impact.hpp>
-
 #include "tests/support/moving_bodies.hpp"
 #include "tests/support/test.hpp"
 

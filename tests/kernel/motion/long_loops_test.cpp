@@ -3,9 +3,6 @@
 
 // Clips that loop for a very long time: first contacts end, or are refused.
 
-#include <bch/obstacles.hpp>
-#include <bch/time_of_impact.hpp>
-
 #include "tests/support/moving_bodies.hpp"
 #include "tests/support/obstacle_scenes.hpp"
 #include "tests/support/test.hpp"

@@ -1,16 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/broad_phase.hpp>
-#include <bch/clearance.hpp>
-#include <bch/collide.hpp>
-#include <bch/contacts.hpp>
-#include <bch/obstacles.hpp>
-#include <bch/penetration.hpp>
-#include <bch/pose_shape.hpp>
-#include <bch/time_of_impact.hpp>
-#include <bch/verify.hpp>
-
 #include "tests/support/moments.hpp"
 #include "tests/support/moving_bodies.hpp"
 #include "tests/support/test.hpp"

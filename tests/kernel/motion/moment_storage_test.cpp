@@ -3,12 +3,6 @@
 
 #include <oneapi/tbb/task_arena.h>
 
-#include <bch/broad_phase.hpp>
-#include <bch/clearance.hpp>
-#include <bch/collide.hpp>
-#include <bch/pose_shape.hpp>
-#include <bch/verify.hpp>
-
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/moments.hpp"
 #include "tests/support/moving_bodies.hpp"

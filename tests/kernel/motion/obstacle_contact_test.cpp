@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/obstacles.hpp>
-
 #include "tests/support/moving_bodies.hpp"
 #include "tests/support/obstacle_scenes.hpp"
 #include "tests/support/plane_geometry.hpp"

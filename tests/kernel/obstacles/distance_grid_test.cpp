@@ -5,8 +5,6 @@
 
 #include "kernel/obstacles/distance_grid.hpp"
 
-#include <bch/obstacles.hpp>
-
 #include "kernel/obstacles/segment.hpp"
 #include "tests/support/obstacle_scenes.hpp"
 #include "tests/support/plane_geometry.hpp"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/obstacles.hpp>
-
 #include "kernel/obstacles/gap_query.hpp"
 #include "tests/support/obstacle_answers.hpp"
 #include "tests/support/obstacle_scenes.hpp"

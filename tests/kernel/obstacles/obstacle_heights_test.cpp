@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/collide.hpp>
-#include <bch/obstacles.hpp>
-
 #include "baselines/obstacle_reference.hpp"
 #include "layout/base/planes.hpp"
 #include "tests/support/obstacle_answers.hpp"

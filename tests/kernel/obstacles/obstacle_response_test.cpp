@@ -3,9 +3,6 @@
 
 // The ways and times of agents among obstacles, and what is said of wrong input.
 
-#include <bch/collide.hpp>
-#include <bch/obstacles.hpp>
-
 #include "tests/support/obstacle_scenes.hpp"
 #include "tests/support/test.hpp"
 

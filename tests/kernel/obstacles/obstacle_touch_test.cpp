@@ -3,9 +3,6 @@
 
 // Which agents touch obstacles, and which are held by areas: cases that random scenes do not have.
 
-#include <bch/collide.hpp>
-#include <bch/obstacles.hpp>
-
 #include "baselines/leaf_segments.hpp"
 #include "baselines/quad.hpp"
 #include "tests/support/obstacle_scenes.hpp"

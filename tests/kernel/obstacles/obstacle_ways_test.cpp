@@ -3,8 +3,6 @@
 
 // The ways out of many obstacles at once, and out of obstacles of many segments.
 
-#include <bch/obstacles.hpp>
-
 #include "kernel/obstacles/ends_hull.hpp"
 #include "tests/support/obstacle_scenes.hpp"
 #include "tests/support/test.hpp"

@@ -4,9 +4,6 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include <bch/collide.hpp>
-#include <bch/obstacles.hpp>
-
 #include "baselines/obstacle_reference.hpp"
 #include "tests/support/obstacle_answers.hpp"
 #include "tests/support/obstacle_scenes.hpp"

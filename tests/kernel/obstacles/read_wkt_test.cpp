@@ -3,9 +3,6 @@
 
 #include <charconv>
 
-#include <bch/hierarchy.hpp>
-#include <bch/obstacles.hpp>
-
 #include "layout/base/decimal.hpp"
 #include "tests/support/table.hpp"
 #include "tests/support/test.hpp"

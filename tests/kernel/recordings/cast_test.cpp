@@ -3,9 +3,6 @@
 
 #include "kernel/recordings/walker_cast.hpp"
 
-#include <bch/default_characters.hpp>
-#include <bch/pose_shape.hpp>
-
 #include "kernel/recordings/baked_cast.hpp"
 #include "tests/support/made_up_recording.hpp"
 #include "tests/support/test.hpp"

@@ -5,9 +5,6 @@
 
 #include <oneapi/tbb/task_arena.h>
 
-#include <bch/clearance.hpp>
-#include <bch/collide.hpp>
-
 #include "tests/support/made_up_recording.hpp"
 #include "tests/support/test.hpp"
 

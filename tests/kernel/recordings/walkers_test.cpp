@@ -7,9 +7,6 @@
 
 #include <cstdio>
 
-#include <bch/default_characters.hpp>
-#include <bch/pose_shape.hpp>
-
 #include "kernel/recordings/walker_shapes.hpp"
 #include "tests/support/made_up_recording.hpp"
 #include "tests/support/outline_checks.hpp"

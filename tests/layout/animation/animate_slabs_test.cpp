@@ -1,10 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/default_characters.hpp>
-#include <bch/outline_builder.hpp>
-#include <bch/pose_shape.hpp>
-
 #include "layout/animation/slab_triangles.hpp"
 #include "layout/character/skinning.hpp"
 #include "tests/support/animated_cover.hpp"

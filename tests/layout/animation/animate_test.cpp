@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/outline_builder.hpp>
-#include <bch/pose_shape.hpp>
-
 #include "layout/animation/contour.hpp"
 #include "layout/base/ring_edges.hpp"
 #include "layout/character/skinning.hpp"

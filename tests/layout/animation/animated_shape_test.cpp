@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/collide.hpp>
-#include <bch/shape_set.hpp>
-
 #include "layout/hierarchy/discs.hpp"
 #include "layout/shape_set/animated_tree.hpp"
 #include "tests/support/moving_bodies.hpp"

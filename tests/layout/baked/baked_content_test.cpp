@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/broad_phase.hpp>
-
 #include "layout/format/cut_discs.hpp"
 #include "layout/format/shape_set_view.hpp"
 #include "layout/format/shape_validation.hpp"

@@ -4,8 +4,6 @@
 #include <new>
 #include <system_error>
 
-#include <bch/baked.hpp>
-
 #include "layout/baked/checksum.hpp"
 #include "layout/baked/image.hpp"
 #include "tests/support/baked_bytes.hpp"

@@ -9,8 +9,6 @@
 
 #include <cstdlib>
 
-#include <bch/default_characters.hpp>
-
 #include "layout/import/character_bytes.hpp"
 #include "tests/support/gltf_file.hpp"
 #include "tests/support/test.hpp"

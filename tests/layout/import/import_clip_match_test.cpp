@@ -3,14 +3,11 @@
 
 #include "layout/import/clip_match.hpp"
 
-#include <gtest/gtest.h>
-
-#include <set>
-
 #include "tests/support/bvh_file.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/gltf_file.hpp"
 #include "tests/support/import_test.hpp"
+#include "tests/support/test.hpp"
 
 // Clips of another skeleton are refused, and those of the character's own skeleton are not.
 

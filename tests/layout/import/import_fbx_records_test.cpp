@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
 #include <zlib.h>
 
 #include "layout/base/random.hpp"
 #include "layout/import/fbx_document.hpp"
 #include "tests/support/fbx_text.hpp"
 #include "tests/support/import_test.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 
 // Records of FBX files, binary and text, sound and damaged.
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/import.hpp>
-
 #include "tests/support/bvh_file.hpp"
 #include "tests/support/gltf_file.hpp"
 #include "tests/support/import_test.hpp"
