@@ -1,16 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "tests/support/bch_run.hpp"
 #include "tests/support/gltf_file.hpp"
 #include "tests/support/island_soups.hpp"
-#include "tests/support/stl_file.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 // What a character file may cost once it is read. The large meshes would take minutes to hours if what is done with them
 // were not linear or nearly so, beyond this test's time limit.
@@ -19,6 +15,23 @@ namespace bch::test {
 namespace {
 
 const Arguments seen_from_above{"--up", "z", "--scale", "1"};
+
+template <class Value>
+void append_bytes(std::string& bytes, const Value& value) {
+  bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
+}
+
+/// The triangles as a binary STL file, where each has vertices of its own.
+std::string stl_file(const Soup& soup) {
+  std::string bytes(80, '\0');
+  append_bytes(bytes, static_cast<std::uint32_t>(soup.triangles.size()));
+  for (const auto& triangle : soup.triangles) {
+    append_bytes(bytes, Vec3());  // no normal
+    for (const std::uint32_t vertex : triangle) append_bytes(bytes, soup.positions[vertex]);
+    append_bytes(bytes, std::uint16_t{0});
+  }
+  return bytes;
+}
 
 std::string soup_file(const TemporaryFolder& folder, std::uint32_t triangles) {
   return folder.write("soup.stl", stl_file(separate_triangles(triangles)));

@@ -24,9 +24,4 @@ double distance_to(const Outline& outline, double x, double y);
 /// are points along the edges.
 void expect_covers(const Outline& outline, Positions positions, Triangles triangles);
 
-/// Compares the outline with point-in-triangle tests on a raster of `resolution` squared points. Points
-/// within 3 grid steps of any edge are left aside. A covered point is inside; a point that can be reached
-/// from outside along raster lines that no triangle meets is outside.
-void expect_equals_samples(const Outline& outline, Positions positions, Triangles triangles, int resolution);
-
 }  // namespace bch::test
