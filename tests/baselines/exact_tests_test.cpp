@@ -3,15 +3,7 @@
 
 #include "baselines/exact_tests.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <array>
-#include <cstdint>
-#include <string>
-#include <vector>
-
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 
 // Segments and triangles with integer corners, against a method that shares nothing with the one tested: two
 // convex sets meet exactly if the origin is a convex combination of differences of their corners, and by
@@ -140,28 +132,29 @@ std::vector<Corners> all_corner_sets(int width, int height, int depth, std::size
   return sets;
 }
 
+/// All pairs of sets of corners meet as the slow method says.
+template <class Meet>
+void expect_every_pair(const std::vector<Corners>& sets, std::size_t count, Meet meet) {
+  ASSERT_EQ(sets.size(), count);
+  for (const Corners& s : sets)
+    for (const Corners& t : sets) ASSERT_EQ(meet(s, t), expected_to_meet(s, t)) << text(s) << text(t);
+}
+
 TEST(Segments, EveryPairOnAGrid) {
-  const auto segments = all_corner_sets(4, 4, 1, 2);
-  ASSERT_EQ(segments.size(), 136u);
-  for (const Corners& s : segments)
-    for (const Corners& t : segments)
-      ASSERT_EQ(segments_meet(segment(s), segment(t)), expected_to_meet(s, t)) << text(s) << text(t);
+  expect_every_pair(all_corner_sets(4, 4, 1, 2), 136,
+                    [](const auto& s, const auto& t) { return segments_meet(segment(s), segment(t)); });
 }
 
 TEST(TrianglesOnTheGround, EveryPairOnAGrid) {
-  const auto triangles = all_corner_sets(3, 3, 1, 3);
-  ASSERT_EQ(triangles.size(), 165u);
-  for (const Corners& s : triangles)
-    for (const Corners& t : triangles)
-      ASSERT_EQ(triangles_meet(triangle_2d(s), triangle_2d(t)), expected_to_meet(s, t)) << text(s) << text(t);
+  expect_every_pair(all_corner_sets(3, 3, 1, 3), 165, [](const auto& s, const auto& t) {
+    return triangles_meet(triangle_2d(s), triangle_2d(t));
+  });
 }
 
 TEST(TrianglesInSpace, EveryPairOnACube) {
-  const auto triangles = all_corner_sets(2, 2, 2, 3);
-  ASSERT_EQ(triangles.size(), 120u);
-  for (const Corners& s : triangles)
-    for (const Corners& t : triangles)
-      ASSERT_EQ(triangles_meet(triangle_3d(s), triangle_3d(t)), expected_to_meet(s, t)) << text(s) << text(t);
+  expect_every_pair(all_corner_sets(2, 2, 2, 3), 120, [](const auto& s, const auto& t) {
+    return triangles_meet(triangle_3d(s), triangle_3d(t));
+  });
 }
 
 TEST(TrianglesInSpace, EveryPairInAPlaneEqualsTheTestOnTheGround) {

@@ -3,15 +3,8 @@
 
 #include "baselines/reference.hpp"
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <cinttypes>
 #include <cstdio>
-#include <limits>
-#include <memory>
-#include <string>
-#include <vector>
 
 #include "baselines/contact_reference.hpp"
 #include "baselines/disc_tree.hpp"
@@ -20,6 +13,7 @@
 #include "baselines/time_of_impact_reference.hpp"
 #include "tests/support/baseline_scene.hpp"
 #include "tests/support/character_shapes.hpp"
+#include "tests/support/test.hpp"
 #include "tests/support/test_characters.hpp"
 
 // The answer at every depth, by all who give it without the kernel: its definition, the descent that verifies, and the
@@ -130,33 +124,28 @@ class Answers {
   baselines::CutLists cuts_{shapes, plan};
 };
 
+/// Pairs at random, and pairs that are brought to contact.
+void expect_answers_in_order(std::uint64_t seed, std::vector<Body> bodies, std::uint32_t pairs) {
+  Answers answers(std::move(bodies));
+  PairScene random = test::placements(seed, answers.bodies, pairs);
+  ASSERT_NO_FATAL_FAILURE(answers.expect_in_order(random, seed));
+  PairScene tangent = test::placements(seed + 1, answers.bodies, pairs);
+  answers.bring_to_contact(seed + 2, tangent);
+  ASSERT_NO_FATAL_FAILURE(answers.expect_in_order(tangent, seed + 1));
+}
+
 TEST(Answer, OfSyntheticShapes) {
-  Answers answers(synthetic_bodies(2401, 40));
-  PairScene random = test::placements(2402, answers.bodies, test::samples(8'000));
-  ASSERT_NO_FATAL_FAILURE(answers.expect_in_order(random, 2402));
-  PairScene tangent = test::placements(2403, answers.bodies, test::samples(8'000));
-  answers.bring_to_contact(2404, tangent);
-  ASSERT_NO_FATAL_FAILURE(answers.expect_in_order(tangent, 2403));
+  expect_answers_in_order(2402, synthetic_bodies(2401, 40), test::samples(8'000));
 }
 
 TEST(Answer, OfDefaultCharacters) {
-  Answers answers(test::posed_bodies(test::default_characters(), 8));
-  PairScene random = test::placements(2411, answers.bodies, 3'000);
-  ASSERT_NO_FATAL_FAILURE(answers.expect_in_order(random, 2411));
-  PairScene tangent = test::placements(2412, answers.bodies, 3'000);
-  answers.bring_to_contact(2413, tangent);
-  ASSERT_NO_FATAL_FAILURE(answers.expect_in_order(tangent, 2412));
+  expect_answers_in_order(2411, test::posed_bodies(test::default_characters(), 8), 3'000);
 }
 
 TEST(Answer, OfRealCharacters) {
   const auto data = test::test_data();
   if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set: no real characters to test with";
-  Answers answers(test::posed_bodies(test::real_characters(*data), 6));
-  PairScene random = test::placements(2421, answers.bodies, 3'000);
-  ASSERT_NO_FATAL_FAILURE(answers.expect_in_order(random, 2421));
-  PairScene tangent = test::placements(2422, answers.bodies, 3'000);
-  answers.bring_to_contact(2423, tangent);
-  ASSERT_NO_FATAL_FAILURE(answers.expect_in_order(tangent, 2422));
+  expect_answers_in_order(2421, test::posed_bodies(test::real_characters(*data), 6), 3'000);
 }
 
 bool operator==(const TestCounts& a, const TestCounts& b) {

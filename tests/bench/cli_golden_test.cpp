@@ -2,18 +2,12 @@
 // Copyright (c) 2026 the bch authors
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <sstream>
-#include <utility>
-
-#include <bch/query.hpp>
 
 #include "tests/support/bch_run.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/table.hpp"
+#include "tests/support/test.hpp"
 #include "tests/support/two_who_meet.hpp"
 
 // What the program writes, word for word, as the files in golden/ have it:
@@ -30,21 +24,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const fs::path golden = fs::path(__FILE__).parent_path() / "golden";
-
-std::string unescaped(const std::string& text) {
-  std::string bytes;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (text[i] != '\\') {
-      bytes += text[i];
-    } else if (text.at(++i) == 'x') {
-      bytes += static_cast<char>(std::stoi(text.substr(i + 1, 2), nullptr, 16));
-      i += 2;
-    } else {
-      bytes += text[i] == 'n' ? '\n' : text[i] == 'r' ? '\r' : text[i] == 't' ? '\t' : text[i];
-    }
-  }
-  return bytes;
-}
 
 /// The words of a line; quotes keep blanks together.
 Arguments words_of(const std::string& line) {

@@ -2,18 +2,14 @@
 // Copyright (c) 2026 the bch authors
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 #include <signal.h>
 
-#include <algorithm>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "layout/baked/checksum.hpp"
 #include "tests/support/bch_run.hpp"
-#include "tests/support/temporary_folder.hpp"
+#include "tests/support/test.hpp"
 
 // `bch check --part`, `bch query --part` and `bch merge`.
 
@@ -73,27 +69,42 @@ void expect_parts_make_the_run(const Arguments& command, const std::vector<int>&
   }
 }
 
-TEST(CliParts, MakeTheBytesOfOneRun) {
+/// Parts of a check of crossing people.
+class CliParts : public testing::Test {
+ protected:
+  Ending part(int number, int count, const Streams& streams = {}) const {
+    return do_part({"check", file}, number, count, parts, streams);
+  }
+  /// The first part is done already, and the last one is done now: they make what one run does.
+  void expect_whole_after(int last) const {
+    EXPECT_NE(part(1, last).out.find("done already"), std::string::npos);
+    EXPECT_EQ(part(last, last).code, 0);
+    EXPECT_EQ(told(folder, {"merge", parts}), told(folder, {"check", file}));
+  }
+
   const TemporaryFolder folder;
   const std::string file = folder.write("people.txt", crossing_people());
+  const fs::path parts = folder.file("parts");
+};
+
+TEST_F(CliParts, MakeTheBytesOfOneRun) {
   const std::string floor = folder.write("floor.wkt", "POLYGON((-9 -9, 9.2 -9, 9.2 20, -9 20))");
   expect_parts_make_the_run({"check", file, "--walls", floor, "--max-distance", "0.3"}, {1, 2, 3, 7});
   const std::string few = folder.write("few.txt", crossing_people(9));
   expect_parts_make_the_run({"check", few, "--slices", "0.4,1"}, {11});
 }
 
-TEST(CliParts, OfRealRecordingsToo) {
+TEST_F(CliParts, OfRealRecordingsToo) {
   const char* const data = std::getenv("BCH_TEST_DATA");
   if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set: no real files to read";
-  const fs::path folder = fs::path(data) / "trajectories";
-  expect_parts_make_the_run({"check", folder / "single_file_n56_cam1.csv", "--fps", "25"}, {3});
+  const fs::path recordings = fs::path(data) / "trajectories";
+  expect_parts_make_the_run({"check", recordings / "single_file_n56_cam1.csv", "--fps", "25"}, {3});
 #ifndef BCH_SANITIZED
-  expect_parts_make_the_run({"check", folder / "juelich_bottleneck_040_c_56_h.txt"}, {1, 2, 3, 7});
+  expect_parts_make_the_run({"check", recordings / "juelich_bottleneck_040_c_56_h.txt"}, {1, 2, 3, 7});
 #endif
 }
 
-TEST(CliParts, OfQueriesMakeTheBytesOfOneRun) {
-  const TemporaryFolder folder;
+TEST_F(CliParts, OfQueriesMakeTheBytesOfOneRun) {
   const std::string shapes = folder.write("box.obj", box),
                     floor = folder.write("floor.wkt", "POLYGON((-9 -9, 1 -9, 1 20, -9 20))");
   std::string agents = "id,shape,x,y,heading\n", pairs = "first,second\n";
@@ -107,24 +118,22 @@ TEST(CliParts, OfQueriesMakeTheBytesOfOneRun) {
     const std::string expected = bch(command).out;
     EXPECT_GT(lines(expected), 40u);
     for (const int count : {2, 7}) {
-      const fs::path parts = folder.file(fmt::format("{}-{}", command[3].size(), count));
-      do_parts(command, count, parts);
-      const Ending merged = bch({"merge", parts});
+      const fs::path into = folder.file(fmt::format("{}-{}", command[3].size(), count));
+      do_parts(command, count, into);
+      const Ending merged = bch({"merge", into});
       EXPECT_EQ(merged.out, expected) << count;
-      EXPECT_EQ(do_part(command, 1, count, parts).out.find("part 1 of"), 0u);
+      EXPECT_EQ(do_part(command, 1, count, into).out.find("part 1 of"), 0u);
     }
   }
   expect_failure(do_part({"query", shapes, agents_file, "--all-pairs"}, 1, 2, folder.file("all")), 2,
                  {"--all-pairs"});
 }
 
-TEST(CliParts, AreNotDoneAgainUnlessTheyAreOfAnotherRun) {
-  const TemporaryFolder folder;
-  const std::string file = folder.write("people.txt", crossing_people());
-  const fs::path parts = folder.file("parts"), manifest = parts / "part-2-of-3.manifest.json";
+TEST_F(CliParts, AreNotDoneAgainUnlessTheyAreOfAnotherRun) {
+  const fs::path manifest = parts / "part-2-of-3.manifest.json";
   do_parts({"check", file}, 3, parts);
   const auto written = fs::last_write_time(manifest);
-  const Ending again = do_part({"check", file}, 2, 3, parts);
+  const Ending again = part(2, 3);
   EXPECT_EQ(again.code, 0);
   EXPECT_EQ(again.out, "part 2 of 3 is done already: " + manifest.string() + "\n");
   EXPECT_EQ(fs::last_write_time(manifest), written);
@@ -132,17 +141,14 @@ TEST(CliParts, AreNotDoneAgainUnlessTheyAreOfAnotherRun) {
 
   fs::resize_file(parts / "part-2-of-3.pairs.csv", 5);
   expect_failure(bch({"merge", parts}), 3, {"part-2-of-3.pairs.csv", "part 2 of 3"});
-  EXPECT_NE(do_part({"check", file}, 2, 3, parts).out, again.out);
+  EXPECT_NE(part(2, 3).out, again.out);
   EXPECT_EQ(bch({"merge", parts}).code, 0);
   EXPECT_NE(do_part({"check", file, "--max-distance", "0.1"}, 2, 3, parts).out, again.out);
   expect_failure(bch({"merge", parts}), 3, {"part-2-of-3.manifest.json", "another run", "0.1"});
 }
 
-TEST(CliParts, ThatDoNotMakeARunAreNamed) {
-  const TemporaryFolder folder;
-  const std::string file = folder.write("people.txt", crossing_people());
-  const fs::path parts = folder.file("parts"), second = parts / "part-2-of-3.manifest.json",
-                 json = folder.file("check.json");
+TEST_F(CliParts, ThatDoNotMakeARunAreNamed) {
+  const fs::path second = parts / "part-2-of-3.manifest.json", json = folder.file("check.json");
   do_parts({"check", file}, 3, parts);
   const std::string manifest = read_text(second);
   const auto expect = [&](const Arguments& words) {
@@ -164,18 +170,18 @@ TEST(CliParts, ThatDoNotMakeARunAreNamed) {
   fs::copy_file(second, parts / "part-1-of-3.manifest.json", fs::copy_options::overwrite_existing);
   expect({"part-1-of-3.manifest.json", "part 2 of 3"});
   fs::remove(parts / "part-1-of-3.manifest.json");
-  EXPECT_EQ(do_part({"check", file}, 1, 3, parts).code, 0);
+  EXPECT_EQ(part(1, 3).code, 0);
 
   // A recording that was changed meanwhile, one of other parts, one that is there twice, an output that is a part.
   folder.write("people.txt", crossing_people() + "90 60 9 0 1.7\n");
-  EXPECT_EQ(do_part({"check", file}, 3, 3, parts).code, 0);
+  EXPECT_EQ(part(3, 3).code, 0);
   expect({"part-3-of-3.manifest.json", "another run", "inputs"});
   folder.write("people.txt", crossing_people());
-  EXPECT_EQ(do_part({"check", file}, 3, 3, parts).code, 0);
+  EXPECT_EQ(part(3, 3).code, 0);
   const std::string last = parts / "part-3-of-3.manifest.json";
   expect_failure(bch({"merge", parts, last}), 3, {"part-3-of-3.manifest.json", "twice"});
   expect_failure(bch({"merge", parts, "--json", last}), 2, {"--json", "input"});
-  EXPECT_EQ(do_part({"check", file}, 1, 4, parts).code, 0);
+  EXPECT_EQ(part(1, 4).code, 0);
   expect({"part-1-of-4", "one of"});
   fs::remove(parts / "part-1-of-4.manifest.json");
   EXPECT_EQ(bch({"merge", parts, "--json", json, "--fail-above", "1"}).code, 1);
@@ -189,10 +195,7 @@ nlohmann::ordered_json identity_of(const fs::path& file) {
 }
 
 /// A summary whose counts are fractions, negative or too large is refused, also where the manifest has its checksum.
-TEST(CliParts, HaveWholeNumbersForCounts) {
-  const TemporaryFolder folder;
-  const std::string file = folder.write("people.txt", crossing_people());
-  const fs::path parts = folder.file("parts");
+TEST_F(CliParts, HaveWholeNumbersForCounts) {
   do_parts({"check", file}, 1, parts);
   const std::string name = "part-1-of-1.summary.json",
                     manifest = read_text(parts / "part-1-of-1.manifest.json"),
@@ -219,30 +222,22 @@ std::size_t shown_files(const fs::path& folder) {
   return count;
 }
 
-TEST(CliParts, LeaveNothingHalfDoneOnAFullDisk) {
-  const TemporaryFolder folder;
-  const std::string file = folder.write("people.txt", crossing_people());
-  const fs::path parts = folder.file("parts");
-  EXPECT_EQ(do_part({"check", file}, 1, 2, parts).code, 0);
+TEST_F(CliParts, LeaveNothingHalfDoneOnAFullDisk) {
+  EXPECT_EQ(part(1, 2).code, 0);
   for (const std::size_t bytes : {200, 2'500}) {
     Streams streams;
     streams.largest_file = bytes;
-    expect_failure(do_part({"check", file}, 2, 2, parts, streams), 3, {"part-2-of-2"});
+    expect_failure(part(2, 2, streams), 3, {"part-2-of-2"});
     EXPECT_FALSE(fs::exists(parts / "part-2-of-2.manifest.json"));
   }
   for (const fs::directory_entry& entry : fs::directory_iterator(parts))
     EXPECT_NE(entry.path().filename().string()[0], '.') << entry;
   expect_failure(bch({"merge", parts}), 3, {"part 2 of 2 is missing"});
-  EXPECT_NE(do_part({"check", file}, 1, 2, parts).out.find("done already"), std::string::npos);
-  EXPECT_EQ(do_part({"check", file}, 2, 2, parts).code, 0);
-  EXPECT_EQ(told(folder, {"merge", parts}), told(folder, {"check", file}));
+  expect_whole_after(2);
 }
 
-TEST(CliParts, ThatAreKilledAreDoneAgain) {
-  const TemporaryFolder folder;
-  const std::string file = folder.write("people.txt", crossing_people());
-  const fs::path parts = folder.file("parts");
-  EXPECT_EQ(do_part({"check", file}, 1, 2, parts).code, 0);
+TEST_F(CliParts, ThatAreKilledAreDoneAgain) {
+  EXPECT_EQ(part(1, 2).code, 0);
   const std::size_t before = shown_files(parts);
   const auto writes = [&] {
     return std::ranges::any_of(fs::directory_iterator(parts),
@@ -252,22 +247,17 @@ TEST(CliParts, ThatAreKilledAreDoneAgain) {
             -SIGKILL);
   EXPECT_EQ(shown_files(parts), before);
   expect_failure(bch({"merge", parts}), 3, {"part 2 of 2 is missing"});
-  EXPECT_NE(do_part({"check", file}, 1, 2, parts).out.find("done already"), std::string::npos);
-  EXPECT_EQ(do_part({"check", file}, 2, 2, parts).code, 0);
-  EXPECT_EQ(told(folder, {"merge", parts}), told(folder, {"check", file}));
+  expect_whole_after(2);
 }
 
-TEST(CliParts, OfBadInputAreNotWritten) {
-  const TemporaryFolder folder;
-  const std::string file = folder.write("people.txt", crossing_people());
-  const fs::path parts = folder.file("parts");
-  EXPECT_EQ(do_part({"check", file}, 1, 2, parts).code, 0);
+TEST_F(CliParts, OfBadInputAreNotWritten) {
+  EXPECT_EQ(part(1, 2).code, 0);
   const std::size_t before = shown_files(parts);
   folder.write("people.txt", crossing_people() + "90 59 9 0 1.7\n");
-  expect_failure(do_part({"check", file}, 2, 2, parts), 3, {"people.txt"});
+  expect_failure(part(2, 2), 3, {"people.txt"});
   EXPECT_EQ(shown_files(parts), before);
   folder.write("people.txt", crossing_people());
-  EXPECT_EQ(do_part({"check", file}, 2, 2, parts).code, 0);
+  EXPECT_EQ(part(2, 2).code, 0);
   EXPECT_EQ(bch({"merge", parts}).code, 0);
 }
 

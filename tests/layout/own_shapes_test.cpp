@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/clearance.hpp>
-#include <bch/collide.hpp>
-#include <bch/contacts.hpp>
-#include <bch/hierarchy.hpp>
-#include <bch/shape_set.hpp>
-
 #include "layout/base/rounding.hpp"
 #include "layout/hierarchy/discs.hpp"
 #include "tests/support/plane_geometry.hpp"
@@ -161,16 +155,6 @@ std::size_t cleared_by_levels(Random& random, const ShapeSet& set) {
   return cleared;
 }
 
-/// Characters of other kinds are in the same set.
-TEST(ShapeFromDiscs, MixesWithOtherShapesAtAllLevels) {
-  Random random(2804);
-  std::vector<Shape> shapes = test::synthetic_shapes(2805, 6);
-  for (std::uint32_t i = 0; i < 6; ++i) shapes.push_back(shape_from_discs(random_discs(random, 3 + 7 * i)));
-  const ShapeSet set(shapes, {{0, 2, all_depths}});
-  EXPECT_FALSE(set.solid());
-  EXPECT_GT(cleared_by_levels(random, set), 100u);
-}
-
 TEST(ShapeFromDiscs, RejectsWhatIsNoDisc) {
   const auto expect_rejected = [](const std::vector<Disc>& discs, const std::string& message) {
     EXPECT_TRUE(test::has(test::complaint([&] { shape_from_discs(discs); }), message));
@@ -281,20 +265,25 @@ TEST(ShapeFromCapsules, CollideAsTheyDo) {
   EXPECT_GT(apart, test::samples(25'000));
 }
 
-/// Polygons, capsules, discs and a set of people's shapes are asked about each other at every level.
-TEST(ShapesOfOnesOwn, MixWithOthers) {
+/// Polygons and capsules beside people's shapes, and then discs, which have no outlines, too.
+TEST(ShapesOfOnesOwn, MixWithOthersAtAllLevels) {
   Random random(2808);
-  std::vector<Shape> shapes = test::synthetic_shapes(2809, 4);
+  std::vector<Shape> shapes = test::synthetic_shapes(2809, 6);
   const std::vector<std::vector<Vec2>> chair = {{{-0.4f, -0.3f}, {0.4f, -0.3f}, {0.4f, 0.3f}, {-0.4f, 0.3f}},
                                                 {{0.3f, -0.1f}, {0.6f, -0.1f}, {0.6f, 0.1f}, {0.3f, 0.1f}}};
   shapes.push_back(shape_from_polygons(chair));
   EXPECT_EQ(shapes.back().outline.contours(), 2u);
   const Capsule arms[] = {{{-0.3f, 0}, {0.3f, 0}, 0.1f}, {{0, 0}, {0, 0.4f}, 0.05f}};
   shapes.push_back(shape_from_capsules(arms));
-  const ShapeSet set(shapes, {.depths = {0, 3, all_depths}});
-  EXPECT_TRUE(set.solid());
-  EXPECT_TRUE(set.exact_leaves());
-  cleared_by_levels(random, set);
+  const ShapeSetPlan plan{.depths = {0, 3, all_depths}};
+  const ShapeSet outlined(shapes, plan);
+  EXPECT_TRUE(outlined.solid());
+  EXPECT_TRUE(outlined.exact_leaves());
+  EXPECT_GT(cleared_by_levels(random, outlined), 100u);
+  for (std::uint32_t i = 0; i < 6; ++i) shapes.push_back(shape_from_discs(random_discs(random, 3 + 7 * i)));
+  const ShapeSet mixed(shapes, plan);
+  EXPECT_FALSE(mixed.solid());
+  EXPECT_GT(cleared_by_levels(random, mixed), 100u);
 }
 
 TEST(ShapeFromCapsules, RejectsWhatIsNone) {

@@ -19,6 +19,22 @@
 
 namespace bch::test {
 
+/// Returns the bytes that a text stands for: \n, \t, \r, \xNN, and any other character behind a \ for itself.
+inline std::string unescaped(const std::string& text) {
+  std::string bytes;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    if (text[i] != '\\') {
+      bytes += text[i];
+    } else if (text.at(++i) == 'x') {
+      bytes += static_cast<char>(std::stoi(text.substr(i + 1, 2), nullptr, 16));
+      i += 2;
+    } else {
+      bytes += text[i] == 'n' ? '\n' : text[i] == 't' ? '\t' : text[i] == 'r' ? '\r' : text[i];
+    }
+  }
+  return bytes;
+}
+
 class Table {
  public:
   explicit Table(const std::filesystem::path& file) : file_(file) {
@@ -43,7 +59,7 @@ class Table {
         for (std::size_t at; (at = asked.find("{" + name + "}")) != std::string::npos;)
           asked.replace(at, name.size() + 2, text);
       const std::string answered = answer(fields_of(asked));
-      EXPECT_EQ(answered, bytes_of(line.substr(last + 3))) << file_.filename() << ": " << line;
+      EXPECT_EQ(answered, unescaped(line.substr(last + 3))) << file_.filename() << ": " << line;
       line.replace(last + 3, std::string::npos, escaped(answered));
     }
     if (std::getenv("BCH_REWRITE_TABLES") == nullptr) return;
@@ -52,20 +68,6 @@ class Table {
   }
 
  private:
-  static std::string bytes_of(const std::string& text) {
-    std::string bytes;
-    for (std::size_t i = 0; i < text.size(); ++i) {
-      if (text[i] != '\\') {
-        bytes += text[i];
-      } else if (text[++i] == 'x') {
-        bytes += static_cast<char>(std::stoi(text.substr(i + 1, 2), nullptr, 16));
-        i += 2;
-      } else {
-        bytes += text[i] == 'n' ? '\n' : text[i] == 't' ? '\t' : text[i] == 'r' ? '\r' : text[i];
-      }
-    }
-    return bytes;
-  }
   static std::string escaped(const std::string& bytes) {
     std::string text;
     for (const char c : bytes) text.append(c == '\\' ? "\\" : "").push_back(c);
@@ -75,7 +77,7 @@ class Table {
     std::vector<std::string> fields;
     for (std::size_t at = 0, end; at <= line.size(); at = end + 3) {
       end = std::min(line.find(" | ", at), line.size());
-      fields.push_back(bytes_of(line.substr(at, end - at)));
+      fields.push_back(unescaped(line.substr(at, end - at)));
     }
     return fields;
   }

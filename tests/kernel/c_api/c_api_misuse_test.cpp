@@ -1,15 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <cstring>
-#include <string>
 #include <thread>
-#include <vector>
 
 #include "tests/support/c_api.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 
 // What callers get wrong is a status and a line, and nothing is written.
 
@@ -42,6 +37,9 @@ class CApiMisuse : public testing::Test {
     EXPECT_EQ(message.find('\n'), std::string::npos) << message;
     EXPECT_EQ(hit, 77);
   }
+  void expect_invalid(bch_status status, const std::string& word) {
+    expect_error(status, BCH_INVALID_ARGUMENT, word);
+  }
 };
 
 TEST_F(CApiMisuse, StatusesHaveNames) {
@@ -54,20 +52,16 @@ TEST_F(CApiMisuse, StatusesHaveNames) {
 }
 
 TEST_F(CApiMisuse, PointersThatAreNull) {
-  expect_error(bch_collide(nullptr, &agents, &pair, 1, nullptr, &hit), BCH_INVALID_ARGUMENT, "set is NULL");
-  expect_error(bch_collide(set.get(), nullptr, &pair, 1, nullptr, &hit), BCH_INVALID_ARGUMENT,
-               "agents is NULL");
-  expect_error(bch_collide(set.get(), &agents, nullptr, 1, nullptr, &hit), BCH_INVALID_ARGUMENT,
-               "pairs is NULL");
-  expect_error(bch_collide(set.get(), &agents, &pair, 1, nullptr, nullptr), BCH_INVALID_ARGUMENT,
-               "hits is NULL");
-  expect_error(bch_shape_set_load(nullptr, 0, nullptr), BCH_INVALID_ARGUMENT, "path is NULL");
-  expect_error(bch_broad_phase_create(nullptr), BCH_INVALID_ARGUMENT, "broad_phase is NULL");
-  expect_error(bch_obstacles_from_wkt(nullptr, 0, nullptr), BCH_INVALID_ARGUMENT, "is NULL");
-  expect_error(bch_obstacles_from_wkt_at("POINT", 0, 0, 1, nullptr), BCH_INVALID_ARGUMENT,
-               "obstacles is NULL");
+  expect_invalid(bch_collide(nullptr, &agents, &pair, 1, nullptr, &hit), "set is NULL");
+  expect_invalid(bch_collide(set.get(), nullptr, &pair, 1, nullptr, &hit), "agents is NULL");
+  expect_invalid(bch_collide(set.get(), &agents, nullptr, 1, nullptr, &hit), "pairs is NULL");
+  expect_invalid(bch_collide(set.get(), &agents, &pair, 1, nullptr, nullptr), "hits is NULL");
+  expect_invalid(bch_shape_set_load(nullptr, 0, nullptr), "path is NULL");
+  expect_invalid(bch_broad_phase_create(nullptr), "broad_phase is NULL");
+  expect_invalid(bch_obstacles_from_wkt(nullptr, 0, nullptr), "is NULL");
+  expect_invalid(bch_obstacles_from_wkt_at("POINT", 0, 0, 1, nullptr), "obstacles is NULL");
   agents.heading = nullptr;
-  expect_error(ask(), BCH_INVALID_ARGUMENT, "agents->heading is NULL");
+  expect_invalid(ask(), "agents->heading is NULL");
   // Nothing to do is no mistake.
   agents = test::c_agents(crowd);
   expect_ok(bch_collide(set.get(), &agents, nullptr, 0, nullptr, nullptr));
@@ -79,13 +73,13 @@ TEST_F(CApiMisuse, ObjectsThatAreNot) {
   expect_ok(bch_broad_phase_create(&phase));
   const bch_pair* pairs = nullptr;
   std::size_t count = 0;
-  expect_error(bch_broad_phase_find(reinterpret_cast<bch_broad_phase*>(set.get()), set.get(), &agents, 0,
-                                    nullptr, &pairs, &count),
-               BCH_INVALID_ARGUMENT, "broad_phase is no living bch_broad_phase");
+  expect_invalid(bch_broad_phase_find(reinterpret_cast<bch_broad_phase*>(set.get()), set.get(), &agents, 0,
+                                      nullptr, &pairs, &count),
+                 "broad_phase is no living bch_broad_phase");
   expect_ok(bch_broad_phase_free(phase));
-  expect_error(bch_broad_phase_free(phase), BCH_INVALID_ARGUMENT, "was it freed?");
-  expect_error(bch_broad_phase_find(phase, set.get(), &agents, 0, nullptr, &pairs, &count),
-               BCH_INVALID_ARGUMENT, "was it freed?");
+  expect_invalid(bch_broad_phase_free(phase), "was it freed?");
+  expect_invalid(bch_broad_phase_find(phase, set.get(), &agents, 0, nullptr, &pairs, &count),
+                 "was it freed?");
   EXPECT_EQ(pairs, nullptr);
 }
 
@@ -96,10 +90,9 @@ TEST_F(CApiMisuse, TheSetThatADynamicOneLends) {
   expect_ok(bch_dynamic_shape_set_get_shapes(dynamic, &lent));
   expect_ok(bch_collide(lent, &agents, &pair, 1, nullptr, &hit));
   hit = 77;
-  expect_error(bch_shape_set_free(const_cast<bch_shape_set*>(lent)), BCH_INVALID_ARGUMENT, "belongs to");
+  expect_invalid(bch_shape_set_free(const_cast<bch_shape_set*>(lent)), "belongs to");
   expect_ok(bch_dynamic_shape_set_free(dynamic));
-  expect_error(bch_collide(lent, &agents, &pair, 1, nullptr, &hit), BCH_INVALID_ARGUMENT,
-               "no living bch_shape_set");
+  expect_invalid(bch_collide(lent, &agents, &pair, 1, nullptr, &hit), "no living bch_shape_set");
 }
 
 /// Structs of callers that were built with other versions.
@@ -113,8 +106,8 @@ TEST_F(CApiMisuse, SizesOfThePastAndOfTheFuture) {
   EXPECT_EQ(hit, 1);
   hit = 77;
   future.later[1] = 5;
-  expect_error(
-      bch_collide(set.get(), &agents, &pair, 1, &future.known, &hit), BCH_INVALID_ARGUMENT,
+  expect_invalid(
+      bch_collide(set.get(), &agents, &pair, 1, &future.known, &hit),
       "options->size is " + std::to_string(sizeof future) + ", and fields that this version does not know");
 
   // Of the past: what it does not have yet is as if it had been left alone.
@@ -123,10 +116,10 @@ TEST_F(CApiMisuse, SizesOfThePastAndOfTheFuture) {
   expect_ok(ask());
   hit = 77;
   options.size = sizeof options;
-  expect_error(ask(), BCH_INVALID_ARGUMENT, "options->semantics is 99");
+  expect_invalid(ask(), "options->semantics is 99");
   for (const std::uint32_t size : {0u, 3u, 5000u}) {
     options.size = size;
-    expect_error(ask(), BCH_INVALID_ARGUMENT, "options->size is " + std::to_string(size));
+    expect_invalid(ask(), "options->size is " + std::to_string(size));
   }
 
   // No version ends inside a member.
@@ -138,18 +131,16 @@ TEST_F(CApiMisuse, SizesOfThePastAndOfTheFuture) {
       expect_ok(ask());
       hit = 77;
     } else {
-      expect_error(ask(), BCH_INVALID_ARGUMENT,
-                   "options->size is " + std::to_string(size) + ", inside a member");
+      expect_invalid(ask(), "options->size is " + std::to_string(size) + ", inside a member");
     }
   }
   bch_clearance_out cut = BCH_CLEARANCE_OUT_INIT;
   cut.size = offsetof(bch_clearance_out, points) + 4;
-  expect_error(bch_clearance(set.get(), &agents, &pair, 1, nullptr, &cut), BCH_INVALID_ARGUMENT,
-               "inside a member");
+  expect_invalid(bch_clearance(set.get(), &agents, &pair, 1, nullptr, &cut), "inside a member");
 
   bch_shape_set_info info = BCH_SHAPE_SET_INFO_INIT;
   info.size = offsetof(bch_shape_set_info, bytes) + 4;
-  expect_error(bch_shape_set_get_info(set.get(), &info), BCH_INVALID_ARGUMENT, "inside a member");
+  expect_invalid(bch_shape_set_get_info(set.get(), &info), "inside a member");
   EXPECT_EQ(info.shapes, 0u);
   info.bytes = 123;
   info.size = offsetof(bch_shape_set_info, bytes);
@@ -161,27 +152,27 @@ TEST_F(CApiMisuse, SizesOfThePastAndOfTheFuture) {
 
 TEST_F(CApiMisuse, ValuesAndTheirPlaces) {
   crowd.x[1] = std::nan("");
-  expect_error(ask(), BCH_INVALID_ARGUMENT, "agent 1");
+  expect_invalid(ask(), "agent 1");
   crowd.x[1] = 0;
   crowd.shape[0] = 50;
-  expect_error(ask(), BCH_INVALID_ARGUMENT, "50");
-  expect_error(bch_validate_agents(set.get(), &agents), BCH_INVALID_ARGUMENT, "50");
+  expect_invalid(ask(), "50");
+  expect_invalid(bch_validate_agents(set.get(), &agents), "50");
   crowd.shape[0] = 0;
   const bch_pair beyond{0, 2};
-  expect_error(bch_collide(set.get(), &agents, &beyond, 1, nullptr, &hit), BCH_INVALID_ARGUMENT, "pair 0");
+  expect_invalid(bch_collide(set.get(), &agents, &beyond, 1, nullptr, &hit), "pair 0");
   options.threads = 100'000;
-  expect_error(ask(), BCH_INVALID_ARGUMENT, "threads is 100000");
+  expect_invalid(ask(), "threads is 100000");
   options.threads = 0, options.implementation = "mmx";
-  expect_error(ask(), BCH_INVALID_ARGUMENT, "mmx");
+  expect_invalid(ask(), "mmx");
   options.implementation = nullptr, options.leaves = 2;
-  expect_error(ask(), BCH_INVALID_ARGUMENT, "options->leaves is 2");
+  expect_invalid(ask(), "options->leaves is 2");
   options.leaves = 0;
   bch_disc disc;
   std::size_t count = 9;
   expect_error(bch_shape_set_get_discs(set.get(), 50, 0, &disc, 1, &count), BCH_OUT_OF_RANGE, "50");
   EXPECT_EQ(count, 9u);
-  expect_error(bch_collide(set.get(), &agents, &pair, SIZE_MAX / 2, nullptr, &hit), BCH_INVALID_ARGUMENT,
-               "pairs has " + std::to_string(SIZE_MAX / 2));
+  expect_invalid(bch_collide(set.get(), &agents, &pair, SIZE_MAX / 2, nullptr, &hit),
+                 "pairs has " + std::to_string(SIZE_MAX / 2));
   bch_shape_set* none = nullptr;
   expect_error(bch_shape_set_load("/nowhere/a.bch", BCH_READ, &none), BCH_FILE_NOT_FOUND,
                "/nowhere/a.bch: no such");
@@ -196,10 +187,10 @@ TEST_F(CApiMisuse, PlansAndBodies) {
   bch_shape_set_builder* none = nullptr;
   bch_plan plan = BCH_PLAN_INIT;
   plan.slices = slices, plan.slice_count = 2;
-  expect_error(bch_shape_set_builder_create(&plan, &none), BCH_INVALID_ARGUMENT, "slice");
+  expect_invalid(bch_shape_set_builder_create(&plan, &none), "slice");
   plan = BCH_PLAN_INIT;
   plan.threshold = -1;
-  expect_error(bch_shape_set_builder_create(&plan, &none), BCH_INVALID_ARGUMENT, "plan->threshold");
+  expect_invalid(bch_shape_set_builder_create(&plan, &none), "plan->threshold");
   EXPECT_EQ(none, nullptr);
   const auto builder = made<bch_shape_set_builder_free>(bch_shape_set_builder_create, nullptr);
   const bch_vec2 corners[] = {{0, 0}, {1, 0}, {1, 1}};
@@ -207,15 +198,15 @@ TEST_F(CApiMisuse, PlansAndBodies) {
   const auto add = [&](const bch_vec2* points, const std::uint64_t* offsets, std::size_t polygons) {
     return bch_shape_set_builder_add_polygons(builder.get(), points, offsets, polygons, nullptr);
   };
-  expect_error(add(corners, wrong, 1), BCH_INVALID_ARGUMENT, "offsets[1]");
-  expect_error(add(corners, whole, 0), BCH_INVALID_ARGUMENT, "");
-  expect_error(add(nullptr, second, 1), BCH_INVALID_ARGUMENT, "corners is NULL");
-  expect_error(add(corners, whole, SIZE_MAX), BCH_INVALID_ARGUMENT, "offsets has");
-  expect_error(bch_shape_set_builder_add_cylinder(builder.get(), -1, nullptr), BCH_INVALID_ARGUMENT, "-1");
+  expect_invalid(add(corners, wrong, 1), "offsets[1]");
+  expect_invalid(add(corners, whole, 0), "");
+  expect_invalid(add(nullptr, second, 1), "corners is NULL");
+  expect_invalid(add(corners, whole, SIZE_MAX), "offsets has");
+  expect_invalid(bch_shape_set_builder_add_cylinder(builder.get(), -1, nullptr), "-1");
 
   const auto man = made<bch_character_free>(bch_character_default, BCH_MALE);
   bch_character* other = nullptr;
-  expect_error(bch_character_default(7, &other), BCH_INVALID_ARGUMENT, "which is 7");
+  expect_invalid(bch_character_default(7, &other), "which is 7");
   const char* name = nullptr;
   expect_error(bch_character_get_clip(man.get(), 1'000, &name, nullptr), BCH_OUT_OF_RANGE, "clip is 1000 of");
   const bch_pose poses[] = {{0, 0}, {1'000, 0}}, rest[] = {{BCH_REST_POSE, 0}, {BCH_REST_POSE, 0}};
@@ -223,11 +214,11 @@ TEST_F(CApiMisuse, PlansAndBodies) {
                "poses[1].clip is 1000");
   const auto dynamic = made<bch_dynamic_shape_set_free>(bch_dynamic_shape_set_create, set.get());
   const std::uint32_t twice[] = {0, 0};
-  expect_error(bch_dynamic_shape_set_replace_poses(dynamic.get(), man.get(), twice, rest, 2, 0.01f, nullptr),
-               BCH_INVALID_ARGUMENT, "shapes[1] is 0, as one before");
+  expect_invalid(
+      bch_dynamic_shape_set_replace_poses(dynamic.get(), man.get(), twice, rest, 2, 0.01f, nullptr),
+      "shapes[1] is 0, as one before");
   const auto shaper = made<bch_pose_shaper_free>(bch_pose_shaper_create, man.get(), nullptr);
-  expect_error(bch_dynamic_shape_set_replace(dynamic.get(), 0, shaper.get()), BCH_INVALID_ARGUMENT,
-               "shaper has made no shape");
+  expect_invalid(bch_dynamic_shape_set_replace(dynamic.get(), 0, shaper.get()), "shaper has made no shape");
 
   bch_vec2 point{8, 9};
   std::uint64_t offset = 7;
@@ -247,14 +238,13 @@ TEST_F(CApiMisuse, Obstacles) {
   bch_obstacle_arrays arrays = BCH_OBSTACLE_ARRAYS_INIT;
   arrays.x = x, arrays.y = y, arrays.path_offsets = whole, arrays.path_count = SIZE_MAX;
   bch_obstacles* none = nullptr;
-  expect_error(bch_obstacles_create(&arrays, &none), BCH_INVALID_ARGUMENT, "arrays->path_offsets has");
+  expect_invalid(bch_obstacles_create(&arrays, &none), "arrays->path_offsets has");
   arrays.path_count = 1, arrays.obstacle_offsets = whole, arrays.obstacle_count = SIZE_MAX;
-  expect_error(bch_obstacles_create(&arrays, &none), BCH_INVALID_ARGUMENT, "arrays->obstacle_offsets has");
+  expect_invalid(bch_obstacles_create(&arrays, &none), "arrays->obstacle_offsets has");
   arrays.obstacle_offsets = nullptr, arrays.bottom = &up, arrays.top = &down;
   const char* const word = "obstacles: obstacle 0: heights from 2 to 1 m";
-  expect_error(bch_obstacles_create(&arrays, &none), BCH_INVALID_ARGUMENT, word);
-  expect_error(bch_obstacles_from_wkt_at("LINESTRING(0 0, 1 1)", 0, up, down, &none), BCH_INVALID_ARGUMENT,
-               word);
+  expect_invalid(bch_obstacles_create(&arrays, &none), word);
+  expect_invalid(bch_obstacles_from_wkt_at("LINESTRING(0 0, 1 1)", 0, up, down, &none), word);
   EXPECT_EQ(none, nullptr);
   arrays.top = nullptr;
   const auto obstacles = made<bch_obstacles_free>(bch_obstacles_create, &arrays);
@@ -264,7 +254,7 @@ TEST_F(CApiMisuse, Obstacles) {
 }
 
 TEST_F(CApiMisuse, TheLastErrorStays) {
-  expect_error(bch_collide(nullptr, &agents, &pair, 1, nullptr, &hit), BCH_INVALID_ARGUMENT, "set is NULL");
+  expect_invalid(bch_collide(nullptr, &agents, &pair, 1, nullptr, &hit), "set is NULL");
   expect_ok(ask());
   EXPECT_STREQ(bch_last_error(), "set is NULL");
   std::thread([] { EXPECT_STREQ(bch_last_error(), ""); }).join();

@@ -1,15 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/baked.hpp>
-
 #include <new>
-
-#include <bch/clearance.hpp>
-#include <bch/collide.hpp>
-#include <bch/contacts.hpp>
-#include <bch/penetration.hpp>
-#include <bch/time_of_impact.hpp>
 
 #include "layout/baked/checksum.hpp"
 #include "layout/baked/image.hpp"
@@ -46,33 +38,6 @@ std::vector<std::uint8_t> answers(const ShapeSet& set, Semantics semantics) {
   return hits;
 }
 
-/// The queries for collision response.
-void expect_same_measures(const ShapeSet& loaded, const ShapeSet& expected) {
-  Random random(74);
-  const PairScene scene = random_scene(random, expected, 300);
-  const Agents agents = scene.crowd.agents();
-  const std::vector<double> way(scene.pairs.size(), 0.5);
-  ContactFinder finder[2];
-  Rows<DiscPair> table[2];
-  std::vector<Penetration> ways[2];
-  std::vector<float> distances[2], times[2];
-  std::vector<Vec2> directions(scene.pairs.size());
-  for (int i = 0; i < 2; ++i) {
-    const ShapeSet& set = i == 0 ? loaded : expected;
-    ways[i].resize(scene.pairs.size()), distances[i].resize(scene.pairs.size()),
-        times[i].resize(scene.pairs.size());
-    table[i] = finder[i].find(set, agents, scene.pairs);
-    penetration(set, agents, scene.pairs, 8, ways[i]);
-    clearance(set, agents, scene.pairs, {distances[i], directions});
-    time_of_impact(set, agents, scene.pairs, {way, way}, times[i]);
-  }
-  EXPECT_TRUE(std::ranges::equal(table[0].offsets, table[1].offsets));
-  EXPECT_TRUE(std::ranges::equal(table[0].values, table[1].values));
-  EXPECT_EQ(ways[0], ways[1]);
-  EXPECT_EQ(distances[0], distances[1]);
-  EXPECT_EQ(times[0], times[1]);
-}
-
 TEST(BakedFile, ComesBackAsItWas) {
   const TemporaryFolder folder;
   for (const std::vector<std::uint32_t>& depths :
@@ -88,7 +53,6 @@ TEST(BakedFile, ComesBackAsItWas) {
           expect_same(loaded.set.arrays(), set.arrays());
           EXPECT_EQ(loaded.origins, origins);
           EXPECT_EQ(answers(loaded.set, Semantics::boundary), answers(set, Semantics::boundary));
-          expect_same_measures(loaded.set, set);
           if (solid) {
             EXPECT_EQ(answers(loaded.set, Semantics::solid), answers(set, Semantics::solid));
           }

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/import.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-
-#include "tests/support/gltf_file.hpp"
 #include "tests/support/import_test.hpp"
+#include "tests/support/gltf_file.hpp"
+#include "tests/support/test.hpp"
 
 namespace bch {
 namespace {
@@ -238,19 +233,6 @@ TEST_F(Import, EveryInstanceOfAMeshCounts) {
   const Eigen::Vector3f between =
       detail::to_eigen(pose[character.triangles[1][0]]) - detail::to_eigen(pose[character.triangles[0][0]]);
   EXPECT_TRUE(between.isApprox(Eigen::Vector3f(-1, 0, 2), 1e-6f)) << between.transpose();
-}
-
-TEST_F(Import, ReadingTwiceGivesTheSame) {
-  SkinnedStrip strip;
-  strip.weights = {0.3f, 0, 0, 0, 1, 0.25f, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0};
-  const auto first = import("strip.gltf", strip.text());
-  const auto second = import("strip.gltf", strip.text());
-  EXPECT_EQ(first.character.vertices, second.character.vertices);
-  EXPECT_EQ(first.character.triangles, second.character.triangles);
-  EXPECT_EQ(first.character.influence_begin, second.character.influence_begin);
-  EXPECT_EQ(first.report.notes, second.report.notes);
-  EXPECT_TRUE(std::ranges::equal(first.character.influences, second.character.influences,
-                                 [](auto a, auto b) { return a.bone == b.bone && a.weight == b.weight; }));
 }
 
 }  // namespace
