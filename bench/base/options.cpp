@@ -90,7 +90,7 @@ std::uint32_t parse_depth(const std::string& option, const std::string& text) {
   return depth;
 }
 
-void ShapeOptions::add_to(CLI::App& command) {
+void ShapeOptions::add_import_to(CLI::App& command) {
   CLI::Option& clips_option = add_repeatable_option(
       command, "--clips", clips, "Add the clips of this file, matched by bone name (repeatable)", "FILE");
   command.add_flag("--force-clips", force_clips, "Also accept clips that belong to another skeleton")
@@ -99,6 +99,11 @@ void ShapeOptions::add_to(CLI::App& command) {
   add("--up", up, "x|y|z", "Up axis of the file [as the file states, else a guess]", one_of({"x", "y", "z"}));
   add("--scale", scale, "METRES", "Metres per unit of the file [as the file states, else a guess]",
       number_between(1e-9, 1e9));
+}
+
+void ShapeOptions::add_to(CLI::App& command) {
+  add_import_to(command);
+  const OptionAdder add(command);
   add("--poses", poses, "N", "Poses per character, spread evenly over its clips [100]",
       whole_between(1, 1'000'000));
   add("--threshold", threshold, "METRES", "Nodes with a smaller radius are not divided [0.01 m]",

@@ -30,6 +30,8 @@ struct ShapeOptions {
   CostLimits limits;
 
   void add_to(CLI::App& command);
+  /// Adds the options of import_options() alone.
+  void add_import_to(CLI::App& command);
   /// Returns the planes at which bodies are cut. Errors: throws UsageError naming the value.
   std::vector<float> planes() const;
   ImportOptions import_options() const;

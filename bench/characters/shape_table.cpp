@@ -13,6 +13,7 @@
 
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/progress.hpp"
+#include "bench/base/text.hpp"
 #include "layout/base/random.hpp"
 
 namespace bch::cli {
@@ -64,6 +65,21 @@ std::vector<ShapeSource> list_shapes_at_rate(std::span<const LoadedCharacter> ch
     }
   }
   return sources;
+}
+
+ShapeSource source_at(const LoadedCharacter& from, const std::string& name, double seconds) {
+  const auto& clips = from.character.clips;
+  for (std::uint32_t i = 0; i < clips.size(); ++i) {
+    if (clips[i].name != name) continue;
+    if (!(seconds >= 0 && seconds <= static_cast<double>(clips[i].seconds)))
+      throw InputError(fmt::format("{}: clip '{}' lasts {} s and has no time {} s", from.source, name,
+                                   clips[i].seconds, seconds));
+    return {0, {i, static_cast<float>(seconds)}};
+  }
+  throw InputError(fmt::format("{}: has no clip '{}' ({})", from.source, name,
+                               clips.empty()
+                                   ? std::string("nor any other")
+                                   : counted(clips.size(), "clip") + ", see bch inspect without --clip"));
 }
 
 std::string clip_name(const LoadedCharacter& character, PoseTime at) {

@@ -32,6 +32,10 @@ std::vector<ShapeSource> list_random_shapes(std::span<const LoadedCharacter> cha
 /// Errors:  throws InputError beyond 1e7 poses.
 std::vector<ShapeSource> list_shapes_at_rate(std::span<const LoadedCharacter> characters, double rate);
 
+/// Returns the pose at a time of the clip of a name.
+/// Errors:  throws InputError on a clip that the character has not, and on a time that the clip has not.
+ShapeSource source_at(const LoadedCharacter& from, const std::string& clip, double seconds);
+
 /// Returns the name of a pose's clip, "walk", or "rest pose".
 std::string clip_name(const LoadedCharacter& character, PoseTime at);
 

@@ -14,6 +14,7 @@ namespace bch::cli {
 std::function<void()> add_bake_command(CLI::App& program);
 std::function<void()> add_crowd_command(CLI::App& program);
 std::function<void()> add_inspect_command(CLI::App& program);
+std::function<void()> add_outline_command(CLI::App& program);
 std::function<void()> add_place_command(CLI::App& program);
 std::function<void()> add_query_command(CLI::App& program);
 

@@ -48,21 +48,6 @@ void require_consistent(const InspectOptions& options) {
                   options.shapes.inputs({options.character}));
 }
 
-ShapeSource at_time(const LoadedCharacter& from, const std::string& name, double seconds) {
-  const auto& clips = from.character.clips;
-  for (std::uint32_t i = 0; i < clips.size(); ++i) {
-    if (clips[i].name != name) continue;
-    if (!(seconds >= 0 && seconds <= static_cast<double>(clips[i].seconds)))
-      throw InputError(fmt::format("{}: clip '{}' lasts {} s and has no time {} s", from.source, name,
-                                   clips[i].seconds, seconds));
-    return {0, {i, static_cast<float>(seconds)}};
-  }
-  throw InputError(fmt::format("{}: has no clip '{}' ({})", from.source, name,
-                               clips.empty()
-                                   ? std::string("nor any other")
-                                   : counted(clips.size(), "clip") + ", see bch inspect without --clip"));
-}
-
 ShapeSource at_index(const LoadedCharacter& from, std::span<const ShapeSource> sources, std::uint32_t index) {
   if (index >= sources.size())
     throw InputError(
@@ -164,9 +149,9 @@ void run_inspect(const CLI::App& command, const InspectOptions& options) {
   const Threads threads(options.threads);
   const auto sources = list_shapes({&from, 1}, options.shapes.poses);
   if (options.animated)
-    inspect_animated(options, from, at_time(from, *options.clip, *options.time));
+    inspect_animated(options, from, source_at(from, *options.clip, *options.time));
   else if (options.clip)
-    inspect_shape(options, from, at_time(from, *options.clip, *options.time));
+    inspect_shape(options, from, source_at(from, *options.clip, *options.time));
   else if (options.shape)
     inspect_shape(options, from, at_index(from, sources, *options.shape));
   else

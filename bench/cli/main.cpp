@@ -34,6 +34,7 @@ int run(int argc, char** argv) {
                       {"crowd", add_crowd_command(program)},
                       {"inspect", add_inspect_command(program)},
                       {"merge", add_merge_command(program)},
+                      {"outline", add_outline_command(program)},
                       {"place", add_place_command(program)},
                       {"query", add_query_command(program)}},
                      argc, argv);

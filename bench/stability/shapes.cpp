@@ -100,7 +100,7 @@ Specimen triangle_specimen(const std::vector<Vec2>& corners, double threshold) {
     triangles.push_back({i, i + 1, i + 2});
     geometry.contour_begin.push_back(i + 3);
   }
-  return specimen(union_outline(positions, triangles), std::move(geometry), threshold);
+  return specimen(bch::outline(positions, triangles), std::move(geometry), threshold);
 }
 
 std::vector<Vec2> ring(Random& random, std::uint32_t corners, double inner, double outer, double x, double y,

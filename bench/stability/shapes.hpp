@@ -28,7 +28,7 @@ struct Specimen {
 };
 
 /// The functions below make specimens.
-/// Errors of all: as contour_hierarchy() and union_outline() throw.
+/// Errors of all: as contour_hierarchy() and outline() throw.
 
 /// Makes a specimen from a contour of one's own, as it is.
 Specimen raw_specimen(std::vector<Vec2> points, double threshold);

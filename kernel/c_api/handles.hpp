@@ -63,6 +63,9 @@ constexpr std::string_view kind_of(const bch_check*) {
 constexpr std::string_view kind_of(const bch_scene_plan*) {
   return "bch_scene_plan";
 }
+constexpr std::string_view kind_of(const bch_outlines*) {
+  return "bch_outlines";
+}
 constexpr std::string_view kind_of(const bch_obstacles*) {
   return "bch_obstacles";
 }

@@ -18,10 +18,7 @@ class Work : public detail::ProgressReport {
 
   std::uint32_t threads() const { return threads_; }
 
- private:
-  Work(const bch_work& work, std::size_t total)
-      : ProgressReport(function_of(work), total), threads_(work.threads) {}
-
+  /// Returns what C++ functions take for the caller's callback.
   static Function function_of(const bch_work& work) {
     if (work.progress == nullptr) return {};
     return [call = work.progress, user = work.user](std::size_t done, std::size_t total) {
@@ -29,6 +26,10 @@ class Work : public detail::ProgressReport {
       return true;
     };
   }
+
+ private:
+  Work(const bch_work& work, std::size_t total)
+      : ProgressReport(function_of(work), total), threads_(work.threads) {}
 
   const std::uint32_t threads_;
 };

@@ -80,6 +80,24 @@ bool manifold(std::span<const EdgeUse> uses) {
          uses[0].direction != uses[1].direction;
 }
 
+/// Sorts uses by their ends, those of a welded vertex first of all: a vertex has few.
+std::vector<EdgeUse> sorted(std::span<const EdgeUse> uses, std::span<const std::uint32_t> weld) {
+  std::vector<std::size_t> begin(weld.size() + 1, 0);
+  for (const EdgeUse& use : uses) ++begin[weld[use.a] + 1];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<EdgeUse> result(uses.size());
+  std::vector<std::size_t> next = begin;
+  for (const EdgeUse& use : uses) result[next[weld[use.a]]++] = use;
+  const auto key = [&](const EdgeUse& use) {
+    return std::tuple(weld[use.b], use.a, use.b, use.triangle, use.direction);
+  };
+  for (std::size_t v = 0; v < weld.size(); ++v)
+    std::sort(result.begin() + static_cast<std::ptrdiff_t>(begin[v]),
+              result.begin() + static_cast<std::ptrdiff_t>(begin[v + 1]),
+              [&](const EdgeUse& a, const EdgeUse& b) { return key(a) < key(b); });
+  return result;
+}
+
 /// The triangles' uses of their edges, those of an edge together. Ends that are one vertex are no edge.
 std::vector<EdgeUse> edge_uses(Triangles triangles, std::span<const std::uint32_t> weld) {
   std::vector<EdgeUse> uses;
@@ -91,11 +109,7 @@ std::vector<EdgeUse> edge_uses(Triangles triangles, std::span<const std::uint32_
       const bool forward = std::tie(weld[from], from) < std::tie(weld[to], to);
       uses.push_back(forward ? EdgeUse{from, to, t, 1} : EdgeUse{to, from, t, -1});
     }
-  const auto key = [&](const EdgeUse& use) {
-    return std::tuple(weld[use.a], weld[use.b], use.a, use.b, use.triangle, use.direction);
-  };
-  std::sort(uses.begin(), uses.end(), [&](const EdgeUse& a, const EdgeUse& b) { return key(a) < key(b); });
-  return uses;
+  return sorted(uses, weld);
 }
 
 std::vector<Edge> edges_of(std::vector<EdgeUse>& uses, std::span<const std::uint32_t> weld,
@@ -112,14 +126,13 @@ std::vector<Edge> edges_of(std::vector<EdgeUse>& uses, std::span<const std::uint
 
 /// Puts edges near each other next to each other: halves by the longer side of their box, over and over.
 void sort_by_place(std::span<Edge> edges) {
-  constexpr std::size_t together = 8;
+  constexpr std::size_t together = 16;
   if (edges.size() <= together) return;
-  std::array<float, 3> extent;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto [low, high] = std::minmax_element(
-        edges.begin(), edges.end(), [k](const Edge& a, const Edge& b) { return a.middle[k] < b.middle[k]; });
-    extent[k] = high->middle[k] - low->middle[k];
-  }
+  std::array<float, 3> low = edges[0].middle, high = low, extent;
+  for (const Edge& edge : edges)
+    for (std::size_t k = 0; k < 3; ++k)
+      low[k] = std::min(low[k], edge.middle[k]), high[k] = std::max(high[k], edge.middle[k]);
+  for (std::size_t k = 0; k < 3; ++k) extent[k] = high[k] - low[k];
   const auto axis = static_cast<std::size_t>(std::max_element(extent.begin(), extent.end()) - extent.begin());
   const auto half = edges.begin() + static_cast<std::ptrdiff_t>(edges.size() / 2);
   std::nth_element(edges.begin(), half, edges.end(), [axis](const Edge& a, const Edge& b) {

@@ -24,7 +24,7 @@ const Triangles block_triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {
 
 Body body_of(const std::vector<Vec3>& positions, const Triangles& triangles) {
   Body body{positions, triangles, {}};
-  body.shape.outline = union_outline(positions, triangles);
+  body.shape.outline = bch::outline(positions, triangles);
   body.shape.hierarchy = contour_hierarchy(body.shape.outline, 0.01f);
   return body;
 }

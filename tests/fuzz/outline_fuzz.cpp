@@ -56,7 +56,7 @@ std::vector<std::array<std::uint32_t, 3>> without_points(const test::Soup& soup,
 }
 
 void check(const test::Soup& soup) {
-  const Outline outline = union_outline(soup.positions, soup.triangles);
+  const Outline outline = bch::outline(soup.positions, soup.triangles);
   validate(outline);
   for (const detail::BuildImplementation& implementation : detail::build_implementations()) {
     if (!implementation.supported()) continue;

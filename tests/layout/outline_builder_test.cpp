@@ -183,7 +183,7 @@ TEST(OutlineBuilder, DependsOnTheUnionAlone) {
     } catch (const std::invalid_argument&) {
       continue;
     }
-    ASSERT_EQ(union_outline(any.positions, any.triangles).points, outline.points) << i;
+    ASSERT_EQ(bch::outline(any.positions, any.triangles).points, outline.points) << i;
     Soup other;
     for (std::size_t left = any.triangles.size(); left > 0;) {
       const std::size_t t = random.below(static_cast<std::uint32_t>(left));
@@ -299,7 +299,7 @@ TEST(OutlineBuilder, GivesTheSameBitsOnEveryInstructionSet) {
       builders.emplace_back(character.triangles, character.vertices.size(), character.vertices, *row);
     for (const PoseTime& time : sample_poses(character, 50)) {
       const auto positions = skinner.pose(time);
-      const Outline expected = union_outline(positions, character.triangles);
+      const Outline expected = bch::outline(positions, character.triangles);
       for (OutlineBuilder& builder : builders) {
         Outline outline;
         builder.build(positions, outline);

@@ -116,7 +116,7 @@ void expect_right_outlines(const std::vector<Character>& characters, std::uint32
       builder.build(positions, outline);
       expect_equals_inflated_union(outline, positions, character.triangles);
       test::expect_covers(outline, positions, character.triangles);
-      const Outline alone = union_outline(positions, character.triangles);
+      const Outline alone = bch::outline(positions, character.triangles);
       EXPECT_EQ(outline.points, alone.points);
       EXPECT_EQ(outline.contour_begin, alone.contour_begin);
       if (testing::Test::HasFailure()) return;
@@ -141,7 +141,7 @@ TEST(Soups, HaveTheOutlinesOfTheirUnions) {
     const test::Soup soup = test::random_soup(random);
     Outline outline;
     try {
-      outline = union_outline(soup.positions, soup.triangles);
+      outline = bch::outline(soup.positions, soup.triangles);
     } catch (const std::invalid_argument&) {
       continue;  // a soup of points
     }

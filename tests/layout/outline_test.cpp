@@ -22,7 +22,7 @@ struct Mesh {
     add({x0, y0, z}, {x1, y0, z}, {x1, y1, z});
     add({x0, y0, z}, {x0, y1, z}, {x1, y1, z});  // the other way round: orientation must not matter
   }
-  Outline outline() const { return union_outline(positions, triangles); }
+  Outline outline() const { return bch::outline(positions, triangles); }
 };
 
 TEST(UnionOutline, TwoTrianglesMakeASquare) {

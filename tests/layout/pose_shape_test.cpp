@@ -24,7 +24,7 @@ void expect_equal(const Shape& shape, const Shape& expected) {
 
 /// A shape made by the functions that make one alone.
 Shape one_shape(detail::Skinner& skinner, PoseTime at, float threshold = 0.01f) {
-  Shape shape{union_outline(skinner.pose(at), skinner.character().triangles), {}};
+  Shape shape{bch::outline(skinner.pose(at), skinner.character().triangles), {}};
   shape.hierarchy = contour_hierarchy(shape.outline, threshold);
   return shape;
 }

@@ -48,6 +48,7 @@ from ._library import (
 )
 from ._motions import MomentSet, Mover, animate, first_contact, free_until
 from ._obstacles import Obstacles
+from ._outlines import Outline, outline
 from ._queries import (
     Agents,
     Nearest,
@@ -130,6 +131,7 @@ __all__ = [
     "OVERLAP",
     "Obstacles",
     "Origin",
+    "Outline",
     "OutOfMemory",
     "PASS",
     "PENETRATION",
@@ -170,6 +172,7 @@ __all__ = [
     "local_densities",
     "make_character",
     "nearest",
+    "outline",
     "pedestrian_strides_per_second",
     "penetration",
     "plan_scene",

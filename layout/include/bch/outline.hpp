@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <bch/geometry.hpp>
@@ -42,6 +43,14 @@ double area(const Outline& outline);
 /// Errors:  throws std::invalid_argument, naming the polygon, on no polygons, on one of fewer than three corners or without area, on a
 ///          corner that is not finite, and on a reach outside 1e-6 to 1e6 m.
 Outline outline_from_polygons(std::span<const std::vector<Vec2>> polygons);
+
+/// Returns an outline as well-known text, a MULTIPOLYGON as OGC's simple features have it, which obstacles_from_wkt() reads as well.
+/// Exteriors go counter-clockwise, and a clockwise contour is a hole of the exterior before it. Polygons come to no point twice: a
+/// contour is cut where it does. What has no area, as a whisker, is left out, and nothing at all is EMPTY. Numbers are the
+/// floats' shortest text.
+std::string to_wkt(const Outline& outline);
+/// Returns an outline as GeoJSON, a geometry of RFC 7946 of type MultiPolygon, of the same polygons in metres instead of degrees.
+std::string to_geojson(const Outline& outline);
 
 /// Checks the promises that hierarchies and shape sets rely on: at least one contour, offsets in order, finite points, reach
 /// from 1e-6 to 1e6 m, no clockwise contour (of more area than rounding to the grid explains). Everything else that

@@ -6,9 +6,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
+#include <vector>
 
+#include <bch/character.hpp>
 #include <bch/outline.hpp>
 
 namespace bch::detail {
@@ -72,12 +75,35 @@ class OutlineBuilder {
   std::unique_ptr<State> state_;
 };
 
-/// Finds the outline of triangles that are used once. OutlineBuilder says what an outline is, and is much faster for one
-/// mesh in many poses.
+/// Says what of a mesh outline() finds.
+struct OutlineOptions {
+  /// Cuts the mesh at two heights, metres, and leaves out what is below and above; infinite ones cut nothing.
+  Heights between = {};
+  /// Finds also the holes of the union, and what lies in them, as clockwise contours after the counter-clockwise one that is around
+  /// them. Contours then come to no point twice, and what has no area is left out. It takes some hundred times as long.
+  bool holes = false;
+  /// Hears as BakeOptions::progress how many poses of outlines() are done. Returning false cancels.
+  std::function<bool(std::size_t done, std::size_t total)> progress = {};
+};
+
+/// Finds the outline of a mesh as it stands: the exact union of its triangles seen from above. OutlineBuilder says what that is;
+/// between heights where there is nothing, it has no contours.
 /// Sizes:   triangle indices are below positions.size(); vertices that no triangle uses do not count.
-/// Errors:  throws std::invalid_argument on no triangles, an index out of range, a coordinate that is not
-///          finite, or a reach outside 1e-6 to 1e6 m.
-Outline union_outline(std::span<const Vec3> positions,
-                      std::span<const std::array<std::uint32_t, 3>> triangles);
+/// Errors:  throws std::invalid_argument on no triangles, an index out of range, a coordinate that is not finite (a
+///          height only where some cut), a reach outside 1e-6 to 1e6 m, and heights that are NaN or do not ascend.
+Outline outline(std::span<const Vec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles,
+                const OutlineOptions& options = {});
+/// Finds the outline of a character in a pose, about the root's point on the ground; see PoseShaper::shape().
+Outline outline(const Character& character, PoseTime at = {}, const OutlineOptions& options = {});
+
+/// Finds the outlines of a mesh in many poses, on all threads of the caller's TBB arena. What is learned of the mesh serves all poses.
+/// Sizes:   one pose of so many vertices after the other.
+/// Errors:  as outline(), with the number of the pose, and std::system_error of std::errc::operation_canceled where it is cancelled.
+std::vector<Outline> outlines(std::span<const Vec3> positions, std::size_t vertices,
+                              std::span<const std::array<std::uint32_t, 3>> triangles,
+                              const OutlineOptions& options = {});
+/// Finds the outlines of a character in many poses.
+std::vector<Outline> outlines(const Character& character, std::span<const PoseTime> poses,
+                              const OutlineOptions& options = {});
 
 }  // namespace bch

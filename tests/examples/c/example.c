@@ -14,14 +14,10 @@ static void check(bch_status status) {
 int main(void) {
   /* A man in three poses. */
   bch_character* man = NULL;
-  bch_pose poses[3];
-  bch_shape_set_builder* builder = NULL;
-  bch_shape_set* set = NULL;
+  bch_shape_set* people = NULL;
   check(bch_character_default(BCH_MALE, &man));
-  check(bch_character_sample_poses(man, 3, poses));
-  check(bch_shape_set_builder_create(NULL, &builder));
-  check(bch_shape_set_builder_add_poses(builder, man, poses, 3, NULL));
-  check(bch_shape_set_builder_finish(builder, &set));
+  const bch_character* const characters[] = {man};
+  check(bch_bake(characters, 1, 3, NULL, NULL, &people));
 
   /* Your simulator's arrays. */
   const uint32_t shape[] = {0, 1, 2, 0};
@@ -32,7 +28,7 @@ int main(void) {
   bch_crowd_collider* collider = NULL;
   bch_index_rows colliding;
   check(bch_crowd_collider_create(&collider));
-  check(bch_crowd_collider_collide_all(collider, set, &agents, NULL, NULL, &colliding, NULL));
+  check(bch_crowd_collider_collide_all(collider, people, &agents, NULL, NULL, &colliding, NULL));
   for (size_t agent = 0; agent < colliding.rows; ++agent) {
     const uint64_t begin = colliding.offsets[agent], end = colliding.offsets[agent + 1];
     printf("agent %u collides with %u others:", (unsigned)agent, (unsigned)(end - begin));
@@ -41,8 +37,7 @@ int main(void) {
   }
 
   bch_crowd_collider_free(collider);
-  bch_shape_set_free(set);
-  bch_shape_set_builder_free(builder);
+  bch_shape_set_free(people);
   bch_character_free(man);
   return 0;
 }

@@ -396,6 +396,43 @@ BCH_API bch_status bch_dynamic_shape_set_replace_poses(bch_dynamic_shape_set* se
 /** Frees a dynamic set, and the set that it lent. */
 BCH_API bch_status bch_dynamic_shape_set_free(bch_dynamic_shape_set* set);
 
+/* Outlines ---------------------------------------------------------------------------------------------------------- */
+
+/** Holds outlines: what a mesh covers in poses, seen from above. */
+typedef struct bch_outlines bch_outlines;
+/** Says what of a mesh is outlined. */
+typedef struct bch_outline_options {
+  uint32_t size; /**< sizeof(bch_outline_options) */
+  int32_t holes; /**< not 0: also holes, as clockwise contours after the one around them, and what lies in them */
+  float bottom;  /**< metres; what is below is cut off; -infinity: nothing */
+  float top;     /**< metres; what is above is cut off; infinity: nothing */
+} bch_outline_options;
+#define BCH_OUTLINE_OPTIONS_INIT \
+  { sizeof(bch_outline_options), 0, -INFINITY, INFINITY }
+/** Finds the outlines of a mesh in poses of `vertices` positions each, one after the other, with three indices of vertices per triangle:
+ * the exact union of the triangles. Many threads work on many poses. */
+BCH_API bch_status bch_outlines_of_mesh(const bch_vec3* positions, size_t vertices, size_t poses,
+                                        const uint32_t* triangles, size_t triangle_count,
+                                        const bch_outline_options* options, const bch_work* work,
+                                        bch_outlines** outlines);
+/** Finds the outlines of a character in poses, about the point that its shapes have as origin. */
+BCH_API bch_status bch_outlines_of_character(const bch_character* character, const bch_pose* poses, size_t count,
+                                             const bch_outline_options* options, const bch_work* work,
+                                             bch_outlines** outlines);
+/** Gets the outline of a pose. Writes as many points and offsets as fit, and the numbers of all. */
+BCH_API bch_status bch_outlines_get(const bch_outlines* outlines, size_t pose, bch_outline* outline);
+/** Names the formats of an outline as text: both hold polygons, so that what has no area is left out. */
+enum {
+  BCH_WKT = 0,    /**< well-known text, a MULTIPOLYGON, which bch_obstacles_from_wkt() reads, too */
+  BCH_GEOJSON = 1 /**< a geometry of RFC 7946, a MultiPolygon, in metres */
+};
+/** Gets the outline of a pose as text. Writes at most `capacity` characters, without a zero at the end, and the number of all to
+ * `length`. */
+BCH_API bch_status bch_outlines_get_text(const bch_outlines* outlines, size_t pose, int32_t format, char* text,
+                                         size_t capacity, size_t* length);
+/** Frees outlines. */
+BCH_API bch_status bch_outlines_free(bch_outlines* outlines);
+
 /* Queries of pairs -------------------------------------------------------------------------------------------------- */
 
 /** Holds a crowd in arrays of the caller, with one entry per agent in each. */
