@@ -5,6 +5,7 @@
 
 #include <stdexcept>
 #include <utility>
+#include <variant>
 
 #include "kernel/runtime/ordered_build.hpp"
 #include "layout/base/shortest.hpp"
@@ -22,41 +23,52 @@ PoseBaker::PoseBaker(std::vector<BakedCharacter> characters, const ShapeSetPlan&
 }
 
 void PoseBaker::add(ShapeSetBuilder& to, std::span<const ShapeSource> sources, const BakeSteps& steps) {
-  for (std::size_t i = 0; i < sources.size(); ++i)
-    if (sources[i].character >= characters_.size())
+  add(
+      to, sources.size(),
+      [&](std::size_t i) {
+        return PoseOfCharacter{sources[i].character, sources[i].at, sources[i].whole};
+      },
+      steps);
+}
+
+void PoseBaker::add(ShapeSetBuilder& to, std::size_t count,
+                    const std::function<PoseOfCharacter(std::size_t)>& pose_of, const BakeSteps& steps) {
+  for (std::size_t i = 0; i < count; ++i)
+    if (const std::uint32_t character = pose_of(i).character; character >= characters_.size())
       throw std::invalid_argument("shape " + std::to_string(i) + ": no character " +
-                                  std::to_string(sources[i].character) + " of " +
-                                  std::to_string(characters_.size()));
+                                  std::to_string(character) + " of " + std::to_string(characters_.size()));
   add_in_order(
-      to, plan_, sources.size(), [&](std::size_t i) -> const Shape& { return make(sources[i], i, steps); },
+      to, plan_, count, [&](std::size_t i) -> const Shape& { return make(pose_of(i), i, steps); },
       [&](std::size_t i) {
         if (steps.added) steps.added(i);
       });
 }
 
-const Shape& PoseBaker::make(const ShapeSource& source, std::size_t i, const BakeSteps& steps) {
+const Shape& PoseBaker::make(const PoseOfCharacter& source, std::size_t i, const BakeSteps& steps) {
   std::optional<PoseShaper>& shaper = shapers_.local()[source.character];
   try {
     if (!shaper) {
       shaper.emplace(*characters_[source.character].character, plan_, threshold_);
       if (most_nodes_) shaper->limit_nodes(*most_nodes_);
     }
-    const Shape& outlines = shaper->make_outlines(source.at, source.whole);
+    const Shape& outlines = shaper->make_outlines(source.pose, source.whole);
     if (steps.outlined) steps.outlined(i, outlines);
     return shaper->make_hierarchies();
   } catch (const std::length_error& error) {
-    throw std::length_error(name_of(source) + error.what());
+    throw std::length_error(name_of(source, i) + error.what());
   } catch (const std::domain_error& error) {
-    throw std::domain_error(name_of(source) + error.what());
+    throw std::domain_error(name_of(source, i) + error.what());
   } catch (const std::invalid_argument& error) {
-    throw std::invalid_argument(name_of(source) + error.what());
+    throw std::invalid_argument(name_of(source, i) + error.what());
   }
 }
 
-std::string PoseBaker::name_of(const ShapeSource& source) const {
+std::string PoseBaker::name_of(const PoseOfCharacter& source, std::size_t i) const {
   const auto& [character, given] = characters_[source.character];
   const std::string name = given.empty() ? "character " + std::to_string(source.character) : given;
-  const auto& [clip, seconds] = source.at;
+  const PoseTime* const at = std::get_if<PoseTime>(&source.pose.kind());
+  if (at == nullptr) return name + ": poses[" + std::to_string(i) + "]: ";
+  const auto& [clip, seconds] = *at;
   if (clip == PoseTime::rest) return name + ": rest pose: ";
   const bool is_there = clip < character->clips.size();
   return name + ": " + (is_there ? character->clips[clip].name : "clip " + std::to_string(clip)) + " at " +

@@ -24,6 +24,13 @@ struct BakedCharacter {
   std::string name;
 };
 
+/// Names a pose of one of several characters.
+struct PoseOfCharacter {
+  std::uint32_t character = 0;
+  Pose pose;
+  bool whole = false;  ///< see PoseShaper::shape()
+};
+
 /// Holds what happens between the steps of a baker; functions may be empty. Any thread calls them.
 struct BakeSteps {
   std::function<void(std::size_t i, const Shape&)> outlined =
@@ -40,17 +47,19 @@ class PoseBaker {
   PoseBaker(std::vector<BakedCharacter> characters, const ShapeSetPlan& plan, float threshold,
             std::optional<std::size_t> most_nodes = {});
 
-  /// Adds the shapes of poses. After an exception only some of them have been added.
-  /// Errors:  throws what PoseShaper::shape() and `steps` throw, the former with the names of the character, clip and time, and
-  ///          std::invalid_argument on a character that is not there.
+  /// Adds the shapes of `count` poses. After an exception only some of them have been added.
+  /// Errors:  throws what PoseShaper::shape() and `steps` throw, the former with the names of the character and of the clip and time or
+  ///          the pose's number, and std::invalid_argument on a character that is not there.
+  void add(ShapeSetBuilder& to, std::size_t count, const std::function<PoseOfCharacter(std::size_t)>& pose_of,
+           const BakeSteps& steps = {});
   void add(ShapeSetBuilder& to, std::span<const ShapeSource> sources, const BakeSteps& steps = {});
 
  private:
   /// What a thread makes shapes with: a shaper of each character that it came across.
   using Shapers = std::vector<std::optional<PoseShaper>>;
 
-  const Shape& make(const ShapeSource& source, std::size_t i, const BakeSteps& steps);
-  std::string name_of(const ShapeSource& source) const;
+  const Shape& make(const PoseOfCharacter& source, std::size_t i, const BakeSteps& steps);
+  std::string name_of(const PoseOfCharacter& source, std::size_t i) const;
 
   std::vector<BakedCharacter> characters_;
   ShapeSetPlan plan_;

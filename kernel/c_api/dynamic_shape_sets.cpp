@@ -24,7 +24,7 @@ class Workshop {
   explicit Workshop(const ShapeSetPlan& plan) : plan_(plan), prepared_(plan) {}
 
   const PreparedShape& make(const std::shared_ptr<const Character>& character, float threshold,
-                            const bch_pose& pose, std::size_t i, uint32_t shape) {
+                            const Pose& pose, std::size_t i, uint32_t shape) {
     prepared_.prepare(shape_of_pose(shaper(character, threshold), pose, i), shape);
     return prepared_;
   }
@@ -79,11 +79,16 @@ void check_shapes(const ShapeSet& set, std::span<const uint32_t> shapes) {
   }
 }
 
+/// `pose_at(i)` gives the pose of shapes[i].
+template <class PoseAt>
 void replace_poses(bch_dynamic_shape_set& set, const bch_character& of, std::span<const uint32_t> shapes,
-                   std::span<const bch_pose> poses, float threshold, const bch_work* given) {
+                   PoseAt pose_at, float threshold, const bch_work* given) {
+  check_shapes(set.dynamic.set(), shapes);
+  if (!(threshold > 0 && threshold <= 1e6f))
+    throw Failure(BCH_INVALID_ARGUMENT, "threshold is " + detail::shortest(threshold));
   Work work(given, shapes.size());
   const auto make = [&](std::size_t i) -> const PreparedShape& {
-    return set.workshops.local().make(of.character, threshold, poses[i], i, shapes[i]);
+    return set.workshops.local().make(of.character, threshold, pose_at(i), i, shapes[i]);
   };
   tbb::concurrent_vector<std::size_t> outgrown;
   on_threads(work.threads(), [&] {
@@ -142,11 +147,22 @@ bch_status bch_dynamic_shape_set_replace_poses(bch_dynamic_shape_set* handle, co
     const bch_character& of = object_of(character, "character");
     const auto which = array_of(shapes, count, "shapes");
     const auto at = array_of(poses, count, "poses");
-    check_shapes(set.dynamic.set(), which);
     check_poses(*of.character, at);
-    if (!(threshold > 0 && threshold <= 1e6f))
-      throw Failure(BCH_INVALID_ARGUMENT, "threshold is " + detail::shortest(threshold));
-    replace_poses(set, of, which, at, threshold, work);
+    replace_poses(
+        set, of, which, [&](std::size_t i) { return pose_of(at[i]); }, threshold, work);
+  });
+}
+
+bch_status bch_dynamic_shape_set_replace_own_poses(bch_dynamic_shape_set* handle,
+                                                   const bch_character* character, const uint32_t* shapes,
+                                                   const bch_pose_arrays* poses, size_t count,
+                                                   float threshold, const bch_work* work) {
+  return guarded([&] {
+    bch_dynamic_shape_set& set = object_of(handle, "set");
+    const bch_character& of = object_of(character, "character");
+    const OwnPoses own(poses, count);
+    replace_poses(
+        set, of, array_of(shapes, count, "shapes"), [&](std::size_t i) { return own[i]; }, threshold, work);
   });
 }
 

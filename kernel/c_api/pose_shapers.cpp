@@ -32,6 +32,17 @@ bch_status bch_pose_shaper_make(bch_pose_shaper* handle, bch_pose pose, int32_t 
   });
 }
 
+bch_status bch_pose_shaper_make_own(bch_pose_shaper* handle, const bch_pose_arrays* poses, size_t index,
+                                    int32_t whole) {
+  return guarded([&] {
+    bch_pose_shaper& shaper = object_of(handle, "shaper");
+    const OwnPoses own(poses, index < SIZE_MAX ? index + 1 : index);
+    shaper.made = nullptr;
+    shaper.at = {};
+    shaper.made = &shape_of_pose(shaper.shaper, own[index], index, whole != 0);
+  });
+}
+
 bch_status bch_pose_shaper_get_outline(const bch_pose_shaper* handle, uint32_t slab, bch_outline* outline) {
   return guarded([&] {
     const Shape& shape = made_by(object_of(handle, "shaper"));

@@ -29,12 +29,28 @@ inline void check_poses(const Character& character, std::span<const bch_pose> po
   for (std::size_t i = 0; i < poses.size(); ++i) check_pose(character, poses[i], i);
 }
 
+/// Returns a time of a clip as a pose.
+inline Pose pose_of(const bch_pose& pose) {
+  return {pose.clip, pose.seconds};
+}
+
+/// Holds poses of the caller's own.
+class OwnPoses {
+ public:
+  /// Errors:  throws Failure naming the member, where `poses` of them cannot be in memory.
+  OwnPoses(const bch_pose_arrays* given, std::size_t poses);
+  Pose operator[](std::size_t i) const;
+
+ private:
+  bch_pose_arrays arrays_;
+  std::size_t stride_;  ///< in numbers
+};
+
 /// Makes the shape of a pose.
 /// Errors:  names the pose.
-inline const Shape& shape_of_pose(PoseShaper& shaper, const bch_pose& pose, std::size_t i,
-                                  bool whole = false) {
+inline const Shape& shape_of_pose(PoseShaper& shaper, const Pose& pose, std::size_t i, bool whole = false) {
   try {
-    return shaper.shape({pose.clip, pose.seconds}, whole);
+    return shaper.shape(pose, whole);
   } catch (const std::logic_error& error) {
     const bool large = dynamic_cast<const std::length_error*>(&error) != nullptr;
     throw Failure(large ? BCH_TOO_LARGE : BCH_INVALID_ARGUMENT,

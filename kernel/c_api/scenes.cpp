@@ -63,7 +63,7 @@ std::vector<Shape> bodies_of(std::span<const bch_character* const> characters,
     const Character& of = *object_of(characters[i], "a character of characters").character;
     check_pose(of, poses[i], i);
     if (i == 0 || characters[i] != characters[i - 1]) shaper.emplace(of, plan);
-    bodies.push_back(shape_of_pose(*shaper, poses[i], i));
+    bodies.push_back(shape_of_pose(*shaper, pose_of(poses[i]), i));
   }
   return bodies;
 }

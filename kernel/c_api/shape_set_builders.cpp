@@ -113,22 +113,32 @@ void add_own(bch_shape_set_builder* handle, const char* kind, const bch_heights*
   add_without_pose(to, kind, shape);
 }
 
-/// Adds the shapes of sources.
-void add_sources(bch_shape_set_builder& to, std::span<const bch_character* const> characters,
-                 std::span<const ShapeSource> sources, const bch_work* given) {
+/// Makes shapes and adds them to a builder, all or none: `make` adds them by a baker, and tells the work of each that is done.
+template <class Make>
+void add_baked(bch_shape_set_builder& to, std::span<const bch_character* const> characters, std::size_t count,
+               const bch_work* given, const Make& make) {
   std::vector<detail::BakedCharacter> named;
   for (const bch_character* const each : characters) named.push_back({each->character.get(), each->name});
   detail::PoseBaker baker(std::move(named), to.plan, to.threshold);
-  Work work(given, sources.size());
+  Work work(given, count);
   all_or_none(to, [&] {
     on_threads(work.threads(), [&] {
-      baker.add(*to.builder, sources, {.outlined = [&](std::size_t, const Shape&) { work.part_done(); }});
+      make(baker, detail::BakeSteps{.outlined = [&](std::size_t, const Shape&) { work.part_done(); }});
     });
     work.all_done();
-    std::vector<std::optional<ShapeOrigin>> known(characters.size());
-    for (const auto& [character, at, whole] : sources)
-      to.origins.origins.push_back(origin_of(to.origins, *characters[character], at, known[character]));
   });
+}
+
+/// Adds the shapes of sources.
+void add_sources(bch_shape_set_builder& to, std::span<const bch_character* const> characters,
+                 std::span<const ShapeSource> sources, const bch_work* given) {
+  add_baked(
+      to, characters, sources.size(), given, [&](detail::PoseBaker& baker, const detail::BakeSteps& steps) {
+        baker.add(*to.builder, sources, steps);
+        std::vector<std::optional<ShapeOrigin>> known(characters.size());
+        for (const auto& [character, at, whole] : sources)
+          to.origins.origins.push_back(origin_of(to.origins, *characters[character], at, known[character]));
+      });
 }
 
 void check_sources(std::span<const bch_character* const> characters,
@@ -201,6 +211,25 @@ bch_status bch_shape_set_builder_add_poses(bch_shape_set_builder* handle, const 
     for (const bch_pose& pose : all) sources.push_back({0, {pose.clip, pose.seconds}});
     const bch_character* const characters[] = {&of};
     add_sources(builder, characters, sources, work);
+  });
+}
+
+bch_status bch_shape_set_builder_add_own_poses(bch_shape_set_builder* handle, const bch_character* character,
+                                               const bch_pose_arrays* poses, size_t count,
+                                               const bch_work* work) {
+  return guarded([&] {
+    bch_shape_set_builder& builder = object_of(handle, "builder");
+    const bch_character& of = object_of(character, "character");
+    const bch_character* const characters[] = {&of};
+    const OwnPoses own(poses, count);
+    add_baked(builder, characters, count, work,
+              [&](detail::PoseBaker& baker, const detail::BakeSteps& steps) {
+                const auto pose_of = [&](std::size_t i) { return detail::PoseOfCharacter{0, own[i]}; };
+                baker.add(*builder.builder, count, pose_of, steps);
+                std::optional<ShapeOrigin> known;
+                for (std::size_t i = 0; i < count; ++i)
+                  builder.origins.origins.push_back(origin_of(builder.origins, of, {}, known));
+              });
   });
 }
 

@@ -212,6 +212,48 @@ typedef struct bch_pose {
 #define BCH_REST_POSE 0xffffffffu
 /** Writes `count` poses spread evenly over all clips; those of a character without clips are the rest pose. */
 BCH_API bch_status bch_character_sample_poses(const bch_character* character, uint32_t count, bch_pose* poses);
+/** Gets the name and the parent of a joint, -1 for one without; either may be NULL. The name lives as long as the character. */
+BCH_API bch_status bch_character_get_joint(const bch_character* character, uint32_t joint, const char** name,
+                                           int32_t* parent);
+/** Finds the one joint of a name. */
+BCH_API bch_status bch_character_find_joint(const bch_character* character, const char* name, uint32_t* joint);
+
+/** Selects what poses of one's own are given by. */
+enum {
+  BCH_JOINTS_IN_PARENTS = 0, /**< the transforms of all joints, each in the frame of its parent */
+  BCH_JOINTS_IN_WORLD = 1,   /**< the transforms of all joints to the ground: metres, z up; the root joint's point there is the origin */
+  BCH_BONE_MATRICES = 2,     /**< those of a renderer, for all bones: the joint's transform to the ground times its inverse bind matrix */
+  BCH_POSED_VERTICES = 3     /**< the positions of all vertices, three floats each: metres, z up, relative to the shape's origin */
+};
+/** Selects how transforms are written. */
+enum {
+  BCH_FLOAT_ROWS = 0,    /**< float[12]: three rows of four, as bch_affine3 */
+  BCH_FLOAT_COLUMNS = 1, /**< float[16]: four columns of four, as OpenGL, glTF and glm keep them */
+  BCH_DOUBLE_ROWS = 2,   /**< double[12] */
+  BCH_DOUBLE_COLUMNS = 3 /**< double[16] */
+};
+/** Refers to poses of one's own in an array of the caller, one pose after the other. */
+typedef struct bch_pose_arrays {
+  uint32_t size;         /**< sizeof(bch_pose_arrays) */
+  int32_t kind;          /**< BCH_JOINTS_IN_PARENTS ... */
+  int32_t layout;        /**< BCH_FLOAT_ROWS ...; that for vertices */
+  const void* data;      /**< the numbers */
+  size_t count;          /**< of transforms or vertices in a pose */
+  size_t stride;         /**< numbers from one transform to the next, at least what one takes; 0: one follows the other */
+  const double* origins; /**< of bone matrices: x and y of the point on the ground that is the shape's origin, for each pose; or NULL: 0 */
+} bch_pose_arrays;
+#define BCH_POSE_ARRAYS_INIT \
+  { sizeof(bch_pose_arrays), BCH_JOINTS_IN_PARENTS, BCH_FLOAT_ROWS, NULL, 0, 0, NULL }
+
+/** Writes the transforms of all joints at a time of a clip, as BCH_DOUBLE_ROWS. `kind` is BCH_JOINTS_IN_PARENTS or BCH_JOINTS_IN_WORLD.
+ * Given back as a pose they make the shape of the clip, bit for bit. */
+BCH_API bch_status bch_character_get_transforms(const bch_character* character, bch_pose pose, int32_t kind,
+                                                double* rows);
+/** Writes the transforms of a mean of poses by weights, each in the frame of its joint's parent, as BCH_DOUBLE_ROWS. */
+BCH_API bch_status bch_character_blend(const bch_character* character, const bch_pose* poses, const float* weights,
+                                       size_t count, double* rows);
+/** Writes the positions of all vertices at a time of a clip. */
+BCH_API bch_status bch_character_get_vertices(const bch_character* character, bch_pose pose, bch_vec3* positions);
 /** Frees a character. Shapers that were made from it stay valid. */
 BCH_API bch_status bch_character_free(bch_character* character);
 
@@ -326,6 +368,9 @@ BCH_API bch_status bch_pose_shaper_create(const bch_character* character, const 
                                           bch_pose_shaper** shaper);
 /** Makes the shape of a pose, in place of the previous one. `whole`, if not 0, leaves the body uncut, whatever the plan's slices. */
 BCH_API bch_status bch_pose_shaper_make(bch_pose_shaper* shaper, bch_pose pose, int32_t whole);
+/** Makes the shape of poses[index] in the same way. */
+BCH_API bch_status bch_pose_shaper_make_own(bch_pose_shaper* shaper, const bch_pose_arrays* poses, size_t index,
+                                            int32_t whole);
 /** Gets the outline of the shape that was made last; see bch_shape_set_get_outline(). */
 BCH_API bch_status bch_pose_shaper_get_outline(const bch_pose_shaper* shaper, uint32_t slab, bch_outline* outline);
 /** Frees a shaper. */
@@ -339,6 +384,10 @@ BCH_API bch_status bch_shape_set_builder_create(const bch_plan* plan, bch_shape_
  * shapes that were added before are still there. */
 BCH_API bch_status bch_shape_set_builder_add_poses(bch_shape_set_builder* builder, const bch_character* character,
                                                    const bch_pose* poses, size_t count, const bch_work* work);
+/** Adds the shapes of `count` poses of one's own, as bch_shape_set_builder_add_poses() does of clips. Their origin is the rest pose. */
+BCH_API bch_status bch_shape_set_builder_add_own_poses(bch_shape_set_builder* builder, const bch_character* character,
+                                                       const bch_pose_arrays* poses, size_t count,
+                                                       const bch_work* work);
 /** Names the character and pose that a shape shows. */
 typedef struct bch_shape_source {
   uint32_t character; /**< index in a list of characters */
@@ -393,6 +442,10 @@ BCH_API bch_status bch_dynamic_shape_set_replace(bch_dynamic_shape_set* set, uin
 BCH_API bch_status bch_dynamic_shape_set_replace_poses(bch_dynamic_shape_set* set, const bch_character* character,
                                                        const uint32_t* shapes, const bch_pose* poses, size_t count,
                                                        float threshold, const bch_work* work);
+/** Replaces many shapes by poses of one's own in the same way. */
+BCH_API bch_status bch_dynamic_shape_set_replace_own_poses(bch_dynamic_shape_set* set, const bch_character* character,
+                                                           const uint32_t* shapes, const bch_pose_arrays* poses,
+                                                           size_t count, float threshold, const bch_work* work);
 /** Frees a dynamic set, and the set that it lent. */
 BCH_API bch_status bch_dynamic_shape_set_free(bch_dynamic_shape_set* set);
 
