@@ -174,6 +174,12 @@ class Errors(unittest.TestCase):
             (bch.dataframe, {"records": bch.Trajectory(np.empty(0, bch.TRACKED), 1, "", "", [], [])}),
             (bch.depth_at_density, {"people_per_square_metre": 1}),
             (man.sample_poses, {"count": 1}),
+            (man.transforms, {"poses": [(0, 0.0)], "space": "world"}),
+            (man.blend, {"poses": [(0, 0.0)], "weights": [1]}),
+            (man.posed_vertices, {"poses": [(0, 0.0)]}),
+            (man.joint, {"name": "pelvis"}),
+            (bch.Transforms, {"transforms": np.eye(4), "space": "world", "origins": None}),
+            (bch.Vertices, {"positions": np.eye(3)}),
             (bch.default_pedestrian, {"sex": "male", "stature": 1.7, "shoulders": 0}),
             (bch.pedestrian_strides_per_second, {"speed": 1}),
             (
@@ -411,6 +417,80 @@ class Sets(unittest.TestCase):
         poses = female.sample_poses(8)
         outline = bch.PoseShaper(female).outline(int(poses[2]["clip"]), float(poses[2]["seconds"]))
         np.testing.assert_array_equal(outline[0], bch.bake(female, poses=poses[2:3]).outline(0)[0])
+
+    def test_poses_of_ones_own(self):
+        man = bch.default_male()
+        poses = man.sample_poses(4)
+        local, world, vertices = man.transforms(poses), man.transforms(poses, "world"), man.posed_vertices(poses)
+        self.assertEqual((local.shape, vertices.shape), ((4, man.joints, 3, 4), (4, man.vertices, 3)))
+        square = np.zeros((4, man.joints, 4, 4), np.longdouble)
+        square[:, :, :3] = world
+        square[:, :, 3, 3] = 1
+        strided = np.zeros((4, 2 * man.vertices, 3))
+        strided[:, ::2] = vertices
+        expected = bch.bake(man, poses)
+        ways = [bch.Transforms(local, "parent"), bch.Transforms(world), bch.Transforms(square), bch.Vertices(vertices)]
+        for way in [*ways, bch.Vertices(strided[:, ::2])]:
+            made = bch.bake(man, way)
+            dynamic = bch.DynamicShapeSet(bch.bake(man, 4))
+            dynamic.replace(man, np.arange(4, dtype=np.uint32), way)
+            for shape in range(4):
+                for other in (made, dynamic.shapes):
+                    np.testing.assert_array_equal(other.discs(shape), expected.discs(shape))
+        both = bch.bake([man, bch.default_female()], [bch.Vertices(vertices), [(0, 1.0)]])
+        self.assertEqual(len(both), 5)
+        self.assertEqual(man.joint_names[man.joint("left ankle")], "left ankle")
+        np.testing.assert_array_equal(man.blend(poses[:2], [0, 2]), local[1])
+        for bad, message in [
+            (bch.Transforms(local[:, 1:], "parent"), r"poses\[0\]: shape: expected 27 joint transforms, found 26"),
+            (bch.Transforms(local[0], "parent"), r"transforms is .*; wanted is an array of floats with shape \(frames, n, 3, 4\)"),
+            (bch.Transforms(local.astype(int)), "wanted is an array of floats"),
+            (bch.Transforms(local, "bones"), "space is 'bones'"),
+            (bch.Transforms(local, "palette", np.zeros((3, 2))), r"origins is .*shape \(4, 2\)"),
+            (bch.Vertices(vertices[:, :9]), "posed vertices, found 9"),
+        ]:
+            with self.assertRaisesRegex(bch.Error, message):
+                bch.bake(man, bad)
+
+    def test_bodies_of_smpl(self):
+        """A made body in the arrays that loaders of SMPL give: y up, looking along z, 24 joints, weights for all of them."""
+        parents = [-1, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 9, 9, 12, 13, 14, 16, 17, 18, 19, 20, 21]
+        random = np.random.default_rng(5)
+        rest = random.normal(size=(24, 3)) * [0.2, 0.5, 0.1]
+        v_template = (rest[:, None] + 0.05 * random.normal(size=(24, 10, 3))).reshape(-1, 3)
+        faces = np.arange(240, dtype=np.uint32).reshape(-1, 3)
+        weights = np.repeat(np.eye(24), 10, axis=0) * 0.75 + np.roll(np.repeat(np.eye(24), 10, axis=0), 1, axis=1) * 0.25
+        frames = 3
+        A = np.tile(np.eye(4), (frames, 24, 1, 1))  # world times inverse bind, as smplx.lbs names it
+        for frame, joint in np.ndindex(frames, 24):
+            turn = np.linalg.qr(random.normal(size=(3, 3)))[0]
+            A[frame, joint, :3] = np.column_stack([turn, rest[joint] - turn @ rest[joint]])
+        A[:, :, :3, 3] += [5.0, 0, 7.0]  # the body's way
+        points = np.concatenate([v_template, np.ones((240, 1))], axis=1)
+        vertices = np.einsum("nj,fjab,nb->fna", weights, A, points)[..., :3]
+        joints = rest + [5.0, 0, 7.0]
+
+        to_ours = np.array([[0, 0, 1, 0], [1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 1.0]])
+        origins = np.tile(joints[0] @ to_ours[:2, :3].T, (frames, 1))
+        mesh = bch.make_character(v_template @ to_ours[:3, :3].T, faces)
+        posed = vertices @ to_ours[:3, :3].T - [*origins[0], 0]
+        by_vertices = bch.bake(mesh, bch.Vertices(posed))
+        body = bch.make_character(
+            v_template,
+            faces,
+            joints=[bch.Joint(parent=parent) for parent in parents],
+            bones=[bch.Bone(joint) for joint in range(24)],
+            vertex_bones=np.tile(np.arange(24), (240, 1)),
+            weights=weights,
+            root_joint=0,
+        )
+        by_matrices = bch.bake(body, bch.Transforms(to_ours @ A, "palette", origins))
+        for shape in range(frames):
+            ours, others = by_vertices.discs(shape, 0)[0], by_matrices.discs(shape, 0)[0]
+            for field in ("x", "y", "radius"):
+                self.assertAlmostEqual(float(ours[field]), float(others[field]), places=5)
+            corners = np.concatenate(by_vertices.outline(shape))
+            np.testing.assert_allclose(corners.max(axis=0), posed[shape, :, :2].max(axis=0), atol=1e-5)
 
     def test_slabs_of_discs(self):
         made = bch.bake(bch.default_male(), poses=2, plan=bch.Plan(depths=(0, bch.ALL_DEPTHS), slices=bch.standing_slices(3)))

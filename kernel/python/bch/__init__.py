@@ -49,6 +49,7 @@ from ._library import (
 from ._motions import MomentSet, Mover, animate, first_contact, free_until
 from ._obstacles import Obstacles
 from ._outlines import Outline, outline
+from ._poses import Transforms, Vertices
 from ._queries import (
     Agents,
     Nearest,
@@ -149,6 +150,8 @@ __all__ = [
     "SizeError",
     "TRACKED",
     "Trajectory",
+    "Transforms",
+    "Vertices",
     "WALL",
     "animate",
     "bake",

@@ -45,6 +45,7 @@ from ._arrays import (
     whole_number,
 )
 from ._library import ArgumentError, ArrayError, Exclusive, Handle, check, lib, said
+from ._poses import own_poses
 from ._progress import Watched
 
 Path = Union[str, "os.PathLike[str]"]
@@ -169,6 +170,75 @@ class Character:
         poses = np.empty(bounded(count, "count", 0, 2**31), POSE)
         check(lib.bch_character_sample_poses(self._pointer, count, address(poses)))
         return poses
+
+    def joint(self, name: str) -> int:
+        """Return the index of the joint of a name."""
+        found = c_uint32()
+        check(lib.bch_character_find_joint(self._pointer, encoded(name, "name"), byref(found)))
+        return found.value
+
+    @property
+    def joint_names(self) -> List[str]:
+        """The names of all joints."""
+        name, names = c_char_p(), []
+        for joint in range(self.joints):
+            check(lib.bch_character_get_joint(self._pointer, joint, byref(name), None))
+            names.append((name.value or b"").decode(errors="replace"))
+        return names
+
+    def transforms(self, poses: Any, space: str = "parent") -> Float64:
+        """Return the transforms of all joints in poses of clips, for `Transforms`.
+
+        Parameters
+        ----------
+        poses : (n,) POSE, or a sequence of (clip, seconds)
+        space : {"parent", "world"}
+
+        Returns
+        -------
+        (n, joints, 3, 4) float64
+        """
+        array, kind = _as_poses(poses), one_of({"parent": 0, "world": 1}, space, "space")
+        rows = np.empty((len(array), self.joints, 3, 4), f8)
+        for pose, to in zip(array, rows):
+            check(lib.bch_character_get_transforms(self._pointer, _library.Pose(*pose.item()), kind, address(to)))
+        return rows
+
+    def blend(self, poses: Any, weights: npt.ArrayLike) -> Float64:
+        """Return the transforms of all joints in a mean of poses of clips by weights, each in its parent's frame.
+
+        Parameters
+        ----------
+        poses : (n,) POSE, or a sequence of (clip, seconds)
+        weights : (n,) array
+
+        Returns
+        -------
+        (joints, 3, 4) float64
+        """
+        array, shares = _as_poses(poses), converted(weights, f4, "weights")
+        if shares.shape != (len(array),):
+            raise ArrayError(f"weights has shape {shares.shape}, and there are {len(array)} poses")
+        rows = np.empty((self.joints, 3, 4), f8)
+        check(lib.bch_character_blend(self._pointer, address(array), address(shares), len(array), address(rows)))
+        return rows
+
+    def posed_vertices(self, poses: Any) -> Float32:
+        """Return the positions of all vertices in poses of clips, metres, z up, relative to the origin of the shape.
+
+        Parameters
+        ----------
+        poses : (n,) POSE, or a sequence of (clip, seconds)
+
+        Returns
+        -------
+        (n, vertices, 3) float32
+        """
+        array = _as_poses(poses)
+        positions = np.empty((len(array), self.vertices, 3), f4)
+        for pose, to in zip(array, positions):
+            check(lib.bch_character_get_vertices(self._pointer, _library.Pose(*pose.item()), address(to)))
+        return positions
 
     def __repr__(self) -> str:
         return f"<bch.Character {self.name!r}: {self.triangles} triangles, {len(self.clips)} clips>"
@@ -565,21 +635,20 @@ class ShapeSetBuilder:
         Parameters
         ----------
         character : Character
-        poses : (n,) POSE, or a sequence of (clip, seconds)
+        poses : (n,) POSE, a sequence of (clip, seconds), Transforms or Vertices
         threads : int
             Number of threads; 0: all processors.
         progress : bool
             Show a progress bar on a terminal.
         """
         instance(character, Character, "character")
-        array = _as_poses(poses)
+        own = own_poses(poses)
+        array: Any = _as_poses(poses) if own is None else own
         with self._exclusive, Watched(f"baking {character.name}", progress) as watched:
             work = _library.Work(threads=bounded(threads, "threads", 0, 1024), progress=watched.callback)
-            watched.run(
-                lib.bch_shape_set_builder_add_poses(
-                    self._pointer, character._pointer, address(array), len(array), byref(work)
-                )
-            )
+            of_own, of_clips = lib.bch_shape_set_builder_add_own_poses, lib.bch_shape_set_builder_add_poses
+            add, data = (of_clips, address(array)) if own is None else (of_own, byref(own.struct))
+            watched.run(add(self._pointer, character._pointer, data, len(array), byref(work)))
 
     def add_sources(
         self, characters: Sequence[Character], sources: Records, *, threads: int = 0, progress: bool = False
@@ -693,8 +762,8 @@ def bake(
     ----------
     characters : Character, or a sequence of them
     poses : int, or poses
-        The number of poses per character, spread evenly over its clips; or the poses themselves, an (n,) POSE array or a sequence of
-        (clip, seconds). For several characters: a sequence of such arrays or sequences, one per character.
+        The number of poses per character, spread evenly over its clips; or the poses themselves: an (n,) POSE array, a sequence of
+        (clip, seconds), Transforms or Vertices. For several characters: a sequence of these, one per character.
     plan : Plan
     path : path, optional
         Where to write the set.
@@ -764,19 +833,18 @@ class DynamicShapeSet:
         character : Character
         shapes : (n,) uint32
             Indices of the shapes to replace, each once.
-        poses : (n,) POSE, or a sequence of (clip, seconds)
+        poses : (n,) POSE, a sequence of (clip, seconds), Transforms or Vertices
         threshold : float
             The radius below which discs are not divided, metres.
         threads : int
             Number of threads; 0: all processors.
         """
         instance(character, Character, "character")
-        array, least = _as_poses(poses), number(threshold, "threshold")
+        own, least = own_poses(poses), number(threshold, "threshold")
+        array: Any = _as_poses(poses) if own is None else own
         which = given(shapes, u4, (len(array),), "shapes")
         with self._exclusive, Watched("posing", False) as watched:
             work = _library.Work(threads=bounded(threads, "threads", 0, 1024), progress=watched.callback)
-            watched.run(
-                lib.bch_dynamic_shape_set_replace_poses(
-                    self._pointer, character._pointer, which, address(array), len(array), least, byref(work)
-                )
-            )
+            of_own, of_clips = lib.bch_dynamic_shape_set_replace_own_poses, lib.bch_dynamic_shape_set_replace_poses
+            replace, data = (of_clips, address(array)) if own is None else (of_own, byref(own.struct))
+            watched.run(replace(self._pointer, character._pointer, which, data, len(array), least, byref(work)))

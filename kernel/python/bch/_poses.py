@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: MIT
+# Copyright (c) 2026 the bch authors
+
+"""Poses of one's own, for all calls that take poses of one character."""
+
+from __future__ import annotations
+
+from typing import Any, NamedTuple, Optional, Tuple
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _library
+from ._arrays import address, as_array, f4, f8, one_of, rejected
+
+_spaces = {"parent": 0, "world": 1, "palette": 2}
+_VERTICES, _FLOAT_ROWS, _DOUBLE_ROWS = 3, 0, 2
+
+
+class Transforms(NamedTuple):
+    """Poses by affine transforms, in the place of (clip, seconds).
+
+    Those that `Character.transforms` returns give the shapes of their clips, bit for bit.
+    """
+
+    transforms: npt.ArrayLike  #: (frames, joints, 4, 4) or (frames, joints, 3, 4), of any dtype of floats and any strides
+    #: "parent": each joint in its parent's frame; "world": joints to the ground, metres, z up; "palette": the matrices of bones, each
+    #: the transform of its joint to the ground times its inverse bind matrix
+    space: str = "world"
+    origins: Optional[npt.ArrayLike] = None  #: (frames, 2), of palettes: the points on the ground that are the shapes' origins
+
+
+class Vertices(NamedTuple):
+    """Poses by the positions of all vertices, in the place of (clip, seconds)."""
+
+    positions: npt.ArrayLike  #: (frames, n, 3), of any dtype of floats: metres, z up, relative to the origin of the shape
+
+
+def _floats(values: npt.ArrayLike, name: str, shapes: Tuple[Tuple[int, ...], ...]) -> npt.NDArray[Any]:
+    """Return floats as they are or, where they are neither float32 nor float64, as float32 or float64."""
+    array = as_array(values, name)
+    if array.dtype.kind != "f" or array.ndim != 2 + len(shapes[0]) or array.shape[2:] not in shapes:
+        wanted = " or ".join(f"(frames, n, {', '.join(map(str, shape))})" for shape in shapes)
+        raise rejected(values, name, f"an array of floats with shape {wanted}")
+    return np.ascontiguousarray(array, f4 if array.dtype.itemsize <= 4 else f8)
+
+
+class OwnPoses:
+    """Poses of one's own as the library takes them, with the arrays that they point to."""
+
+    def __init__(self, poses: Any) -> None:
+        if isinstance(poses, Vertices):
+            self._array = np.ascontiguousarray(_floats(poses.positions, "positions", ((3,),)), f4)
+            kind, layout, stride = _VERTICES, _FLOAT_ROWS, 0
+        else:
+            self._array = _floats(poses.transforms, "transforms", ((3, 4), (4, 4)))
+            kind = one_of(_spaces, poses.space, "space")
+            layout = _FLOAT_ROWS if self._array.dtype == f4 else _DOUBLE_ROWS
+            stride = 4 * self._array.shape[2]
+        self._origins = None
+        if isinstance(poses, Transforms) and poses.origins is not None:
+            self._origins = np.ascontiguousarray(as_array(poses.origins, "origins"), f8)
+            if self._origins.shape != (len(self._array), 2):
+                raise rejected(poses.origins, "origins", f"an array with shape ({len(self._array)}, 2)")
+        self.struct = _library.PoseArrays(
+            kind=kind,
+            layout=layout,
+            data=address(self._array),
+            count=self._array.shape[1],
+            stride=stride,
+            origins=None if self._origins is None else address(self._origins),
+        )
+
+    def __len__(self) -> int:
+        return len(self._array)
+
+
+def own_poses(poses: Any) -> Optional[OwnPoses]:
+    """Return poses of one's own, or None for those of clips."""
+    return OwnPoses(poses) if isinstance(poses, (Transforms, Vertices)) else None
