@@ -2,7 +2,6 @@
 // Copyright (c) 2026 the bch authors
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <string>
 
@@ -11,6 +10,7 @@
 
 #include "kernel/c_api/arguments.hpp"
 #include "kernel/c_api/objects.hpp"
+#include "layout/base/number_class.hpp"
 #include "layout/base/shortest.hpp"
 
 namespace bch::c_api {
@@ -131,7 +131,7 @@ bch_status bch_animated_shape_get_discs(const bch_animated_shape* shape, double 
                                         size_t capacity, size_t* count) {
   return guarded([&] {
     const AnimatedShape& of = object_of(shape, "shape").shape;
-    if (!std::isfinite(seconds))
+    if (!detail::is_finite(seconds))
       throw Failure(BCH_INVALID_ARGUMENT, "seconds is " + detail::shortest(seconds));
     const std::vector<Disc> all = of.discs(seconds);
     const auto to = same_array<Disc>(discs, capacity, "discs");

@@ -2,7 +2,6 @@
 // Copyright (c) 2026 the bch authors
 
 #include <array>
-#include <cmath>
 #include <optional>
 
 #include <bch/shape_set_builder.hpp>
@@ -13,6 +12,7 @@
 #include "kernel/c_api/own_characters.hpp"
 #include "kernel/c_api/posing.hpp"
 #include "kernel/c_api/work.hpp"
+#include "layout/base/number_class.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/shape_set/builder_end.hpp"
 
@@ -314,7 +314,7 @@ bch_status bch_shape_set_builder_add_moment(bch_shape_set_builder* handle, const
   return guarded([&] {
     bch_shape_set_builder& builder = object_of(handle, "builder");
     const bch_animated_shape& of = object_of(shape, "shape");
-    if (!std::isfinite(seconds))
+    if (!detail::is_finite(seconds))
       throw Failure(BCH_INVALID_ARGUMENT, "seconds is " + detail::shortest(seconds));
     add_without_pose(builder, "moment", of.shape.shape(seconds));
   });

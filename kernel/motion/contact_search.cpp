@@ -11,6 +11,7 @@
 #include "kernel/motion/body_at.hpp"
 #include "kernel/motion/hull_separation.hpp"
 #include "kernel/motion/path.hpp"
+#include "layout/base/number_class.hpp"
 
 namespace bch::detail {
 namespace {
@@ -47,7 +48,7 @@ double ContactSearch::first(const MotionFacts& a, const MotionFacts& b, double f
   const double slack_of_places = position_rounding * (a.farthest + b.farthest) + root_rounding * reaches;
   for (double time = from; time <= to;) {
     const double end = std::min(a_->path_end(time), b_->path_end(time));
-    const double until = std::isfinite(end) ? end : to + 1;
+    const double until = is_finite(end) ? end : to + 1;
     slack_ = slack_of_places + (a_->time_slack(time) + b_->time_slack(time));
     const RelativeWay way(a_->pose(time), b_->pose(time), a_->pose(until), b_->pose(until));
     const auto [enter, leave] = way.times_within(reaches + slack_);
@@ -86,7 +87,7 @@ double ContactSearch::first_near(double from, double end, double to, unsigned le
     const double clip_end = std::min(a_->clip_end(time), b_->clip_end(time));
     double until = std::min(end, clip_end), found = never;
     if (level > 0) until = std::min({end, a_->hull_end(level - 1), b_->hull_end(level - 1)});
-    const double last = std::isfinite(until) ? until : time + 1;
+    const double last = is_finite(until) ? until : time + 1;
     if (a_->chunk().nodes() == 0 || b_->chunk().nodes() == 0) {
       until = std::min(end, clip_end);
     } else if (level == 0) {

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "kernel/runtime/validation.hpp"
+#include "layout/base/number_class.hpp"
 #include "layout/base/planes.hpp"
 #include "layout/base/shortest.hpp"
 
@@ -53,7 +54,7 @@ void require_valid(const char* query, const TimeInterval& interval, double toler
   if (!is_time(interval.from) || !is_time(interval.to) || interval.from > interval.to)
     reject(query, "from " + shortest(interval.from) + " s to " + shortest(interval.to) +
                       " s is no interval within +-1e6 s");
-  if (!(tolerance >= least_tolerance && std::isfinite(tolerance)))
+  if (!(tolerance >= least_tolerance && is_finite(tolerance)))
     reject(query, "a tolerance of " + shortest(tolerance) + " m, not 1e-6 or more");
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "kernel/motion/path.hpp"
+#include "layout/base/number_class.hpp"
 
 namespace bch::detail {
 namespace {
@@ -75,7 +76,7 @@ double MovingBody::clip_end(double time) noexcept {
 
 double MovingBody::period(double time) noexcept {
   if (tree().loops) return tree().length();
-  return std::isinf(clip_end(time)) ? 0 : std::numeric_limits<double>::infinity();
+  return is_infinite(clip_end(time)) ? 0 : std::numeric_limits<double>::infinity();
 }
 
 /// Before its beginning and after its end a clip stands still: at the first or last key, in share().
@@ -117,7 +118,7 @@ double MovingBody::share(double time) const noexcept {
 }
 
 double MovingBody::hull_end(unsigned level) const noexcept {
-  const bool moves = !waits_ && std::isfinite(clip_end_);
+  const bool moves = !waits_ && is_finite(clip_end_);
   return moves ? hull(level).end + shift_ : clip_end_;
 }
 

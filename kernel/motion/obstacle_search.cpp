@@ -9,6 +9,7 @@
 
 #include "kernel/motion/body_at.hpp"
 #include "kernel/motion/path.hpp"
+#include "layout/base/number_class.hpp"
 
 namespace bch::detail {
 
@@ -65,7 +66,7 @@ double ObstacleSearch::first_near(double from, double end, double to) {
     const double until = std::min(body_->clip_end(time), end);
     if (body_->chunk().nodes() > 0) {
       if (nested_where_a_chunk_begins(time)) return time;
-      const double found = first_between(time, std::isfinite(until) ? until : time + 1);
+      const double found = first_between(time, is_finite(until) ? until : time + 1);
       if (found < never) return found;
     }
     if (until >= end) return never;

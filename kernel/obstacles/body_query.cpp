@@ -12,6 +12,7 @@
 #include "kernel/simd/ancestor_test.hpp"
 #include "kernel/simd/leaf_segments.hpp"
 #include "kernel/simd/tree_nodes.hpp"
+#include "layout/base/number_class.hpp"
 
 namespace bch::detail {
 namespace {
@@ -22,7 +23,7 @@ using Vector = ObstaclePlace::Vector;
 /// searched for one by one.
 double first_look(DistanceBounds nearest) noexcept {
   constexpr double least_look = 0.5, step = 0.05;  // metres
-  if (std::isinf(nearest.most)) return step;
+  if (is_infinite(nearest.most)) return step;
   return std::max(step, std::min(nearest.most, std::max(least_look, 2 * nearest.least)));
 }
 

@@ -17,6 +17,7 @@
 #include "kernel/simd/slab_pairs.hpp"
 #include "layout/base/floating_point_state.hpp"
 #include "layout/base/heading.hpp"
+#include "layout/base/number_class.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/format/cut_discs.hpp"
 
@@ -151,7 +152,7 @@ void require_directions(std::span<const Vec2> directions, std::size_t pairs) {
   require_as_many({"penetration", "pair", pairs}, directions.size(), "directions");
   for (std::size_t i = 0; i < pairs; ++i) {
     const auto [x, y] = directions[i];
-    if (std::isfinite(x) && std::isfinite(y) && (x != 0 || y != 0)) continue;
+    if (is_finite(x) && is_finite(y) && (x != 0 || y != 0)) continue;
     std::ostringstream message;
     message << "penetration: pair " << i << ": direction (" << x << ", " << y << ") is none";
     throw std::invalid_argument(message.str());

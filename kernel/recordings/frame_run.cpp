@@ -16,6 +16,7 @@
 #include <bch/time_of_impact.hpp>
 
 #include "kernel/broad_phase/pair_limit.hpp"
+#include "layout/base/number_class.hpp"
 
 namespace bch::detail {
 namespace {
@@ -55,7 +56,7 @@ double FrameRun::square_step(std::size_t person) const {
 double FrameRun::longest_step() const {
   double longest = 0;
   for (std::size_t i = 0; i < size(); ++i)
-    if (const double step = square_step(i); std::isfinite(step)) longest = std::max(longest, step);
+    if (const double step = square_step(i); is_finite(step)) longest = std::max(longest, step);
   return std::sqrt(longest);
 }
 
@@ -158,7 +159,7 @@ void FrameRun::ask_depths(const ShapeSet& set, const Agents& all) {
   if (options_.max_distance <= 0) return;
   const std::vector<float> gaps = gaps_of(set, all, apart_, options_.max_distance);
   for (std::size_t i = 0; i < apart_.size(); ++i)
-    if (std::isfinite(gaps[i])) checked_.emplace_back(checked(apart_[i])).gap = gaps[i];
+    if (is_finite(gaps[i])) checked_.emplace_back(checked(apart_[i])).gap = gaps[i];
 }
 
 /// Finds who passes through whom between two frames: people who do not overlap in either.
@@ -167,7 +168,7 @@ void FrameRun::ask_between(const ShapeSet& set, const Agents& all, const Agents&
   std::vector<Pair> moving, later;
   std::vector<double> x, y;
   for (const Pair pair : apart_) {
-    if (!std::isfinite(square_step(pair.first)) || !std::isfinite(square_step(pair.second))) continue;
+    if (!is_finite(square_step(pair.first)) || !is_finite(square_step(pair.second))) continue;
     const std::uint32_t first = next_of[pair.first], second = next_of[pair.second];
     const Walker *from = block_->people().data() + begin_, *to = block_->people().data();
     const double dx = to[first].x - from[pair.first].x - to[second].x + from[pair.second].x,

@@ -9,6 +9,7 @@
 #include <sstream>
 #include <stdexcept>
 
+#include "layout/base/number_class.hpp"
 #include "layout/base/random.hpp"
 #include "layout/character/skinning.hpp"
 
@@ -184,7 +185,7 @@ std::uint32_t clip_by_speed(const CastMember& member, const Walker& walker, doub
 /// How often a walker has gone through a clip: by the time that his row says, else by the way, else by the time.
 double turns_of(const CastClip& clip, const Walker& walker, double size) {
   const double seconds = std::max(1e-3, clip.seconds);
-  if (!std::isnan(walker.clip_seconds)) return static_cast<double>(walker.clip_seconds) / seconds;
+  if (!is_nan(walker.clip_seconds)) return static_cast<double>(walker.clip_seconds) / seconds;
   return clip.speed > 0 ? walker.way / (size * clip.speed * seconds) : walker.seconds / seconds;
 }
 

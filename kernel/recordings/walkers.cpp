@@ -10,6 +10,7 @@
 
 #include <bch/default_characters.hpp>
 
+#include "layout/base/number_class.hpp"
 #include "layout/base/random.hpp"
 
 namespace bch::detail {
@@ -119,7 +120,7 @@ Walker WalkerReader::walk(const TrackedPerson& person, Track& track, std::int64_
   const double dx = last->x - first.x, dy = last->y - first.y;
   const double speed = seconds > 0 ? std::sqrt(dx * dx + dy * dy) / seconds : 0;
 
-  const bool told = !std::isnan(person.heading), moves = speed > slowest_direction;
+  const bool told = !is_nan(person.heading), moves = speed > slowest_direction;
   if (told || moves) {
     track.heading = told ? static_cast<double>(person.heading) : std::atan2(dy, dx);
     track.has_heading = true;
@@ -134,7 +135,7 @@ Walker WalkerReader::walk(const TrackedPerson& person, Track& track, std::int64_
   track.way += since * speed;
   track.phase -= std::floor(track.phase);
   track.last_frame = frame;
-  const double stature = std::isnan(person.stature) ? track.stature : static_cast<double>(person.stature);
+  const double stature = is_nan(person.stature) ? track.stature : static_cast<double>(person.stature);
   return {person.id,
           person.x,
           person.y,

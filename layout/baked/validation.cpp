@@ -3,11 +3,11 @@
 
 #include "layout/baked/validation.hpp"
 
-#include <cmath>
 #include <stdexcept>
 #include <string>
 
 #include "layout/base/floating_point_state.hpp"
+#include "layout/base/number_class.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/format/shape_validation.hpp"
 
@@ -22,7 +22,7 @@ namespace {
 void require_settings(std::span<const Settings> settings) {
   if (settings.size() != 1)
     throw std::invalid_argument("settings: " + std::to_string(settings.size()) + ", not 1");
-  if (!std::isfinite(settings[0].threshold) || settings[0].threshold < 0)
+  if (!is_finite(settings[0].threshold) || settings[0].threshold < 0)
     reject("settings", 0, "threshold " + shortest(settings[0].threshold));
 }
 
@@ -46,7 +46,7 @@ void require_origins(std::span<const ShapeOrigin> origins, std::size_t shapes, s
     if (character >= names) reject("origins", i, "character has name " + std::to_string(character));
     if (clip >= names && clip != ShapeOrigin::rest_pose)
       reject("origins", i, "clip has name " + std::to_string(clip));
-    if (!std::isfinite(seconds)) reject("origins", i, "time " + shortest(seconds) + " s");
+    if (!is_finite(seconds)) reject("origins", i, "time " + shortest(seconds) + " s");
   }
 }
 

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "layout/base/floating_point_state.hpp"
+#include "layout/base/number_class.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/character/eigen.hpp"
 
@@ -71,7 +72,7 @@ void validate_influences(const Character& c) {
 template <class Value>
 void validate_keys(const Character& c, const std::string& place, const std::vector<Key<Value>>& keys) {
   for (std::size_t k = 0; k < keys.size(); ++k) {
-    if (!std::isfinite(keys[k].time) || (k > 0 && keys[k].time < keys[k - 1].time))
+    if (!is_finite(keys[k].time) || (k > 0 && keys[k].time < keys[k - 1].time))
       reject(c, place + ", " + at("key", k) + " is at " + shortest(keys[k].time) + " s, out of order");
     const auto value = coefficients(keys[k].value);
     if constexpr (std::is_same_v<Value, Quaternion>) {
@@ -100,7 +101,7 @@ void validate_part(const Character& c, const std::string& place, const std::vect
 
 void validate_clips(const Character& c) {
   for (const Clip& clip : c.clips) {
-    if (!std::isfinite(clip.seconds) || clip.seconds < 0)
+    if (!is_finite(clip.seconds) || clip.seconds < 0)
       reject(c, "clip '" + clip.name + "' lasts " + shortest(clip.seconds) + " s");
     std::vector<bool> seen(c.joints.size());
     for (const Channel& channel : clip.channels) {

@@ -4,10 +4,10 @@
 #include "layout/character/vertex_blend.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <numeric>
 
+#include "layout/base/number_class.hpp"
 #include "layout/simd/lanes.hpp"
 
 namespace bch::detail {
@@ -106,10 +106,10 @@ Float blend_run(const Work<Position> work, std::size_t begin, std::size_t end, s
 }
 
 bool is_finite(const Vec3& position) {
-  return std::isfinite(position.x) && std::isfinite(position.y) && std::isfinite(position.z);
+  return detail::is_finite(position.x) && detail::is_finite(position.y) && detail::is_finite(position.z);
 }
 bool is_finite(Vec2 position) {
-  return std::isfinite(position.x) && std::isfinite(position.y);
+  return detail::is_finite(position.x) && detail::is_finite(position.y);
 }
 
 }  // namespace

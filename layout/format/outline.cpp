@@ -9,6 +9,7 @@
 #include <string>
 
 #include "layout/base/floating_point_state.hpp"
+#include "layout/base/number_class.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/format/contours.hpp"
@@ -30,7 +31,7 @@ double length(std::span<const Vec2> contour) {
 
 void require_finite(std::span<const Vec2> points) {
   for (std::size_t i = 0; i < points.size(); ++i)
-    if (!std::isfinite(points[i].x) || !std::isfinite(points[i].y))
+    if (!is_finite(points[i].x) || !is_finite(points[i].y))
       throw std::invalid_argument("outline: point " + std::to_string(i) + " is not finite");
 }
 
@@ -64,7 +65,7 @@ Outline outline_from_polygons(std::span<const std::vector<Vec2>> polygons) {
     const std::string name = "polygon " + std::to_string(p);
     const auto begin = static_cast<std::ptrdiff_t>(outline.points.size());
     for (const Vec2& corner : polygons[p]) {
-      if (!std::isfinite(corner.x) || !std::isfinite(corner.y))
+      if (!is_finite(corner.x) || !is_finite(corner.y))
         throw std::invalid_argument(name + ": corner " + std::to_string(&corner - polygons[p].data()) +
                                     " is not finite");
       if (std::ssize(outline.points) == begin || outline.points.back() != corner)
@@ -97,10 +98,10 @@ double validate(const Outline& outline) {
   for (std::size_t c = 0; c < outline.contours(); ++c) {
     const double area = twice_area(outline.contour(c));
     // What is not finite makes the area so.
-    if (!std::isfinite(area)) require_finite(outline.points);
+    if (!is_finite(area)) require_finite(outline.points);
     if (area < 0) require_not_clockwise(outline, c, area, size);
   }
-  if (!std::isfinite(outline.grid_step) || outline.grid_step < 0)
+  if (!is_finite(outline.grid_step) || outline.grid_step < 0)
     throw std::invalid_argument("outline: grid step " + shortest(outline.grid_step));
   if (size < rounding::smallest_reach || size > rounding::largest_reach)
     throw std::invalid_argument("outline: reach " + shortest(size) + " m is outside 1e-6 to 1e6 m");

@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "layout/base/number_class.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/enclosing_disc/enclosing_disc.hpp"
@@ -68,7 +69,7 @@ void require_reach(double reach) {
 }
 
 void require_threshold(float threshold) {
-  if (!(threshold > 0) || !std::isfinite(threshold))
+  if (!(threshold > 0) || !is_finite(threshold))
     throw std::invalid_argument("hierarchy: threshold " + shortest(threshold) +
                                 " m is not positive and finite");
 }
@@ -99,7 +100,7 @@ void HierarchyBuilder::projected(std::span<const Vec2> vertices,
       if (vertex >= vertices.size())
         throw std::invalid_argument("hierarchy: triangle " + std::to_string(t) + " names vertex " +
                                     std::to_string(vertex));
-      if (!std::isfinite(vertices[vertex].x) || !std::isfinite(vertices[vertex].y))
+      if (!is_finite(vertices[vertex].x) || !is_finite(vertices[vertex].y))
         throw std::invalid_argument("hierarchy: vertex " + std::to_string(vertex) + " is not finite");
       hierarchy.reach = std::max(hierarchy.reach, reach(vertices.subspan(vertex, 1)));
     }

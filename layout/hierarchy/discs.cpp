@@ -4,11 +4,11 @@
 #include "layout/hierarchy/discs.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "layout/base/number_class.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/hierarchy/builder.hpp"
@@ -91,7 +91,7 @@ Hierarchy disc_hierarchy(std::span<const Disc> discs) {
   double reach = 0;
   for (std::size_t i = 0; i < discs.size(); ++i) {
     const auto& [x, y, radius] = discs[i];
-    if (!(radius > 0) || !std::isfinite(x) || !std::isfinite(y) || !std::isfinite(radius))
+    if (!(radius > 0) || !is_finite(x) || !is_finite(y) || !is_finite(radius))
       throw std::invalid_argument("shape: disc " + std::to_string(i) + " of " + shortest(radius) + " m at (" +
                                   shortest(x) + ", " + shortest(y) + ") m");
     reach = std::max(reach, length(x, y) + double{radius});

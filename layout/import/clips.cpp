@@ -8,6 +8,7 @@
 #include <numeric>
 #include <set>
 
+#include "layout/base/number_class.hpp"
 #include "layout/base/shortest.hpp"
 
 namespace bch::detail::importing {
@@ -58,7 +59,7 @@ class ClipReader {
   ClipReader(const SceneFile& file, const aiAnimation& animation, std::string name)
       : file_(file), animation_(animation), ticks_per_second_(animation.mTicksPerSecond) {
     clip_.name = std::move(name);
-    if (!(std::isfinite(ticks_per_second_) && ticks_per_second_ > 0))
+    if (!(is_finite(ticks_per_second_) && ticks_per_second_ > 0))
       ticks_per_second_ = default_ticks_per_second;
   }
 
@@ -119,7 +120,7 @@ class ClipReader {
   }
   float check(Quaternion& value, const std::string& key) {
     const double norm = to_eigen(value).cast<double>().norm();
-    if (!std::isfinite(norm) || norm < 1e-6) file_.reject(place_ + ", " + key + " is no rotation");
+    if (!is_finite(norm) || norm < 1e-6) file_.reject(place_ + ", " + key + " is no rotation");
     if (std::abs(norm - 1) > 1e-3) ++normalised_;
     value = quaternion(to_eigen(value).cast<double>().normalized().cast<float>());
     return static_cast<float>(norm);

@@ -4,9 +4,9 @@
 #include "layout/import/fbx.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <set>
 
+#include "layout/base/number_class.hpp"
 #include "layout/import/scene.hpp"
 
 namespace bch::detail::importing {
@@ -88,7 +88,7 @@ FbxModel FbxScene::read_model(FbxId id) const {
   }
   const auto whole = [&](std::string_view name, std::int64_t otherwise) {
     const double number = document.number(record, name, static_cast<double>(otherwise));
-    return std::isfinite(number) ? static_cast<std::int64_t>(std::clamp(number, -1.0, 100.0)) : -1;
+    return is_finite(number) ? static_cast<std::int64_t>(std::clamp(number, -1.0, 100.0)) : -1;
   };
   model.rotation_order = whole("RotationOrder", 0);
   model.inherit_type = whole("InheritType", 1);

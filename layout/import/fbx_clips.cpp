@@ -2,7 +2,6 @@
 // Copyright (c) 2026 the bch authors
 
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <limits>
 #include <map>
@@ -10,6 +9,7 @@
 #include <optional>
 #include <set>
 
+#include "layout/base/number_class.hpp"
 #include "layout/import/fbx.hpp"
 #include "layout/import/fbx_channel.hpp"
 #include "layout/import/scene.hpp"
@@ -136,7 +136,7 @@ class ClipCorrector {
       first_ = start / fbx_ticks_per_second;
       last_ = stop / fbx_ticks_per_second;
     }
-    if (!std::isfinite(first_)) first_ = 0;
+    if (!is_finite(first_)) first_ = 0;
     if (!(last_ >= first_)) last_ = first_;
   }
 

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 
+#include "layout/base/number_class.hpp"
 #include "layout/import/scene.hpp"
 
 namespace bch::detail::importing {
@@ -191,7 +192,7 @@ FbxCurve read_curve(const FbxDocument& document, const FbxRecord& object) {
       if ((key.flags & own_next_weight) != 0)
         key.next_weight = std::clamp(weight_from(weights >> 16), 0.0, 1.0);
     }
-    if (!std::isfinite(key.time) || !std::isfinite(key.value))
+    if (!is_finite(key.time) || !is_finite(key.value))
       file.reject("an FBX curve has a key that is no number");
     if (k > 0 && !(key.time >= curve.keys.back().time))
       file.reject("an FBX curve has keys that are not in order of time");

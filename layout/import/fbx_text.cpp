@@ -5,10 +5,10 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <optional>
 
 #include "layout/base/decimal.hpp"
+#include "layout/base/number_class.hpp"
 #include "layout/import/scene.hpp"
 
 namespace bch::detail::importing {
@@ -117,7 +117,7 @@ class TextReader {
   FbxValue word_value(std::string_view word) {
     FbxValue value;
     value.number = number_from(word);
-    value.type = std::isnan(value.number) ? 'S' : 'n';
+    value.type = is_nan(value.number) ? 'S' : 'n';
     value.bytes = word;
     const char* const end = word.data() + word.size();
     if (std::from_chars(word.data(), end, value.whole).ptr != end) value.whole = whole_part(value.number);
@@ -140,7 +140,7 @@ class TextReader {
 
 std::int64_t whole_part(double number) {
   constexpr double most = 9.2e18;
-  return std::isfinite(number) ? static_cast<std::int64_t>(std::clamp(number, -most, most)) : 0;
+  return is_finite(number) ? static_cast<std::int64_t>(std::clamp(number, -most, most)) : 0;
 }
 
 std::vector<FbxRecord> read_fbx_text(const FbxFile& file, std::string_view bytes) {

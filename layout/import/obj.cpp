@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <system_error>
 
+#include "layout/base/number_class.hpp"
 #include "layout/import/scene.hpp"
 #include "layout/import/text.hpp"
 
@@ -60,7 +60,7 @@ class PlainObj {
   static bool is_number(std::string_view word) {
     if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
     const std::optional<double> number = number_of(word);
-    return number && std::isfinite(*number);
+    return number && is_finite(*number);
   }
 
   /// Three coordinates, and a fourth that divides them; further numbers are colours.

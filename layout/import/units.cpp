@@ -11,6 +11,7 @@
 #include <span>
 #include <stdexcept>
 
+#include "layout/base/number_class.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/character/skinning.hpp"
 #include "layout/import/clips.hpp"
@@ -49,7 +50,7 @@ DeclaredFrame declared_by_fbx(const SceneFile& file) {
     metadata->Get("UnitScaleFactor", factor);
   }
   if (axis < 0 || axis > 2) file.reject("FBX up axis " + std::to_string(axis) + " is none of 0, 1, 2");
-  if (!std::isfinite(factor) || factor <= 0)
+  if (!is_finite(factor) || factor <= 0)
     file.reject("FBX unit scale factor " + shortest(factor) + " is not a positive number");
   frame.up = Direction{static_cast<UpAxis>(axis), sign < 0};
   frame.scale = factor * 0.01f;
@@ -142,7 +143,7 @@ float choose_scale(const SceneFile& file, const DeclaredFrame& declared, const I
                 static_cast<double>(height));
   if (options.scale) {
     scale = *options.scale;
-    if (!std::isfinite(scale) || scale <= 0)
+    if (!is_finite(scale) || scale <= 0)
       file.reject("scale " + shortest(scale) + " is not a positive number");
     source = ", as the caller says";
   } else if (declared.scale) {

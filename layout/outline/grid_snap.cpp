@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "layout/base/number_class.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/simd/lanes.hpp"
@@ -83,7 +84,7 @@ template <class Position>
 [[noreturn]] void reject(std::span<const Position> positions, std::span<const std::uint32_t> used,
                          float reach) {
   for (const std::uint32_t v : used)
-    if (!std::isfinite(positions[v].x) || !std::isfinite(positions[v].y))
+    if (!is_finite(positions[v].x) || !is_finite(positions[v].y))
       throw std::invalid_argument("outline: vertex " + std::to_string(v) + " is not finite");
   throw std::invalid_argument("outline: reach " + shortest(reach) + " m is outside 1e-6 to 1e6 m");
 }

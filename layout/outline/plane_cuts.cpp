@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "layout/base/number_class.hpp"
 #include "layout/base/planes.hpp"
 
 namespace bch::detail {
@@ -56,7 +57,7 @@ void PlaneCuts::find_slabs(std::span<const float> planes) {
     not_a_number += 0 * z;
   }
   if (not_a_number != 0 || not_a_number != not_a_number) {
-    const auto bad = std::find_if(z_.begin(), z_.end(), [](float z) { return !std::isfinite(z); });
+    const auto bad = std::find_if(z_.begin(), z_.end(), [](float z) { return !is_finite(z); });
     throw std::invalid_argument("outline: the height of vertex " +
                                 std::to_string(used_[static_cast<std::size_t>(bad - z_.begin())]) +
                                 " is not finite");

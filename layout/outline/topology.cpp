@@ -4,11 +4,12 @@
 #include "layout/outline/topology.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 #include <stdexcept>
 #include <string>
 #include <tuple>
+
+#include "layout/base/number_class.hpp"
 
 namespace bch::detail {
 namespace {
@@ -42,7 +43,7 @@ std::vector<Vec3> used_positions(Positions bind_pose, std::span<const std::uint3
   std::vector<Vec3> positions;
   for (const std::uint32_t v : used) {
     const Vec3& at = bind_pose[v];
-    if (!std::isfinite(at.x) || !std::isfinite(at.y) || !std::isfinite(at.z))
+    if (!is_finite(at.x) || !is_finite(at.y) || !is_finite(at.z))
       throw std::invalid_argument("outline: vertex " + std::to_string(v) + " of the bind pose is not finite");
     positions.push_back(at);
   }

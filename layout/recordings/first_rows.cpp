@@ -10,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include "layout/base/number_class.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/recordings/numbers.hpp"
 #include "layout/recordings/row.hpp"
@@ -57,7 +58,7 @@ void FirstRows::add(std::uint64_t line, std::span<const std::string_view> fields
   const std::optional<std::int64_t> first = whole_number_from(fields[0]),
                                     second = whole_number_from(fields[1]);
   const std::optional<double> x = number_from(fields[2]), y = number_from(fields[3]);
-  if (!first || !second || !x || !y || !std::isfinite(*x) || !std::isfinite(*y)) return;
+  if (!first || !second || !x || !y || !is_finite(*x) || !is_finite(*y)) return;
   const double z = fields.size() > 4 ? number_from(fields[4]).value_or(0) : 0;
   places_.push_back({*first, *second, *x, *y, z});
   --others_;

@@ -11,6 +11,7 @@
 #include <unordered_set>
 
 #include "layout/base/mixed_hash.hpp"
+#include "layout/base/number_class.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/recordings/numbers.hpp"
 #include "layout/recordings/sqlite_database.hpp"
@@ -177,8 +178,8 @@ class JuPedSim final : public RowSource {
   float heading() const {
     if (rows_->type(ori_x) == SQLITE_NULL || rows_->type(ori_y) == SQLITE_NULL) return unknown;
     const double x = real(ori_x), y = real(ori_y);
-    if (!std::isfinite(x)) reject(ori_x, "is not finite");
-    if (!std::isfinite(y)) reject(ori_y, "is not finite");
+    if (!is_finite(x)) reject(ori_x, "is not finite");
+    if (!is_finite(y)) reject(ori_y, "is not finite");
     return x == 0 && y == 0 ? unknown : static_cast<float>(std::atan2(y, x));
   }
 

@@ -6,11 +6,11 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cmath>
 #include <cstring>
 #include <string>
 #include <string_view>
 
+#include "layout/base/number_class.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/recordings/frame_reader.hpp"
 #include "layout/recordings/jupedsim.hpp"
@@ -62,7 +62,7 @@ std::unique_ptr<TrajectoryReader> open_trajectory(const std::filesystem::path& f
                                                   const TrajectoryOptions& options) {
   const trajectory::Places places{file, false};
   if (options.fps) trajectory::checked_fps(places, *options.fps, "the frame rate of --fps");
-  if (options.unit && !(*options.unit > 0 && std::isfinite(*options.unit)))
+  if (options.unit && !(*options.unit > 0 && is_finite(*options.unit)))
     places.reject("the unit of --unit is " + shortest(*options.unit) + " m, not above 0");
   return std::make_unique<trajectory::FrameReader>(trajectory::open_rows(file, options), options);
 }

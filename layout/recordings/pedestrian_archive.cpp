@@ -18,6 +18,7 @@
 #include <system_error>
 
 #include "layout/base/child_process.hpp"
+#include "layout/base/number_class.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/recordings/hdf5_recording.hpp"
 
@@ -194,17 +195,17 @@ class PedestrianArchive final : public RowSource {
 
   /// (0, 0) and NaN say nothing.
   float heading(const ArchiveRow& from) const {
-    if (std::isinf(from.ox)) reject("ox", from.ox, "is not finite");
-    if (std::isinf(from.oy)) reject("oy", from.oy, "is not finite");
-    if ((from.ox == 0 && from.oy == 0) || std::isnan(from.ox) || std::isnan(from.oy)) return unknown;
+    if (is_infinite(from.ox)) reject("ox", from.ox, "is not finite");
+    if (is_infinite(from.oy)) reject("oy", from.oy, "is not finite");
+    if ((from.ox == 0 && from.oy == 0) || is_nan(from.ox) || is_nan(from.oy)) return unknown;
     return static_cast<float>(std::atan2(from.oy, from.ox));
   }
 
   /// Returns what z says of the person.
   float stature(double z) {
-    if (std::isinf(z)) reject("z", z, "is not finite");
+    if (is_infinite(z)) reject("z", z, "is not finite");
     if (header_.is_of_jupedsim != 0) has_floors_ |= std::abs(z) > 0;
-    return header_.is_of_jupedsim != 0 || std::isnan(z) ? unknown : heights_.take(z * metres_);
+    return header_.is_of_jupedsim != 0 || is_nan(z) ? unknown : heights_.take(z * metres_);
   }
 
   Row row(const ArchiveRow& from) {

@@ -3,6 +3,7 @@
 
 #include "layout/recordings/row.hpp"
 
+#include "layout/base/number_class.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/recordings/trajectory.hpp"
 
@@ -26,7 +27,7 @@ void Places::reject(std::uint64_t number, const std::string& reason) const {
 }
 
 std::string coordinate_fault(double metres) {
-  return std::isfinite(metres) ? "is not within +-1e8 m" : "is not finite";
+  return is_finite(metres) ? "is not within +-1e8 m" : "is not finite";
 }
 
 void Heights::describe(std::vector<std::string>& assumptions) const {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "layout/base/number_class.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/recordings/fields.hpp"
@@ -109,7 +110,7 @@ class Table final : public RowSource {
         row.y = coordinate(column, field);
         break;
       case Role::height:
-        if (const double height = finite_or_nan(column, field); !std::isnan(height))
+        if (const double height = finite_or_nan(column, field); !is_nan(height))
           row.stature = heights_.take(height * layout_.height_metres);
         break;
       case Role::heading:
@@ -149,7 +150,7 @@ class Table final : public RowSource {
   /// eighth of a microsecond at most, and the difference of two such is exact.
   std::int64_t microseconds_of(std::size_t column, std::string_view field) {
     const double time = number(column, field), seconds = time * layout_.seconds;
-    if (!std::isfinite(seconds)) reject(column, field, "is not finite");
+    if (!is_finite(seconds)) reject(column, field, "is not finite");
     if (std::abs(seconds) > largest_origin)
       reject(column, field, "is not within +-1e11 s; the column's name may lack a unit, as in time/ms");
     if (!first_time_) {
@@ -165,7 +166,7 @@ class Table final : public RowSource {
   /// A number that a row may lack.
   double finite_or_nan(std::size_t column, std::string_view field) const {
     const double value = field.empty() ? std::numeric_limits<double>::quiet_NaN() : number(column, field);
-    if (std::isinf(value)) reject(column, field, "is not finite");
+    if (is_infinite(value)) reject(column, field, "is not finite");
     return value;
   }
 

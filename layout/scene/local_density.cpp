@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "layout/base/floating_point_state.hpp"
+#include "layout/base/number_class.hpp"
 #include "layout/base/shortest.hpp"
 
 namespace bch {
@@ -25,7 +26,7 @@ void require(std::span<const double> x, std::span<const double> y, double radius
   if (x.size() != y.size())
     throw std::invalid_argument("local density: " + std::to_string(x.size()) + " x and " +
                                 std::to_string(y.size()) + " y");
-  if (!(radius > 0) || !std::isfinite(radius))
+  if (!(radius > 0) || !is_finite(radius))
     throw std::invalid_argument("local density: a radius of " + shortest(radius) + " m");
   for (std::size_t i = 0; i < x.size(); ++i)
     if (!(std::abs(x[i]) <= largest_position) || !(std::abs(y[i]) <= largest_position))

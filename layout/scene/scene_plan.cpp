@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "layout/base/floating_point_state.hpp"
+#include "layout/base/number_class.hpp"
 #include "layout/base/shortest.hpp"
 
 namespace bch {
@@ -26,7 +27,7 @@ constexpr std::size_t most_levels = 255;
 }
 
 void require(const SceneUse& use) {
-  if (!(use.pose_step >= 0) || !std::isfinite(use.pose_step))
+  if (!(use.pose_step >= 0) || !is_finite(use.pose_step))
     throw std::invalid_argument("scene plan: a pose step of " + shortest(use.pose_step) + " s");
   if (!(use.whole_from >= 0))
     throw std::invalid_argument("scene plan: whole bodies from " + shortest(use.whole_from) + " m on");
@@ -109,11 +110,11 @@ ScenePlan plan_scene(std::span<const SceneAgent> agents, const SceneUse& use) {
   const FloatingPointStateGuard floats;
   require(use);
   for (std::size_t i = 0; i < agents.size(); ++i) {
-    if (!(agents[i].distance >= 0) || !std::isfinite(agents[i].distance))
+    if (!(agents[i].distance >= 0) || !is_finite(agents[i].distance))
       reject(i, "a distance of " + shortest(agents[i].distance) + " m");
-    if (!(agents[i].density >= 0) || !std::isfinite(agents[i].density))
+    if (!(agents[i].density >= 0) || !is_finite(agents[i].density))
       reject(i, "a density of " + shortest(agents[i].density) + " people per square metre");
-    if (!std::isfinite(agents[i].shows.at.seconds))
+    if (!is_finite(agents[i].shows.at.seconds))
       reject(i, "at " + shortest(agents[i].shows.at.seconds) + " s");
   }
   const std::vector<std::uint32_t> depths = depths_of(agents, use);

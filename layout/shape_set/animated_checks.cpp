@@ -9,6 +9,7 @@
 #include <string>
 
 #include "layout/base/floating_point_state.hpp"
+#include "layout/base/number_class.hpp"
 #include "layout/base/planes.hpp"
 #include "layout/base/ring_edges.hpp"
 #include "layout/base/shortest.hpp"
@@ -84,7 +85,7 @@ class ChunkCheck {
       return "disc " + std::to_string(i) + " at key " + std::to_string(key);
     };
     for (std::uint32_t i = 0; i < chunk_.disc_count; ++i)
-      if (!std::isfinite(discs[i].x) || !std::isfinite(discs[i].y) || !std::isfinite(discs[i].radius) ||
+      if (!is_finite(discs[i].x) || !is_finite(discs[i].y) || !is_finite(discs[i].radius) ||
           discs[i].radius < 0)
         reject(name(i) + ", of " + shortest(discs[i].radius) + " m at (" + shortest(discs[i].x) + ", " +
                shortest(discs[i].y) + ") m");

@@ -156,6 +156,13 @@ TEST(Layers, FewFilesKnowTheProcessor) {
   EXPECT_GE(found, 6u);
 }
 
+/// What a program compiles without optimisation and with -ffast-math would take their place.
+TEST(Layers, NumbersAreClassifiedByFunctionsOfOurs) {
+  for (const char* const top : {"layout", "kernel"})
+    for (const auto& [path, includes] : includes_below(top))
+      EXPECT_FALSE(std::regex_search(read(path), std::regex(R"re(std::is(finite|inf|nan)\()re"))) << path;
+}
+
 /// Folders include each other one way only: what is left when those that need no others are taken away, again and again, is a
 /// cycle.
 TEST(Layers, FoldersLookOneWay) {
@@ -301,6 +308,18 @@ TEST(Objects, NoCodeForWideRegistersCanReplaceOtherCode) {
 #endif
   }
   EXPECT_EQ(wide, std::string(BCH_ISA_NAME) == "x86" ? 3u : 0u);
+}
+
+TEST(Objects, NoFunctionOfEigenIsSharedWithPrograms) {
+  std::size_t ours = 0;
+  for (const fs::path& object : objects()) {
+    if (object.string().find("bch_baselines") != std::string::npos) continue;
+    for (const std::string& symbol : weak_code(object)) {
+      EXPECT_EQ(symbol.find("5Eigen"), std::string::npos) << object << ": " << symbol;
+      ours += symbol.find("9bch_eigen") != std::string::npos;
+    }
+  }
+  EXPECT_GT(ours, 0u);
 }
 
 TEST(Objects, NothingThatComputesAnAnswerFusesMultiplyAndAdd) {
