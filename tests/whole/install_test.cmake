@@ -36,6 +36,12 @@ endif()
 if(NOT EXISTS ${WORK}/bch/share/doc/bch/LICENSE)
   message(FATAL_ERROR "the licence is not installed")
 endif()
+if(EXISTS ${BUILD}/bench/bch.1)  # where help2man was found
+  file(READ ${WORK}/bch/share/man/man1/bch.1 manual)
+  if(NOT manual MATCHES "bch .- checks collisions.*SH OPTIONS.*Subcommands")
+    message(FATAL_ERROR "not the manual page of bch:\n${manual}")
+  endif()
+endif()
 
 # Each installed header compiles alone, and reads no header but the standard library's, its own, and that of the crowd on MPI MPI's.
 file(GLOB headers RELATIVE ${WORK}/bch/include ${WORK}/bch/include/*/*)
