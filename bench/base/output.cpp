@@ -20,14 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// `output` is what errors call the file.
-void require_unread(const std::string& output, const FileIdentity& identity,
-                    const std::vector<std::string>& inputs) {
-  for (const std::string& input : inputs)
-    if (identity_of(fs::path(input)) == identity)
-      throw UsageError(output + " would overwrite " + input + ", an input of this command");
-}
-
 /// Returns whether an input may be a model that reads this file as well: a buffer, materials, motions in its
 /// folder. Which ones a model names is not known before it is read.
 bool may_be_read_by(const fs::path& input, const fs::path& output) {
@@ -41,8 +33,8 @@ bool may_be_read_by(const fs::path& input, const fs::path& output) {
 
 }  // namespace
 
-void reject_output(const std::string& destination, int error) {
-  throw InputError(destination + ": cannot be written: " + std::strerror(error));
+void reject_output(const std::string& destination, int error, const std::string& where) {
+  throw InputError(destination + ": cannot be written: " + where + std::strerror(error));
 }
 
 void write_all(int descriptor, std::string_view text, const std::string& destination) {
@@ -82,29 +74,28 @@ void make_folder(const std::string& folder) {
 }
 
 void require_outputs(const std::vector<OutputOption>& outputs, const std::vector<std::string>& inputs) {
-  std::map<FileIdentity, std::string> written;  // and by whom
-  if (const auto file = identity_of(STDOUT_FILENO)) {
-    require_unread("standard output", *file, inputs);
-    written.emplace(*file, "standard output");
-  }
-  for (const auto& [name, file] : outputs) {
+  std::map<fs::path, std::string> written;  // and by which option
+  for (const OutputOption& output : outputs) {
+    const auto& [name, file] = output;
     if (file.empty()) continue;
     if (file == "-") throw UsageError(name + ": '-' is not a file");
-    const OutputPlace place = writable_place(file);
-    const auto identity = identity_of(place);
-    if (!identity) continue;
-    const auto [other, added] = written.emplace(*identity, name);
+    if (!is_replaced(file)) continue;
+    { const OutputFile tried(file); }
+    const fs::path place = fs::weakly_canonical(fs::absolute(file));
+    const auto [other, added] = written.emplace(place, name);
     if (!added) throw UsageError(other->second + " and " + name + ": " + file + " cannot be both");
-    require_unread(name + ": " + file, *identity, inputs);
+    require_unread(output, inputs);
     for (const std::string& input : inputs)
-      if (may_be_read_by(input, place.path))
+      if (may_be_read_by(input, place))
         throw UsageError(name + ": " + file + " lies beside " + input + ", which may need it");
   }
 }
 
 void require_unread(const OutputOption& output, const std::vector<std::string>& inputs) {
-  if (const auto identity = identity_of(fs::path(output.file)))
-    require_unread(output.name + ": " + output.file, *identity, inputs);
+  for (const std::string& input : inputs)
+    if (std::error_code none; fs::equivalent(output.file, input, none))
+      throw UsageError(output.name + ": " + output.file + " would overwrite " + input +
+                       ", an input of this command");
 }
 
 }  // namespace bch::cli

@@ -12,7 +12,7 @@ namespace bch::cli {
 
 /// Errors of all: throw InputError naming the destination and the reason.
 
-[[noreturn]] void reject_output(const std::string& destination, int error);
+[[noreturn]] void reject_output(const std::string& destination, int error, const std::string& where = {});
 
 /// Writes text for people to standard output: see printable().
 void write_standard_output(std::string_view text);
@@ -38,9 +38,8 @@ struct OutputOption {
 };
 
 /// Refuses, before anything is read, outputs that cannot be written or that would destroy something: an output that is
-/// also an input, or a buffer that lies beside one (glTF's .bin), and two outputs that are one file, whatever their
-/// names (links, other paths). Standard output is one of the outputs where it goes to a file. Devices may be named
-/// several times.
+/// also an input, by way of links and other paths as well, or a buffer that lies beside one (glTF's .bin), and two outputs
+/// of one path. Devices may be named several times.
 /// Inputs:  all files that the command is going to read; those that do not exist are left to their readers.
 /// Errors:  throws UsageError, and InputError as OutputFile does.
 void require_outputs(const std::vector<OutputOption>& outputs, const std::vector<std::string>& inputs);

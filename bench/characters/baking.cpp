@@ -12,14 +12,14 @@
 
 #include <bch/shape_set_builder.hpp>
 
+#include "bench/base/output_file.hpp"
 #include "bench/base/progress.hpp"
 #include "kernel/baking/pose_baker.hpp"
+#include "layout/baked/image.hpp"
 
 namespace bch::cli {
 ShapeSet bake_shapes(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,
-                     double threshold, const ShapeSetPlan& plan,
-                     const std::function<void(std::span<const float> nodes)>& added,
-                     const CostLimits& limits) {
+                     double threshold, const ShapeSetPlan& plan, const CostLimits& limits) {
   std::vector<detail::BakedCharacter> named;
   for (const LoadedCharacter& each : characters) named.push_back({&each.character, each.source});
   detail::PoseBaker baker(std::move(named), plan, static_cast<float>(threshold), limits.nodes);
@@ -29,10 +29,7 @@ ShapeSet bake_shapes(std::span<const LoadedCharacter> characters, std::span<cons
   steps.outlined = [&](std::size_t i, const Shape& outlines) {
     require_contours(characters[sources[i].character], sources[i].at, outlines, limits);
   };
-  steps.added = [&](std::size_t) {
-    if (added) added(builder.nodes());
-    progress.advance();
-  };
+  steps.added = [&](std::size_t) { progress.advance(); };
   try {
     baker.add(builder, sources, steps);
   } catch (const std::length_error& error) {
@@ -94,6 +91,21 @@ ShapeOrigins origins_of(std::span<const LoadedCharacter> characters, std::span<c
         {name, at.clip == PoseTime::rest ? ShapeOrigin::rest_pose : name + 1 + at.clip, at.seconds});
   }
   return origins;
+}
+
+BakedShapes bake_file(const std::string& file, std::span<const LoadedCharacter> characters,
+                      std::span<const ShapeSource> sources, double threshold, const ShapeSetPlan& plan,
+                      const CostLimits& limits, std::span<const ClipOf> animated) {
+  OutputFile output(file);  // before hours of work
+  AnimateOptions how;
+  how.slices = plan.slices;
+  BakedShapes baked{bake_shapes(characters, sources, threshold, plan, limits),
+                    origins_of(characters, sources, threshold), bake_clips(characters, animated, how)};
+  const detail::BakedImage image(baked.set, baked.origins, baked.clips);
+  for (const std::span<const std::byte> part : image.parts())
+    output.write({reinterpret_cast<const char*>(part.data()), part.size()});
+  output.commit();
+  return baked;
 }
 
 }  // namespace bch::cli

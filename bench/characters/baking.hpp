@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,13 +21,10 @@
 namespace bch::cli {
 
 /// Builds a set of all sources' shapes in parallel, with a progress bar. No more than some dozens of shapes a
-/// thread are in memory beside the set. The bytes are the same for any number of threads. `added` is called
-/// after every shape with all nodes so far, by any thread, one call at a time.
-/// Errors:  as ShapeMaker and `added` throw.
+/// thread are in memory beside the set. The bytes are the same for any number of threads.
+/// Errors:  as ShapeMaker throws.
 ShapeSet bake_shapes(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,
-                     double threshold, const ShapeSetPlan& plan,
-                     const std::function<void(std::span<const float> nodes)>& added = {},
-                     const CostLimits& limits = {});
+                     double threshold, const ShapeSetPlan& plan, const CostLimits& limits = {});
 
 /// Names a clip of one of several characters, by their indices.
 struct ClipOf {
@@ -73,5 +69,11 @@ std::vector<BakedClip> bake_clips(std::span<const LoadedCharacter> characters, s
 /// names.
 ShapeOrigins origins_of(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,
                         double threshold);
+
+/// Writes the results of bake_shapes(), origins_of() and, of clips that are to be moving discs as well, bake_clips() into a file.
+/// Errors:  as these, BakedImage and OutputFile throw.
+BakedShapes bake_file(const std::string& file, std::span<const LoadedCharacter> characters,
+                      std::span<const ShapeSource> sources, double threshold, const ShapeSetPlan& plan,
+                      const CostLimits& limits = {}, std::span<const ClipOf> animated = {});
 
 }  // namespace bch::cli

@@ -9,7 +9,7 @@
 #include "bench/base/options.hpp"
 #include "bench/base/output.hpp"
 #include "bench/base/threads.hpp"
-#include "bench/characters/baked_output.hpp"
+#include "bench/characters/baking.hpp"
 #include "bench/characters/characters.hpp"
 #include "bench/characters/cost_guard.hpp"
 #include "bench/cli/baked_report.hpp"

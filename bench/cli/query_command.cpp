@@ -186,7 +186,7 @@ void query_part(const CLI::App& command, QueryCommandOptions options,
   const PartFiles files = options.part.files();
   const nlohmann::ordered_json run = run_of(command, inputs);
   if (files.is_done(run)) return write_standard_output(files.done_line());
-  const FileLock lock = files.claim("query", inputs);
+  files.prepare("query", inputs);
   options.only = files.part();
   std::string table;
   answer_all(command, options, [&](const std::string& lines) { table += lines; });
@@ -250,7 +250,6 @@ void run_query(const CLI::App& command, const QueryCommandOptions& options) {
   options.only_direction(), options.heights_of_obstacles();
   const std::vector<std::string> inputs =
       options.shapes.inputs({options.character, options.agents, options.pairs, options.obstacles});
-  require_outputs({}, inputs);
   if (options.part.are_given()) return query_part(command, options, inputs);
   answer_all(command, options, write_standard_data);
 }

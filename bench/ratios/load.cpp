@@ -10,7 +10,7 @@
 
 #include <bch/baked.hpp>
 
-#include "bench/characters/baked_output.hpp"
+#include "bench/characters/baking.hpp"
 #include "bench/ratios/ratios.hpp"
 #include "layout/baked/checksum.hpp"
 #include "layout/baked/file_bytes.hpp"

@@ -45,7 +45,6 @@ void run_check(const CLI::App& command, const CheckCommandOptions& options) {
   require_absent(command, {"--events", "--frames", "--pairs", "--json", "--fail-above"},
                  "--part writes parts of all: it belongs to bch merge");
   require_absent(command, {"--html"}, "a page is not made in parts");
-  require_outputs({}, options.input.files());
   const Threads threads(options.threads);
   write_standard_output(
       check_part(options.input, options.part.files(), run_of(command, options.input.files())));

@@ -194,7 +194,7 @@ void add_rows(StreamedFile& table, const PartFiles& part, const char* kind) {
 std::string check_part(const CheckInput& input, const PartFiles& files, const Json& run) {
   const std::string name = files.part().name();
   if (files.is_done(run)) return files.done_line();
-  const FileLock lock = files.claim("check", input.files());
+  files.prepare("check", input.files());
   const OpenedCheck opened(input);
   CheckOptions how = opened.options(input);
   how.frames = frames_of(files.part(), opened.recording.info);

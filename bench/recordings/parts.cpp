@@ -234,14 +234,12 @@ std::string PartFiles::done_line() const {
   return fmt::format("{} is done already: {}\n", part_.name(), manifest());
 }
 
-FileLock PartFiles::claim(const std::string& command, const std::vector<std::string>& inputs) const {
+void PartFiles::prepare(const std::string& command, const std::vector<std::string>& inputs) const {
   make_folder(folder_);
-  const std::string lock = fmt::format(".part-{}-of-{}.lock", part_.number, part_.count);
-  std::vector<OutputOption> outputs{{"--into", manifest()}, {"--into", fs::path(folder_) / lock}};
+  std::vector<OutputOption> outputs{{"--into", manifest()}};
   for (const std::string& kind : kinds_of(command)) outputs.push_back({"--into", file(kind)});
   require_outputs(outputs, inputs);
   for (const std::string& kind : kinds_of(command)) require_regular(file(kind));
-  return {folder_, lock};
 }
 
 void PartFiles::begin() const {

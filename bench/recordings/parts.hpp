@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "bench/base/output_file.hpp"
 #include "bench/base/streamed_file.hpp"
 
 namespace bch::cli {
@@ -61,9 +60,9 @@ class PartFiles {
   /// Returns whether the part is there, whole, and of this run.
   bool is_done(const nlohmann::ordered_json& run) const;
   std::string done_line() const;  ///< tells that it is
-  /// Makes the folder, and keeps others from doing the part while the lock lives.
+  /// Makes the folder. Two processes may do one part at a time: each file is replaced by the same bytes.
   /// Errors:  throws UsageError where the part would overwrite an input.
-  FileLock claim(const std::string& command, const std::vector<std::string>& inputs) const;
+  void prepare(const std::string& command, const std::vector<std::string>& inputs) const;
   /// Takes away the manifest of another run.
   void begin() const;
   /// Writes the manifest. `share`: what the part did; `files`: the identity of each.

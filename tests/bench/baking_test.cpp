@@ -7,13 +7,12 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include "bench/base/exit_codes.hpp"
-#include "bench/characters/baked_output.hpp"
 #include "layout/baked/file_bytes.hpp"
 #include "layout/format/shape_set_view.hpp"
 #include "tests/support/baked_bytes.hpp"
 #include "tests/support/test.hpp"
 
-// Batches of poses: files that are written meanwhile, tasks that throw in the midst.
+// Batches of poses: their files, tasks that throw in the midst.
 
 namespace bch::cli {
 namespace {
@@ -81,7 +80,6 @@ std::string image(const BakedShapes& baked) {
   return test::BakedBytes(baked.set, baked.origins).text();
 }
 
-/// So many that most of the file is written before the last one is there.
 TEST_P(Baking, FilesHoldTheirImages) {
   const TemporaryFolder folder;
   const std::string file = folder.file("a.bch");
@@ -94,20 +92,6 @@ TEST_P(Baking, FilesHoldTheirImages) {
     EXPECT_EQ(image(baked),
               image({bake_shapes(characters, poses, 0.01, plan), origins_of(characters, poses, 0.01)}));
   }
-}
-
-/// Their nodes were written before it turned out that none are needed: many levels, so that there are enough
-/// nodes.
-TEST_P(Baking, FilesOfSingleDiscsHaveNoNodes) {
-  const TemporaryFolder folder;
-  const std::string file = folder.file("a.bch");
-  ShapeSetPlan plan;
-  plan.depths.resize(32);
-  std::iota(plan.depths.begin(), plan.depths.end(), 0u);
-  const BakedShapes baked =
-      arena.execute([&] { return bake_file(file, characters, sources(800, 800), 10, plan); });
-  EXPECT_TRUE(baked.set.roots_only());
-  EXPECT_EQ(content(file), image(baked));
 }
 
 TEST_P(Baking, FilesOfATaskThatThrowsAreAsTheyWere) {

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h>
-#include <sys/file.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "tests/support/bch_run.hpp"
 #include "tests/support/test.hpp"
 
-// Files of parts and tables: what they may not overwrite, who may write them, what is no part, what a signal leaves.
+// Files of parts and tables: what they may not overwrite, what is no part, what a signal leaves.
 
 namespace bch::test {
 namespace {
@@ -69,23 +66,7 @@ TEST_F(CliPartFiles, OverwriteNoInput) {
     EXPECT_EQ(read_text(agents), four_agents);
     fs::remove(part(kind));
   }
-  fs::create_symlink(part("frames.csv"), part("pairs.csv"));
-  expect_failure(do_part(), 2, {"cannot be both"});
-  fs::remove(part("pairs.csv"));
   EXPECT_EQ(do_part().code, 0);
-}
-
-TEST_F(CliPartFiles, OfOnePartAreWrittenByOneProcess) {
-  fs::create_directory(parts);
-  const std::string lock = parts + "/.part-1-of-1.lock";
-  const int held = open(lock.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
-  ASSERT_EQ(flock(held, LOCK_EX), 0);
-  expect_failure(do_part(), 3, {lock, "another process"});
-  EXPECT_FALSE(fs::exists(part("manifest.json")));
-  close(held);
-  EXPECT_EQ(do_part().code, 0);  // as after SIGKILL: the file is there, and nobody holds it
-  EXPECT_FALSE(fs::exists(lock));
-  EXPECT_EQ(bch({"merge", parts}).code, 0);
 }
 
 TEST_F(CliPartFiles, ThatNestDeeplyAreRefused) {
