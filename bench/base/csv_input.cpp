@@ -6,66 +6,22 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
-#include <cstdio>
-#include <cstring>
+#include <cmath>
 #include <initializer_list>
-#include <memory>
 #include <string_view>
-
-// The reader's own thread gains nothing here, and a program without threads may still fork.
-#define CSV_IO_NO_THREAD
-#include <libfccp/csv.h>
 
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/number.hpp"
 #include "layout/base/rounding.hpp"
+#include "layout/recordings/fields.hpp"
+#include "layout/recordings/line_reader.hpp"
 
 namespace bch::cli {
 namespace {
 
-template <unsigned columns>
-using Reader = io::CSVReader<columns, io::trim_chars<' ', '\t'>, io::double_quote_escape<',', '"'>,
-                             io::throw_on_overflow, io::empty_line_comment>;
-
-/// The bytes of a file for the reader, which takes a NUL byte for the end of a line and leaves out what follows.
-class TextBytes : public io::ByteSourceBase {
- public:
-  /// Errors of both: throw InputError naming the file, the reason, and the line of what is not text in UTF-8.
-  explicit TextBytes(const std::string& file)
-      : name_(file), file_(std::fopen(file.c_str(), "re"), std::fclose) {
-    if (file_ == nullptr)
-      throw InputError(fmt::format("{}: cannot be opened: {}", file, std::strerror(errno)));
-  }
-
-  int read(char* buffer, int size) override {
-    const std::size_t got = std::fread(buffer, 1, static_cast<std::size_t>(size), file_.get());
-    if (std::ferror(file_.get()) != 0)
-      throw InputError(fmt::format("{}: cannot be read: {}", name_, std::strerror(errno)));
-    check({buffer, got});
-    return static_cast<int>(got);
-  }
-
- private:
-  std::string name_;
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
-  bool begun_ = false;
-  std::size_t line_ = 1;  ///< of the next byte
-
-  void check(std::string_view bytes) {
-    if (!begun_ && (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff")))
-      reject("is UTF-16, not UTF-8");
-    begun_ = true;
-    const std::string_view text = bytes.substr(0, bytes.find('\0'));
-    line_ += static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
-    if (text.size() < bytes.size()) reject("has a NUL byte; is it UTF-16, not UTF-8?");
-  }
-
-  [[noreturn]] void reject(const char* reason) const {
-    throw InputError(fmt::format("{}:{}: {}", name_, line_, reason));
-  }
-};
+using detail::trajectory::Fields;
+using detail::trajectory::LineReader;
 
 /// The longest way of an agent: two agents' ways apart are within the limit of time_of_impact().
 constexpr double largest_way = detail::rounding::largest_position / 2;
@@ -73,10 +29,13 @@ constexpr double largest_way = detail::rounding::largest_position / 2;
 /// A place in a file, for messages.
 struct Place {
   const std::string& file;
-  unsigned line;
+  std::uint64_t line;
 
+  [[noreturn]] void reject(const std::string& reason) const {
+    throw InputError(fmt::format("{}:{}: {}", file, line, reason));
+  }
   [[noreturn]] void reject(const char* column, std::string_view value, const std::string& reason) const {
-    throw InputError(fmt::format("{}:{}: {} '{}' {}", file, line, column, value, reason));
+    reject(fmt::format("{} '{}' {}", column, value, reason));
   }
 };
 
@@ -99,41 +58,76 @@ std::uint32_t index_below(const Place& place, const char* column, std::string_vi
   return value;
 }
 
-/// What is wrong with a header that has this column. A file whose lines end with CR alone has a CR in the name of its
-/// last column.
-std::string unknown_column(std::string_view name) {
-  if (name.find('\r') != std::string_view::npos) return "ends lines with CR alone, not with LF or CR LF";
-  return fmt::format("column '{}' is not known", name);
-}
-
-/// Runs a reader; what it finds wrong becomes an InputError in this program's words.
-template <class Body>
-void with_csv_errors(const std::string& file, const Body& body) {
-  try {
-    body();
-  } catch (const io::error::header_missing&) {
-    throw InputError(file + ": is empty");
-  } catch (const io::error::missing_column_in_header& e) {
-    throw InputError(fmt::format("{}:1: has no column '{}'", file, e.column_name));
-  } catch (const io::error::extra_column_in_header& e) {
-    throw InputError(fmt::format("{}:1: {}", file, unknown_column(e.column_name)));
-  } catch (const io::error::duplicated_column_in_header& e) {
-    throw InputError(fmt::format("{}:1: column '{}' is there twice", file, e.column_name));
-  } catch (const io::error::too_few_columns& e) {
-    throw InputError(fmt::format("{}:{}: has fewer values than the header has columns", file, e.file_line));
-  } catch (const io::error::too_many_columns& e) {
-    throw InputError(fmt::format("{}:{}: has more values than the header has columns", file, e.file_line));
-  } catch (const io::error::escaped_string_not_closed& e) {
-    throw InputError(fmt::format("{}:{}: a quote is not closed", file, e.file_line));
-  } catch (const io::error::line_length_limit_exceeded& e) {
-    throw InputError(fmt::format("{}:{}: the line is too long", file, e.file_line));
+/// The rows of a table, whose first line names its columns in any order.
+class CsvRows {
+ public:
+  /// Takes the columns that may be there.
+  CsvRows(const std::string& file, std::vector<std::string_view> known)
+      : file_(file), known_(std::move(known)), places_{file, true}, lines_(places_) {
+    if (!read_fields()) throw InputError(file_ + ": is empty");
+    for (std::string& name : fields_) columns_.push_back(column_of(name));
   }
-}
 
-void add_agent(const Place& place, AgentTable& table, const char* id, std::uint32_t shape, double x, double y,
-               double heading) {
-  if (*id == '\0') place.reject("id", id, "is empty");
-  if (!table.index_of.emplace(id, static_cast<std::uint32_t>(table.id.size())).second)
+  bool has(std::string_view column) const { return std::ranges::count(columns_, column) > 0; }
+  void require(std::initializer_list<const char*> columns) const {
+    for (const char* name : columns)
+      if (!has(name)) place().reject(fmt::format("has no column '{}'", name));
+  }
+
+  /// Returns whether there was another row.
+  bool next() {
+    if (!read_fields()) return false;
+    if (fields_.size() != columns_.size())
+      place().reject(fmt::format("has {} values than the header has columns",
+                                 fields_.size() < columns_.size() ? "fewer" : "more"));
+    return true;
+  }
+  Place place() const { return {file_, lines_.number()}; }
+  /// Returns a value of the row; empty without that column.
+  std::string_view operator[](std::string_view column) const {
+    const auto found = std::ranges::find(columns_, column);
+    return found == columns_.end() ? std::string_view()
+                                   : fields_[static_cast<std::size_t>(found - columns_.begin())];
+  }
+
+ private:
+  std::string_view column_of(const std::string& name) const {
+    // A file whose lines end with CR alone has a CR in the name of its last column.
+    if (name.find('\r') != std::string::npos)
+      place().reject("ends lines with CR alone, not with LF or CR LF");
+    if (has(name)) place().reject(fmt::format("column '{}' is there twice", name));
+    const auto found = std::ranges::find(known_, name);
+    if (found == known_.end()) place().reject(fmt::format("column '{}' is not known", name));
+    return *found;
+  }
+
+  /// Takes the fields of the next line that is not empty; two quotes within quotes stand for one.
+  bool read_fields() {
+    std::string_view line;
+    do
+      if (!lines_.next(line)) return false;
+    while (detail::trajectory::trimmed(line).empty());
+    fields_.clear();
+    Fields fields(line, ',');
+    for (std::string_view field; fields.next(field);) {
+      std::string& kept = fields_.emplace_back(field);
+      for (std::size_t at = 0; (at = kept.find("\"\"", at)) != std::string::npos; ++at) kept.erase(at, 1);
+    }
+    if (fields.is_broken()) place().reject("a quote is not closed");
+    return true;
+  }
+
+  const std::string& file_;
+  std::vector<std::string_view> known_, columns_;
+  detail::trajectory::Places places_;
+  LineReader lines_;
+  std::vector<std::string> fields_;
+};
+
+void add_agent(const Place& place, AgentTable& table, std::string_view id, std::uint32_t shape, double x,
+               double y, double heading) {
+  if (id.empty()) place.reject("id", id, "is empty");
+  if (!table.index_of.emplace(std::string(id), static_cast<std::uint32_t>(table.id.size())).second)
     place.reject("id", id, "is there twice");
   table.id.emplace_back(id);
   table.shape.push_back(shape);
@@ -145,56 +139,45 @@ void add_agent(const Place& place, AgentTable& table, const char* id, std::uint3
 }  // namespace
 
 AgentTable read_agents(const std::string& file, std::uint32_t shapes, std::uint32_t levels, bool moving) {
+  constexpr double largest_position = detail::rounding::largest_position;
   AgentTable table;
-  with_csv_errors(file, [&] {
-    Reader<9> reader(file, std::make_unique<TextBytes>(file));
-    reader.read_header(io::ignore_missing_column, "id", "shape", "x", "y", "heading", "z", "level", "dx",
-                       "dy");
-    const auto require_columns = [&](std::initializer_list<const char*> names) {
-      for (const char* name : names)
-        if (!reader.has_column(name)) throw InputError(fmt::format("{}:1: has no column '{}'", file, name));
+  CsvRows rows(file, {"id", "shape", "x", "y", "heading", "z", "level", "dx", "dy"});
+  rows.require({"id", "shape", "x", "y", "heading"});
+  const bool has_z = rows.has("z"), has_level = rows.has("level");
+  const bool has_way = moving || rows.has("dx") || rows.has("dy");
+  if (has_way) rows.require({"dx", "dy"});
+  while (rows.next()) {
+    const Place place = rows.place();
+    const auto number = [&](const char* column, double limit) {
+      return number_within(place, column, rows[column], limit);
     };
-    require_columns({"id", "shape", "x", "y", "heading"});
-    const bool has_z = reader.has_column("z");
-    const bool has_level = reader.has_column("level");
-    const bool has_way = moving || reader.has_column("dx") || reader.has_column("dy");
-    if (has_way) require_columns({"dx", "dy"});
-    char *id = nullptr, *shape = nullptr, *x = nullptr, *y = nullptr, *heading = nullptr, *z = nullptr,
-         *level = nullptr, *dx = nullptr, *dy = nullptr;
-    while (reader.read_row(id, shape, x, y, heading, z, level, dx, dy)) {
-      const Place place{file, reader.get_file_line()};
-      add_agent(place, table, id, index_below(place, "shape", shape, shapes),
-                number_within(place, "x", x, detail::rounding::largest_position),
-                number_within(place, "y", y, detail::rounding::largest_position),
-                number_within(place, "heading", heading, detail::rounding::largest_heading));
-      if (has_z) table.z.push_back(number_within(place, "z", z, detail::rounding::largest_position));
-      if (has_level)
-        table.level.push_back(static_cast<std::uint8_t>(index_below(place, "level", level, levels)));
-      if (!has_way) continue;
-      table.dx.push_back(number_within(place, "dx", dx, largest_way));
-      table.dy.push_back(number_within(place, "dy", dy, largest_way));
-    }
-  });
+    add_agent(place, table, rows["id"], index_below(place, "shape", rows["shape"], shapes),
+              number("x", largest_position), number("y", largest_position),
+              number("heading", detail::rounding::largest_heading));
+    if (has_z) table.z.push_back(number("z", largest_position));
+    if (has_level)
+      table.level.push_back(static_cast<std::uint8_t>(index_below(place, "level", rows["level"], levels)));
+    if (!has_way) continue;
+    table.dx.push_back(number("dx", largest_way));
+    table.dy.push_back(number("dy", largest_way));
+  }
   return table;
 }
 
 std::vector<Pair> read_pairs(const std::string& file, const AgentTable& agents) {
   std::vector<Pair> pairs;
-  with_csv_errors(file, [&] {
-    Reader<2> reader(file, std::make_unique<TextBytes>(file));
-    reader.read_header(io::ignore_no_column, "first", "second");
-    char *first = nullptr, *second = nullptr;
-    while (reader.read_row(first, second)) {
-      const Place place{file, reader.get_file_line()};
-      const auto index = [&](const char* column, const char* id) {
-        const auto found = agents.index_of.find(id);
-        if (found == agents.index_of.end()) place.reject(column, id, "is not the id of an agent");
-        return found->second;
-      };
-      const std::uint32_t a = index("first", first);
-      pairs.push_back({a, index("second", second)});
-    }
-  });
+  CsvRows rows(file, {"first", "second"});
+  rows.require({"first", "second"});
+  while (rows.next()) {
+    const auto index = [&](const char* column) {
+      const auto found = agents.index_of.find(std::string(rows[column]));
+      if (found == agents.index_of.end())
+        rows.place().reject(column, rows[column], "is not the id of an agent");
+      return found->second;
+    };
+    const std::uint32_t first = index("first");
+    pairs.push_back({first, index("second")});
+  }
   return pairs;
 }
 

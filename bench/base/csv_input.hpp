@@ -27,7 +27,7 @@ struct AgentTable {
 
 /// Both readers below take any order of columns, spaces around values, quotes as spreadsheets write them,
 /// empty lines, and either kind of line ending.
-/// Errors:  throw InputError naming file, line and value.
+/// Errors:  throw InputError naming file, line and value, and TrajectoryError on what is no text in UTF-8.
 
 /// Reads the columns id,shape,x,y,heading[,z][,level][,dx,dy]. An id is any text, unique; shapes are below
 /// `shapes`, levels below `levels`, the rest within the limits of collide() and, for every two agents, of

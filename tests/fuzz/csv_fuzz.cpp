@@ -11,6 +11,7 @@
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/printable.hpp"
 #include "layout/base/rounding.hpp"
+#include "layout/recordings/trajectory.hpp"
 #include "tests/fuzz/memory_file.hpp"
 #include "tests/fuzz/target.hpp"
 
@@ -66,6 +67,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
       fuzz::require(a < table.id.size() && b < table.id.size(), "pairs are of agents");
     fuzz::require(second.find('\0') == std::string::npos, "no byte behind a NUL byte is left out");
   } catch (const cli::InputError& error) {
+    fuzz::require(*error.what() != '\0', "errors say something");
+  } catch (const detail::TrajectoryError& error) {  // no text
     fuzz::require(*error.what() != '\0', "errors say something");
   }
   return 0;
