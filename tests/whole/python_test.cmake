@@ -65,7 +65,7 @@ else()
     endif()
   endforeach()
 endif()
-run(${in_work} ${python} ${SOURCE}/bench/python/ratios.py ${BUILD}/libbch_cpp_calls.so --quick)
+run(${in_work} ${python} ${SOURCE}/bench/python/ratios.py --quick)
 message(STATUS "${output}")
 
 find_program(mypy mypy PATHS /usr/bin NO_DEFAULT_PATH)
