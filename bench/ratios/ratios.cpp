@@ -67,7 +67,6 @@ int run(int argc, char** argv) {
   add_crowds(scene);
   add_bodies();
   add_obstacles(scene);
-  add_motions(scene);
   add_moments(scene);
   add_sets(scene);
   add_live(scene);

@@ -63,8 +63,6 @@ void add_crowds(Scene& scene);
 void add_bodies();
 /// obstacles/<query>: a crowd on a floor plan.
 void add_obstacles(Scene& scene);
-/// motions/<first_contact|sampled>/<free|touching>, motions/bytes: people who walk, as animated shapes.
-void add_motions(Scene& scene);
 /// moments/<poses|shown|grid|own>: a crowd of animated shapes at times of a walk.
 void add_moments(Scene& scene);
 /// plans/<plan>/<bake|query>: sets by different plans; slices/<slabs>/<workload>/<leaves>, slices/<slabs>/build: bodies

@@ -58,11 +58,6 @@ obstacles | obstacles/collide | <= 60
 obstacles | obstacles/{clearance,clearance_unlimited} | <= 200
 obstacles | obstacles/clearance_exact |
 obstacles | obstacles/loop / obstacles/collide | >= 500
-motions | motions/bytes#over_30 | <= 0.6
-motions | motions/bytes#over_{10,120} |
-motions | motions/first_contact/free | <= 20000
-motions | motions/first_contact/touching | <= 30000
-motions | motions/sampled/{free,touching} / motions/first_contact/{1} | >= 20
 bodies | bodies/find_all | <= 10000
 bodies | bodies/loop / bodies/find_all | >= 20
 shapes | shapes/5000 / shapes/200 | <= 1.8

@@ -28,6 +28,7 @@ using bench::AnimatedClip;
 constexpr double millimetres = 1000;  // of a metre
 constexpr double rates[] = {10, 30, 120};
 constexpr double sample_rates[] = {30, 120, 1000};
+constexpr std::uint32_t checked_pairs = 40;
 
 /// How long the parts of clips are, seconds, for each pose of a character.
 double clip_seconds(const Run& run, double of_a_pose) {
@@ -95,9 +96,10 @@ void add_storage(Run& run, std::span<const AnimatedClip> clips, const std::strin
   }
 }
 
-/// Returns how long one of so many takes, on one thread.
+/// Returns how long one of so many takes, on one thread; NaN of none.
 template <class Work>
 double microseconds_of(std::size_t count, Work work) {
+  if (count == 0) return unknown;
   return tbb::task_arena(1).execute([&] {
     const bench::Stopwatch watch(1);
     work();
@@ -105,20 +107,29 @@ double microseconds_of(std::size_t count, Work work) {
   });
 }
 
-/// Compares first_contact() with samples of the nearest pose.
+/// Compares first_contact() with samples of the nearest pose; the times of pairs that touch, and of those that do not, aside.
 void measure_contacts(Run& run, const bench::MotionScene& scene) {
+  scene.check(checked_pairs);
   Table table({"samples a second", "pair", "first contact (s)", "first sample that collides (s)"});
-  Table costs({"how", "a pair (us)"});
-  std::vector<double> times(scene.pairs().size()), found(times.size());
-  costs.add({"first contact", microseconds_of(times.size(), [&] {
-               first_contact(scene.motions(), scene.pairs(), bench::MotionScene::interval, times);
-             })});
+  Table costs({"how", "pairs", "a pair (us)"});
+  std::vector<double> found(scene.pairs().size());
+  const auto time = [&](const std::string& how, const auto& search) {
+    for (const bool touching : {false, true}) {
+      const std::vector<Pair> asked = scene.pairs(touching);
+      costs.add({how, touching ? "touching" : "free", microseconds_of(asked.size(), [&] { search(asked); })});
+    }
+    search(scene.pairs());
+  };
+  time("first contact", [&](std::span<const Pair> pairs) {
+    first_contact(scene.motions(), pairs, bench::MotionScene::interval, std::span(found).first(pairs.size()));
+  });
+  const std::vector<double> times = found;
   for (const double rate : sample_rates) {
     const bench::SampledMotions sampled(scene, rate, rate);
-    costs.add({fmt::format("{:g} samples a second", rate), microseconds_of(times.size(), [&] {
-                 std::ranges::transform(scene.pairs(), found.begin(),
-                                        [&](const Pair& pair) { return sampled.first_contact(pair); });
-               })});
+    time(fmt::format("{:g} samples a second", rate), [&](std::span<const Pair> pairs) {
+      std::ranges::transform(pairs, found.begin(),
+                             [&](const Pair& pair) { return sampled.first_contact(pair); });
+    });
     for (std::size_t i = 0; i < found.size(); ++i) table.add({rate, i, times[i], found[i]});
   }
   run.write("motions_contacts", table);

@@ -342,8 +342,9 @@ def motions(data, out):
                       "contacts missed": len(touching) - len(late), "lateness, least (ms)": min(late, default=math.nan),
                       "lateness, mean (ms)": sum(late) / len(late) if late else math.nan,
                       "lateness, most (ms)": max(late, default=math.nan),
-                      "sampled (us)": costs.value("a pair (us)", how=f"{rate:g} samples a second"),
-                      "first contact (us)": costs.value("a pair (us)", how="first contact")})
+                      **{f"{how}, {pairs} pair (us)": costs.value("a pair (us)", how=each, pairs=pairs)
+                         for how, each in (("sampled", f"{rate:g} samples a second"), ("first contact", "first contact"))
+                         for pairs in ("touching", "free")}})
     out["motions_contacts"] = table
     out["motions_slide"] = data.subjects("motions")
 

@@ -21,7 +21,7 @@ endfunction()
 
 set(script ${PYTHON} ${SCRIPT})
 run(0 ${script} --program ${RATIOS} --runs 1 -- ${sizes} --benchmark_filter=-shapes/50000)
-foreach(table kernel leaves peers calls crowd distances responses obstacles motions bodies shapes plans slices live construction growth load
+foreach(table kernel leaves peers calls crowd distances responses obstacles bodies shapes plans slices live construction growth load
     moments checks paper)
   expect_output("# ${table}: 1 runs")
 endforeach()
@@ -31,7 +31,7 @@ expect_output("collide/colliding: boundary/reference / solid/discs/sse2 +[0-9.]+
   "live/1000 [^\n]*shapes_ms" "collide_all/crowd/[a-z0-9]+ / collide/crowd" "obb_contour / reference +[0-9.]+ x +4630 ns")
 
 # Here of what no table tells.
-run(0 ${RATIOS} ${sizes} --benchmark_min_time=0.0001 --benchmark_filter=-^\(check|crowd|growth|live|motions|shapes|threads\)/)
+run(0 ${RATIOS} ${sizes} --benchmark_min_time=0.0001 --benchmark_filter=-^\(check|crowd|growth|live|shapes|threads\)/)
 set(names penetration/colliding/reference contacts/crowd/scalar collide_all/crowd/sse2 load/checksum_alone plans/all/bake
   construction/1/sse2/hierarchy_welzl)
 foreach(workload colliding near_miss no_hit crowd candidates paper500 paper500_cached)
