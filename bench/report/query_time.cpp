@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <oneapi/tbb/info.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include "bench/report/subjects.hpp"
 #include "bench/workload/answer_checks.hpp"
 #include "bench/workload/contender.hpp"
@@ -17,13 +14,14 @@ constexpr std::string_view paper_workloads[] = {"paper500", "paper500_cached", "
 
 /// Against brute force, disc by disc.
 void require_right(Run& run, const Subject& kernel, const QueryOptions& query,
-                   const bench::Workload& workload, int threads = 1) {
-  bench::Hits hits;
-  tbb::task_arena(threads).execute([&] { hits = answers(kernel, workload); });
-  bench::require_right(kernel_name, workload, bench::wrong_kernel(run.scene, workload, query, hits));
+                   const bench::Workload& workload) {
+  bench::require_right(kernel_name, workload,
+                       bench::wrong_kernel(run.scene, workload, query, answers(kernel, workload)));
 }
 
-void time_structures(Run& run) {
+}  // namespace
+
+void run_query_time(Run& run) {
   const auto& bodies = run.scene.bodies();
   const auto leaf_discs = baselines::kind("bch_projected").build(bodies, {.projected_triangles = false});
   std::vector<Subject> subjects = {subject_of(kernel_name, run.scene.set()),
@@ -46,37 +44,6 @@ void time_structures(Run& run) {
     tables.time_pairs(workload);
   }
   tables.write("query_time");
-}
-
-/// Every instruction set, by one thread and by two where there are two.
-void time_kernels(Run& run) {
-  Table table({"instruction set", "semantics", "leaves", "pairs", "threads", "run", "ns/pair"});
-  for (const Leaves leaves : {Leaves::discs, Leaves::segments})
-    for (const Semantics semantics : {Semantics::boundary, Semantics::solid})
-      for (const std::string_view name : {"colliding", "near_miss", "crowd"})
-        for (int threads = 1; threads <= std::min(tbb::info::default_concurrency(), 2); ++threads) {
-          const bench::Workload& workload = run.scene.workload(name);
-          std::vector<Subject> subjects;
-          for (const Implementation& one : implementations()) {
-            if (!one.supported()) continue;
-            const QueryOptions query{semantics, &one, leaves};
-            subjects.push_back(subject_of(one.name, run.scene.set(), query));
-            require_right(run, subjects.back(), query, workload, threads);
-          }
-          const auto taken = times(subjects, workload, run.sizes().runs, threads);
-          for (std::size_t i = 0; i < subjects.size(); ++i)
-            for (std::size_t k = 0; k < taken[i].size(); ++k)
-              table.add({subjects[i].structure, bench::name_of(semantics), bench::name_of(leaves), name,
-                         threads, k, taken[i][k]});
-        }
-  run.write("query_time_kernel", table);
-}
-
-}  // namespace
-
-void run_query_time(Run& run) {
-  time_structures(run);
-  time_kernels(run);
 }
 
 }  // namespace bch::report

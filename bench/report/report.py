@@ -233,10 +233,6 @@ def query_time(data, out):
     out["query_time"] = data.subjects("query_time")
     for row in out["query_time"]:
         row["the paper (ns/pair)"] = PAPER_TIMES.get(row["structure"], math.nan)
-    columns = "instruction set", "semantics", "leaves", "pairs", "threads"
-    out["query_time_kernel"] = Table(
-        {**dict(zip(columns, of)), **spread(runs.column("ns/pair"), "ns/pair", "time")}
-        for of, runs in data["query_time_kernel"].groups(*columns).items())
 
 
 def distance(data, out):
@@ -521,21 +517,6 @@ def draw_query_time(data, out):
     ax.plot(rows.column("the paper (ns/pair)"), range(len(rows)), "x", color="#e03030", markersize=9, markeredgewidth=2,
             label="the paper")
     legend(ax, 5)
-
-
-@draws("query_time_kernel", "The batch kernel by instruction set: discs as leaves, semantics boundary, one thread.")
-def draw_kernels(data, out):
-    ax = chart("", "time of a pair, one thread (ns)")
-    asked = "colliding", "near_miss", "crowd"
-    rows = out["query_time_kernel"].where(semantics="boundary", leaves="discs", threads=1)
-    sets = rows.groups("instruction set")
-    for i, (name, of) in enumerate(sets.items()):
-        width = 0.8 / len(sets)
-        ax.bar([x + (i + 0.5) * width - 0.4 for x in range(3)], [of.value("ns/pair", pairs=pairs) for pairs in asked],
-               width * 0.92, color=COLOURS[1 + i], label=name)
-    ax.set_xticks(range(3), [pairs.replace("_", " ") for pairs in asked])
-    ax.grid(axis="x", visible=False)
-    legend(ax, 4)
 
 
 @draws("distance", "Distance of the meshes at detection: median, quartiles (box), 5 % and 95 % (whiskers), mean (diamond) and the paper's mean (cross).", wide=True)

@@ -50,13 +50,10 @@ MeanTests mean_tests(const baselines::Structure& structure, const bench::Workloa
   return {each(counts.nodes), each(counts.leaves)};
 }
 
-/// Times a call in an arena of its own size: with one thread, the caller's time is then all of the time that
-/// the call takes. Other threads are woken first, which takes about a millisecond and does not happen between
-/// the frames of a simulation.
-double time_run(const std::function<void()>& call, int threads) {
-  tbb::task_arena arena(threads);
-  if (threads > 1) arena.execute(call);
-  const bench::Stopwatch watch(threads);
+/// Returns how long a call takes on one thread, nanoseconds: the thread's own time.
+double time_run(const std::function<void()>& call) {
+  tbb::task_arena arena(1);
+  const bench::Stopwatch watch(1);
   std::uint32_t calls = 0;
   do {
     arena.execute(call);
@@ -162,20 +159,6 @@ void require_same(const Subject& a, const Subject& b, const bench::Workload& wor
     throw std::logic_error(workload.name + ": two answers to the same question differ");
 }
 
-std::vector<std::vector<double>> times(std::span<const Subject> subjects, const bench::Workload& workload,
-                                       std::uint32_t runs, int threads) {
-  bench::Hits hits(workload.pairs.size());
-  std::vector<std::vector<double>> taken(subjects.size());
-  for (const Subject& subject : subjects)
-    subject.answer(workload.agents(), workload.pairs, hits);  // caches, page faults
-  for (std::uint32_t run = 0; run < runs; ++run)
-    for (std::size_t i = 0; i < subjects.size(); ++i)
-      taken[i].push_back(
-          time_run([&] { subjects[i].answer(workload.agents(), workload.pairs, hits); }, threads) /
-          static_cast<double>(workload.pairs.size()));
-  return taken;
-}
-
 void SubjectTables::add(std::span<const Subject> subjects, const std::string& of) {
   subjects_ = subjects, first_ = count_;
   for (const Subject& s : subjects)
@@ -195,10 +178,12 @@ void SubjectTables::count_pairs(const bench::Workload& workload) {
 
 void SubjectTables::time_pairs(const bench::Workload& workload) {
   count_pairs(workload);
-  const auto taken = times(subjects_, workload, run_.sizes().runs);
-  for (std::size_t i = 0; i < taken.size(); ++i)
-    for (std::size_t run = 0; run < taken[i].size(); ++run)
-      times_.add({first_ + i, workload.name, run, taken[i][run]});
+  bench::Hits hits(workload.pairs.size());  // counting has warmed caches
+  for (std::uint32_t run = 0; run < run_.sizes().runs; ++run)
+    for (std::size_t i = 0; i < subjects_.size(); ++i) {
+      const double taken = time_run([&] { subjects_[i].answer(workload.agents(), workload.pairs, hits); });
+      times_.add({first_ + i, workload.name, run, taken / static_cast<double>(hits.size())});
+    }
 }
 
 std::vector<std::vector<double>> SubjectTables::slide(const SlideCases& cases,

@@ -70,12 +70,6 @@ bench::Hits answers(const Subject& subject, const bench::Workload& workload);
 /// Errors:  throws std::logic_error naming the workload where the two answer some pair differently.
 void require_same(const Subject& a, const Subject& b, const bench::Workload& workload);
 
-/// Returns the nanoseconds a pair of each subject in each run. All of them are timed in turn, so that what slows the machine down for a
-/// while slows all of them, and ratios stay. A run takes 10 ms at least.
-/// Threads: each call runs in an arena of that many, whose time Stopwatch takes.
-std::vector<std::vector<double>> times(std::span<const Subject> subjects, const bench::Workload& workload,
-                                       std::uint32_t runs, int threads = 1);
-
 /// Collects the tables of an experiment over subjects, whose rows refer to subjects by number:
 ///   NAME.csv         what the subjects are
 ///   NAME_pairs.csv   their hits and tests of the pairs of workloads
@@ -88,6 +82,7 @@ class SubjectTables {
   /// Adds subjects, which all that follows is of. `of`: what they are made of.
   void add(std::span<const Subject> subjects, const std::string& of = "");
   void count_pairs(const bench::Workload& workload);
+  /// Times all subjects in turn, so that what slows the machine down for a while slows all of them, and ratios stay.
   void time_pairs(const bench::Workload& workload);
   /// Lets every subject end the slides. Returns: the places, a subject.
   std::vector<std::vector<double>> slide(const SlideCases& cases, const baselines::PairDistances& distances);
