@@ -16,20 +16,6 @@ import numpy as np
 from bch._library import lib
 
 
-def c_call(name, ask):
-    """The call of the C function in which a call of the package ends: with the same arguments, which have to live on."""
-    function, seen = getattr(lib, name), []
-
-    def record(*arguments):
-        seen.append(arguments)
-        return function(*arguments)
-
-    setattr(lib, name, record)
-    ask()
-    setattr(lib, name, function)
-    return lambda: function(*seen[0])
-
-
 def crowd_of(people, n, density):
     random = np.random.default_rng(n)
     side = (n / density) ** 0.5
@@ -43,14 +29,30 @@ def nanoseconds(call):
     return 1e9 * (time.perf_counter() - begin)
 
 
+def times_of(ask, function):
+    """Returns how long a call of the package takes, and within it the C function that it calls."""
+    called, inside = getattr(lib, function), []
+
+    def timed(*arguments):
+        begin = time.perf_counter()
+        status = called(*arguments)
+        inside.append(1e9 * (time.perf_counter() - begin))
+        return status
+
+    setattr(lib, function, timed)
+    try:
+        return nanoseconds(ask), inside[0]
+    finally:
+        setattr(lib, function, called)
+
+
+def medians_of(ask, function, rounds):
+    return map(statistics.median, zip(*(times_of(ask, function) for _ in range(rounds))))
+
+
 def compare(name, ask, function, rounds, bar):
-    """Takes turns. The ratio is that of the medians."""
-    call, mine, theirs = c_call(function, ask), [], []
-    for _ in range(rounds):
-        theirs.append(nanoseconds(call))
-        mine.append(nanoseconds(ask))
-    ours, others = statistics.median(mine), statistics.median(theirs)
-    print(f"{name}: Python {ours / 1e6:.2f} ms, C {others / 1e6:.2f} ms: {ours / others:.3f} x   (at most {bar} x)", flush=True)
+    whole, inside = medians_of(ask, function, rounds)
+    print(f"{name}: Python {whole / 1e6:.2f} ms, C {inside / 1e6:.2f} ms: {whole / inside:.3f} x   (at most {bar} x)", flush=True)
 
 
 def many_pairs(people, rounds, pairs_wanted):
@@ -72,14 +74,8 @@ def whole_crowd(people, rounds, n):
 
 def one_pair(people):
     agents, pairs, out = crowd_of(people, 2, 3), np.array([[0, 1]], np.uint32), np.empty(1, bool)
-    ask = lambda: bch.collide(people, agents, pairs, out=out)
-    call = c_call("bch_collide", ask)
-    c, python = [], []
-    for _ in range(20_000):
-        c.append(nanoseconds(call))
-        python.append(nanoseconds(ask))
-    ours, others = statistics.median(python), statistics.median(c)
-    print(f"one pair: Python {ours / 1000:.2f} us, C {others / 1000:.2f} us: {(ours - others) / 1000:.2f} us more   (at most 5)")
+    whole, inside = medians_of(lambda: bch.collide(people, agents, pairs, out=out), "bch_collide", 20_000)
+    print(f"one pair: Python {whole / 1000:.2f} us, C {inside / 1000:.2f} us: {(whole - inside) / 1000:.2f} us more   (at most 5)")
 
 
 def two_threads(people, pairs_wanted):
