@@ -13,6 +13,7 @@
 
 #include "kernel/runtime/progress_report.hpp"
 #include "kernel/runtime/task_ranges.hpp"
+#include "layout/base/number_class.hpp"
 #include "layout/character/skinning.hpp"
 #include "layout/outline/mesh_outliner.hpp"
 
@@ -50,8 +51,8 @@ std::vector<Outline> make_all(std::size_t count, const OutlineOptions& options, 
 /// A mesh's first pose, which tells what vertices are near each other. A number that is none is for the pose itself to refuse, and a
 /// height that nobody looks at may be one.
 std::vector<Vec3> bind_pose(std::span<const Vec3> vertices, const OutlineOptions& options) {
-  const bool is_flat = std::isinf(options.between.bottom) && std::isinf(options.between.top);
-  const auto number = [](float value) { return std::isfinite(value) ? value : 0; };
+  const bool is_flat = is_infinite(options.between.bottom) && is_infinite(options.between.top);
+  const auto number = [](float value) { return is_finite(value) ? value : 0; };
   std::vector<Vec3> bind;
   bind.reserve(vertices.size());
   for (const auto& [x, y, z] : vertices) bind.push_back({number(x), number(y), is_flat ? 0 : number(z)});

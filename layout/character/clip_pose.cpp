@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "layout/base/number_class.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/character/affine_rows.hpp"
 #include "layout/character/rotation_blend.hpp"
@@ -92,7 +93,7 @@ double total_weight(std::span<const WeightedPose> poses) {
   double total = 0;
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const float weight = poses[i].weight;
-    if (!(weight >= 0 && std::isfinite(weight)))
+    if (!(weight >= 0 && is_finite(weight)))
       throw std::invalid_argument("blend: expected weights from 0 on, found " + shortest(weight) +
                                   " of pose " + std::to_string(i));
     total += static_cast<double>(weight);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "layout/base/number_class.hpp"
 #include "layout/character/affine_rows.hpp"
 #include "layout/character/eigen.hpp"
 
@@ -47,7 +48,7 @@ Affine3d finite_map(const Transforms& maps, std::size_t i, const char* what) {
   const Affine3d map = maps[i];
   bool finite = true;
   for (const auto& row : map.rows)
-    for (const double number : row) finite = finite && std::isfinite(number);
+    for (const double number : row) finite = finite && is_finite(number);
   require_finite(finite, what, i);
   return map;
 }
@@ -67,9 +68,7 @@ void put(const Vec3& position, Vec2& to) {
 
 template <class Position>
 void take_vertices(std::span<const Vec3> from, std::vector<Position>& to) {
-  const auto is_finite = [](const Vec3& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-  };
+  const auto is_finite = [](const Vec3& v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.z); };
   constexpr const char* what = "posed vertices";
   require_count(to.size(), what, from.size());
   unsigned finite = 1;  // all of them, so that the loop is done by whole registers
@@ -140,7 +139,7 @@ void Skinner::place(const WorldPose& pose) {
 void Skinner::place(const SkinningPalette& pose) {
   constexpr const char* what = "bone matrices";
   require_count(character_->bones.size(), what, pose.bones.size());
-  require_finite(std::isfinite(pose.x) && std::isfinite(pose.y), "origins", 0);
+  require_finite(is_finite(pose.x) && is_finite(pose.y), "origins", 0);
   for (std::size_t b = 0; b < bone_to_shape_.size(); ++b) {
     bone_to_shape_[b] = finite_map(pose.bones, blend_.bones()[b], what);
     move_on_ground(bone_to_shape_[b], -pose.x, -pose.y);

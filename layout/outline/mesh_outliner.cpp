@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "layout/base/number_class.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/outline/grid_snap.hpp"
 #include "layout/outline/union_rings.hpp"
@@ -20,8 +21,8 @@ MeshOutliner::MeshOutliner(std::span<const std::array<std::uint32_t, 3>> triangl
   if (!(bottom < top))
     throw std::invalid_argument("outline: between " + shortest(bottom) + " and " + shortest(top) +
                                 " m there is nothing");
-  if (std::isfinite(bottom)) planes_.push_back(bottom), slab_ = 1;
-  if (std::isfinite(top)) planes_.push_back(top);
+  if (is_finite(bottom)) planes_.push_back(bottom), slab_ = 1;
+  if (is_finite(top)) planes_.push_back(top);
   if (!options.holes) {
     builder_.emplace(triangles, bind_pose.size(), bind_pose);
     return;
