@@ -29,7 +29,8 @@ class PoseShaper {
   /// not divided.
   /// Errors:  throws std::invalid_argument on a bad plan.
   explicit PoseShaper(const Character& character, const ShapeSetPlan& plan = {}, float threshold = 0.01f);
-  PoseShaper(const Character&&, const ShapeSetPlan& = {}, float = 0.01f) = delete;  ///< nothing would keep the character
+  /// Refuses a character that nothing would keep.
+  PoseShaper(const Character&&, const ShapeSetPlan& = {}, float = 0.01f) = delete;
   PoseShaper(PoseShaper&&) noexcept;
   PoseShaper& operator=(PoseShaper&&) noexcept;
   ~PoseShaper();
