@@ -32,7 +32,7 @@ class ClearanceReference {
   /// than the nearest so far. Not for two threads at a time.
   Clearance query(const Agents& agents, Pair pair, double max_distance, Method method);
 
-  /// Returns what within() says of a pair in boundary semantics.
+  /// Returns what within() says of a pair of which neither outline holds the other.
   bool within(const Agents& agents, Pair pair, double distance, Method method);
 
  private:

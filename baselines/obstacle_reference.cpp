@@ -117,7 +117,30 @@ bool ObstacleReference::collides(const Agents& agents, std::uint32_t agent,
     if (std::all_of(path.begin(), path.end(), overlaps) && (!exact || outline_overlaps(list.nodes[i])))
       return true;
   }
-  return false;
+  return outline_holds(agents, agent, obstacle);
+}
+
+bool ObstacleReference::outline_holds(const Agents& agents, std::uint32_t agent,
+                                      const ReferenceObstacle& obstacle) const {
+  const Outline& outline = shapes_[agents.shape[agent]].outline;
+  const detail::Rotation turn = detail::rotation(agents.heading[agent]);
+  const auto holds = [&](std::span<const Vec2> contour, double x, double y) {
+    bool odd = false;
+    Vec2 a = contour.back();
+    for (const Vec2 b : contour) {
+      const double ax = a.x - x, ay = a.y - y, bx = b.x - x, by = b.y - y;
+      if ((ay > 0) != (by > 0)) odd ^= (ax * by - bx * ay > 0) == (by > ay);
+      a = b;
+    }
+    return odd;
+  };
+  return std::any_of(obstacle.segments.begin(), obstacle.segments.end(), [&](const auto& segment) {
+    const double dx = segment[0] - agents.x[agent], dy = segment[1] - agents.y[agent];
+    const double x = turn.cosine * dx + turn.sine * dy, y = turn.cosine * dy - turn.sine * dx;
+    for (std::size_t i = 0; i < outline.contours(); ++i)
+      if (holds(outline.contour(i), x, y)) return true;
+    return false;
+  });
 }
 
 ObstacleReference::Gap ObstacleReference::gap(const Agents& agents, std::uint32_t agent,

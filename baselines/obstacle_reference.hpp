@@ -31,6 +31,8 @@ class ObstacleReference {
       : shapes_(shapes), cuts_(shapes, plan), segments_(shapes, plan, leaves) {}
 
   bool collides(const Agents& agents, std::uint32_t agent, const ReferenceObstacle& obstacle) const;
+  /// Returns whether the agent's outline holds a point of the obstacle.
+  bool outline_holds(const Agents& agents, std::uint32_t agent, const ReferenceObstacle& obstacle) const;
 
   /// Holds the least gap, and of equal ones that of the first disc, then of the first segment, numbered
   /// through all obstacles.

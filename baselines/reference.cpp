@@ -11,7 +11,11 @@
 namespace bch::baselines {
 
 Reference::Reference(std::span<const Shape> shapes, const ShapeSetPlan& plan, Leaves leaves)
-    : shapes_(shapes), depths_(plan.depths), cuts_(shapes, plan), segments_(shapes, plan, leaves) {
+    : shapes_(shapes),
+      depths_(plan.depths),
+      has_outlines_(plan.outlines),
+      cuts_(shapes, plan),
+      segments_(shapes, plan, leaves) {
   for (const Shape& shape : shapes) heights_.push_back(height(shape.hierarchy));
 }
 
@@ -50,6 +54,7 @@ bool Reference::boundary(const Agents& agents, Pair pair, Method method) const {
 
 bool Reference::solid(const Agents& agents, Pair pair, Method method) const {
   if (boundary(agents, pair, method)) return true;
+  if (!has_outlines_) return false;
   const auto [a, b] = pair;
   return Oracle(shapes_[agents.shape[a]].outline, shapes_[agents.shape[b]].outline,
                 exact_placement(agents, a, b))

@@ -29,12 +29,12 @@ class Reference {
   /// Takes shapes and a plan as a ShapeSet does. The shapes must outlive this.
   Reference(std::span<const Shape> shapes, const ShapeSetPlan& plan, Leaves leaves = Leaves::segments);
 
-  /// Returns whether discs of the cuts of agents a and b overlap with all their ancestors; with exact leaves,
-  /// their segments have to meet as well.
+  /// Returns the answer of the paper, whether outlines cross: discs of the cuts of agents a and b overlap with
+  /// all their ancestors; with exact leaves, their segments have to meet as well.
   bool boundary(const Agents& agents, Pair pair, Method method) const;
 
-  /// Returns whether boundary() holds, or an outline contains a contour of the other one. The containment
-  /// test is in long double, for outlines that do not meet.
+  /// Returns whether boundary() holds or, where the plan keeps outlines, an outline contains a contour of the
+  /// other one: what collide() answers. The containment test is in long double, for outlines that do not meet.
   bool solid(const Agents& agents, Pair pair, Method method) const;
 
  private:
@@ -43,6 +43,7 @@ class Reference {
 
   std::span<const Shape> shapes_;
   std::vector<std::uint32_t> depths_;
+  bool has_outlines_;
   std::vector<std::uint32_t> heights_;  ///< per shape
   CutLists cuts_;
   LeafSegments segments_;

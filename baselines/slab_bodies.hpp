@@ -35,7 +35,7 @@ class SlabBodies {
   /// their heights meet. Ordered by slabs of the first agent.
   std::vector<PartPair> part_pairs(const Agents& agents, Pair pair) const;
 
-  /// Returns whether some of these collide, in solid semantics.
+  /// Returns whether some of these collide, as Reference::solid() says.
   bool collide(const Agents& agents, Pair pair, Method method) const;
 
   std::span<const Shape> parts() const { return parts_; }

@@ -87,7 +87,7 @@ struct Kind {
 };
 
 /// Returns every kind that this build has, in the order of reports:
-///   reference        the paper's contour hierarchy and descent, scalar, whose hits are verified; boundary semantics
+///   reference        the paper's contour hierarchy and descent, scalar, whose hits are verified; whether outlines cross
 ///   paper_descent    the same as the paper has it: the first leaf discs that it finds are the answer
 ///   single           the root disc of each contour hierarchy
 ///   fixed            one disc for every pose, around the agent's position

@@ -131,11 +131,8 @@ std::vector<float> ShapeOptions::planes() const {
   return planes;
 }
 
-ShapeSetPlan plan_for(const ShapeOptions& shapes, const AnswerOptions& answer,
-                      std::vector<std::uint32_t> depths) {
-  std::vector<float> planes = shapes.planes();
-  const bool outlines = answer.need_outlines() || !planes.empty();
-  return {.depths = std::move(depths), .outlines = outlines, .slices = std::move(planes)};
+ShapeSetPlan plan_for(const ShapeOptions& shapes, std::vector<std::uint32_t> depths) {
+  return {.depths = std::move(depths), .slices = shapes.planes()};
 }
 
 void ShapeOptions::add_limits_to(CLI::App& command) {
@@ -179,16 +176,12 @@ void add_leaves_option(CLI::App& command, std::string& leaves, int centimetres) 
 void AnswerOptions::add_levels_to(CLI::App& command) {
   const OptionAdder add(command);
   add("--depths", depths, "LIST", "Levels of detail: cut depths, ascending [0,3,6,all]");
-  add("--semantics", semantics, "NAME",
-      "boundary: outlines that cross collide; solid: also one in another, as always in slabs "
-      "[boundary]",
-      one_of({"boundary", "solid"}));
-  add_leaves_option(command, leaves, 2);
   add_threads_option(command, threads);
 }
 
 void AnswerOptions::add_to(CLI::App& command) {
   add_levels_to(command);
+  add_leaves_option(command, leaves, 2);
   std::vector<std::string_view> names;
   for (const Implementation& each : implementations()) names.push_back(each.name);
   OptionAdder{command}(
@@ -210,14 +203,9 @@ std::vector<std::uint32_t> AnswerOptions::cut_depths() const {
   return list;
 }
 
-bool AnswerOptions::need_outlines() const {
-  return semantics == "solid" || (leaves != "discs" && cut_depths().back() == all_depths);
-}
-
 QueryOptions AnswerOptions::query_options() const {
   try {
-    return {semantics == "solid" ? Semantics::solid : Semantics::boundary,
-            isa.empty() ? &best_implementation() : &implementation(isa),
+    return {isa.empty() ? &best_implementation() : &implementation(isa),
             leaves == "discs" ? Leaves::discs : Leaves::segments};
   } catch (const std::invalid_argument& error) {
     throw UsageError(

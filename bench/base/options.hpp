@@ -45,24 +45,20 @@ struct ShapeOptions {
 /// Holds the options that choose how pairs are answered.
 struct AnswerOptions {
   std::string depths = "0,3,6,all";
-  std::string semantics = "boundary";
   std::string leaves;  ///< empty: segments where there are some
   std::string isa;
   std::uint32_t threads = 0;  ///< 0: all
 
   void add_to(CLI::App& command);
-  /// Adds all options but that of the kernel.
+  /// Adds those of levels and threads alone.
   void add_levels_to(CLI::App& command);
   /// Errors of all: throw UsageError naming the option and the value.
   std::vector<std::uint32_t> cut_depths() const;
   QueryOptions query_options() const;
-  /// Returns whether shapes have to keep their outlines to answer these queries.
-  bool need_outlines() const;
 };
 
-/// Returns the plan of a set that answers with these options.
-ShapeSetPlan plan_for(const ShapeOptions& shapes, const AnswerOptions& answer,
-                      std::vector<std::uint32_t> depths);
+/// Returns the plan of a set of such shapes.
+ShapeSetPlan plan_for(const ShapeOptions& shapes, std::vector<std::uint32_t> depths);
 
 /// Parses a depth: a number, or "all".
 /// Errors:  throws UsageError naming the option.

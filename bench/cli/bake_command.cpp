@@ -39,7 +39,7 @@ void run_bake(const BakeOptions& options) {
   if (!is_baked(options.output))
     throw UsageError(
         fmt::format("--output: '{}' does not end in .bch, by which baked files are known", options.output));
-  ShapeSetPlan plan = plan_for(options.shapes, options.answer, options.answer.cut_depths());
+  ShapeSetPlan plan = plan_for(options.shapes, options.answer.cut_depths());
   plan.heights = options.heights;
   require_outputs({{"--output", options.output}}, options.shapes.inputs(options.characters));
   const CostLimits& limits = options.shapes.limits;
@@ -64,7 +64,6 @@ std::function<void()> add_bake_command(CLI::App& program) {
       "bake", "Build shapes and write them to a baked file, which the other commands load");
   command.footer(
       R"(query, crowd, inspect and check take the baked file in place of a character. It holds only what queries need.
-With --semantics boundary --leaves discs and no --slices it holds no outlines and is about a quarter smaller.
 Example: bch bake man.glb woman.glb --rate 30 --depths 0,all -o people.bch)");
   const OptionAdder add(command);
   add("FILE", options->characters, "", character_help)->required();

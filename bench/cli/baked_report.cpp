@@ -67,13 +67,8 @@ BakedShapes open_baked(const std::string& file) {
 
 BakedShapes load_baked_for(const std::string& file, const AnswerOptions& answer) {
   BakedShapes baked = open_baked(file);
-  const auto require = [&](const std::string& asked, const char* wanted, bool has,
-                           const std::string& option) {
-    if (asked == wanted && !has)
-      throw InputError(file + ": was baked without outlines; bake it with " + option);
-  };
-  require(answer.semantics, "solid", baked.set.solid(), "--semantics solid");
-  require(answer.leaves, "segments", baked.set.exact_leaves(), "--leaves segments and --depths all");
+  if (answer.leaves == "segments" && !baked.set.exact_leaves())
+    throw InputError(file + ": has no leaves of segments; bake it with --depths all");
   return baked;
 }
 
@@ -106,7 +101,6 @@ std::string text_of(const std::string& file, const BakedShapes& baked) {
   if (!set.slices().empty()) out += fact("  slices", slices_text(set));
   if (set.has_heights() && set.slices().empty()) out += fact("  heights", "kept: agents may have a z");
   out += fact("  threshold", fmt::format("{:g} mm", baked.origins.threshold * 1e3));
-  out += fact("  semantics", !set.slices().empty() ? "solid" : set.solid() ? "boundary, solid" : "boundary");
   out += fact("  leaves", set.exact_leaves() ? "segments, discs" : "discs");
   std::map<std::uint32_t, bool> seen;
   for (const ShapeOrigin& origin : baked.origins.origins)
@@ -149,7 +143,7 @@ Json json_of(const std::string& file, const BakedShapes& baked) {
   json["threshold_m"] = shortest(static_cast<float>(origins.threshold));
   json["slices_m"] = slices_json(set);
   json["heights"] = set.has_heights();
-  json["solid"] = set.solid();
+  json["outlines"] = set.plan().outlines;
   json["exact_leaves"] = set.exact_leaves();
   json["shapes"] = Json::array();
   for (std::uint32_t s = 0; s < origins.origins.size(); ++s) {

@@ -17,7 +17,7 @@ namespace bch::cli {
 BakedShapes open_baked(const std::string& file);
 
 /// Loads a file that has to answer in a certain way.
-/// Errors:  throws InputError as well where solid semantics or exact leaves are asked for of a set without outlines.
+/// Errors:  throws InputError as well where exact leaves are asked for of a set without them.
 BakedShapes load_baked_for(const std::string& file, const AnswerOptions& answer);
 
 /// Describes a baked file for people.

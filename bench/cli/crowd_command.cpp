@@ -76,7 +76,7 @@ void run_crowd_of_characters(const CrowdOptions& options) {
   const Threads threads(options.answer.threads);
   const auto sources = list_shapes(characters, options.shapes.poses);
   std::optional<CostGuard> guard(std::in_place, limits, characters, sources.size());
-  ShapeSetPlan plan = plan_for(options.shapes, options.answer, depths);
+  ShapeSetPlan plan = plan_for(options.shapes, depths);
   const BuiltShapes built =
       build_shapes(characters, sources, options.shapes.threshold, {.slices = plan.slices}, limits);
   const ShapeSet set(built.shapes, plan);

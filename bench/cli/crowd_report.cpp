@@ -18,11 +18,6 @@ std::string leaves_text(const CrowdRun& run) {
   return run.set.exact_leaves() && run.options.answer.leaves != "discs" ? "segments" : "discs";
 }
 
-/// Those that answered: slabs are always solid.
-std::string semantics_text(const CrowdRun& run) {
-  return run.set.slices().empty() ? run.options.answer.semantics : "solid";
-}
-
 std::string time_text(double seconds) {
   return seconds < 1e-3 ? fmt::format("{:.0f} us", seconds * 1e6) : fmt::format("{:.1f} ms", seconds * 1e3);
 }
@@ -57,8 +52,8 @@ std::string facts(const CrowdRun& run) {
               fmt::format("{} on {:.1f} m x {:.1f} m, {:g} per m2, seed {}", grouped(run.crowd.size()),
                           run.crowd.side, run.crowd.side, run.options.density, run.options.seed)) +
          fact("candidates", fmt::format("{} that can collide", counted(run.answers.pairs.size(), "pair"))) +
-         fact("kernel", fmt::format("{}, {}, {} semantics, leaves {}", run.implementation,
-                                    counted(run.threads, "thread"), semantics_text(run), leaves_text(run)));
+         fact("kernel", fmt::format("{}, {}, leaves {}", run.implementation, counted(run.threads, "thread"),
+                                    leaves_text(run)));
 }
 
 std::string level_table(const CrowdRun& run) {
@@ -98,7 +93,6 @@ nlohmann::ordered_json options_json(const CrowdRun& run) {
   json["seed"] = o.seed;
   if (!run.characters.empty()) json["depths"] = o.answer.depths;
   if (!run.set.slices().empty()) json["slices_m"] = slices_json(run.set);
-  json["semantics"] = semantics_text(run);
   json["leaves"] = leaves_text(run);
   return json;
 }

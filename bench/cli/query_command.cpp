@@ -154,7 +154,7 @@ void query_character(const QueryCommandOptions& options, const Write& write) {
   const Threads threads(options.answer.threads);
   const auto used = keep_used(sources, question.table);
   std::optional<CostGuard> guard(std::in_place, limits, std::span(&from, 1), used.size());
-  ShapeSetPlan plan = plan_for(options.shapes, options.answer, depths);
+  ShapeSetPlan plan = plan_for(options.shapes, depths);
   plan.heights = options.compares_heights(question.table);
   const BuiltShapes built = build_shapes({&from, 1}, used, options.shapes.threshold, plan, limits);
   const ShapeSet set(built.shapes, plan);
@@ -214,9 +214,6 @@ void require_fitting(const CLI::App& command, const QueryCommandOptions& options
       {!options.all_pairs, {"--max-pairs"}, "belongs to --all-pairs"},
       {!clearance, {"--overlap", "--points"}, "belongs to --what clearance"},
       {!clearance && !within, {"--max-distance"}, "belongs to --what clearance and --what within"},
-      {!collide && !within && !options.all_pairs,
-       {"--semantics"},
-       "belongs to --what collide, --what within and --all-pairs"},
       {clearance && options.overlap != "zero",
        {"--leaves"},
        "cannot be combined with --overlap deepest, which always measures discs"},
@@ -226,7 +223,6 @@ void require_fitting(const CLI::App& command, const QueryCommandOptions& options
       {!clearance && !within && !tests_leaves && !options.all_pairs,
        {"--leaves"},
        "belongs to --what collide, --what contacts, --what clearance and --all-pairs"},
-      {limited && !within, {"--semantics"}, "--max-distance is about distances, whatever is inside"},
       {query_kind(options.what).moving, {"--all-pairs"}, "agents that collide now touch at once"},
       {!options.direction.empty(), {"--directions"}, "--direction names the only one"},
   };
@@ -294,7 +290,6 @@ Output of --what: one line per line of PAIRS.csv, in the same order, unless stat
       R"(collide and contacts test what --leaves names. within, time-of-impact and penetration use the discs of the
 cuts, and so does clearance unless --leaves segments is given. Discs cover more than outlines, so agents
 at a distance of 0 m need not collide. With --obstacles, --leaves segments applies to within, too.
---semantics applies to collide, to within, and to --all-pairs without --max-distance.
 With --obstacles, each line is about one agent and the obstacles: id,... instead of first,second,...;
 contacts cannot be asked. FILE.wkt may have POLYGON, MULTIPOLYGON, LINESTRING, MULTILINESTRING and
 GEOMETRYCOLLECTION; Z and M are ignored.

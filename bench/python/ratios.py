@@ -124,8 +124,8 @@ def shapely(people, n):
     )
     out = np.empty(len(pairs), bool)
     for leaves in ("discs", "segments"):
-        ours = bch.collide(people, agents, pairs, semantics="solid", leaves=leaves, out=out).copy()
-        ask = lambda: bch.collide(people, agents, pairs, semantics="solid", leaves=leaves, out=out)
+        ours = bch.collide(people, agents, pairs, leaves=leaves, out=out).copy()
+        ask = lambda: bch.collide(people, agents, pairs, leaves=leaves, out=out)
         taken = statistics.median(nanoseconds(ask) for _ in range(50)) / 1e9
         whole = shapely_time + placing
         missed, more = (theirs & ~ours).sum(), (ours & ~theirs).sum()

@@ -28,13 +28,12 @@ Contender structure_contender(Scene& scene, const Workload& workload, const base
 }
 
 void add_kernel(Scene& scene, std::string_view name, const QueryOptions& query) {
-  add_for_threads(fmt::format("collide/{}/{}/{}/{}", name, name_of(query.semantics), name_of(query.leaves),
-                              query.implementation->name),
+  add_for_threads(fmt::format("collide/{}/{}/{}", name, name_of(query.leaves), query.implementation->name),
                   [&scene, name, query] {
                     const Workload& workload = scene.workload(name);
                     return collide_contender(
                         scene.set(), workload.agents(), workload.pairs, query,
-                        [&](const Hits& hits) { return wrong_kernel(scene, workload, query, hits); });
+                        [&](const Hits& hits) { return wrong_kernel(scene, workload, query.leaves, hits); });
                   });
 }
 
@@ -50,8 +49,7 @@ Contender collide_contender(const ShapeSet& set, const Agents& agents, std::span
 
 Contender collide_contender(const ShapeSet& set, std::span<const Shape> shapes, const Workload& workload) {
   return collide_contender(set, workload.agents(), workload.pairs, disc_query, [&](const Hits& hits) {
-    return wrong_answers({shapes, {}, Leaves::discs}, workload.agents(), workload.pairs, hits,
-                         Semantics::boundary);
+    return wrong_answers({shapes, {}, Leaves::discs}, workload.agents(), workload.pairs, hits);
   });
 }
 
@@ -65,11 +63,10 @@ std::vector<const Implementation*> supported_implementations() {
 void add_collide(Scene& scene) {
   for (const std::string_view name : workload_names()) {
     for (const Implementation* implementation : supported_implementations())
-      for (const Semantics semantics : {Semantics::boundary, Semantics::solid})
-        for (const Leaves leaves : {Leaves::discs, Leaves::segments})
-          add_kernel(scene, name, {semantics, implementation, leaves});
+      for (const Leaves leaves : {Leaves::discs, Leaves::segments})
+        add_kernel(scene, name, {implementation, leaves});
     for (const baselines::Kind& kind : baselines::kinds())
-      add(fmt::format("collide/{}/boundary/{}", name, kind.name),
+      add(fmt::format("collide/{}/{}", name, kind.name),
           [&scene, name, &kind] { return structure_contender(scene, scene.workload(name), kind); });
   }
 }

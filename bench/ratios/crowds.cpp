@@ -38,7 +38,7 @@ Contender in_batches(Scene& scene, std::size_t most) {
   const Workload& workload = scene.workload("colliding");
   const std::size_t size = std::min(most, workload.pairs.size());
   const std::size_t asked = workload.pairs.size() / size * size;
-  const auto hits = std::make_shared<Hits>(scene.expected(disc_query, workload));
+  const auto hits = std::make_shared<Hits>(scene.expected(Leaves::discs, workload));
   std::fill_n(hits->begin(), asked, std::uint8_t{2});
   const auto call = [&set = scene.set(), &workload, hits, size, asked] {
     const std::span<const Pair> pairs = workload.pairs;
@@ -46,7 +46,7 @@ Contender in_batches(Scene& scene, std::size_t most) {
       collide(set, workload.agents(), pairs.subspan(i, size), std::span(*hits).subspan(i, size), disc_query);
   };
   call();
-  require_right("batches", workload, wrong_kernel(scene, workload, disc_query, *hits));
+  require_right("batches", workload, wrong_kernel(scene, workload, Leaves::discs, *hits));
   return {call, asked};
 }
 
@@ -76,7 +76,7 @@ struct Steps {
     const baselines::Reference reference(shapes, {}, Leaves::discs);
     for (const cli::Crowd& crowd : crowds) {
       const std::span<const Pair> pairs = find_and_answer(crowd);
-      const std::string wrong = wrong_answers(reference, crowd.agents(), pairs, hits, Semantics::boundary);
+      const std::string wrong = wrong_answers(reference, crowd.agents(), pairs, hits);
       if (!wrong.empty()) throw std::runtime_error(fmt::format("crowd of {}: {}", crowd.size(), wrong));
     }
   }

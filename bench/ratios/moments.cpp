@@ -104,8 +104,7 @@ class Frames {
 
   /// Throws std::runtime_error if a pair is not answered as the reference does of shapes of these times.
   void check() const {
-    const std::string wrong =
-        wrong_answers({shapes(), {}, Leaves::discs}, agents(), crowd_.pairs, hits_, Semantics::boundary);
+    const std::string wrong = wrong_answers({shapes(), {}, Leaves::discs}, agents(), crowd_.pairs, hits_);
     if (!wrong.empty()) throw std::runtime_error("moments: " + wrong);
   }
 

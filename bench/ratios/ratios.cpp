@@ -21,7 +21,7 @@ constexpr const char* description =
 constexpr const char* footer =
     "All options of Google Benchmark, such as --benchmark_filter=<regex>, --benchmark_list_tests=true or\n"
     "--benchmark_format=json, are taken as well.\n"
-    "Example: bch_ratios --benchmark_filter=^collide/crowd/boundary/discs/";
+    "Example: bch_ratios --benchmark_filter=^collide/crowd/discs/";
 
 SceneOptions parse(CLI::App& program, int argc, char** argv, bool& is_done) {
   SceneOptions options;

@@ -50,8 +50,8 @@ std::vector<const Implementation*> supported_implementations();
 
 // The following functions register benchmarks; the scene must outlive them.
 
-/// collide/<workload>/<semantics>/<leaves>/<instruction set>[/threads:<n>]: collide();
-/// collide/<workload>/boundary/<kind>: structures of others.
+/// collide/<workload>/<leaves>/<instruction set>[/threads:<n>]: collide();
+/// collide/<workload>/<kind>: structures of others.
 void add_collide(Scene& scene);
 /// <query>/<workload>/<instruction set|reference>[/threads:<n>]: the queries beside collide(), and
 /// clearance/near_miss/<fcl_walls|fcl_segments>.

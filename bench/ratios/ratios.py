@@ -25,26 +25,24 @@ import sys
 # for anything, the same on both sides, ISA for each instruction set that is wider than one lane, BEST for the widest that runs here. Three goals
 # are those with AVX-512, AVX2 and SSE2.
 GOALS = """
-kernel | collide/colliding/boundary/reference / collide/colliding/boundary/discs/ISA | >= 20 14 9, aim 40 with AVX-512
-kernel | collide/colliding/boundary/reference / collide/colliding/solid/discs/ISA | >= 24 15 10, aim 50 with AVX-512
-kernel | collide/{near_miss,no_hit}/boundary/reference / collide/{1}/{boundary,solid}/discs/ISA | >= 10 7 5, aim 20 with AVX-512
-kernel | collide/crowd/boundary/reference / collide/crowd/{boundary,solid}/discs/ISA | >= 16 11 8, aim 30 with AVX-512
-leaves | collide/crowd/{boundary,solid}/segments/ISA / collide/crowd/{1}/discs/ISA | <= 1.3, aim 1.1
-leaves | collide/{colliding,near_miss,no_hit}/boundary/segments/ISA / collide/{1}/boundary/discs/ISA | <= 1.3, aim 1.1
-peers | collide/colliding/boundary/fcl_obb_contour / collide/colliding/boundary/discs/BEST | >= 200
-peers | collide/colliding/boundary/fcl_obb_segments / collide/colliding/boundary/discs/BEST | one triangle a segment
-peers | collide/colliding/boundary/obb_contour_2d / collide/colliding/boundary/discs/BEST | >= 40
+kernel | collide/colliding/reference / collide/colliding/discs/ISA | >= 24 15 10, aim 50 with AVX-512
+kernel | collide/{near_miss,no_hit}/reference / collide/{1}/discs/ISA | >= 10 7 5, aim 20 with AVX-512
+kernel | collide/crowd/reference / collide/crowd/discs/ISA | >= 16 11 8, aim 30 with AVX-512
+leaves | collide/{crowd,colliding,near_miss,no_hit}/segments/ISA / collide/{1}/discs/ISA | <= 1.3, aim 1.1
+peers | collide/colliding/fcl_obb_contour / collide/colliding/discs/BEST | >= 200
+peers | collide/colliding/fcl_obb_segments / collide/colliding/discs/BEST | one triangle a segment
+peers | collide/colliding/obb_contour_2d / collide/colliding/discs/BEST | >= 40
 calls | threads/1 / threads/2 | >= 1.9
 calls | batches/16 / batches/512 | <= 1.6
 crowd | crowd/1000000/step | <= 120, aim 50
 crowd | crowd/1000000/step / crowd/10000/step | <= 1.3
 crowd | crowd/1000000/step#MiB | <= 1024
 crowd | crowd/1000000/pairs |
-distances | clearance/crowd/BEST / collide/crowd/boundary/discs/BEST | <= 6
-distances | clearance/candidates/BEST / collide/candidates/boundary/discs/BEST | <= 8
-distances | exact_clearance/crowd/BEST / collide/crowd/boundary/discs/BEST |
-distances | within/crowd/BEST / collide/crowd/boundary/discs/BEST | <= 1.3
-distances | time_of_impact/crowd/BEST / collide/crowd/boundary/discs/BEST | <= 4
+distances | clearance/crowd/BEST / collide/crowd/discs/BEST | <= 6
+distances | clearance/candidates/BEST / collide/candidates/discs/BEST | <= 8
+distances | exact_clearance/crowd/BEST / collide/crowd/discs/BEST |
+distances | within/crowd/BEST / collide/crowd/discs/BEST | <= 1.3
+distances | time_of_impact/crowd/BEST / collide/crowd/discs/BEST | <= 4
 distances | clearance/near_miss/reference / clearance/near_miss/BEST | >= 12
 distances | within/near_miss/reference / within/near_miss/BEST |
 distances | time_of_impact/near_miss/reference / time_of_impact/near_miss/BEST | >= 10
@@ -52,7 +50,7 @@ distances | {clearance,within,time_of_impact}/near_miss/{avx512,avx2,sse2,scalar
 distances | clearance/near_miss/fcl_walls / clearance/near_miss/BEST | >= 150
 distances | clearance/near_miss/fcl_walls / exact_clearance/near_miss/BEST |
 distances | clearance/near_miss/fcl_segments / {clearance,exact_clearance}/near_miss/BEST |
-responses | {contacts,penetration,collide_all}/crowd/BEST / collide/crowd/boundary/discs/BEST |
+responses | {contacts,penetration,collide_all}/crowd/BEST / collide/crowd/discs/BEST |
 responses | {contacts,penetration}/crowd/reference / {1}/crowd/BEST | brute force
 obstacles | obstacles/collide | <= 60
 obstacles | obstacles/{clearance,clearance_unlimited} | <= 200
@@ -87,10 +85,10 @@ growth | growth/*/all@n_log_n / growth/996/all@n_log_n | <= 1
 load | load/{map,read,map_alone,checksum_alone,validation_alone} |
 moments | moments/{shown,grid,own} / moments/poses | <= 2
 checks | check/{in_waves,at_random}/{400,800}/threads:2 | <= 500
-paper | collide/{paper500,paper500_cached,colliding}/boundary/discs/BEST / collide/{1}/boundary/reference |
-paper | collide/{paper500,paper500_cached,colliding}/boundary/obb_contour / collide/{1}/boundary/reference | 4630 ns / 2660 ns = 1.7 in the paper
-paper | collide/{paper500,paper500_cached,colliding}/boundary/obb_projected / collide/{1}/boundary/reference | 20660 ns / 2660 ns = 7.8 in the paper
-paper | collide/{paper500,paper500_cached,colliding}/boundary/{obb_contour_2d,fcl_obb_contour,fcl_obb_segments} / collide/{1}/boundary/reference |
+paper | collide/{paper500,paper500_cached,colliding}/discs/BEST / collide/{1}/reference |
+paper | collide/{paper500,paper500_cached,colliding}/obb_contour / collide/{1}/reference | 4630 ns / 2660 ns = 1.7 in the paper
+paper | collide/{paper500,paper500_cached,colliding}/obb_projected / collide/{1}/reference | 20660 ns / 2660 ns = 7.8 in the paper
+paper | collide/{paper500,paper500_cached,colliding}/{obb_contour_2d,fcl_obb_contour,fcl_obb_segments} / collide/{1}/reference |
 """
 ISAS = ("avx512", "avx2", "sse2")
 MOST_PAIRED = 1.03  # of a build over another one

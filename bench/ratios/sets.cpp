@@ -87,14 +87,13 @@ struct Planned {
   /// Answers are compared with the reference's over the scene's own shapes.
   Contender query(Scene& scene) const {
     const cli::Crowd& crowd = workload.crowd;
-    const QueryOptions query{.semantics = use.solid ? Semantics::solid : Semantics::boundary,
-                             .leaves = use.leaves};
-    return collide_contender(
-        baked.set(), {plan.agent_shape, crowd.x, crowd.y, crowd.heading, plan.agent_level}, workload.pairs,
-        query, [&](const Hits& hits) {
-          return wrong_answers({scene.shapes(), plan.set, query.leaves}, crowd.at_level(plan.agent_level),
-                               workload.pairs, hits, query.semantics);
-        });
+    const QueryOptions query{.leaves = use.outlines ? Leaves::segments : Leaves::discs};
+    return collide_contender(baked.set(),
+                             {plan.agent_shape, crowd.x, crowd.y, crowd.heading, plan.agent_level},
+                             workload.pairs, query, [&](const Hits& hits) {
+                               return wrong_answers({scene.shapes(), plan.set, query.leaves},
+                                                    crowd.at_level(plan.agent_level), workload.pairs, hits);
+                             });
   }
 };
 
@@ -109,7 +108,7 @@ Contender query_slabs(Scene& scene, const Baked& sliced, std::uint32_t slabs, st
                       Leaves leaves) {
   const Workload& workload = scene.workload(name);
   return collide_contender(
-      sliced.set(), workload.agents(), workload.pairs, {.semantics = Semantics::solid, .leaves = leaves},
+      sliced.set(), workload.agents(), workload.pairs, {.leaves = leaves},
       [&](const Hits& hits) -> std::string {
         const baselines::SlabBodies reference(scene.shapes_in_slabs(slabs), sliced.plan(), leaves);
         for (std::size_t i = 0; i < hits.size(); ++i)
@@ -141,9 +140,8 @@ void add_sets(Scene& scene) {
   add_plan(scene, "plans/depth_6", {.depth = always(6)});
   add_plan(scene, "plans/all", {});
   add_plan(scene, "plans/mixed", {.depth = by_distance});
-  add_plan(scene, "plans/all_solid", {.solid = true});
-  add_plan(scene, "plans/all_discs", {.leaves = Leaves::discs});
-  add_plan(scene, "plans/one_frame", {.leaves = Leaves::discs, .pairs_per_shape = 0});
+  add_plan(scene, "plans/all_discs", {.outlines = false});
+  add_plan(scene, "plans/one_frame", {.outlines = false, .pairs_per_shape = 0});
   for (const std::uint32_t slabs : {1u, 2u, 3u, 4u, 8u}) add_slabs(scene, slabs);
 }
 

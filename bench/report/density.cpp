@@ -86,7 +86,7 @@ class Packing {
 
   /// Who collides, each pair once; of a pair across a side, both ways, and each moves the one that is no image.
   void find_pairs() {
-    const Rows<std::uint32_t> rows = collider_.collide_all(set_, crowd_.agents(), {Semantics::solid});
+    const Rows<std::uint32_t> rows = collider_.collide_all(set_, crowd_.agents());
     pairs_.clear();
     for (std::uint32_t i = 0; i < people_; ++i)
       for (const std::uint32_t j : rows[i])
@@ -157,7 +157,7 @@ class Packing {
     std::vector<Penetration> ways(asked.size());
     std::vector<std::uint8_t> hits(asked.size());
     penetration(set_, trial.agents(), asked, 16, ways);
-    collide(set_, trial.agents(), asked, hits, {Semantics::solid});
+    collide(set_, trial.agents(), asked, hits);
     std::vector<double> overlap(offers.size(), 0);
     for (std::size_t k = 0; k < asked.size(); ++k)
       overlap[asked[k].first - first_trial] += hits[k] != 0 ? static_cast<double>(ways[k].depth) : 0;
@@ -183,7 +183,7 @@ class Packing {
 
 /// Measures how densely people can stand: so many of them, in poses and headings at random, on a square with
 /// periodic boundaries (opposite sides are identified). They stand loosely at first and are pushed apart
-/// until no two overlap (the solid semantics). Then the square shrinks by a hundredth of its area, and so on
+/// until no two overlap. Then the square shrinks by a hundredth of its area, and so on
 /// until they do not come apart in 300 steps.
 /// `poses`: how many shapes of the set, one after the other, belong to a character each; used by
 /// Freedom::poses alone.

@@ -13,7 +13,7 @@
 #include "bench/workload/answer_checks.hpp"
 #include "bench/workload/contender.hpp"
 
-// What does each microsecond buy? Every structure, depth, threshold and semantics as a point.
+// What does each microsecond buy? Every structure, depth and threshold as a point.
 
 namespace bch::report {
 namespace {
@@ -55,17 +55,16 @@ ExcessAreas excess_areas(std::span<const Shape> shapes, std::uint32_t depth) {
   return per_cent;
 }
 
-/// Checks what the scalar reference does not know: solid semantics and exact leaves.
+/// Checks the kernel, which also counts who is inside another, and knows exact leaves.
 void require_right(const Subject& kernel, const QueryOptions& query, std::span<const Shape> shapes,
                    const bench::Workload& workload) {
   const baselines::Reference reference(shapes, {{kernel.depth}}, query.leaves);
-  bench::require_right(kernel_name, workload,
-                       bench::wrong_answers(reference, workload.agents(), workload.pairs,
-                                            answers(kernel, workload), query.semantics));
+  bench::require_right(
+      kernel_name, workload,
+      bench::wrong_answers(reference, workload.agents(), workload.pairs, answers(kernel, workload)));
 }
 
-/// Adds the kernel at every depth, in both semantics and at all depths with exact leaves, and the scalar
-/// reference, which must agree.
+/// Adds the kernel at every depth, and at all depths with exact leaves; and the scalar reference.
 void add_kernel(Run& run, double threshold, Points& points) {
   const auto bodies =
       with_hierarchies(run.scene.bodies(), static_cast<float>(threshold), SplitRule::centroid);
@@ -76,20 +75,15 @@ void add_kernel(Run& run, double threshold, Points& points) {
     const ExcessAreas excess = excess_areas(shapes, depth);
     Subject slow = subject_of("BCH outline", plain, depth);
     const ShapeSet& set = points.sets.emplace_back(shapes, ShapeSetPlan{{depth}});
-    for (const Leaves leaves : {Leaves::discs, Leaves::segments})
-      for (const Semantics semantics : {Semantics::boundary, Semantics::solid}) {
-        const bool solid = semantics == Semantics::solid, segments = leaves == Leaves::segments;
-        if (solid && depth == 0) continue;  // single discs know no difference
-        if (segments && depth != all_depths) continue;
-        const QueryOptions query{semantics, nullptr, leaves};
-        const Subject fast = subject_of(segments ? exact_leaves_name : kernel_name, set, query, depth);
-        for (const std::string_view name : asked_workloads) {
-          const bench::Workload& workload = run.scene.workload(name);
-          solid || segments ? require_right(fast, query, shapes, workload)
-                            : require_same(fast, slow, workload);
-        }
-        points.add(fast, segments ? no_excess : excess).threshold = threshold;
-      }
+    for (const Leaves leaves : {Leaves::discs, Leaves::segments}) {
+      const bool segments = leaves == Leaves::segments;
+      if (segments && depth != all_depths) continue;
+      const QueryOptions query{nullptr, leaves};
+      const Subject fast = subject_of(segments ? exact_leaves_name : kernel_name, set, query, depth);
+      for (const std::string_view name : asked_workloads)
+        require_right(fast, query, shapes, run.scene.workload(name));
+      points.add(fast, segments ? no_excess : excess).threshold = threshold;
+    }
     slow.threshold = threshold;
     if (first) points.add(slow, excess);
   }
@@ -102,7 +96,7 @@ void add_slabs(Run& run, Points& points) {
     const ShapeSetPlan plan{.slices = standing_slices(slabs)};
     const ShapeSet& set = points.sets.emplace_back(shapes, plan);
     for (const Leaves leaves : {Leaves::discs, Leaves::segments}) {
-      Subject subject = subject_of(slabs_name(slabs, leaves), set, {Semantics::solid, nullptr, leaves});
+      Subject subject = subject_of(slabs_name(slabs, leaves), set, {nullptr, leaves});
       const baselines::SlabBodies reference(shapes, plan, leaves);
       for (const std::string_view name : asked_workloads) {
         const bench::Workload& workload = run.scene.workload(name);

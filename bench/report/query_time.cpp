@@ -16,7 +16,7 @@ constexpr std::string_view paper_workloads[] = {"paper500", "paper500_cached", "
 void require_right(Run& run, const Subject& kernel, const QueryOptions& query,
                    const bench::Workload& workload) {
   bench::require_right(kernel_name, workload,
-                       bench::wrong_kernel(run.scene, workload, query, answers(kernel, workload)));
+                       bench::wrong_kernel(run.scene, workload, query.leaves, answers(kernel, workload)));
 }
 
 }  // namespace

@@ -120,7 +120,7 @@ class TimedPairs {
     for (std::uint32_t run = 0; run < sizes_.runs; ++run)
       one.execute([&] {
         const bench::Stopwatch watch(1);
-        collide(shapes, crowd_.agents(), pairs_, answers, {.semantics = Semantics::solid, .leaves = leaves});
+        collide(shapes, crowd_.agents(), pairs_, answers, {.leaves = leaves});
         times.push_back(watch.nanoseconds() / static_cast<double>(pairs_.size()));
       });
     return times;

@@ -144,7 +144,7 @@ Subject subject_of(std::string_view name, const ShapeSet& set, const QueryOption
             collide(set, agents, pairs, hits, query);
           },
           [](const bench::Workload&) { return MeanTests{}; },
-          std::string(bench::name_of(query.semantics)),
+          "solid",
           query.leaves == Leaves::segments ? "double" : "single"};
 }
 
@@ -152,11 +152,6 @@ bench::Hits answers(const Subject& subject, const bench::Workload& workload) {
   bench::Hits hits(workload.pairs.size());
   subject.answer(workload.agents(), workload.pairs, hits);
   return hits;
-}
-
-void require_same(const Subject& a, const Subject& b, const bench::Workload& workload) {
-  if (answers(a, workload) != answers(b, workload))
-    throw std::logic_error(workload.name + ": two answers to the same question differ");
 }
 
 void SubjectTables::add(std::span<const Subject> subjects, const std::string& of) {

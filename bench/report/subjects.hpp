@@ -66,10 +66,6 @@ Subject subject_of(std::string_view name, const ShapeSet& set, const QueryOption
 
 bench::Hits answers(const Subject& subject, const bench::Workload& workload);
 
-/// Checks that two subjects give the same answers.
-/// Errors:  throws std::logic_error naming the workload where the two answer some pair differently.
-void require_same(const Subject& a, const Subject& b, const bench::Workload& workload);
-
 /// Collects the tables of an experiment over subjects, whose rows refer to subjects by number:
 ///   NAME.csv         what the subjects are
 ///   NAME_pairs.csv   their hits and tests of the pairs of workloads

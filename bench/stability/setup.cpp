@@ -64,7 +64,9 @@ struct Stock {
     const auto all = static_cast<std::uint32_t>(specimens.size());
     return all == first ? random.below(first) : first + random.below(all - first);
   }
-  ShapeSet set(const ShapeSetPlan& plan) const {
+  /// The truth is about discs, so that bodies keep no outlines, but in slabs, which need them.
+  ShapeSet set(ShapeSetPlan plan) const {
+    plan.outlines = !plan.slices.empty();
     std::vector<Shape> shapes;
     for (const Specimen& specimen : specimens) shapes.push_back(specimen.shape);
     return ShapeSet(shapes, plan);

@@ -11,7 +11,7 @@
 /// Measures how often a test of discs is wrong on hard cases, judged by exact arithmetic
 /// (baselines/quad.hpp).
 ///
-/// The truth is the definition of a collision (Semantics) for tight discs: whether two discs of the cuts, one of each agent,
+/// The truth is the definition of a collision (<bch/query.hpp>) for tight discs: whether two discs of the cuts, one of each agent,
 /// have a point in common, and every disc above the one has one with every disc above the other. Three tests answer it: the
 /// plain test in float as anybody would write it (positions, headings and tight discs in float, the world's coordinates; the
 /// same pairs of discs), the same in double, and collide(). Beside that it is asked, of pairs whose outlines are about to

@@ -43,18 +43,16 @@ bool has_kind(std::string_view kind) {
                              [&](const baselines::Kind& row) { return row.name == kind; });
 }
 
-std::string wrong_kernel(Scene& scene, const Workload& workload, const QueryOptions& query,
-                         const Hits& hits) {
-  return compare(hits, scene.expected(query, workload), "brute force", false);
+std::string wrong_kernel(Scene& scene, const Workload& workload, Leaves leaves, const Hits& hits) {
+  return compare(hits, scene.expected(leaves, workload), "brute force", false);
 }
 
 std::string wrong_answers(const baselines::Reference& reference, const Agents& agents,
-                          std::span<const Pair> pairs, const Hits& hits, Semantics semantics) {
+                          std::span<const Pair> pairs, const Hits& hits) {
   constexpr auto method = baselines::Method::depth_first;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const bool expected = semantics == Semantics::solid ? reference.solid(agents, pairs[i], method)
-                                                        : reference.boundary(agents, pairs[i], method);
-    if (hits[i] != expected) return fmt::format("pair {} is answered wrongly", i);
+    if (hits[i] != reference.solid(agents, pairs[i], method))
+      return fmt::format("pair {} is answered wrongly", i);
   }
   return {};
 }
@@ -67,7 +65,8 @@ std::string wrong_structure(Scene& scene, const Workload& workload, const baseli
   if (kind.exact != Truth::none && max_depth != all_depths)
     return expect_no_miss(kind.name, "itself at all depths");
   std::string wrong;
-  if (kind.name == "reference") wrong = wrong_kernel(scene, workload, disc_query, hits);
+  if (kind.name == "reference")
+    wrong = compare(hits, scene.boundary(Leaves::discs, workload), "brute force", false);
   if (kind.name == "paper_descent") wrong = expect_no_miss("reference", "reference");
   const baselines::Kind* const peer = kind.exact == Truth::none ? nullptr : peer_of(kind);
   if (peer != nullptr && wrong.empty())

@@ -14,18 +14,18 @@
 namespace bch::bench {
 
 /// Checks the kernel's answers: the same bits as brute force over all discs, on every pair.
-std::string wrong_kernel(Scene& scene, const Workload& workload, const QueryOptions& query, const Hits& hits);
+std::string wrong_kernel(Scene& scene, const Workload& workload, Leaves leaves, const Hits& hits);
 
 /// Checks answers for shapes and levels that belong to no scene: equal to the reference going depth first, on
 /// every pair.
 std::string wrong_answers(const baselines::Reference& reference, const Agents& agents,
-                          std::span<const Pair> pairs, const Hits& hits, Semantics semantics);
+                          std::span<const Pair> pairs, const Hits& hits);
 
 /// Checks a structure's answers by the properties in its row of baselines::kinds():
 ///   exact                  equal to the first other kind of the same truth
 ///   mesh, projection       outlines or meshes that meet are seen by what projects them
 ///   never_misses_outlines  1 wherever the outlines meet
-///   reference              the same bits as brute force over all discs
+///   reference              the same bits as brute force over all discs, where outlines cross
 ///   paper_descent          1 wherever the reference says so
 /// An exact structure that went down to max_depth only must not miss anything that it sees at all depths.
 std::string wrong_structure(Scene& scene, const Workload& workload, const baselines::Kind& kind,

@@ -20,10 +20,6 @@ constexpr std::uint64_t colliding_seed = 31, near_miss_seed = 32, no_hit_seed = 
 
 }  // namespace
 
-std::string_view name_of(Semantics semantics) {
-  return semantics == Semantics::solid ? "solid" : "boundary";
-}
-
 std::string_view name_of(Leaves leaves) {
   return leaves == Leaves::segments ? "segments" : "discs";
 }
@@ -116,15 +112,24 @@ const Hits& Scene::hits(std::string_view kind, const Workload& workload) {
   return hits;
 }
 
-const Hits& Scene::expected(const QueryOptions& query, const Workload& workload) {
-  Hits& hits = hits_[fmt::format("{} {}/{}", name_of(query.semantics), name_of(query.leaves), workload.name)];
+const Hits& Scene::boundary(Leaves leaves, const Workload& workload) {
+  Hits& hits = hits_[fmt::format("boundary {}/{}", name_of(leaves), workload.name)];
   if (!hits.empty()) return hits;
-  const baselines::Reference reference(shapes(), {}, query.leaves);
+  const baselines::Reference reference(shapes(), {}, leaves);
   const Agents agents = workload.agents();
   for (const Pair pair : workload.pairs)
-    hits.push_back(query.semantics == Semantics::solid
-                       ? reference.solid(agents, pair, baselines::Method::brute_force)
-                       : reference.boundary(agents, pair, baselines::Method::brute_force));
+    hits.push_back(reference.boundary(agents, pair, baselines::Method::brute_force));
+  return hits;
+}
+
+const Hits& Scene::expected(Leaves leaves, const Workload& workload) {
+  Hits& hits = hits_[fmt::format("{}/{}", name_of(leaves), workload.name)];
+  if (!hits.empty()) return hits;
+  hits = boundary(leaves, workload);
+  const baselines::Reference reference(shapes(), {}, leaves);
+  const Agents agents = workload.agents();
+  for (std::size_t i = 0; i < hits.size(); ++i)
+    if (hits[i] == 0) hits[i] = reference.solid(agents, workload.pairs[i], baselines::Method::depth_first);
   return hits;
 }
 

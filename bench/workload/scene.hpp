@@ -23,8 +23,7 @@ namespace bch::bench {
 /// A query that the scalar reference, which knows discs alone, answers as well.
 constexpr QueryOptions disc_query{.leaves = Leaves::discs};
 
-/// Return "boundary" or "solid", "discs" or "segments".
-std::string_view name_of(Semantics semantics);
+/// Returns "discs" or "segments".
 std::string_view name_of(Leaves leaves);
 
 struct SceneOptions {
@@ -59,7 +58,9 @@ class Scene {
   /// Returns a kind's answers, at all depths.
   const Hits& hits(std::string_view kind, const Workload& workload);
   /// Returns what the kernel must answer, pair by pair and disc by disc: baselines::Reference by brute force.
-  const Hits& expected(const QueryOptions& query, const Workload& workload);
+  const Hits& expected(Leaves leaves, const Workload& workload);
+  /// Returns the same of the paper's question: whether outlines cross.
+  const Hits& boundary(Leaves leaves, const Workload& workload);
 
  private:
   Workload make_workload(std::string_view name);

@@ -76,7 +76,6 @@ float threshold_of(const bch_plan* given) {
 CallOptions options_of(const bch_query_options* given) {
   const bch_query_options options = sized<bch_query_options>(given, BCH_QUERY_OPTIONS_INIT, "options");
   QueryOptions query{
-      .semantics = one_of(options.semantics, Semantics::solid, "options->semantics"),
       .implementation = options.implementation == nullptr ? nullptr : &implementation(options.implementation),
       .leaves = one_of(options.leaves, Leaves::segments, "options->leaves"),
       .max_distance = options.max_distance,

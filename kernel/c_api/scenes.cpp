@@ -33,8 +33,7 @@ std::vector<SceneAgent> scene_agents_of(const bch_scene_agents& given) {
 
 SceneUse use_of(const bch_scene_use& given) {
   const auto slices = array_of(given.slices, given.slice_count, "use->slices");
-  return {.solid = given.solid != 0,
-          .leaves = one_of(given.leaves, Leaves::segments, "use->leaves"),
+  return {.outlines = given.outlines != 0,
           .slices = {slices.begin(), slices.end()},
           .whole_from = given.whole_from,
           .heights = given.heights != 0,

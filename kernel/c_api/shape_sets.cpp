@@ -77,7 +77,7 @@ bch_status bch_shape_set_get_info(const bch_shape_set* handle, bch_shape_set_inf
     all.levels = of.set.level_count();
     all.slabs = of.set.slab_count();
     all.has_heights = of.set.has_heights();
-    all.solid = of.set.solid();
+    all.outlines = of.set.plan().outlines;
     all.exact_leaves = of.set.exact_leaves();
     all.bytes = of.set.bytes();
     all.depths = of.set.depths().data();

@@ -18,7 +18,7 @@ bool in_slabs(const Arguments& in) noexcept {
 
 /// Decides the pairs of which one outline may contain the other.
 void decide_containment(const Arguments& in, std::size_t begin, std::size_t end) noexcept {
-  if (!in.solid) return;
+  if (in.shapes->shape_contours == nullptr) return;
   for (std::size_t i = begin; i < end; ++i) {
     if (in.codes[i] != may_contain) {
       in.codes[i] &= overlap;

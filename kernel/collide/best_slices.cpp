@@ -109,7 +109,7 @@ class Sample {
           spans_.push_back({std::min(i, j), std::max(i, j)});
         }
     hits_.resize(pairs_.size());
-    collide(*set_, {shape_, x_, y_, heading_}, pairs_, hits_, {.semantics = Semantics::solid});
+    collide(*set_, {shape_, x_, y_, heading_}, pairs_, hits_);
     Spans found;
     for (std::size_t k = 0; k < hits_.size(); ++k) {
       if (hits_[k] == 0) continue;

@@ -17,14 +17,12 @@ void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair>
              std::span<std::uint8_t> hits, const QueryOptions& options) {
   const FloatingPointStateGuard floats;
   require_as_many({"collide", "pair", pairs.size()}, hits.size(), "hits");
-  const bool solid = is_solid(shapes, options.semantics, "collide");
   const bool exact = exact_leaves(shapes, options.leaves, "collide");
   const Implementation& implementation = chosen(options, "collide");
   const ShapeSetView& view = shapes.view();
   require_sizes(agents);
   Arguments arguments = arguments_for(view, agents, pairs);
   arguments.codes = hits.data();
-  arguments.solid = solid;
   arguments.exact_leaves = exact;
   if (answer_if_valid(implementation, arguments, pairs.size())) return;
   require_valid(implementation, view, agents, pairs);

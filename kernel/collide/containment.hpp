@@ -20,7 +20,7 @@ bool contour_holds(const Vec2* points, const Contour& contour, PointIn<double> p
 /// Outlines then do not meet, so one point of a contour speaks for all of it. And the answer does not hang on
 /// a rounding: discs that the float test keeps apart leave u S and more between any two outline points
 /// (layout/base/rounding.hpp), while this test, in double, is off by less than 1e-9 S.
-/// Preconditions: valid indices; the set was planned for the solid semantics.
+/// Preconditions: valid indices; the set keeps outlines.
 bool one_contains_other(const Arguments& in, std::uint32_t agent_a, std::uint32_t part_a,
                         std::uint32_t agent_b, std::uint32_t part_b) noexcept;
 

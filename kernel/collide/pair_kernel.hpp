@@ -53,7 +53,7 @@ class PairKernel {
   explicit PairKernel(const Arguments& arguments) noexcept
       : in_(arguments),
         shapes_(*arguments.shapes),
-        miss_(arguments.solid ? may_contain : apart),
+        miss_(shapes_.shape_contours != nullptr ? may_contain : apart),
         axis_test_(shapes_, at_),
         profiles_(shapes_, at_, arguments.prefetch_shapes),
         traversal_(shapes_, arguments) {}
@@ -160,8 +160,8 @@ class PairKernel {
       open_.add_if(open_bits_[k / Simd::width] >> k % Simd::width & 1, k);
   }
 
-  /// Leaves the pairs open that only a traversal can decide. Those that are not separated have the code for it by
-  /// now.
+  /// Leaves the pairs open that only a traversal can decide. Those that are not separated have the code of a hit
+  /// by now: areas that meet are one, wherever their outlines are.
   [[gnu::noinline]] void take_culling() noexcept {
     compare_profiles();
     axis_test_.place_directions();
@@ -169,17 +169,16 @@ class PairKernel {
     meet<block_width / 2>(near_);
     meet<block_width>(open_);
     separate(1);
-    if (!in_.solid) reopen_what_may_nest();
-    for (std::uint32_t k = 0; k < separated_.size; ++k) codes_[separated_.pair[k]] = apart;
   }
 
   /// Separates open pairs by their supports along even directions or odd ones.
   void separate(unsigned odd) noexcept {
-    open_.move_if(
-        separated_, open_,
+    open_.drop_if(
+        open_,
         [&](std::uint32_t pair) {
           const std::uint32_t is_apart = axis_test_.apart(pair, odd);
-          return typename List::Verdict{is_apart, is_apart};
+          codes_[pair] = static_cast<std::uint8_t>(overlap * (is_apart ^ 1));
+          return is_apart;
         },
         [&](std::uint32_t pair) __attribute__((always_inline)) {
           if (in_.prefetch_shapes) axis_test_.prefetch(pair, odd);
@@ -190,31 +189,27 @@ class PairKernel {
   /// open.
   template <unsigned count>
   void meet(List& list) noexcept {
-    list.move_if(
-        met_, open_,
-        [&](std::uint32_t pair) {
-          return typename List::Verdict{inscribed_discs_overlap<count>(pair), may_nest(pair)};
-        },
+    list.drop_if(
+        open_, [&](std::uint32_t pair) { return inscribed_discs_overlap<count>(pair); },
         [&](std::uint32_t pair) __attribute__((always_inline)) {
           if (in_.prefetch_shapes) prefetch_inscribed(pair);
         });
   }
 
-  /// Lists pairs as separated, as met where they may nest besides, or as open, by whether they will probably
-  /// collide.
+  /// Answers the pairs that profiles decide, and lists the others by whether they will probably collide.
   void compare_profiles() noexcept {
     shapes_.rows_in_order ? profiles_.look(nullptr, nullptr) : profiles_.look(row_a_, row_b_);
-    separated_.size = met_.size = 0;
+    separated_.size = 0;
     for (std::uint32_t k = 0; k < at_.whole_registers(); k += Simd::width) {
       const auto answers = profiles_.answers(k);
       const std::uint32_t all = open_bits_[k / Simd::width] & ((std::uint32_t{1} << lanes(k)) - 1);
       const std::uint32_t open = all & ~(answers.apart | answers.meet);
       may_nest_[k / Simd::width] = answers.may_nest;
       separated_.add(all & answers.apart, k);
-      met_.add(all & answers.meet & answers.may_nest, k);
       near_.add(open & answers.near, k);
       open_.add(open & ~answers.near, k);
     }
+    for (std::uint32_t k = 0; k < separated_.size; ++k) codes_[separated_.pair[k]] = apart;
   }
 
   /// Returns the number of pairs in the register that begins with pair k.
@@ -229,12 +224,6 @@ class PairKernel {
 
   std::uint32_t may_nest(std::uint32_t pair) const noexcept {
     return may_nest_[pair / Simd::width] >> pair % Simd::width & 1;
-  }
-
-  /// Reopens pairs whose areas meet but whose outlines may not cross. Outlines of areas that meet, or are within a gap, do so
-  /// themselves unless one holds the other, which boundary semantics does not count.
-  void reopen_what_may_nest() noexcept {
-    met_.drop_if(open_, [&](std::uint32_t pair) { return axis_test_.contours_stick_out(pair); });
   }
 
   /// Returns whether the areas meet by their inscribed discs. See layout/culling/interior.hpp.
@@ -268,7 +257,7 @@ class PairKernel {
   alignas(64) std::uint32_t row_a_[chunk_size], row_b_[chunk_size];  ///< supports; set by test_roots()
   /// One word for each register of pairs: a bit for each of its pairs.
   std::uint32_t open_bits_[chunk_size / Simd::width], may_nest_[chunk_size / Simd::width];
-  List open_, near_, separated_, met_;
+  List open_, near_, separated_;
   OverlapTraversal<Simd, open_traversals> traversal_;
 };
 

@@ -76,7 +76,6 @@ void time_of_impact(const ShapeSet& shapes, const Agents& agents, std::span<cons
   require_valid(implementation, view, agents, pairs);
 
   TimeOfImpactArguments arguments{arguments_for(view, agents, {}), nullptr, nullptr, nullptr};
-  arguments.in.solid = view.slab_parts != nullptr;
   for_pair_ranges(pairs.size(), ApartPairs::capacity, [&](std::size_t begin, std::size_t size) {
     answer(implementation, arguments, agents, pairs.subspan(begin, size), displacements.x.data() + begin,
            displacements.y.data() + begin, times.data() + begin);

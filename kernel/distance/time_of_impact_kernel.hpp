@@ -76,9 +76,12 @@ class TimeOfImpactKernel {
     }
     axis_test_.place_directions();
     for (unsigned odd = 0; odd < 2; ++odd)
-      open_.drop_if(open_, [this, odd](std::uint32_t pair) {
-        return axis_test_.apart_on_the_way(pair, odd, x_[pair], y_[pair], slack(pair));
-      });
+      open_.drop_if(
+          open_,
+          [this, odd](std::uint32_t pair) {
+            return axis_test_.apart_on_the_way(pair, odd, x_[pair], y_[pair], slack(pair));
+          },
+          [](std::uint32_t) {});
   }
 
   /// Returns the slack of supports on the way. Discs touch by the measure at 16 u D more than by collide()'s

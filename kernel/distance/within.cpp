@@ -33,7 +33,6 @@ void within(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> 
   const Asked asked{"within", "pair", pairs.size()};
   require_as_many(asked, answers.size(), "answers");
   require_distances(asked, distances);
-  const bool solid = is_solid(shapes, options.semantics, "within");
   const Implementation& implementation = chosen(options, "within");
   require_valid(implementation, shapes.view(), agents, pairs);
   for_pair_ranges(pairs.size(), pairs_per_task, [&](std::size_t begin, std::size_t size) {
@@ -42,7 +41,6 @@ void within(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> 
     Arguments arguments = arguments_for(shapes.view(), agents, pairs.subspan(begin, size));
     arguments.gaps = gaps;
     arguments.codes = answers.data() + begin;
-    arguments.solid = solid;
     answer(implementation, arguments, 0, size);
   });
 }

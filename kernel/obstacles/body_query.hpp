@@ -59,19 +59,15 @@ class BodyQuery {
     for (std::size_t i = first_part_[agent - begin_]; i < end; ++i) visit(parts_[i]);
   }
 
-  /// Holds the meaning of collide().
-  struct Meaning {
-    bool exact_leaves, solid;
-  };
   /// Calls found(obstacle) for obstacles that a part collides with, each once, until it returns false.
   template <class Found>
-  void visit_hits(const PlacedPart& part, Meaning meaning, const Found& found) {
+  void visit_hits(const PlacedPart& part, bool exact_leaves, const Found& found) {
     near_part(part);
     const bool stop = near_.any_obstacle([&](std::span<const LocalSegment> segments, std::uint32_t obstacle) {
-      const bool hit = touches(part, segments, meaning.exact_leaves) ||
-                       (near_.obstacles().is_area[obstacle] != 0 &&
-                        area_holds(part, segments, obstacle, meaning.exact_leaves)) ||
-                       (meaning.solid && outline_holds(part, segments));
+      const bool hit =
+          touches(part, segments, exact_leaves) ||
+          (near_.obstacles().is_area[obstacle] != 0 && area_holds(part, segments, obstacle, exact_leaves)) ||
+          outline_holds(part, segments);
       return hit && !found(obstacle);
     });
     if (!stop) visit_areas_beyond(part, found);

@@ -85,7 +85,7 @@ void put(const ShapeSetView& shapes, const ClearanceAnswers& answers, std::size_
 }
 
 NearestObstacle GapQuery::find(BodyQuery& body, std::uint32_t agent, double limit, double enough,
-                               Inside inside) const {
+                               bool inside) const {
   NearestObstacle nearest{.gap = std::min(limit, farthest)};
   body.visit_parts(agent, [&](const PlacedPart& part) {
     if (nearest.is_near_enough) return;
@@ -95,8 +95,8 @@ NearestObstacle GapQuery::find(BodyQuery& body, std::uint32_t agent, double limi
     const std::span<const LocalSegment> segments = body.near_part(part);
     search(part, segments, enough, best, nearest);
     nearest.is_near_enough = (nearest.is_found && nearest.gap <= enough) ||
-                             (inside.areas && body.area_that_holds(part, exact_leaves_) != no_obstacle) ||
-                             (inside.outlines && body.outline_holds(part, segments));
+                             (inside && (body.area_that_holds(part, exact_leaves_) != no_obstacle ||
+                                         body.outline_holds(part, segments)));
     if (nearest.is_near_enough || nearest.gap <= part.looked) return;
     search_outward(body, part, enough, best, nearest);
     nearest.is_near_enough = nearest.is_found && nearest.gap <= enough;

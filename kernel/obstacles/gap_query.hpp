@@ -37,15 +37,9 @@ class GapQuery {
   GapQuery(const Implementation& implementation, const ShapeSetView& shapes, bool exact_leaves) noexcept
       : implementation_(implementation), shapes_(shapes), exact_leaves_(exact_leaves) {}
 
-  /// Selects what counts as near enough beside gaps.
-  struct Inside {
-    bool areas;     ///< an area that holds the agent
-    bool outlines;  ///< a path that the agent's outline holds
-  };
-
-  /// Finds the least gap of at most `limit`, metres. The search ends where one is at most `enough`, or what counts is inside.
-  NearestObstacle find(BodyQuery& body, std::uint32_t agent, double limit, double enough,
-                       Inside inside) const;
+  /// Finds the least gap of at most `limit`, metres. The search ends where one is at most `enough` or, where `inside`
+  /// counts, an area holds the agent or its outline a path.
+  NearestObstacle find(BodyQuery& body, std::uint32_t agent, double limit, double enough, bool inside) const;
 
  private:
   /// The largest gap that there can be, metres.

@@ -12,7 +12,7 @@ namespace bch::detail {
 Rows<std::uint32_t> ObstacleRows::find(const ShapeSet& shapes, const Agents& agents,
                                        const ObstacleSet& obstacles, const QueryOptions& options) {
   const FloatingPointStateGuard floats;
-  const BodyQuery::Meaning meaning = meaning_of(shapes, options);
+  const bool exact = exact_leaves(shapes, options.leaves, "collide");
   const Implementation& implementation = chosen(options, "collide");
   validate(shapes, agents);
   const std::size_t count = (agents.size() + agents_per_task - 1) / agents_per_task;
@@ -27,7 +27,7 @@ Rows<std::uint32_t> ObstacleRows::find(const ShapeSet& shapes, const Agents& age
       for_prepared(body, block * agents_per_task, end, 0, Look::touching, [&](std::uint32_t agent) {
         const auto begin = static_cast<std::ptrdiff_t>(found.size());
         body.visit_parts(agent, [&](const PlacedPart& part) {
-          body.visit_hits(part, meaning,
+          body.visit_hits(part, exact,
                           [&](std::uint32_t obstacle) { return found.push_back(obstacle), true; });
         });
         // Parts may collide with the same one.

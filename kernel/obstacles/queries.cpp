@@ -14,26 +14,18 @@ namespace bch {
 
 using namespace detail;
 
-namespace detail {
-
-BodyQuery::Meaning meaning_of(const ShapeSet& shapes, const QueryOptions& options) {
-  return {exact_leaves(shapes, options.leaves, "collide"), is_solid(shapes, options.semantics, "collide")};
-}
-
-}  // namespace detail
-
 void collide(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
              std::span<std::uint8_t> hits, const QueryOptions& options) {
   const FloatingPointStateGuard floats;
   require_as_many({"collide", "agent", agents.size()}, hits.size(), "hits");
-  const BodyQuery::Meaning meaning = meaning_of(shapes, options);
+  const bool exact = exact_leaves(shapes, options.leaves, "collide");
   const Implementation& implementation = chosen(options, "collide");
   validate(shapes, agents);
   for_agents(implementation, shapes, agents, obstacles, 0, Look::touching,
              [&](BodyQuery& body, std::uint32_t agent) {
                bool hit = false;
                body.visit_parts(agent, [&](const PlacedPart& part) {
-                 if (!hit) body.visit_hits(part, meaning, [&](std::uint32_t) { return hit = true, false; });
+                 if (!hit) body.visit_hits(part, exact, [&](std::uint32_t) { return hit = true, false; });
                });
                hits[agent] = hit;
              });
@@ -45,7 +37,6 @@ void within(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obs
   const Asked asked{"within", "agent", agents.size()};
   require_as_many(asked, answers.size(), "answers");
   require_distances(asked, distances);
-  const bool solid = is_solid(shapes, options.semantics, "within");
   const bool exact = exact_leaves(shapes, options.distance_leaves, "within");
   const Implementation& implementation = chosen(options, "within");
   validate(shapes, agents);
@@ -54,7 +45,7 @@ void within(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obs
   for_agents(implementation, shapes, agents, obstacles, most, Look::nearest,
              [&](BodyQuery& body, std::uint32_t agent) {
                const double distance = distances[distances.size() == 1 ? 0 : agent];
-               const NearestObstacle nearest = query.find(body, agent, distance, distance, {true, solid});
+               const NearestObstacle nearest = query.find(body, agent, distance, distance, true);
                answers[agent] = nearest.is_near_enough;
              });
 }
@@ -70,14 +61,14 @@ void clearance(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& 
   const double enough = zero ? 0 : -std::numeric_limits<double>::infinity();
   // How deep discs overlap is asked of discs.
   const GapQuery query(implementation, shapes.view(), exact && zero);
-  for_agents(
-      implementation, shapes, agents, obstacles, options.max_distance, Look::nearest,
-      [&](BodyQuery& body, std::uint32_t agent) {
-        const NearestObstacle nearest = query.find(body, agent, options.max_distance, enough, {zero, false});
-        if (nearest.is_near_enough) return put_alone(answers, agent, 0);
-        if (!nearest.is_found) return put_alone(answers, agent, std::numeric_limits<float>::infinity());
-        put(shapes.view(), answers, agent, nearest);
-      });
+  for_agents(implementation, shapes, agents, obstacles, options.max_distance, Look::nearest,
+             [&](BodyQuery& body, std::uint32_t agent) {
+               const NearestObstacle nearest = query.find(body, agent, options.max_distance, enough, zero);
+               if (nearest.is_near_enough) return put_alone(answers, agent, 0);
+               if (!nearest.is_found)
+                 return put_alone(answers, agent, std::numeric_limits<float>::infinity());
+               put(shapes.view(), answers, agent, nearest);
+             });
 }
 
 }  // namespace bch

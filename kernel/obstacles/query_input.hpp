@@ -17,9 +17,6 @@ namespace bch::detail {
 
 constexpr std::size_t agents_per_task = 256;
 
-/// Returns what collide() means with these options. Errors: throws std::invalid_argument as collide().
-BodyQuery::Meaning meaning_of(const ShapeSet& shapes, const QueryOptions& options);
-
 /// The number of agents that are prepared together: enough to hide the latency of the tree of boxes, few enough for
 /// a near cache.
 constexpr std::size_t agents_together = 64;

@@ -83,8 +83,7 @@ double impact(BodyQuery& body, const PlacedPart& part, Vector way_in_world) {
   const Vec2 centre = part.centre();
   body.near_part(part);
   if (body.area_that_holds(part, false) != no_obstacle) return 0;
-  const bool is_solid = part.shapes.slab_parts != nullptr;
-  if (is_solid && body.outline_holds(part, body.near().found())) return 0;
+  if (body.outline_holds(part, body.near().found())) return 0;
   const Vector way = part.place.turned_back(way_in_world.x, way_in_world.y);
   double best = infinity;
   for (const LocalSegment& segment :

@@ -77,8 +77,6 @@ void take_speeds(CastMember& member, const std::string& file, std::span<const Cl
 void validate(const BakedShapes& baked, const std::string& file) {
   if (baked.origins.origins.empty())
     throw std::invalid_argument(file + ": does not say which clips and times its shapes show");
-  if (!baked.set.solid())
-    throw std::invalid_argument(file + ": was baked without outlines; bake it with --semantics solid");
 }
 
 void require_all_there(const Cast& cast, const std::string& file, std::span<const ClipSpeed> speeds) {

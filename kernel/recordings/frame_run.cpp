@@ -127,7 +127,7 @@ std::span<const Pair> FrameRun::find(BroadPhase& phase, const ShapeSet& shapes,
 void FrameRun::ask_pairs(const ShapeSet& set, const Agents& all) {
   const std::span<const Pair> found = find(body_phase_, set, all.shape, margin_);
   answers_.resize(found.size());
-  collide(set, all, found, answers_, {.semantics = Semantics::solid, .leaves = options_.leaves});
+  collide(set, all, found, answers_, {.leaves = options_.leaves});
   const auto frame_of = own(block_->frame_of());
   hits_.clear(), apart_.clear();
   for (std::size_t i = 0; i < found.size(); ++i)
@@ -190,7 +190,7 @@ void FrameRun::ask_between(const ShapeSet& set, const Agents& all, const Agents&
   };
   keep_if([&](std::size_t i) { return times[i] > 0 && times[i] < 1; });
   answers_.resize(later.size());
-  collide(set, with_next, later, answers_, {.semantics = Semantics::solid, .leaves = Leaves::discs});
+  collide(set, with_next, later, answers_, {.leaves = Leaves::discs});
   keep_if([&](std::size_t i) { return answers_[i] == 0; });
   const std::vector<float> gaps = gaps_of(set, all, moving, std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < moving.size(); ++i)
@@ -213,7 +213,7 @@ void FrameRun::add_pass(Pair people, std::size_t next, float time, float gap) {
 void FrameRun::ask_walls(const ShapeSet& set, const Agents& all) {
   in_wall_.assign(size(), 0);
   if (options_.walls == nullptr) return;
-  collide(set, all, *options_.walls, in_wall_, {.semantics = Semantics::solid, .leaves = options_.leaves});
+  collide(set, all, *options_.walls, in_wall_, {.leaves = options_.leaves});
   std::vector<std::uint32_t> who, shape;
   std::vector<double> x, y, heading;
   for (std::uint32_t i = 0; i < size(); ++i)

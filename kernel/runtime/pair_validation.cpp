@@ -91,16 +91,6 @@ void require_choice(const char* query, const char* what, int value, const char* 
                                 ", only " + words);
 }
 
-bool is_solid(const ShapeSet& shapes, Semantics semantics, const char* query) {
-  require_choice(query, "semantics is", static_cast<int>(semantics), "boundary (0) and solid (1)");
-  const bool solid = semantics == Semantics::solid || !shapes.slices().empty();
-  if (solid && !shapes.solid())
-    throw std::invalid_argument(
-        std::string(query) +
-        ": solid semantics needs outlines, and the set does not have that of every shape");
-  return solid;
-}
-
 bool exact_leaves(const ShapeSet& shapes, Leaves leaves, const char* query) {
   require_choice(query, "leaves are", static_cast<int>(leaves), "discs (0) and segments (1)");
   return leaves == Leaves::segments && shapes.exact_leaves();
@@ -118,7 +108,6 @@ Arguments arguments_for(const ShapeSetView& view, const Agents& agents, std::spa
           .pairs = pairs.data(),
           .gaps = nullptr,
           .codes = nullptr,
-          .solid = false,
           .exact_leaves = false,
           .prefetch_agents = agents.size() >= many_agents,
           .prefetch_shapes = view.shape_count >= many_shapes};

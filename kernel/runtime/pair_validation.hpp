@@ -34,10 +34,6 @@ struct Asked {
 void require_as_many(const Asked& asked, std::size_t size, const char* what);
 void require_choice(const char* query, const char* what, int value, const char* words);
 
-/// Returns whether a query answers in solid semantics: that is selected, or bodies are in slabs.
-/// Errors:  throws std::invalid_argument naming the query on a value that is none, and where the set lacks outlines for it.
-bool is_solid(const ShapeSet& shapes, Semantics semantics, const char* query);
-
 /// Returns whether segments decide at some leaves: `leaves` selects them, and the set has them.
 /// Errors:  throws std::invalid_argument naming the query on a value that is none.
 bool exact_leaves(const ShapeSet& shapes, Leaves leaves, const char* query);

@@ -57,7 +57,7 @@ struct AncestorPath {
 };
 
 /// Tests whether two overlapping cut discs overlap with all their ancestors: every node from the one up to
-/// its root overlaps every node from the other up to its own. That is the definition of a hit; see Semantics.
+/// its root overlaps every node from the other up to its own. That is the definition of a hit; see <bch/query.hpp>.
 template <class Simd>
 class AncestorTest {
  public:

@@ -31,7 +31,6 @@ struct Arguments {
   const Pair* pairs;
   const float* gaps;  ///< per pair, the leaf's of Gaps; null: which pairs collide is asked
   std::uint8_t* codes;
-  bool solid;         ///< write may_contain where it applies, else apart
   bool exact_leaves;  ///< where both trees have segments, these decide; see Leaves
   // Ask for what is needed soon: there is more of it than a near cache holds.
   bool prefetch_agents = false, prefetch_shapes = false;
@@ -39,8 +38,8 @@ struct Arguments {
 
 /// Tells the result of a kernel for a pair.
 enum Code : std::uint8_t {
-  apart = 0,    ///< the cuts do not overlap, and neither outline holds the other, or that is not asked for
-  overlap = 1,  ///< discs of the cuts overlap, or come within the distance of the pair
+  apart = 0,        ///< the cuts do not overlap, and neither outline holds the other
+  overlap = 1,      ///< discs of the cuts overlap, or come within the distance of the pair
   may_contain = 2,  ///< the cuts do not overlap, and one outline might hold the other
 };
 

@@ -26,51 +26,20 @@ struct ChunkPairs {
     size += Simd::write_set(bits, first, pair + size);
   }
 
-  /// Forgets the pairs that pass a test; the rest go to a list, which may be this one. No branch depends on
-  /// an answer, here and below.
-  template <class Test>
-  void drop_if(ChunkPairs& rest, Test passes) noexcept {
-    const std::uint32_t count = take_all();
+  /// Forgets the pairs that pass a test; the rest go to a list, which may be this one. No branch depends on an
+  /// answer. `prefetch(pair)` asks for what the test will read.
+  template <class Test, class Prefetch>
+  void drop_if(ChunkPairs& rest, Test passes, Prefetch prefetch) noexcept {
+    const std::uint32_t count = size;
+    size = 0;
     std::uint32_t kept = rest.size;
     for (std::uint32_t k = 0; k < count; ++k) {
+      if (k + pairs_ahead < count) prefetch(pair[k + pairs_ahead]);
       const std::uint16_t each = pair[k];
       rest.pair[kept] = each;
       kept += passes(each) ^ 1;
     }
     rest.size = kept;
-  }
-
-  /// Holds the result of a test for a pair, bits.
-  struct Verdict {
-    std::uint32_t leaves;    ///< this list
-    std::uint32_t is_moved;  ///< of those that leave it, else forgotten
-  };
-
-  /// Moves pairs to another list, or forgets them; the rest go to a third, which may be this one.
-  /// `prefetch(pair)` asks for what the test will read.
-  template <class Test, class Prefetch>
-  void move_if(ChunkPairs& to, ChunkPairs& rest, Test test, Prefetch prefetch) noexcept {
-    const std::uint32_t count = take_all();
-    std::uint32_t kept = rest.size, moved = to.size;
-    for (std::uint32_t k = 0; k < count; ++k) {
-      if (k + pairs_ahead < count) prefetch(pair[k + pairs_ahead]);
-      const std::uint16_t each = pair[k];
-      const auto [leaves, is_moved] = test(each);
-      rest.pair[kept] = to.pair[moved] = each;
-      kept += leaves ^ 1;
-      moved += leaves & is_moved;
-    }
-    rest.size = kept;
-    to.size = moved;
-  }
-
- private:
-  /// Empties the list and returns how many pairs there were. They may still be read, up to where others are
-  /// written.
-  std::uint32_t take_all() noexcept {
-    const std::uint32_t count = size;
-    size = 0;
-    return count;
   }
 };
 

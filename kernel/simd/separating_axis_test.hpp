@@ -103,23 +103,6 @@ class SeparatingAxisTest {
     return separated != 0;
   }
 
-  /// Returns whether each shape's largest contour has a point beyond the other's supports, so neither lies
-  /// inside the other.
-  std::uint32_t contours_stick_out(std::uint32_t pair) const noexcept {
-    const float c = at_.c[pair], s = at_.s[pair], tx = at_.tx[pair], ty = at_.ty[pair];
-    const std::uint32_t a = at_.shape_a[pair], b = at_.shape_b[pair];
-    const unsigned turn =
-        ((static_cast<unsigned>(offset_[pair]) + 1) / 2 + extreme_directions / 2) % extreme_directions;
-    const unsigned back = (extreme_directions - turn) % extreme_directions;
-    // The float arithmetic is off by less than 40 u S. Only the proof needs the slack: a contour that lies in
-    // another one and comes so near its supports comes as near its outline, where leaf discs overlap as well.
-    constexpr float share = 4e-6f;
-    static_assert(double{share} >= 40 * rounding::unit_roundoff);
-    const float slack = share * (shapes_.reach[a] + shapes_.reach[b]);
-    return sticks_out(b, turn, c, s, tx, ty, row_a_[pair], slack) &
-           sticks_out(a, back, c, -s, -(c * tx + s * ty), -(c * ty - s * tx), row_b_[pair], slack);
-  }
-
  private:
   using Float = typename Simd::Float;
   using Mask = typename Simd::Mask;
@@ -152,25 +135,6 @@ class SeparatingAxisTest {
 
   static Float along(float x, float y, unsigned odd, unsigned k) noexcept {
     return Float(x) * Simd::load(direction_x[odd] + k) + Float(y) * Simd::load(direction_y[odd] + k);
-  }
-
-  /// Returns whether a farthest point of a shape is beyond one of the supports of another shape. The point is
-  /// placed in the other's frame by a rotation (c, s) and a translation t. The shape's direction k + turn is
-  /// the one that points most nearly along the other's direction k.
-  std::uint32_t sticks_out(std::uint32_t shape, unsigned turn, float c, float s, float tx, float ty,
-                           std::uint32_t other_row, float slack) const noexcept {
-    const float* x = shapes_.extremes[shape].x + turn;
-    const float* y = shapes_.extremes[shape].y + turn;
-    const float* support = supports(other_row);
-    std::uint32_t out = 0;
-    for (unsigned k = 0; k < extreme_directions; k += Simd::width) {
-      const Float ux = Simd::load(direction_x[0] + k), uy = Simd::load(direction_y[0] + k);
-      const Float turned_x = Float(c) * ux + Float(s) * uy, turned_y = Float(c) * uy - Float(s) * ux;
-      const Float along =
-          (Float(tx) * ux + Float(ty) * uy) + (Simd::load(x + k) * turned_x + Simd::load(y + k) * turned_y);
-      out |= Simd::bits(Simd::load(support + k) + Float(slack) < along);
-    }
-    return out != 0;
   }
 
   static constexpr unsigned half = support_stride / 2;

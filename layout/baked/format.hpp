@@ -38,8 +38,7 @@
 ///     nodes           f32         any     see below
 ///     reach           f32         S or 0  metres from the origin to the farthest point, 1e-6 to 1e6; like trees
 ///     support         f32         any     rows of 64, supports.hpp; or none. Rows 0 and 1 are plus infinity
-///     inscribed       DiscBlock   S or 0  interior.hpp; this and the next two where there are supports
-///     extremes        Extremes    S or 0  interior.hpp
+///     inscribed       DiscBlock   S or 0  interior.hpp; this and the next where there are supports
 ///     profiles        Profile     S or 0  profile.hpp
 ///     shape_contours  ContourRange  S or 0  one behind the other; 0 where there are no trees
 ///     contours        Contour     any     its points, one at least, behind those of the contour before
@@ -97,7 +96,7 @@ namespace bch::detail::baked {
 constexpr std::array<std::uint8_t, 8> magic{0x89, 'B', 'C', 'H', '\r', '\n', 0x1a, '\n'};
 constexpr std::uint32_t byte_order = 0x01020304;
 constexpr std::uint32_t other_byte_order = 0x04030201;
-constexpr std::uint32_t version = 6;
+constexpr std::uint32_t version = 7;
 constexpr std::size_t alignment = 64;
 
 struct FileHeader {
@@ -119,7 +118,6 @@ enum class Section : std::uint32_t {
   reach,
   support,
   inscribed,
-  extremes,
   profiles,
   shape_contours,
   contours,

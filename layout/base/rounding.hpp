@@ -67,7 +67,7 @@
 /// by Cauchy: (contact_error). No miss: where two outlines meet, a cut disc of either has the common point, and so has every
 /// node above it, up to the root. So every pair of a node of one way up and a node of the other has tight discs with D <= r_A +
 /// r_B, exactly. Published radii add (contact_error) P each, so the float test accepts all these pairs, and they are what a hit
-/// is: see Semantics. A traversal may leave out what is below a pair that the float test does not accept, because no pair
+/// is: see <bch/query.hpp>. A traversal may leave out what is below a pair that the float test does not accept, because no pair
 /// below is a hit by that definition; nothing has to be proved of that. More sources belong to the shape and are added
 /// beside:
 ///

@@ -68,16 +68,16 @@ void put(const Vec3& position, Vec2& to) {
 
 template <class Position>
 void take_vertices(std::span<const Vec3> from, std::vector<Position>& to) {
-  const auto is_finite = [](const Vec3& v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.z); };
+  const auto are_finite = [](const Vec3& v) { return is_finite(v.x) && is_finite(v.y) && is_finite(v.z); };
   constexpr const char* what = "posed vertices";
   require_count(to.size(), what, from.size());
   unsigned finite = 1;  // all of them, so that the loop is done by whole registers
   for (std::size_t v = 0; v < from.size(); ++v) {
-    finite &= is_finite(from[v]);
+    finite &= are_finite(from[v]);
     put(from[v], to[v]);
   }
   if (finite == 0)
-    for (std::size_t v = 0; v < from.size(); ++v) require_finite(is_finite(from[v]), what, v);
+    for (std::size_t v = 0; v < from.size(); ++v) require_finite(are_finite(from[v]), what, v);
 }
 
 }  // namespace

@@ -43,8 +43,8 @@ struct Lines {
   }
 };
 
-/// Returns whether a winding number means inside, as containment of the solid semantics counts: a contour
-/// from elsewhere may overlap itself.
+/// Returns whether a winding number means inside, as containment counts: a contour from elsewhere may overlap
+/// itself.
 bool is_inside(double winding) {
   return static_cast<int>(winding) % 2 != 0;
 }
@@ -54,8 +54,8 @@ void set_extremes(const InteriorLoops& loops, std::span<const Vec2> contour, Int
   alignas(64) std::array<double, extreme_directions> farthest;
   loops.find_extremes(contour.data(), contour.size(),
                       {lines.cosine.data(), lines.sine.data(), &farthest[contour_lines], &farthest[0]});
-  for (std::uint32_t k = 0; k < extreme_stride; ++k) {
-    const Vec2 point = contour[static_cast<std::size_t>(farthest[k % extreme_directions])];
+  for (std::uint32_t k = 0; k < extreme_directions; ++k) {
+    const Vec2 point = contour[static_cast<std::size_t>(farthest[k])];
     result.extreme_x[k] = point.x;
     result.extreme_y[k] = point.y;
   }

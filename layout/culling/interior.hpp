@@ -18,18 +18,19 @@
 
 namespace bch::detail {
 
-/// Holds the data by which a query accepts a pair without a traversal of its trees. All of it belongs to the
-/// outline's largest contour.
+/// The number of directions along which farthest points are found.
+constexpr std::uint32_t extreme_directions = 16;
+
+/// Holds the data by which a query accepts a pair without a traversal of its trees, and what a profile is made of. All
+/// of it belongs to the outline's largest contour.
 ///
 /// The contours' areas meet where a disc inside one contour overlaps a disc inside another. Then either the
-/// contours cross, which both semantics call a hit at every level, or one lies inside the other, which solid
-/// calls a hit too. Boundary may accept only where nesting is excluded: when each contour has a point beyond
-/// the other's supports (supports.hpp).
+/// contours cross or one lies inside the other: a hit at every level.
 struct Interior {
   /// Discs inside the contour, their radii rounded inward by what rounding.hpp derives; padded like a block.
   std::array<float, block_width> x, y, radius;
-  /// The contour's farthest point along each direction of the supports, twice over, as supports are stored.
-  std::array<float, extreme_stride> extreme_x, extreme_y;
+  /// The contour's farthest point along each of as many equal parts of a turn. No set stores them.
+  std::array<float, extreme_directions> extreme_x, extreme_y;
 };
 
 /// Chooses the inscribed discs of one shape after the other. It allocates only where a contour has more

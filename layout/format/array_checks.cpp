@@ -95,7 +95,6 @@ void sizes(const ShapeArrays& a) {
   if (a.nodes.size() >= leaf_window)
     throw std::invalid_argument("nodes: " + std::to_string(a.nodes.size()) + ", not below 2^31");
   require_size("inscribed", a.inscribed.size(), culling ? shapes : 0);
-  require_size("extremes", a.extremes.size(), culling ? shapes : 0);
   require_size("profiles", a.profiles.size(), culling ? shapes : 0);
   // Kernels name a profile's records by 32 bits, two floats each.
   if (culling && shapes > most / (sizeof(Profile) / (2 * sizeof(float))))
@@ -207,15 +206,6 @@ void hull_supports(const ShapeArrays& a) {
 void inscribed(const ShapeArrays& a) {
   for (std::size_t s = 0; s < a.inscribed.size(); ++s)
     require_discs("inscribed", s, a.inscribed[s].x, block_width, block_width);
-}
-
-void extremes(const ShapeArrays& a) {
-  for (std::size_t s = 0; s < a.extremes.size(); ++s) {
-    std::uint32_t bad = 0;
-    for (const float x : a.extremes[s].x) bad |= beyond(x, largest_length);
-    for (const float y : a.extremes[s].y) bad |= beyond(y, largest_length);
-    if ((bad & top_bit) != 0) reject("extremes", s, "not a point");
-  }
 }
 
 void profiles(const ShapeArrays& a) {

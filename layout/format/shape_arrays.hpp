@@ -21,7 +21,6 @@ struct ShapeArrays {
   std::span<const Tree> trees;
   std::span<const float> nodes, reach, support;
   std::span<const DiscBlock> inscribed;
-  std::span<const Extremes> extremes;
   std::span<const Profile> profiles;
   std::span<const ContourRange> shape_contours;
   std::span<const Contour> contours;
@@ -51,7 +50,6 @@ void for_each_array(Visit visit, Sets&... sets) {
   visit("reach", sets.reach...);
   visit("support", sets.support...);
   visit("inscribed", sets.inscribed...);
-  visit("extremes", sets.extremes...);
   visit("profiles", sets.profiles...);
   visit("shape_contours", sets.shape_contours...);
   visit("contours", sets.contours...);

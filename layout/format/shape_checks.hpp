@@ -33,7 +33,6 @@ void roots(const ShapeArrays& a);
 void supports(const ShapeArrays& a);
 void hull_supports(const ShapeArrays& a);
 void inscribed(const ShapeArrays& a);
-void extremes(const ShapeArrays& a);
 void profiles(const ShapeArrays& a);
 void shape_contours(const ShapeArrays& a);
 void contour_points(const ShapeArrays& a);

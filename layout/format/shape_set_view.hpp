@@ -18,10 +18,6 @@ constexpr std::uint32_t most_wide_levels = 10;
 constexpr std::uint32_t support_directions = 32;
 constexpr std::uint32_t support_stride = 2 * support_directions;
 
-/// Floats that the farthest points along every other one of them take; see interior.hpp.
-constexpr std::uint32_t extreme_directions = support_directions / 2;
-constexpr std::uint32_t extreme_stride = 2 * extreme_directions;
-
 /// Holds eight discs side by side; what is left over is padding that overlaps nothing: infinitely far away. (A negative
 /// radius would hit, because the sum of radii is squared.)
 struct DiscBlock {
@@ -96,11 +92,6 @@ constexpr unsigned leaf_count_shift = 24;
 constexpr std::uint32_t leaf_first_mask = (std::uint32_t{1} << leaf_count_shift) - 1;
 constexpr std::uint32_t most_leaf_segments = 127;
 
-/// Holds farthest points of a contour; see interior.hpp.
-struct Extremes {
-  float x[extreme_stride], y[extreme_stride];
-};
-
 /// Sectors of a profile, and what lies in one; see profile.hpp. Metres from the profile's centre, rounded so that it
 /// decides nothing wrongly.
 constexpr std::uint32_t profile_sectors = 32;
@@ -154,9 +145,8 @@ struct ShapeSetView {
 
   // Null without the plan's culling data.
   const float* support;        ///< rows of support_stride floats; those before first_row are infinite
-  const DiscBlock* inscribed;  ///< per shape; see interior.hpp, like the next
-  const Extremes* extremes;
-  const Profile* profiles;  ///< per shape
+  const DiscBlock* inscribed;  ///< per shape; see interior.hpp
+  const Profile* profiles;     ///< per shape
 
   // Null without the plan's outlines, and like the trees.
   const ContourRange* shape_contours;  ///< per shape

@@ -36,7 +36,6 @@ constexpr Precondition all[] = {
     {"supports", "Supports are numbers of at most 1e7 m.", supports, nullptr},
     {"hull supports", "The supports of all parts of a shape are such numbers, too.", hull_supports, nullptr},
     {"inscribed discs", "Inscribed discs are such numbers, or padding.", inscribed, nullptr},
-    {"extremes", "Farthest points are such numbers.", extremes, nullptr},
     {"profiles", "Profiles are such numbers, or minus infinity where nothing is known.", profiles, nullptr},
     {"shape contours", "Shapes' contours lie one behind the other and are all contours.", shape_contours,
      nullptr},

@@ -120,10 +120,9 @@ ScenePlan plan_scene(std::span<const SceneAgent> agents, const SceneUse& use) {
   const std::vector<std::uint32_t> depths = depths_of(agents, use);
   ScenePlan plan;
   plan.set.depths = different(depths);
-  plan.set.outlines = use.solid || (use.leaves == Leaves::segments && plan.set.depths.back() == all_depths);
+  plan.set.outlines = use.outlines || !use.slices.empty();
   plan.set.slices = use.slices;
   plan.set.heights = use.heights || !use.slices.empty();
-  plan.set.outlines |= !use.slices.empty();
   plan.set.culling = use.pairs_per_shape >= pairs_for_culling;
   Shapes shapes(use.pose_step);
   for (std::size_t i = 0; i < agents.size(); ++i) {

@@ -125,9 +125,8 @@ bool DynamicShapeSet::State::try_replace(std::uint32_t shape, const FlatBody& bo
   require(shape, body);
   for (std::size_t k = 0; k < body.part_count; ++k) {
     if (!fits(extent_of(body.parts[k]), places[first_part(shape) + k].size)) return false;
-    if (set.solid() && !set.roots_only() && body.parts[k].outline.contours() == 0) return false;
   }
-  // Else set has to learn of single discs, or a kernel would not look for them; and that an outline is missing.
+  // Else set has to learn of single discs, or a kernel would not look for them.
   if (set.view().rows_in_order && has_level(body, true)) return false;
   put(shape, body);
   return true;

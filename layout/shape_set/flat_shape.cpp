@@ -67,14 +67,7 @@ void take_culling(const ShapeArrays& arrays, std::size_t part, std::uint32_t row
     std::copy_n(arrays.support.data() + std::size_t{row} * support_stride, support_stride,
                 flat.supports.begin());
   flat.profile = arrays.profiles[part];
-  const DiscBlock& discs = arrays.inscribed[part];
-  const Extremes& extremes = arrays.extremes[part];
-  Interior& inside = flat.interior;
-  std::copy_n(discs.x, block_width, inside.x.begin());
-  std::copy_n(discs.y, block_width, inside.y.begin());
-  std::copy_n(discs.radius, block_width, inside.radius.begin());
-  std::copy_n(extremes.x, extreme_stride, inside.extreme_x.begin());
-  std::copy_n(extremes.y, extreme_stride, inside.extreme_y.begin());
+  flat.inscribed = arrays.inscribed[part];
 }
 
 /// What ShapeStorage::put_outline() was given.

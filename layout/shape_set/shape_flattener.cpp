@@ -114,7 +114,7 @@ void ShapeFlattener::require(const Shape& shape) const {
   if (plan_.outlines) require_segments(shape);
   if (!plan_.slices.empty() && plan_.depths.back() > 0 && shape.outline.contours() == 0)
     throw std::invalid_argument("slices: it has no outline, which slabs need, unless depth 0 is alone");
-  if (shape.outline.contours() > 0 && (plan_.outlines || has_culling())) validate(shape.outline);
+  if (plan_.outlines && shape.outline.contours() > 0) validate(shape.outline);
 }
 
 bool ShapeFlattener::has_culling() const {
@@ -131,12 +131,17 @@ void ShapeFlattener::add_levels(const Shape& shape, FlatShape& flat) {
   }
 }
 
-/// A shape without an outline has no inscribed discs: padding, which overlaps nothing.
+/// Areas are those of outlines. Where none is kept there are no inscribed discs: padding, which overlaps nothing.
 void ShapeFlattener::add_interior(const Shape& shape, FlatShape& flat) {
-  flat.interior = {};
-  flat.interior.x.fill(std::numeric_limits<float>::infinity());
-  if (shape.outline.contours() > 0) flat.interior = interiors_.build(shape.outline, shape.hierarchy.reach);
-  flat.profile = profile(shape.outline, flat.interior, shape.hierarchy.reach);
+  Interior inside{};
+  inside.x.fill(std::numeric_limits<float>::infinity());
+  static const Outline none;
+  const Outline& outline = plan_.outlines ? shape.outline : none;
+  if (outline.contours() > 0) inside = interiors_.build(outline, shape.hierarchy.reach);
+  std::copy(inside.x.begin(), inside.x.end(), flat.inscribed.x);
+  std::copy(inside.y.begin(), inside.y.end(), flat.inscribed.y);
+  std::copy(inside.radius.begin(), inside.radius.end(), flat.inscribed.radius);
+  flat.profile = profile(outline, inside, shape.hierarchy.reach);
   for (Sector& sector : flat.profile.sectors) sector.shallow_outer = 0;
 }
 

@@ -20,7 +20,7 @@ struct FlatShape {
   std::vector<Bvh8> levels;  ///< one a depth
   Supports supports;  ///< of the deepest level; this and the next two only with the plan's culling data
   Profile profile;
-  Interior interior;
+  DiscBlock inscribed;
   // Only with the plan's outlines.
   Outline outline;
   std::vector<Disc> contour_disc;

@@ -32,18 +32,6 @@ bool rows_in_order(std::span<const Root> roots) {
   return in_order;
 }
 
-/// Single discs need no outlines: those that do not overlap cannot hold each other's.
-bool is_solid(const ShapeArrays& arrays) {
-  if (arrays.trees.empty()) return true;
-  bool all = !arrays.shape_contours.empty();
-  const auto look_at = [&](const ContourRange& contours) { all &= contours.begin < contours.end; };
-  if (arrays.slices.empty())
-    std::for_each(arrays.shape_contours.begin(), arrays.shape_contours.end(), look_at);
-  for (const std::uint32_t part : arrays.slab_parts)
-    if (part != no_part && !arrays.shape_contours.empty()) look_at(arrays.shape_contours[part]);
-  return all;
-}
-
 ShapeSet build(std::span<const Shape> shapes, const ShapeSetPlan& plan) {
   const FloatingPointStateGuard floats;
   PreparedShape prepared(plan);
@@ -124,14 +112,12 @@ struct ShapeSet::State {
     arrays = of;
     order = slab_order(arrays);
     view = view_of(arrays, order.data());
-    solid = is_solid(arrays);
   }
 
   ShapeArrays arrays;
   std::shared_ptr<const void> memory;
   std::array<std::uint8_t, most_planes + 1> order;
   ShapeSetView view;
-  bool solid;
 };
 
 ShapeSet::ShapeSet(std::span<const Shape> shapes, const ShapeSetPlan& plan) : ShapeSet(build(shapes, plan)) {}
@@ -170,10 +156,6 @@ std::span<const float> ShapeSet::slices() const noexcept {
 
 bool ShapeSet::has_heights() const noexcept {
   return !state_->arrays.heights.empty();
-}
-
-bool ShapeSet::solid() const noexcept {
-  return state_->solid;
 }
 
 bool ShapeSet::exact_leaves() const noexcept {

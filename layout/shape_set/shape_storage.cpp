@@ -68,7 +68,7 @@ void ShapeStorage::reserve(const ShapeSetPlan& plan, std::size_t parts, const Sh
   reach.reserve(parts);
   if (plan.culling) {
     support.reserve(extent.rows * support_stride);
-    inscribed.reserve(parts), extremes.reserve(parts), profiles.reserve(parts);
+    inscribed.reserve(parts), profiles.reserve(parts);
   }
   if (plan.outlines) {
     shape_contours.reserve(parts), segment_margin.reserve(parts);
@@ -87,7 +87,7 @@ void ShapeStorage::resize(const ShapeSetPlan& plan, std::size_t shapes, std::siz
   trees.resize(parts * levels);
   reach.resize(parts);
   if (plan.culling && !plan.slices.empty()) hull_support.resize(shapes * support_stride);
-  if (plan.culling) inscribed.resize(parts), extremes.resize(parts), profiles.resize(parts);
+  if (plan.culling) inscribed.resize(parts), profiles.resize(parts);
   if (plan.outlines) shape_contours.resize(parts), segment_margin.resize(parts);
 }
 
@@ -181,12 +181,7 @@ void ShapeStorage::put_culling(std::size_t part, const FlatShape& flat, const Sh
   if (!flat.levels.back().is_single())
     std::copy(flat.supports.begin(), flat.supports.end(), support.data() + at.rows * support_stride);
   profiles[part] = flat.profile;
-  const Interior& inside = flat.interior;
-  std::copy(inside.x.begin(), inside.x.end(), inscribed[part].x);
-  std::copy(inside.y.begin(), inside.y.end(), inscribed[part].y);
-  std::copy(inside.radius.begin(), inside.radius.end(), inscribed[part].radius);
-  std::copy(inside.extreme_x.begin(), inside.extreme_x.end(), extremes[part].x);
-  std::copy(inside.extreme_y.begin(), inside.extreme_y.end(), extremes[part].y);
+  inscribed[part] = flat.inscribed;
 }
 
 void ShapeStorage::put_outline(std::size_t part, const FlatShape& flat, const ShapeExtent& at) {

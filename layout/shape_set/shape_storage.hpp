@@ -46,7 +46,6 @@ struct ShapeStorage {
   AlignedVector<Tree> trees;
   AlignedVector<float> nodes, reach, support;
   AlignedVector<DiscBlock> inscribed;
-  AlignedVector<Extremes> extremes;
   AlignedVector<Profile> profiles;
   AlignedVector<ContourRange> shape_contours;
   AlignedVector<Contour> contours;

@@ -46,10 +46,7 @@ void verify_part(const Look& look) {
   if (look.arrays().profiles.empty()) return;
   verify_supports(look);
   verify_profile(look, outline);
-  if (outline.contours() > 0)
-    verify_inside(look, outline);
-  else
-    verify_hull(look);
+  verify_inside(look, outline);
 }
 
 }  // namespace

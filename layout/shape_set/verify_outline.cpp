@@ -15,7 +15,7 @@
 #include "layout/format/leaf_segments.hpp"
 #include "layout/shape_set/verify_parts.hpp"
 
-// What follows from a shape's outline, or, where it is not stored, what may not stick out of its discs.
+// What follows from a shape's outline; where it is not stored, no area is known.
 
 namespace bch::detail::verification {
 namespace {
@@ -94,10 +94,18 @@ Depth depth_in(std::span<const Vec2> contour, Point p) {
   return depth;
 }
 
-Interior interior_of(const ShapeArrays& arrays, std::uint32_t shape) {
+/// Finds the farthest points of the largest contour, which profiles are made of.
+Interior extremes_of(const Outline& outline) {
   Interior interior{};
-  std::copy_n(arrays.extremes[shape].x, extreme_stride, interior.extreme_x.begin());
-  std::copy_n(arrays.extremes[shape].y, extreme_stride, interior.extreme_y.begin());
+  if (outline.contours() == 0) return interior;
+  const auto contour = largest_contour(outline);
+  for (std::uint32_t k = 0; k < extreme_directions; ++k) {
+    const Point along = direction(k, extreme_directions);
+    const Vec2 farthest = *std::max_element(contour.begin(), contour.end(), [&](Vec2 p, Vec2 q) {
+      return dot(point(p), along) < dot(point(q), along);
+    });
+    interior.extreme_x[k] = farthest.x, interior.extreme_y[k] = farthest.y;
+  }
   return interior;
 }
 
@@ -131,47 +139,6 @@ void verify_sectors(const Look& look, const Profile& stored, const Profile& expe
   for (std::uint32_t k = 0; k < profile_sectors; ++k) {
     compare("inner of sector ", k, stored.sectors[k].inner, expected.sectors[k].inner);
     compare("extent of sector ", k, stored.sectors[k].extent, expected.sectors[k].extent);
-  }
-}
-
-/// Without an outline: what is inside ends before the discs do.
-void verify_sectors(const Look& look, const Profile& stored) {
-  float farthest = 0;
-  for (const Sector& sector : stored.sectors) farthest = std::max(farthest, sector.outer);
-  for (std::uint32_t k = 0; k < profile_sectors; ++k) {
-    const Sector& sector = stored.sectors[k];
-    if (sector.inner > sector.outer || sector.extent > farthest)
-      look.say("profiles", no_level, "sector " + std::to_string(k) + " sticks out of the discs");
-  }
-}
-
-/// How far a disc sticks out of the discs of the deepest level along the worst direction; metres.
-double beyond_supports(const Supports& heights, const Disc& disc) {
-  double most = -HUGE_VAL;
-  for (std::uint32_t k = 0; k < support_directions; ++k) {
-    const double along =
-        dot({static_cast<double>(disc.x), static_cast<double>(disc.y)}, direction(k, support_directions));
-    const double height = heights[k % 2 * support_directions + k / 2];
-    most = std::max(most, along + static_cast<double>(disc.radius) - height);
-  }
-  return most;
-}
-
-void verify_extremes(const Look& look, std::span<const Vec2> contour) {
-  const Extremes& stored = look.arrays().extremes[look.part];
-  for (std::uint32_t k = 0; k < extreme_stride; ++k) {
-    const Vec2 p{stored.x[k], stored.y[k]};
-    const Point along = direction(k % extreme_directions, extreme_directions);
-    double most = -HUGE_VAL;
-    bool found = false;
-    for (const Vec2 q : contour) {
-      most = std::max(most, dot(point(q), along));
-      found |= p.x == q.x && p.y == q.y;
-    }
-    if (!found || dot(point(p), along) < most - look.tolerance())
-      look.say("extremes", no_level,
-               "point " + std::to_string(k) + ", (" + shortest(p.x) + ", " + shortest(p.y) +
-                   ") m, is not the contour's farthest");
   }
 }
 
@@ -239,11 +206,9 @@ void verify_contours(const Look& look, const Outline& outline) {
 void verify_profile(const Look& look, const Outline& outline) {
   const Profile& stored = look.arrays().profiles[look.part];
   verify_outer(look, stored);
-  if (outline.contours() == 0) return verify_sectors(look, stored);
   // Made from the reach before it was rounded up.
   const float reach = std::nextafter(static_cast<float>(look.reach), 0.0f);
-  const Profile expected =
-      profile(outline, interior_of(look.arrays(), look.part), static_cast<double>(reach));
+  const Profile expected = profile(outline, extremes_of(outline), static_cast<double>(reach));
   const double off = length(point({stored.x, stored.y}) - point({expected.x, expected.y}));
   if (off > look.tolerance())
     return look.say(
@@ -253,36 +218,17 @@ void verify_profile(const Look& look, const Outline& outline) {
 }
 
 void verify_inside(const Look& look, const Outline& outline) {
-  const auto contour = largest_contour(outline);
+  const auto contour = outline.contours() > 0 ? largest_contour(outline) : std::span<const Vec2>();
   const DiscBlock& discs = look.arrays().inscribed[look.part];
   for (std::uint32_t i = 0; i < block_width; ++i) {
     if (!(discs.x[i] < infinity)) continue;
     const Disc disc{discs.x[i], discs.y[i], discs.radius[i]};
-    const Depth depth = depth_in(contour, point({disc.x, disc.y}));
+    const Depth depth = contour.empty() ? Depth{0, false} : depth_in(contour, point({disc.x, disc.y}));
     const double room = depth.distance - 24 * rounding::unit_roundoff * look.reach;
     if (!depth.inside || static_cast<double>(disc.radius) > room)
       look.say("inscribed", no_level,
                "disc " + std::to_string(i) + " at " + text_of(disc) + " is not inside the largest contour");
   }
-  verify_extremes(look, contour);
-}
-
-void verify_hull(const Look& look) {
-  const CutDiscs cut = look.cut(look.levels() - 1);
-  const Supports heights = supports(cut.x, cut.y, cut.radius, cut.count, look.reach);
-  const DiscBlock& discs = look.arrays().inscribed[look.part];
-  for (std::uint32_t i = 0; i < block_width; ++i) {
-    const Disc disc{discs.x[i], discs.y[i], discs.radius[i]};
-    if (disc.x < infinity && beyond_supports(heights, disc) > 0)
-      look.say("inscribed", no_level,
-               "disc " + std::to_string(i) + " at " + text_of(disc) + " sticks out of the discs");
-  }
-  // All 0 where the shape was made without an outline.
-  const Extremes& extremes = look.arrays().extremes[look.part];
-  for (std::uint32_t k = 0; k < extreme_stride; ++k)
-    if ((extremes.x[k] != 0 || extremes.y[k] != 0) &&
-        beyond_supports(heights, {extremes.x[k], extremes.y[k], 0}) > 0)
-      look.say("extremes", no_level, "point " + std::to_string(k) + " sticks out of the discs");
 }
 
 }  // namespace bch::detail::verification

@@ -57,7 +57,6 @@ void verify_reach(const Look& look);
 void verify_supports(const Look& look);
 void verify_profile(const Look& look, const Outline& outline);
 void verify_inside(const Look& look, const Outline& outline);
-void verify_hull(const Look& look);
 void verify_contours(const Look& look, const Outline& outline);
 void verify_cover(const Look& look, const Outline& outline, std::uint32_t level);
 void verify_segments(const Look& look);

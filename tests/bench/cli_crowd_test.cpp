@@ -42,7 +42,6 @@ TEST(Cli, CrowdGivesTheSameAnswersEverywhere) {
     if (row.supported()) {
       EXPECT_EQ(first, small_crowd(folder, {"--isa", row.name})) << row.name;
     }
-  EXPECT_GE(small_crowd(folder, {"--semantics", "solid"}).hits[3], first.hits[3]);
 }
 
 TEST(Cli, CrowdDrawsAPicture) {

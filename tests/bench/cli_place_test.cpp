@@ -72,7 +72,7 @@ struct Bodies {
     const Agents agents{shape, moment.x, moment.y, moment.heading};
     const std::vector<Pair> pairs = candidate_pairs(set, agents);
     std::vector<std::uint8_t> hits(pairs.size());
-    collide(set, agents, pairs, hits, {.semantics = Semantics::solid, .leaves = Leaves::segments});
+    collide(set, agents, pairs, hits, {.leaves = Leaves::segments});
     return static_cast<std::size_t>(std::ranges::count(hits, 1));
   }
 };

@@ -47,12 +47,10 @@ TEST(Cli, SlicesClearCollisions) {
         bch({"crowd", "--agents", "300", "--poses", "5", "--depths", "all", "--json", json}, more);
     EXPECT_EQ(run.code, 0) << run.err;
     const auto said = read_json(json)["options"];
-    EXPECT_EQ(said["semantics"], more.empty() ? "boundary" : "solid");
     EXPECT_EQ(said.contains("slices_m"), !more.empty());
     if (more == Arguments{"--slices", "0.4,1"}) {  // by which a run can be repeated
       EXPECT_EQ(said["slices_m"].dump(), "[0.4,1.0]");
     }
-    EXPECT_EQ(run.out.find(" solid semantics") != std::string::npos, !more.empty()) << run.out;
     EXPECT_EQ(run.out.find(" slabs, cut at ") != std::string::npos, !more.empty()) << run.out;
     return read_json(json)["levels"].back()["hits"].get<std::size_t>();
   };

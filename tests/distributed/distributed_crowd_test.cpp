@@ -59,8 +59,7 @@ class Distributed : public testing::Test {
   void expect_same(const World& world, DistributedCrowd& crowd, double margin = 0.5) const {
     crowd.update(margin);
     EXPECT_EQ(collisions(crowd), world.collisions(set));
-    EXPECT_EQ(collisions(crowd, {.semantics = Semantics::solid}),
-              world.collisions(set, {.semantics = Semantics::solid}));
+    EXPECT_EQ(collisions(crowd, {.leaves = Leaves::discs}), world.collisions(set, {.leaves = Leaves::discs}));
     const QueryOptions near{.max_distance = margin};
     EXPECT_EQ(clearances(crowd, near), world.clearances(set, near));
     std::vector<std::uint32_t> ids, expected;

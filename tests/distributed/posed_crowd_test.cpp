@@ -55,13 +55,13 @@ class PosedCrowd : public testing::Test {
   }
 
   void expect_same(World world, const ShapeSetPlan& plan, DistributedCrowd& crowd) const {
-    constexpr QueryOptions solid{.semantics = Semantics::solid}, near{.max_distance = 0.4};
+    constexpr QueryOptions by_discs{.leaves = Leaves::discs}, near{.max_distance = 0.4};
     crowd.update(0.4);
-    const Answers found = collisions(crowd, solid), found_near = clearances(crowd, near);
+    const Answers found = collisions(crowd, by_discs), found_near = clearances(crowd, near);
     if (rank() != 0) return;  // one knows what is right: poses take long
     const ShapeSet set = shapes_of(world, plan);
     EXPECT_GT(found.size(), 10u);
-    EXPECT_EQ(found, world.collisions(set, solid));
+    EXPECT_EQ(found, world.collisions(set, by_discs));
     EXPECT_EQ(found_near, world.clearances(set, near));
   }
 };

@@ -208,7 +208,7 @@ class Caller : public Program {
   }
   void draw(bch_query_options& of) {
     of = BCH_QUERY_OPTIONS_INIT;
-    draw_all(of.semantics, of.leaves, of.distance_leaves, of.overlap);
+    draw_all(of.leaves, of.distance_leaves, of.overlap);
     of.threads = chance(32) ? 1025 + bytes.take<std::uint8_t>() : 1;
     if (chance(4)) draw(of.max_distance);
     if (chance(4)) of.implementation = bch_implementation_name(bytes.below(4));
@@ -288,7 +288,7 @@ class Caller : public Program {
   }
   void draw(bch_scene_use& of) {
     of = BCH_SCENE_USE_INIT;
-    draw_all(of.solid, of.leaves, of.heights);
+    draw_all(of.outlines, of.heights);
     if (chance(2)) draw(of.slices), of.slice_count = bytes.below(3);
     if (chance(4)) draw_all(of.whole_from, of.pose_step);
   }

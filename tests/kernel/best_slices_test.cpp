@@ -37,7 +37,7 @@ std::size_t hits_of(const std::vector<float>& slices) {
     pairs.push_back({2 * i, 2 * i + 1});
   }
   std::vector<std::uint8_t> hits(pairs.size());
-  collide(set, crowd.agents(), pairs, hits, {.semantics = Semantics::solid});
+  collide(set, crowd.agents(), pairs, hits);
   return static_cast<std::size_t>(std::count(hits.begin(), hits.end(), 1));
 }
 

@@ -35,11 +35,14 @@ TEST_F(ClearanceDifferential, AgreesWithCollide) {
     const Agents agents = scene.crowd.agents();
     std::vector<std::uint8_t> hits(scene.pairs.size());
     collide(set, agents, scene.pairs, hits);
-    const Answers all = answers(set, agents, scene.pairs, 0);
+    const Answers all = answers(set, agents, scene.pairs, 0),
+                  zero = answers(set, agents, scene.pairs, 0, nullptr, Overlap::zero);
     std::size_t disputed = 0, parted_above = 0;
     for (std::size_t i = 0; i < hits.size(); ++i) {
       if (hits[i]) {
-        ASSERT_LE(all.distance[i], 0) << i;
+        ASSERT_EQ(zero.distance[i], 0) << i;
+        ASSERT_TRUE(all.distance[i] <= 0 || !discs.boundary(agents, scene.pairs[i], Method::depth_first))
+            << i;
         continue;
       }
       if (!std::isfinite(all.distance[i])) continue;

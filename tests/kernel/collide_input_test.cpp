@@ -154,19 +154,14 @@ TEST_F(BadInput, TheLargestValuesAreValid) {
   }
 }
 
-TEST_F(BadInput, SemanticsThatThereIsNot) {
-  expect_rejected("collide: no semantics is 2", {static_cast<Semantics>(2)});
-  expect_rejected("collide: no semantics is -1", {static_cast<Semantics>(-1)});
-  EXPECT_THROW(CrowdCollider().collide_all(set, crowd.agents(), {static_cast<Semantics>(2)}),
+TEST_F(BadInput, LeavesThatThereAreNot) {
+  expect_rejected("collide: no leaves are 2", {.leaves = static_cast<Leaves>(2)});
+  expect_rejected("collide: no leaves are -1", {.leaves = static_cast<Leaves>(-1)});
+  EXPECT_THROW(CrowdCollider().collide_all(set, crowd.agents(), {.leaves = static_cast<Leaves>(2)}),
                std::invalid_argument);
 }
 
-TEST_F(BadInput, SizesThatDifferAndSolidWithoutOutlines) {
-  set = ShapeSet(shapes, {.outlines = false});
-  expect_rejected("solid semantics needs outlines", {Semantics::solid});
-  shapes[1].outline = {};
-  set = ShapeSet(shapes);
-  expect_rejected("does not have that of every shape", {Semantics::solid});
+TEST_F(BadInput, SizesThatDiffer) {
   crowd.y.pop_back();
   expect_rejected("2 shapes but 1 values of y");
   crowd.y.push_back(0);

@@ -27,33 +27,28 @@ using test::Random;
 const ShapeSetPlan plan{{0, 3, 6, all_depths}, true};
 
 std::vector<std::uint8_t> answers(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs,
-                                  Semantics semantics, const Implementation& implementation) {
+                                  const Implementation& implementation) {
   std::vector<std::uint8_t> hits(pairs.size(), 77);
-  collide(set, agents, pairs, hits, {semantics, &implementation});
+  collide(set, agents, pairs, hits, {&implementation});
   return hits;
 }
 
-/// Every implementation and both semantics against brute force; says which pair differs and where it stands.
+/// Every implementation against brute force; says which pair differs and where it stands.
 void expect_equal_to_brute_force(const ShapeSet& set, const Reference& reference, const PairScene& scene,
                                  const std::string& what) {
   const Agents agents = scene.crowd.agents();
   std::vector<std::uint8_t> expected;
-  for (const Pair& pair : scene.pairs)
-    expected.push_back(reference.boundary(agents, pair, Method::brute_force));
-  for (const Semantics semantics : {Semantics::boundary, Semantics::solid}) {
-    for (std::size_t i = 0; semantics == Semantics::solid && i < expected.size(); ++i)
-      expected[i] = expected[i] || reference.solid(agents, scene.pairs[i], Method::depth_first);
-    const auto hits = std::count(expected.begin(), expected.end(), 1);
-    EXPECT_GT(hits, 0) << what;
-    EXPECT_LT(hits, std::ssize(expected)) << what;
-    for (const auto& implementation : implementations()) {
-      if (!implementation.supported()) continue;
-      const auto hits_of = answers(set, agents, scene.pairs, semantics, implementation);
-      for (std::size_t i = 0; i < expected.size(); ++i)
-        ASSERT_EQ(hits_of[i], expected[i])
-            << what << ", " << implementation.name << ", pair " << i << ": shapes " << agents.shape[2 * i]
-            << " and " << agents.shape[2 * i + 1];
-    }
+  for (const Pair& pair : scene.pairs) expected.push_back(reference.solid(agents, pair, Method::brute_force));
+  const auto hits = std::count(expected.begin(), expected.end(), 1);
+  EXPECT_GT(hits, 0) << what;
+  EXPECT_LT(hits, std::ssize(expected)) << what;
+  for (const auto& implementation : implementations()) {
+    if (!implementation.supported()) continue;
+    const auto hits_of = answers(set, agents, scene.pairs, implementation);
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      ASSERT_EQ(hits_of[i], expected[i])
+          << what << ", " << implementation.name << ", pair " << i << ": shapes " << agents.shape[2 * i]
+          << " and " << agents.shape[2 * i + 1];
   }
 }
 
@@ -87,7 +82,7 @@ TEST_F(Differential, NoOutlineCrossingIsMissed) {
   EXPECT_GT(std::count(meet.begin(), meet.end(), 1), std::ssize(meet) / 3);
   for (const auto& implementation : implementations()) {
     if (!implementation.supported()) continue;
-    const auto hits = answers(set, agents, scene.pairs, Semantics::boundary, implementation);
+    const auto hits = answers(set, agents, scene.pairs, implementation);
     for (std::size_t i = 0; i < hits.size(); ++i)
       EXPECT_TRUE(hits[i] == 1 || meet[i] == 0) << implementation.name << ", pair " << i;
   }
@@ -95,12 +90,12 @@ TEST_F(Differential, NoOutlineCrossingIsMissed) {
 
 /// A wedge points to where its sector is that a direction of zero length has. Inside it lies a smaller one, whose far end
 /// sticks out farther behind the common centre than the larger one goes on before it.
-TEST(Solid, AContourInsideAnotherOfTheSameCentreIsFound) {
+TEST(Collide, AContourInsideAnotherOfTheSameCentreIsFound) {
   const Outline wedge = test::polygon({{-1, 0}, {0.25f, -0.5f}, {0.25f, 0.5f}});
   Outline smaller = wedge;
   for (Vec2& p : smaller.points) p = {0.75f * p.x, 0.75f * p.y};
   const std::vector<Shape> shapes = {test::contour_shape(wedge), test::contour_shape(smaller)};
-  const ShapeSet set(shapes, {{all_depths}, true});
+  const ShapeSet set(shapes), discs(shapes, {.outlines = false});
   const detail::Profile* const profiles = set.view().profiles;
   ASSERT_EQ(profiles[0].y, 0);
   ASSERT_EQ(profiles[1].y, 0);
@@ -110,11 +105,8 @@ TEST(Solid, AContourInsideAnotherOfTheSameCentreIsFound) {
   scene.pairs = {{0, 1}};
   for (const auto& implementation : implementations()) {
     if (!implementation.supported()) continue;
-    const auto hit = [&](Semantics semantics) {
-      return answers(set, scene.crowd.agents(), scene.pairs, semantics, implementation)[0];
-    };
-    EXPECT_EQ(hit(Semantics::boundary), 0) << implementation.name;
-    EXPECT_EQ(hit(Semantics::solid), 1) << implementation.name;
+    EXPECT_EQ(answers(set, scene.crowd.agents(), scene.pairs, implementation)[0], 1) << implementation.name;
+    EXPECT_EQ(answers(discs, scene.crowd.agents(), scene.pairs, implementation)[0], 0) << implementation.name;
   }
 }
 

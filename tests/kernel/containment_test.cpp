@@ -61,23 +61,26 @@ test::PairScene copies_inside(test::Random& random, const Outline& big, const Ou
 
 void expect_all_found(const std::vector<Shape>& poses) {
   test::Random random(77);
-  std::size_t only_solid = 0;
+  std::size_t clear_inside = 0;
   for (const Shape& pose : poses) {
     const Outline small = scaled(pose.outline, 0.3);
     const std::vector<Shape> shapes = {pose, test::contour_shape(small)};
-    const ShapeSet set(shapes, {{2, 5, all_depths}, true});
+    const ShapeSet set(shapes, {{2, 5, all_depths}}), discs(shapes, {{2, 5, all_depths}, false});
     const test::PairScene scene = copies_inside(random, pose.outline, small);
     ASSERT_GT(scene.pairs.size(), 100u);
-    std::vector<std::uint8_t> solid(scene.pairs.size()), boundary(scene.pairs.size());
+    std::vector<std::uint8_t> hits(scene.pairs.size()), hits_of_discs(hits);
     for (const auto& implementation : implementations()) {
       if (!implementation.supported()) continue;
-      collide(set, scene.crowd.agents(), scene.pairs, solid, {Semantics::solid, &implementation});
-      EXPECT_EQ(std::count(solid.begin(), solid.end(), 0), 0) << implementation.name;
+      collide(set, scene.crowd.agents(), scene.pairs, hits, {&implementation});
+      EXPECT_EQ(std::count(hits.begin(), hits.end(), 0), 0) << implementation.name;
     }
-    collide(set, scene.crowd.agents(), scene.pairs, boundary);
-    only_solid += static_cast<std::size_t>(std::count(boundary.begin(), boundary.end(), 0));
+    // Without outlines the inscribed discs decide nothing either.
+    collide(ShapeSet(shapes, {{2, 5, all_depths}, false, false}), scene.crowd.agents(), scene.pairs, hits);
+    collide(discs, scene.crowd.agents(), scene.pairs, hits_of_discs);
+    EXPECT_EQ(hits_of_discs, hits);
+    clear_inside += static_cast<std::size_t>(std::count(hits_of_discs.begin(), hits_of_discs.end(), 0));
   }
-  EXPECT_GT(only_solid, 10 * poses.size());  // there are copies that touch no edge
+  EXPECT_GT(clear_inside, 10 * poses.size());  // there are copies that touch no edge
 }
 
 TEST(Containment, ASmallCopyIsFoundEverywhereInAPose) {
@@ -112,24 +115,46 @@ TEST(Containment, InsideIsWhatAContourGoesRoundAnOddNumberOfTimes) {
       scene.crowd.add({1, random.uniform(-3, 3), random.uniform(-3, 3), 0, 0});
       scene.pairs.push_back({2 * i, 2 * i + 1});
     }
-    std::vector<std::uint8_t> boundary(scene.pairs.size()), solid(boundary);
+    std::vector<std::uint8_t> hits(scene.pairs.size()), hits_of_discs(hits);
     std::size_t inside = 0, in_a_hole = 0;
     for (const bool culling : {false, true}) {
-      const ShapeSet set(shapes, {{all_depths}, true, culling});
+      const ShapeSet set(shapes, {.culling = culling}),
+          discs(shapes, {.outlines = false, .culling = culling});
       for (const auto& implementation : implementations()) {
         if (!implementation.supported()) continue;
-        collide(set, scene.crowd.agents(), scene.pairs, boundary, {Semantics::boundary, &implementation});
-        collide(set, scene.crowd.agents(), scene.pairs, solid, {Semantics::solid, &implementation});
+        collide(discs, scene.crowd.agents(), scene.pairs, hits_of_discs, {&implementation});
+        collide(set, scene.crowd.agents(), scene.pairs, hits, {&implementation});
         for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
-          if (boundary[i] != 0) continue;
+          if (hits_of_discs[i] != 0) continue;
           const bool is_inside = test::inside(outline, scene.crowd.x[2 * i + 1], scene.crowd.y[2 * i + 1]);
-          ASSERT_EQ(solid[i], is_inside) << implementation.name << (culling ? " with" : " without");
+          ASSERT_EQ(hits[i], is_inside) << implementation.name << (culling ? " with" : " without");
           (is_inside ? inside : in_a_hole) += 1;
         }
       }
     }
     EXPECT_GT(inside, 100u);
     EXPECT_GT(in_a_hole, 100u);
+  }
+}
+
+/// A wheelchair holds a small cart, of which it knows the outline, but not a cylinder, which has none.
+TEST(Containment, ABodyWithoutAnOutlineIsItsDiscsAlone) {
+  const auto square = [](float half) {
+    return test::contour_shape(test::polygon({{-half, -half}, {half, -half}, {half, half}, {-half, half}}));
+  };
+  const std::vector<Shape> shapes = {square(1), square(0.1f), {{}, fixed_cylinder(0.1f)}};
+  test::Crowd crowd;
+  for (const double x : {0.0, 0.95})
+    for (std::uint32_t shape = 0; shape < 3; ++shape) crowd.add({shape, shape == 0 ? 0 : x, 0, 0.3, 0});
+  const std::vector<Pair> pairs = {{0, 1}, {0, 2}, {3, 4}, {3, 5}};
+  for (const bool culling : {false, true}) {
+    const ShapeSet set(shapes, {.culling = culling});
+    for (const auto& implementation : implementations()) {
+      if (!implementation.supported()) continue;
+      std::vector<std::uint8_t> hits(pairs.size());
+      collide(set, crowd.agents(), pairs, hits, {&implementation});
+      EXPECT_EQ(hits, (std::vector<std::uint8_t>{1, 0, 1, 1})) << implementation.name;
+    }
   }
 }
 

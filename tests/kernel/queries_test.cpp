@@ -315,7 +315,7 @@ TEST_P(QueriesOf, EqualBruteForce) {
     const std::vector<PairAnswers> expected = world.brute_force.answers(world.set, questions);
     expect_answers(world.set, questions, expected, placement.name);
     for (const PairAnswers& all : expected)
-      ++pairs, hits += all.boundary, on_the_way += all.time > 0 && all.time <= 1;
+      ++pairs, hits += all.hit, on_the_way += all.time > 0 && all.time <= 1;
   }
   EXPECT_GT(hits, pairs / 5);
   EXPECT_LT(hits, pairs * 4 / 5);
@@ -336,8 +336,8 @@ TEST_P(QueriesOf, PenetrationsSuffice) {
       questions.crowd.y[questions.pairs[i].first] += static_cast<double>(depth) * y;
     }
     for (const PairAnswers& after : ask(world.set, questions)) {
-      EXPECT_EQ(after.solid, 0);
-      EXPECT_EQ(after.boundary_of_discs, 0);
+      EXPECT_EQ(after.hit, 0);
+      EXPECT_EQ(after.hit_of_discs, 0);
     }
   }
 }
@@ -351,26 +351,19 @@ TEST_P(QueriesOf, NeighboursEqualBruteForce) {
   for (const std::uint32_t pairs : {40u, 0u, 1u, 15u}) {
     const PairScene scene = at_contact(random, world, pairs);
     const auto count = static_cast<std::uint32_t>(scene.crowd.x.size());
-    std::vector<std::vector<std::uint32_t>> boundary(count), solid(count);
+    std::vector<std::vector<std::uint32_t>> expected(count);
     for (std::uint32_t i = 0; i < count; ++i)
       for (std::uint32_t j = 0; j < count; ++j) {
         if (i == j) continue;
-        const bool hit =
-            world.brute_force.collisions.boundary(scene.crowd.agents(), {i, j}, Method::brute_force);
-        if (hit) boundary[i].push_back(j);
-        if (hit || (world.set.solid() &&
-                    world.brute_force.collisions.solid(scene.crowd.agents(), {i, j}, Method::depth_first)))
-          solid[i].push_back(j);
+        if (world.brute_force.collisions.solid(scene.crowd.agents(), {i, j}, Method::brute_force))
+          expected[i].push_back(j);
       }
-    for (const Semantics semantics : {Semantics::boundary, Semantics::solid})
-      for (const Implementation& each : test::supported()) {
-        if (semantics == Semantics::solid && !world.set.solid()) continue;
-        const auto rows = collider.collide_all(world.set, scene.crowd.agents(), {semantics, &each});
-        const auto& expected = semantics == Semantics::solid ? solid : boundary;
-        for (std::uint32_t i = 0; i < count; ++i)
-          EXPECT_TRUE(std::ranges::equal(rows[i], expected[i]))
-              << each.name << ", agent " << i << " of " << count;
-      }
+    for (const Implementation& each : test::supported()) {
+      const auto rows = collider.collide_all(world.set, scene.crowd.agents(), {&each});
+      for (std::uint32_t i = 0; i < count; ++i)
+        EXPECT_TRUE(std::ranges::equal(rows[i], expected[i]))
+            << each.name << ", agent " << i << " of " << count;
+    }
   }
 }
 

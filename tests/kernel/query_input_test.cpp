@@ -127,14 +127,9 @@ TEST_F(QueryInput, OptionsThatThereAreNot) {
   EXPECT_THROW(clearance(set, agents, pairs, {floats}, {.distance_leaves = leaves}), std::invalid_argument);
   expect_refused("no overlap is 2",
                  [&] { clearance(set, agents, pairs, {floats}, {.overlap = Overlap{2}}); });
-  expect_refused("within: no semantics is 2",
-                 [&] { within(set, agents, pairs, distances, hits, {static_cast<Semantics>(2)}); });
 }
 
 TEST_F(QueryInput, OfWholeCrowdsIsNamed) {
-  const ShapeSet without_outlines(shapes, {.outlines = false});
-  EXPECT_THROW(CrowdCollider().collide_all(without_outlines, crowd.agents(), {Semantics::solid}),
-               std::invalid_argument);
   crowd.x[1] = nan;
   expect_refused("agent 1: position (nan, 0)", [&] { CrowdCollider().collide_all(set, crowd.agents()); });
   expect_refused("agent 1: position (nan, 0)", [&] { ContactFinder().find_all(set, crowd.agents()); });

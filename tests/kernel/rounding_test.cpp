@@ -118,7 +118,7 @@ void attack(const test::TangentShapes& shapes, std::uint64_t seed, Tallies& tall
   const auto implementations = test::supported();
   for (std::size_t k = 0; k < implementations.size(); ++k) {
     collide(shapes.set(), scene.crowd.agents(), scene.pairs, hits,
-            {Semantics::boundary, &implementations[k].get(), Leaves::discs});
+            {&implementations[k].get(), Leaves::discs});
     for (std::uint32_t i = 0; i < block; ++i) count(tallies[k], near[i], hits[i] != 0);
   }
 }

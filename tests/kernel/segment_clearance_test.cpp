@@ -104,7 +104,8 @@ void expect_distances_of_outlines(const std::vector<Shape>& shapes, const PairSc
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
     const Pair pair = scene.pairs[i];
     const Shape &a = shapes[scene.crowd.shape[pair.first]], &b = shapes[scene.crowd.shape[pair.second]];
-    const long double exact = test::oracle(shapes, scene.crowd.agents(), pair).distance();
+    const baselines::Oracle truth = test::oracle(shapes, scene.crowd.agents(), pair);
+    const long double exact = !truth.cross() && truth.nested() ? 0 : truth.distance();
     ASSERT_LE(found.distance[i], exact) << i;
     const bool segments = a.hierarchy.nodes.size() > 1 && b.hierarchy.nodes.size() > 1;
     if (!segments) continue;

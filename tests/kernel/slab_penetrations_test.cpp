@@ -19,7 +19,7 @@ class SlabPenetrations : public test::SlabComparison {
  protected:
   std::size_t hits(const MovingScene& scene) const {
     std::vector<std::uint8_t> all(scene.pairs.size());
-    collide(set, scene.crowd.agents(), scene.pairs, all, {.semantics = Semantics::solid});
+    collide(set, scene.crowd.agents(), scene.pairs, all);
     return static_cast<std::size_t>(std::count(all.begin(), all.end(), 1));
   }
 };

@@ -152,8 +152,7 @@ TEST_P(Slabs, CollideWhereWholeBodiesDo) {
   }
   const ShapeSet whole_set(whole), cut_set(cut, {.slices = GetParam()});
   PairScene scene = random_scene(random, whole_set, 20'000);
-  const auto of_whole = answers(whole_set, scene, {.semantics = Semantics::solid}),
-             of_slabs = answers(cut_set, scene);
+  const auto of_whole = answers(whole_set, scene, {}), of_slabs = answers(cut_set, scene);
   std::size_t fewer = 0;
   for (std::size_t i = 0; i < of_slabs.size(); ++i) {
     ASSERT_LE(of_slabs[i], of_whole[i]) << i;
@@ -225,11 +224,11 @@ TEST(Heights, OfWholeBodiesHaveToMeet) {
   const std::vector<Shape> shapes = bodies(random, {.heights = true});
   const ShapeSet set(shapes, plan);
   PairScene scene = random_scene(random, set, 10'000);
-  const auto on_one_ground = answers(set, scene, {.semantics = Semantics::solid});
+  const auto on_one_ground = answers(set, scene, {});
   raise(random, scene);
   const SlabBodies reference(shapes, plan);
   const Agents agents = scene.crowd.agents();
-  const auto found = answers(set, scene, {.semantics = Semantics::solid});
+  const auto found = answers(set, scene, {});
   std::size_t above = 0;
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
     ASSERT_EQ(found[i], reference.collide(agents, scene.pairs[i], Method::brute_force)) << i;

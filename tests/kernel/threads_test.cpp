@@ -27,7 +27,6 @@ class Threads : public testing::Test {
     std::vector<std::uint8_t> hits(scene.pairs.size());
     detail::Arguments arguments = detail::arguments_for(set.view(), agents, scene.pairs);
     arguments.codes = hits.data();
-    arguments.solid = true;
     std::vector<std::thread> running;
     for (unsigned t = 0; t < threads; ++t)
       running.emplace_back([&, t] {

@@ -60,6 +60,7 @@ class TimeOfImpactDifferential : public test::Differential {
   }
 
   float expected(const Motion& motion, std::size_t i, Method method) {
+    if (discs.solid(motion.crowd.agents(), motion.pairs[i], Method::depth_first)) return 0;
     return reference.query(motion.crowd.agents(), motion.pairs[i], motion.x[i], motion.y[i], method);
   }
 

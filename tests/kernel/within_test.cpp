@@ -95,7 +95,7 @@ INSTANTIATE_TEST_SUITE_P(Sets, Within, testing::ValuesIn(set_kinds), name_of);
 TEST_P(Within, AgreesWithClearanceButForItsMargin) {
   const PairScene scene = scene_of(40'000);
   const Agents agents = scene.crowd.agents();
-  const test::Answers apart = test::answers(set, agents, scene.pairs, infinity);
+  const test::Answers apart = test::answers(set, agents, scene.pairs, infinity, nullptr, Overlap::zero);
   std::vector<double> distances = near_clearances(scene);
   for (std::size_t i = 0; i < distances.size(); i += 4)
     distances[i] = std::max(0.0, static_cast<double>(apart.distance[i]));  // just so far

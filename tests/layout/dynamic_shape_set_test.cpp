@@ -14,7 +14,7 @@ namespace bch {
 static void PrintTo(const ShapeSetPlan& plan, std::ostream* out) {
   for (const std::uint32_t depth : plan.depths)
     *out << (depth == all_depths ? "all" : std::to_string(depth)) << "_";
-  *out << (plan.outlines ? "solid_" : "") << (plan.culling ? "culling data" : "plain");
+  *out << (plan.outlines ? "outlines_" : "") << (plan.culling ? "culling data" : "plain");
 }
 
 namespace {
@@ -23,14 +23,11 @@ using test::PairScene;
 using test::Random;
 
 /// All that queries can say about a scene, on every instruction set.
-std::vector<std::vector<std::uint8_t>> answers(const ShapeSet& set, const PairScene& scene, bool solid) {
+std::vector<std::vector<std::uint8_t>> answers(const ShapeSet& set, const PairScene& scene) {
   std::vector<std::vector<std::uint8_t>> all;
-  for (const Semantics semantics : {Semantics::boundary, Semantics::solid})
-    for (const Implementation& row : implementations()) {
-      if (!row.supported() || (semantics == Semantics::solid && !solid)) continue;
-      collide(set, scene.crowd.agents(), scene.pairs, all.emplace_back(scene.pairs.size()),
-              {semantics, &row});
-    }
+  for (const Implementation& row : implementations())
+    if (row.supported())
+      collide(set, scene.crowd.agents(), scene.pairs, all.emplace_back(scene.pairs.size()), {&row});
   return all;
 }
 
@@ -56,8 +53,7 @@ class DynamicShapes : public testing::TestWithParam<ShapeSetPlan> {
   void expect_as_if_built_anew() {
     const ShapeSet anew(present, GetParam());
     const PairScene scene = random_scene(random, anew, 3'000);
-    const bool solid = GetParam().outlines;
-    EXPECT_EQ(answers(dynamic.set(), scene, solid), answers(anew, scene, solid));
+    EXPECT_EQ(answers(dynamic.set(), scene), answers(anew, scene));
     const Agents agents = scene.crowd.agents();
     EXPECT_EQ(candidate_pairs(dynamic.set(), agents), candidate_pairs(anew, agents));
   }
@@ -144,11 +140,11 @@ TEST(DynamicShapeSet, WhatDoesNotFitIsNotReplaced) {
   Random random(84);
   const PairScene scene = random_scene(random, start, 1'000);
   EXPECT_FALSE(dynamic.try_replace(0, flat(large, {})));
-  EXPECT_EQ(answers(dynamic.set(), scene, false), answers(start, scene, false));
+  EXPECT_EQ(answers(dynamic.set(), scene), answers(start, scene));
   dynamic.replace(0, flat(large, {}));
   EXPECT_TRUE(dynamic.try_replace(0, flat(large, {})));
   EXPECT_TRUE(dynamic.try_replace(0, flat(small, {})));
-  EXPECT_EQ(answers(dynamic.set(), scene, false), answers(start, scene, false));
+  EXPECT_EQ(answers(dynamic.set(), scene), answers(start, scene));
 }
 
 /// Nothing asks shapes of a set, which may come from a file, to begin on a cache line.
@@ -172,9 +168,9 @@ TEST(DynamicShapeSet, PlacesOfACopyDoNotReachIntoEachOther) {
   ASSERT_NE(tight.trees[1].top % 16, 0u);
   const ShapeSet start(tight.arrays(), nullptr);
   const PairScene scene = random_scene(random, start, 1'000);
-  const auto expected = answers(start, scene, false);
+  const auto expected = answers(start, scene);
   DynamicShapeSet dynamic(start);
-  EXPECT_EQ(answers(dynamic.set(), scene, false), expected);
+  EXPECT_EQ(answers(dynamic.set(), scene), expected);
   // As much as a place of the first shape may hold.
   const detail::ShapeExtent place = detail::extent_of(flat(shapes[0], plan).flat().parts[0]);
   std::size_t most = 0;
@@ -184,7 +180,7 @@ TEST(DynamicShapeSet, PlacesOfACopyDoNotReachIntoEachOther) {
   }
   EXPECT_GT(most, place.nodes);  // room that is left up to the next line
   ASSERT_TRUE(dynamic.try_replace(0, flat(shapes[0], plan)));
-  EXPECT_EQ(answers(dynamic.set(), scene, false), expected);
+  EXPECT_EQ(answers(dynamic.set(), scene), expected);
 }
 
 /// What its header says: 4.5 times what the largest shapes need, each part by itself.

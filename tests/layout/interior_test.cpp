@@ -262,7 +262,7 @@ TEST(Interior, ExtremesAreTheFarthestPoints) {
   test::Random random(3);
   const Outline outline = test::star(random, 40, 0.2, 0.5);
   const detail::Interior inside = detail::interior(outline, 0.5);
-  for (std::uint32_t k = 0; k < detail::extreme_stride; ++k) {
+  for (std::uint32_t k = 0; k < detail::extreme_directions; ++k) {
     const double angle = 2 * std::numbers::pi * k / detail::extreme_directions;
     const double c = std::cos(angle), s = std::sin(angle);
     double farthest = -HUGE_VAL;

@@ -210,7 +210,7 @@ TEST(ShapeFromCapsules, OutlinesHoldThem) {
   }
 }
 
-/// Bodies of capsules collide where their capsules do, in solid semantics, but for the tolerance.
+/// Bodies of capsules collide where their capsules do, but for the tolerance.
 TEST(ShapeFromCapsules, CollideAsTheyDo) {
   Random random(2807);
   constexpr float tolerance = 0.002f;
@@ -225,7 +225,7 @@ TEST(ShapeFromCapsules, CollideAsTheyDo) {
   test::PairScene scene = random_scene(random, set, 200'000);
   const Agents agents = scene.crowd.agents();
   std::vector<std::uint8_t> hits(scene.pairs.size());
-  collide(set, agents, scene.pairs, hits, {.semantics = Semantics::solid});
+  collide(set, agents, scene.pairs, hits);
   std::size_t colliding = 0, apart = 0;
   for (std::size_t k = 0; k < scene.pairs.size(); ++k) {
     const std::uint32_t a = scene.pairs[k].first, b = scene.pairs[k].second;
@@ -277,12 +277,11 @@ TEST(ShapesOfOnesOwn, MixWithOthersAtAllLevels) {
   shapes.push_back(shape_from_capsules(arms));
   const ShapeSetPlan plan{.depths = {0, 3, all_depths}};
   const ShapeSet outlined(shapes, plan);
-  EXPECT_TRUE(outlined.solid());
   EXPECT_TRUE(outlined.exact_leaves());
   EXPECT_GT(cleared_by_levels(random, outlined), 100u);
   for (std::uint32_t i = 0; i < 6; ++i) shapes.push_back(shape_from_discs(random_discs(random, 3 + 7 * i)));
   const ShapeSet mixed(shapes, plan);
-  EXPECT_FALSE(mixed.solid());
+  EXPECT_FALSE(mixed.exact_leaves());
   EXPECT_GT(cleared_by_levels(random, mixed), 100u);
 }
 

@@ -123,7 +123,8 @@ TEST(ScenePlan, HasTheDepthsThatAgentsAskFor) {
 TEST(ScenePlan, HasTheShortcutsThatPay) {
   EXPECT_TRUE(plan_scene({}).set.culling);
   EXPECT_FALSE(plan_scene({}, {.pairs_per_shape = 6}).set.culling);
-  EXPECT_TRUE(plan_scene({}, {.solid = true, .leaves = Leaves::discs}).set.outlines);
+  EXPECT_FALSE(plan_scene({}, {.outlines = false}).set.outlines);
+  EXPECT_TRUE(plan_scene({}, {.outlines = false, .slices = {1}}).set.outlines);
 }
 
 /// A set by the plan answers like one with everything.
@@ -144,15 +145,15 @@ TEST(ScenePlan, ChangesNoAnswer) {
     for (const ShapeSource& source : plan.shapes)
       shapes.push_back(shapers[source.character].shape(source.at));
     std::vector<std::uint8_t> answers(pairs.size());
-    collide(ShapeSet(shapes, set_plan), {plan.agent_shape, x, y, heading, plan.agent_level}, pairs, answers,
-            {set_plan.outlines ? Semantics::solid : Semantics::boundary});
+    collide(ShapeSet(shapes, set_plan), {plan.agent_shape, x, y, heading, plan.agent_level}, pairs, answers);
     return answers;
   };
-  for (const bool solid : {false, true})
+  for (const bool outlines : {false, true})
     for (const double many : {6.0, 1e9}) {
-      const ScenePlan plan = plan_scene(agents, {.solid = solid, .depth = depth_at, .pairs_per_shape = many});
+      const ScenePlan plan =
+          plan_scene(agents, {.outlines = outlines, .depth = depth_at, .pairs_per_shape = many});
       const auto answers = hits(plan, plan.set);
-      EXPECT_EQ(answers, hits(plan, {.depths = plan.set.depths, .outlines = solid}));
+      EXPECT_EQ(answers, hits(plan, {.depths = plan.set.depths, .outlines = outlines}));
       EXPECT_GT(std::count(answers.begin(), answers.end(), 1), 300);
     }
 }

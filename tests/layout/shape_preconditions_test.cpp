@@ -68,7 +68,7 @@ const std::vector<Damage>& all_damage() {
        }},
       {"depths", [](Arrays& a) { a.own.depths[2] = a.own.depths[1]; }},
       {"depths", [](Arrays& a) { a.own.depths.clear(); }},
-      {"sizes", [](Arrays& a) { a.own.extremes.pop_back(); }},
+      {"sizes", [](Arrays& a) { a.own.inscribed.pop_back(); }},
       {"sizes", [](Arrays& a) { a.own.reach.clear(); }},
       {"sizes", [](Arrays& a) { a.own.shape_contours.pop_back(); }},
       {"sizes", [](Arrays& a) { a.own.segment_margin.pop_back(); }},
@@ -77,8 +77,8 @@ const std::vector<Damage>& all_damage() {
          a.last = [](auto& view) {
            const auto many = [](auto&... spans) { ((spans = {spans.data(), std::size_t{70'000'000}}), ...); };
            view.depths = view.depths.first(1);
-           many(view.roots, view.trees, view.reach, view.inscribed, view.extremes, view.profiles,
-                view.shape_contours, view.segment_margin);
+           many(view.roots, view.trees, view.reach, view.inscribed, view.profiles, view.shape_contours,
+                view.segment_margin);
          };
        }},
       {"sizes", [](Arrays& a) { a.own.heights.pop_back(); }, sliced},
@@ -109,7 +109,6 @@ const std::vector<Damage>& all_damage() {
       {"roots", [](Arrays& a) { a.own.roots[1].radius = 0; }, roots},  // of others a tree has the like
       {"supports", [](Arrays& a) { a.own.support.back() = nan; }},
       {"inscribed discs", [](Arrays& a) { a.own.inscribed[1].radius[3] = -1; }},
-      {"extremes", [](Arrays& a) { a.own.extremes[2].y[31] = infinity; }},
       {"profiles", [](Arrays& a) { a.own.profiles[1].sectors[31].outer = -infinity; }},
       {"profiles", [](Arrays& a) { a.own.profiles[1].sectors[7].inner = infinity; }},
       {"shape contours", [](Arrays& a) { a.own.shape_contours[1].end -= 1; }},
@@ -219,7 +218,6 @@ const std::vector<Damage>& named_damage() {
       {"reach 1", [](Arrays& a) { a.own.reach[1] = 1e7f; }},
       {"reach 2", [](Arrays& a) { a.own.reach[2] = nan; }},
       {"inscribed 1", [](Arrays& a) { a.own.inscribed[1].radius[3] = nan; }},
-      {"extremes 2", [](Arrays& a) { a.own.extremes[2].y[31] = infinity; }},
       {"profiles 1", [](Arrays& a) { a.own.profiles[1].y = infinity; }},
       {"profiles 1", [](Arrays& a) { a.own.profiles[1].sectors[31].inner = nan; }},
       {"profiles 1", [](Arrays& a) { a.own.profiles[1].sectors[0].outer = infinity; }},

@@ -146,7 +146,7 @@ TEST(ShapeSet, LevelsFollowThePlan) {
   const ShapeSet set(shapes, {{0, 2, all_depths}, false});
   EXPECT_EQ(set.shape_count(), 6u);
   EXPECT_EQ(set.level_count(), 3u);
-  EXPECT_FALSE(set.solid());
+  EXPECT_FALSE(set.plan().outlines);
   const detail::ShapeSetView view = set.view();
   for (std::uint32_t s = 0; s < 6; ++s) {
     const Disc& root = shapes[s].hierarchy.nodes[0].disc;
@@ -160,8 +160,8 @@ TEST(ShapeSet, LevelsFollowThePlan) {
 
 TEST(ShapeSet, BuildsOnlyWhatThePlanNames) {
   const std::vector<Shape> shapes = test::synthetic_shapes(23, 64);
-  const auto bytes = [&](std::vector<std::uint32_t> depths, bool solid) {
-    return ShapeSet(shapes, {std::move(depths), solid}).bytes() / 64;
+  const auto bytes = [&](std::vector<std::uint32_t> depths, bool outlines) {
+    return ShapeSet(shapes, {std::move(depths), outlines}).bytes() / 64;
   };
   EXPECT_EQ(bytes({0}, false), 16u);
   EXPECT_EQ(bytes({0}, true), 16u);
@@ -306,7 +306,7 @@ TEST(Plans, WithoutOutlinesHaveNoExactLeaves) {
   std::vector<Shape> bare = shapes;
   for (Shape& shape : bare) shape.hierarchy.of_segments = false;
   EXPECT_FALSE(ShapeSet(bare).exact_leaves());
-  EXPECT_TRUE(ShapeSet(bare).solid());
+  EXPECT_TRUE(ShapeSet(bare).plan().outlines);
 }
 
 TEST(HierarchyPrimitives, HaveToBeThoseOfTheOutline) {

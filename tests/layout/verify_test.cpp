@@ -126,12 +126,6 @@ const std::vector<Lie>& lies() {
       {"inscribed", "disc 2", [](Arrays& a) { a.own.inscribed[0].radius[2] += 0.01f; }},
       {"inscribed", "disc 1", [](Arrays& a) { a.own.inscribed[1].x[1] += 0.5f; }},
       {"inscribed", "disc 0", [](Arrays& a) { a.own.inscribed[1].y[0] -= 0.05f; }},
-      {"extremes", "point 5", [](Arrays& a) { a.own.extremes[0].x[5] += 0.01f; }},
-      {"extremes", "point 20",  // one of the contour's, but on the other side
-       [](Arrays& a) {
-         detail::Extremes& extremes = a.own.extremes[0];
-         extremes.x[20] = extremes.x[28], extremes.y[20] = extremes.y[28];
-       }},
       {"profiles", "centre", [](Arrays& a) { a.own.profiles[0].x += 0.01f; }},
       {"profiles", "inner of sector 3", [](Arrays& a) { a.own.profiles[0].sectors[3].inner += 0.01f; }},
       {"profiles", "outer of sector 4", [](Arrays& a) { a.own.profiles[0].sectors[4].outer -= 0.01f; }},

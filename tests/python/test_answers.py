@@ -37,15 +37,14 @@ class Pairs(unittest.TestCase):
         self.assertEqual(bch.collide(*two(1.2, level=0)).tolist(), [True])  # so do discs of whole bodies
         self.assertEqual(bch.collide(*two(1.2, level=1)).tolist(), [False])
         self.assertEqual(bch.collide(*two(1.6, shape=(0, 1))).tolist(), [False])
-        inside = two(0, shape=(0, 1))
-        self.assertEqual([bch.collide(*inside)[0], bch.collide(*inside, semantics="solid")[0]], [False, True])
+        self.assertEqual(bch.collide(*two(0, shape=(0, 1))).tolist(), [True])  # one inside the other
         beside = two(1.001)
         self.assertEqual([bch.collide(*beside)[0], bch.collide(*beside, leaves="discs")[0]], [False, True])
 
     def test_within(self):
         self.assertEqual(bch.within(SHAPES, LINE, PAIRS, 1.2).tolist(), [True, True, False])
         self.assertEqual(bch.within(SHAPES, LINE, PAIRS, np.array([0, 1.0, 2.5])).tolist(), [True, False, True])
-        self.assertEqual(bch.within(*two(0, shape=(0, 1)), 0, semantics="solid").tolist(), [True])
+        self.assertEqual(bch.within(*two(0, shape=(0, 1)), 0).tolist(), [True])
 
     def test_distances(self):
         exact = dict(leaves="segments")
@@ -101,7 +100,7 @@ class Crowds(unittest.TestCase):
         self.assertEqual(bch.BroadPhase().find(SHAPES, LINE, 1.0).tolist(), [[0, 1], [1, 2]])
 
     def test_collide_all(self):
-        rows, touched = bch.CrowdCollider().collide_all(SHAPES, LINE, WALL, semantics="solid")
+        rows, touched = bch.CrowdCollider().collide_all(SHAPES, LINE, WALL)
         for found in (rows, bch.collide_all(SHAPES, LINE)):
             self.assertEqual([found[i].tolist() for i in range(3)], [[1], [0], []])
         self.assertEqual((len(rows), rows.counts.tolist(), rows[-2].tolist()), (3, [1, 1, 0], [0]))

@@ -66,7 +66,7 @@ class Errors(unittest.TestCase):
 
     def test_values(self):
         collide = lambda **more: bch.collide(self.shapes, self.agents, self.pairs, **more)
-        self.expect(ValueError, ["semantics is 'firm'", "'solid'"], collide, semantics="firm")
+        self.expect(ValueError, ["leaves is 'round'", "'segments'"], collide, leaves="round")
         self.expect(ValueError, ["threads is -1"], collide, threads=-1)
         self.expect(ValueError, ["mmx"], collide, implementation="mmx")
         self.agents.x[1] = np.nan
@@ -98,7 +98,6 @@ class Errors(unittest.TestCase):
         self.expect(ValueError, ["out of order"], make, motions=bent([1, 0], [(0, 0, 0)] * 2))
         self.expect(TypeError, ["distance", "float64"], bch.plan_scene, [(0, 0.0)], distance=np.zeros(1, "f4"))
         self.expect(ValueError, ["agent 0", "-1"], bch.plan_scene, [(0, 0.0)], distance=-np.ones(1))
-        self.expect(ValueError, ["leaves is 'round'"], bch.plan_scene, [(0, 0.0)], leaves="round")
         plan = bch.plan_scene([(0, 0.0)], character=np.array([1], np.uint32))
         self.expect(IndexError, ["sources[0].character is 1 of 1"], plan.build, [make()])
         self.expect(ValueError, ["slabs is 0"], bch.best_slices, make(), [0.5], 0)
@@ -148,15 +147,15 @@ class Errors(unittest.TestCase):
             (bch.Obstacles, {**points, "path_offsets": np.array([0, 2], np.uint64)}),
             (bch.Obstacles.from_wkt, {"text": "LINESTRING(0 0, 1 1)", "heights": (0, 1)}),
             (walls.owner, {"segment": 0}),
-            (bch.collide, {**asked, "semantics": "solid", "leaves": "discs", "threads": 1, "implementation": "scalar"}),
-            (bch.within, {**asked, "distance": 1.0, "semantics": "solid", "threads": 1}),
+            (bch.collide, {**asked, "leaves": "discs", "threads": 1, "implementation": "scalar"}),
+            (bch.within, {**asked, "distance": 1.0, "threads": 1}),
             (bch.clearance, {**asked, "max_distance": 1, "leaves": "discs", "overlap": "zero"}),
             (bch.nearest, {**asked, "max_distance": 1, "out": None}),
             (bch.penetration, {**asked, "directions": 16}),
             (bch.time_of_impact, {**asked, "dx": np.zeros(1), "dy": np.zeros(1)}),
             (bch.local_densities, {**points, "radius": 2}),
             (bch.candidate_pairs, {**crowd, "margin": 0, "threads": 1}),
-            (bch.collide_all, {**crowd, "obstacles": walls, "semantics": "solid", "leaves": "discs", "threads": 1}),
+            (bch.collide_all, {**crowd, "obstacles": walls, "leaves": "discs", "threads": 1}),
             (bch.contacts, {**asked, "leaves": "discs", "threads": 1}),
             (bch.read_trajectory, {"path": "/nowhere.csv", "fps": 1, "unit": 1, "columns": "id,frame,x,y"}),
             (
@@ -166,7 +165,7 @@ class Errors(unittest.TestCase):
             ),
             (
                 bch.plan_scene,
-                {"poses": poses, "character": which, "distance": np.zeros(1), "depth": which, "leaves": "discs"}
+                {"poses": poses, "character": which, "distance": np.zeros(1), "depth": which, "outlines": False}
                 | {"slices": [], "whole_from": 1, "pose_step": 1, "pairs_per_shape": 1},
             ),
             (bch.best_slices, {"characters": man, "planes": [0.5], "slabs": 1, "poses": 1}),

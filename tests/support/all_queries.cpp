@@ -44,9 +44,8 @@ void ask_all_of_obstacles(const ShapeSet& set, const Agents& agents, const Query
 void ask_all(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs,
              const Implementation& implementation) {
   std::vector<std::uint8_t> hits(pairs.size());
-  collide(set, agents, pairs, hits, {Semantics::boundary, &implementation});
-  if (set.solid()) collide(set, agents, pairs, hits, {Semantics::solid, &implementation});
-  CrowdCollider().collide_all(set, agents, {Semantics::boundary, &implementation});
+  collide(set, agents, pairs, hits, {&implementation});
+  CrowdCollider().collide_all(set, agents, {&implementation});
   ContactFinder().find(set, agents, pairs, {.implementation = &implementation});
   std::vector<Penetration> ways(pairs.size());
   penetration(set, agents, pairs, 4, ways, {.implementation = &implementation});

@@ -11,7 +11,7 @@
 
 namespace bch::test {
 
-/// Asks every query about pairs of a crowd, in every semantics that the set has, for tests that only check
+/// Asks every query about pairs of a crowd, for tests that only check
 /// that all calls end.
 void ask_all(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs,
              const Implementation& implementation);

@@ -40,12 +40,12 @@ PartReferences::PartReferences(std::span<const Shape> shapes, const ShapeSetPlan
       set_(set),
       levels_(plan.depths.size()),
       bodies_(shapes, plan, Leaves::discs),
+      exact_bodies_(shapes, plan, Leaves::segments),
       nearest_(bodies_.parts(), plan),
       outlines_(bodies_.parts(), plan),
       first_(bodies_.parts(), plan),
       cuts_(bodies_.parts(), plan),
-      segments_(bodies_.parts(), plan, Leaves::segments),
-      are_cut_(!plan.slices.empty()) {}
+      segments_(bodies_.parts(), plan, Leaves::segments) {}
 
 baselines::Clearance PartReferences::clearance(const Agents& agents, Pair pair, double max_distance) {
   const Pair ordered = in_order(pair);
@@ -63,6 +63,7 @@ baselines::Clearance PartReferences::clearance(const Agents& agents, Pair pair, 
 }
 
 float PartReferences::exact_clearance(const Agents& agents, Pair pair, double max_distance) {
+  if (exact_bodies_.collide(agents, pair, Method::depth_first)) return 0;
   float least = never;
   for (const SlabBodies::PartPair& parts : bodies_.part_pairs(agents, in_order(pair))) {
     const Agents both = parts.agents();
@@ -79,11 +80,11 @@ float PartReferences::exact_clearance(const Agents& agents, Pair pair, double ma
 bool PartReferences::within(const Agents& agents, Pair pair, double distance) {
   for (const SlabBodies::PartPair& parts : bodies_.part_pairs(agents, in_order(pair)))
     if (nearest_.within(parts.agents(), {0, 1}, distance, Method::brute_force)) return true;
-  return are_cut_ && bodies_.collide(agents, pair, Method::depth_first);
+  return bodies_.collide(agents, pair, Method::depth_first);
 }
 
 float PartReferences::time(const Agents& agents, Pair pair, double x, double y) {
-  if (are_cut_ && bodies_.collide(agents, pair, Method::depth_first)) return 0;
+  if (bodies_.collide(agents, pair, Method::depth_first)) return 0;
   const double sign = in_order(pair) == pair ? 1 : -1;
   float soonest = never;
   for (const SlabBodies::PartPair& parts : bodies_.part_pairs(agents, in_order(pair)))

@@ -33,7 +33,12 @@ class PartReferences {
   /// Keeps the shapes and the set, which is of them.
   PartReferences(std::span<const Shape> shapes, const ShapeSetPlan& plan, const ShapeSet& set);
 
+  /// Returns the clearance with Overlap::deepest.
   baselines::Clearance clearance(const Agents& agents, Pair pair, double max_distance);
+  /// Returns whether some discs of two parts collide, or an outline holds another.
+  bool collide(const Agents& agents, Pair pair) const {
+    return bodies_.collide(agents, pair, baselines::Method::depth_first);
+  }
   /// Returns the distance with exact leaves, metres.
   float exact_clearance(const Agents& agents, Pair pair, double max_distance);
   bool within(const Agents& agents, Pair pair, double distance);
@@ -56,13 +61,12 @@ class PartReferences {
   std::span<const Shape> shapes_;
   const ShapeSet& set_;
   std::size_t levels_;
-  baselines::SlabBodies bodies_;
+  baselines::SlabBodies bodies_, exact_bodies_;
   baselines::ClearanceReference nearest_;
   baselines::SegmentClearance outlines_;
   baselines::TimeOfImpactReference first_;
   baselines::CutLists cuts_;
   baselines::LeafSegments segments_;
-  bool are_cut_;
 };
 
 }  // namespace bch::test

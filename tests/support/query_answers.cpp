@@ -47,11 +47,9 @@ double extent(const ShapeSet& set, const Crowd& crowd, std::uint32_t agent) {
 
 /// Returns the name of an answer that differs, or "".
 const char* difference(const PairAnswers& found, const PairAnswers& expected) {
-  if (found.boundary != expected.boundary) return "collide()";
-  if (found.solid != expected.solid) return "collide(), solid";
-  if (found.boundary_of_discs != expected.boundary_of_discs) return "collide(), leaves of discs";
+  if (found.hit != expected.hit) return "collide()";
+  if (found.hit_of_discs != expected.hit_of_discs) return "collide(), leaves of discs";
   if (found.within != expected.within) return "within()";
-  if (found.within_solid != expected.within_solid) return "within(), solid";
   if (!(found.deepest == expected.deepest)) return "clearance(), deepest overlap";
   if (!(found.nearest == expected.nearest)) return "clearance()";
   if (!(found.exact == expected.exact)) return "clearance(), exact leaves";
@@ -152,16 +150,14 @@ void expect_answers(const ShapeSet& set, const Questions& questions, const std::
 std::vector<PairAnswers> ask(const ShapeSet& set, const Questions& of, const Implementation& implementation) {
   const Agents agents = of.crowd.agents();
   const std::size_t size = of.pairs.size();
-  const auto hits = [&](Semantics semantics, Leaves leaves) {
+  const auto hits = [&](Leaves leaves) {
     return answers_of<std::uint8_t>(size, 77, [&](std::span<std::uint8_t> out) {
-      collide(set, agents, of.pairs, out, {semantics, &implementation, leaves});
+      collide(set, agents, of.pairs, out, {&implementation, leaves});
     });
   };
-  const auto near = [&](Semantics semantics) {
-    return answers_of<std::uint8_t>(size, 77, [&](std::span<std::uint8_t> out) {
-      within(set, agents, of.pairs, of.distances, out, {semantics, &implementation});
-    });
-  };
+  const auto near = answers_of<std::uint8_t>(size, 77, [&](std::span<std::uint8_t> out) {
+    within(set, agents, of.pairs, of.distances, out, {&implementation});
+  });
   const auto nearest = [&](Overlap overlap, Leaves leaves) {
     return nearest_features(set, of,
                             {.implementation = &implementation,
@@ -169,10 +165,7 @@ std::vector<PairAnswers> ask(const ShapeSet& set, const Questions& of, const Imp
                              .overlap = overlap,
                              .distance_leaves = leaves});
   };
-  const Semantics solid = set.solid() ? Semantics::solid : Semantics::boundary;
-  const auto boundary = hits(Semantics::boundary, Leaves::segments), in_solid = hits(solid, Leaves::segments),
-             of_discs = hits(Semantics::boundary, Leaves::discs);
-  const auto within_boundary = near(Semantics::boundary), within_solid = near(solid);
+  const auto of_segments = hits(Leaves::segments), of_discs = hits(Leaves::discs);
   const auto deepest = nearest(Overlap::deepest, Leaves::discs), zero = nearest(Overlap::zero, Leaves::discs),
              exact = nearest(Overlap::zero, Leaves::segments);
   const auto time = answers_of(size, -77.0f, [&](std::span<float> out) {
@@ -196,9 +189,8 @@ std::vector<PairAnswers> ask(const ShapeSet& set, const Questions& of, const Imp
   EXPECT_EQ(contacts.size(), size);
   std::vector<PairAnswers> all;
   for (std::size_t i = 0; i < size; ++i)
-    all.push_back({boundary[i], in_solid[i], of_discs[i], within_boundary[i], within_solid[i], deepest[i],
-                   zero[i], exact[i], time[i], best[i], along[i], row(contacts, i),
-                   row(contacts_of_discs, i)});
+    all.push_back({of_segments[i], of_discs[i], near[i], deepest[i], zero[i], exact[i], time[i], best[i],
+                   along[i], row(contacts, i), row(contacts_of_discs, i)});
   return all;
 }
 

@@ -51,8 +51,7 @@ struct NearestFeatures {
 
 /// What all queries say of a pair.
 struct PairAnswers {
-  std::uint8_t boundary, solid, boundary_of_discs;
-  std::uint8_t within, within_solid;
+  std::uint8_t hit, hit_of_discs, within;
   NearestFeatures deepest, nearest, exact;
   float time;
   Penetration best, along;
@@ -65,7 +64,7 @@ struct PairAnswers {
 void expect_same(const std::vector<PairAnswers>& found, const std::vector<PairAnswers>& expected,
                  const std::string& what);
 
-/// Asks all queries, in solid semantics only where the set has them. Expects that nothing beside the answers is written.
+/// Asks all queries. Expects that nothing beside the answers is written.
 std::vector<PairAnswers> ask(const ShapeSet& set, const Questions& questions,
                              const Implementation& implementation = best_implementation());
 

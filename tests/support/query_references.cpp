@@ -23,7 +23,6 @@ BruteForce::BruteForce(std::span<const Shape> shapes, const ShapeSetPlan& plan)
       segments(shapes, plan, Leaves::segments) {}
 
 std::vector<PairAnswers> BruteForce::answers(const ShapeSet& set, const Questions& of) {
-  const bool solid = set.solid();
   std::vector<PairAnswers> answers = ask(set, of);
   const Agents agents = of.crowd.agents();
   const auto set_nearest = [](NearestFeatures& found, const baselines::Clearance& expected) {
@@ -40,18 +39,23 @@ std::vector<PairAnswers> BruteForce::answers(const ShapeSet& set, const Question
   for (std::size_t i = 0; i < of.pairs.size(); ++i) {
     const Pair pair = of.pairs[i];
     PairAnswers& all = answers[i];
-    all.boundary = collisions.boundary(agents, pair, Method::brute_force);
-    all.boundary_of_discs = collisions_of_discs.boundary(agents, pair, Method::brute_force);
-    all.solid = all.boundary || (solid && collisions.solid(agents, pair, Method::depth_first));
-    all.within = clearances.within(agents, pair, of.distances[i], Method::brute_force);
-    all.within_solid = all.within || (solid && collisions_of_discs.solid(agents, pair, Method::depth_first));
+    const auto collide = [&](const baselines::Reference& reference) {
+      return reference.boundary(agents, pair, Method::brute_force) ||
+             reference.solid(agents, pair, Method::depth_first);
+    };
+    all.hit = collide(collisions), all.hit_of_discs = collide(collisions_of_discs);
+    all.within =
+        all.hit_of_discs != 0 || clearances.within(agents, pair, of.distances[i], Method::brute_force);
     const baselines::Clearance deepest = clearances.query(agents, pair, of.limit, Method::brute_force),
-                               zero = baselines::at_least_zero(deepest);
+                               zero = baselines::at_least_zero(all.hit_of_discs != 0 ? baselines::Clearance{}
+                                                                                     : deepest);
     set_nearest(all.deepest, deepest);
     set_nearest(all.nearest, zero);
     if (i % segment_share == 0)
-      all.exact.distance = segment_clearances.distance(agents, pair, of.limit).value_or(zero.distance);
-    all.time = times.query(agents, pair, of.way_x[i], of.way_y[i], Method::brute_force);
+      all.exact.distance =
+          all.hit != 0 ? 0 : segment_clearances.distance(agents, pair, of.limit).value_or(zero.distance);
+    all.time =
+        all.hit_of_discs != 0 ? 0 : times.query(agents, pair, of.way_x[i], of.way_y[i], Method::brute_force);
     all.best = penetration(baselines::penetration(cuts, agents, pair, of.lines));
     all.along = penetration(baselines::penetration_along(cuts, agents, pair, of.directions[i]));
     all.contacts = contacts(pair, &segments);

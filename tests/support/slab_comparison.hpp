@@ -58,7 +58,7 @@ class SlabComparison : public testing::TestWithParam<std::vector<float>> {
     MovingScene scene = scene_of(pairs, raised);
     make_tangent(random, scene, [&](const Agents& agents, Pair pair) {
       std::uint8_t hit = 0;
-      collide(set, agents, {&pair, 1}, {&hit, 1}, {.semantics = Semantics::solid});
+      collide(set, agents, {&pair, 1}, {&hit, 1});
       return hit != 0;
     });
     return scene;

@@ -35,7 +35,7 @@ class Allocations : public testing::TestWithParam<std::uint32_t> {
     test::CScene scene(set, crowd, pairs);
     scene.options.threads = GetParam();
     for (const bool other : {false, true}) {
-      scene.options.semantics = scene.options.distance_leaves = other;
+      scene.options.distance_leaves = other;
       scene.options.implementation = other ? "scalar" : nullptr;
       for (const test::CQuery& query : all_queries(scene)) {
         const std::size_t counted = count(query);

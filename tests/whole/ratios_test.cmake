@@ -25,7 +25,7 @@ foreach(table kernel leaves peers calls crowd distances responses obstacles bodi
     moments checks paper)
   expect_output("# ${table}: 1 runs")
 endforeach()
-expect_output("collide/colliding: boundary/reference / solid/discs/sse2 +[0-9.]+ x +(PASS|needs) " "crowd/1000000/step#MiB +[0-9.]+  "
+expect_output("collide/colliding: reference / discs/sse2 +[0-9.]+ x +(PASS|needs) " "crowd/1000000/step#MiB +[0-9.]+  "
   "shapes: 5000 / 200 +[0-9.]+ x" "shapes/50000 / shapes/200: not in this build" "construction/1/sse2/all +[0-9 .]+ ns [^\n]*90000"
   "hierarchy_welzl / hierarchy" "growth: 183296/all@n_log_n / 996/all@n_log_n" "ns an item +map +read +map_alone" "plans/mixed [^\n]*bytes"
   "live/1000 [^\n]*shapes_ms" "collide_all/crowd/[a-z0-9]+ / collide/crowd" "obb_contour / reference +[0-9.]+ x +4630 ns")
@@ -35,8 +35,8 @@ run(0 ${RATIOS} ${sizes} --benchmark_min_time=0.0001 --benchmark_filter=-^\(chec
 set(names penetration/colliding/reference contacts/crowd/scalar collide_all/crowd/sse2 load/checksum_alone plans/all/bake
   construction/1/sse2/hierarchy_welzl)
 foreach(workload colliding near_miss no_hit crowd candidates paper500 paper500_cached)
-  list(APPEND names collide/${workload}/boundary/segments/sse2 collide/${workload}/solid/discs/scalar
-    collide/${workload}/boundary/obb_full clearance/${workload}/reference within/${workload}/reference time_of_impact/${workload}/sse2)
+  list(APPEND names collide/${workload}/segments/sse2 collide/${workload}/discs/scalar
+    collide/${workload}/obb_full clearance/${workload}/reference within/${workload}/reference time_of_impact/${workload}/sse2)
 endforeach()
 foreach(name IN LISTS names)
   expect_output("${name} [^\n]*per_item=")

@@ -70,8 +70,7 @@ std::vector<std::uint8_t> expect_no_miss(const ShapeSet& set, PairScene scene,
   for (const Leaves leaves : {Leaves::discs, Leaves::segments})
     for (std::uint8_t level = 0; level < set.level_count(); ++level) {
       std::fill(scene.crowd.level.begin(), scene.crowd.level.end(), level);
-      collide(set, scene.crowd.agents(), scene.pairs, hits,
-              {.semantics = Semantics::solid, .leaves = leaves});
+      collide(set, scene.crowd.agents(), scene.pairs, hits, {.leaves = leaves});
       for (std::size_t i = 0; i < hits.size(); ++i)
         if (meet[i] > hits[i]) {
           ADD_FAILURE() << what << ": a miss at level " << int{level} << ", "

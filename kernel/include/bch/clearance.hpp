@@ -24,13 +24,13 @@ struct NearestPoints {
 struct ClearanceAnswers {
   std::span<float> distance;  ///< metres; infinite beyond max_distance
   std::span<Vec2> direction =
-      {};  ///< unit vectors; (0, 0) beyond max_distance, and with Overlap::zero where discs overlap
+      {};  ///< unit vectors; (0, 0) beyond max_distance, and with Overlap::zero where the distance is 0
   std::span<DiscPair> discs = {};        ///< the nearest discs; no_discs for the same pairs
   std::span<NearestPoints> points = {};  ///< points of these discs, or of segments; (0, 0) for the same pairs
 };
 
 /// Measures how far apart the two agents of each pair are: the least gap between a disc of one's cut and a disc of the other's, or 0
-/// where discs overlap.
+/// where discs overlap or the agents collide.
 ///
 /// The direction is the unit vector in the world from the first agent's nearest disc to the second's. Moving the second agent along
 /// it, or the first one against it, widens the gap the fastest. (penetration() returns the opposite: where the first agent moves.)
@@ -39,24 +39,23 @@ struct ClearanceAnswers {
 ///
 /// The distance of overlapping agents is negative with Overlap::deepest: the deepest overlap of two discs. The direction then leads
 /// from one centre to the other or, where these coincide, is (1, 0) from the agent with the lower index to
-/// the other. The radii of the discs limit the depth, so with fine cuts penetration() says more.
+/// the other. The radii of the discs limit the depth, so with fine cuts penetration() says more. It is about discs alone, and so
+/// positive for an agent that lies clear inside another's outline.
 ///
 /// With distance_leaves = Leaves::segments, where both shapes have exact leaves, the distance is that of the outlines: the least of a
 /// segment of one and a segment of the other, and 0 where they come within the margin of exact leaves. It is never larger than that of
 /// the outlines as they were given, and below it by no more than 1.7 um per metre of the two shapes' reach and 0.9 um per metre of the
 /// distance. The points are those of the segments, the direction leads from one to the other, and the discs are the leaves that hold
 /// them. Of equal distances the one with the first segment counts. Leaves of more than 127 segments are measured as discs, after
-/// all segments. Where collide() answers 1 for such agents the distance is 0; where the distance is positive, collide() answers 0 in
-/// boundary semantics.
+/// all segments. Where collide() answers 1 for such agents the distance is 0; where the distance is positive, collide() answers 0.
 ///
 /// A distance of discs is never larger than that of the outlines: outlines that cross have a clearance of at most 0. It is below the
 /// distance of the outlines by no more than r_A + r_B + (r_A^2 + r_B^2) / 2 D (below 3 cm for leaf discs of 1 cm), and 4 um per metre
 /// of the two shapes' reach and of D. There, r are the radii of the nearest discs, and D = distance + r_A + r_B. Only the discs
-/// of the cuts count, not the nodes above them, so that a distance is always the distance of two discs.
+/// of the cuts count, not the nodes above them, so that a positive distance is always the distance of two discs.
 ///
-/// The distance is at most 0 where collide() answers 1 in boundary semantics, and collide() answers 0 where it is positive. A distance
-/// of 0 does not imply a collision: collide() may answer 0 where discs overlap, but nodes above them or the segments of exact leaves do
-/// not.
+/// With Overlap::zero the distance is 0 where collide() answers 1, and collide() answers 0 where it is positive. A distance of 0
+/// does not imply a collision: collide() may answer 0 where discs overlap, but nodes above them or the segments of exact leaves do not.
 ///
 /// Results are the same bits on every processor, for any number of threads and any split of the batch. Exchanging the agents of a pair
 /// exchanges the discs and negates the direction. Of gaps that are equal, the one with the first disc of the agent with the lower
@@ -79,15 +78,15 @@ void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pai
 /// and clearance() takes several times as much.
 ///
 /// Only the discs of the cuts count, whatever distance_leaves says, as in clearance(): more pairs are within a distance of 0 than
-/// collide. In solid semantics an agent inside another's outline is within every distance of it. Bodies in slabs have solid
-/// semantics, as in collide(), and distances are those of parts that may meet.
+/// collide. An agent inside another's outline is within every distance of it. Distances of bodies in slabs are those of parts that
+/// may meet.
 ///
 /// The answer is 1 wherever clearance() returns a finite distance of at most the given one, and wherever outlines are as close.
 /// clearance() is at most the given distance plus 1.4 um per metre of that distance and of the radii of the agents' largest discs where
-/// the answer is 1 in boundary semantics. Results are the same bits on every processor, for any number of threads and any split of the
+/// the answer is 1. Results are the same bits on every processor, for any number of threads and any split of the
 /// batch, and for either order of a pair.
 ///
-/// Options: semantics, implementation.
+/// Options: implementation.
 /// Units:   distances are metres, not negative; an infinite one includes every pair of which parts may meet.
 /// Sizes:   one distance for all pairs, or as many as pairs; as many answers as pairs.
 /// Errors:  throws std::invalid_argument, before anything is written, as collide() does, and on a distance that is negative or

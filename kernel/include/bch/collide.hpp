@@ -23,17 +23,15 @@ class ObstacleSet;
 /// number of threads, any split of the batch and either order within a pair. Only the difference of positions counts, so
 /// answers far from the origin are the same as at the origin.
 ///
-/// Bodies in slabs (ShapeSetPlan::slices) collide where two of their slabs do, always in solid semantics: a limb can lie inside a
-/// torso without their outlines crossing. Agents at different heights (Agents::z) collide where parts collide whose heights meet.
+/// Bodies in slabs (ShapeSetPlan::slices) collide where two of their slabs do. Agents at different heights (Agents::z) collide where parts collide whose heights meet.
 /// Meshes that have a point in common are hits in either case. The exception is lone triangles that are points on the grid of
 /// OutlineBuilder, because outlines leave them out.
 ///
-/// Options: semantics, leaves, implementation.
+/// Options: leaves, implementation.
 /// Sizes:   hits.size() == pairs.size(); an agent may be paired with itself (it collides).
 /// Errors:  throws std::invalid_argument, before hits is touched, on sizes that differ, an index out of
-///          range, a position or heading that is not finite or beyond the limits, unknown semantics or leaves, solid
-///          semantics on a set that was not planned for it, or an implementation that this processor does not
-///          run. The message names the agent or pair and the value. Agents that no pair names are not checked.
+///          range, a position or heading that is not finite or beyond the limits, unknown leaves, or an implementation that
+///          this processor does not run. The message names the agent or pair and the value. Agents that no pair names are not checked.
 /// Threads: runs in the caller's TBB arena, isolated from the cancellation of the caller's task group. Queries do not depend on
 ///          the threads' rounding mode, treatment of denormals and traps, and leave them as they are.
 void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,

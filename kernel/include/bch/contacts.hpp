@@ -18,8 +18,8 @@ struct CrowdContacts {
 
 /// Finds, for each pair of agents, all pairs of discs that make them collide. Discs are those of the agents' cuts, at their levels. A
 /// pair of discs counts if the discs overlap, all nodes above the one overlap all nodes above the other, and, with exact leaves,
-/// segments of the two meet; see Semantics and Leaves. So a row is empty exactly where collide() answers 0 in boundary semantics
-/// with the same leaves. Rows are never truncated: contacts are counted, then written. Two equal cuts of n discs in one place have at
+/// segments of the two meet; see query.hpp and Leaves. So a row is empty exactly where collide() with the same leaves answers 0, or
+/// where agents collide only because one lies inside the other's outline. Rows are never truncated: contacts are counted, then written. Two equal cuts of n discs in one place have at
 /// most n^2 contacts.
 ///
 /// The deepest overlap of a row does not grow from 0 when two agents come together, because the nodes above
@@ -29,8 +29,7 @@ struct CrowdContacts {
 /// The contacts are the same bits on every processor, for any number of threads. A pair in the other order
 /// has the same contacts with their two discs exchanged, sorted in that order.
 ///
-/// Bodies in slabs have the contacts of all slabs that may meet; ShapeSet::slab_begin() tells the slab of a disc. Slabs are always solid,
-/// so the row is also empty where bodies collide only because one is wholly inside the other's outline in a slab.
+/// Bodies in slabs have the contacts of all slabs that may meet; ShapeSet::slab_begin() tells the slab of a disc.
 ///
 /// The contacts of bodies of discs (shape_from_discs()) are all overlaps of their discs, as in mechanical crowd models.
 ///

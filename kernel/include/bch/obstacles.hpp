@@ -105,37 +105,36 @@ ObstacleSet obstacles_from_wkt(std::string_view text, Polygons polygons = Polygo
 
 /// Tests whether each agent collides with an obstacle, touching included, and writes 1 for a hit and 0 otherwise. An agent
 /// collides where a disc of its cut overlaps the obstacle, and so does every node above that disc. With exact leaves the outline in that
-/// disc has to overlap it, too. An agent inside an area always collides. In solid semantics an agent also collides where its outline holds
-/// a whole path of an obstacle.
-/// Options: semantics, leaves, implementation.
+/// disc has to overlap it, too. An agent inside an area always collides, and so does one whose outline
+/// holds a whole path of an obstacle.
+/// Options: leaves, implementation.
 void collide(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
              std::span<std::uint8_t> hits, const QueryOptions& options = {});
 
 /// Tests whether a disc of each agent's cut comes within a distance of an obstacle, and writes 1 if so and 0 otherwise. There is one
 /// distance for all agents, or one each. The answer is 1 where clearance() with the same distance_leaves and no limit is at most the
-/// distance, apart from the rounding of that clearance to float. In solid semantics it is also 1 where the agent's outline holds a whole
-/// path.
-/// Options: semantics, distance_leaves, implementation.
+/// distance, apart from the rounding of that clearance to float.
+/// Options: distance_leaves, implementation.
 void within(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
             std::span<const double> distances, std::span<std::uint8_t> answers,
             const QueryOptions& options = {});
 
 /// Measures how far each agent is from the nearest obstacle: the least gap between a disc of its cut and a segment, or 0 where they
-/// overlap or an area holds a disc. The direction leads from the agent to the obstacle. `discs` has the agent's disc and the
+/// overlap, an area holds a disc or the agent's outline a whole path. The direction leads from the agent to the obstacle. `discs` has the agent's disc and the
 /// number of the segment; of equal gaps the first disc counts, and then the first segment. `points` are both relative to the agent's
 /// position.
 ///
 /// The distance of a disc that a segment crosses is negative with Overlap::deepest. Its direction is that to the segment's nearest point,
 /// or (1, 0) where that point is the disc's centre. An agent that is inside an area and touches none of its segments then has its distance
-/// to these segments.
+/// to these segments, and one whose outline holds a whole path the distance to that.
 ///
 /// With distance_leaves = Leaves::segments, where the agent has exact leaves, the distance is that of its outline: the least from a
 /// segment of it to one of the obstacle, and 0 where they come within the margin of exact leaves or an area holds something of the
 /// outline. It is never larger than that of the outline as it was given, and below it by no more than 1.2 um per metre of reach, 0.12 um
 /// per metre of the distance and 9e-15 of the distances to the two ends of the segment together, which is 9 um beside the middle of a wall
 /// of 1e9 m. The points are those of the two segments, and the disc is the leaf that holds the agent's point. Of equal distances that with
-/// the first segment of the outline counts, then the first of the obstacle. A leaf of more than 127 segments is measured as a disc, after all segments. Where collide() answers 1 in boundary semantics
-/// the distance is 0; where the distance is positive, collide() answers 0 there.
+/// the first segment of the outline counts, then the first of the obstacle. A leaf of more than 127 segments is measured as a disc, after all segments. Where collide() answers 1
+/// the distance is 0; where the distance is positive, collide() answers 0.
 /// Options: max_distance, overlap, distance_leaves, implementation.
 void clearance(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
                const ClearanceAnswers& answers, const QueryOptions& options = {});
@@ -150,7 +149,8 @@ void clearance(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& 
 /// The shortest of all such moves out of an obstacle counts. An agent that is inside an area and touches none of its segments crosses the
 /// nearest of them. An agent that touches or is inside several obstacles gets the longest of the moves that each of them alone asks for.
 /// One move frees an agent of a convex area or a single segment, if its new position is right to 1e-7 of its reach; for other obstacles,
-/// call again after the move. The depth is 0, and the direction (0, 0), where nothing is touched.
+/// call again after the move. The depth is 0, and the direction (0, 0), where nothing is
+/// touched, also where the agent's outline holds a whole path clear of its discs.
 /// Cost:    n log n for n segments that are near an agent, or as near as the farthest of those that it crosses.
 /// Options: implementation.
 void penetration(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
@@ -158,7 +158,7 @@ void penetration(const ShapeSet& shapes, const Agents& agents, const ObstacleSet
 
 /// Finds when each agent first touches an obstacle while it moves by its displacement without turning. The time is the least t in [0, 1]
 /// at which a disc of the agent's cut overlaps an obstacle when the agent has moved by t times its displacement, or infinity if there is
-/// none. It is 0 inside an area, and where the outline of a body in slabs holds a whole path.
+/// none. It is 0 inside an area, and where the agent's outline holds a whole path.
 /// Options: implementation.
 void time_of_impact(const ShapeSet& shapes, const Agents& agents, const Displacements& displacements,
                     const ObstacleSet& obstacles, std::span<float> times, const QueryOptions& options = {});

@@ -22,7 +22,7 @@ namespace bch {
 ///
 /// - *Sufficient.* After A has moved by s(u) or more, a line across u separates A and B: their discs, the
 ///   outlines that these cover, and what the outlines enclose. The depth is rounded up so that collide() then answers
-///   0, in either semantics, if A's new position is right to 1e-7 of the two shapes' reach (in doubles: up to
+///   0 if A's new position is right to 1e-7 of the two shapes' reach (in doubles: up to
 ///   1e8 m or so from the origin). Where the agents are far apart, rounding the direction turns the line that separates
 ///   them: in float by centimetres at 1e6 m.
 /// - *Continuous.* Where no point of an agent moves by more than m, by shifting or by turning, no a . u changes

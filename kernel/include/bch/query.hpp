@@ -18,6 +18,13 @@ struct Kernels;
 
 namespace bch {
 
+// What a collision is. Two agents collide at their levels where their outlines have a point in common as areas, as far as discs
+// tell: some disc of one's cut overlaps some disc of the other's, and every node above the one disc (itself included) overlaps every
+// node above the other; or one's contour lies inside the other's outline, where the set keeps outlines. Touching counts. Discs are the
+// smallest around their primitives. A point that two outlines have in common lies in all of these discs, so this is the tightest answer
+// that discs can give, and a deeper cut never adds a collision. With exact leaves (Leaves::segments, at the level of all depths) two
+// leaves count only where their segments meet, too. In a set without outlines discs alone decide.
+//
 // The rules that all queries share. A query over pairs writes one result per pair into spans of the caller, and allocates nothing
 // unless its header says so. Where a pair or an agent can have many results, an object finds them and keeps them in its memory until
 // its next call.
@@ -25,17 +32,6 @@ namespace bch {
 // Threads: any number of queries may read one ShapeSet at once; nothing may replace its shapes meanwhile. The work runs in the
 //          caller's TBB arena: call from tbb::task_arena(n).execute() for n threads. Each thread needs 320 KiB of stack.
 //          While a query waits for its tasks, TBB may run other tasks on the thread, so hold no lock.
-
-/// Selects the definition of a collision of two agents at their levels, independent of how trees are traversed.
-enum class Semantics {
-  /// Counts agents as colliding where their outlines cross or touch, as far as discs tell: some disc of one's cut overlaps some disc of
-  /// the other's, and every node above the one disc (itself included) overlaps every node above the other. Touching counts. Discs are
-  /// the smallest around their primitives. A point that two outlines have in common lies in all of these discs, so this is the tightest
-  /// answer that discs can give, and a deeper cut never adds a collision. With exact leaves (Leaves::segments, at the level of all
-  /// depths) two leaves count only where their segments meet, too.
-  boundary,
-  solid,  ///< also counts agents of which one's contour lies inside the other's outline
-};
 
 /// Describes one compilation of the queries for an instruction set. All implementations give the same bits.
 struct Implementation {
@@ -64,8 +60,6 @@ enum class Overlap {
 
 /// Holds the options of all queries. Each query's comment names the options that it uses; it ignores the others.
 struct QueryOptions {
-  Semantics semantics =
-      Semantics::boundary;  ///< of collide(), CrowdCollider and within(); sets with slices are solid
   /// Selects one of implementations(); null selects best_implementation(), which may throw where BCH_ISA is set.
   const Implementation* implementation = nullptr;
   Leaves leaves = Leaves::segments;  ///< of collide(), CrowdCollider and ContactFinder

@@ -20,21 +20,20 @@ struct Displacements {
 };
 
 /// Finds when the two agents of each pair first touch while they move without turning. The time is the least t in [0, 1] at which
-/// discs of their cuts touch when the first agent has moved by t times its displacement, or infinity if there is none.
+/// discs of their cuts touch when the first agent has moved by t times its displacement, or infinity if there is none. It is 0 where
+/// the agents collide already.
 ///
 /// Only the discs of the cuts count, not the nodes above them, because whether nodes overlap changes on the way, and
 /// a time has to be no later than the outlines' contact. The time is 0 where discs of the cuts overlap already,
 /// also where the agents move apart. A displacement that is zero as a float gives 0 only where collide() with
-/// Leaves::discs and boundary semantics answers 1, and infinity otherwise.
+/// Leaves::discs answers 1, and infinity otherwise.
 ///
 /// The time is never later than the outlines' first contact. At that time the outlines are at most the leaf discs' sizes and 4 um per
 /// metre of way and of the two shapes' reach apart. So the time may be early, or finite where the outlines only pass each other within
 /// that distance. Times are the same bits on every processor, for any number of threads and any split of the batch, and for exchanged
-/// agents with the displacement negated. Solid semantics would add nothing: an agent that is inside another has crossed its outline
-/// before, unless it starts there.
+/// agents with the displacement negated.
 ///
-/// Bodies in slabs, or at different heights, touch when the first two parts touch that may meet. Bodies in slabs that collide now, in
-/// solid semantics with Leaves::discs, touch at 0.
+/// Bodies in slabs, or at different heights, touch when the first two parts touch that may meet.
 ///
 /// Options: implementation.
 /// Sizes:   as many displacements in x, in y, and times as pairs. An agent may be paired with itself (0).

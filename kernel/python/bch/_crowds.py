@@ -16,7 +16,7 @@ from . import _library
 from ._arrays import UInt32, UInt64, copied, given, index, instance, number, u4, u8
 from ._library import Exclusive, Handle, check, lib
 from ._obstacles import Obstacles
-from ._queries import Agents, Leaves, Semantics, options, pointers
+from ._queries import Agents, Leaves, options, pointers
 from ._shapes import ShapeSet
 
 
@@ -117,7 +117,6 @@ class CrowdCollider:
         agents: Agents,
         obstacles: None = None,
         *,
-        semantics: Semantics = "boundary",
         leaves: Leaves = "segments",
         threads: int = 0,
         implementation: Optional[str] = None,
@@ -130,7 +129,6 @@ class CrowdCollider:
         agents: Agents,
         obstacles: Obstacles,
         *,
-        semantics: Semantics = "boundary",
         leaves: Leaves = "segments",
         threads: int = 0,
         implementation: Optional[str] = None,
@@ -142,14 +140,13 @@ class CrowdCollider:
         agents: Agents,
         obstacles: Optional[Obstacles] = None,
         *,
-        semantics: Semantics = "boundary",
         leaves: Leaves = "segments",
         threads: int = 0,
         implementation: Optional[str] = None,
     ) -> Union[Rows, Tuple[Rows, Rows]]:
         """Find the colliding neighbours of every agent as the function `collide_all` does."""
         set_at, agents_at = pointers(shapes, agents)
-        how, _ = options(semantics, leaves, "zero", math.inf, threads, implementation)
+        how, _ = options(leaves, "zero", math.inf, threads, implementation)
         found, touched = _library.IndexRows(), _library.IndexRows()
         walls = None if obstacles is None else instance(obstacles, Obstacles, "obstacles")._pointer
         with self._exclusive:
@@ -166,7 +163,6 @@ def collide_all(
     agents: Agents,
     obstacles: None = None,
     *,
-    semantics: Semantics = "boundary",
     leaves: Leaves = "segments",
     threads: int = 0,
     implementation: Optional[str] = None,
@@ -179,7 +175,6 @@ def collide_all(
     agents: Agents,
     obstacles: Obstacles,
     *,
-    semantics: Semantics = "boundary",
     leaves: Leaves = "segments",
     threads: int = 0,
     implementation: Optional[str] = None,
@@ -191,7 +186,6 @@ def collide_all(
     agents: Agents,
     obstacles: Optional[Obstacles] = None,
     *,
-    semantics: Semantics = "boundary",
     leaves: Leaves = "segments",
     threads: int = 0,
     implementation: Optional[str] = None,
@@ -204,7 +198,7 @@ def collide_all(
     agents : Agents
     obstacles : Obstacles, optional
         Also find the obstacles that each agent collides with.
-    semantics, leaves, threads, implementation
+    leaves, threads, implementation
         As for `collide`.
 
     Returns
@@ -213,7 +207,7 @@ def collide_all(
         One row per agent: the indices of the agents that it collides with, ascending. With obstacles, the second Rows has the
         indices of the obstacles that it collides with.
     """
-    how = {"semantics": semantics, "leaves": leaves, "threads": threads, "implementation": implementation}
+    how = {"leaves": leaves, "threads": threads, "implementation": implementation}
     return CrowdCollider().collide_all(shapes, agents, obstacles, **how)  # type: ignore[call-overload,no-any-return]
 
 
@@ -261,7 +255,7 @@ class ContactFinder:
     ) -> Contacts:
         """Find contacts as the function `contacts` does."""
         set_at, agents_at = pointers(shapes, agents)
-        how, _ = options("boundary", leaves, "zero", math.inf, threads, implementation)
+        how, _ = options(leaves, "zero", math.inf, threads, implementation)
         found = _library.ContactRows()
         handle = self._handle.pointer
         with self._exclusive:

@@ -129,16 +129,13 @@ class Agents:
         return f"<bch.Agents of {len(self)}>"
 
 
-Semantics = Literal["boundary", "solid"]
 Leaves = Literal["discs", "segments"]
 Overlap = Literal["zero", "deepest"]
-_semantics: Dict[str, int] = {"boundary": 0, "solid": 1}
 LEAVES: Dict[str, int] = {"discs": 0, "segments": 1}
 _overlaps: Dict[str, int] = {"zero": 0, "deepest": 1}
 
 
 def options(
-    semantics: Semantics = "boundary",
     leaves: Leaves = "segments",
     overlap: Overlap = "zero",
     max_distance: float = math.inf,
@@ -150,7 +147,6 @@ def options(
     if not (implementation is None or isinstance(implementation, str)):
         raise rejected(implementation, "implementation", "one of bch.implementations()")
     return _options(
-        one_of(_semantics, semantics, "semantics"),
         one_of(LEAVES, leaves, "leaves"),
         one_of(_overlaps, overlap, "overlap"),
         number(max_distance, "max_distance"),
@@ -162,7 +158,6 @@ def options(
 
 @functools.lru_cache(maxsize=256)
 def _options(
-    semantics: int,
     leaves: int,
     overlap: int,
     max_distance: float,
@@ -171,7 +166,6 @@ def _options(
     distance_leaves: int,
 ) -> Tuple[int, _library.QueryOptions]:
     struct = _library.QueryOptions(
-        semantics=semantics,
         leaves=leaves,
         distance_leaves=distance_leaves,
         overlap=overlap,
@@ -209,7 +203,6 @@ def collide(
     agents: Agents,
     pairs: Pairs,
     *,
-    semantics: Semantics = "boundary",
     leaves: Leaves = "segments",
     threads: int = 0,
     implementation: Optional[str] = None,
@@ -217,7 +210,8 @@ def collide(
 ) -> Bool:
     """Test whether the two agents of each pair collide, touching included.
 
-    A collision is never missed: agents whose outlines meet collide at every level. Bodies in slabs collide if two of their slabs
+    A collision is never missed: agents whose outlines have a point in common as areas, also where one is wholly inside the
+    other, collide at every level. Bodies in slabs collide if two of their slabs
     do.
 
     Parameters
@@ -226,8 +220,6 @@ def collide(
     agents : Agents
     pairs : (n, 2) uint32, or Obstacles
         Indices of agents; with obstacles, every agent is tested against all of them.
-    semantics : {"boundary", "solid"}
-        With "solid", an agent that is wholly inside another one's outline collides, too.
     leaves : {"segments", "discs"}
         What decides at the level of all depths: segments of the outlines, or discs that cover them.
     threads : int
@@ -243,7 +235,7 @@ def collide(
     """
     set_at, agents_at, where, n = _asked(shapes, agents, pairs)
     hits = result(out, b1, (n,))
-    how, _ = options(semantics, leaves, "zero", math.inf, threads, implementation)
+    how, _ = options(leaves, "zero", math.inf, threads, implementation)
     if isinstance(pairs, Obstacles):
         check(lib.bch_obstacles_collide(set_at, agents_at, where, how, address(hits)))
     else:
@@ -257,7 +249,6 @@ def within(
     pairs: Pairs,
     distance: Union[float, Float64],
     *,
-    semantics: Semantics = "boundary",
     leaves: Leaves = "discs",
     threads: int = 0,
     implementation: Optional[str] = None,
@@ -276,7 +267,7 @@ def within(
         Metres; one for all pairs, or one for each.
     leaves : {"discs", "segments"}
         For obstacles, as for `clearance`. Distances between agents are always those of discs.
-    semantics, threads, implementation, out
+    threads, implementation, out
         As for `collide`.
 
     Returns
@@ -287,7 +278,7 @@ def within(
     if leaves != "discs" and not isinstance(pairs, Obstacles):
         raise ArgumentError("leaves are for obstacles; pairs are measured between discs")
     answers = result(out, b1, (n,))
-    how, _ = options(semantics, "segments", "zero", math.inf, threads, implementation, leaves)
+    how, _ = options("segments", "zero", math.inf, threads, implementation, leaves)
     near: Any = distance
     if not isinstance(distance, (np.ndarray, list, tuple)):
         near = np.array([number(distance, "distance")], f8)
@@ -347,8 +338,7 @@ def clearance(
 ) -> Float32:
     """Measure how far apart the two agents of each pair are.
 
-    The distance is never larger than that of the outlines, and 0 where they cross or touch. If an agent is wholly inside another,
-    the distance is still that of the outlines; `collide` with semantics="solid" detects this case.
+    The distance is never larger than that of the outlines, and 0 where they meet or one is wholly inside the other.
 
     Parameters
     ----------
@@ -373,7 +363,7 @@ def clearance(
     """
     n = _asked(shapes, agents, pairs)[3]
     distance = result(out, f4, (n,))
-    how, _ = options("boundary", "segments", overlap, max_distance, threads, implementation, leaves)
+    how, _ = options("segments", overlap, max_distance, threads, implementation, leaves)
     _measure(shapes, agents, pairs, how, distance)
     return distance
 
@@ -414,7 +404,7 @@ def nearest(
         result(None if out is None else out.discs, u4, (n, 2), "out.discs"),
         result(None if out is None else out.points, f4, (n, 2, 2), "out.points"),
     )
-    how, _ = options("boundary", "segments", overlap, max_distance, threads, implementation, leaves)
+    how, _ = options("segments", overlap, max_distance, threads, implementation, leaves)
     _measure(shapes, agents, pairs, how, *found)
     return found
 
@@ -453,7 +443,7 @@ def penetration(
     """
     set_at, agents_at, where, n = _asked(shapes, agents, pairs)
     depths = result(out, PENETRATION, (n,))
-    how, _ = options("boundary", "segments", "zero", math.inf, threads, implementation)
+    how, _ = options("segments", "zero", math.inf, threads, implementation)
     to = address(depths)
     if isinstance(pairs, Obstacles):
         if isinstance(directions, np.ndarray) or directions != 16:
@@ -502,7 +492,7 @@ def time_of_impact(
     """
     set_at, agents_at, where, n = _asked(shapes, agents, pairs)
     times = result(out, f4, (n,))
-    how, _ = options("boundary", "segments", "zero", math.inf, threads, implementation)
+    how, _ = options("segments", "zero", math.inf, threads, implementation)
     to_x, to_y = given(dx, f8, (n,), "dx"), given(dy, f8, (n,), "dy")
     if isinstance(pairs, Obstacles):
         check(lib.bch_obstacles_time_of_impact(set_at, agents_at, where, to_x, to_y, how, address(times)))

@@ -29,12 +29,10 @@ from ._arrays import (
     given,
     instances,
     number,
-    one_of,
     u1,
     u4,
 )
 from ._library import ArgumentError, Handle, check, lib
-from ._queries import LEAVES
 from ._shapes import Character, Plan, ShapeSet, ShapeSetBuilder, _as_poses, _planes, _pointers
 
 
@@ -97,8 +95,7 @@ def plan_scene(
     character: Optional[UInt32] = None,
     distance: Optional[Float64] = None,
     depth: Optional[UInt32] = None,
-    solid: bool = False,
-    leaves: str = "segments",
+    outlines: bool = True,
     slices: Sequence[float] = (),
     whole_from: float = math.inf,
     heights: bool = False,
@@ -117,10 +114,8 @@ def plan_scene(
         Distance of each agent from the viewer, metres.
     depth : (n,) uint32, optional
         Level of detail: the cut depth that each agent needs, such as `depth_at_density` returns; by default ALL_DEPTHS.
-    solid : bool
-        Whether queries also use solid semantics.
-    leaves : {"segments", "discs"}
-        What decides at the leaves of the level of all depths.
+    outlines : bool
+        Whether to keep outlines, as `Plan` does; with slices they are kept anyway.
     slices : sequence of float
         Heights of planes that cut the bodies of near agents, metres, such as `standing_slices(3)`.
     whole_from : float
@@ -132,7 +127,6 @@ def plan_scene(
     pairs_per_shape : float
         The expected number of pairs of a shape before it is replaced; a small number if each shape lives for one frame.
     """
-    which = one_of(LEAVES, leaves, "leaves")
     array = _as_poses(poses)
     n = len(array)
     planes = _planes(slices)
@@ -144,8 +138,7 @@ def plan_scene(
         count=n,
     )
     use = _library.SceneUse(
-        solid=bool(solid),
-        leaves=which,
+        outlines=bool(outlines),
         heights=bool(heights),
         slices=address(planes),
         slice_count=len(planes),

@@ -61,7 +61,7 @@ class Plan(NamedTuple):
 
     depths: Sequence[int] = (ALL_DEPTHS,)  #: levels of detail, ascending: cut depths of the hierarchies
     slices: Sequence[float] = ()  #: heights of planes that cut bodies into slabs, metres, ascending
-    outlines: bool = True  #: keep outlines, for solid semantics and exact leaves
+    outlines: bool = True  #: keep outlines, without which discs alone decide
     culling: bool = True  #: keep culling data, which lets queries skip most of their work; changes no answer
     heights: bool = False  #: keep the heights of bodies, for agents at different heights
     threshold: float = 0.01  #: the radius below which discs are not divided, metres
@@ -417,7 +417,7 @@ class ShapeSet:
     `ShapeSet.load` maps a baked file, `bake` makes a set from characters, and `ShapeSetBuilder` makes one from bodies of your own.
     """
 
-    __slots__ = ("_owner", "_pointer", "shape_count", "depths", "slices", "has_heights", "solid", "exact_leaves", "nbytes")
+    __slots__ = ("_owner", "_pointer", "shape_count", "depths", "slices", "has_heights", "outlines", "exact_leaves", "nbytes")
 
     def __init__(self, pointer: int, owner: Any) -> None:
         self._owner = owner
@@ -427,7 +427,7 @@ class ShapeSet:
         self.shape_count: int = info.shapes
         self.depths: Tuple[int, ...] = tuple(copied(info.depths, u4, (info.levels,)).tolist())
         self.slices: Tuple[float, ...] = tuple(copied(info.slices, f4, (info.slabs - 1,)).tolist())
-        self.has_heights, self.solid = bool(info.has_heights), bool(info.solid)
+        self.has_heights, self.outlines = bool(info.has_heights), bool(info.outlines)
         self.exact_leaves, self.nbytes = bool(info.exact_leaves), int(info.bytes)
 
     @classmethod

@@ -38,8 +38,8 @@ class DynamicShapeSet {
 
   /// Replaces a shape by one that was prepared with set().plan(), if the new one fits into its place. Threads may replace
   /// different shapes at the same time, while no query runs. Allocates nothing.
-  /// Returns: whether it fitted. If not, the set is unchanged and replace() is needed. A shape without outline does not fit into a
-  ///          solid set, and neither does the first single disc.
+  /// Returns: whether it fitted. If not, the set is unchanged and replace() is needed. The first single disc
+  ///          does not fit into a set without any.
   /// Errors:  throws std::out_of_range on an index out of range, std::invalid_argument on a shape of another plan.
   bool try_replace(std::uint32_t shape, const PreparedShape& by);
 

@@ -16,8 +16,8 @@ namespace bch {
 /// do not contain each other (holes are left out), and cross themselves by at most a rounding to the grid. A whisker, the
 /// trace of a triangle seen edge-on, is a contour (or part of one) that goes there and back.
 ///
-/// Other outlines may have contours that touch, cross, overlap or contain themselves or each other. Boundary semantics
-/// tests every segment. For solid semantics a point is inside where some contour winds round it an odd number of times.
+/// Other outlines may have contours that touch, cross, overlap or contain themselves or each other. Every segment
+/// counts, and a point is inside where some contour winds round it an odd number of times.
 /// Clockwise contours are refused: they stand for holes, which are to be left out.
 struct Outline {
   std::vector<Vec2> points;  ///< metres, in the shape's frame; taken as they are, on a grid or not

@@ -34,10 +34,8 @@ constexpr double pairs_for_culling = 500;
 
 /// Describes the queries and levels of detail that a scene is planned for.
 struct SceneUse {
-  /// Says whether queries also use solid semantics.
-  bool solid = false;
-  /// Selects what decides at the leaves of the level of all depths, if there is one.
-  Leaves leaves = Leaves::segments;
+  /// Says whether to keep outlines, as ShapeSetPlan does; with slices they are kept anyway.
+  bool outlines = true;
   /// Gives the cut depth of agents at a distance, for level of detail; all_depths where it does not matter. None: all_depths.
   std::function<std::uint32_t(double metres)> depth = {};
   /// Gives the cut depth by the density around agents, for level of detail, for example depth_at_density(). If both

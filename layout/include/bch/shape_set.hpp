@@ -21,8 +21,8 @@ struct ShapeSetView;
 
 namespace bch {
 
-/// Represents a body seen from above: a pose of a character, a footprint, a cylinder. The outline may be empty. Discs then decide at the
-/// leaves, and a set of such shapes has no solid semantics, unless each shape is a single disc.
+/// Represents a body seen from above: a pose of a character, a footprint, a cylinder. The outline may be empty. Its discs
+/// then decide alone: it lies in no outline, and none in it, unless their discs overlap.
 struct Shape {
   Outline outline;
   Hierarchy hierarchy;
@@ -163,14 +163,15 @@ enum class Leaves {
 struct ShapeSetPlan {
   /// Lists the levels of detail: cut depths, ascending. Level k of every shape is its cut at depths[k].
   std::vector<std::uint32_t> depths = {all_depths};
-  /// Says whether to keep the outlines, which solid semantics and exact leaves need. Exact leaves exist at the level of all depths, for
-  /// shapes whose cut is more than one disc and whose hierarchy has its primitives.
+  /// Says whether to keep the outlines. Without them discs alone decide: an agent clear inside another's outline is no hit, and there are
+  /// no exact leaves. Exact leaves exist at the level of all depths, for shapes whose cut is more than one disc and whose hierarchy has
+  /// its primitives.
   bool outlines = true;
-  /// Says whether to keep culling data, which lets queries skip most traversals: supports and, of shapes with an outline, inscribed
+  /// Says whether to keep culling data, which lets queries skip most traversals: supports and, of outlines that are kept, inscribed
   /// discs. It changes no answer, and does not pay for a set that answers few queries.
   bool culling = true;
   /// Lists the planes that cut bodies into slabs, metres above an agent's ground, ascending, at most 63; none: bodies are
-  /// whole. Two agents then collide where they do in some slab, in solid semantics, so an arm above a foot is no collision. Every
+  /// whole. Two agents then collide where they do in some slab, so an arm above a foot is no collision. Every
   /// shape has either the slabs that PoseShaper and AnimatedShape make of these planes, or none: it is then the same at all of its
   /// heights. Slices need outlines of all shapes, unless depth 0 is alone.
   std::vector<float> slices = {};
@@ -205,8 +206,6 @@ class ShapeSet {
   std::uint32_t slab_count() const noexcept { return static_cast<std::uint32_t>(slices().size() + 1); }
   /// Returns whether the heights of bodies are kept, so that agents may have a z.
   bool has_heights() const noexcept;
-  /// Returns whether queries can use solid semantics: every shape has its outline here, or every cut is a single disc.
-  bool solid() const noexcept;
   /// Returns whether some level of some shape has exact leaves.
   bool exact_leaves() const noexcept;
   /// Returns whether every cut is a single disc: there are roots and nothing else.

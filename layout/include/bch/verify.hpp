@@ -37,8 +37,8 @@ std::string text_of(const Finding& finding);
 ///   are not below those of its parts.
 /// - If outlines are stored, every level's discs cover them; the leaves that name a segment cover it, and
 ///   margins are not below what rounding needs; contours' discs are the smallest; inscribed discs lie inside
-///   the largest contour; extremes are its farthest points; profiles are those of the outline. If they are
-///   not stored, inscribed discs, extremes and profiles are only checked not to stick out of the discs.
+///   the largest contour; profiles are those of the outline. If they are not stored, there are no
+///   inscribed discs, and profiles know of no area.
 ///
 /// The following facts do not follow from a set and are not checked: that discs and outlines are those of a
 /// character; that a disc is the smallest; and, without outlines, that no discs are missing.

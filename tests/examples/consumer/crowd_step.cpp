@@ -52,8 +52,7 @@ class Pusher {
   /// Returns: how many pairs overlapped.
   std::size_t step(Crowd& crowd) {
     constexpr float longest = 0.1f, beyond = 0.001f;  // metres
-    const bch::Rows<std::uint32_t> rows =
-        collider_.collide_all(shapes_, crowd.agents(), {.semantics = bch::Semantics::solid});
+    const bch::Rows<std::uint32_t> rows = collider_.collide_all(shapes_, crowd.agents());
     pairs_.clear();
     for (std::uint32_t i = 0; i < crowd.x.size(); ++i)
       for (const std::uint32_t j : rows[i])

@@ -31,7 +31,7 @@ int main() {
   const std::vector<double> x = {-1, -2, -0.73}, y = {0, 0.4, 0.62}, heading = {0, 0.1, 0};
   const std::vector<bch::Pair> pairs = {{0, 2}, {1, 2}};
   std::vector<std::uint8_t> hits(pairs.size());
-  bch::collide(set, {shape, x, y, heading}, pairs, hits, {.semantics = bch::Semantics::solid});
+  bch::collide(set, {shape, x, y, heading}, pairs, hits);
   std::vector<float> distance(pairs.size());
   bch::clearance(set, {shape, x, y, heading}, pairs, {distance});
   for (std::size_t i = 0; i < pairs.size(); ++i)

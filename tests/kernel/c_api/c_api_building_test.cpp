@@ -310,7 +310,7 @@ TEST(CApiBuilding, ScenesArePlanned) {
   bch_scene_agents of = BCH_SCENE_AGENTS_INIT;
   of.character = characters, of.poses = poses, of.distance = distances, of.depth = depths, of.count = 4;
   bch_scene_use use = BCH_SCENE_USE_INIT;
-  use.solid = 1, use.slices = slices, use.slice_count = 2, use.whole_from = 20;
+  use.outlines = 0, use.slices = slices, use.slice_count = 2, use.whole_from = 20;
   use.pose_step = 0.5f, use.pairs_per_shape = 20;
   const auto plan = made<bch_scene_plan_free>(bch_scene_plan_create, &of, &use);
 
@@ -364,7 +364,7 @@ TEST(CApiBuilding, WhatIsWrongWithScenes) {
   EXPECT_EQ(bch_scene_plan_create(&of, nullptr, &none), BCH_INVALID_ARGUMENT);
   of.distance = nullptr;
   bch_scene_use use = BCH_SCENE_USE_INIT;
-  use.leaves = 2;
+  use.pose_step = -1;
   EXPECT_EQ(bch_scene_plan_create(&of, &use, &none), BCH_INVALID_ARGUMENT);
   EXPECT_EQ(none, nullptr);
 

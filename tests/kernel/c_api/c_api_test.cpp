@@ -122,12 +122,11 @@ std::map<std::string, std::string> answers_of(const test::CScene& scene, const Q
 TEST_P(CApi, AnswersAreThoseOfTheLibrary) {
   std::map<std::string, std::string> before;
   for (const bool other : {false, true}) {
-    const QueryOptions by{.semantics = other ? Semantics::solid : Semantics::boundary,
-                          .leaves = other ? Leaves::segments : Leaves::discs,
+    const QueryOptions by{.leaves = other ? Leaves::segments : Leaves::discs,
                           .max_distance = other ? 0.7 : 0.5,
                           .overlap = other ? Overlap::deepest : Overlap::zero,
                           .distance_leaves = other ? Leaves::discs : Leaves::segments};
-    scene.options.semantics = other, scene.options.leaves = other, scene.options.overlap = other;
+    scene.options.leaves = other, scene.options.overlap = other;
     scene.options.distance_leaves = !other, scene.options.max_distance = by.max_distance;
     scene.options.threads = other ? 3 : 0;
     const auto expected = answers_of(scene, by);
@@ -190,7 +189,7 @@ TEST_P(CApi, TellsWhatASetHas) {
   EXPECT_EQ(info.shapes, set.shape_count());
   EXPECT_EQ(info.levels, set.level_count());
   EXPECT_EQ(info.slabs, set.slab_count());
-  EXPECT_EQ(info.solid != 0, set.solid());
+  EXPECT_EQ(info.outlines != 0, set.plan().outlines);
   EXPECT_EQ(info.has_heights != 0, set.has_heights());
   EXPECT_EQ(info.exact_leaves != 0, set.exact_leaves());
   EXPECT_TRUE(std::ranges::equal(set.depths(), std::span(info.depths, info.levels)));

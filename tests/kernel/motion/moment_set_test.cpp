@@ -37,7 +37,7 @@ struct OwnShapes {
 
 /// Everything that a query can tell of pairs and of agents near obstacles, at the level of all depths.
 struct AllAnswers {
-  std::vector<std::uint8_t> hits, near, solid, at_walls;
+  std::vector<std::uint8_t> hits, near, at_walls;
   std::vector<float> distance, time, to_walls;
   std::vector<Penetration> depth;
   std::vector<DiscPair> contacts;
@@ -47,14 +47,12 @@ struct AllAnswers {
   AllAnswers(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs, const ObstacleSet& walls)
       : hits(pairs.size()),
         near(pairs.size()),
-        solid(set.solid() ? pairs.size() : 0),
         at_walls(agents.shape.size()),
         distance(distances(set, agents, pairs)),
         time(pairs.size()),
         to_walls(agents.shape.size()),
         depth(pairs.size()) {
     collide(set, agents, pairs, hits);
-    if (set.solid()) collide(set, agents, pairs, solid, {.semantics = Semantics::solid});
     const double within_metres[] = {0.125};
     within(set, agents, pairs, within_metres, near);
     const std::vector<double> way(pairs.size(), 0.5), back(pairs.size(), -0.25);

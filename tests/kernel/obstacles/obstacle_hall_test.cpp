@@ -53,7 +53,8 @@ TEST_F(ObstacleHall, IsAsFarAsBruteForceSays) {
         const auto gap = reference.gap(agents, i, scene.reference);
         ASSERT_EQ(deepest[i], test::rounded_down(gap.gap)) << i;
         ASSERT_EQ(discs[i], (DiscPair{gap.disc, gap.segment})) << i;
-        const bool is_held = reference.holds_a_centre(agents, i, scene.reference[0]);
+        const bool is_held = reference.holds_a_centre(agents, i, scene.reference[0]) ||
+                             reference.outline_holds(agents, i, scene.reference[0]);
         const float expected = is_held ? 0 : std::max(deepest[i], 0.0f);
         ASSERT_EQ(distance[i], expected) << i;
         ASSERT_EQ(limited[i], is_held || gap.gap <= 50 ? expected : HUGE_VALF) << i;
@@ -130,7 +131,7 @@ TEST_F(ObstacleHall, TakesNoMoreThanItsNearestSegments) {
       body.prepare(0, 20, infinity, detail::Look::nearest);
       std::size_t looked_at = 0;
       for (std::uint32_t i = 0; i < 20; ++i) {
-        const auto nearest = query.find(body, i, infinity, 0, {true, false});
+        const auto nearest = query.find(body, i, infinity, 0, true);
         EXPECT_EQ(nearest.is_near_enough, is_area);
         looked_at = std::max(looked_at, body.near().found().size());
       }

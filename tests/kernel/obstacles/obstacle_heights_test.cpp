@@ -160,9 +160,7 @@ class ObstaclesWithHeights : public testing::TestWithParam<std::vector<float>> {
     AgentAnswers of(question.ask(apart, part, *level.set), 0);
     const auto is_hit = [&](const auto& obstacle) { return reference.collides(part, 0, obstacle); };
     const bool crosses = std::any_of(level.reference.begin(), level.reference.end(), is_hit);
-    // Bodies in slabs are solid, also where time is concerned.
-    if (is_sliced() && of.hit != 0 && !crosses) of.time = 0;
-    EXPECT_TRUE(of.hit == crosses || (is_sliced() && of.hit != 0));
+    EXPECT_EQ(of.hit, crosses);
     return of;
   }
 
@@ -191,7 +189,6 @@ TEST_P(ObstaclesWithHeights, AreAsPartsSayOfThoseLevelWithThem) {
     ObstacleScene scene = test::obstacle_scene(random, 12, 3);
     Crowd crowd = test::crowd_about(random, set, agents, 3);
     Question question{{}, test::distances_for(random, agents), {}};
-    question.options.semantics = is_sliced() ? Semantics::solid : Semantics::boundary;
     question.options.distance_leaves = k % 2 == 0 ? Leaves::discs : Leaves::segments;
     for (std::uint32_t i = 0; i < agents; ++i) {
       crowd.z.push_back(random.below(3) == 0 ? 5 : random.uniform(3, 8));

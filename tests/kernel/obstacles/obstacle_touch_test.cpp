@@ -58,9 +58,24 @@ double distance_of(const std::vector<QuadVector>& points, const Outline& outline
   return least;
 }
 
-/// Returns whether a placed outline meets a wall.
+/// Returns whether a contour of a placed outline goes round a point that is not on it.
+bool holds(const std::vector<QuadVector>& points, const Outline& outline, QuadVector at) {
+  bool held = false;
+  for (std::size_t contour = 0; contour < outline.contours(); ++contour) {
+    bool odd = false;
+    const std::size_t begin = outline.contour_begin[contour], end = outline.contour_begin[contour + 1];
+    for (std::size_t i = begin, before = end - 1; i < end; before = i++) {
+      const QuadVector p = points[before], q = points[i];
+      if ((p.y > at.y) != (q.y > at.y)) odd ^= (side(p, q, at) > 0) == (q.y > p.y);
+    }
+    held = held || odd;
+  }
+  return held;
+}
+
+/// Returns whether a placed outline, as an area, meets a wall.
 bool meets(const std::vector<QuadVector>& points, const Outline& outline, QuadVector a, QuadVector b) {
-  bool met = false;
+  bool met = holds(points, outline, a);
   for_each_segment(points, outline, [&](QuadVector p, QuadVector q) { met = met || cross(a, b, p, q); });
   return met;
 }
@@ -174,7 +189,7 @@ TEST_F(Obstacles, AreAsFarAsOutlinesAre) {
 /// Where a wall is as near to several segments of an outline, and several walls to one, the first ones count.
 TEST_F(Obstacles, OfEquallyNearOnesTheFirstCounts) {
   const Shape square = test::contour_shape(test::polygon({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}));
-  const ShapeSet squares({&square, 1});
+  const ShapeSet squares({&square, 1}), discs({&square, 1}, {.outlines = false});
   Crowd crowd;
   crowd.add({0, 0, 0, 0, 0});
   // Walls beside all four sides, each a metre away; the one above twice.
@@ -216,10 +231,10 @@ TEST_F(Obstacles, OfLeavesWithTooManySegments) {
   }
 }
 
-/// The pole of a lamp within an outline is seen in solid semantics alone; a post in a ring's hole never.
+/// The pole of a lamp within an outline is seen, but not in a set without outlines; a post in a ring's hole never.
 TEST_F(Obstacles, InsideAnOutline) {
   const Shape square = test::contour_shape(test::polygon({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}));
-  const ShapeSet squares({&square, 1});
+  const ShapeSet squares({&square, 1}), discs({&square, 1}, {.outlines = false});
   Crowd crowd;
   crowd.add({0, 5, 5, 0.2, 0});
   const std::vector<double> x = {5.1, 5.2, 5.1, 4.5}, y = {5, 5, 5.1, 4.6};
@@ -228,18 +243,21 @@ TEST_F(Obstacles, InsideAnOutline) {
     const std::vector<std::uint8_t> areas = {is_area, 0};
     const ObstacleSet obstacles({x, y, paths, {}, areas});
     std::vector<std::uint8_t> hits(1);
-    collide(squares, crowd.agents(), obstacles, hits);
-    EXPECT_EQ(hits[0], 0);
-    collide(squares, crowd.agents(), obstacles, hits, {.semantics = Semantics::solid});
-    EXPECT_EQ(hits[0], 1);
     const double near = 0.01;
-    within(squares, crowd.agents(), obstacles, {&near, 1}, hits);
-    EXPECT_EQ(hits[0], 0);
-    within(squares, crowd.agents(), obstacles, {&near, 1}, hits, {.semantics = Semantics::solid});
-    EXPECT_EQ(hits[0], 1);
+    for (const ShapeSet* const set : {&squares, &discs}) {
+      collide(*set, crowd.agents(), obstacles, hits);
+      EXPECT_EQ(hits[0], set == &squares);
+      within(*set, crowd.agents(), obstacles, {&near, 1}, hits);
+      EXPECT_EQ(hits[0], set == &squares);
+      std::vector<float> distance(1), time(1);
+      clearance(*set, crowd.agents(), obstacles, {distance});
+      EXPECT_EQ(distance[0] == 0, set == &squares);
+      const std::vector<double> still(1);
+      time_of_impact(*set, crowd.agents(), {still, still}, obstacles, time);
+      EXPECT_EQ(time[0] == 0, set == &squares);
+    }
     CrowdCollider collider;
-    const auto rows =
-        collider.collide_all(squares, crowd.agents(), obstacles, {.semantics = Semantics::solid});
+    const auto rows = collider.collide_all(squares, crowd.agents(), obstacles);
     EXPECT_EQ(std::vector<std::uint32_t>(rows.obstacles[0].begin(), rows.obstacles[0].end()),
               (std::vector<std::uint32_t>{0, 1}));
   }

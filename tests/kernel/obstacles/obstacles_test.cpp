@@ -112,8 +112,9 @@ void expect_brute_force(Random& random, std::span<const Shape> shapes, const Sha
       bool hit = false, is_held = false;
       for (const auto& obstacle : scene.reference) {
         hit = hit || reference.collides(agents, i, obstacle);
-        is_held = is_held || (leaves == Leaves::discs ? reference.holds_a_centre(agents, i, obstacle)
-                                                      : reference.holds_the_outline(agents, i, obstacle));
+        is_held = is_held || reference.outline_holds(agents, i, obstacle) ||
+                  (leaves == Leaves::discs ? reference.holds_a_centre(agents, i, obstacle)
+                                           : reference.holds_the_outline(agents, i, obstacle));
       }
       const bool by_discs = leaves == Leaves::discs;
       const auto gap = by_discs ? reference.gap(agents, i, scene.reference)

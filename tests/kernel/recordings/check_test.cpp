@@ -124,7 +124,7 @@ TEST(Check, GapsAreThoseOfWhatDecides) {
       const std::vector<Pair> pairs = candidate_pairs(shapes, agents, options.max_distance);
       std::vector<float> gaps(pairs.size());
       std::vector<std::uint8_t> hits(pairs.size());
-      collide(shapes, agents, pairs, hits, {.semantics = Semantics::solid, .leaves = leaves});
+      collide(shapes, agents, pairs, hits, {.leaves = leaves});
       clearance(shapes, agents, pairs, {gaps}, {.distance_leaves = leaves});
       for (std::size_t i = 0; i < pairs.size(); ++i) {
         const auto row = told.find({pairs[i].first, pairs[i].second});

@@ -222,8 +222,7 @@ TEST(AnimatedShape, IsAShapeAtEveryTime) {
     const std::vector<double> x = {a.path[0].x, b.path[0].x}, y = {a.path[0].y, b.path[0].y},
                               heading = {a.path[0].heading, b.path[0].heading};
     std::vector<std::uint8_t> hit(1);
-    collide(set, {shape, x, y, heading}, std::vector<Pair>{{0, 1}}, hit,
-            {.semantics = ringed ? Semantics::solid : Semantics::boundary});
+    collide(set, {shape, x, y, heading}, std::vector<Pair>{{0, 1}}, hit);
     const test::Meeting meeting = test::meeting_at(a, b, time);
     if (meeting.overlap()) {
       EXPECT_EQ(hit[0], 1) << i;

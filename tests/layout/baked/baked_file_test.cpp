@@ -30,11 +30,11 @@ void expect_same(const detail::ShapeArrays& loaded, const detail::ShapeArrays& e
   });
 }
 
-std::vector<std::uint8_t> answers(const ShapeSet& set, Semantics semantics) {
+std::vector<std::uint8_t> answers(const ShapeSet& set) {
   Random random(72);
   const PairScene scene = random_scene(random, set, 4000);
   std::vector<std::uint8_t> hits(scene.pairs.size());
-  collide(set, scene.crowd.agents(), scene.pairs, hits, {semantics, nullptr});
+  collide(set, scene.crowd.agents(), scene.pairs, hits);
   return hits;
 }
 
@@ -42,20 +42,17 @@ TEST(BakedFile, ComesBackAsItWas) {
   const TemporaryFolder folder;
   for (const std::vector<std::uint32_t>& depths :
        {std::vector<std::uint32_t>{0}, {all_depths}, {0, 3, all_depths}, {1, 2}})
-    for (const bool solid : {false, true})
+    for (const bool outlines : {false, true})
       for (const bool culling : {false, true}) {
         const std::vector<Shape> shapes = synthetic_shapes(73, 40);
-        const ShapeSet set(shapes, {depths, solid, culling});
+        const ShapeSet set(shapes, {depths, outlines, culling});
         const ShapeOrigins origins = origins_of(shapes.size());
         const auto file = folder.write("shapes.bch", BakedBytes(set, origins).text());
         for (const FileAccess access : {FileAccess::read, FileAccess::map}) {
           const BakedShapes loaded = load_baked(file, access);
           expect_same(loaded.set.arrays(), set.arrays());
           EXPECT_EQ(loaded.origins, origins);
-          EXPECT_EQ(answers(loaded.set, Semantics::boundary), answers(set, Semantics::boundary));
-          if (solid) {
-            EXPECT_EQ(answers(loaded.set, Semantics::solid), answers(set, Semantics::solid));
-          }
+          EXPECT_EQ(answers(loaded.set), answers(set));
         }
       }
 }
@@ -73,7 +70,7 @@ TEST(BakedFile, OutlivesItsName) {
   const auto file = folder.write("shapes.bch", BakedBytes(set, {}).text());
   const BakedShapes loaded = load_baked(file, FileAccess::map);
   std::filesystem::remove(file);
-  EXPECT_EQ(answers(loaded.set, Semantics::solid), answers(set, Semantics::solid));
+  EXPECT_EQ(answers(loaded.set), answers(set));
 }
 
 TEST(BakedFile, ImageRefusesWhatNobodyCouldLoad) {

@@ -268,7 +268,7 @@ typedef struct bch_shape_set bch_shape_set;
 /** Describes what a scene will use of its shapes; nothing else is built or stored. */
 typedef struct bch_plan {
   uint32_t size;          /**< sizeof(bch_plan) */
-  int32_t outlines;       /**< not 0: keep outlines, for solid semantics and exact leaves */
+  int32_t outlines;       /**< not 0: keep outlines, without which discs alone decide */
   int32_t culling;        /**< not 0: keep data that lets queries skip most of their work; changes no answer */
   int32_t heights;        /**< not 0: keep the heights of bodies, for agents at different heights */
   const uint32_t* depths; /**< levels of detail, ascending; NULL: BCH_ALL_DEPTHS alone */
@@ -297,7 +297,7 @@ typedef struct bch_shape_set_info {
   uint32_t levels;
   uint32_t slabs;       /**< 1: bodies are whole */
   int32_t has_heights;  /**< not 0: agents may have a z */
-  int32_t solid;        /**< not 0: queries may use solid semantics */
+  int32_t outlines;     /**< not 0: outlines are kept, else discs alone decide */
   int32_t exact_leaves; /**< not 0: some level of some shape has them */
   uint64_t bytes;
   const uint32_t* depths; /**< one per level; lives as long as the set, like the next */
@@ -508,10 +508,6 @@ typedef struct bch_pair {
 } bch_pair;
 
 enum {
-  BCH_BOUNDARY = 0, /**< agents collide where outlines cross or touch */
-  BCH_SOLID = 1     /**< and also where one outline is inside the other */
-};
-enum {
   BCH_DISCS = 0,   /**< leaves meet where their discs overlap */
   BCH_SEGMENTS = 1 /**< at the level of all depths, segments of the outlines in them have to meet as well */
 };
@@ -521,13 +517,12 @@ enum {
 };
 /** Holds the options of all queries. Initialise them by BCH_QUERY_OPTIONS_INIT: zeros are not the defaults. Every query uses `threads` and
  * `implementation`. Queries use the other options as follows, and ignore what is not listed:
- * - bch_collide(), bch_obstacles_collide() and the crowd collider: `semantics` and `leaves`,
- * - bch_within() and bch_obstacles_within(): `semantics`, and the second one also `distance_leaves`,
+ * - bch_collide(), bch_obstacles_collide() and the crowd collider: `leaves`,
  * - the contact finder: `leaves`,
+ * - bch_obstacles_within(): `distance_leaves`,
  * - bch_clearance() and bch_obstacles_clearance(): `max_distance`, `overlap` and `distance_leaves`. */
 typedef struct bch_query_options {
   uint32_t size;           /**< sizeof(bch_query_options) */
-  int32_t semantics;       /**< BCH_BOUNDARY or BCH_SOLID; sets with slices are solid */
   int32_t leaves;          /**< of collisions and contacts: BCH_SEGMENTS or BCH_DISCS */
   int32_t distance_leaves; /**< of clearance: BCH_DISCS or BCH_SEGMENTS; deepest overlaps are those of discs */
   int32_t overlap;         /**< of clearance: BCH_OVERLAP_ZERO or BCH_OVERLAP_DEEPEST */
@@ -537,7 +532,7 @@ typedef struct bch_query_options {
 } bch_query_options;
 #define BCH_QUERY_OPTIONS_INIT                                                                                   \
   {                                                                                                              \
-    sizeof(bch_query_options), BCH_BOUNDARY, BCH_SEGMENTS, BCH_DISCS, BCH_OVERLAP_ZERO, 0, (double)INFINITY, NULL \
+    sizeof(bch_query_options), BCH_SEGMENTS, BCH_DISCS, BCH_OVERLAP_ZERO, 0, (double)INFINITY, NULL \
   }
 
 /** Returns the name of the i-th implementation, the best first, such as "avx512", "avx2", "sse2" and "scalar"; NULL beyond the last. */
@@ -863,8 +858,7 @@ typedef struct bch_scene_agents {
 /** Describes the queries and levels of detail that a scene is planned for. */
 typedef struct bch_scene_use {
   uint32_t size;       /**< sizeof(bch_scene_use) */
-  int32_t solid;       /**< not 0: queries also use solid semantics */
-  int32_t leaves;      /**< BCH_SEGMENTS or BCH_DISCS at the level of all depths */
+  int32_t outlines;    /**< not 0: keep outlines, as bch_plan does; with slices they are kept anyway */
   int32_t heights;     /**< not 0: agents stand at different heights */
   const float* slices; /**< planes that cut the bodies of agents who are near */
   size_t slice_count;
@@ -873,7 +867,7 @@ typedef struct bch_scene_use {
   float pose_step; /**< the step to whose multiples times are rounded down, seconds, so that agents share shapes; 0: they are not */
 } bch_scene_use;
 #define BCH_SCENE_USE_INIT \
-  { sizeof(bch_scene_use), 0, BCH_SEGMENTS, 0, NULL, 0, (double)INFINITY, (double)INFINITY, 0 }
+  { sizeof(bch_scene_use), 1, 0, NULL, 0, (double)INFINITY, (double)INFINITY, 0 }
 /** Lists the shapes to build for a scene, each once, and the shape and level of each agent. */
 typedef struct bch_scene_plan bch_scene_plan;
 /** Plans which shapes a scene needs, at which depths and with which further data. */
