@@ -107,6 +107,50 @@ TEST_F(TimeOfImpactDifferential, NearTangentPairs) {
   expect_equal_to_brute_force(motion, "passes by");
 }
 
+/// A small body arrives at the near end of a long one. What bounds leave to spare has to be that of both: the small one alone
+/// is nothing beside the rounding of the long one's nodes.
+TEST(TimeOfImpact, OfASmallBodyAtTheEndOfALongOne) {
+  Random random(2603);
+  const Disc small[] = {{0, 0, 0.02f}, {0.01f, 0, 0.02f}};
+  std::vector<Shape> shapes = {shape_from_discs(small)};
+  std::vector<double> radius = {0};  // of the near end
+  for (std::uint32_t i = 1; i < 40; ++i) {
+    std::vector<Disc> row;
+    const double step = std::pow(10, random.uniform(2, 4));
+    for (std::uint32_t k = 0; k < 12; ++k)
+      row.push_back({static_cast<float>(k * step), 0, static_cast<float>(random.uniform(0.05, 1))});
+    shapes.push_back(shape_from_discs(row));
+    radius.push_back(row[0].radius);
+  }
+  Motion motion;
+  TimeOfImpactReference reference(shapes, {});
+  for (std::uint32_t i = 0; i < test::samples(4'000); ++i) {
+    const std::uint32_t shape = 1 + random.below(39);
+    const double heading = random.uniform(-4, 4), gap = std::pow(10, random.uniform(-2, 0));
+    const double away = radius[shape] * 1.1 + 0.1 + gap;
+    motion.crowd.add({0, -away * std::cos(heading), -away * std::sin(heading), random.uniform(-4, 4), 0});
+    motion.crowd.add({shape, 0, 0, heading, 0});
+    motion.pairs.push_back({2 * i, 2 * i + 1});
+    motion.x.push_back(1.5 * away * std::cos(heading)), motion.y.push_back(1.5 * away * std::sin(heading));
+    const double t = reference.query(motion.crowd.agents(), motion.pairs[i], motion.x[i], motion.y[i],
+                                     Method::brute_force);
+    ASSERT_LE(t, 1);
+    const double exactly = t * (1 + 0x1p-24 * (static_cast<int>(random.below(9)) - 4));
+    motion.x[i] *= exactly, motion.y[i] *= exactly;
+  }
+  for (const bool culling : {false, true}) {
+    const ShapeSet set(shapes, {.culling = culling});
+    for (const auto& implementation : implementations()) {
+      if (!implementation.supported()) continue;
+      const std::vector<float> of = times(set, motion, &implementation);
+      for (std::size_t i = 0; i < of.size(); ++i)
+        ASSERT_EQ(of[i], reference.query(motion.crowd.agents(), motion.pairs[i], motion.x[i], motion.y[i],
+                                         Method::brute_force))
+            << implementation.name << ", pair " << i;
+    }
+  }
+}
+
 TEST_F(TimeOfImpactDifferential, WithoutAWayItIsCollide) {
   Motion motion{random_scene(random, set, 50'000), {}, {}};
   motion.x.assign(motion.pairs.size(), 0), motion.y = motion.x;
