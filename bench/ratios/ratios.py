@@ -60,7 +60,7 @@ bodies | bodies/find_all | <= 10000
 bodies | bodies/loop / bodies/find_all | >= 20
 shapes | shapes/5000 / shapes/200 | <= 1.8
 shapes | shapes/50000 / shapes/200 | <= 3
-plans | plans/{single_cylinder,depth_3,depth_6,all,mixed,all_solid,all_discs,one_frame}/{bake,query} |
+plans | plans/{single_cylinder,depth_3,depth_6,all,mixed,all_discs,one_frame}/{bake,query} |
 slices | slices/{1,2,3,4,8}/{crowd,near_miss,colliding}/{discs,segments} |
 slices | slices/3/crowd/discs / slices/1/crowd/discs | <= 2
 slices | slices/3/crowd/segments / slices/1/crowd/segments | <= 2.4
