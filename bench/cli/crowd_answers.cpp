@@ -8,7 +8,7 @@
 #include <iterator>
 #include <tuple>
 
-#include <bch/broad_phase.hpp>
+#include <bch/crowd.hpp>
 
 #include "bench/base/median.hpp"
 #include "bench/base/progress.hpp"
@@ -51,10 +51,12 @@ double mean_discs(const ShapeSet& set, std::uint32_t level) {
 /// Pairs that can collide at some level. The single cylinder's are not enough: the discs of a deeper cut
 /// stick out of it, so an agent's root disc depends on its level.
 std::vector<Pair> candidates_of_all_levels(const ShapeSet& shapes, const Crowd& crowd) {
+  bch::Crowd finder;
   std::vector<Pair> all;
   for (std::uint32_t level = 0; level < shapes.level_count(); ++level) {
     const std::vector<std::uint8_t> levels(crowd.size(), static_cast<std::uint8_t>(level));
-    std::vector<Pair> some = candidate_pairs(shapes, crowd.at_level(levels));
+    const CrowdPairs found = finder.candidates(shapes, crowd.at_level(levels));
+    std::vector<Pair> some(found.begin(), found.end());
     std::sort(some.begin(), some.end(), before);
     std::vector<Pair> both;
     std::set_union(all.begin(), all.end(), some.begin(), some.end(), std::back_inserter(both), before);

@@ -10,9 +10,8 @@
 #include <iterator>
 #include <vector>
 
-#include <bch/broad_phase.hpp>
 #include <bch/clearance.hpp>
-#include <bch/contacts.hpp>
+#include <bch/crowd.hpp>
 #include <bch/penetration.hpp>
 #include <bch/time_of_impact.hpp>
 
@@ -67,8 +66,10 @@ std::size_t slab_of(const QueryInput& input, std::uint32_t agent, std::uint32_t 
 }
 
 std::string contact_rows(const QueryInput& input) {
-  ContactFinder finder;
-  const Rows<DiscPair> rows = finder.find(input.set, input.table.agents(), input.pairs, input.options);
+  bch::Crowd crowd;
+  const Rows<DiscPair> rows =
+      crowd.contacts(input.set, input.table.agents(), input.pairs,
+                     {.leaves = input.options.leaves, .implementation = input.options.implementation});
   std::string out;
   for (std::size_t i = 0; i < input.pairs.size(); ++i)
     for (const auto& [first, second] : rows[i]) {
@@ -207,7 +208,9 @@ std::vector<Pair> all_pairs(const ShapeSet& set, const AgentTable& table, const 
                             const QueryOptions& options, std::size_t most) {
   const Agents agents = table.agents();
   const bool of_distance = std::isfinite(options.max_distance);
-  std::vector<Pair> pairs = candidate_pairs(set, agents, of_distance ? options.max_distance : 0, most);
+  bch::Crowd crowd({.most_pairs = most});
+  const CrowdPairs found = crowd.candidates(set, agents, {.margin = of_distance ? options.max_distance : 0});
+  std::vector<Pair> pairs(found.begin(), found.end());
   std::sort(pairs.begin(), pairs.end(),
             [](Pair a, Pair b) { return a.first != b.first ? a.first < b.first : a.second < b.second; });
   std::vector<std::uint8_t> kept(pairs.size());

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include <bch/baked.hpp>
-#include <bch/collide.hpp>
+#include <bch/crowd.hpp>
 #include <bch/distributed_crowd.hpp>
 
 #include "bench/base/exit_codes.hpp"
@@ -82,7 +82,7 @@ class RankWalk {
   std::span<const Pair> pairs_;
 };
 
-/// The same crowd in one process, asked by CrowdCollider: what the above is compared with.
+/// The same crowd in one process, asked by Crowd: what the above is compared with.
 class PlainWalk {
  public:
   PlainWalk(const ShapeSet& shapes, std::vector<CrowdAgent> agents)
@@ -94,13 +94,11 @@ class PlainWalk {
     x_.resize(agents_.size()), y_.resize(agents_.size());
     place();
   }
-  void step() { rows_ = collider_.collide_all(shapes_, {shape_, x_, y_, heading_, level_}); }
+  void step() { pairs_ = finder_.collisions(shapes_, {shape_, x_, y_, heading_, level_}); }
   void move() { walk_on(agents_), place(); }
   CrowdCounters counters() const { return {.agents = agents_.size()}; }
   void count(double& collisions, std::uint64_t& digest) const {
-    for (std::uint32_t i = 0; i < rows_.size(); ++i)
-      for (const std::uint32_t j : rows_[i])
-        if (i < j) ++collisions, digest += hash(i, j);
+    for (const auto [i, j] : pairs_) ++collisions, digest += hash(i, j);
   }
 
  private:
@@ -113,8 +111,8 @@ class PlainWalk {
   std::vector<std::uint32_t> shape_;
   std::vector<double> x_, y_, heading_;
   std::vector<std::uint8_t> level_;
-  CrowdCollider collider_;
-  Rows<std::uint32_t> rows_;
+  bch::Crowd finder_;
+  CrowdPairs pairs_;
 };
 
 /// Walks, and reports of the steps after those to settle; `before`: what the process occupied already.
@@ -198,7 +196,7 @@ std::function<void()> add_crowd_command(CLI::App& program, MPI_Comm comm) {
   add("--agent-pairs", options->agent_pairs, "N",
       "Weight of an agent, in pairs, when work is balanced; 1.3 balances time [0]", number_between(0, 1000));
   add("--threads", options->threads, "N", "Threads per rank [1]", whole_between(1, 1024));
-  command.add_flag("--plain", options->is_plain, "Use CrowdCollider in one process instead, for comparison");
+  command.add_flag("--plain", options->is_plain, "Use Crowd in one process instead, for comparison");
   add("--json", options->json, "FILE", "Write the report as JSON");
   return [options, comm] { run(*options, comm); };
 }

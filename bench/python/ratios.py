@@ -57,7 +57,7 @@ def compare(name, ask, function, rounds, bar):
 
 def many_pairs(people, rounds, pairs_wanted):
     agents = crowd_of(people, pairs_wanted // 2, 3)
-    pairs = np.ascontiguousarray(bch.candidate_pairs(people, agents)[:pairs_wanted])
+    pairs = np.ascontiguousarray(bch.Crowd().candidates(people, agents)[:pairs_wanted])
     n = len(pairs)
     hits, gaps, x, y = np.empty(n, bool), np.empty(n, np.float32), np.full(n, 1.3), np.full(n, 0.2)
     print(f"{n} pairs")
@@ -67,9 +67,9 @@ def many_pairs(people, rounds, pairs_wanted):
 
 
 def whole_crowd(people, rounds, n):
-    agents, collider = crowd_of(people, n, 1), bch.CrowdCollider()
+    agents, crowd = crowd_of(people, n, 1), bch.Crowd()
     print(f"{n} agents")
-    compare("collide_all", lambda: collider.collide_all(people, agents), "bch_crowd_collider_collide_all", rounds, 1.05)
+    compare("collisions", lambda: crowd.collisions(people, agents), "bch_crowd_collisions", rounds, 1.05)
 
 
 def one_pair(people):
@@ -80,7 +80,7 @@ def one_pair(people):
 
 def two_threads(people, pairs_wanted):
     agents = crowd_of(people, pairs_wanted // 2, 3)
-    pairs = np.ascontiguousarray(bch.candidate_pairs(people, agents)[:pairs_wanted])
+    pairs = np.ascontiguousarray(bch.Crowd().candidates(people, agents)[:pairs_wanted])
     ask = lambda: [bch.collide(people, agents, pairs, threads=1) for _ in range(4)]
 
     def together():
@@ -105,7 +105,7 @@ def shapely(people, n):
         print("shapely is not installed")
         return
     agents = crowd_of(people, n // 2, 3)
-    pairs = np.ascontiguousarray(bch.candidate_pairs(people, agents)[:n])
+    pairs = np.ascontiguousarray(bch.Crowd().candidates(people, agents)[:n])
     # An outline may touch itself, which shapely's polygons may not: buffer(0) makes them valid.
     shapes = [unary_union([Polygon(c).buffer(0) for c in people.outline(i)]) for i in range(len(people))]
     c, s = np.cos(agents.heading), np.sin(agents.heading)

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <tuple>
 
-#include <bch/contacts.hpp>
+#include <bch/crowd.hpp>
 
 #include "bench/ratios/ratios.hpp"
 #include "layout/base/heading.hpp"
@@ -29,11 +29,11 @@ using Touch = std::tuple<std::uint32_t, std::uint32_t, std::uint32_t, std::uint3
 struct Bodies {
   ShapeSet set{std::vector<Shape>(1, shape_from_discs(five_discs))};
   cli::Crowd crowd = cli::place_crowd(body_count, pressed_density, 1, crowd_seed);
-  ContactFinder finder;
+  bch::Crowd finder;
   std::vector<Vec2> centres;
   std::vector<Touch> touches;
 
-  CrowdContacts find() { return finder.find_all(set, crowd.agents()); }
+  CrowdContacts find() { return finder.contacts(set, crowd.agents()); }
 
   /// What a model without a library does: places all discs, then compares those of all pairs of bodies.
   void loop() {
@@ -78,7 +78,7 @@ struct Bodies {
 
 void add_bodies() {
   const auto shared = once([] { return std::make_shared<Bodies>(); });
-  add("bodies/find_all", [shared]() -> Contender {
+  add("bodies/contacts", [shared]() -> Contender {
     Bodies& all = shared();
     all.require_same();
     return {[&all] { all.find(); }, 1, {{"contacts", static_cast<double>(all.touches.size())}}};

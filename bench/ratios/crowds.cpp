@@ -8,7 +8,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include <bch/broad_phase.hpp>
+#include <bch/crowd.hpp>
 
 #include "bench/base/peak_memory.hpp"
 #include "bench/ratios/ratios.hpp"
@@ -55,7 +55,7 @@ Contender in_batches(Scene& scene, std::size_t most) {
 struct Steps {
   const ShapeSet& set;
   std::vector<cli::Crowd> crowds;
-  BroadPhase broad_phase;
+  bch::Crowd finder;
   Hits hits;
 
   Steps(const ShapeSet& of, std::uint32_t agents, std::uint32_t count) : set(of) {
@@ -64,7 +64,7 @@ struct Steps {
   }
 
   std::span<const Pair> find_and_answer(const cli::Crowd& crowd) {
-    const std::span<const Pair> pairs = broad_phase.find(set, crowd.agents());
+    const std::span<const Pair> pairs = finder.candidates(set, crowd.agents()).span();
     hits.resize(pairs.size());
     collide(set, crowd.agents(), pairs, hits, disc_query);
     return pairs;

@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include <bch/broad_phase.hpp>
+#include <bch/crowd.hpp>
 #include <bch/dynamic_shape_set.hpp>
 #include <bch/pose_shape.hpp>
 #include <bch/scene_plan.hpp>
@@ -54,7 +54,7 @@ class LiveCrowd {
     const Stopwatch watch(0);
     build_shapes();
     const double built = watch.nanoseconds();
-    pairs_ = broad_phase_.find(shapes_.set(), crowd_.agents());
+    pairs_ = finder_.candidates(shapes_.set(), crowd_.agents()).span();
     const double found = watch.nanoseconds();
     hits_.resize(pairs_.size());
     collide(shapes_.set(), crowd_.agents(), pairs_, hits_);
@@ -153,7 +153,7 @@ class LiveCrowd {
   DynamicShapeSet shapes_;
   tbb::enumerable_thread_specific<Workshop> workshops_;
   std::vector<std::uint8_t> outgrown_;  ///< per shape: it needs a larger place
-  BroadPhase broad_phase_;
+  bch::Crowd finder_;
   std::span<const Pair> pairs_;
   Hits hits_;
   std::vector<double> shapes_ms, pairs_ms, answers_ms;  ///< of frames

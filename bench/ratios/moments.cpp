@@ -5,7 +5,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include <bch/broad_phase.hpp>
+#include <bch/crowd.hpp>
 #include <bch/default_characters.hpp>
 #include <bch/pose_shape.hpp>
 #include <bch/time_of_impact.hpp>
@@ -45,7 +45,9 @@ struct WalkingCrowd {
       apart.push_back(random.uniform(1 / grid_rate));
       crowd.shape[i] = first_pose[body[i]] + step(i, 0);
     }
-    pairs = candidate_pairs(*set_of_poses, crowd.agents(), 0.05);
+    bch::Crowd finder;
+    const CrowdPairs near = finder.candidates(*set_of_poses, crowd.agents(), {.margin = 0.05});
+    pairs.assign(near.begin(), near.end());
   }
 
   void add_walker(const Character& character) {

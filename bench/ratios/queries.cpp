@@ -10,7 +10,7 @@
 #include <utility>
 
 #include <bch/clearance.hpp>
-#include <bch/contacts.hpp>
+#include <bch/crowd.hpp>
 #include <bch/penetration.hpp>
 #include <bch/time_of_impact.hpp>
 
@@ -138,13 +138,13 @@ struct TimeOfImpactQuery : Question {
 
 struct ContactsQuery : Question {
   using Question::Question;
-  ContactFinder finder;
+  bch::Crowd finder;
   Rows<DiscPair> rows;
   baselines::CutLists cuts{scene.shapes(), {}};
 
-  void ask(QueryOptions options) {
-    options.leaves = Leaves::discs;
-    rows = finder.find(scene.set(), agents, pairs, options);
+  void ask(const QueryOptions& options) {
+    rows = finder.contacts(scene.set(), agents, pairs,
+                           {.leaves = Leaves::discs, .implementation = options.implementation});
   }
   auto search(std::size_t i, Method) { return baselines::contacts(cuts, agents, pairs[i]); }
   bool is_right(std::size_t i, Method method) {
@@ -171,24 +171,28 @@ struct PenetrationQuery : Question {
   }
 };
 
-/// collide_all(), whose pairs are those of its broad phase, all that can collide. The reference of collide() serves
-/// for it.
-struct CollideAllQuery : Question {
+/// Crowd::collisions() by agent. The reference of collide() serves for it.
+struct CollisionsQuery : Question {
   using Question::Question;
-  CrowdCollider collider;
-  Rows<std::uint32_t> rows;
+  bch::Crowd finder;
+  Rows<Neighbour> rows;
   const Hits& hits = scene.expected(Leaves::discs, workload);
   std::size_t neighbours = 2 * static_cast<std::size_t>(std::ranges::count(hits, 1));
 
-  void ask(QueryOptions options) {
-    options.leaves = Leaves::discs;
-    rows = collider.collide_all(scene.set(), agents, options);
+  void ask(const QueryOptions& options) {
+    rows = finder
+               .collisions(scene.set(), agents,
+                           {.leaves = Leaves::discs, .implementation = options.implementation})
+               .by_agent();
+  }
+  static bool has(std::span<const Neighbour> row, std::uint32_t agent) {
+    return std::ranges::binary_search(row, agent, {}, &Neighbour::agent);
   }
   bool is_right(std::size_t i, Method) {
     const auto [first, second] = pairs[i];
     const bool hit = hits[i] != 0;
-    return rows.values.size() == neighbours && std::ranges::binary_search(rows[first], second) == hit &&
-           std::ranges::binary_search(rows[second], first) == hit;
+    return rows.values.size() == neighbours && has(rows[first], second) == hit &&
+           has(rows[second], first) == hit;
   }
 };
 
@@ -269,7 +273,7 @@ void add_queries(Scene& scene) {
     add_query<PenetrationQuery>(scene, "penetration", name);
   }
   // Agents of pairs of their own stand anywhere, also in each other.
-  add_query<CollideAllQuery, false>(scene, "collide_all", "crowd");
+  add_query<CollisionsQuery, false>(scene, "collisions", "crowd");
   if (has_kind("fcl_obb_contour"))
     for (const bool walls : {true, false})
       add(walls ? "clearance/near_miss/fcl_walls" : "clearance/near_miss/fcl_segments",

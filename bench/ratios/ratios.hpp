@@ -59,7 +59,7 @@ void add_queries(Scene& scene);
 /// threads/<n>, batches/<size>: one query of many pairs, and queries of a few; crowd/<agents>/<step|pairs>: pairs and
 /// answers of whole crowds; shapes/<count>: a crowd of so many different shapes.
 void add_crowds(Scene& scene);
-/// bodies/<find_all|loop>: a crowd of bodies of discs.
+/// bodies/<contacts|loop>: a crowd of bodies of discs.
 void add_bodies();
 /// obstacles/<query>: a crowd on a floor plan.
 void add_obstacles(Scene& scene);

@@ -50,14 +50,14 @@ distances | {clearance,within,time_of_impact}/near_miss/{avx512,avx2,sse2,scalar
 distances | clearance/near_miss/fcl_walls / clearance/near_miss/BEST | >= 150
 distances | clearance/near_miss/fcl_walls / exact_clearance/near_miss/BEST |
 distances | clearance/near_miss/fcl_segments / {clearance,exact_clearance}/near_miss/BEST |
-responses | {contacts,penetration,collide_all}/crowd/BEST / collide/crowd/discs/BEST |
+responses | {contacts,penetration,collisions}/crowd/BEST / collide/crowd/discs/BEST |
 responses | {contacts,penetration}/crowd/reference / {1}/crowd/BEST | brute force
 obstacles | obstacles/collide | <= 60
 obstacles | obstacles/{clearance,clearance_unlimited} | <= 200
 obstacles | obstacles/clearance_exact |
 obstacles | obstacles/loop / obstacles/collide | >= 500
-bodies | bodies/find_all | <= 10000
-bodies | bodies/loop / bodies/find_all | >= 20
+bodies | bodies/contacts | <= 10000
+bodies | bodies/loop / bodies/contacts | >= 20
 shapes | shapes/5000 / shapes/200 | <= 1.8
 shapes | shapes/50000 / shapes/200 | <= 3
 plans | plans/{single_cylinder,depth_3,depth_6,all,mixed,all_discs,one_frame}/{bake,query} |

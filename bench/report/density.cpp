@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <bch/broad_phase.hpp>
 #include <bch/collide.hpp>
+#include <bch/crowd.hpp>
 #include <bch/penetration.hpp>
 #include <bch/scene_plan.hpp>
 
@@ -86,11 +86,10 @@ class Packing {
 
   /// Who collides, each pair once; of a pair across a side, both ways, and each moves the one that is no image.
   void find_pairs() {
-    const Rows<std::uint32_t> rows = collider_.collide_all(set_, crowd_.agents());
+    const CrowdPairs found = finder_.collisions(set_, crowd_.agents());
     pairs_.clear();
-    for (std::uint32_t i = 0; i < people_; ++i)
-      for (const std::uint32_t j : rows[i])
-        if (i < j) pairs_.push_back({i, j});
+    for (const Pair& pair : found)
+      if (pair.first < people_) pairs_.push_back(pair);
   }
 
   /// Each of two goes half of the shortest way apart, but no more than a short step, so that those who reach around each
@@ -176,7 +175,7 @@ class Packing {
   std::uint32_t poses_;
   detail::Random random_;
   cli::Crowd crowd_;
-  CrowdCollider collider_;
+  bch::Crowd finder_;
   std::vector<Pair> pairs_;
   std::vector<Penetration> ways_;
 };

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include <bch/broad_phase.hpp>
+#include <bch/crowd.hpp>
 #include <bch/scene_plan.hpp>
 
 #include "bench/base/stopwatch.hpp"
@@ -85,9 +85,11 @@ std::vector<StopCounts> walk_and_test(Run& run, const baselines::Structure& mesh
       "walking", cli::place_crowd(run.sizes().people, density, meshes.shape_count(), run.seed()), {}};
   std::vector<StopCounts> counts(details.size());
   bench::Hits truth, hits;
+  bch::Crowd finder;
   for (int frame = 0; frame < frames; ++frame, walk(workload.crowd)) {
     const Levels roots = same_level<0>(workload.crowd);
-    workload.pairs = candidate_pairs(details[0].set, workload.crowd.at_level(roots));
+    const CrowdPairs pairs = finder.candidates(details[0].set, workload.crowd.at_level(roots));
+    workload.pairs.assign(pairs.begin(), pairs.end());
     truth.resize(workload.pairs.size()), hits.resize(workload.pairs.size());
     meshes.query(workload.agents(), workload.pairs, truth);
     for (std::size_t k = 0; k < details.size(); ++k) {

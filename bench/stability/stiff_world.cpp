@@ -75,15 +75,9 @@ std::span<const Pair> Depths::pairs(const Agents& agents) {
   if (measure_ != DepthMeasure::penetration) {
     // Discs of cuts may overlap where root discs do not. Any margin makes the candidates know that.
     constexpr double margin = 1e-3;
-    pairs_ = candidate_pairs(stiff_shapes(), agents, margin);
-    return pairs_;
+    return finder_.candidates(stiff_shapes(), agents, {.margin = margin}).span();
   }
-  const Rows<std::uint32_t> rows = collider_.collide_all(stiff_shapes(), agents);
-  pairs_.clear();
-  for (std::uint32_t i = 0; i < agents.size(); ++i)
-    for (const std::uint32_t j : rows[i])
-      if (i < j) pairs_.push_back({i, j});
-  return pairs_;
+  return finder_.collisions(stiff_shapes(), agents).span();
 }
 
 std::span<const Penetration> Depths::of(const Agents& agents, std::span<const Pair> pairs) {

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include <bch/broad_phase.hpp>
 #include <bch/clearance.hpp>
 #include <bch/collide.hpp>
+#include <bch/crowd.hpp>
 #include <bch/penetration.hpp>
 
 #include "bench/stability/stiff_contact.hpp"
@@ -41,8 +41,7 @@ class Depths {
   void measure_discs(const Agents& agents, std::span<const Pair> pairs);
 
   DepthMeasure measure_;
-  CrowdCollider collider_;
-  std::vector<Pair> pairs_;
+  bch::Crowd finder_;
   std::vector<Penetration> found_;
   std::vector<Vec2> lines_, direction_;
   std::vector<float> distance_;

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include <bch/broad_phase.hpp>
+#include <bch/crowd.hpp>
 
 #include "layout/base/heading.hpp"
 #include "layout/base/random.hpp"
@@ -91,7 +91,9 @@ Workload crowd_pairs(const ShapeSet& set, std::uint32_t agents, double margin) {
   Workload workload{margin > 0 ? "candidates" : "crowd",
                     cli::place_crowd(agents, agents_per_square_metre, set.shape_count(), crowd_seed),
                     {}};
-  workload.pairs = candidate_pairs(set, workload.agents(), margin);
+  bch::Crowd finder;
+  const CrowdPairs pairs = finder.candidates(set, workload.agents(), {.margin = margin});
+  workload.pairs.assign(pairs.begin(), pairs.end());
   return workload;
 }
 

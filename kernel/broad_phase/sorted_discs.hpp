@@ -87,7 +87,7 @@ class PairCount {
   /// Errors:  throws std::length_error where there are more than the limit.
   void add(std::size_t pairs) {
     if (count_.fetch_add(pairs, std::memory_order_relaxed) + pairs > most_)
-      throw std::length_error("broad phase: more than " + std::to_string(most_) + " pairs");
+      throw std::length_error("candidates: expected at most " + std::to_string(most_) + " pairs, found more");
   }
 
  private:

@@ -1,23 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/broad_phase.hpp>
-#include <bch/collide.hpp>
-#include <bch/contacts.hpp>
+#include <bch/crowd.hpp>
 
 #include "kernel/c_api/calls.hpp"
 #include "kernel/c_api/obstacles.hpp"
 
-struct bch_broad_phase {
-  bch::BroadPhase broad_phase;
-};
+struct bch_crowd {
+  explicit bch_crowd(const bch::CrowdOptions& options) : crowd(options) {}
 
-struct bch_crowd_collider {
-  bch::CrowdCollider collider;
-};
-
-struct bch_contact_finder {
-  bch::ContactFinder finder;
+  bch::Crowd crowd;
+  bch::CrowdPairs last;  ///< what bch_crowd_by_agent() is about
 };
 
 using namespace bch;
@@ -25,110 +18,186 @@ using namespace bch::c_api;
 
 namespace {
 
-bch_index_rows rows_of(const Rows<std::uint32_t>& rows) {
-  return {rows.size(), rows.offsets.data(), rows.values.data()};
+PairFilter filter_of(const bch_pair_filter* given, std::size_t agents) {
+  if (given == nullptr) return {};
+  const bch_pair_filter filter = sized(given, bch_pair_filter BCH_PAIR_FILTER_INIT, "filter");
+  PairFilter all;
+  if (filter.category != nullptr) all.category = array_of(filter.category, agents, "filter->category");
+  if (filter.mask != nullptr) all.mask = array_of(filter.mask, agents, "filter->mask");
+  all.excluded = same_array<Pair>(filter.excluded, filter.excluded_count, "filter->excluded");
+  return all;
+}
+
+const bch_pair* c_pairs(std::span<const Pair> pairs) {
+  return reinterpret_cast<const bch_pair*>(pairs.data());
 }
 
 bch_contact_rows contact_rows(std::span<const Pair> pairs, const Rows<DiscPair>& rows) {
-  return {rows.size(), reinterpret_cast<const bch_pair*>(pairs.data()), rows.offsets.data(),
+  return {rows.size(), c_pairs(pairs), rows.offsets.data(),
           reinterpret_cast<const bch_disc_pair*>(rows.values.data())};
+}
+
+/// Holds the arguments of a query of a crowd. The last answer is gone as soon as the query begins.
+struct CrowdCall : Call {
+  CrowdCall(bch_crowd* handle, const bch_shape_set* set, const bch_agents* of, const bch_pair_filter* given,
+            const bch_query_options* how)
+      : Call(set, of, how), object(object_of(handle, "crowd")), filter(filter_of(given, agents.size())) {}
+
+  CollisionOptions collision_options() const { return {options.leaves, filter, options.implementation}; }
+
+  /// Asks ask(crowd) for an answer with pairs, and returns it.
+  template <class Ask>
+  auto answer(Ask ask) const {
+    object.last = {};
+    decltype(ask(object.crowd)) found;
+    run([&] { found = ask(object.crowd); });
+    return found;
+  }
+
+  bch_crowd& object;
+  PairFilter filter;
+};
+
+void hand_out_pairs(const CrowdCall& call, const CrowdPairs& found, const bch_pair** pairs, size_t* count) {
+  call.object.last = found;
+  *pairs = c_pairs(found.span());
+  *count = found.size();
 }
 
 }  // namespace
 
-bch_status bch_broad_phase_create(bch_broad_phase** broad_phase) {
+bch_status bch_crowd_create(const bch_crowd_options* given, bch_crowd** crowd) {
   return guarded([&] {
-    required(broad_phase, "broad_phase");
-    hand_out(std::make_unique<bch_broad_phase>(), broad_phase);
+    const bch_crowd_options defaults = BCH_CROWD_OPTIONS_INIT;
+    const bch_crowd_options options = given == nullptr ? defaults : sized(given, defaults, "options");
+    required(crowd, "crowd");
+    const auto most = std::min<std::uint64_t>(options.most_pairs, std::numeric_limits<std::size_t>::max());
+    hand_out(std::make_unique<bch_crowd>(CrowdOptions{.period = {options.period_x, options.period_y},
+                                                      .most_pairs = static_cast<std::size_t>(most)}),
+             crowd);
   });
 }
 
-bch_status bch_broad_phase_find(bch_broad_phase* handle, const bch_shape_set* set, const bch_agents* agents,
-                                double margin, const bch_query_options* options, const bch_pair** pairs,
-                                size_t* count) {
+bch_status bch_crowd_candidates(bch_crowd* handle, const bch_shape_set* set, const bch_agents* agents,
+                                double margin, const bch_pair_filter* filter,
+                                const bch_query_options* options, const bch_pair** pairs, size_t* count) {
   return guarded([&] {
-    BroadPhase& broad_phase = object_of(handle, "broad_phase").broad_phase;
-    const Call call(set, agents, options);
+    const CrowdCall call(handle, set, agents, filter, options);
     required(pairs, "pairs");
     required(count, "count");
-    std::span<const Pair> found;
-    call.run([&] { found = broad_phase.find(call.shapes, call.agents, margin); });
-    *pairs = reinterpret_cast<const bch_pair*>(found.data());
-    *count = found.size();
+    const auto ask = [&](Crowd& crowd) {
+      return crowd.candidates(call.shapes, call.agents, {margin, call.filter});
+    };
+    hand_out_pairs(call, call.answer(ask), pairs, count);
   });
 }
 
-bch_status bch_broad_phase_free(bch_broad_phase* broad_phase) {
-  return free_object(broad_phase, "broad_phase");
-}
-
-bch_status bch_crowd_collider_create(bch_crowd_collider** collider) {
+bch_status bch_crowd_collisions(bch_crowd* handle, const bch_shape_set* set, const bch_agents* agents,
+                                const bch_pair_filter* filter, const bch_query_options* options,
+                                const bch_pair** pairs, size_t* count) {
   return guarded([&] {
-    required(collider, "collider");
-    hand_out(std::make_unique<bch_crowd_collider>(), collider);
+    const CrowdCall call(handle, set, agents, filter, options);
+    required(pairs, "pairs");
+    required(count, "count");
+    const auto ask = [&](Crowd& crowd) {
+      return crowd.collisions(call.shapes, call.agents, call.collision_options());
+    };
+    hand_out_pairs(call, call.answer(ask), pairs, count);
   });
 }
 
-bch_status bch_crowd_collider_collide_all(bch_crowd_collider* handle, const bch_shape_set* set,
-                                          const bch_agents* agents, const bch_obstacles* obstacles,
-                                          const bch_query_options* options, bch_index_rows* neighbours,
-                                          bch_index_rows* touched) {
+bch_status bch_crowd_contacts(bch_crowd* handle, const bch_shape_set* set, const bch_agents* agents,
+                              const bch_pair_filter* filter, const bch_query_options* options,
+                              bch_contact_rows* contacts) {
   return guarded([&] {
-    CrowdCollider& collider = object_of(handle, "collider").collider;
-    const Call call(set, agents, options);
+    const CrowdCall call(handle, set, agents, filter, options);
+    required(contacts, "contacts");
+    const CrowdContacts found = call.answer(
+        [&](Crowd& crowd) { return crowd.contacts(call.shapes, call.agents, call.collision_options()); });
+    call.object.last = found.pairs;
+    *contacts = contact_rows(found.pairs.span(), found.contacts);
+  });
+}
+
+bch_status bch_crowd_contacts_of(bch_crowd* handle, const bch_shape_set* set, const bch_agents* agents,
+                                 const bch_pair* pairs, size_t count, const bch_query_options* options,
+                                 bch_contact_rows* contacts) {
+  return guarded([&] {
+    const CrowdCall call(handle, set, agents, nullptr, options);
+    const std::span<const Pair> of = same_array<Pair>(pairs, count, "pairs");
+    required(contacts, "contacts");
+    const Rows<DiscPair> found = call.answer(
+        [&](Crowd& crowd) { return crowd.contacts(call.shapes, call.agents, of, call.collision_options()); });
+    *contacts = contact_rows(of, found);
+  });
+}
+
+bch_status bch_crowd_clearances(bch_crowd* handle, const bch_shape_set* set, const bch_agents* agents,
+                                double within, const bch_pair_filter* filter,
+                                const bch_query_options* options, bch_crowd_clearance_view* clearances) {
+  return guarded([&] {
+    const CrowdCall call(handle, set, agents, filter, options);
+    required(clearances, "clearances");
+    const CrowdClearances found = call.answer([&](Crowd& crowd) {
+      return crowd.clearances(
+          call.shapes, call.agents, within,
+          {call.options.distance_leaves, call.options.overlap, call.filter, call.options.implementation});
+    });
+    call.object.last = found.pairs;
+    *clearances = {found.pairs.size(),
+                   c_pairs(found.pairs.span()),
+                   found.distance.data(),
+                   reinterpret_cast<const bch_vec2*>(found.direction.data()),
+                   reinterpret_cast<const bch_disc_pair*>(found.discs.data()),
+                   reinterpret_cast<const bch_nearest_points*>(found.points.data())};
+  });
+}
+
+bch_status bch_crowd_penetrations(bch_crowd* handle, const bch_shape_set* set, const bch_agents* agents,
+                                  uint32_t directions, const bch_pair_filter* filter,
+                                  const bch_query_options* options,
+                                  bch_crowd_penetration_view* penetrations) {
+  return guarded([&] {
+    const CrowdCall call(handle, set, agents, filter, options);
+    required(penetrations, "penetrations");
+    const CrowdPenetrations found = call.answer([&](Crowd& crowd) {
+      return crowd.penetrations(call.shapes, call.agents,
+                                {directions, call.options.leaves, call.filter, call.options.implementation});
+    });
+    call.object.last = found.pairs;
+    *penetrations = {found.pairs.size(), c_pairs(found.pairs.span()),
+                     reinterpret_cast<const bch_penetration_depth*>(found.penetrations.data())};
+  });
+}
+
+bch_status bch_crowd_by_agent(bch_crowd* handle, bch_neighbour_rows* neighbours) {
+  return guarded([&] {
+    const bch_crowd& crowd = object_of(handle, "crowd");
     required(neighbours, "neighbours");
-    if ((obstacles == nullptr) != (touched == nullptr))
-      throw Failure(BCH_INVALID_ARGUMENT, "obstacles and touched: one of them is NULL");
-    CrowdCollisions found;
-    if (obstacles == nullptr) {
-      call.run([&] { found.agents = collider.collide_all(call.shapes, call.agents, call.options); });
-    } else {
-      const ObstacleSet& walls = object_of(obstacles, "obstacles").set;
-      call.run([&] { found = collider.collide_all(call.shapes, call.agents, walls, call.options); });
-      *touched = rows_of(found.obstacles);
-    }
-    *neighbours = rows_of(found.agents);
+    const Rows<Neighbour> rows = crowd.last.by_agent();
+    *neighbours = {rows.size(), rows.offsets.data(),
+                   reinterpret_cast<const bch_neighbour*>(rows.values.data())};
   });
 }
 
-bch_status bch_crowd_collider_free(bch_crowd_collider* collider) {
-  return free_object(collider, "collider");
-}
-
-bch_status bch_contact_finder_create(bch_contact_finder** finder) {
+bch_status bch_crowd_obstacles(bch_crowd* handle, const bch_shape_set* set, const bch_agents* agents,
+                               const bch_obstacles* obstacles, const bch_query_options* options,
+                               bch_index_rows* touched) {
   return guarded([&] {
-    required(finder, "finder");
-    hand_out(std::make_unique<bch_contact_finder>(), finder);
-  });
-}
-
-bch_status bch_contact_finder_find(bch_contact_finder* handle, const bch_shape_set* set,
-                                   const bch_agents* agents, const bch_pair* pairs, size_t count,
-                                   const bch_query_options* options, bch_contact_rows* contacts) {
-  return guarded([&] {
-    ContactFinder& finder = object_of(handle, "finder").finder;
-    const PairCall call(set, agents, pairs, count, options);
-    required(contacts, "contacts");
-    call.run([&] {
-      *contacts = contact_rows(call.pairs, finder.find(call.shapes, call.agents, call.pairs, call.options));
-    });
-  });
-}
-
-bch_status bch_contact_finder_find_all(bch_contact_finder* handle, const bch_shape_set* set,
-                                       const bch_agents* agents, const bch_query_options* options,
-                                       bch_contact_rows* contacts) {
-  return guarded([&] {
-    ContactFinder& finder = object_of(handle, "finder").finder;
+    bch_crowd& object = object_of(handle, "crowd");
     const Call call(set, agents, options);
-    required(contacts, "contacts");
+    const ObstacleSet& walls = object_of(obstacles, "obstacles").set;
+    required(touched, "touched");
+    Rows<std::uint32_t> rows;
     call.run([&] {
-      const CrowdContacts found = finder.find_all(call.shapes, call.agents, call.options);
-      *contacts = contact_rows(found.pairs, found.contacts);
+      rows = object.crowd.obstacles(
+          call.shapes, call.agents, walls,
+          {.leaves = call.options.leaves, .implementation = call.options.implementation});
     });
+    *touched = {rows.size(), rows.offsets.data(), rows.values.data()};
   });
 }
 
-bch_status bch_contact_finder_free(bch_contact_finder* finder) {
-  return free_object(finder, "finder");
+bch_status bch_crowd_free(bch_crowd* crowd) {
+  return free_object(crowd, "crowd");
 }

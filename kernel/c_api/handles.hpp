@@ -45,14 +45,8 @@ constexpr std::string_view kind_of(const bch_shape_set_builder*) {
 constexpr std::string_view kind_of(const bch_dynamic_shape_set*) {
   return "bch_dynamic_shape_set";
 }
-constexpr std::string_view kind_of(const bch_broad_phase*) {
-  return "bch_broad_phase";
-}
-constexpr std::string_view kind_of(const bch_crowd_collider*) {
-  return "bch_crowd_collider";
-}
-constexpr std::string_view kind_of(const bch_contact_finder*) {
-  return "bch_contact_finder";
+constexpr std::string_view kind_of(const bch_crowd*) {
+  return "bch_crowd";
 }
 constexpr std::string_view kind_of(const bch_trajectory*) {
   return "bch_trajectory";

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include <bch/broad_phase.hpp>
 #include <bch/distributed_crowd.hpp>
+#include "kernel/broad_phase/broad_phase.hpp"
 
 #include "kernel/distributed/cut.hpp"
 #include "kernel/distributed/exchange.hpp"

@@ -15,7 +15,6 @@
 #include <utility>
 #include <vector>
 
-#include <bch/broad_phase.hpp>
 #include <bch/obstacles.hpp>
 
 #include "kernel/recordings/walker_shapes.hpp"

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include <bch/broad_phase.hpp>
+#include "kernel/broad_phase/broad_phase.hpp"
 
 #include "kernel/recordings/check.hpp"
 #include "kernel/recordings/frame_block.hpp"

@@ -7,11 +7,12 @@
 
 #include <new>
 
-#include <bch/broad_phase.hpp>
+#include <bch/crowd.hpp>
 
 #include "kernel/distributed/agreement.hpp"
 #include "kernel/distributed/session.hpp"
 #include "tests/distributed/world.hpp"
+#include "tests/support/crowd_pairs.hpp"
 #include "tests/support/test.hpp"
 
 // Every rank runs these tests, all with the same random numbers: each knows the whole crowd and what one process answers. Tests
@@ -202,7 +203,7 @@ TEST_F(Distributed, CountsWhatIsSent) {
   EXPECT_EQ(sums[0], count);
   EXPECT_EQ(sums[1], sums[2]);  // x, y, heading, id, shape, level
   EXPECT_EQ(sums[3], sums[4]);  // and z
-  EXPECT_EQ(sums[5], candidate_pairs(set, all.columns().agents()).size());
+  EXPECT_EQ(sums[5], test::candidate_pairs(set, all.columns().agents()).size());
   EXPECT_EQ(sums[1] > 0, ranks() > 1);
 }
 

@@ -11,11 +11,12 @@
 #include <numeric>
 #include <vector>
 
-#include <bch/broad_phase.hpp>
 #include <bch/clearance.hpp>
 #include <bch/collide.hpp>
+#include <bch/crowd.hpp>
 #include <bch/distributed_crowd.hpp>
 
+#include "tests/support/crowd_pairs.hpp"
 #include "tests/support/scenes.hpp"
 
 // A crowd on all ranks, and the same one on each of them.

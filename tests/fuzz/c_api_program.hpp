@@ -136,8 +136,8 @@ class Program {
   };
 
   std::tuple<Objects<bch_shape_set>, Objects<bch_pose_shaper>, Objects<bch_shape_set_builder>,
-             Objects<bch_dynamic_shape_set>, Objects<bch_broad_phase>, Objects<bch_crowd_collider>,
-             Objects<bch_contact_finder>, Objects<bch_obstacles>, Objects<bch_character>,
+             Objects<bch_dynamic_shape_set>, Objects<bch_crowd>,
+             Objects<bch_obstacles>, Objects<bch_character>,
              Objects<bch_scene_plan>, Objects<bch_animated_shape>>
       objects_;
   std::vector<void*> all_;
@@ -167,7 +167,7 @@ class Program {
 inline Program::~Program() {
   free_all(bch_pose_shaper_free), free_all(bch_shape_set_builder_free);
   free_all(bch_dynamic_shape_set_free), free_all(bch_shape_set_free);
-  free_all(bch_broad_phase_free), free_all(bch_crowd_collider_free), free_all(bch_contact_finder_free);
+  free_all(bch_crowd_free);
   free_all(bch_obstacles_free), free_all(bch_character_free), free_all(bch_scene_plan_free);
   free_all(bch_animated_shape_free);
 }

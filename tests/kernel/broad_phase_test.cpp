@@ -8,6 +8,7 @@
 #include "layout/base/rounding.hpp"
 #include "layout/format/shape_set_view.hpp"
 #include "tests/support/test.hpp"
+#include "tests/support/crowd_pairs.hpp"
 
 namespace bch {
 namespace {
@@ -87,7 +88,7 @@ void expect_right(const test::Crowd& crowd, const ShapeSet& of = set) {
   const double extent = std::max(*most_x - *least_x, *most_y - *least_y) + 4 * largest;
   const double widest = std::max(2.01 * largest, 0x1p-30 * extent);
 
-  const std::vector<Pair> found = sorted(candidate_pairs(of, agents));
+  const std::vector<Pair> found = sorted(test::candidate_pairs(of, agents));
   for (const Pair pair : found) ASSERT_LT(pair.first, pair.second);
   EXPECT_EQ(std::adjacent_find(found.begin(), found.end()), found.end());
   const std::vector<Pair> needed = brute_force(of, agents);
@@ -122,16 +123,15 @@ TEST(BroadPhase, AllInOnePlace) {
 TEST(BroadPhase, FindsNoMorePairsThanIsWanted) {
   const test::Crowd spot = crowd_in(0, 0, 2000, 40);  // in several blocks
   constexpr std::size_t pairs = 2000 * 1999 / 2;
-  BroadPhase broad_phase;
-  EXPECT_EQ(broad_phase.find(set, spot.agents(), 0, pairs).size(), pairs);
+  Crowd all({.most_pairs = pairs});
+  EXPECT_EQ(all.candidates(set, spot.agents()).size(), pairs);
   for (const std::size_t most : {pairs - 1, std::size_t{0}}) try {
-      broad_phase.find(set, spot.agents(), 0, most);
+      Crowd fewer({.most_pairs = most});
+      fewer.candidates(set, spot.agents());
       FAIL();
     } catch (const std::length_error& error) {
-      EXPECT_EQ(error.what(), "broad phase: more than " + std::to_string(most) + " pairs");
+      EXPECT_EQ(error.what(), "candidates: expected at most " + std::to_string(most) + " pairs, found more");
     }
-  EXPECT_EQ(candidate_pairs(set, spot.agents(), 0, pairs).size(), pairs);
-  EXPECT_THROW(candidate_pairs(set, spot.agents(), 0, 1), std::length_error);
 }
 
 TEST(BroadPhase, ClustersAtTheEndsOfTheWorld) {
@@ -183,10 +183,10 @@ TEST(BroadPhase, FarFromTheOriginItIsTheSame) {
   test::Crowd crowd = crowd_in(20, 20, 1000, 6);
   for (auto* values : {&crowd.x, &crowd.y})
     for (double& at : *values) at = std::round(at * 0x1p20) * 0x1p-20;
-  const auto near = sorted(candidate_pairs(set, crowd.agents()));
+  const auto near = sorted(test::candidate_pairs(set, crowd.agents()));
   for (double& at : crowd.x) at += 1e7;
   for (double& at : crowd.y) at -= 9e8;
-  EXPECT_EQ(sorted(candidate_pairs(set, crowd.agents())), near);
+  EXPECT_EQ(sorted(test::candidate_pairs(set, crowd.agents())), near);
   expect_right(crowd);
 }
 
@@ -204,7 +204,7 @@ TEST(BroadPhase, LeavesNobodyOutWithinAMargin) {
   clearance(set, agents, all, {distances});
   test::Random random(9);
   for (const double margin : {1e-6, 0.1, 0.5, 3.0, 20.0}) {
-    const auto found = sorted(candidate_pairs(set, agents, margin));
+    const auto found = sorted(test::candidate_pairs(set, agents, margin));
     std::vector<double> x, y;
     for (std::size_t k = 0; k < all.size(); ++k) {
       const double angle = random.uniform(-3.2, 3.2);
@@ -223,7 +223,7 @@ TEST(BroadPhase, LeavesNobodyOutWithinAMargin) {
     EXPECT_LT(found.size(), all.size());
   }
   for (const double bad : {-0.1, 3e9, std::numeric_limits<double>::quiet_NaN()})
-    EXPECT_THROW(candidate_pairs(set, agents, bad), std::invalid_argument);
+    EXPECT_THROW(test::candidate_pairs(set, agents, bad), std::invalid_argument);
 }
 
 /// Offsets must not be rounded to the step of the world's coordinates: the disc is smaller than its offset.
@@ -240,7 +240,7 @@ TEST(BroadPhase, TinyOnesFarOut) {
 /// Pairs that are near each other stand near each other: what the answering of a large crowd lives on.
 TEST(BroadPhase, OrderIsByPlace) {
   const test::Crowd crowd = crowd_in(300, 300, 20'000, 21);
-  const auto pairs = candidate_pairs(set, crowd.agents());
+  const auto pairs = test::candidate_pairs(set, crowd.agents());
   ASSERT_GT(pairs.size(), 1000u);
   std::size_t jumps = 0;
   for (std::size_t k = 1; k < pairs.size(); ++k)
@@ -251,7 +251,7 @@ TEST(BroadPhase, OrderIsByPlace) {
 /// So many agents that collide() fetches them ahead: the answers are those of small crowds of two.
 TEST(BroadPhase, AnswersOfALargeCrowdAreThoseOfItsPairs) {
   const test::Crowd crowd = crowd_in(900, 900, 120'000, 24);
-  const auto pairs = candidate_pairs(set, crowd.agents());
+  const auto pairs = test::candidate_pairs(set, crowd.agents());
   std::vector<std::uint8_t> hits(pairs.size());
   collide(set, crowd.agents(), pairs, hits);
   std::size_t found = 0;
@@ -270,36 +270,36 @@ TEST(BroadPhase, AnswersOfALargeCrowdAreThoseOfItsPairs) {
 
 TEST(BroadPhase, AnyNumberOfThreads) {
   const test::Crowd crowd = crowd_in(60, 60, 9000, 8);
-  const auto expected = candidate_pairs(set, crowd.agents());
+  const auto expected = test::candidate_pairs(set, crowd.agents());
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 8);
   for (int threads = 1; threads <= 8; ++threads) {
     tbb::task_arena arena(threads);
-    EXPECT_EQ(arena.execute([&] { return candidate_pairs(set, crowd.agents()); }), expected) << threads;
+    EXPECT_EQ(arena.execute([&] { return test::candidate_pairs(set, crowd.agents()); }), expected) << threads;
   }
 }
 
 TEST(BroadPhase, OneObjectServesManyCrowds) {
-  BroadPhase broad_phase;
+  Crowd one;
   for (const std::uint32_t agents : {3000u, 10u, 0u, 5000u, 1u, 2999u}) {
     const test::Crowd crowd = crowd_in(50, 50, agents, agents);
-    const auto found = broad_phase.find(set, crowd.agents());
-    EXPECT_EQ(std::vector<Pair>(found.begin(), found.end()), candidate_pairs(set, crowd.agents())) << agents;
+    const CrowdPairs found = one.candidates(set, crowd.agents());
+    EXPECT_EQ(std::vector<Pair>(found.begin(), found.end()), test::candidate_pairs(set, crowd.agents())) << agents;
   }
-  BroadPhase moved(std::move(broad_phase));
+  Crowd moved(std::move(one));
   const test::Crowd crowd = crowd_in(5, 5, 100, 1);
-  EXPECT_EQ(moved.find(set, crowd.agents()).size(), candidate_pairs(set, crowd.agents()).size());
+  EXPECT_EQ(moved.candidates(set, crowd.agents()).size(), test::candidate_pairs(set, crowd.agents()).size());
 }
 
 TEST(BroadPhase, NoAgentsAndBadOnes) {
   test::Crowd crowd;
-  EXPECT_TRUE(candidate_pairs(set, crowd.agents()).empty());
+  EXPECT_TRUE(test::candidate_pairs(set, crowd.agents()).empty());
   crowd.add({0, 0, 0, 0, 0});
-  EXPECT_TRUE(candidate_pairs(set, crowd.agents()).empty());
+  EXPECT_TRUE(test::candidate_pairs(set, crowd.agents()).empty());
   crowd.add({0, std::numeric_limits<double>::quiet_NaN(), 0, 0, 0});
-  EXPECT_THROW(candidate_pairs(set, crowd.agents()), std::invalid_argument);
+  EXPECT_THROW(test::candidate_pairs(set, crowd.agents()), std::invalid_argument);
   crowd.x[1] = 0;
   crowd.shape[1] = set.shape_count();
-  EXPECT_THROW(candidate_pairs(set, crowd.agents()), std::invalid_argument);
+  EXPECT_THROW(test::candidate_pairs(set, crowd.agents()), std::invalid_argument);
 }
 
 }  // namespace

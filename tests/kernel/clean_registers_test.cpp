@@ -52,7 +52,7 @@ TEST_F(CleanRegisters, AfterQueries) {
     std::vector<Vec2> directions(pairs.size());
     std::vector<double> x(pairs.size(), 0.5), y(pairs.size(), -0.25);
     std::vector<Penetration> ways(pairs.size());
-    ContactFinder finder;
+    bch::Crowd finder;
     for (const Implementation& isa : implementations()) {
       if (!isa.supported()) continue;
       SCOPED_TRACE(std::string(isa.name) + ", " + std::to_string(count) + " pairs");
@@ -68,7 +68,7 @@ TEST_F(CleanRegisters, AfterQueries) {
       });
       expect_clean("penetration",
                    [&] { penetration(shapes, agents, pairs, 16, ways, {.implementation = &isa}); });
-      expect_clean("contacts", [&] { finder.find(shapes, agents, pairs, {.implementation = &isa}); });
+      expect_clean("contacts", [&] { finder.contacts(shapes, agents, pairs, {.implementation = &isa}); });
     }
   }
 }

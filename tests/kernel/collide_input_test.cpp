@@ -157,7 +157,8 @@ TEST_F(BadInput, TheLargestValuesAreValid) {
 TEST_F(BadInput, LeavesThatThereAreNot) {
   expect_rejected("collide: no leaves are 2", {.leaves = static_cast<Leaves>(2)});
   expect_rejected("collide: no leaves are -1", {.leaves = static_cast<Leaves>(-1)});
-  EXPECT_THROW(CrowdCollider().collide_all(set, crowd.agents(), {.leaves = static_cast<Leaves>(2)}),
+  bch::Crowd finder;
+  EXPECT_THROW(finder.collisions(set, crowd.agents(), {.leaves = static_cast<Leaves>(2)}),
                std::invalid_argument);
 }
 

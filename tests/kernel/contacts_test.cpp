@@ -5,6 +5,7 @@
 #include "layout/format/shape_arrays.hpp"
 #include "tests/support/differential.hpp"
 #include "tests/support/test.hpp"
+#include "tests/support/crowd_pairs.hpp"
 
 namespace bch {
 namespace {
@@ -27,7 +28,8 @@ struct Table {
 
 Table table_of(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs,
                const Implementation& implementation = best_implementation()) {
-  return ContactFinder().find(set, agents, pairs, {.implementation = &implementation});
+  Crowd crowd;
+  return crowd.contacts(set, agents, pairs, {.implementation = &implementation});
 }
 
 /// Row after row, by every disc of one cut against every disc of the other.
@@ -94,7 +96,7 @@ TEST_F(Contacts, OfACrowdAreThoseOfItsCandidates) {
   const ShapeSet sets[] = {ShapeSet(shapes, plan), ShapeSet(few_discs),
                            ShapeSet(few_discs, {.heights = true})};
   for (const ShapeSet& of : sets) {
-    ContactFinder finder;
+    bch::Crowd finder;
     for (const std::uint32_t count : {0u, 1u, 150u, 700u, 20u}) {
       test::Crowd crowd;
       const double extent = std::sqrt(count) / 2;
@@ -103,12 +105,17 @@ TEST_F(Contacts, OfACrowdAreThoseOfItsCandidates) {
                    random.uniform(-4, 4), static_cast<std::uint8_t>(random.below(of.level_count()))});
       if (of.has_heights())
         for (std::uint32_t i = 0; i < count; ++i) crowd.z.push_back(random.below(2));
-      const std::vector<Pair> pairs = candidate_pairs(of, crowd.agents());
-      const CrowdContacts found = finder.find_all(of, crowd.agents());
-      EXPECT_TRUE(std::equal(pairs.begin(), pairs.end(), found.pairs.begin(), found.pairs.end())) << count;
-      EXPECT_TRUE(Table(found.contacts) == table_of(of, crowd.agents(), pairs)) << count;
-      EXPECT_EQ(found.contacts.size(), pairs.size());
-      EXPECT_EQ(found.contacts.values.empty(), count < 2) << count;
+      const std::vector<Pair> pairs = test::candidate_pairs(of, crowd.agents());
+      const CrowdContacts found = finder.contacts(of, crowd.agents());
+      const Table expected = table_of(of, crowd.agents(), pairs);
+      std::vector<Pair> touching;
+      for (std::size_t i = 0; i < pairs.size(); ++i)
+        if (!expected.rows()[i].empty()) touching.push_back(pairs[i]);
+      EXPECT_TRUE(std::ranges::equal(found.pairs, touching)) << count;
+      EXPECT_EQ(Table(found.contacts).contacts, expected.contacts) << count;
+      ASSERT_EQ(found.contacts.size(), touching.size());
+      for (std::size_t i = 0; i < touching.size(); ++i) EXPECT_FALSE(found.contacts[i].empty()) << count;
+      EXPECT_EQ(touching.empty(), count < 2) << count;
     }
   }
 }

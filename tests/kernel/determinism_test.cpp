@@ -13,16 +13,16 @@
 #include <string>
 #include <vector>
 
-#include <bch/broad_phase.hpp>
+#include <bch/crowd.hpp>
 #include <bch/clearance.hpp>
 #include <bch/collide.hpp>
-#include <bch/contacts.hpp>
 #include <bch/penetration.hpp>
 #include <bch/time_of_impact.hpp>
 
 #include "layout/base/floating_point_state.hpp"
 #include "tests/support/float_state.hpp"
 #include "tests/support/scenes.hpp"
+#include "tests/support/crowd_pairs.hpp"
 
 // The answers to one crowd as hashes, the same for every compiler, optimisation, processor, instruction set, number of
 // threads, split of the batch, and floating-point state of the threads. Where an answer changes on purpose, so do these.
@@ -101,7 +101,7 @@ class Determinism : public testing::TestWithParam<Bodies> {
     // Half of them on the same ground.
     for (std::size_t i = 0; i < crowd.x.size() && in_slabs; ++i)
       crowd.z.push_back(random.below(2) == 0 ? 0 : random.uniform(-1, 1));
-    pairs = candidate_pairs(set, crowd.agents());
+    pairs = test::candidate_pairs(set, crowd.agents());
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       x.push_back(random.uniform(-2, 2)), y.push_back(random.uniform(-2, 2));
       if (i % 2 == 0) std::swap(pairs[i].first, pairs[i].second);
@@ -112,10 +112,14 @@ class Determinism : public testing::TestWithParam<Bodies> {
     AnswerBytes bytes;
     for (std::size_t i = 0; i < pairs.size(); i += batch)
       answer(isa, i, std::min(batch, pairs.size() - i), bytes);
-    CrowdCollider collider;
-    const auto all = collider.collide_all(set, crowd.agents(), {isa, Leaves::discs});
+    bch::Crowd collider;
+    const CrowdPairs colliding =
+        collider.collisions(set, crowd.agents(), {.leaves = Leaves::discs, .implementation = isa});
+    const Rows<Neighbour> all = colliding.by_agent();
+    std::vector<std::uint32_t> neighbours;
+    for (const Neighbour& neighbour : all.values) neighbours.push_back(neighbour.agent);
     bytes.add(AnswerBytes::neighbours, all.offsets);
-    bytes.add(AnswerBytes::neighbours, all.values);
+    bytes.add(AnswerBytes::neighbours, neighbours);
     return bytes.hashes();
   }
 
@@ -193,12 +197,12 @@ class Determinism : public testing::TestWithParam<Bodies> {
     std::vector<Penetration> ways(size);
     penetration(set, agents, of, 16, ways, {.implementation = isa});
     add_depths(ways, bytes);
-    ContactFinder finder;
-    Rows<DiscPair> table = finder.find(set, agents, of, {.implementation = isa, .leaves = Leaves::discs});
+    bch::Crowd finder;
+    Rows<DiscPair> table = finder.contacts(set, agents, of, {.leaves = Leaves::discs, .implementation = isa});
     for (std::size_t i = 0; i < size; ++i)
       bytes.add(AnswerBytes::contact_counts, std::vector{table.offsets[i + 1] - table.offsets[i]});
     bytes.add(AnswerBytes::contact_discs, table.values);
-    table = finder.find(set, agents, of, {.implementation = isa});
+    table = finder.contacts(set, agents, of, {.implementation = isa});
     bytes.add(AnswerBytes::exact_contacts, table.values);
   }
 };

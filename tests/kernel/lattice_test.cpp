@@ -4,6 +4,7 @@
 #include "tests/support/query_answers.hpp"
 #include "tests/support/test.hpp"
 #include "tests/support/touching_scene.hpp"
+#include "tests/support/crowd_pairs.hpp"
 
 // Footprints with integer corners at integer positions and heading 0, as simulators have them. Many corners are exactly
 // level with each other, edges lie on each other, and agents touch in single points. Every query is compared with the
@@ -177,15 +178,12 @@ TEST_F(Lattice, NeighboursInACrowdAreThoseOfTheOutlines) {
       nested += inside;
     }
   EXPECT_GT(nested, 0u);
-  CrowdCollider collider;
+  bch::Crowd collider;
   for (const Implementation& implementation : test::supported()) {
     for (const ShapeSet& set : sets) {
-      const auto rows = collider.collide_all(set, crowd.agents(), {&implementation});
-      for (std::uint32_t i = 0; i < size; ++i) {
-        const auto row = rows[i];
-        EXPECT_TRUE(std::equal(row.begin(), row.end(), expected[i].begin(), expected[i].end()))
-            << implementation.name << ", agent " << i;
-      }
+      EXPECT_EQ(test::neighbours(collider.collisions(set, crowd.agents(), {.implementation = &implementation})),
+                expected)
+          << implementation.name;
     }
   }
 }

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include <bch/broad_phase.hpp>
+#include <bch/crowd.hpp>
 #include <bch/default_characters.hpp>
 
 #include "kernel/runtime/kernels.hpp"
@@ -21,6 +21,7 @@
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/query_references.hpp"
 #include "tests/support/touching_scene.hpp"
+#include "tests/support/crowd_pairs.hpp"
 
 // All queries of all implementations against brute force: shapes of many kinds x plans x placements of pairs.
 
@@ -347,7 +348,7 @@ TEST_P(QueriesOf, NeighboursEqualBruteForce) {
   const auto& [kind, levels] = GetParam();
   Random random(2702);
   const World world{kind.shapes(random), levels.plan};
-  CrowdCollider collider;
+  bch::Crowd collider;
   for (const std::uint32_t pairs : {40u, 0u, 1u, 15u}) {
     const PairScene scene = at_contact(random, world, pairs);
     const auto count = static_cast<std::uint32_t>(scene.crowd.x.size());
@@ -359,10 +360,9 @@ TEST_P(QueriesOf, NeighboursEqualBruteForce) {
           expected[i].push_back(j);
       }
     for (const Implementation& each : test::supported()) {
-      const auto rows = collider.collide_all(world.set, scene.crowd.agents(), {&each});
-      for (std::uint32_t i = 0; i < count; ++i)
-        EXPECT_TRUE(std::ranges::equal(rows[i], expected[i]))
-            << each.name << ", agent " << i << " of " << count;
+      EXPECT_EQ(test::neighbours(collider.collisions(world.set, scene.crowd.agents(), {.implementation = &each})),
+                expected)
+          << each.name;
     }
   }
 }

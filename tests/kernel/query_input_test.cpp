@@ -36,12 +36,13 @@ class QueryInput : public testing::Test {
     expect_refused(words, [&] { time_of_impact(set, agents, pairs, {way, way}, floats); });
     expect_refused(words, [&] { penetration(set, agents, pairs, 4, depths); });
     expect_refused(words, [&] { penetration_along(set, agents, pairs, directions, depths); });
-    expect_refused(words, [&] { ContactFinder().find(set, agents, pairs); });
+    expect_refused(words, [&] { finder.contacts(set, agents, pairs); });
   }
 
   std::vector<Shape> shapes = test::synthetic_shapes(1, 2);
   ShapeSet set{shapes};
   test::Crowd crowd;
+  Crowd finder;
   std::vector<Pair> pairs = {{0, 1}, {1, 0}};
   std::vector<double> distances = {1, 1}, way = {1, 1};
   std::vector<Vec2> directions = {{1, 0}, {1, 0}};
@@ -122,8 +123,8 @@ TEST_F(QueryInput, OptionsThatThereAreNot) {
   const Agents agents = crowd.agents();
   const auto leaves = static_cast<Leaves>(7);
   EXPECT_THROW(collide(set, agents, pairs, hits, {.leaves = leaves}), std::invalid_argument);
-  EXPECT_THROW(ContactFinder().find(set, agents, pairs, {.leaves = leaves}), std::invalid_argument);
-  EXPECT_THROW(ContactFinder().find_all(set, agents, {.leaves = leaves}), std::invalid_argument);
+  EXPECT_THROW(finder.contacts(set, agents, pairs, {.leaves = leaves}), std::invalid_argument);
+  EXPECT_THROW(finder.contacts(set, agents, {.leaves = leaves}), std::invalid_argument);
   EXPECT_THROW(clearance(set, agents, pairs, {floats}, {.distance_leaves = leaves}), std::invalid_argument);
   expect_refused("no overlap is 2",
                  [&] { clearance(set, agents, pairs, {floats}, {.overlap = Overlap{2}}); });
@@ -131,20 +132,19 @@ TEST_F(QueryInput, OptionsThatThereAreNot) {
 
 TEST_F(QueryInput, OfWholeCrowdsIsNamed) {
   crowd.x[1] = nan;
-  expect_refused("agent 1: position (nan, 0)", [&] { CrowdCollider().collide_all(set, crowd.agents()); });
-  expect_refused("agent 1: position (nan, 0)", [&] { ContactFinder().find_all(set, crowd.agents()); });
+  expect_refused("agent 1: position (nan, 0)", [&] { finder.collisions(set, crowd.agents()); });
+  expect_refused("agent 1: position (nan, 0)", [&] { finder.contacts(set, crowd.agents()); });
 }
 
 /// Rows that were found before stay as they are.
 TEST_F(QueryInput, LeavesTheLastContacts) {
   crowd.x[1] = 0;
-  ContactFinder finder;
-  const Rows<DiscPair> rows = finder.find(set, crowd.agents(), pairs);
+  const Rows<DiscPair> rows = finder.contacts(set, crowd.agents(), pairs);
   const std::vector<std::uint64_t> offsets(rows.offsets.begin(), rows.offsets.end());
   const std::vector<DiscPair> contacts(rows.values.begin(), rows.values.end());
   EXPECT_FALSE(contacts.empty());
   crowd.heading[1] = nan;
-  expect_refused("pair 0: agent 1: heading nan", [&] { finder.find(set, crowd.agents(), pairs); });
+  expect_refused("pair 0: agent 1: heading nan", [&] { finder.contacts(set, crowd.agents(), pairs); });
   EXPECT_TRUE(std::ranges::equal(rows.offsets, offsets));
   EXPECT_TRUE(std::ranges::equal(rows.values, contacts));
 }

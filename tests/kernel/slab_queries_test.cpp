@@ -37,9 +37,9 @@ struct AllAnswers {
   }
 };
 
-std::vector<std::vector<DiscPair>> contacts_of(ContactFinder& finder, const ShapeSet& set,
-                                               const test::PairScene& scene, const QueryOptions& options) {
-  const Rows<DiscPair> rows = finder.find(set, scene.crowd.agents(), scene.pairs, options);
+std::vector<std::vector<DiscPair>> contacts_of(bch::Crowd& finder, const ShapeSet& set,
+                                               const test::PairScene& scene, const CollisionOptions& options) {
+  const Rows<DiscPair> rows = finder.contacts(set, scene.crowd.agents(), scene.pairs, options);
   std::vector<std::vector<DiscPair>> all;
   for (std::size_t i = 0; i < rows.size(); ++i) all.emplace_back(rows[i].begin(), rows[i].end());
   return all;
@@ -56,12 +56,12 @@ std::vector<float> times_of(const ShapeSet& set, const MovingScene& scene,
 AllAnswers all_answers(const ShapeSet& set, const MovingScene& scene,
                        const Implementation& implementation = best_implementation()) {
   AllAnswers all;
-  ContactFinder finder;
+  bch::Crowd finder;
   all.clearances = test::answers(set, scene.crowd.agents(), scene.pairs, never, &implementation);
   all.times = times_of(set, scene, implementation);
   all.by_segments = contacts_of(finder, set, scene, {.implementation = &implementation});
   all.by_discs =
-      contacts_of(finder, set, scene, {.implementation = &implementation, .leaves = Leaves::discs});
+      contacts_of(finder, set, scene, {.leaves = Leaves::discs, .implementation = &implementation});
   all.best = test::best_of(directions, set, scene, implementation);
   all.along = test::along(scene.along, set, scene, implementation);
   return all;
@@ -247,7 +247,7 @@ TEST_P(SlabQueries, TimesAreZeroWhereBodiesCollide) {
 }
 
 TEST_P(SlabQueries, ContactsAreThoseOfAllParts) {
-  ContactFinder finder;
+  bch::Crowd finder;
   for (const MovingScene& scene : scenes(test::samples(1'500)))
     for (const Leaves leaves : {Leaves::segments, Leaves::discs}) {
       std::vector<std::vector<DiscPair>> expected;
@@ -260,7 +260,7 @@ TEST_P(SlabQueries, ContactsAreThoseOfAllParts) {
       expect_of_all(
           scene,
           [&](const Implementation& implementation) {
-            return contacts_of(finder, set, scene, {.implementation = &implementation, .leaves = leaves});
+            return contacts_of(finder, set, scene, {.leaves = leaves, .implementation = &implementation});
           },
           [&](const auto& found, std::size_t i) { return found[i] == expected[i]; });
     }

@@ -9,14 +9,15 @@
 #include <string>
 #include <vector>
 
-#include <bch/broad_phase.hpp>
 #include <bch/collide.hpp>
+#include <bch/crowd.hpp>
 #include <bch/dynamic_shape_set.hpp>
 #include <bch/pose_shape.hpp>
 #include <bch/shape_set_builder.hpp>
 
 #include "baselines/slab_bodies.hpp"
 #include "tests/support/complaint.hpp"
+#include "tests/support/crowd_pairs.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/slab_scenes.hpp"
 #include "tests/support/test_characters.hpp"
@@ -201,19 +202,17 @@ TEST_P(Slabs, AreFoundByTheBroadPhase) {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> expected, found;
     for (std::size_t i = 0; i < all.size(); ++i)
       if (hits[i] != 0) expected.emplace_back(all[i].first, all[i].second);
-    CrowdCollider collider;
-    const Rows<std::uint32_t> rows = collider.collide_all(set, agents);
-    for (std::uint32_t a = 0; a < agents.size(); ++a)
-      for (const std::uint32_t b : rows[a])
-        if (a < b) found.emplace_back(a, b);
+    bch::Crowd collider;
+    for (const auto [a, b] : collider.collisions(set, agents)) found.emplace_back(a, b);
+    std::sort(found.begin(), found.end());
     EXPECT_EQ(found, expected);
     EXPECT_GT(expected.size(), 50u);
     if (!heights) continue;
     // Floors are three metres apart, and nobody is as tall as that but those without a top.
-    const std::size_t on_floors = candidate_pairs(set, agents).size();
+    const std::size_t on_floors = test::candidate_pairs(set, agents).size();
     test::Crowd flat = crowd;
     flat.z.clear();
-    EXPECT_LT(on_floors, candidate_pairs(set, flat.agents()).size() / 2);
+    EXPECT_LT(on_floors, test::candidate_pairs(set, flat.agents()).size() / 2);
   }
 }
 

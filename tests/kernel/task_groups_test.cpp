@@ -10,6 +10,7 @@
 #include <atomic>
 
 #include "tests/support/test.hpp"
+#include "tests/support/crowd_pairs.hpp"
 
 // Queries inside of a caller's own tasks.
 
@@ -51,7 +52,7 @@ TEST_F(TaskGroups, ACancelledOneTakesNoAnswers) {
   for (const std::uint32_t count : {10u, 1'500u, 3'000u, 20'000u}) {
     const test::Crowd crowd = people(count);
     const Agents agents = crowd.agents();
-    const std::vector<Pair> pairs = candidate_pairs(set, agents);
+    const std::vector<Pair> pairs = test::candidate_pairs(set, agents);
     std::vector<std::uint8_t> expected(pairs.size());
     collide(set, agents, pairs, expected);
     test::Crowd bad = crowd;
@@ -65,7 +66,7 @@ TEST_F(TaskGroups, ACancelledOneTakesNoAnswers) {
         0, 1,
         [&](int) {
           outer.cancel_group_execution();
-          found = candidate_pairs(set, agents);
+          found = test::candidate_pairs(set, agents);
           collide(set, agents, pairs, hits);
           try {
             std::vector<std::uint8_t> none(pairs.size());
@@ -89,7 +90,7 @@ TEST_F(TaskGroups, ATaskBesideAQueryMayThrow) {
     EXPECT_THROW(arena.execute([&] {
       tbb::parallel_for(0, 8, [&](int i) {
         if (i == 5) throw std::runtime_error("beside");
-        candidate_pairs(set, crowd.agents());
+        test::candidate_pairs(set, crowd.agents());
       });
     }),
                  std::runtime_error);
@@ -121,23 +122,23 @@ void expect_one_call_at_a_time(std::size_t questions, Ask ask) {
   EXPECT_EQ(wrong, 0);
 }
 
-TEST_F(TaskGroups, AColliderAThreadIsEnough) {
+TEST_F(TaskGroups, OneCrowdAThreadIsEnough) {
   std::vector<test::Crowd> crowds;
   for (std::uint32_t k = 0; k < 4; ++k) crowds.push_back(people(2'500 + 500 * k));
-  expect_one_call_at_a_time<CrowdCollider>(4, [&](CrowdCollider& collider, std::size_t k) {
-    return collider.collide_all(set, crowds[k].agents());
+  expect_one_call_at_a_time<Crowd>(4, [&](Crowd& crowd, std::size_t k) {
+    return crowd.collisions(set, crowds[k].agents()).by_agent();
   });
 }
 
-TEST_F(TaskGroups, AFinderOfContactsAThreadIsEnough) {
+TEST_F(TaskGroups, OneCrowdAThreadIsEnoughForContacts) {
   std::vector<test::Crowd> crowds;
   std::vector<std::vector<Pair>> pairs;
   for (std::uint32_t k = 0; k < 4; ++k) {
     crowds.push_back(people(500 + 100 * k));
-    pairs.push_back(candidate_pairs(set, crowds.back().agents()));
+    pairs.push_back(test::candidate_pairs(set, crowds.back().agents()));
   }
-  expect_one_call_at_a_time<ContactFinder>(4, [&](ContactFinder& finder, std::size_t k) {
-    return finder.find(set, crowds[k].agents(), pairs[k]);
+  expect_one_call_at_a_time<Crowd>(4, [&](Crowd& crowd, std::size_t k) {
+    return crowd.contacts(set, crowds[k].agents(), pairs[k]);
   });
 }
 

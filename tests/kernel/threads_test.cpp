@@ -9,6 +9,7 @@
 #include "kernel/runtime/pair_validation.hpp"
 #include "tests/support/query_answers.hpp"
 #include "tests/support/test.hpp"
+#include "tests/support/crowd_pairs.hpp"
 
 // For ThreadSanitizer: the functions that tasks run, and whole calls, which then run on tests/support/plain_threads.
 
@@ -67,21 +68,22 @@ struct Everything {
   std::vector<test::PairAnswers> of_pairs;
   std::vector<Pair> candidates;
   std::vector<std::uint64_t> begin;
-  std::vector<std::uint32_t> neighbours, obstacles;
+  std::vector<Neighbour> neighbours;
+  std::vector<std::uint32_t> obstacles;
   std::vector<float> from_walls;
 
   Everything(const ShapeSet& set, const test::Questions& questions)
       : of_pairs(ask(set, questions)), from_walls(questions.crowd.x.size()) {
     const Agents agents = questions.crowd.agents();
-    candidates = candidate_pairs(set, agents);
-    CrowdCollider collider;
-    const Rows<std::uint32_t> all = collider.collide_all(set, agents);
+    candidates = test::candidate_pairs(set, agents);
+    bch::Crowd collider;
+    const Rows<Neighbour> all = collider.collisions(set, agents).by_agent();
     begin.assign(all.offsets.begin(), all.offsets.end());
     neighbours.assign(all.values.begin(), all.values.end());
     static const ObstacleSet walls =
         obstacles_from_wkt("LINESTRING(-20 0, 20 1) POLYGON((-2 -2, 2 -2, 2 2, -2 2))");
-    const CrowdCollisions with_walls = collider.collide_all(set, agents, walls);
-    obstacles.assign(with_walls.obstacles.values.begin(), with_walls.obstacles.values.end());
+    const Rows<std::uint32_t> at_walls = collider.obstacles(set, agents, walls);
+    obstacles.assign(at_walls.values.begin(), at_walls.values.end());
     clearance(set, agents, walls, {from_walls});
   }
 

@@ -7,6 +7,7 @@
 #include "layout/shape_set/shape_storage.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/test.hpp"
+#include "tests/support/crowd_pairs.hpp"
 
 namespace bch {
 
@@ -55,7 +56,7 @@ class DynamicShapes : public testing::TestWithParam<ShapeSetPlan> {
     const PairScene scene = random_scene(random, anew, 3'000);
     EXPECT_EQ(answers(dynamic.set(), scene), answers(anew, scene));
     const Agents agents = scene.crowd.agents();
-    EXPECT_EQ(candidate_pairs(dynamic.set(), agents), candidate_pairs(anew, agents));
+    EXPECT_EQ(test::candidate_pairs(dynamic.set(), agents), test::candidate_pairs(anew, agents));
   }
 };
 

@@ -96,8 +96,8 @@ TEST(ShapeFromDiscs, QueriesAreThoseOfAllPairsOfDiscs) {
   std::vector<float> distance(scene.pairs.size());
   collide(set, agents, scene.pairs, hits);
   clearance(set, agents, scene.pairs, {distance}, {.overlap = Overlap::deepest});
-  ContactFinder finder;
-  const Rows<DiscPair> contacts = finder.find(set, agents, scene.pairs);
+  bch::Crowd finder;
+  const Rows<DiscPair> contacts = finder.contacts(set, agents, scene.pairs);
   std::size_t colliding = 0;
   for (std::size_t k = 0; k < scene.pairs.size(); ++k) {
     const auto [a, b] = scene.pairs[k];

@@ -95,27 +95,47 @@ class Pairs(unittest.TestCase):
 
 class Crowds(unittest.TestCase):
     def test_candidates(self):
-        self.assertEqual(bch.candidate_pairs(SHAPES, LINE).tolist(), [[0, 1]])
-        self.assertEqual(bch.candidate_pairs(SHAPES, LINE, margin=1.0).tolist(), [[0, 1], [1, 2]])
-        self.assertEqual(bch.BroadPhase().find(SHAPES, LINE, 1.0).tolist(), [[0, 1], [1, 2]])
+        self.assertEqual(bch.Crowd().candidates(SHAPES, LINE).tolist(), [[0, 1]])
+        self.assertEqual(bch.Crowd().candidates(SHAPES, LINE, margin=1.0).tolist(), [[0, 1], [1, 2]])
+        self.assertEqual(bch.Crowd(most_pairs=1).candidates(SHAPES, LINE).tolist(), [[0, 1]])
+        with self.assertRaisesRegex(OverflowError, "at most 0 pairs"):
+            bch.Crowd(most_pairs=0).candidates(SHAPES, LINE)
 
-    def test_collide_all(self):
-        rows, touched = bch.CrowdCollider().collide_all(SHAPES, LINE, WALL)
-        for found in (rows, bch.collide_all(SHAPES, LINE)):
-            self.assertEqual([found[i].tolist() for i in range(3)], [[1], [0], []])
-        self.assertEqual((len(rows), rows.counts.tolist(), rows[-2].tolist()), (3, [1, 1, 0], [0]))
-        self.assertEqual([row.tolist() for row in touched], [[], [], [0]])
-        alone = bch.collide_all(*two(1.001)[:2], leaves="discs")
-        self.assertEqual(alone.counts.tolist(), [1, 1])
+    def test_collisions(self):
+        crowd = bch.Crowd()
+        self.assertEqual(crowd.collisions(SHAPES, LINE).tolist(), [[0, 1]])
+        rows = crowd.by_agent()
+        self.assertEqual([row.tolist() for row in rows], [[1], [0], []])
+        self.assertEqual((len(rows), rows.counts.tolist(), rows[-2].tolist(), rows.pairs.tolist()), (3, [1, 1, 0], [0], [0, 0]))
+        self.assertEqual([row.tolist() for row in crowd.obstacles(SHAPES, LINE, WALL)], [[], [], [0]])
+        self.assertEqual(len(crowd.collisions(*two(1.001)[:2], leaves="discs")), 1)
+
+    def test_filters_and_periods(self):
+        mask = np.array([1, 2, 3], np.uint32)
+        self.assertEqual(len(bch.Crowd().collisions(SHAPES, LINE, mask=mask)), 0)
+        self.assertEqual(len(bch.Crowd().collisions(SHAPES, LINE, category=mask, mask=np.array([3, 1, 3], np.uint32))), 1)
+        self.assertEqual(len(bch.Crowd().collisions(SHAPES, LINE, excluded=np.array([[1, 0]], np.uint32))), 0)
+        apart = two(99.5)[:2]
+        self.assertEqual(len(bch.Crowd().collisions(*apart)), 0)
+        self.assertEqual(bch.Crowd(period=(100, 0)).collisions(*apart).tolist(), [[0, 1]])
+
+    def test_measures(self):
+        near = bch.Crowd().clearances(SHAPES, LINE, 1.2)
+        alone = bch.nearest(SHAPES, LINE, near.pairs, max_distance=1.2)
+        self.assertEqual(near.pairs.tolist(), [[0, 1], [1, 2]])
+        for name in alone._fields:
+            np.testing.assert_array_equal(getattr(near, name), getattr(alone, name))
+        apart = bch.Crowd().penetrations(SHAPES, LINE, 8)
+        np.testing.assert_array_equal(apart.penetrations, bch.penetration(SHAPES, LINE, apart.pairs, 8))
 
     def test_contacts(self):
-        found = bch.contacts(SHAPES, LINE, leaves="discs")
+        found = bch.Crowd().contacts(SHAPES, LINE, leaves="discs")
         self.assertEqual((found.pairs.tolist(), len(found.discs)), ([[0, 1]], 1))
         discs = SHAPES.discs(0)
         first, second = discs[found.discs[0][:, 0]], discs[found.discs[0][:, 1]]
         distance = np.hypot(first["x"] - 0.9 + second["y"], first["y"] - second["x"])  # the second one is turned
         self.assertTrue((distance <= first["radius"] + second["radius"] + 1e-5).all())
-        of_pairs = bch.contacts(SHAPES, LINE, PAIRS, leaves="discs")
+        of_pairs = bch.Crowd().contacts(SHAPES, LINE, PAIRS, leaves="discs")
         self.assertEqual(of_pairs.discs.counts.tolist(), [len(found.discs[0]), 0, 0])
 
     def test_obstacles(self):

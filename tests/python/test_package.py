@@ -112,7 +112,7 @@ class Errors(unittest.TestCase):
         dynamic = bch.DynamicShapeSet(self.shapes)
         self.expect(TypeError, ["agents is a ShapeSet", "bch.Agents"], bch.collide, self.shapes, self.shapes, self.pairs)
         self.expect(TypeError, ["shapes is a DynamicShapeSet", ".shapes"], bch.collide, dynamic, self.agents, self.pairs)
-        self.expect(TypeError, ["obstacles is a str"], bch.collide_all, self.shapes, self.agents, "POLYGON")
+        self.expect(TypeError, ["obstacles is a str"], bch.Crowd().obstacles, self.shapes, self.agents, "POLYGON")
         with self.assertRaises(AttributeError):
             self.agents.x = np.zeros(2)
         walls = bch.Obstacles.from_wkt("LINESTRING(0 0, 1 1)")
@@ -154,9 +154,10 @@ class Errors(unittest.TestCase):
             (bch.penetration, {**asked, "directions": 16}),
             (bch.time_of_impact, {**asked, "dx": np.zeros(1), "dy": np.zeros(1)}),
             (bch.local_densities, {**points, "radius": 2}),
-            (bch.candidate_pairs, {**crowd, "margin": 0, "threads": 1}),
-            (bch.collide_all, {**crowd, "obstacles": walls, "leaves": "discs", "threads": 1}),
-            (bch.contacts, {**asked, "leaves": "discs", "threads": 1}),
+            (bch.Crowd().candidates, {**crowd, "margin": 0, "threads": 1}),
+            (bch.Crowd().collisions, {**crowd, "leaves": "discs", "threads": 1}),
+            (bch.Crowd().obstacles, {**crowd, "obstacles": walls, "leaves": "discs", "threads": 1}),
+            (bch.Crowd().contacts, {**asked, "leaves": "discs", "threads": 1}),
             (bch.read_trajectory, {"path": "/nowhere.csv", "fps": 1, "unit": 1, "columns": "id,frame,x,y"}),
             (
                 bch.check,
@@ -264,14 +265,14 @@ class Errors(unittest.TestCase):
         self.assertEqual(len(builder.finish()), 0)
 
     def test_objects_of_other_threads(self):
-        """Two threads that use one collider get answers or an error, and no crash."""
+        """Two threads that use one crowd get answers or an error, and no crash."""
         shapes, agents = squares(3000)
-        collider, results = bch.CrowdCollider(), []
+        crowd, results = bch.Crowd(), []
 
         def ask():
             for _ in range(30):
                 try:
-                    results.append(len(collider.collide_all(shapes, agents).values))
+                    results.append(len(crowd.collisions(shapes, agents)))
                 except bch.Error as error:
                     results.append(str(error))
 
@@ -280,8 +281,8 @@ class Errors(unittest.TestCase):
             thread.start()
         for thread in asking:
             thread.join()
-        expected = len(bch.collide_all(shapes, agents).values)
-        busy = "this CrowdCollider is in use by another thread; each thread needs one of its own"
+        expected = len(bch.Crowd().collisions(shapes, agents))
+        busy = "this Crowd is in use by another thread; each thread needs one of its own"
         self.assertLessEqual(set(results), {expected, busy})
         self.assertIn(expected, results)
 
@@ -498,7 +499,7 @@ class Sets(unittest.TestCase):
         self.assertEqual((len(begin), begin[0], begin[-1]), (4, 0, len(made.discs(0))))
         self.assertTrue((np.diff(begin.astype(int)) > 1).all())
         agents = bch.Agents(np.zeros(2, np.uint32), np.array([0, 0.05]), np.zeros(2), np.zeros(2))
-        touching = bch.contacts(made, agents, np.array([[0, 1]], np.uint32)).discs[0]
+        touching = bch.Crowd().contacts(made, agents, np.array([[0, 1]], np.uint32)).discs[0]
         slabs = np.searchsorted(begin, touching, "right") - 1
         np.testing.assert_array_equal(slabs[:, 0], slabs[:, 1])
         self.assertEqual(set(slabs[:, 0].tolist()), {0, 1, 2})

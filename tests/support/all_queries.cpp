@@ -7,7 +7,7 @@
 
 #include <bch/clearance.hpp>
 #include <bch/collide.hpp>
-#include <bch/contacts.hpp>
+#include <bch/crowd.hpp>
 #include <bch/dynamic_shape_set.hpp>
 #include <bch/obstacles.hpp>
 #include <bch/penetration.hpp>
@@ -36,7 +36,8 @@ void ask_all_of_obstacles(const ShapeSet& set, const Agents& agents, const Query
   clearance(set, agents, obstacles, {values, directions, discs}, of_outlines);
   penetration(set, agents, obstacles, ways, options);
   time_of_impact(set, agents, {way, way}, obstacles, values, options);
-  CrowdCollider().collide_all(set, agents, obstacles, options);
+  bch::Crowd crowd;
+  crowd.obstacles(set, agents, obstacles, {.leaves = options.leaves, .implementation = options.implementation});
 }
 
 }  // namespace
@@ -45,8 +46,12 @@ void ask_all(const ShapeSet& set, const Agents& agents, std::span<const Pair> pa
              const Implementation& implementation) {
   std::vector<std::uint8_t> hits(pairs.size());
   collide(set, agents, pairs, hits, {&implementation});
-  CrowdCollider().collide_all(set, agents, {&implementation});
-  ContactFinder().find(set, agents, pairs, {.implementation = &implementation});
+  bch::Crowd crowd;
+  crowd.collisions(set, agents, {.implementation = &implementation}).by_agent();
+  crowd.contacts(set, agents, {.implementation = &implementation});
+  crowd.contacts(set, agents, pairs, {.implementation = &implementation});
+  crowd.clearances(set, agents, 0.5, {.implementation = &implementation});
+  crowd.penetrations(set, agents, {.implementation = &implementation});
   std::vector<Penetration> ways(pairs.size());
   penetration(set, agents, pairs, 4, ways, {.implementation = &implementation});
   std::vector<float> values(pairs.size());

@@ -29,9 +29,7 @@ using OwnedSet = Owned<bch_shape_set, bch_shape_set_free>;
 using OwnedBuilder = Owned<bch_shape_set_builder, bch_shape_set_builder_free>;
 using OwnedCharacter = Owned<bch_character, bch_character_free>;
 using OwnedShaper = Owned<bch_pose_shaper, bch_pose_shaper_free>;
-using OwnedBroadPhase = Owned<bch_broad_phase, bch_broad_phase_free>;
-using OwnedCollider = Owned<bch_crowd_collider, bch_crowd_collider_free>;
-using OwnedFinder = Owned<bch_contact_finder, bch_contact_finder_free>;
+using OwnedCrowd = Owned<bch_crowd, bch_crowd_free>;
 using OwnedObstacles = Owned<bch_obstacles, bch_obstacles_free>;
 
 inline void expect_ok(bch_status status) {

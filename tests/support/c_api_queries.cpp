@@ -86,53 +86,90 @@ void add_queries_of_pairs(const CScene& scene, std::vector<CQuery>& to) {
 
 void add_queries_of_crowds(const CScene& scene, std::vector<CQuery>& to) {
   const bch_shape_set* const set = scene.set.get();
+  const bch_obstacles* const walls = scene.walls.get();
   const auto* const all = &scene;
   struct Found {
-    OwnedBroadPhase phase = made<bch_broad_phase_free>(bch_broad_phase_create);
-    OwnedCollider collider = made<bch_crowd_collider_free>(bch_crowd_collider_create);
-    OwnedFinder finder = made<bch_contact_finder_free>(bch_contact_finder_create);
+    OwnedCrowd crowd = made<bch_crowd_free>(bch_crowd_create, nullptr);
     const bch_pair* pairs = nullptr;
     std::size_t count = 0;
-    bch_index_rows rows{}, touched{};
+    bch_neighbour_rows neighbours{};
+    bch_index_rows touched{};
     bch_contact_rows contacts{};
+    bch_crowd_clearance_view near{};
+    bch_crowd_penetration_view apart{};
   };
-  const auto phase = std::make_shared<Found>();
-  to.push_back({"candidates", false,
-                [=] {
-                  return bch_broad_phase_find(phase->phase.get(), set, &all->agents, 0.4, &all->options,
-                                              &phase->pairs, &phase->count);
-                },
-                [=] { return bytes(std::span(phase->pairs, phase->count)); }});
-  for (const bch_obstacles* const walls :
-       std::initializer_list<const bch_obstacles*>{nullptr, all->walls.get()}) {
+  const auto add = [&](const char* name, bool needs_memory, auto ask, auto answer) {
     const auto found = std::make_shared<Found>();
-    to.push_back({walls == nullptr ? "collide all" : "collide all and walls", walls != nullptr,
-                  [=] {
-                    return bch_crowd_collider_collide_all(found->collider.get(), set, &all->agents, walls,
-                                                          &all->options, &found->rows,
-                                                          walls == nullptr ? nullptr : &found->touched);
-                  },
-                  [=] {
-                    return row_bytes(found->rows.rows, found->rows.offsets, found->rows.values) +
-                           row_bytes(found->touched.rows, found->touched.offsets, found->touched.values);
-                  }});
-  }
-  for (const bool of_crowd : {false, true}) {
-    const auto found = std::make_shared<Found>();
-    to.push_back({of_crowd ? "all contacts" : "contacts", false,
-                  [=] {
-                    return of_crowd ? bch_contact_finder_find_all(found->finder.get(), set, &all->agents,
-                                                                  &all->options, &found->contacts)
-                                    : bch_contact_finder_find(found->finder.get(), set, &all->agents,
-                                                              c_pairs(all->pairs), all->pairs.size(),
-                                                              &all->options, &found->contacts);
-                  },
-                  [=] {
-                    const bch_contact_rows& rows = found->contacts;
-                    return bytes(std::span(rows.pairs, rows.rows)) +
-                           row_bytes(rows.rows, rows.offsets, rows.values);
-                  }});
-  }
+    to.push_back({name, needs_memory, [=] { return ask(*found); }, [=] { return answer(*found); }});
+  };
+  const auto contact_bytes = [](const Found& found) {
+    const bch_contact_rows& rows = found.contacts;
+    return bytes(std::span(rows.pairs, rows.rows)) + row_bytes(rows.rows, rows.offsets, rows.values);
+  };
+  add(
+      "candidates", false,
+      [=](Found& found) {
+        return bch_crowd_candidates(found.crowd.get(), set, &all->agents, 0.4, nullptr, &all->options,
+                                    &found.pairs, &found.count);
+      },
+      [](const Found& found) { return bytes(std::span(found.pairs, found.count)); });
+  add(
+      "collisions", false,
+      [=](Found& found) {
+        const bch_status status = bch_crowd_collisions(found.crowd.get(), set, &all->agents, nullptr,
+                                                       &all->options, &found.pairs, &found.count);
+        return status != BCH_OK ? status : bch_crowd_by_agent(found.crowd.get(), &found.neighbours);
+      },
+      [](const Found& found) {
+        const bch_neighbour_rows& rows = found.neighbours;
+        return bytes(std::span(found.pairs, found.count)) + row_bytes(rows.rows, rows.offsets, rows.values);
+      });
+  add(
+      "obstacles", true,
+      [=](Found& found) {
+        return bch_crowd_obstacles(found.crowd.get(), set, &all->agents, walls, &all->options, &found.touched);
+      },
+      [](const Found& found) {
+        return row_bytes(found.touched.rows, found.touched.offsets, found.touched.values);
+      });
+  add(
+      "contacts of pairs", false,
+      [=](Found& found) {
+        return bch_crowd_contacts_of(found.crowd.get(), set, &all->agents, c_pairs(all->pairs),
+                                     all->pairs.size(), &all->options, &found.contacts);
+      },
+      contact_bytes);
+  add(
+      "contacts", false,
+      [=](Found& found) {
+        return bch_crowd_contacts(found.crowd.get(), set, &all->agents, nullptr, &all->options,
+                                  &found.contacts);
+      },
+      contact_bytes);
+  add(
+      "clearances", scene.agents.z != nullptr,
+      [=](Found& found) {
+        return bch_crowd_clearances(found.crowd.get(), set, &all->agents, 0.2, nullptr, &all->options,
+                                    &found.near);
+      },
+      [](const Found& found) {
+        const bch_crowd_clearance_view& near = found.near;
+        const auto part = [&](const auto* values) { return bytes(std::span(values, near.count)); };
+        return part(near.pairs) + part(near.distance) + part(near.direction) + part(near.discs) +
+               part(near.points);
+      });
+  add(
+      "penetrations", false,
+      [=](Found& found) {
+        return bch_crowd_penetrations(found.crowd.get(), set, &all->agents, 16, nullptr, &all->options,
+                                      &found.apart);
+      },
+      [](const Found& found) {
+        const auto& [count, pairs, depths] = found.apart;
+        std::vector<bch_penetration_depth> all_depths(depths, depths + count);
+        clear_padding(all_depths);
+        return bytes(std::span(pairs, count)) + bytes(all_depths);
+      });
 }
 
 void add_queries_of_obstacles(const CScene& scene, std::vector<CQuery>& to) {

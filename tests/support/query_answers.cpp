@@ -178,11 +178,11 @@ std::vector<PairAnswers> ask(const ShapeSet& set, const Questions& of, const Imp
   const auto along = answers_of(size, none, [&](std::span<Penetration> out) {
     penetration_along(set, agents, of.pairs, of.directions, out, {.implementation = &implementation});
   });
-  ContactFinder finder, finder_of_discs;
-  const Rows<DiscPair> contacts = finder.find(set, agents, of.pairs, {.implementation = &implementation}),
-                       contacts_of_discs =
-                           finder_of_discs.find(set, agents, of.pairs,
-                                                {.implementation = &implementation, .leaves = Leaves::discs});
+  bch::Crowd finder, finder_of_discs;
+  const Rows<DiscPair> contacts = finder.contacts(set, agents, of.pairs, {.implementation = &implementation}),
+                       contacts_of_discs = finder_of_discs.contacts(
+                           set, agents, of.pairs,
+                           {.leaves = Leaves::discs, .implementation = &implementation});
   const auto row = [](const Rows<DiscPair>& rows, std::size_t i) {
     return std::vector<DiscPair>(rows[i].begin(), rows[i].end());
   };

@@ -11,7 +11,7 @@
 
 #include <bch/clearance.hpp>
 #include <bch/collide.hpp>
-#include <bch/contacts.hpp>
+#include <bch/crowd.hpp>
 #include <bch/penetration.hpp>
 #include <bch/time_of_impact.hpp>
 

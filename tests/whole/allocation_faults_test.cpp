@@ -7,6 +7,7 @@
 #include "tests/support/c_api_queries.hpp"
 #include "tests/support/program_run.hpp"
 #include "tests/support/test.hpp"
+#include "tests/support/crowd_pairs.hpp"
 
 // Every function of the C interface that lacks memory writes nothing, and succeeds when it is called again. Thus what it calls of the C++
 // library leaves everything as it was.
@@ -123,13 +124,12 @@ class AllocationFaults : public testing::Test {
 };
 
 TEST_F(AllocationFaults, Queries) {
-  fail_each_making<bch_broad_phase>(1, bch_broad_phase_create, bch_broad_phase_free);
-  fail_each_making<bch_crowd_collider>(1, bch_crowd_collider_create, bch_crowd_collider_free);
-  fail_each_making<bch_contact_finder>(1, bch_contact_finder_create, bch_contact_finder_free);
+  fail_each_making<bch_crowd>(
+      1, [](bch_crowd** crowd) { return bch_crowd_create(nullptr, crowd); }, bch_crowd_free);
   for (const bool at_heights : {false, true}) {  // where clearances and times need memory
     crowd.z.assign(at_heights ? crowd.x.size() : 0, 0);
     if (at_heights) crowd.z[1] = 0.5;
-    test::CScene scene(shapes, crowd, candidate_pairs(shapes, crowd.agents()));
+    test::CScene scene(shapes, crowd, test::candidate_pairs(shapes, crowd.agents()));
     for (const std::uint32_t threads : {1, 2}) {
       scene.options.threads = threads;
       for (std::size_t q = 0; q < all_queries(scene).size(); ++q) {

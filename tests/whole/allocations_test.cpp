@@ -4,6 +4,7 @@
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/c_api_queries.hpp"
 #include "tests/support/test.hpp"
+#include "tests/support/crowd_pairs.hpp"
 
 // Queries of pairs need no memory, and objects keep theirs: those of the C interface, and what they call of the C++ library.
 
@@ -29,7 +30,7 @@ class Allocations : public testing::TestWithParam<std::uint32_t> {
                  static_cast<std::uint8_t>(random.below(3))});
       if (step > 0) crowd.z.push_back(step * (i % 4));
     }
-    std::vector<Pair> pairs = candidate_pairs(set, crowd.agents());
+    std::vector<Pair> pairs = test::candidate_pairs(set, crowd.agents());
     ASSERT_GT(pairs.size(), 1'000u);
     pairs.resize(1'000);
     test::CScene scene(set, crowd, pairs);

@@ -28,11 +28,11 @@ endforeach()
 expect_output("collide/colliding: reference / discs/sse2 +[0-9.]+ x +(PASS|needs) " "crowd/1000000/step#MiB +[0-9.]+  "
   "shapes: 5000 / 200 +[0-9.]+ x" "shapes/50000 / shapes/200: not in this build" "construction/1/sse2/all +[0-9 .]+ ns [^\n]*90000"
   "hierarchy_welzl / hierarchy" "growth: 183296/all@n_log_n / 996/all@n_log_n" "ns an item +map +read +map_alone" "plans/mixed [^\n]*bytes"
-  "live/1000 [^\n]*shapes_ms" "collide_all/crowd/[a-z0-9]+ / collide/crowd" "obb_contour / reference +[0-9.]+ x +4630 ns")
+  "live/1000 [^\n]*shapes_ms" "collisions/crowd/[a-z0-9]+ / collide/crowd" "obb_contour / reference +[0-9.]+ x +4630 ns")
 
 # Here of what no table tells.
 run(0 ${RATIOS} ${sizes} --benchmark_min_time=0.0001 --benchmark_filter=-^\(check|crowd|growth|live|shapes|threads\)/)
-set(names penetration/colliding/reference contacts/crowd/scalar collide_all/crowd/sse2 load/checksum_alone plans/all/bake
+set(names penetration/colliding/reference contacts/crowd/scalar collisions/crowd/sse2 load/checksum_alone plans/all/bake
   construction/1/sse2/hierarchy_welzl)
 foreach(workload colliding near_miss no_hit crowd candidates paper500 paper500_cached)
   list(APPEND names collide/${workload}/segments/sse2 collide/${workload}/discs/scalar

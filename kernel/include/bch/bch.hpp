@@ -16,10 +16,9 @@
 #include <bch/version.hpp>
 
 // The component kernel.
-#include <bch/broad_phase.hpp>
 #include <bch/clearance.hpp>
 #include <bch/collide.hpp>
-#include <bch/contacts.hpp>
+#include <bch/crowd.hpp>
 #include <bch/obstacles.hpp>
 #include <bch/penetration.hpp>
 #include <bch/query.hpp>

@@ -4,16 +4,12 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
 #include <bch/query.hpp>
 
 namespace bch {
-
-/// Holds obstacles that do not move; declared in <bch/obstacles.hpp>.
-class ObstacleSet;
 
 /// Tests whether the two agents of each pair collide at their levels, touching included, and writes 1 for a hit and 0 otherwise.
 ///
@@ -36,44 +32,6 @@ class ObstacleSet;
 ///          the threads' rounding mode, treatment of denormals and traps, and leave them as they are.
 void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
              std::span<std::uint8_t> hits, const QueryOptions& options = {});
-
-/// Holds the neighbours and the obstacles that each agent collides with: one row per agent, ascending.
-struct CrowdCollisions {
-  Rows<std::uint32_t> agents, obstacles;
-};
-
-/// Finds all collisions of a crowd: broad and narrow phase in one call. It keeps its memory from call to call.
-/// An object that was moved from can only be assigned to or destroyed.
-class CrowdCollider {
- public:
-  CrowdCollider();
-  CrowdCollider(CrowdCollider&&) noexcept;
-  CrowdCollider& operator=(CrowdCollider&&) noexcept;
-  ~CrowdCollider();
-
-  /// Finds the colliding neighbours of every agent: one row per agent, ascending. Agent j is a neighbour of i exactly if i
-  /// and j differ and collide() answers 1 for them, so i is then a neighbour of j, too. The answer is the same for any number of
-  /// threads and every implementation.
-  /// Options: those of collide(), which the broad phase does not need.
-  /// Memory:  the answer is valid until the next call. Beside the memory of a BroadPhase, the object keeps 1 byte for each pair
-  ///          that it finds, 8 an agent and 8 a colliding pair; a call like an earlier one allocates
-  ///          nothing.
-  /// Errors:  throws std::invalid_argument like validate(shapes, agents) and collide(); the last answer is
-  ///          then lost.
-  /// Threads: runs in the caller's TBB arena; one call at a time, as BroadPhase::find().
-  Rows<std::uint32_t> collide_all(const ShapeSet& shapes, const Agents& agents,
-                                  const QueryOptions& options = {});
-
-  /// Finds the colliding neighbours of every agent, as above, and the numbers of the obstacles that it collides with. An agent has
-  /// no obstacles exactly where collide() with obstacles answers 0.
-  /// Memory:  the object also keeps 8 bytes for each obstacle of an agent, and a call allocates what collide() with obstacles does.
-  CrowdCollisions collide_all(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
-                              const QueryOptions& options = {});
-
- private:
-  struct State;
-  std::unique_ptr<State> state_;
-};
 
 /// Chooses, among `planes`, those that clear the most false collisions of given bodies when they cut the bodies into `slabs` slabs.
 /// The sample is random pairs of bodies in each other's reach which collide as seen from above, but in no slab between

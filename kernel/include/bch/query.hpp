@@ -62,7 +62,7 @@ enum class Overlap {
 struct QueryOptions {
   /// Selects one of implementations(); null selects best_implementation(), which may throw where BCH_ISA is set.
   const Implementation* implementation = nullptr;
-  Leaves leaves = Leaves::segments;  ///< of collide(), CrowdCollider and ContactFinder
+  Leaves leaves = Leaves::segments;  ///< of collide()
   /// Limits the distances of interest of clearance(), metres, not negative; may be infinite. Pairs farther apart get an
   /// infinite distance and nothing else. The smaller the limit, the sooner they are rejected.
   double max_distance = std::numeric_limits<double>::infinity();

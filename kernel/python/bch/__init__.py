@@ -9,12 +9,12 @@ Make or load a set of shapes, describe a crowd by arrays, and ask:
 >>> people = bch.bake([bch.default_male(), bch.default_female()], poses=50)
 >>> n = 1000
 >>> random = np.random.default_rng(1)
->>> crowd = bch.Agents(
+>>> agents = bch.Agents(
 ...     random.integers(len(people), size=n, dtype=np.uint32),
 ...     random.uniform(0, 20, n), random.uniform(0, 20, n), random.uniform(-3, 3, n))
->>> pairs = bch.candidate_pairs(people, crowd, margin=0.5)
->>> hit = bch.collide(people, crowd, pairs)
->>> gap = bch.clearance(people, crowd, pairs, max_distance=0.5)
+>>> crowd = bch.Crowd()
+>>> for a, b in crowd.collisions(people, agents): print(a, "collides with", b)
+>>> near = crowd.clearances(people, agents, within=0.5)
 
 Lengths are in metres and angles in radians. Queries take arrays without a copy if their dtype and layout fit, and otherwise
 raise an error that says what is wanted. Every query releases the interpreter's lock, so Python threads run at the same time.
@@ -24,16 +24,7 @@ from . import plot
 from ._animated import AnimatedShape
 from ._arrays import DISC, PENETRATION, POSE, SOURCE
 from ._characters import Bone, Channel, Curve, Joint, Motion, make_character
-from ._crowds import (
-    BroadPhase,
-    ContactFinder,
-    Contacts,
-    CrowdCollider,
-    Rows,
-    candidate_pairs,
-    collide_all,
-    contacts,
-)
+from ._crowds import Clearances, Contacts, Crowd, Neighbours, Penetrations, Rows
 from ._library import (
     ArgumentError,
     ArrayError,
@@ -107,14 +98,13 @@ __all__ = [
     "ArgumentError",
     "ArrayError",
     "Bone",
-    "BroadPhase",
     "Channel",
     "Character",
     "Check",
     "Clip",
-    "ContactFinder",
+    "Clearances",
     "Contacts",
-    "CrowdCollider",
+    "Crowd",
     "Curve",
     "DISC",
     "DynamicShapeSet",
@@ -129,6 +119,7 @@ __all__ = [
     "NEAR",
     "NamedMotion",
     "Nearest",
+    "Neighbours",
     "OVERLAP",
     "Obstacles",
     "Origin",
@@ -138,6 +129,7 @@ __all__ = [
     "PENETRATION",
     "POSE",
     "Pairs",
+    "Penetrations",
     "Plan",
     "PoseShaper",
     "REST_POSE",
@@ -156,12 +148,9 @@ __all__ = [
     "animate",
     "bake",
     "best_slices",
-    "candidate_pairs",
     "check",
     "clearance",
     "collide",
-    "collide_all",
-    "contacts",
     "dataframe",
     "default_bulky_male",
     "default_female",

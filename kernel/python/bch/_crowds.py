@@ -1,22 +1,37 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 the bch authors
 
-"""Queries about whole crowds: candidate pairs, collisions, contacts."""
+"""Queries about whole crowds: candidates, collisions, contacts, clearances, penetrations."""
 
 from __future__ import annotations
 
 import ctypes
-import math
 from ctypes import byref
-from typing import Any, Iterator, Optional, Tuple, Union, overload
+from typing import Any, Iterator, NamedTuple, Optional, Tuple
 
 import numpy as np
 
 from . import _library
-from ._arrays import UInt32, UInt64, copied, given, index, instance, number, u4, u8
-from ._library import Exclusive, Handle, check, lib
+from ._arrays import (
+    PENETRATION,
+    Float32,
+    Records,
+    UInt32,
+    UInt64,
+    bounded,
+    copied,
+    f4,
+    given,
+    index,
+    instance,
+    number,
+    rejected,
+    u4,
+    u8,
+)
+from ._library import ArgumentError, Exclusive, Handle, check, lib
 from ._obstacles import Obstacles
-from ._queries import Agents, Leaves, options, pointers
+from ._queries import Agents, Leaves, Overlap, options, pointers
 from ._shapes import ShapeSet
 
 
@@ -60,70 +75,233 @@ def _rows(found: Any, shape: Tuple[int, ...] = ()) -> Rows:
     return Rows(offsets, copied(found.values, u4, (int(offsets[-1]), *shape)))
 
 
-class BroadPhase:
-    """Finds pairs of agents that may collide. An object keeps its memory from call to call, so each thread needs its own."""
+class Neighbours(Rows):
+    """The neighbours of each agent: row i has the agents that are in a pair with agent i, ascending.
 
-    __slots__ = ("_handle", "_exclusive")
+    Attributes
+    ----------
+    pairs : (m,) uint32
+        For each value, the number of its pair in the answer.
+    """
 
-    def __init__(self) -> None:
-        self._handle, self._exclusive = Handle("broad_phase", "create"), Exclusive("BroadPhase")
+    __slots__ = ("pairs",)
 
-    def find(self, shapes: ShapeSet, agents: Agents, margin: float = 0.0, *, threads: int = 0) -> UInt32:
-        """Find pairs as the function `candidate_pairs` does."""
-        set_at, agents_at = pointers(shapes, agents)
-        within = number(margin, "margin")
-        how, _ = options(threads=threads)
-        pairs, count = ctypes.c_void_p(), ctypes.c_size_t()
-        with self._exclusive:
-            handle = self._handle.pointer
-            check(lib.bch_broad_phase_find(handle, set_at, agents_at, within, how, byref(pairs), byref(count)))
-            return copied(pairs.value, u4, (count.value, 2))
+    def __init__(self, offsets: UInt64, values: UInt32, pairs: UInt32) -> None:
+        super().__init__(offsets, values)
+        self.pairs = pairs
 
 
-def candidate_pairs(shapes: ShapeSet, agents: Agents, margin: float = 0.0, *, threads: int = 0) -> UInt32:
-    """Find every pair of agents that may collide or come within a margin of each other.
+class Contacts(NamedTuple):
+    """The result of `Crowd.contacts`."""
 
-    The result contains every pair for which `collide` returns True, and every pair with a `clearance` of at most the margin.
+    pairs: UInt32  #: (n, 2), the pairs of agents
+    discs: Rows  #: a row per pair, of (m, 2) indices: a disc of the first agent and one of the second, see `ShapeSet.discs`
+
+
+class Clearances(NamedTuple):
+    """The result of `Crowd.clearances`, with one entry per pair, as `nearest` has them."""
+
+    pairs: UInt32  #: (n, 2), the pairs of agents
+    distance: Float32  #: (n,), metres
+    direction: Float32  #: (n, 2), unit vectors from the first agent to the second
+    discs: UInt32  #: (n, 2), the nearest disc of each agent; 0xffffffff: none
+    points: Float32  #: (n, 2, 2), the nearest point of each agent, relative to its own position, metres
+
+
+class Penetrations(NamedTuple):
+    """The result of `Crowd.penetrations`, with one entry per pair."""
+
+    pairs: UInt32  #: (n, 2), the pairs of agents
+    penetrations: Records  #: (n,) `PENETRATION`
+
+
+class Crowd:
+    """Finds the pairs of a crowd that collide or are near each other: broad and narrow phase in one call.
+
+    An object keeps its memory from call to call, so each thread needs its own. Every method that finds pairs takes a filter, as
+    physics engines have it: two agents are a pair if each one's `mask` has a bit of the other's `category`, (n,) uint32 with one
+    entry per agent, and if the pair is not in `excluded`, (m, 2) uint32.
 
     Parameters
     ----------
-    shapes : ShapeSet
-    agents : Agents
-    margin : float
-        Metres.
-    threads : int
-        Number of threads; 0: all processors.
+    period : (float, float)
+        Lengths after which the ground repeats along x and y, metres; 0: it does not.
+    most_pairs : int, optional
+        More candidates than that raise an error.
 
-    Returns
-    -------
-    (n, 2) uint32
-        Each pair once, the lower index first, ordered by position.
+    Examples
+    --------
+    >>> crowd = bch.Crowd()
+    >>> for a, b in crowd.collisions(people, agents): ...
     """
-    return BroadPhase().find(shapes, agents, margin, threads=threads)
-
-
-class CrowdCollider:
-    """Finds who collides with whom in a crowd. An object keeps its memory from call to call, so each thread needs its own."""
 
     __slots__ = ("_handle", "_exclusive")
 
-    def __init__(self) -> None:
-        self._handle, self._exclusive = Handle("crowd_collider", "create"), Exclusive("CrowdCollider")
+    def __init__(self, period: Tuple[float, float] = (0.0, 0.0), most_pairs: Optional[int] = None) -> None:
+        if not isinstance(period, (tuple, list)) or len(period) != 2:
+            raise rejected(period, "period", "two lengths, (x, y)")
+        x, y = (number(length, f"period[{i}]") for i, length in enumerate(period))
+        most = 2**64 - 1 if most_pairs is None else bounded(most_pairs, "most_pairs", 0, 2**64 - 1)
+        chosen = _library.CrowdOptions(period_x=x, period_y=y, most_pairs=most)
+        self._handle, self._exclusive = Handle("crowd", "create", byref(chosen)), Exclusive("Crowd")
 
-    @overload
-    def collide_all(
+    def _pairs(self, find: str, shapes: ShapeSet, agents: Agents, *arguments: Any) -> UInt32:
+        pairs, count = ctypes.c_void_p(), ctypes.c_size_t()
+        with self._exclusive:
+            check(getattr(lib, find)(self._handle.pointer, *pointers(shapes, agents), *arguments, byref(pairs), byref(count)))
+            return copied(pairs.value, u4, (count.value, 2))
+
+    def candidates(
         self,
         shapes: ShapeSet,
         agents: Agents,
-        obstacles: None = None,
+        margin: float = 0.0,
+        *,
+        category: Optional[UInt32] = None,
+        mask: Optional[UInt32] = None,
+        excluded: Optional[UInt32] = None,
+        threads: int = 0,
+    ) -> UInt32:
+        """Find every pair of agents that may collide or come within a margin of each other.
+
+        The result contains every pair for which `collide` returns True, and every pair with a `clearance` of at most the margin.
+
+        Parameters
+        ----------
+        shapes : ShapeSet
+        agents : Agents
+        margin : float
+            Metres.
+        threads : int
+            Number of threads; 0: all processors.
+
+        Returns
+        -------
+        (n, 2) uint32
+            Each pair once, the lower index first, ordered by position.
+        """
+        how, _ = options(threads=threads)
+        chosen = _filter(agents, category, mask, excluded)
+        return self._pairs("bch_crowd_candidates", shapes, agents, number(margin, "margin"), chosen, how)
+
+    def collisions(
+        self,
+        shapes: ShapeSet,
+        agents: Agents,
         *,
         leaves: Leaves = "segments",
+        category: Optional[UInt32] = None,
+        mask: Optional[UInt32] = None,
+        excluded: Optional[UInt32] = None,
         threads: int = 0,
         implementation: Optional[str] = None,
-    ) -> Rows: ...
+    ) -> UInt32:
+        """Find the pairs for which `collide` returns True.
 
-    @overload
-    def collide_all(
+        Returns
+        -------
+        (n, 2) uint32
+            Each pair once, the lower index first, ordered by position.
+        """
+        how, _ = options(leaves=leaves, threads=threads, implementation=implementation)
+        chosen = _filter(agents, category, mask, excluded)
+        return self._pairs("bch_crowd_collisions", shapes, agents, chosen, how)
+
+    def contacts(
+        self,
+        shapes: ShapeSet,
+        agents: Agents,
+        pairs: Optional[UInt32] = None,
+        *,
+        leaves: Leaves = "segments",
+        category: Optional[UInt32] = None,
+        mask: Optional[UInt32] = None,
+        excluded: Optional[UInt32] = None,
+        threads: int = 0,
+        implementation: Optional[str] = None,
+    ) -> Contacts:
+        """Find all discs of two agents that touch, for given pairs or for the whole crowd.
+
+        Parameters
+        ----------
+        pairs : (n, 2) uint32, optional
+            Each of them then has a row, which may be empty. A filter is for whole crowds.
+        """
+        how, _ = options(leaves=leaves, threads=threads, implementation=implementation)
+        at, found = pointers(shapes, agents), _library.ContactRows()
+        chosen = _filter(agents, category, mask, excluded)
+        if pairs is not None and chosen is not None:
+            raise ArgumentError("category, mask and excluded: expected none of them for given pairs")
+        with self._exclusive:
+            if pairs is None:
+                check(lib.bch_crowd_contacts(self._handle.pointer, *at, chosen, how, byref(found)))
+            else:
+                where = given(pairs, u4, (None, 2), "pairs")
+                check(lib.bch_crowd_contacts_of(self._handle.pointer, *at, where, len(pairs), how, byref(found)))
+            return Contacts(copied(found.pairs, u4, (found.rows, 2)), _rows(found, (2,)))
+
+    def clearances(
+        self,
+        shapes: ShapeSet,
+        agents: Agents,
+        within: float,
+        *,
+        leaves: Leaves = "discs",
+        overlap: Overlap = "zero",
+        category: Optional[UInt32] = None,
+        mask: Optional[UInt32] = None,
+        excluded: Optional[UInt32] = None,
+        threads: int = 0,
+        implementation: Optional[str] = None,
+    ) -> Clearances:
+        """Find the pairs whose `clearance` is at most `within`, metres, and measure them as `nearest` does."""
+        how, _ = options(
+            overlap=overlap, threads=threads, implementation=implementation, distance_leaves=leaves
+        )
+        at, found = pointers(shapes, agents), _library.CrowdClearanceView()
+        chosen, metres = _filter(agents, category, mask, excluded), number(within, "within")
+        with self._exclusive:
+            check(lib.bch_crowd_clearances(self._handle.pointer, *at, metres, chosen, how, byref(found)))
+            n = found.count
+            return Clearances(
+                copied(found.pairs, u4, (n, 2)),
+                copied(found.distance, f4, (n,)),
+                copied(found.direction, f4, (n, 2)),
+                copied(found.discs, u4, (n, 2)),
+                copied(found.points, f4, (n, 2, 2)),
+            )
+
+    def penetrations(
+        self,
+        shapes: ShapeSet,
+        agents: Agents,
+        directions: int = 16,
+        *,
+        leaves: Leaves = "segments",
+        category: Optional[UInt32] = None,
+        mask: Optional[UInt32] = None,
+        excluded: Optional[UInt32] = None,
+        threads: int = 0,
+        implementation: Optional[str] = None,
+    ) -> Penetrations:
+        """Find the pairs that collide, and how far the first agent of each has to move, as `penetration` does."""
+        how, _ = options(leaves=leaves, threads=threads, implementation=implementation)
+        at, found = pointers(shapes, agents), _library.CrowdPenetrationView()
+        chosen, ways = _filter(agents, category, mask, excluded), bounded(directions, "directions", 0, 2**32 - 1)
+        with self._exclusive:
+            check(lib.bch_crowd_penetrations(self._handle.pointer, *at, ways, chosen, how, byref(found)))
+            n = found.count
+            return Penetrations(copied(found.pairs, u4, (n, 2)), copied(found.depths, PENETRATION, (n,)))
+
+    def by_agent(self) -> Neighbours:
+        """Return the pairs of the last answer by agent: one row per agent of the crowd, ascending."""
+        found = _library.NeighbourRows()
+        with self._exclusive:
+            check(lib.bch_crowd_by_agent(self._handle.pointer, byref(found)))
+            rows = _rows(found, (2,))
+        return Neighbours(rows.offsets, rows.values[:, 0].copy(), rows.values[:, 1].copy())
+
+    def obstacles(
         self,
         shapes: ShapeSet,
         agents: Agents,
@@ -132,165 +310,26 @@ class CrowdCollider:
         leaves: Leaves = "segments",
         threads: int = 0,
         implementation: Optional[str] = None,
-    ) -> Tuple[Rows, Rows]: ...
-
-    def collide_all(
-        self,
-        shapes: ShapeSet,
-        agents: Agents,
-        obstacles: Optional[Obstacles] = None,
-        *,
-        leaves: Leaves = "segments",
-        threads: int = 0,
-        implementation: Optional[str] = None,
-    ) -> Union[Rows, Tuple[Rows, Rows]]:
-        """Find the colliding neighbours of every agent as the function `collide_all` does."""
-        set_at, agents_at = pointers(shapes, agents)
-        how, _ = options(leaves, "zero", math.inf, threads, implementation)
-        found, touched = _library.IndexRows(), _library.IndexRows()
-        walls = None if obstacles is None else instance(obstacles, Obstacles, "obstacles")._pointer
+    ) -> Rows:
+        """Find the obstacles that each agent collides with: one row per agent of their indices, ascending."""
+        how, _ = options(leaves=leaves, threads=threads, implementation=implementation)
+        at, found = pointers(shapes, agents), _library.IndexRows()
+        walls = instance(obstacles, Obstacles, "obstacles")._pointer
         with self._exclusive:
-            status = lib.bch_crowd_collider_collide_all(
-                self._handle.pointer, set_at, agents_at, walls, how, byref(found), None if walls is None else byref(touched)
-            )
-            check(status)
-            return _rows(found) if walls is None else (_rows(found), _rows(touched))
+            check(lib.bch_crowd_obstacles(self._handle.pointer, *at, walls, how, byref(found)))
+            return _rows(found)
 
 
-@overload
-def collide_all(
-    shapes: ShapeSet,
-    agents: Agents,
-    obstacles: None = None,
-    *,
-    leaves: Leaves = "segments",
-    threads: int = 0,
-    implementation: Optional[str] = None,
-) -> Rows: ...
-
-
-@overload
-def collide_all(
-    shapes: ShapeSet,
-    agents: Agents,
-    obstacles: Obstacles,
-    *,
-    leaves: Leaves = "segments",
-    threads: int = 0,
-    implementation: Optional[str] = None,
-) -> Tuple[Rows, Rows]: ...
-
-
-def collide_all(
-    shapes: ShapeSet,
-    agents: Agents,
-    obstacles: Optional[Obstacles] = None,
-    *,
-    leaves: Leaves = "segments",
-    threads: int = 0,
-    implementation: Optional[str] = None,
-) -> Union[Rows, Tuple[Rows, Rows]]:
-    """Find the colliding neighbours of every agent of a crowd, in one call.
-
-    Parameters
-    ----------
-    shapes : ShapeSet
-    agents : Agents
-    obstacles : Obstacles, optional
-        Also find the obstacles that each agent collides with.
-    leaves, threads, implementation
-        As for `collide`.
-
-    Returns
-    -------
-    Rows, or (Rows, Rows) with obstacles
-        One row per agent: the indices of the agents that it collides with, ascending. With obstacles, the second Rows has the
-        indices of the obstacles that it collides with.
-    """
-    how = {"leaves": leaves, "threads": threads, "implementation": implementation}
-    return CrowdCollider().collide_all(shapes, agents, obstacles, **how)  # type: ignore[call-overload,no-any-return]
-
-
-class Contacts:
-    """Pairs of discs that make two agents touch: one row per pair of agents.
-
-    Attributes
-    ----------
-    pairs : (n, 2) uint32
-        The pairs of agents.
-    discs : Rows
-        One row per pair of agents, of (m, 2) indices: a disc of the first agent and a disc of the second, as `ShapeSet.discs`
-        numbers them.
-    """
-
-    __slots__ = ("pairs", "discs")
-
-    def __init__(self, pairs: UInt32, discs: Rows) -> None:
-        self.pairs, self.discs = pairs, discs
-
-    def __len__(self) -> int:
-        return len(self.pairs)
-
-    def __repr__(self) -> str:
-        return f"<bch.Contacts: {len(self.discs.values)} of {len(self)} pairs>"
-
-
-class ContactFinder:
-    """Finds all discs of two agents that touch. An object keeps its memory from call to call, so each thread needs its own."""
-
-    __slots__ = ("_handle", "_exclusive")
-
-    def __init__(self) -> None:
-        self._handle, self._exclusive = Handle("contact_finder", "create"), Exclusive("ContactFinder")
-
-    def find(
-        self,
-        shapes: ShapeSet,
-        agents: Agents,
-        pairs: Optional[UInt32] = None,
-        *,
-        leaves: Leaves = "segments",
-        threads: int = 0,
-        implementation: Optional[str] = None,
-    ) -> Contacts:
-        """Find contacts as the function `contacts` does."""
-        set_at, agents_at = pointers(shapes, agents)
-        how, _ = options(leaves, "zero", math.inf, threads, implementation)
-        found = _library.ContactRows()
-        handle = self._handle.pointer
-        with self._exclusive:
-            if pairs is None:
-                check(lib.bch_contact_finder_find_all(handle, set_at, agents_at, how, byref(found)))
-            else:
-                where = given(pairs, u4, (None, 2), "pairs")
-                check(lib.bch_contact_finder_find(handle, set_at, agents_at, where, len(pairs), how, byref(found)))
-            return Contacts(copied(found.pairs, u4, (found.rows, 2)), _rows(found, (2,)))
-
-
-def contacts(
-    shapes: ShapeSet,
-    agents: Agents,
-    pairs: Optional[UInt32] = None,
-    *,
-    leaves: Leaves = "segments",
-    threads: int = 0,
-    implementation: Optional[str] = None,
-) -> Contacts:
-    """Find all discs of two agents that touch, for given pairs or for a whole crowd.
-
-    Parameters
-    ----------
-    shapes : ShapeSet
-    agents : Agents
-    pairs : (n, 2) uint32, optional
-        By default every pair of agents whose root discs overlap.
-    leaves, threads, implementation
-        As for `collide`.
-
-    Returns
-    -------
-    Contacts
-    """
-    return ContactFinder().find(
-        shapes, agents, pairs, leaves=leaves, threads=threads, implementation=implementation
+def _filter(agents: Agents, category: Optional[UInt32], mask: Optional[UInt32], excluded: Optional[UInt32]) -> Any:
+    """Return a struct that holds a filter, or None if there is none."""
+    if category is None and mask is None and excluded is None:
+        return None
+    n = len(instance(agents, Agents, "agents"))
+    return byref(
+        _library.PairFilter(
+            category=None if category is None else given(category, u4, (n,), "category"),
+            mask=None if mask is None else given(mask, u4, (n,), "mask"),
+            excluded=None if excluded is None else given(excluded, u4, (None, 2), "excluded"),
+            excluded_count=0 if excluded is None else len(excluded),
+        )
     )

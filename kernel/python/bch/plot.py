@@ -10,7 +10,7 @@ from typing import Any, Optional
 import numpy as np
 
 from ._arrays import Bool, Float64
-from ._crowds import collide_all
+from ._crowds import Crowd
 from ._queries import Agents, pointers
 from ._shapes import ShapeSet
 
@@ -54,7 +54,8 @@ def crowd(
 
     pointers(shapes, agents)  # are these
     if hits is None:
-        hits = collide_all(shapes, agents).counts > 0
+        hits = np.zeros(len(agents), bool)
+        hits[Crowd().collisions(shapes, agents).ravel()] = True
     patches, colours, circles = [], [], []
     for i in range(len(agents)):
         shape = int(agents.shape[i])

@@ -24,16 +24,15 @@ y = 1.3 * (row - 2) + np.where(east, 0.2, -0.2) + random.uniform(-0.1, 0.1, n)
 heading = np.where(east, 0.0, np.pi)
 phase = random.uniform(0, phases, n)
 shape = np.zeros(n, np.uint32)
-crowd = bch.Agents(shape, x, y, heading)  # views the arrays, so queries see the changes below
+agents = bch.Agents(shape, x, y, heading)  # views the arrays, so queries see the changes below
 
-collider = bch.CrowdCollider()
+crowd = bch.Crowd()
 times = np.arange(0, 12, step)
 colliding, where = [], []
 for time in times:
     shape[:] = (phase + time / stride * phases) % phases
-    rows = collider.collide_all(people, crowd)
-    who = rows.counts > 0
-    colliding.append(who.sum())
+    who = np.unique(crowd.collisions(people, agents))
+    colliding.append(len(who))
     where.append(np.stack([x[who], y[who]], axis=1))
     if abs(time - 5) < step / 2:
         snapshot = bch.Agents(shape.copy(), x.copy(), y.copy(), heading.copy())

@@ -13,18 +13,19 @@ people = bch.bake(
 
 n = 40
 random = np.random.default_rng(2014)
-crowd = bch.Agents(
+agents = bch.Agents(
     shape=random.integers(len(people), size=n, dtype=np.uint32),
     x=random.uniform(0, 5, n),
     y=random.uniform(0, 4, n),
     heading=random.uniform(-np.pi, np.pi, n),
 )
 
-pairs = bch.candidate_pairs(people, crowd)
-hit = bch.collide(people, crowd, pairs)
-print(f"{len(pairs)} pairs of {n} people may collide, {hit.sum()} do")
+crowd = bch.Crowd()
+may = crowd.candidates(people, agents)
+colliding = crowd.collisions(people, agents)
+print(f"{len(may)} pairs of {n} people may collide, {len(colliding)} do")
 
 figure, ax = plt.subplots(figsize=(7, 6), layout="constrained")
-bch.plot.crowd(ax, people, crowd, discs=0)
-ax.set_title(f"{hit.sum()} collisions, and the discs at depth 3")
+bch.plot.crowd(ax, people, agents, discs=0)
+ax.set_title(f"{len(colliding)} collisions, and the discs at depth 3")
 figure.savefig("first_query.png", dpi=120)

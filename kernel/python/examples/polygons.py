@@ -21,18 +21,16 @@ names = ["person", "wheelchair", "trolley"]
 
 n = 24
 random = np.random.default_rng(11)
-crowd = bch.Agents(
+agents = bch.Agents(
     shape=random.permutation(n).astype(np.uint32) % 3,
     x=1.2 * (np.arange(n) % 6) + random.uniform(-0.3, 0.3, n),
     y=1.2 * (np.arange(n) // 6) + random.uniform(-0.3, 0.3, n),
     heading=random.uniform(-np.pi, np.pi, n),
 )
-pairs = bch.candidate_pairs(shapes, crowd)
-hit = bch.collide(shapes, crowd, pairs)
-for first, second in pairs[hit][:5]:
-    print(f"{names[crowd.shape[first]]} {first} collides with {names[crowd.shape[second]]} {second}")
+for first, second in bch.Crowd().collisions(shapes, agents)[:5]:
+    print(f"{names[agents.shape[first]]} {first} collides with {names[agents.shape[second]]} {second}")
 
 figure, ax = plt.subplots(figsize=(7, 6), layout="constrained")
-bch.plot.crowd(ax, shapes, crowd, numbers=True)
+bch.plot.crowd(ax, shapes, agents, numbers=True)
 ax.set_title("a hand above a trolley is no collision")
 figure.savefig("polygons.png", dpi=120)

@@ -25,18 +25,15 @@ int main(void) {
   bch_agents agents = BCH_AGENTS_INIT;
   agents.shape = shape, agents.x = x, agents.y = y, agents.heading = heading, agents.count = 4;
 
-  bch_crowd_collider* collider = NULL;
-  bch_index_rows colliding;
-  check(bch_crowd_collider_create(&collider));
-  check(bch_crowd_collider_collide_all(collider, people, &agents, NULL, NULL, &colliding, NULL));
-  for (size_t agent = 0; agent < colliding.rows; ++agent) {
-    const uint64_t begin = colliding.offsets[agent], end = colliding.offsets[agent + 1];
-    printf("agent %u collides with %u others:", (unsigned)agent, (unsigned)(end - begin));
-    for (uint64_t i = begin; i < end; ++i) printf(" %" PRIu32, colliding.values[i]);
-    printf("\n");
-  }
+  bch_crowd* crowd = NULL;
+  const bch_pair* colliding;
+  size_t count;
+  check(bch_crowd_create(NULL, &crowd));
+  check(bch_crowd_collisions(crowd, people, &agents, NULL, NULL, &colliding, &count));
+  for (size_t i = 0; i < count; ++i)
+    printf("%" PRIu32 " collides with %" PRIu32 "\n", colliding[i].first, colliding[i].second);
 
-  bch_crowd_collider_free(collider);
+  bch_crowd_free(crowd);
   bch_shape_set_free(people);
   bch_character_free(man);
   return 0;

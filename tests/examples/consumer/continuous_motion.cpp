@@ -10,8 +10,8 @@
 #include <set>
 #include <vector>
 
-#include <bch/broad_phase.hpp>
 #include <bch/collide.hpp>
+#include <bch/crowd.hpp>
 #include <bch/default_characters.hpp>
 #include <bch/pose_shape.hpp>
 #include <bch/time_of_impact.hpp>
@@ -70,15 +70,15 @@ class Stepper {
   explicit Stepper(const bch::ShapeSet& shapes) : shapes_(shapes) {}
 
   /// All pairs that may meet within a step, in which either goes a step's length at most.
-  std::vector<bch::Pair> pairs(const Walkers& walkers) const {
-    return bch::candidate_pairs(shapes_, walkers.agents(), 2 * step_length);
+  std::span<const bch::Pair> pairs(const Walkers& walkers) {
+    return crowd_.candidates(shapes_, walkers.agents(), {.margin = 2 * step_length}).span();
   }
 
   /// Who overlaps somebody at the end of his way does not go it.
   /// Returns: the part of the way that each goes.
-  std::vector<double> discrete(const Walkers& walkers) const {
+  std::vector<double> discrete(const Walkers& walkers) {
     std::vector<double> part(walkers.size(), 1);
-    const std::vector<bch::Pair> near = pairs(walkers);
+    const std::span<const bch::Pair> near = pairs(walkers);
     std::vector<std::uint8_t> hits(near.size());
     for (bool again = true; again;) {
       again = false;
@@ -91,9 +91,9 @@ class Stepper {
 
   /// Who would touch somebody stops a little before. That may bring him into the way of others: until nobody touches
   /// anybody.
-  std::vector<double> continuous(const Walkers& walkers) const {
+  std::vector<double> continuous(const Walkers& walkers) {
     std::vector<double> part(walkers.size(), 1);
-    const std::vector<bch::Pair> near = pairs(walkers);
+    const std::span<const bch::Pair> near = pairs(walkers);
     std::vector<double> x(near.size()), y(near.size());
     std::vector<float> time(near.size());
     for (bool again = true; again;) {
@@ -118,8 +118,8 @@ class Stepper {
   }
 
   /// Pairs that overlap somewhere on the way, looked at every centimetre.
-  std::size_t overlaps(const Walkers& walkers) const {
-    const std::vector<bch::Pair> near = pairs(walkers);
+  std::size_t overlaps(const Walkers& walkers) {
+    const std::span<const bch::Pair> near = pairs(walkers);
     std::vector<std::uint8_t> hits(near.size());
     std::set<std::size_t> met;
     for (double part = 0; part <= 1; part += 0.01 / step_length) {
@@ -137,11 +137,12 @@ class Stepper {
 
  private:
   const bch::ShapeSet& shapes_;
+  bch::Crowd crowd_;
 };
 
 /// Walks a crowd. Returns: how many pairs overlapped on the way; 1 where nobody gets anywhere.
 template <class Step>
-std::size_t walk(const Stepper& stepper, const char* name, Walkers walkers, Step step) {
+std::size_t walk(Stepper& stepper, const char* name, Walkers walkers, Step step) {
   std::mt19937_64 random(7);
   const Walkers start = walkers;
   std::vector<double> part(walkers.size(), 1);
@@ -170,7 +171,7 @@ int main() {
     for (const bch::PoseTime& time : bch::sample_poses(character, 50)) shapes.push_back(shaper.shape(time));
   }
   const bch::ShapeSet set(shapes);
-  const Stepper stepper(set);
+  Stepper stepper(set);
   std::mt19937_64 random(2014);
   const Walkers walkers = two_groups(set.shape_count(), random);
   const std::size_t discrete =

@@ -8,9 +8,8 @@
 #include <random>
 #include <vector>
 
-#include <bch/collide.hpp>
+#include <bch/crowd.hpp>
 #include <bch/default_characters.hpp>
-#include <bch/penetration.hpp>
 #include <bch/pose_shape.hpp>
 
 // A crowd step: people who stand in each other are pushed apart until nobody overlaps anybody. How closely they then
@@ -52,27 +51,21 @@ class Pusher {
   /// Returns: how many pairs overlapped.
   std::size_t step(Crowd& crowd) {
     constexpr float longest = 0.1f, beyond = 0.001f;  // metres
-    const bch::Rows<std::uint32_t> rows = collider_.collide_all(shapes_, crowd.agents());
-    pairs_.clear();
-    for (std::uint32_t i = 0; i < crowd.x.size(); ++i)
-      for (const std::uint32_t j : rows[i])
-        if (i < j) pairs_.push_back({i, j});
-    ways_.resize(pairs_.size());
-    bch::penetration(shapes_, crowd.agents(), pairs_, 32, ways_);
-    for (std::size_t k = 0; k < pairs_.size(); ++k) {
-      const double half = std::min(0.5f * ways_[k].depth + beyond, longest);
-      const auto [i, j] = pairs_[k];
-      crowd.x[i] += half * ways_[k].x, crowd.y[i] += half * ways_[k].y;
-      crowd.x[j] -= half * ways_[k].x, crowd.y[j] -= half * ways_[k].y;
+    const bch::CrowdPenetrations found =
+        finder_.penetrations(shapes_, crowd.agents(), {.directions = 32});
+    for (std::size_t k = 0; k < found.pairs.size(); ++k) {
+      const auto [depth, x, y] = found.penetrations[k];
+      const double half = std::min(0.5f * depth + beyond, longest);
+      const auto [i, j] = found.pairs[k];
+      crowd.x[i] += half * x, crowd.y[i] += half * y;
+      crowd.x[j] -= half * x, crowd.y[j] -= half * y;
     }
-    return pairs_.size();
+    return found.pairs.size();
   }
 
  private:
   const bch::ShapeSet& shapes_;
-  bch::CrowdCollider collider_;
-  std::vector<bch::Pair> pairs_;
-  std::vector<bch::Penetration> ways_;
+  bch::Crowd finder_;
 };
 
 /// People per square metre among the half of a crowd that is nearest its middle.

@@ -142,11 +142,12 @@ void ask_of_distances(const bch::ShapeSet& set, const bch::Agents& agents, std::
 void ask_all(const bch::ShapeSet& set, const Crowd& crowd) {
   const bch::Agents agents = crowd;
   const std::size_t count = agents.size();
-  const std::vector<bch::Pair> pairs = bch::candidate_pairs(set, agents, .25);
-  Hash("candidate_pairs").add(pairs);
-  bch::CrowdCollider collider;
-  Hash("collide_all").add(collider.collide_all(set, agents));
-  Hash("contacts").add(bch::ContactFinder().find_all(set, agents).contacts);
+  bch::Crowd of;
+  Hash("collisions").add(of.collisions(set, agents).span());
+  Hash("contacts").add(of.contacts(set, agents).contacts);
+  Hash("clearances").add(of.clearances(set, agents, .25).distance);
+  const std::span<const bch::Pair> pairs = of.candidates(set, agents, {.margin = .25}).span();
+  Hash("candidates").add(pairs);
   ask_of_distances(set, agents, pairs.size(), pairs);
   std::vector<bch::Penetration> ways(pairs.size());
   bch::penetration(set, agents, pairs, 16, ways);

@@ -57,7 +57,7 @@ TEST_F(CApiMisuse, PointersThatAreNull) {
   expect_invalid(bch_collide(set.get(), &agents, nullptr, 1, nullptr, &hit), "pairs is NULL");
   expect_invalid(bch_collide(set.get(), &agents, &pair, 1, nullptr, nullptr), "hits is NULL");
   expect_invalid(bch_shape_set_load(nullptr, 0, nullptr), "path is NULL");
-  expect_invalid(bch_broad_phase_create(nullptr), "broad_phase is NULL");
+  expect_invalid(bch_crowd_create(nullptr, nullptr), "crowd is NULL");
   expect_invalid(bch_obstacles_from_wkt(nullptr, 0, nullptr), "is NULL");
   expect_invalid(bch_obstacles_from_wkt_at("POINT", 0, 0, 1, nullptr), "obstacles is NULL");
   agents.heading = nullptr;
@@ -69,16 +69,16 @@ TEST_F(CApiMisuse, PointersThatAreNull) {
 }
 
 TEST_F(CApiMisuse, ObjectsThatAreNot) {
-  bch_broad_phase* phase = nullptr;
-  expect_ok(bch_broad_phase_create(&phase));
+  bch_crowd* crowd_of_pairs = nullptr;
+  expect_ok(bch_crowd_create(nullptr, &crowd_of_pairs));
   const bch_pair* pairs = nullptr;
   std::size_t count = 0;
-  expect_invalid(bch_broad_phase_find(reinterpret_cast<bch_broad_phase*>(set.get()), set.get(), &agents, 0,
+  expect_invalid(bch_crowd_collisions(reinterpret_cast<bch_crowd*>(set.get()), set.get(), &agents, nullptr,
                                       nullptr, &pairs, &count),
-                 "broad_phase is no living bch_broad_phase");
-  expect_ok(bch_broad_phase_free(phase));
-  expect_invalid(bch_broad_phase_free(phase), "was it freed?");
-  expect_invalid(bch_broad_phase_find(phase, set.get(), &agents, 0, nullptr, &pairs, &count),
+                 "crowd is no living bch_crowd");
+  expect_ok(bch_crowd_free(crowd_of_pairs));
+  expect_invalid(bch_crowd_free(crowd_of_pairs), "was it freed?");
+  expect_invalid(bch_crowd_collisions(crowd_of_pairs, set.get(), &agents, nullptr, nullptr, &pairs, &count),
                  "was it freed?");
   EXPECT_EQ(pairs, nullptr);
 }

@@ -4,6 +4,7 @@
 #include "tests/support/c_api.hpp"
 #include "tests/support/c_api_queries.hpp"
 #include "tests/support/test.hpp"
+#include "tests/support/crowd_pairs.hpp"
 
 // What the C interface answers is what the C++ library does, bit by bit.
 
@@ -62,7 +63,7 @@ class CApi : public testing::TestWithParam<Case> {
   const ShapeSet set{shapes(), {.depths = {0, 3, all_depths}, .slices = GetParam().slices}};
   const test::Crowd people = crowd();
   const Agents agents = people.agents();
-  const std::vector<Pair> pairs = candidate_pairs(set, agents, 0.4);
+  const std::vector<Pair> pairs = test::candidate_pairs(set, agents, 0.4);
   test::CScene scene{set, people, pairs};
   const bch_shape_set* const in = scene.set.get();
 };
@@ -97,15 +98,24 @@ std::map<std::string, std::string> answers_of(const test::CScene& scene, const Q
   clearance(set, agents, scene.pairs, {distance, direction, discs, points}, by);
   all["clearance"] = bytes(distance) + bytes(direction) + bytes(discs) + bytes(points);
 
-  all["candidates"] = bytes(candidate_pairs(set, agents, 0.4));
-  CrowdCollider collider;
-  all["collide all"] = bytes_of(collider.collide_all(set, agents, by));
-  const CrowdCollisions both = collider.collide_all(set, agents, walls, by);
-  all["collide all and walls"] = bytes_of(both.agents) + bytes_of(both.obstacles);
-  ContactFinder finder;
-  all["contacts"] = bytes(scene.pairs) + bytes_of(finder.find(set, agents, scene.pairs, by));
-  const CrowdContacts contacts = finder.find_all(set, agents, by);
-  all["all contacts"] = bytes(contacts.pairs) + bytes_of(contacts.contacts);
+  all["candidates"] = bytes(test::candidate_pairs(set, agents, 0.4));
+  bch::Crowd crowd;
+  const CollisionOptions colliding{.leaves = by.leaves, .implementation = by.implementation};
+  const CrowdPairs pairs = crowd.collisions(set, agents, colliding);
+  all["collisions"] = bytes(pairs.span()) + bytes_of(pairs.by_agent());
+  all["obstacles"] = bytes_of(crowd.obstacles(set, agents, walls, colliding));
+  all["contacts of pairs"] = bytes(scene.pairs) + bytes_of(crowd.contacts(set, agents, scene.pairs, colliding));
+  const CrowdContacts contacts = crowd.contacts(set, agents, colliding);
+  all["contacts"] = bytes(contacts.pairs.span()) + bytes_of(contacts.contacts);
+  const CrowdClearances near =
+      crowd.clearances(set, agents, 0.2, {by.distance_leaves, by.overlap, {}, by.implementation});
+  all["clearances"] = bytes(near.pairs.span()) + bytes(near.distance) + bytes(near.direction) +
+                      bytes(near.discs) + bytes(near.points);
+  const CrowdPenetrations apart =
+      crowd.penetrations(set, agents, {.leaves = by.leaves, .implementation = by.implementation});
+  all["penetrations"] =
+      bytes(apart.pairs.span()) +
+      bytes_of(std::vector<Penetration>(apart.penetrations.begin(), apart.penetrations.end()));
 
   hits.resize(people), depths.resize(people), distance.resize(people);
   direction.resize(people), discs.resize(people), points.resize(people);

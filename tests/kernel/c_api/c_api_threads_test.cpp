@@ -83,9 +83,7 @@ TEST_F(CApiThreads, ObjectsAreMadeAndFreedAtTheSameTime) {
   on_threads([&](unsigned t) {
     for (int i = 0; i < 20; ++i) {
       together[t] = built(0.25f + 0.125f * static_cast<float>(t));
-      const auto phase = made<bch_broad_phase_free>(bch_broad_phase_create);
-      const auto collider = made<bch_crowd_collider_free>(bch_crowd_collider_create);
-      const auto finder = made<bch_contact_finder_free>(bch_contact_finder_create);
+      const auto crowd = made<bch_crowd_free>(bch_crowd_create, nullptr);
     }
   });
   EXPECT_EQ(together, alone);
@@ -118,7 +116,7 @@ TEST_F(CApiThreads, OneOfThemFreesAnObject) {
     EXPECT_EQ(said, one);
   };
   for (int i = 0; i < 300; ++i) {
-    expect_one(made<bch_contact_finder_free>(bch_contact_finder_create).release(), bch_contact_finder_free);
+    expect_one(made<bch_crowd_free>(bch_crowd_create, nullptr).release(), bch_crowd_free);
     expect_one(test::c_set(shapes).release(), bch_shape_set_free);
     expect_one(made<bch_dynamic_shape_set_free>(bch_dynamic_shape_set_create, set).release(),
                bch_dynamic_shape_set_free);

@@ -5,6 +5,7 @@
 #include "tests/support/moving_bodies.hpp"
 #include "tests/support/test.hpp"
 #include "tests/support/test_characters.hpp"
+#include "tests/support/crowd_pairs.hpp"
 
 // Agents who show bodies that move by themselves, each at a time of its own.
 
@@ -58,8 +59,8 @@ struct AllAnswers {
     const std::vector<double> way(pairs.size(), 0.5), back(pairs.size(), -0.25);
     time_of_impact(set, agents, pairs, {way, back}, time);
     penetration(set, agents, pairs, 8, depth);
-    ContactFinder finder;
-    const Rows<DiscPair> found = finder.find(set, agents, pairs);
+    bch::Crowd finder;
+    const Rows<DiscPair> found = finder.contacts(set, agents, pairs);
     contacts.assign(found.values.begin(), found.values.end());
     offsets.assign(found.offsets.begin(), found.offsets.end());
     collide(set, agents, walls, at_walls);
@@ -85,10 +86,10 @@ void expect_own_shapes(Random& random, const std::vector<AnimatedShape>& shapes,
     const OwnShapes expect(shapes, players, plan);
     for (std::uint32_t i = 0; i < count; ++i)
       EXPECT_EQ(moments.set().discs(players.shape[i], 0), expect.set.discs(i, 0));
-    const std::vector<Pair> pairs = candidate_pairs(expect.set, expect.agents, 1);
+    const std::vector<Pair> pairs = test::candidate_pairs(expect.set, expect.agents, 1);
     if (plan.depths.size() > 1) {  // where there are leaves alone, candidates may be more
-      EXPECT_TRUE(candidate_pairs(moments.set(), players.agents()) ==
-                  candidate_pairs(expect.set, expect.agents));
+      EXPECT_TRUE(test::candidate_pairs(moments.set(), players.agents()) ==
+                  test::candidate_pairs(expect.set, expect.agents));
     }
     const AllAnswers found(moments.set(), players.agents(), pairs, walls),
         expected(expect.set, expect.agents, pairs, walls);

@@ -8,6 +8,7 @@
 #include "tests/support/moving_bodies.hpp"
 #include "tests/support/test.hpp"
 #include "tests/support/test_characters.hpp"
+#include "tests/support/crowd_pairs.hpp"
 
 // When the shapes of moments are made, how long they are kept, and which are refused.
 
@@ -73,7 +74,7 @@ TEST_P(MomentsOfPlans, AreTheSameForAnyNumberOfThreads) {
     tbb::task_arena(threads).execute([&] {
       MomentSet moments(bodies, plan);
       moments.show(players.body, players.seconds, players.shape);
-      const std::vector<Pair> pairs = candidate_pairs(moments.set(), players.agents());
+      const std::vector<Pair> pairs = test::candidate_pairs(moments.set(), players.agents());
       hits.emplace_back(pairs.size());
       collide(moments.set(), players.agents(), pairs, hits.back());
       shape.push_back(players.shape);
@@ -105,7 +106,7 @@ TEST_P(MomentsOfPlans, OutliveAFailedAllocation) {
   Players players(random, 60, static_cast<std::uint32_t>(bodies.size()));
   MomentSet expected(bodies, plan);
   expected.show(players.body, players.seconds, players.shape);
-  const std::vector<Pair> pairs = candidate_pairs(expected.set(), players.agents());
+  const std::vector<Pair> pairs = test::candidate_pairs(expected.set(), players.agents());
   const std::vector<float> distance = distances(expected.set(), players.agents(), pairs);
   std::size_t failed = 1;
   for (std::size_t after = 0; failed > 0; after += 7) {

@@ -127,8 +127,9 @@ class ObstaclesWithHeights : public testing::TestWithParam<std::vector<float>> {
       const AgentAnswers of = of_part(
           one.agents(), level,
           {question.options, {question.distances[agent]}, std::vector<double>(1, question.way[agent])});
-      const CrowdCollisions rows = collider.collide_all(apart, one.agents(), *level.set, question.options);
-      for (const std::uint32_t obstacle : rows.obstacles[0]) touched.push_back(level.obstacles[obstacle]);
+      const Rows<std::uint32_t> rows =
+          collider.obstacles(apart, one.agents(), *level.set, {.leaves = question.options.leaves});
+      for (const std::uint32_t obstacle : rows[0]) touched.push_back(level.obstacles[obstacle]);
       if (of.deepest < all.deepest)
         all.discs = {discs_before + of.discs.first, level.numbers[of.discs.second]};
       all.hit |= of.hit, all.near |= of.near;
@@ -178,7 +179,7 @@ class ObstaclesWithHeights : public testing::TestWithParam<std::vector<float>> {
   PartShapes parts{bodies, plan};
   ShapeSet apart{parts.shapes, {.depths = plan.depths}};
   ObstacleReference reference{parts.shapes, {.depths = plan.depths}, Leaves::segments};
-  CrowdCollider collider;
+  bch::Crowd collider;
 };
 
 /// Obstacles of all heights, and the same ones raised.
@@ -199,8 +200,9 @@ TEST_P(ObstaclesWithHeights, AreAsPartsSayOfThoseLevelWithThem) {
       if (raised) raise(random, scene);
       const ObstacleSet obstacles = scene.set();
       const test::ObstacleAnswers found = question.ask(set, crowd.agents(), obstacles);
-      CrowdCollider whole;
-      const CrowdCollisions rows = whole.collide_all(set, crowd.agents(), obstacles, question.options);
+      bch::Crowd whole;
+      const Rows<std::uint32_t> rows =
+          whole.obstacles(set, crowd.agents(), obstacles, {.leaves = question.options.leaves});
       for (std::uint32_t i = 0; i < agents; ++i) {
         std::vector<std::uint32_t> touched;
         const AgentAnswers expected = joined(crowd, i, scene, question, touched), of(found, i);
@@ -213,7 +215,7 @@ TEST_P(ObstaclesWithHeights, AreAsPartsSayOfThoseLevelWithThem) {
         }
         ASSERT_EQ(of.time, expected.time) << k << ", agent " << i;
         ASSERT_EQ(of.way_out, expected.way_out) << k << ", agent " << i;
-        ASSERT_EQ(std::vector<std::uint32_t>(rows.obstacles[i].begin(), rows.obstacles[i].end()), touched);
+        ASSERT_EQ(std::vector<std::uint32_t>(rows[i].begin(), rows[i].end()), touched);
         hits += expected.hit;
         passed += raised && hits_of_all[i] != 0 && expected.hit == 0;
       }

@@ -256,9 +256,9 @@ TEST_F(Obstacles, InsideAnOutline) {
       time_of_impact(*set, crowd.agents(), {still, still}, obstacles, time);
       EXPECT_EQ(time[0] == 0, set == &squares);
     }
-    CrowdCollider collider;
-    const auto rows = collider.collide_all(squares, crowd.agents(), obstacles);
-    EXPECT_EQ(std::vector<std::uint32_t>(rows.obstacles[0].begin(), rows.obstacles[0].end()),
+    bch::Crowd collider;
+    const Rows<std::uint32_t> rows = collider.obstacles(squares, crowd.agents(), obstacles);
+    EXPECT_EQ(std::vector<std::uint32_t>(rows[0].begin(), rows[0].end()),
               (std::vector<std::uint32_t>{0, 1}));
   }
 }

@@ -7,6 +7,7 @@
 
 #include "tests/support/made_up_recording.hpp"
 #include "tests/support/test.hpp"
+#include "tests/support/crowd_pairs.hpp"
 
 // Who runs into whom in recordings that are made up.
 
@@ -121,7 +122,7 @@ TEST(Check, GapsAreThoseOfWhatDecides) {
       for (const CheckedPair& pair : frame.pairs)
         if (!pair.passing) told[{number[pair.first], number[pair.second]}] = pair.gap;
       const Agents agents{shape, x, y, heading};
-      const std::vector<Pair> pairs = candidate_pairs(shapes, agents, options.max_distance);
+      const std::vector<Pair> pairs = test::candidate_pairs(shapes, agents, options.max_distance);
       std::vector<float> gaps(pairs.size());
       std::vector<std::uint8_t> hits(pairs.size());
       collide(shapes, agents, pairs, hits, {.leaves = leaves});

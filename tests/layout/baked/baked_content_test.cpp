@@ -7,6 +7,7 @@
 #include "tests/support/all_queries.hpp"
 #include "tests/support/baked_bytes.hpp"
 #include "tests/support/test.hpp"
+#include "tests/support/crowd_pairs.hpp"
 
 // Baked files whose checksums are right and whose content is not.
 

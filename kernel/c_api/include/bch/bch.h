@@ -517,10 +517,10 @@ enum {
 };
 /** Holds the options of all queries. Initialise them by BCH_QUERY_OPTIONS_INIT: zeros are not the defaults. Every query uses `threads` and
  * `implementation`. Queries use the other options as follows, and ignore what is not listed:
- * - bch_collide(), bch_obstacles_collide() and the crowd collider: `leaves`,
- * - the contact finder: `leaves`,
+ * - bch_collide(), bch_obstacles_collide(), bch_crowd_collisions(), bch_crowd_contacts() and the like: `leaves`,
  * - bch_obstacles_within(): `distance_leaves`,
- * - bch_clearance() and bch_obstacles_clearance(): `max_distance`, `overlap` and `distance_leaves`. */
+ * - bch_clearance() and bch_obstacles_clearance(): `max_distance`, `overlap` and `distance_leaves`,
+ * - bch_crowd_clearances(): `overlap` and `distance_leaves`. */
 typedef struct bch_query_options {
   uint32_t size;           /**< sizeof(bch_query_options) */
   int32_t leaves;          /**< of collisions and contacts: BCH_SEGMENTS or BCH_DISCS */
@@ -599,17 +599,28 @@ BCH_API bch_status bch_time_of_impact(const bch_shape_set* set, const bch_agents
 
 /* Queries of crowds -------------------------------------------------------------------------------------------------- */
 
-/** Finds pairs that may collide. */
-typedef struct bch_broad_phase bch_broad_phase;
-/** Makes a broad phase, which keeps its memory from call to call. */
-BCH_API bch_status bch_broad_phase_create(bch_broad_phase** broad_phase);
-/** Finds every pair of agents whose root discs overlap or come within a margin. Each pair is returned once, with first < second. The pairs
- * stay until the next call. */
-BCH_API bch_status bch_broad_phase_find(bch_broad_phase* broad_phase, const bch_shape_set* set,
-                                        const bch_agents* agents, double margin, const bch_query_options* options,
-                                        const bch_pair** pairs, size_t* count);
-/** Frees a broad phase and its pairs. */
-BCH_API bch_status bch_broad_phase_free(bch_broad_phase* broad_phase);
+/** Finds the pairs of a crowd that collide or are near each other: broad and narrow phase in one call. Answers stay until the next call
+ * for the same crowd. */
+typedef struct bch_crowd bch_crowd;
+/** Holds what is the same in all calls for a crowd. */
+typedef struct bch_crowd_options {
+  uint32_t size;      /**< sizeof(bch_crowd_options) */
+  double period_x;    /**< length after which the ground repeats along x, metres; 0: never */
+  double period_y;    /**< likewise along y */
+  uint64_t most_pairs; /**< more candidates than that are an error */
+} bch_crowd_options;
+#define BCH_CROWD_OPTIONS_INIT \
+  { sizeof(bch_crowd_options), 0, 0, UINT64_MAX }
+/** Selects pairs as physics engines do: two agents are a pair if each one's mask has a bit of the other's category. */
+typedef struct bch_pair_filter {
+  uint32_t size;            /**< sizeof(bch_pair_filter) */
+  const uint32_t* category; /**< one per agent; NULL: 1 for all */
+  const uint32_t* mask;     /**< one per agent; NULL: all bits */
+  const bch_pair* excluded; /**< pairs to leave out, in any order; may be NULL */
+  size_t excluded_count;
+} bch_pair_filter;
+#define BCH_PAIR_FILTER_INIT \
+  { sizeof(bch_pair_filter), NULL, NULL, NULL, 0 }
 
 /** Holds obstacles that do not move. */
 typedef struct bch_obstacles bch_obstacles;
@@ -620,20 +631,17 @@ typedef struct bch_index_rows {
   const uint64_t* offsets;
   const uint32_t* values;
 } bch_index_rows;
-
-/** Finds which agents of a crowd collide with each other. */
-typedef struct bch_crowd_collider bch_crowd_collider;
-/** Makes a collider, which keeps its memory from call to call. */
-BCH_API bch_status bch_crowd_collider_create(bch_crowd_collider** collider);
-/** Finds the colliding neighbours of every agent, one row per agent, ascending, and the obstacles that it collides with, likewise.
- * `obstacles` and `touched` are either both NULL or both not NULL. The rows stay until the next call. */
-BCH_API bch_status bch_crowd_collider_collide_all(bch_crowd_collider* collider, const bch_shape_set* set,
-                                                  const bch_agents* agents, const bch_obstacles* obstacles,
-                                                  const bch_query_options* options, bch_index_rows* neighbours,
-                                                  bch_index_rows* touched);
-/** Frees a collider and its rows. */
-BCH_API bch_status bch_crowd_collider_free(bch_crowd_collider* collider);
-
+/** Names an agent of a pair as seen from the other. */
+typedef struct bch_neighbour {
+  uint32_t agent;
+  uint32_t pair; /**< the pair's number in the answer */
+} bch_neighbour;
+/** Views rows of neighbours in one array, one row per agent, ascending. */
+typedef struct bch_neighbour_rows {
+  size_t rows;
+  const uint64_t* offsets;
+  const bch_neighbour* values;
+} bch_neighbour_rows;
 /** Views rows of pairs of discs, one row per pair of agents. */
 typedef struct bch_contact_rows {
   size_t rows;
@@ -641,21 +649,58 @@ typedef struct bch_contact_rows {
   const uint64_t* offsets;
   const bch_disc_pair* values;
 } bch_contact_rows;
-/** Finds all pairs of discs of two agents that touch. */
-typedef struct bch_contact_finder bch_contact_finder;
-/** Makes a finder, which keeps its memory from call to call. */
-BCH_API bch_status bch_contact_finder_create(bch_contact_finder** finder);
-/** Finds the contacts of given pairs, one row per pair. The rows stay until the next call; their `pairs` are the given ones. */
-BCH_API bch_status bch_contact_finder_find(bch_contact_finder* finder, const bch_shape_set* set,
-                                           const bch_agents* agents, const bch_pair* pairs, size_t count,
-                                           const bch_query_options* options, bch_contact_rows* contacts);
-/** Finds the contacts of a whole crowd: one row for each pair of agents whose root discs overlap. The rows and pairs stay until the next
- * call. */
-BCH_API bch_status bch_contact_finder_find_all(bch_contact_finder* finder, const bch_shape_set* set,
-                                               const bch_agents* agents, const bch_query_options* options,
-                                               bch_contact_rows* contacts);
-/** Frees a finder and its rows. */
-BCH_API bch_status bch_contact_finder_free(bch_contact_finder* finder);
+/** Views the pairs of a crowd that are near each other, and arrays with one value per pair, as bch_clearance_out has them. */
+typedef struct bch_crowd_clearance_view {
+  size_t count;
+  const bch_pair* pairs;
+  const float* distance;
+  const bch_vec2* direction;
+  const bch_disc_pair* discs;
+  const bch_nearest_points* points;
+} bch_crowd_clearance_view;
+/** Views the pairs of a crowd that collide, and the depth of each. */
+typedef struct bch_crowd_penetration_view {
+  size_t count;
+  const bch_pair* pairs;
+  const bch_penetration_depth* depths;
+} bch_crowd_penetration_view;
+
+/** Makes a crowd, which keeps its memory from call to call. `options` may be NULL. */
+BCH_API bch_status bch_crowd_create(const bch_crowd_options* options, bch_crowd** crowd);
+/** Finds every pair of agents whose root discs overlap or come within a margin. Each pair is returned once, with first < second.
+ * `filter` may be NULL here and below. */
+BCH_API bch_status bch_crowd_candidates(bch_crowd* crowd, const bch_shape_set* set, const bch_agents* agents,
+                                        double margin, const bch_pair_filter* filter,
+                                        const bch_query_options* options, const bch_pair** pairs, size_t* count);
+/** Finds the pairs that collide, each once, with first < second. */
+BCH_API bch_status bch_crowd_collisions(bch_crowd* crowd, const bch_shape_set* set, const bch_agents* agents,
+                                        const bch_pair_filter* filter, const bch_query_options* options,
+                                        const bch_pair** pairs, size_t* count);
+/** Finds the contacts of a crowd, one row for each pair that has one. */
+BCH_API bch_status bch_crowd_contacts(bch_crowd* crowd, const bch_shape_set* set, const bch_agents* agents,
+                                      const bch_pair_filter* filter, const bch_query_options* options,
+                                      bch_contact_rows* contacts);
+/** Finds the contacts of given pairs, one row per pair, which may be empty. The rows' `pairs` are the given ones. */
+BCH_API bch_status bch_crowd_contacts_of(bch_crowd* crowd, const bch_shape_set* set, const bch_agents* agents,
+                                         const bch_pair* pairs, size_t count, const bch_query_options* options,
+                                         bch_contact_rows* contacts);
+/** Finds the pairs whose clearance is at most `within` metres. */
+BCH_API bch_status bch_crowd_clearances(bch_crowd* crowd, const bch_shape_set* set, const bch_agents* agents,
+                                        double within, const bch_pair_filter* filter,
+                                        const bch_query_options* options, bch_crowd_clearance_view* clearances);
+/** Finds the pairs that collide and their depths, see bch_penetration(). */
+BCH_API bch_status bch_crowd_penetrations(bch_crowd* crowd, const bch_shape_set* set, const bch_agents* agents,
+                                          uint32_t directions, const bch_pair_filter* filter,
+                                          const bch_query_options* options,
+                                          bch_crowd_penetration_view* penetrations);
+/** Returns the pairs of the last answer by agent, one row per agent of the crowd. */
+BCH_API bch_status bch_crowd_by_agent(bch_crowd* crowd, bch_neighbour_rows* neighbours);
+/** Finds the obstacles that each agent collides with, one row per agent, ascending. */
+BCH_API bch_status bch_crowd_obstacles(bch_crowd* crowd, const bch_shape_set* set, const bch_agents* agents,
+                                       const bch_obstacles* obstacles, const bch_query_options* options,
+                                       bch_index_rows* touched);
+/** Frees a crowd and its answers. */
+BCH_API bch_status bch_crowd_free(bch_crowd* crowd);
 
 /* Obstacles --------------------------------------------------------------------------------------------------------- */
 

@@ -83,7 +83,7 @@ struct CrowdCounters {
 ///     }
 ///
 /// The answer is that of one process which has all agents in the order of their ids, bit by bit. The pairs of all ranks together are
-/// those of CrowdCollider; each is on one rank, the owner of the lower id. The answer is the same for any number of ranks and threads, and
+/// those of Crowd::collisions(); each is on one rank, the owner of the lower id. The answer is the same for any number of ranks and threads, and
 /// wherever the crowd is cut.
 ///
 /// Agents have shapes of a set, or are characters that are posed anew in every step. For characters, update() makes the shapes of poses on

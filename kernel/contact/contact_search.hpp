@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <bch/query.hpp>
+
+#include "kernel/runtime/part_items.hpp"
+#include "kernel/simd/arguments.hpp"
+
+namespace bch::detail {
+
+/// Finds the contacts of pairs, and keeps its memory from call to call. Contacts are counted, then written, so rows are never truncated.
+class ContactSearch {
+ public:
+  /// Returns one row per pair, ordered by the first discs and then by the second discs, valid until the next call.
+  /// Errors:  throws std::invalid_argument like collide(), before the rows of the last call are touched; std::bad_alloc or
+  ///          std::length_error where memory does not hold the contacts, and the rows of the last call are then lost.
+  Rows<DiscPair> find(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
+                      Leaves leaves, const Implementation* implementation);
+  /// Does the same for pairs whose agents are known to be valid.
+  Rows<DiscPair> find_valid(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
+                            Leaves leaves, const Implementation* implementation);
+
+ private:
+  void find_in_two_passes(const Implementation& implementation, const Arguments& arguments, std::size_t pairs,
+                          std::vector<std::uint64_t>& begins);
+  void find_of_few_discs(const Implementation& implementation, const Arguments& arguments, std::size_t pairs);
+  void find_of_parts(const Implementation& implementation, const Arguments& whole, const Agents& agents,
+                     std::span<const Pair> pairs);
+
+  std::vector<std::uint64_t> offsets_;
+  std::vector<DiscPair> contacts_;
+  PartItems items_;
+  std::vector<std::uint64_t> item_offsets_;  ///< as many as items, of which pairs may have none
+};
+
+}  // namespace bch::detail

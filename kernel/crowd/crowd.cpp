@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <bch/crowd.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <bch/collide.hpp>
+
+#include "kernel/broad_phase/broad_phase.hpp"
+#include "kernel/contact/contact_search.hpp"
+#include "kernel/crowd/kept_items.hpp"
+#include "kernel/crowd/neighbour_rows.hpp"
+#include "kernel/crowd/periodic_agents.hpp"
+#include "kernel/obstacles/obstacle_rows.hpp"
+#include "kernel/runtime/task_ranges.hpp"
+#include "layout/base/shortest.hpp"
+
+namespace bch::detail {
+namespace {
+
+constexpr std::size_t crowd_grain = 4096;  ///< pairs or agents a task
+constexpr double longest_period = 5e8;     ///< metres: images stay within the limits of positions
+
+void require_period(double length, const char* axis) {
+  if (length >= 0 && length <= longest_period) return;
+  throw std::invalid_argument("crowd: expected a period along " + std::string(axis) +
+                              " from 0 to 5e8 m, found " + shortest(length));
+}
+
+void require_no_filter(const PairFilter& filter, const char* query) {
+  if (filter.category.empty() && filter.mask.empty() && filter.excluded.empty()) return;
+  throw std::invalid_argument(std::string(query) + ": expected no filter, found one");
+}
+
+/// Holds a value of each candidate that clearance() gave, and of those that are kept.
+template <class Value>
+struct Answers {
+  std::vector<Value> of_candidates, kept;
+
+  void keep(const KeptItems& items) {
+    items.gather(kept, [&](std::size_t i) { return of_candidates[i]; });
+  }
+};
+
+}  // namespace
+
+struct CrowdMemory {
+  /// Agents of a query, images behind them where the crowd is periodic, and the pairs of these that are candidates.
+  struct Candidates {
+    Agents agents;
+    std::span<const Pair> pairs;
+  };
+
+  bool is_periodic() const noexcept { return options.period.x > 0 || options.period.y > 0; }
+  Candidates find(const ShapeSet& shapes, const Agents& agents, double margin, const PairFilter& filter);
+  std::span<const Pair> collide(const ShapeSet& shapes, const Candidates& candidates, Leaves leaves,
+                                const Implementation* implementation);
+  std::span<const Pair> named(const Candidates& candidates);
+  Rows<Neighbour> by_agent(std::span<const Pair> pairs);
+
+  CrowdOptions options;
+  PairTest test;
+  PeriodicAgents periodic;
+  BroadPhase broad_phase;
+  KeptItems kept;
+  std::vector<std::uint8_t> hits;
+  std::vector<Pair> pairs;    ///< of the answer, that names agents
+  std::vector<Pair> to_part;  ///< pairs that collide, as candidates name them
+
+  ContactSearch contact_search;
+  std::vector<std::uint64_t> contact_offsets;
+  Answers<float> distance;
+  Answers<Vec2> direction;
+  Answers<DiscPair> discs;
+  Answers<NearestPoints> points;
+  std::vector<Penetration> penetrations;
+  ObstacleRows obstacle_rows;
+
+  std::size_t agents = 0;  ///< of the answer
+  std::vector<std::uint64_t> begin;
+  std::vector<Neighbour> neighbours;
+};
+
+CrowdMemory::Candidates CrowdMemory::find(const ShapeSet& shapes, const Agents& given, double margin,
+                                          const PairFilter& filter) {
+  Candidates found{given, {}};
+  agents = given.size();
+  if (is_periodic()) {
+    validate(shapes, given);
+    require_margin(margin);
+    periodic.set(shapes.view(), given, options.period, margin);
+    found.agents = periodic.agents();
+  }
+  test.set(
+      filter, given.size(),
+      found.agents.shape.size() > agents ? periodic.origin_of_image() : std::span<const std::uint32_t>());
+  found.pairs = broad_phase.find(shapes, found.agents, margin, options.most_pairs,
+                                 test.accepts_all() ? nullptr : &test);
+  return found;
+}
+
+/// Returns pairs of agents, where candidates are pairs of images.
+std::span<const Pair> CrowdMemory::named(const Candidates& candidates) {
+  if (!is_periodic()) return candidates.pairs;
+  pairs.resize(candidates.pairs.size());
+  for_ranges(pairs.size(), crowd_grain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i)
+      pairs[i] = {test.origin(candidates.pairs[i].first), test.origin(candidates.pairs[i].second)};
+  });
+  return pairs;
+}
+
+/// Keeps the candidates that collide.
+std::span<const Pair> CrowdMemory::collide(const ShapeSet& shapes, const Candidates& candidates,
+                                           Leaves leaves, const Implementation* implementation) {
+  hits.resize(candidates.pairs.size());
+  bch::collide(shapes, candidates.agents, candidates.pairs, hits,
+               {.implementation = implementation, .leaves = leaves});
+  kept.select(hits.size(), [&](std::size_t i) { return hits[i] != 0; });
+  kept.gather(pairs, [&](std::size_t i) -> Pair {
+    return {test.origin(candidates.pairs[i].first), test.origin(candidates.pairs[i].second)};
+  });
+  return pairs;
+}
+
+Rows<Neighbour> CrowdMemory::by_agent(std::span<const Pair> of) {
+  if (of.size() > std::numeric_limits<std::uint32_t>::max())
+    throw std::length_error("by_agent: expected fewer than 2^32 pairs, found " + std::to_string(of.size()));
+  begin.assign(agents + 1, 0);
+  NeighbourRows rows{of, begin, {}};
+  const auto for_pairs = [&](auto pass) {
+    for_ranges(of.size(), crowd_grain,
+               [&](std::size_t first, std::size_t last) { (rows.*pass)(first, last); });
+  };
+  for_pairs(&NeighbourRows::count);
+  neighbours.resize(rows.accumulate());
+  rows.neighbours = neighbours;
+  for_pairs(&NeighbourRows::fill);
+  for_ranges(agents, crowd_grain, [&](std::size_t first, std::size_t last) { rows.sort(first, last); });
+  return {begin, neighbours};
+}
+
+}  // namespace bch::detail
+
+namespace bch {
+
+using namespace detail;
+
+Rows<Neighbour> CrowdPairs::by_agent() const {
+  if (memory_ == nullptr) return {};
+  return without_tasks_from_outside([&] { return memory_->by_agent(pairs_); });
+}
+
+Crowd::Crowd() : Crowd(CrowdOptions{}) {}
+Crowd::Crowd(const CrowdOptions& options) : memory_(std::make_unique<CrowdMemory>()) {
+  require_period(options.period.x, "x");
+  require_period(options.period.y, "y");
+  memory_->options = options;
+}
+Crowd::Crowd(Crowd&&) noexcept = default;
+Crowd& Crowd::operator=(Crowd&&) noexcept = default;
+Crowd::~Crowd() = default;
+
+CrowdPairs Crowd::candidates(const ShapeSet& shapes, const Agents& agents,
+                             const CandidateOptions& options) & {
+  return without_tasks_from_outside([&]() -> CrowdPairs {
+    CrowdMemory& of = *memory_;
+    return {of.named(of.find(shapes, agents, options.margin, options.filter)), of};
+  });
+}
+
+CrowdPairs Crowd::collisions(const ShapeSet& shapes, const Agents& agents,
+                             const CollisionOptions& options) & {
+  return without_tasks_from_outside([&]() -> CrowdPairs {
+    CrowdMemory& of = *memory_;
+    const CrowdMemory::Candidates candidates = of.find(shapes, agents, 0, options.filter);
+    return {of.collide(shapes, candidates, options.leaves, options.implementation), of};
+  });
+}
+
+CrowdContacts Crowd::contacts(const ShapeSet& shapes, const Agents& agents,
+                              const CollisionOptions& options) & {
+  return without_tasks_from_outside([&]() -> CrowdContacts {
+    CrowdMemory& of = *memory_;
+    const CrowdMemory::Candidates candidates = of.find(shapes, agents, 0, options.filter);
+    const Rows<DiscPair> rows = of.contact_search.find_valid(shapes, candidates.agents, candidates.pairs,
+                                                             options.leaves, options.implementation);
+    of.kept.select(rows.size(), [&](std::size_t i) { return !rows[i].empty(); });
+    of.kept.gather(of.pairs, [&](std::size_t i) -> Pair {
+      return {of.test.origin(candidates.pairs[i].first), of.test.origin(candidates.pairs[i].second)};
+    });
+    // Rows that are left out are empty, so only offsets move.
+    of.kept.gather(of.contact_offsets, [&](std::size_t i) { return rows.offsets[i]; });
+    of.contact_offsets.push_back(rows.values.size());
+    return {{of.pairs, of}, {of.contact_offsets, rows.values}};
+  });
+}
+
+Rows<DiscPair> Crowd::contacts(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
+                               const CollisionOptions& options) & {
+  require_no_filter(options.filter, "contacts");
+  if (memory_->is_periodic())
+    throw std::invalid_argument(
+        "contacts: expected a crowd without a period for given pairs, found one with");
+  return without_tasks_from_outside([&] {
+    return memory_->contact_search.find(shapes, agents, pairs, options.leaves, options.implementation);
+  });
+}
+
+CrowdClearances Crowd::clearances(const ShapeSet& shapes, const Agents& agents, double within,
+                                  const CrowdClearanceOptions& options) & {
+  return without_tasks_from_outside([&]() -> CrowdClearances {
+    CrowdMemory& of = *memory_;
+    // With any margin, root discs hold all discs of their cuts, which distances are measured between.
+    constexpr double least_margin = 1e-9;
+    const double margin = within >= 0 ? std::max(within, least_margin) : within;
+    const CrowdMemory::Candidates candidates = of.find(shapes, agents, margin, options.filter);
+    const std::size_t count = candidates.pairs.size();
+    of.distance.of_candidates.resize(count), of.direction.of_candidates.resize(count);
+    of.discs.of_candidates.resize(count), of.points.of_candidates.resize(count);
+    clearance(shapes, candidates.agents, candidates.pairs,
+              {of.distance.of_candidates, of.direction.of_candidates, of.discs.of_candidates,
+               of.points.of_candidates},
+              {.implementation = options.implementation,
+               .max_distance = within,
+               .overlap = options.overlap,
+               .distance_leaves = options.leaves});
+    of.kept.select(count, [&](std::size_t i) {
+      return of.distance.of_candidates[i] < std::numeric_limits<float>::infinity();
+    });
+    of.kept.gather(of.pairs, [&](std::size_t i) -> Pair {
+      return {of.test.origin(candidates.pairs[i].first), of.test.origin(candidates.pairs[i].second)};
+    });
+    of.distance.keep(of.kept), of.direction.keep(of.kept), of.discs.keep(of.kept), of.points.keep(of.kept);
+    return {{of.pairs, of}, of.distance.kept, of.direction.kept, of.discs.kept, of.points.kept};
+  });
+}
+
+CrowdPenetrations Crowd::penetrations(const ShapeSet& shapes, const Agents& agents,
+                                      const CrowdPenetrationOptions& options) & {
+  return without_tasks_from_outside([&]() -> CrowdPenetrations {
+    CrowdMemory& of = *memory_;
+    const CrowdMemory::Candidates candidates = of.find(shapes, agents, 0, options.filter);
+    of.collide(shapes, candidates, options.leaves, options.implementation);
+    of.kept.gather(of.to_part, [&](std::size_t i) { return candidates.pairs[i]; });
+    of.penetrations.resize(of.to_part.size());
+    penetration(shapes, candidates.agents, of.to_part, options.directions, of.penetrations,
+                {.implementation = options.implementation});
+    return {{of.pairs, of}, of.penetrations};
+  });
+}
+
+Rows<std::uint32_t> Crowd::obstacles(const ShapeSet& shapes, const Agents& agents,
+                                     const ObstacleSet& obstacles, const CollisionOptions& options) & {
+  require_no_filter(options.filter, "obstacles");
+  return without_tasks_from_outside([&] {
+    return memory_->obstacle_rows.find(shapes, agents, obstacles,
+                                       {.implementation = options.implementation, .leaves = options.leaves});
+  });
+}
+
+}  // namespace bch

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/crowd/periodic_agents.hpp"
+
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "kernel/broad_phase/crowd_grid.hpp"
+#include "layout/base/shortest.hpp"
+
+namespace bch::detail {
+namespace {
+
+/// Returns a coordinate modulo a period, from 0 to below it; as it is where there is no period.
+double wrapped(double at, double period) noexcept {
+  if (period == 0) return at;
+  const double rest = std::fmod(at, period);  // exact
+  const double result = rest < 0 ? rest + period : rest;
+  return result < period ? result : 0;
+}
+
+/// Returns how far from its position an agent is looked for at most, beside the rounding of the broad phase.
+double farthest_reach(const ShapeSetView& shapes, const Agents& agents, double margin) noexcept {
+  const CrowdBounds all = bounds(shapes, agents, margin, 0, agents.size());
+  return (all.offset + all.most_radius) * (1 + 0x1p-18);
+}
+
+/// Holds the shifts from a coordinate to those of its images, 0 among them.
+struct Shifts {
+  std::array<double, 3> values = {};
+  std::size_t count = 1;
+  const double* begin() const noexcept { return values.data(); }
+  const double* end() const noexcept { return values.data() + count; }
+};
+
+Shifts shifts(double at, double period, double reach) noexcept {
+  Shifts all;
+  if (period > 0 && at <= 2 * reach) all.values[all.count++] = period;
+  if (period > 0 && at >= period - 2 * reach) all.values[all.count++] = -period;
+  return all;
+}
+
+void require_longer(double period, double reach, const char* axis) {
+  if (period == 0 || period > 4 * reach) return;
+  throw std::invalid_argument("crowd: expected a period along " + std::string(axis) + " of more than " +
+                              shortest(4 * reach) + " m, four times the farthest reach, found " +
+                              shortest(period));
+}
+
+}  // namespace
+
+void PeriodicAgents::add_image(std::uint32_t agent, double x, double y) {
+  origin_.push_back(agent);
+  shape_.push_back(shape_[agent]);
+  x_.push_back(x), y_.push_back(y);
+  heading_.push_back(heading_[agent]);
+  if (!z_.empty()) z_.push_back(z_[agent]);
+  if (!level_.empty()) level_.push_back(level_[agent]);
+}
+
+void PeriodicAgents::set(const ShapeSetView& shapes, const Agents& agents, Period period, double margin) {
+  const double reach = agents.size() == 0 ? 0 : farthest_reach(shapes, agents, margin);
+  require_longer(period.x, reach, "x");
+  require_longer(period.y, reach, "y");
+  agents_ = agents.size();
+  origin_.clear();
+  shape_.assign(agents.shape.begin(), agents.shape.end());
+  heading_.assign(agents.heading.begin(), agents.heading.end());
+  z_.assign(agents.z.begin(), agents.z.end());
+  level_.assign(agents.level.begin(), agents.level.end());
+  x_.resize(agents_), y_.resize(agents_);
+  for (std::size_t i = 0; i < agents_; ++i)
+    x_[i] = wrapped(agents.x[i], period.x), y_[i] = wrapped(agents.y[i], period.y);
+  for (std::uint32_t i = 0; i < agents_; ++i) {
+    const double x = x_[i], y = y_[i];
+    const Shifts along_x = shifts(x, period.x, reach), along_y = shifts(y, period.y, reach);
+    for (const double shift_x : along_x)
+      for (const double shift_y : along_y)
+        if (shift_x != 0 || shift_y != 0) add_image(i, x + shift_x, y + shift_y);
+  }
+}
+
+Agents PeriodicAgents::agents() const noexcept {
+  return {shape_, x_, y_, heading_, level_, z_};
+}
+
+}  // namespace bch::detail

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <bch/crowd.hpp>
+
+#include "layout/format/shape_set_view.hpp"
+
+namespace bch::detail {
+
+/// Holds the agents of a periodic crowd, at positions of one period, and behind them images of those near its borders, shifted by a
+/// period to where they meet agents near the opposite ones. Each two agents that meet across a border do so twice: PairTest accepts
+/// the agent with the lower index and the other's image, in whose order an answer is the same as without a border.
+class PeriodicAgents {
+ public:
+  /// Takes agents that are valid. `margin`: as for BroadPhase::find().
+  /// Errors:  throws std::invalid_argument on a period of at most four times the farthest reach of an agent.
+  void set(const ShapeSetView& shapes, const Agents& agents, Period period, double margin);
+
+  Agents agents() const noexcept;
+  std::span<const std::uint32_t> origin_of_image() const noexcept { return origin_; }
+
+ private:
+  void add_image(std::uint32_t agent, double x, double y);
+
+  std::size_t agents_ = 0;
+  std::vector<std::uint32_t> shape_, origin_;
+  std::vector<double> x_, y_, heading_, z_;
+  std::vector<std::uint8_t> level_;
+};
+
+}  // namespace bch::detail

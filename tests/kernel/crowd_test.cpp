@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <bch/crowd.hpp>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <bch/collide.hpp>
+
+#include "tests/support/crowd_pairs.hpp"
+#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
+
+namespace bch {
+namespace {
+
+const std::vector<Shape> shapes = test::synthetic_shapes(771, 12);
+const ShapeSet set(shapes, {.depths = {0, 3, all_depths}});
+
+/// Coordinates are multiples of 2^-20 m, so shifts by a period are exact.
+test::Crowd people(std::uint32_t count, double width, double height, std::uint64_t seed) {
+  test::Random random(seed);
+  const auto at = [&](double length) { return std::round(random.uniform(0, length) * 0x1p20) * 0x1p-20; };
+  test::Crowd crowd;
+  for (std::uint32_t i = 0; i < count; ++i)
+    crowd.add({random.below(set.shape_count()), at(width), at(height), random.uniform(-4, 4),
+               static_cast<std::uint8_t>(random.below(set.level_count()))});
+  return crowd;
+}
+
+bool precedes(Pair a, Pair b) {
+  return std::tie(a.first, a.second) < std::tie(b.first, b.second);
+}
+
+std::vector<Pair> sorted(std::span<const Pair> pairs) {
+  std::vector<Pair> all(pairs.begin(), pairs.end());
+  std::sort(all.begin(), all.end(), precedes);
+  return all;
+}
+
+std::vector<Pair> all_pairs(std::uint32_t count) {
+  std::vector<Pair> pairs;
+  for (std::uint32_t i = 0; i < count; ++i)
+    for (std::uint32_t j = i + 1; j < count; ++j) pairs.push_back({i, j});
+  return pairs;
+}
+
+std::vector<Pair> colliding(const Agents& agents, std::span<const Pair> pairs) {
+  std::vector<std::uint8_t> hits(pairs.size());
+  collide(set, agents, pairs, hits);
+  std::vector<Pair> found;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    if (hits[i] != 0) found.push_back(pairs[i]);
+  return found;
+}
+
+template <class Call>
+void expect_refused(const std::string& words, Call call) {
+  try {
+    call();
+    ADD_FAILURE() << "expected a refusal: " << words;
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+  }
+}
+
+TEST(Crowd, FindsThePairsThatCollide) {
+  Crowd crowd;
+  for (const std::uint32_t count : {0u, 1u, 300u, 20u, 900u}) {
+    const test::Crowd in = people(count, 12, 12, count);
+    const std::vector<Pair> expected = colliding(in.agents(), all_pairs(count));
+    const CrowdPairs found = crowd.collisions(set, in.agents());
+    EXPECT_EQ(sorted(found.span()), expected);
+    EXPECT_EQ(expected.empty(), count < 2);
+    std::vector<std::vector<std::uint32_t>> neighbours(count);
+    for (const auto [a, b] : expected) neighbours[a].push_back(b), neighbours[b].push_back(a);
+    for (auto& row : neighbours) std::sort(row.begin(), row.end());
+    EXPECT_EQ(test::neighbours(found), neighbours);
+    const Rows<Neighbour> rows = found.by_agent();
+    for (std::uint32_t i = 0; i < rows.size(); ++i)
+      for (const Neighbour& other : rows[i])
+        EXPECT_EQ(found[other.pair], (Pair{std::min(i, other.agent), std::max(i, other.agent)}));
+  }
+}
+
+TEST(Crowd, MeasuresThePairsThatItFinds) {
+  Crowd crowd;
+  const test::Crowd in = people(600, 12, 12, 7);
+  const std::vector<Pair> all = all_pairs(600);
+  std::vector<float> distance(all.size());
+  std::vector<Vec2> direction(all.size());
+  std::vector<DiscPair> discs(all.size());
+  std::vector<NearestPoints> points(all.size());
+  for (const double within : {0.0, 0.25}) {
+    clearance(set, in.agents(), all, {distance, direction, discs, points},
+              {.max_distance = within, .overlap = Overlap::deepest});
+    std::vector<std::size_t> near;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (double{distance[i]} <= within) near.push_back(i);
+    const CrowdClearances found = crowd.clearances(set, in.agents(), within, {.overlap = Overlap::deepest});
+    ASSERT_EQ(found.pairs.size(), near.size());
+    EXPECT_GT(near.size(), 100u);
+    for (std::size_t k = 0; k < near.size(); ++k) {
+      const Pair pair = found.pairs[k];
+      const auto i =
+          static_cast<std::size_t>(std::lower_bound(all.begin(), all.end(), pair, precedes) - all.begin());
+      ASSERT_EQ(all[i], pair);
+      EXPECT_EQ(found.distance[k], distance[i]);
+      EXPECT_EQ(found.direction[k], direction[i]);
+      EXPECT_EQ(found.discs[k], discs[i]);
+      EXPECT_EQ(found.points[k], points[i]);
+    }
+  }
+  const CrowdPenetrations apart = crowd.penetrations(set, in.agents(), {.directions = 8});
+  EXPECT_EQ(sorted(apart.pairs.span()), colliding(in.agents(), all));
+  std::vector<Penetration> expected(apart.pairs.size());
+  penetration(set, in.agents(), apart.pairs.span(), 8, expected);
+  EXPECT_TRUE(std::ranges::equal(apart.penetrations, expected));
+}
+
+TEST(Crowd, FiltersAsPhysicsEnginesDo) {
+  const test::Crowd in = people(400, 9, 9, 11);
+  test::Random random(12);
+  std::vector<std::uint32_t> category, mask;
+  for (int i = 0; i < 400; ++i) category.push_back(1u << random.below(3)), mask.push_back(random.below(8));
+  const std::vector<Pair> unfiltered = colliding(in.agents(), all_pairs(400));
+  std::vector<Pair> excluded, expected;
+  for (std::size_t i = 0; i < unfiltered.size(); i += 5)
+    excluded.push_back(i % 2 == 0 ? unfiltered[i] : Pair{unfiltered[i].second, unfiltered[i].first});
+  for (std::size_t i = 0; i < unfiltered.size(); ++i) {
+    const auto [a, b] = unfiltered[i];
+    if (i % 5 != 0 && (mask[a] & category[b]) != 0 && (mask[b] & category[a]) != 0)
+      expected.push_back(unfiltered[i]);
+  }
+  ASSERT_GT(expected.size(), 20u);
+  Crowd crowd;
+  const PairFilter filter{category, mask, excluded};
+  EXPECT_EQ(sorted(crowd.collisions(set, in.agents(), {.filter = filter}).span()), expected);
+  EXPECT_EQ(colliding(in.agents(), sorted(crowd.candidates(set, in.agents(), {.filter = filter}).span())),
+            expected);
+  EXPECT_EQ(sorted(crowd.penetrations(set, in.agents(), {.filter = filter}).pairs.span()), expected);
+
+  EXPECT_EQ(sorted(crowd.collisions(set, in.agents()).span()), unfiltered);
+  category.pop_back();
+  expect_refused("filter: expected 400 values of category, one per agent, or none, found 399",
+                 [&] { crowd.collisions(set, in.agents(), {.filter = {.category = category}}); });
+  const Pair beyond{3, 400};
+  expect_refused("filter: excluded pair 0 names agent 400 of 400", [&] {
+    crowd.candidates(set, in.agents(), {.filter = {.excluded = {&beyond, 1}}});
+  });
+  expect_refused("contacts: expected no filter",
+                 [&] { crowd.contacts(set, in.agents(), unfiltered, {.filter = {.mask = mask}}); });
+}
+
+/// A crowd on a ground that repeats, by brute force: each pair with each of the nine shifts of its second agent.
+struct Periodic {
+  Period period;
+  test::Crowd in;
+
+  struct Answer {
+    bool hit = false;
+    float distance = std::numeric_limits<float>::infinity();
+    Penetration way = {};
+  };
+
+  Answer answer(Pair pair) const {
+    Answer all;
+    for (int i = -1; i <= 1; ++i)
+      for (int j = -1; j <= 1; ++j) {
+        if ((i != 0 && period.x == 0) || (j != 0 && period.y == 0)) continue;
+        test::Crowd two;
+        for (const std::uint32_t agent : {pair.first, pair.second})
+          two.add({in.shape[agent], in.x[agent], in.y[agent], in.heading[agent], in.level[agent]});
+        two.x[1] += i * period.x, two.y[1] += j * period.y;
+        const Pair both{0, 1};
+        std::uint8_t hit = 0;
+        collide(set, two.agents(), {&both, 1}, {&hit, 1});
+        float distance = 0;
+        clearance(set, two.agents(), {&both, 1}, {{&distance, 1}}, {.max_distance = 0.25});
+        all.distance = std::min(all.distance, distance);
+        if (hit == 0) continue;
+        all.hit = true;
+        penetration(set, two.agents(), {&both, 1}, 16, {&all.way, 1});
+      }
+    return all;
+  }
+};
+
+TEST(Crowd, MeetsItselfAcrossTheBordersOfAPeriod) {
+  const double least = [] {
+    test::Crowd in = people(200, 1, 1, 1);
+    Crowd small({.period = {1, 1}});
+    try {
+      small.collisions(set, in.agents());
+    } catch (const std::invalid_argument& error) {
+      const std::string words = "crowd: expected a period along x of more than ";
+      EXPECT_EQ(std::string(error.what()).substr(0, words.size()), words);
+      return std::stod(std::string(error.what()).substr(words.size()));
+    }
+    return 0.0;
+  }();
+  ASSERT_GT(least, 1);
+  const double side = std::ceil(least + 6);
+  for (const Period period : {Period{side, side}, Period{side, 0}, Period{0, side}}) {
+    Periodic expected{period, people(250, side, side, 31)};
+    test::Crowd moved = expected.in;
+    for (std::size_t i = 0; i < moved.x.size(); ++i) {
+      if (period.x > 0) moved.x[i] += side * (static_cast<double>(i % 7) - 3);
+      if (period.y > 0) moved.y[i] -= side * static_cast<double>(i % 5);
+    }
+    Crowd crowd({.period = period}), closed;
+    const std::size_t inside = closed.collisions(set, expected.in.agents()).size();
+    std::vector<Pair> hits;
+    std::vector<std::pair<Pair, float>> near;
+    std::vector<std::pair<Pair, Penetration>> ways;
+    for (const Pair pair : all_pairs(250)) {
+      const Periodic::Answer of = expected.answer(pair);
+      if (of.hit) hits.push_back(pair), ways.emplace_back(pair, of.way);
+      if (of.distance <= 0.25f) near.emplace_back(pair, of.distance);
+    }
+    EXPECT_GT(hits.size(), inside + 5);
+    for (const test::Crowd* in : {&expected.in, &moved}) {
+      EXPECT_EQ(sorted(crowd.collisions(set, in->agents()).span()), hits);
+      const std::vector<Pair> candidates = sorted(crowd.candidates(set, in->agents()).span());
+      EXPECT_TRUE(std::includes(candidates.begin(), candidates.end(), hits.begin(), hits.end(), precedes));
+      EXPECT_EQ(std::adjacent_find(candidates.begin(), candidates.end()), candidates.end());
+      EXPECT_LE(sorted(crowd.contacts(set, in->agents()).pairs.span()).size(), hits.size());
+
+      const CrowdClearances found = crowd.clearances(set, in->agents(), 0.25);
+      ASSERT_EQ(found.pairs.size(), near.size());
+      for (std::size_t k = 0; k < near.size(); ++k) {
+        const auto at =
+            std::ranges::lower_bound(near, found.pairs[k], precedes, &std::pair<Pair, float>::first);
+        ASSERT_TRUE(at != near.end() && at->first == found.pairs[k]);
+        EXPECT_EQ(found.distance[k], at->second);
+      }
+      const CrowdPenetrations apart = crowd.penetrations(set, in->agents());
+      ASSERT_EQ(apart.pairs.size(), ways.size());
+      for (std::size_t k = 0; k < ways.size(); ++k) {
+        const auto at =
+            std::ranges::lower_bound(ways, apart.pairs[k], precedes, &std::pair<Pair, Penetration>::first);
+        ASSERT_TRUE(at != ways.end() && at->first == apart.pairs[k]);
+        EXPECT_EQ(apart.penetrations[k].depth, at->second.depth);
+      }
+    }
+  }
+}
+
+TEST(Crowd, RefusesPeriodsAndPairsThatDoNotFit) {
+  for (const double bad : {-1.0, 6e8, std::numeric_limits<double>::quiet_NaN()})
+    expect_refused("crowd: expected a period along y from 0 to 5e8 m",
+                   [&] { Crowd crowd({.period = {.y = bad}}); });
+  const test::Crowd in = people(10, 9, 9, 3);
+  const Pair pair{0, 1};
+  Crowd crowd({.period = {500, 0}});
+  expect_refused("contacts: expected a crowd without a period", [&] {
+    crowd.contacts(set, in.agents(), {&pair, 1});
+  });
+  for (const double bad : {-0.1, 3e9, std::numeric_limits<double>::quiet_NaN()})
+    expect_refused("candidates: expected a margin from 0 to 2e9 m",
+                   [&] { crowd.candidates(set, in.agents(), {.margin = bad}); });
+}
+
+/// Answers may not outlive the crowd that holds them.
+template <class Of>
+concept AnswersOf = requires(const ShapeSet& in, const Agents& agents) {
+  std::declval<Of>().collisions(in, agents);
+};
+static_assert(AnswersOf<Crowd&> && !AnswersOf<Crowd>);
+
+}  // namespace
+}  // namespace bch
