@@ -84,6 +84,8 @@ message(STATUS "${output}")
 if(NOT output MATCHES "touch at 2\\.[0-9]+ s.*free until 2\\.[0-9]+ s.*before: apart; .* on: overlap")
   message(FATAL_ERROR "motions that do not touch when they meet:\n${output}")
 endif()
+run(${EMULATOR} ${WORK}/consumer/tutorial)
+message(STATUS "${output}")
 foreach(program consumer/baked kernel_consumer/footprints)
   run(${EMULATOR} ${WORK}/${program})
   if(EMULATOR)  # ldd knows this processor's programs alone

@@ -396,23 +396,4 @@ TEST(Objects, TheLibraryNeedsThreadsAlone) {
 }
 #endif
 
-TEST(Readme, ShowsTheLinesThatCiRuns) {
-  const std::string ci = read(fs::path(BCH_SOURCE) / ".ci/run");
-  const std::string readme = read(fs::path(BCH_SOURCE) / "README.md");
-  std::istringstream lines(ci);
-  std::size_t found = 0;
-  for (std::string line; std::getline(lines, line);)
-    if (line.starts_with("apt-get update")) {
-      ++found;
-      EXPECT_NE(readme.find("\n" + line + "\n"), std::string::npos) << line;
-    }
-  EXPECT_EQ(found, 2u);
-}
-
-TEST(Readme, IsShort) {
-  const std::string readme = read(fs::path(BCH_SOURCE) / "README.md");
-  EXPECT_LE(std::count(readme.begin(), readme.end(), '\n'), 160);
-  EXPECT_LE(readme.size(), 10'240u);
-}
-
 }  // namespace
