@@ -13,7 +13,7 @@ namespace bch::detail {
 namespace {
 
 bool in_slabs(const Arguments& in) noexcept {
-  return in.shapes->slab_parts != nullptr || in.agent_z != nullptr;
+  return in.shapes->slab_parts != nullptr || in.agent_z.first != nullptr;
 }
 
 /// Decides the pairs of which one outline may contain the other.

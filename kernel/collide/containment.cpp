@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "kernel/simd/agent_columns.hpp"
 #include "kernel/simd/transform.hpp"
 #include "layout/base/heading.hpp"
 #include "layout/base/rounding.hpp"
@@ -18,8 +19,11 @@ using Placement = TransformOf<double>;
 
 /// Returns the map from the frame of one agent into that of another.
 Placement placement(const Arguments& in, std::uint32_t of, std::uint32_t to_agent) {
-  const Rotation to = rotation(in.agent_heading[to_agent]), from = rotation(in.agent_heading[of]);
-  const double dx = in.agent_x[of] - in.agent_x[to_agent], dy = in.agent_y[of] - in.agent_y[to_agent];
+  const auto number = AgentColumns<void>::number;
+  const Rotation to = rotation(number(in.agent_heading, to_agent)),
+                 from = rotation(number(in.agent_heading, of));
+  const double dx = number(in.agent_x, of) - number(in.agent_x, to_agent),
+               dy = number(in.agent_y, of) - number(in.agent_y, to_agent);
   return {to.cosine * from.cosine + to.sine * from.sine, to.cosine * from.sine - to.sine * from.cosine,
           to.cosine * dx + to.sine * dy, to.cosine * dy - to.sine * dx};
 }

@@ -8,6 +8,7 @@
 
 #include "kernel/collide/containment.hpp"
 #include "kernel/collide/pair_kernel.hpp"
+#include "kernel/simd/agent_columns.hpp"
 #include "kernel/simd/slab_pairs.hpp"
 
 namespace bch::detail {
@@ -77,7 +78,9 @@ class SlabKernel {
                        at.root_a[k] - at.shape_a[k] * levels,
                        at.root_b[k] - at.shape_b[k] * levels,
                        0,
-                       in_.agent_z == nullptr ? 0 : in_.agent_z[b] - in_.agent_z[a]};
+                       in_.agent_z.first == nullptr ? 0
+                                                    : AgentColumns<Simd>::number(in_.agent_z, b) -
+                                                          AgentColumns<Simd>::number(in_.agent_z, a)};
       // Supports are those of the last level.
       const bool is_last = placed_[pair].level_a + placed_[pair].level_b == 2 * (levels - 1);
       open_[open_count_] = static_cast<std::uint16_t>(pair);

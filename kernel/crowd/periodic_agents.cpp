@@ -67,13 +67,14 @@ void PeriodicAgents::set(const ShapeSetView& shapes, const Agents& agents, Perio
   require_longer(period.y, reach, "y");
   agents_ = agents.size();
   origin_.clear();
-  shape_.assign(agents.shape.begin(), agents.shape.end());
-  heading_.assign(agents.heading.begin(), agents.heading.end());
-  z_.assign(agents.z.begin(), agents.z.end());
-  level_.assign(agents.level.begin(), agents.level.end());
-  x_.resize(agents_), y_.resize(agents_);
-  for (std::size_t i = 0; i < agents_; ++i)
-    x_[i] = wrapped(agents.x[i], period.x), y_[i] = wrapped(agents.y[i], period.y);
+  shape_.clear(), x_.clear(), y_.clear(), heading_.clear(), level_.clear(), z_.clear();
+  for (std::size_t i = 0; i < agents_; ++i) {
+    shape_.push_back(agents.shape[i]);
+    x_.push_back(wrapped(agents.x[i], period.x)), y_.push_back(wrapped(agents.y[i], period.y));
+    heading_.push_back(agents.heading[i]);
+    if (!agents.level.empty()) level_.push_back(agents.level[i]);
+    if (!agents.z.empty()) z_.push_back(agents.z[i]);
+  }
   for (std::uint32_t i = 0; i < agents_; ++i) {
     const double x = x_[i], y = y_[i];
     const Shifts along_x = shifts(x, period.x, reach), along_y = shifts(y, period.y, reach);

@@ -9,6 +9,7 @@
 #include <bch/agents.hpp>
 
 #include "kernel/runtime/kernels.hpp"
+#include "kernel/simd/agent_columns.hpp"
 #include "kernel/simd/arguments.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/format/shape_set_view.hpp"
@@ -21,10 +22,13 @@ template <class Simd>
 class AgentCheck {
  public:
   static bool passes(const Arguments& in, std::size_t begin, std::size_t end) noexcept {
-    return all_below(in.agent_shape, begin, end, in.shapes->shape_count) &
-           all_within(in.agent_x, in.agent_y, in.agent_heading, begin, end) &
-           (in.agent_z == nullptr || all_within(in.agent_z, begin, end)) &
-           (in.agent_level == nullptr || all_below(in.agent_level, begin, end, in.shapes->level_count));
+    static_assert(rounding::largest_position == rounding::largest_heading);
+    return all_below<std::uint32_t>(in.agent_shape, begin, end, in.shapes->shape_count) &
+           all_within(in.agent_x, begin, end) & all_within(in.agent_y, begin, end) &
+           all_within(in.agent_heading, begin, end) &
+           (in.agent_z.first == nullptr || all_within(in.agent_z, begin, end)) &
+           (in.agent_level.first == nullptr ||
+            all_below<std::uint8_t>(in.agent_level, begin, end, in.shapes->level_count));
   }
 
   static AgentRange named(const Pair* pairs, std::size_t begin, std::size_t end) noexcept {
@@ -41,28 +45,35 @@ class AgentCheck {
   }
 
  private:
-  static bool all_within(const double* x, const double* y, const double* heading, std::size_t begin,
-                         std::size_t end) noexcept {
-    std::uint64_t beyond = 0;
-    for (std::size_t i = begin; i < end; ++i) {
-      beyond += !(__builtin_fabs(x[i]) <= rounding::largest_position);
-      beyond += !(__builtin_fabs(y[i]) <= rounding::largest_position);
-      beyond += !(__builtin_fabs(heading[i]) <= rounding::largest_heading);
+  /// Calls use(value(i)) for agents begin .. end: of arrays in loops that the compiler makes registers of.
+  template <class Value, class Use>
+  static void for_all(const AgentColumn& column, std::size_t begin, std::size_t end,
+                      const Use& use) noexcept {
+    if (column.stride == sizeof(Value)) {
+      const auto* const values = reinterpret_cast<const Value*>(column.first);
+      for (std::size_t i = begin; i < end; ++i) use(values[i]);
+    } else {
+      for (std::size_t i = begin; i < end; ++i) use(AgentColumns<Simd>::template at<Value>(column, i));
     }
-    return beyond == 0;
   }
 
-  static bool all_within(const double* z, std::size_t begin, std::size_t end) noexcept {
+  static bool all_within(const AgentColumn& numbers, std::size_t begin, std::size_t end) noexcept {
     std::uint64_t beyond = 0;
-    for (std::size_t i = begin; i < end; ++i) beyond += !(__builtin_fabs(z[i]) <= rounding::largest_position);
+    const auto count = [&](double value) {
+      beyond += !(__builtin_fabs(value) <= rounding::largest_position);
+    };
+    if (numbers.is_float)
+      for_all<float>(numbers, begin, end, [&](float value) { count(static_cast<double>(value)); });
+    else
+      for_all<double>(numbers, begin, end, count);
     return beyond == 0;
   }
 
   template <class Index>
-  static bool all_below(const Index* values, std::size_t begin, std::size_t end,
+  static bool all_below(const AgentColumn& indices, std::size_t begin, std::size_t end,
                         std::uint32_t limit) noexcept {
     std::uint32_t from = 0;
-    for (std::size_t i = begin; i < end; ++i) from |= values[i] >= limit;
+    for_all<Index>(indices, begin, end, [&](Index index) { from |= index >= limit; });
     return from == 0;
   }
 };

@@ -24,6 +24,16 @@ constexpr std::size_t many_agents = 100'000;
 /// with 200 it costs 2 to 6 %.
 constexpr std::uint32_t many_shapes = 500;
 
+template <class Value>
+AgentColumn column_of(const Strided<Value>& values) noexcept {
+  return {reinterpret_cast<const unsigned char*>(values.empty() ? nullptr : values.data()), values.stride(),
+          false};
+}
+AgentColumn column_of(const Numbers& values) noexcept {
+  return {static_cast<const unsigned char*>(values.empty() ? nullptr : values.data()), values.stride(),
+          values.is_float()};
+}
+
 bool is_valid(const Arguments& arguments, std::size_t agent) noexcept {
   return AgentCheck<void>::passes(arguments, agent, agent + 1);
 }
@@ -99,12 +109,12 @@ bool exact_leaves(const ShapeSet& shapes, Leaves leaves, const char* query) {
 Arguments arguments_for(const ShapeSetView& view, const Agents& agents, std::span<const Pair> pairs) {
   return {.shapes = &view,
           .agent_count = static_cast<std::uint32_t>(agents.size()),
-          .agent_shape = agents.shape.data(),
-          .agent_x = agents.x.data(),
-          .agent_y = agents.y.data(),
-          .agent_heading = agents.heading.data(),
-          .agent_level = agents.level.empty() ? nullptr : agents.level.data(),
-          .agent_z = agents.z.empty() ? nullptr : agents.z.data(),
+          .agent_shape = column_of(agents.shape),
+          .agent_x = column_of(agents.x),
+          .agent_y = column_of(agents.y),
+          .agent_heading = column_of(agents.heading),
+          .agent_level = column_of(agents.level),
+          .agent_z = column_of(agents.z),
           .pairs = pairs.data(),
           .gaps = nullptr,
           .codes = nullptr,

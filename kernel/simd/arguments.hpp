@@ -16,18 +16,25 @@ struct ShapeSetView;
 /// The number of pairs that a kernel takes through its stages together.
 constexpr std::uint32_t chunk_size = 256;
 
+/// Holds where a value of each agent is: at any stride, and numbers as floats or doubles.
+struct AgentColumn {
+  const unsigned char* first;  ///< null: there are no values
+  std::uint64_t stride;        ///< bytes
+  bool is_float;
+};
+
 /// Holds what a pair kernel reads and writes: plain pointers only, because every inline function that an ISA's
 /// object shares with other objects might be the copy that the linker keeps, compiled for a processor that is
 /// not there.
 struct Arguments {
   const ShapeSetView* shapes;
   std::uint32_t agent_count;
-  const std::uint32_t* agent_shape;
-  const double* agent_x;
-  const double* agent_y;
-  const double* agent_heading;
-  const std::uint8_t* agent_level;  ///< null: the last level
-  const double* agent_z;            ///< null: all stand on the same ground
+  AgentColumn agent_shape;
+  AgentColumn agent_x;
+  AgentColumn agent_y;
+  AgentColumn agent_heading;
+  AgentColumn agent_level;  ///< none: the last level
+  AgentColumn agent_z;      ///< none: all stand on the same ground
   const Pair* pairs;
   const float* gaps;  ///< per pair, the leaf's of Gaps; null: which pairs collide is asked
   std::uint8_t* codes;

@@ -8,6 +8,7 @@
 
 #include <bch/agents.hpp>
 
+#include "kernel/simd/agent_columns.hpp"
 #include "kernel/simd/arguments.hpp"
 #include "kernel/simd/gaps.hpp"
 #include "kernel/simd/transform.hpp"
@@ -95,6 +96,7 @@ class Placements {
 
   using Float = typename Simd::Float;
   using Double = typename Simd::Double;
+  using Columns = AgentColumns<Simd>;
   static constexpr std::uint32_t doubles = Simd::doubles;        ///< a register
   static constexpr std::uint32_t parts = Simd::width / doubles;  ///< registers of them for one of floats
 
@@ -123,8 +125,7 @@ class Placements {
   template <bool prefetch, bool check>
   bool find_roots(const Arguments& in) noexcept {
     // What this writes might be these pointers, for all the compiler knows of `in`.
-    const std::uint32_t* const shape = in.agent_shape;
-    const std::uint8_t* const level = in.agent_level;
+    const AgentColumn shape = in.agent_shape, level = in.agent_level;
     const std::uint32_t levels = in.shapes->level_count, shapes = in.shapes->shape_count;
     const std::uint32_t count = whole_registers();
     std::uint32_t beyond = 0;
@@ -134,24 +135,25 @@ class Placements {
         for (std::uint32_t lane = 0; lane < Simd::width; ++lane) {
           const std::uint32_t both[] = {a_[k + pairs_ahead + lane], b_[k + pairs_ahead + lane]};
           for (const std::uint32_t agent : both) {
-            __builtin_prefetch(shape + agent);
-            __builtin_prefetch(in.agent_x + agent);
-            __builtin_prefetch(in.agent_y + agent);
-            __builtin_prefetch(in.agent_heading + agent);
-            if (level != nullptr) __builtin_prefetch(level + agent);
+            Columns::prefetch(shape, agent);
+            Columns::prefetch(in.agent_x, agent);
+            Columns::prefetch(in.agent_y, agent);
+            Columns::prefetch(in.agent_heading, agent);
+            if (level.first != nullptr) Columns::prefetch(level, agent);
           }
         }
-      Simd::store(shape_a + k, Simd::gather(shape, a_ + k));
-      Simd::store(shape_b + k, Simd::gather(shape, b_ + k));
+      Columns::copy(shape, a_ + k, shape_a + k);
+      Columns::copy(shape, b_ + k, shape_b + k);
     }
     for_whole_registers<Simd>(count, [&](std::uint32_t k) {
       root_a[k] = shape_a[k] * levels + levels - 1;
       root_b[k] = shape_b[k] * levels + levels - 1;
       if (check) beyond |= (shape_a[k] >= shapes) | (shape_b[k] >= shapes);
     });
-    if (level == nullptr) return beyond == 0;
+    if (level.first == nullptr) return beyond == 0;
     for (std::uint32_t k = 0; k < count; ++k) {
-      const std::uint32_t level_a = level[a_[k]], level_b = level[b_[k]];
+      const std::uint32_t level_a = Columns::template at<std::uint8_t>(level, a_[k]),
+                          level_b = Columns::template at<std::uint8_t>(level, b_[k]);
       root_a[k] -= levels - 1 - level_a;
       root_b[k] -= levels - 1 - level_b;
       if (check) beyond |= (level_a >= levels) | (level_b >= levels);
@@ -183,7 +185,8 @@ class Placements {
 
   /// Does what layout/base/heading.cpp does, in lanes.
   template <bool check>
-  [[gnu::always_inline]] static UnitVectors unit_vectors(const double* heading, const std::uint32_t* agent,
+  [[gnu::always_inline]] static UnitVectors unit_vectors(const AgentColumn& heading,
+                                                         const std::uint32_t* agent,
                                                          Magnitudes<check>& magnitudes) noexcept {
     namespace h = heading_constants;
     const auto round_to_integer = [](Double x) {
@@ -192,7 +195,7 @@ class Placements {
     Double all_sines[parts], all_cosines[parts], left_quarters[parts];
 #pragma GCC unroll 2
     for (std::uint32_t part = 0; part < parts; ++part) {
-      const Double angle = Simd::gather(heading, agent + part * doubles);
+      const Double angle = Columns::numbers(heading, agent + part * doubles);
       magnitudes.add(part, angle);
       const Double quarters = round_to_integer(angle * Double(h::two_over_pi));
       Double r = angle - quarters * Double(h::half_pi[0]);
@@ -216,12 +219,13 @@ class Placements {
 
   /// Returns the distance from A to B in one coordinate.
   template <bool check>
-  static Float distance(const double* x, const std::uint32_t* a, const std::uint32_t* b,
+  static Float distance(const AgentColumn& x, const std::uint32_t* a, const std::uint32_t* b,
                         Magnitudes<check>& magnitudes) noexcept {
     Double between[parts];
 #pragma GCC unroll 2
     for (std::uint32_t part = 0; part < parts; ++part) {
-      const Double to = Simd::gather(x, b + part * doubles), from = Simd::gather(x, a + part * doubles);
+      const Double to = Columns::numbers(x, b + part * doubles),
+                   from = Columns::numbers(x, a + part * doubles);
       magnitudes.add(part, to), magnitudes.add(part, from);
       between[part] = to - from;
     }

@@ -5,7 +5,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
+#include <ranges>
+#include <type_traits>
 
 namespace bch {
 
@@ -16,23 +17,82 @@ struct Pair {
   friend bool operator==(const Pair&, const Pair&) = default;
 };
 
-/// Views a crowd as a simulator holds it: one entry per agent in each span; nothing is copied.
+/// Views one value per agent where the caller has it: in an array, or as a member of the caller's structs.
+template <class Value>
+class Strided {
+ public:
+  constexpr Strided() = default;
+  /// Takes the first of `size` values that are `stride` bytes apart. A stride that is no multiple of the value's alignment is an error
+  /// of the query.
+  constexpr Strided(const Value* first, std::size_t size, std::size_t stride = sizeof(Value)) noexcept
+      : first_(first), size_(size), stride_(stride) {}
+  /// Takes an array: a vector, a span, an array.
+  template <class Range>
+  requires std::ranges::contiguous_range<const Range> && std::ranges::sized_range<const Range> &&
+      std::is_same_v<std::ranges::range_value_t<const Range>, Value>
+  constexpr Strided(const Range& values) noexcept  // NOLINT(google-explicit-constructor): views are
+      : Strided(std::ranges::data(values), std::ranges::size(values)) {}
+
+  constexpr std::size_t size() const noexcept { return size_; }
+  constexpr bool empty() const noexcept { return size_ == 0; }
+  const Value& operator[](std::size_t i) const noexcept {
+    return *reinterpret_cast<const Value*>(reinterpret_cast<const unsigned char*>(first_) + i * stride_);
+  }
+  constexpr const Value* data() const noexcept { return first_; }
+  constexpr std::size_t stride() const noexcept { return stride_; }  ///< bytes
+
+ private:
+  const Value* first_ = nullptr;
+  std::size_t size_ = 0, stride_ = sizeof(Value);
+};
+
+/// Views one number per agent, all of them floats or all doubles.
+class Numbers {
+ public:
+  constexpr Numbers() = default;
+  constexpr Numbers(Strided<double> values) noexcept  // NOLINT(google-explicit-constructor): views are
+      : first_(values.data()), size_(values.size()), stride_(values.stride()) {}
+  constexpr Numbers(Strided<float> values) noexcept  // NOLINT(google-explicit-constructor): views are
+      : first_(values.data()), size_(values.size()), stride_(values.stride()), is_float_(true) {}
+  template <class Range>
+  requires std::is_convertible_v<const Range&, Strided<double>> ||
+      std::is_convertible_v<const Range&, Strided<float>>
+  constexpr Numbers(const Range& values) noexcept  // NOLINT(google-explicit-constructor): views are
+      : Numbers(Strided<std::ranges::range_value_t<const Range>>(values)) {}
+
+  constexpr std::size_t size() const noexcept { return size_; }
+  constexpr bool empty() const noexcept { return size_ == 0; }
+  double operator[](std::size_t i) const noexcept {
+    const auto* const at = static_cast<const unsigned char*>(first_) + i * stride_;
+    return is_float_ ? double{*reinterpret_cast<const float*>(at)} : *reinterpret_cast<const double*>(at);
+  }
+  constexpr const void* data() const noexcept { return first_; }
+  constexpr std::size_t stride() const noexcept { return stride_; }  ///< bytes
+  constexpr bool is_float() const noexcept { return is_float_; }
+
+ private:
+  const void* first_ = nullptr;
+  std::size_t size_ = 0, stride_ = sizeof(double);
+  bool is_float_ = false;
+};
+
+/// Views a crowd as a simulator holds it: one entry per agent in each array; nothing is copied.
 /// A heading turns a shape about its agent's position. At a heading of 0 the built-in characters face +x, and those of files stand as
 /// import.hpp says. A turn of the root within a clip is part of the shape, not of the heading.
 /// Units:   metres and radians, counter-clockwise, on the ground plane; |x|, |y|, |z| <= 1e9 m and |heading| <=
 ///          1e9 rad.
 struct Agents {
-  std::span<const std::uint32_t> shape;  ///< index into the ShapeSet
-  std::span<const double> x;
-  std::span<const double> y;
-  std::span<const double> heading;
-  std::span<const std::uint8_t> level = {};  ///< index into the set's depths; empty: the last level for all
+  Strided<std::uint32_t> shape;  ///< index into the ShapeSet
+  Numbers x;
+  Numbers y;
+  Numbers heading;
+  Strided<std::uint8_t> level = {};  ///< index into the set's depths; empty: the last level for all
   /// Gives the heights of the grounds that agents stand on: floors, steps, a stage. Empty: one ground for all, and in sets without slices
   /// bodies are then compared whatever their heights. Agents with a z meet only where their heights meet, and the set has to know these
   /// heights (ShapeSetPlan::heights, slices). In sets with slices, agents of equal z are compared slab by slab, others in all pairs of
   /// slabs whose heights meet: slabs of half a metre are then as coarse as those of half as many planes. Even a difference of 1e-12 m
   /// makes neighbouring slabs meet at their common plane, so round z: people on one floor should have equal z.
-  std::span<const double> z = {};
+  Numbers z = {};
 
   std::size_t size() const noexcept { return shape.size(); }
   /// Returns the index of an agent's root, that of its shape and level, in arrays with level_count entries per shape.
