@@ -46,11 +46,22 @@ void require_file(const char* path) {
 
 Agents agents_of(const bch_agents* given) {
   const bch_agents agents = sized(&required(given, "agents"), bch_agents BCH_AGENTS_INIT, "agents");
-  const auto of = [&](auto* values, const char* name) { return array_of(values, agents.count, name); };
-  Agents all{of(agents.shape, "agents->shape"), of(agents.x, "agents->x"), of(agents.y, "agents->y"),
-             of(agents.heading, "agents->heading")};
-  if (agents.level != nullptr) all.level = of(agents.level, "agents->level");
-  if (agents.z != nullptr) all.z = of(agents.z, "agents->z");
+  if (agents.numbers != BCH_DOUBLES && agents.numbers != BCH_FLOATS)
+    throw Failure(BCH_INVALID_ARGUMENT, "agents->numbers is " + std::to_string(agents.numbers) +
+                                            ", expected 0 (doubles) or 1 (floats)");
+  const auto of = [&]<class Value>(const Value* values, std::size_t stride, const char* name) {
+    array_of(values, agents.count, name);  // of any number, but not NULL
+    return Strided<Value>(values, agents.count, stride == 0 ? sizeof(Value) : stride);
+  };
+  const auto numbers = [&](const void* values, std::size_t stride, const char* name) -> Numbers {
+    if (agents.numbers == BCH_FLOATS) return of(static_cast<const float*>(values), stride, name);
+    return of(static_cast<const double*>(values), stride, name);
+  };
+  Agents all{of(agents.shape, agents.shape_stride, "agents->shape"),
+             numbers(agents.x, agents.x_stride, "agents->x"), numbers(agents.y, agents.y_stride, "agents->y"),
+             numbers(agents.heading, agents.heading_stride, "agents->heading")};
+  if (agents.level != nullptr) all.level = of(agents.level, agents.level_stride, "agents->level");
+  if (agents.z != nullptr) all.z = numbers(agents.z, agents.z_stride, "agents->z");
   return all;
 }
 

@@ -4,14 +4,28 @@
 #include "kernel/runtime/validation.hpp"
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "layout/base/rounding.hpp"
 #include "layout/base/shortest.hpp"
 
 namespace bch::detail {
+namespace {
+
+template <class Column>
+void require_alignment(const Column& column, std::size_t alignment, const char* name) {
+  const auto address = reinterpret_cast<std::uintptr_t>(column.data());
+  if (column.empty() || (address % alignment == 0 && column.stride() % alignment == 0)) return;
+  throw std::invalid_argument("agents: expected values of " + std::string(name) +
+                              " at addresses that are multiples of " + std::to_string(alignment) +
+                              ", found a stride of " + std::to_string(column.stride()));
+}
+
+}  // namespace
 
 void require_sizes(const Agents& agents) {
   const std::size_t size = agents.size();
@@ -25,6 +39,10 @@ void require_sizes(const Agents& agents) {
   require(agents.heading.size(), "heading", false);
   require(agents.level.size(), "level", true);
   require(agents.z.size(), "z", true);
+  require_alignment(agents.shape, alignof(std::uint32_t), "shape");
+  for (const auto& [numbers, name] :
+       {std::pair{agents.x, "x"}, {agents.y, "y"}, {agents.heading, "heading"}, {agents.z, "z"}})
+    require_alignment(numbers, numbers.is_float() ? alignof(float) : alignof(double), name);
   if (size > std::numeric_limits<std::uint32_t>::max())
     throw std::invalid_argument("agents: more than 2^32 - 1");
 }

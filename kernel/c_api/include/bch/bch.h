@@ -488,19 +488,26 @@ BCH_API bch_status bch_outlines_free(bch_outlines* outlines);
 
 /* Queries of pairs -------------------------------------------------------------------------------------------------- */
 
-/** Holds a crowd in arrays of the caller, with one entry per agent in each. */
+enum {
+  BCH_DOUBLES = 0, /**< numbers are of type double */
+  BCH_FLOATS = 1   /**< numbers are of type float */
+};
+/** Views a crowd where the caller has it, with one value per agent in each array, or in structs of the caller: a stride is the number of
+ * bytes from an agent's value to the next agent's, and 0 stands for an array. */
 typedef struct bch_agents {
   uint32_t size;         /**< sizeof(bch_agents) */
   const uint32_t* shape; /**< index into the set */
-  const double* x;
-  const double* y;
-  const double* heading; /**< counter-clockwise; 0 leaves a shape as it is */
-  const uint8_t* level;  /**< index into the set's depths; NULL: the last one for all */
-  const double* z;       /**< heights of the grounds that agents stand on; NULL: one ground for all */
+  const void* x;         /**< numbers, as y, heading and z are */
+  const void* y;
+  const void* heading;  /**< counter-clockwise; 0 leaves a shape as it is */
+  const uint8_t* level; /**< index into the set's depths; NULL: the last one for all */
+  const void* z;        /**< heights of the grounds that agents stand on; NULL: one ground for all */
   size_t count;
+  int32_t numbers; /**< BCH_DOUBLES or BCH_FLOATS */
+  size_t shape_stride, x_stride, y_stride, heading_stride, level_stride, z_stride;
 } bch_agents;
 #define BCH_AGENTS_INIT \
-  { sizeof(bch_agents), NULL, NULL, NULL, NULL, NULL, NULL, 0 }
+  { sizeof(bch_agents), NULL, NULL, NULL, NULL, NULL, NULL, 0, BCH_DOUBLES, 0, 0, 0, 0, 0, 0 }
 
 /** Names two agents by index. */
 typedef struct bch_pair {
