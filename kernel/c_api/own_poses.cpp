@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <bch/pose.hpp>
+#include <bch/pose_shape.hpp>
 
 #include "kernel/c_api/arguments.hpp"
 #include "kernel/c_api/objects.hpp"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <bch/character.hpp>
-#include <bch/pose.hpp>
+#include <bch/pose_shape.hpp>
 
 #include "layout/character/eigen.hpp"
 

@@ -8,7 +8,7 @@
 
 #include <bch/character.hpp>
 #include <bch/geometry.hpp>
-#include <bch/pose.hpp>
+#include <bch/pose_shape.hpp>
 
 #include "layout/character/clip_pose.hpp"
 #include "layout/character/vertex_blend.hpp"

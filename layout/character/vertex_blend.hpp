@@ -11,7 +11,7 @@
 
 #include <bch/character.hpp>
 #include <bch/geometry.hpp>
-#include <bch/pose.hpp>
+#include <bch/pose_shape.hpp>
 
 #include "layout/base/aligned_vector.hpp"
 

@@ -31,11 +31,9 @@
 
 // The component characters.
 #if __has_include(<bch/character.hpp>)
-#include <bch/axes.hpp>
 #include <bch/character.hpp>
 #include <bch/default_characters.hpp>
 #include <bch/outline_builder.hpp>
-#include <bch/pose.hpp>
 #include <bch/pose_shape.hpp>
 #include <bch/scene_plan.hpp>
 #endif
