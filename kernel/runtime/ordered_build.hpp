@@ -18,7 +18,7 @@ namespace bch::detail {
 /// The number of shapes a thread that are being built or wait for one before them. It is large enough that
 /// neither a slow pose nor writing a piece of a file, which takes as long as some twenty poses, makes the
 /// other threads wait.
-constexpr std::size_t shapes_in_flight = 64;
+constexpr std::size_t shapes_in_flight = 24;
 
 /// Adds shapes 0 to `count` to a builder of a plan, in their order, so that the bytes do not depend on the threads that make them:
 /// `make(i)` returns shape i, as a reference that is valid until the same thread's next call, and `added(i)` is called when it is in, by any
