@@ -14,6 +14,7 @@
 #include <bch/pose_shape.hpp>
 
 #include "tests/support/baked_bytes.hpp"
+#include "tests/support/complaint.hpp"
 
 // bake() gives what the loop over PoseShaper gives, for any number of threads, and names what it cannot make.
 
@@ -31,16 +32,6 @@ Character vanishing_man() {
   clip.channels[0].scales = {{0, {1, 1, 1}}, {1, {0, 0, 0}}};
   man.clips = {clip};
   return man;
-}
-
-template <class Error, class Call>
-std::string message_of(Call call) {
-  try {
-    call();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "no error";
 }
 
 TEST(Bake, GivesTheBytesOfTheLoopOnAnyNumberOfThreads) {
@@ -73,7 +64,7 @@ TEST(Bake, TakesPosesByClipAndTime) {
 TEST(Bake, NamesTheCharacterAndThePose) {
   const Character man = vanishing_man();
   const auto error_of = [&](const ShapeSource& source) {
-    return message_of<std::invalid_argument>([&] { bake(man, {.shapes = {{0, {0, 0.5f}}, source}}); });
+    return test::complaint([&] { bake(man, {.shapes = {{0, {0, 0.5f}}, source}}); });
   };
   EXPECT_TRUE(error_of({0, {0, 1}}).starts_with(man.name + ": vanish at 1 s: outline: "));
   EXPECT_TRUE(error_of({0, {7, 0.5f}}).starts_with(man.name + ": clip 7 at 0.5 s: "))

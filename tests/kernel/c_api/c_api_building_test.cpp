@@ -85,6 +85,8 @@ TEST(CApiBuilding, SetsOfPosesHaveTheBytesOfTheLibrary) {
     EXPECT_EQ(bytes_of(finished(builder).get()), expected) << threads;
     expect_ok(bch_shape_set_builder_add_sources(builder.get(), people, 1, sources.data(), 20, &work));
     EXPECT_EQ(bytes_of(finished(builder).get()), expected) << threads;
+    const auto baked = made<bch_shape_set_free>(bch_bake, people, 1, 20, &c_plan, &work);
+    EXPECT_EQ(bytes_of(baked.get()), expected) << threads;
   }
   const auto c_shaper = made<bch_pose_shaper_free>(bch_pose_shaper_create, female.get(), &c_plan);
   for (const bch_pose& pose : poses) {
@@ -403,6 +405,40 @@ TEST(CApiBuilding, BestSlicesAreThoseOfTheLibrary) {
   poses[7].clip = 1'000;
   EXPECT_EQ(ask(2, 3), BCH_OUT_OF_RANGE);
   EXPECT_EQ(std::string(bch_last_error()).substr(0, 24), "poses[7].clip is 1000 of");
+}
+
+TEST(CApiOutlines, AreThoseOfCpp) {
+  const auto female = person(BCH_FEMALE);
+  const Character character = default_female();
+  std::vector<bch_pose> poses(3);
+  expect_ok(bch_character_sample_poses(female.get(), 3, poses.data()));
+  bch_outline_options options = BCH_OUTLINE_OPTIONS_INIT;
+  options.holes = 1, options.bottom = 0.5f;
+  const auto found =
+      made<bch_outlines_free>(bch_outlines_of_character, female.get(), poses.data(), 3, &options, nullptr);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Outline expected =
+        outline(character, {poses[i].clip, poses[i].seconds}, {.between = {.bottom = 0.5f}, .holes = true});
+    std::vector<bch_vec2> points(expected.points.size());
+    bch_outline one = BCH_OUTLINE_INIT;
+    one.points = points.data(), one.point_capacity = points.size();
+    expect_ok(bch_outlines_get(found.get(), i, &one));
+    ASSERT_EQ(one.point_count, points.size());
+    EXPECT_EQ(one.offset_count, expected.contours() + 1);
+    EXPECT_EQ(std::memcmp(points.data(), expected.points.data(), points.size() * sizeof(bch_vec2)), 0);
+    for (const auto& [format, text] :
+         {std::pair(BCH_WKT, to_wkt(expected)), {BCH_GEOJSON, to_geojson(expected)}}) {
+      std::string read(text.size() + 9, '#');
+      std::size_t length = 0;
+      expect_ok(bch_outlines_get_text(found.get(), i, format, read.data(), text.size() - 1, &length));
+      EXPECT_EQ(length, text.size());
+      EXPECT_EQ(read, text.substr(0, length - 1) + std::string(10, '#'));
+    }
+  }
+  std::size_t length = 7;
+  EXPECT_EQ(bch_outlines_get_text(found.get(), 3, BCH_WKT, nullptr, 0, &length), BCH_OUT_OF_RANGE);
+  EXPECT_EQ(bch_outlines_get_text(found.get(), 0, 2, nullptr, 0, &length), BCH_INVALID_ARGUMENT);
+  EXPECT_EQ(length, 7u);
 }
 
 }  // namespace
