@@ -201,7 +201,8 @@ bool is_nan_refused(const bch::ShapeSet& set, Crowd crowd) {
   const std::vector<bch::Vec2> corners{{0, 0}, {1, 0}, {static_cast<float>(nan), 1}};
   // Without optimisation these are functions of this program, which with -ffast-math are always true.
   if (std::isfinite(nan) != std::isfinite(corners[2].x)) return false;
-  return is_refused([&] { bch::candidate_pairs(set, crowd); }) && is_refused([&] {
+  bch::Crowd of;
+  return is_refused([&] { of.collisions(set, crowd); }) && is_refused([&] {
            bch::outline_from_polygons({&corners, 1});
          });
 }
