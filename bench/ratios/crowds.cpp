@@ -95,7 +95,7 @@ Contender step_contender(Scene& scene, std::uint32_t agents, std::uint32_t crowd
 
 Contender pairs_contender(Scene& scene) {
   const auto steps = std::make_shared<Steps>(scene.set(), many_agents, 1);
-  return {[steps] { steps->broad_phase.find(steps->set, steps->crowds[0].agents()); }, many_agents};
+  return {[steps] { steps->finder.candidates(steps->set, steps->crowds[0].agents()).span(); }, many_agents};
 }
 
 /// Copies of the scene's outlines, each stretched a little along x and y, on the grid: as different in memory as

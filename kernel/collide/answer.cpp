@@ -7,6 +7,7 @@
 
 #include "kernel/collide/containment.hpp"
 #include "kernel/runtime/kernels.hpp"
+#include "kernel/simd/agent_columns.hpp"
 #include "layout/format/shape_set_view.hpp"
 
 namespace bch::detail {
@@ -25,7 +26,10 @@ void decide_containment(const Arguments& in, std::size_t begin, std::size_t end)
       continue;
     }
     const auto [a, b] = in.pairs[i];
-    in.codes[i] = one_contains_other(in, a, in.agent_shape[a], b, in.agent_shape[b]) ? overlap : apart;
+    const auto shape_of = [&](std::uint32_t agent) {
+      return AgentColumns<void>::at<std::uint32_t>(in.agent_shape, agent);
+    };
+    in.codes[i] = one_contains_other(in, a, shape_of(a), b, shape_of(b)) ? overlap : apart;
   }
 }
 

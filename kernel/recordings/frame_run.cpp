@@ -108,7 +108,7 @@ void FrameRun::let_go() {
 
 /// Finds the neighbours among the people, as if each frame stood far from the others.
 std::span<const Pair> FrameRun::find(BroadPhase& phase, const ShapeSet& shapes,
-                                     std::span<const std::uint32_t> shape_of, double margin) const {
+                                     Strided<std::uint32_t> shape_of, double margin) const {
   const std::size_t most = options_.most_pairs > 0 ? options_.most_pairs : usual_most_pairs(size());
   try {
     return phase.find(shapes, {shape_of, own(block_->apart_x()), own(block_->y()), own(block_->heading())},

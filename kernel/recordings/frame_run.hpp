@@ -64,8 +64,8 @@ class FrameRun {
   double square_distance(Pair pair) const;
   CheckedPair checked(Pair pair) const;
 
-  std::span<const Pair> find(BroadPhase& phase, const ShapeSet& shapes,
-                             std::span<const std::uint32_t> shape_of, double margin) const;
+  std::span<const Pair> find(BroadPhase& phase, const ShapeSet& shapes, Strided<std::uint32_t> shape_of,
+                             double margin) const;
   void find_near();
   void turn_shoulders();
   void ask_pairs(const ShapeSet& set, const Agents& all);

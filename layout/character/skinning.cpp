@@ -9,6 +9,7 @@
 
 #include "layout/base/number_class.hpp"
 #include "layout/character/affine_rows.hpp"
+#include "layout/character/clip_pose.hpp"
 #include "layout/character/eigen.hpp"
 
 namespace bch::detail {
@@ -82,9 +83,13 @@ void take_vertices(std::span<const Vec3> from, std::vector<Position>& to) {
 
 }  // namespace
 
+Skinner::Skinner(Skinner&&) noexcept = default;
+Skinner& Skinner::operator=(Skinner&&) noexcept = default;
+Skinner::~Skinner() = default;
+
 Skinner::Skinner(const Character& character)
     : character_(&character),
-      clip_pose_(character),
+      clip_pose_(std::make_unique<ClipPose>(character)),
       to_ground_(widened(character.to_ground)),
       joint_to_parent_(character.joints.size()),
       joint_to_world_(character.joints.size()),
@@ -120,7 +125,7 @@ void Skinner::place_bones() {
 }
 
 void Skinner::place(PoseTime at) {
-  clip_pose_.place(at, joint_to_parent_);
+  clip_pose_->place(at, joint_to_parent_);
   place_joints();
   place_bones();
 }
@@ -174,14 +179,14 @@ std::span<const Vec2> Skinner::ground_pose(const Pose& pose) {
 }
 
 std::span<const Affine3d> Skinner::joints(PoseTime at, JointFrame frame) {
-  clip_pose_.place(at, joint_to_parent_);
+  clip_pose_->place(at, joint_to_parent_);
   if (frame == JointFrame::parent) return joint_to_parent_;
   place_joints();
   return joint_to_world_;
 }
 
 std::span<const Affine3d> Skinner::blend(std::span<const WeightedPose> poses) {
-  clip_pose_.blend(poses, joint_to_parent_);
+  clip_pose_->blend(poses, joint_to_parent_);
   return joint_to_parent_;
 }
 

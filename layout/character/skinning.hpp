@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -10,10 +11,11 @@
 #include <bch/geometry.hpp>
 #include <bch/pose_shape.hpp>
 
-#include "layout/character/clip_pose.hpp"
 #include "layout/character/vertex_blend.hpp"
 
 namespace bch::detail {
+
+class ClipPose;
 
 /// Poses one character again and again without allocating after the first time. A pose goes one way, from wherever it comes in: clip,
 /// joints in their parents' frames, joints in the world, bones, vertices.
@@ -21,6 +23,9 @@ class Skinner {
  public:
   /// Takes a character, which must outlive this and must be valid (see validate()).
   explicit Skinner(const Character& character);
+  Skinner(Skinner&&) noexcept;
+  Skinner& operator=(Skinner&&) noexcept;
+  ~Skinner();
 
   /// Poses the mesh by linear blend skinning.
   /// Returns: one position a vertex, in metres, z up, relative to the root joint's point on the ground: a
@@ -52,7 +57,7 @@ class Skinner {
   std::span<const Position> place_vertices(const Pose& pose, std::vector<Position>& positions);
 
   const Character* character_;
-  ClipPose clip_pose_;
+  std::unique_ptr<ClipPose> clip_pose_;  // Who poses needs no Eigen.
   Affine3d to_ground_;
   std::vector<Affine3d> joint_to_parent_, joint_to_world_;
   VertexBlend blend_;

@@ -12,6 +12,7 @@
 #include <bch/crowd.hpp>
 #include <bch/time_of_impact.hpp>
 
+#include "tests/support/implementations.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/test.hpp"
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include <bch/collide.hpp>
+#include <bch/crowd.hpp>
 
 #include "tests/support/scenes.hpp"
 

@@ -7,9 +7,9 @@
 #include "kernel/collide/answer.hpp"
 #include "kernel/crowd/neighbour_rows.hpp"
 #include "kernel/runtime/pair_validation.hpp"
+#include "tests/support/crowd_pairs.hpp"
 #include "tests/support/query_answers.hpp"
 #include "tests/support/test.hpp"
-#include "tests/support/crowd_pairs.hpp"
 
 // For ThreadSanitizer: the functions that tasks run, and whole calls, which then run on tests/support/plain_threads.
 
@@ -133,10 +133,9 @@ TEST_F(Threads, RowsOfNeighboursAreFilledAtTheSameTime) {
   std::vector<Pair> pairs;
   for (std::uint32_t i = 0; i < 200; ++i)
     for (std::uint32_t j = i + 1; j < 200; ++j) pairs.push_back({i, j});
-  const std::vector<std::uint8_t> hits(pairs.size(), 1);
   std::vector<std::uint64_t> begin(201);
-  std::vector<std::uint32_t> neighbours(200 * 199);
-  const detail::NeighbourRows rows{pairs, hits, begin, neighbours};
+  std::vector<Neighbour> neighbours(200 * 199);
+  const detail::NeighbourRows rows{pairs, begin, neighbours};
   const auto in_parts = [](std::size_t count, auto work) {
     std::vector<std::thread> running;
     for (std::size_t t = 0; t < 4; ++t)
@@ -144,11 +143,16 @@ TEST_F(Threads, RowsOfNeighboursAreFilledAtTheSameTime) {
     for (std::thread& thread : running) thread.join();
   };
   in_parts(pairs.size(), [&](std::size_t first, std::size_t last) { rows.count(first, last); });
-  EXPECT_EQ(rows.place(), neighbours.size());
+  EXPECT_EQ(rows.accumulate(), neighbours.size());
   in_parts(pairs.size(), [&](std::size_t first, std::size_t last) { rows.fill(first, last); });
   in_parts(200, [&](std::size_t first, std::size_t last) { rows.sort(first, last); });
   for (std::uint32_t i = 0; i < 200; ++i)
-    for (std::uint32_t k = 0; k < 199; ++k) ASSERT_EQ(neighbours[begin[i] + k], k + (k >= i)) << i;
+    for (std::uint32_t k = 0; k < 199; ++k) {
+      const Neighbour& neighbour = neighbours[begin[i] + k];
+      const Pair pair = pairs[neighbour.pair];
+      ASSERT_EQ(neighbour.agent, k + (k >= i)) << i;
+      ASSERT_TRUE(pair.first == std::min(i, neighbour.agent) && pair.second == std::max(i, neighbour.agent));
+    }
 }
 
 }  // namespace

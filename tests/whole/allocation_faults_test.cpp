@@ -176,7 +176,7 @@ TEST_F(AllocationFaults, NumbersThatFunctionsTell) {
   fail_each_writing(0, begin, [&] { return bch_shape_set_get_slab_offsets(set.get(), 0, 2, begin.data()); });
   std::vector<double> densities(agents.count);
   fail_each_writing(1, densities, [&] {
-    return bch_local_densities(agents.x, agents.y, agents.count, 1, densities.data());
+    return bch_local_densities(crowd.x.data(), crowd.y.data(), agents.count, 1, densities.data());
   });
   const auto character = man();
   std::vector<std::uint64_t> sampled(5);
