@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <numeric>
 #include <utility>
-#include "layout/base/floating_point_state.hpp"
 #include "kernel/runtime/pair_validation.hpp"
 #include "kernel/runtime/task_ranges.hpp"
+#include "layout/base/floating_point_state.hpp"
 #include "layout/format/shape_arrays.hpp"
 
 namespace bch::detail {

@@ -8,8 +8,8 @@
 
 #include "kernel/recordings/walker_cast.hpp"
 #include "tests/support/bch_run.hpp"
-#include "tests/support/test.hpp"
 #include "tests/support/crowd_pairs.hpp"
+#include "tests/support/test.hpp"
 
 // `bch place`.
 

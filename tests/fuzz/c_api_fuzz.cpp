@@ -80,17 +80,15 @@ constexpr auto& steps =
         bch_penetration, even_directions, bch_penetration_along, bch_time_of_impact, bch_crowd_create,
         bch_crowd_candidates, bch_crowd_collisions, bch_crowd_contacts, bch_crowd_contacts_of,
         bch_crowd_clearances, bch_crowd_penetrations, bch_crowd_by_agent, bch_crowd_obstacles,
-        bch_obstacles_create,
-        bch_obstacles_from_wkt, bch_obstacles_from_wkt_at, bch_obstacles_get_counts, bch_obstacles_get_owner,
-        bch_obstacles_collide, bch_obstacles_within, bch_obstacles_clearance, bch_obstacles_penetration,
-        bch_obstacles_time_of_impact, bch_animated_shape_create, bch_animated_shape_get_info,
-        bch_animated_shape_get_discs, bch_shape_set_builder_add_moment, bch_shape_set_add_clip,
-        bch_shape_set_get_clip_count, bch_shape_set_get_clip, bch_local_densities, bch_depth_at_density,
-        bch_standing_slices, bch_best_slices, bch_scene_plan_create, bch_scene_plan_get_set,
-        bch_scene_plan_get_shapes, bch_scene_plan_get_agents, status_name, bch_shape_set_free,
-        bch_pose_shaper_free, bch_shape_set_builder_free, bch_dynamic_shape_set_free, bch_crowd_free,
-        bch_character_free, bch_scene_plan_free,
-        bch_obstacles_free, bch_animated_shape_free>;
+        bch_obstacles_create, bch_obstacles_from_wkt, bch_obstacles_from_wkt_at, bch_obstacles_get_counts,
+        bch_obstacles_get_owner, bch_obstacles_collide, bch_obstacles_within, bch_obstacles_clearance,
+        bch_obstacles_penetration, bch_obstacles_time_of_impact, bch_animated_shape_create,
+        bch_animated_shape_get_info, bch_animated_shape_get_discs, bch_shape_set_builder_add_moment,
+        bch_shape_set_add_clip, bch_shape_set_get_clip_count, bch_shape_set_get_clip, bch_local_densities,
+        bch_depth_at_density, bch_standing_slices, bch_best_slices, bch_scene_plan_create,
+        bch_scene_plan_get_set, bch_scene_plan_get_shapes, bch_scene_plan_get_agents, status_name,
+        bch_shape_set_free, bch_pose_shaper_free, bch_shape_set_builder_free, bch_dynamic_shape_set_free,
+        bch_crowd_free, bch_character_free, bch_scene_plan_free, bch_obstacles_free, bch_animated_shape_free>;
 
 /// Something of most kinds, so that calls have something to ask. The first byte says how the set is made; with slices it has no bodies
 /// without outlines.

@@ -7,8 +7,8 @@
 #include "layout/base/heading.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/format/shape_set_view.hpp"
-#include "tests/support/test.hpp"
 #include "tests/support/crowd_pairs.hpp"
+#include "tests/support/test.hpp"
 
 namespace bch {
 namespace {
@@ -283,7 +283,8 @@ TEST(BroadPhase, OneObjectServesManyCrowds) {
   for (const std::uint32_t agents : {3000u, 10u, 0u, 5000u, 1u, 2999u}) {
     const test::Crowd crowd = crowd_in(50, 50, agents, agents);
     const CrowdPairs found = one.candidates(set, crowd.agents());
-    EXPECT_EQ(std::vector<Pair>(found.begin(), found.end()), test::candidate_pairs(set, crowd.agents())) << agents;
+    EXPECT_EQ(std::vector<Pair>(found.begin(), found.end()), test::candidate_pairs(set, crowd.agents()))
+        << agents;
   }
   Crowd moved(std::move(one));
   const test::Crowd crowd = crowd_in(5, 5, 100, 1);

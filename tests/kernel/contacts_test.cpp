@@ -3,9 +3,9 @@
 
 #include "baselines/contact_reference.hpp"
 #include "layout/format/shape_arrays.hpp"
+#include "tests/support/crowd_pairs.hpp"
 #include "tests/support/differential.hpp"
 #include "tests/support/test.hpp"
-#include "tests/support/crowd_pairs.hpp"
 
 namespace bch {
 namespace {

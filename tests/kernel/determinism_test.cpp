@@ -13,16 +13,16 @@
 #include <string>
 #include <vector>
 
-#include <bch/crowd.hpp>
 #include <bch/clearance.hpp>
 #include <bch/collide.hpp>
+#include <bch/crowd.hpp>
 #include <bch/penetration.hpp>
 #include <bch/time_of_impact.hpp>
 
 #include "layout/base/floating_point_state.hpp"
+#include "tests/support/crowd_pairs.hpp"
 #include "tests/support/float_state.hpp"
 #include "tests/support/scenes.hpp"
-#include "tests/support/crowd_pairs.hpp"
 
 // The answers to one crowd as hashes, the same for every compiler, optimisation, processor, instruction set, number of
 // threads, split of the batch, and floating-point state of the threads. Where an answer changes on purpose, so do these.

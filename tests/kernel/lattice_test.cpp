@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
+#include "tests/support/crowd_pairs.hpp"
 #include "tests/support/query_answers.hpp"
 #include "tests/support/test.hpp"
 #include "tests/support/touching_scene.hpp"
-#include "tests/support/crowd_pairs.hpp"
 
 // Footprints with integer corners at integer positions and heading 0, as simulators have them. Many corners are exactly
 // level with each other, edges lie on each other, and agents touch in single points. Every query is compared with the
@@ -181,8 +181,9 @@ TEST_F(Lattice, NeighboursInACrowdAreThoseOfTheOutlines) {
   bch::Crowd collider;
   for (const Implementation& implementation : test::supported()) {
     for (const ShapeSet& set : sets) {
-      EXPECT_EQ(test::neighbours(collider.collisions(set, crowd.agents(), {.implementation = &implementation})),
-                expected)
+      EXPECT_EQ(
+          test::neighbours(collider.collisions(set, crowd.agents(), {.implementation = &implementation})),
+          expected)
           << implementation.name;
     }
   }

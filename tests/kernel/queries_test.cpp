@@ -19,9 +19,9 @@
 #include "kernel/runtime/kernels.hpp"
 #include "layout/shape_set/bvh8.hpp"
 #include "tests/support/character_shapes.hpp"
+#include "tests/support/crowd_pairs.hpp"
 #include "tests/support/query_references.hpp"
 #include "tests/support/touching_scene.hpp"
-#include "tests/support/crowd_pairs.hpp"
 
 // All queries of all implementations against brute force: shapes of many kinds x plans x placements of pairs.
 
@@ -360,8 +360,9 @@ TEST_P(QueriesOf, NeighboursEqualBruteForce) {
           expected[i].push_back(j);
       }
     for (const Implementation& each : test::supported()) {
-      EXPECT_EQ(test::neighbours(collider.collisions(world.set, scene.crowd.agents(), {.implementation = &each})),
-                expected)
+      EXPECT_EQ(
+          test::neighbours(collider.collisions(world.set, scene.crowd.agents(), {.implementation = &each})),
+          expected)
           << each.name;
     }
   }

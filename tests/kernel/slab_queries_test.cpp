@@ -38,7 +38,8 @@ struct AllAnswers {
 };
 
 std::vector<std::vector<DiscPair>> contacts_of(bch::Crowd& finder, const ShapeSet& set,
-                                               const test::PairScene& scene, const CollisionOptions& options) {
+                                               const test::PairScene& scene,
+                                               const CollisionOptions& options) {
   const Rows<DiscPair> rows = finder.contacts(set, scene.crowd.agents(), scene.pairs, options);
   std::vector<std::vector<DiscPair>> all;
   for (std::size_t i = 0; i < rows.size(); ++i) all.emplace_back(rows[i].begin(), rows[i].end());

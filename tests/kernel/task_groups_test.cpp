@@ -9,8 +9,8 @@
 
 #include <atomic>
 
-#include "tests/support/test.hpp"
 #include "tests/support/crowd_pairs.hpp"
+#include "tests/support/test.hpp"
 
 // Queries inside of a caller's own tasks.
 
@@ -125,9 +125,8 @@ void expect_one_call_at_a_time(std::size_t questions, Ask ask) {
 TEST_F(TaskGroups, OneCrowdAThreadIsEnough) {
   std::vector<test::Crowd> crowds;
   for (std::uint32_t k = 0; k < 4; ++k) crowds.push_back(people(2'500 + 500 * k));
-  expect_one_call_at_a_time<Crowd>(4, [&](Crowd& crowd, std::size_t k) {
-    return crowd.collisions(set, crowds[k].agents()).by_agent();
-  });
+  expect_one_call_at_a_time<Crowd>(
+      4, [&](Crowd& crowd, std::size_t k) { return crowd.collisions(set, crowds[k].agents()).by_agent(); });
 }
 
 TEST_F(TaskGroups, OneCrowdAThreadIsEnoughForContacts) {
@@ -137,9 +136,8 @@ TEST_F(TaskGroups, OneCrowdAThreadIsEnoughForContacts) {
     crowds.push_back(people(500 + 100 * k));
     pairs.push_back(test::candidate_pairs(set, crowds.back().agents()));
   }
-  expect_one_call_at_a_time<Crowd>(4, [&](Crowd& crowd, std::size_t k) {
-    return crowd.contacts(set, crowds[k].agents(), pairs[k]);
-  });
+  expect_one_call_at_a_time<Crowd>(
+      4, [&](Crowd& crowd, std::size_t k) { return crowd.contacts(set, crowds[k].agents(), pairs[k]); });
 }
 
 }  // namespace

@@ -6,8 +6,8 @@
 #include "layout/format/shape_validation.hpp"
 #include "layout/shape_set/shape_storage.hpp"
 #include "tests/support/allocation_count.hpp"
-#include "tests/support/test.hpp"
 #include "tests/support/crowd_pairs.hpp"
+#include "tests/support/test.hpp"
 
 namespace bch {
 

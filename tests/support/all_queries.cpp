@@ -37,7 +37,8 @@ void ask_all_of_obstacles(const ShapeSet& set, const Agents& agents, const Query
   penetration(set, agents, obstacles, ways, options);
   time_of_impact(set, agents, {way, way}, obstacles, values, options);
   bch::Crowd crowd;
-  crowd.obstacles(set, agents, obstacles, {.leaves = options.leaves, .implementation = options.implementation});
+  crowd.obstacles(set, agents, obstacles,
+                  {.leaves = options.leaves, .implementation = options.implementation});
 }
 
 }  // namespace

@@ -127,7 +127,8 @@ void add_queries_of_crowds(const CScene& scene, std::vector<CQuery>& to) {
   add(
       "obstacles", true,
       [=](Found& found) {
-        return bch_crowd_obstacles(found.crowd.get(), set, &all->agents, walls, &all->options, &found.touched);
+        return bch_crowd_obstacles(found.crowd.get(), set, &all->agents, walls, &all->options,
+                                   &found.touched);
       },
       [](const Found& found) {
         return row_bytes(found.touched.rows, found.touched.offsets, found.touched.values);

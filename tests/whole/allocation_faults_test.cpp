@@ -5,9 +5,9 @@
 #include "tests/support/baked_bytes.hpp"
 #include "tests/support/c_api.hpp"
 #include "tests/support/c_api_queries.hpp"
+#include "tests/support/crowd_pairs.hpp"
 #include "tests/support/program_run.hpp"
 #include "tests/support/test.hpp"
-#include "tests/support/crowd_pairs.hpp"
 
 // Every function of the C interface that lacks memory writes nothing, and succeeds when it is called again. Thus what it calls of the C++
 // library leaves everything as it was.

@@ -3,8 +3,8 @@
 
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/c_api_queries.hpp"
-#include "tests/support/test.hpp"
 #include "tests/support/crowd_pairs.hpp"
+#include "tests/support/test.hpp"
 
 // Queries of pairs need no memory, and objects keep theirs: those of the C interface, and what they call of the C++ library.
 

@@ -230,8 +230,10 @@ class PoseShaper {
 
 /// Says what bake() makes of characters.
 struct BakeOptions {
-  std::uint32_t poses = 100;             ///< of each character, spread evenly over its clips, one character after the other
-  std::vector<ShapeSource> shapes = {};  ///< which poses of which characters, for instance ScenePlan::shapes; none: `poses`
+  std::uint32_t poses =
+      100;  ///< of each character, spread evenly over its clips, one character after the other
+  std::vector<ShapeSource> shapes =
+      {};  ///< which poses of which characters, for instance ScenePlan::shapes; none: `poses`
   ShapeSetPlan plan = {};
   float threshold = 0.01f;  ///< metres; the radius below which discs are not divided
   /// Hears on the caller's thread, twenty times a second at most, how many shapes are made. Returning false cancels.

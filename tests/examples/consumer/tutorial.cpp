@@ -12,9 +12,9 @@
 
 // [simulator]
 struct People {
-  std::vector<std::uint32_t> shape;     // which body each person has now
-  std::vector<double> x, y, heading;    // metres, radians; on a corridor of 20 x 6 m that closes in x
-  std::vector<std::uint8_t> level;      // how exactly each is checked
+  std::vector<std::uint32_t> shape;   // which body each person has now
+  std::vector<double> x, y, heading;  // metres, radians; on a corridor of 20 x 6 m that closes in x
+  std::vector<std::uint8_t> level;    // how exactly each is checked
 
   bch::Agents agents() const { return {shape, x, y, heading, level}; }
 
@@ -61,7 +61,8 @@ void part(People& people, bch::Crowd& crowd, const bch::ShapeSet& bodies, const 
 int main() {
   // [bodies]
   const bch::Character characters[] = {bch::default_male(), bch::default_female()};
-  const bch::ShapeSet bodies = bch::bake(characters, {.poses = 50, .plan = {.depths = {0, 3, bch::all_depths}}});
+  const bch::ShapeSet bodies =
+      bch::bake(characters, {.poses = 50, .plan = {.depths = {0, 3, bch::all_depths}}});
   // [bodies]
   People people = two_streams(60, bodies.shape_count());
 

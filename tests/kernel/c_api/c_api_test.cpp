@@ -3,8 +3,8 @@
 
 #include "tests/support/c_api.hpp"
 #include "tests/support/c_api_queries.hpp"
-#include "tests/support/test.hpp"
 #include "tests/support/crowd_pairs.hpp"
+#include "tests/support/test.hpp"
 
 // What the C interface answers is what the C++ library does, bit by bit.
 
@@ -104,7 +104,8 @@ std::map<std::string, std::string> answers_of(const test::CScene& scene, const Q
   const CrowdPairs pairs = crowd.collisions(set, agents, colliding);
   all["collisions"] = bytes(pairs.span()) + bytes_of(pairs.by_agent());
   all["obstacles"] = bytes_of(crowd.obstacles(set, agents, walls, colliding));
-  all["contacts of pairs"] = bytes(scene.pairs) + bytes_of(crowd.contacts(set, agents, scene.pairs, colliding));
+  all["contacts of pairs"] =
+      bytes(scene.pairs) + bytes_of(crowd.contacts(set, agents, scene.pairs, colliding));
   const CrowdContacts contacts = crowd.contacts(set, agents, colliding);
   all["contacts"] = bytes(contacts.pairs.span()) + bytes_of(contacts.contacts);
   const CrowdClearances near =

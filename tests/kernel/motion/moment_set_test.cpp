@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
+#include "tests/support/crowd_pairs.hpp"
 #include "tests/support/moments.hpp"
 #include "tests/support/moving_bodies.hpp"
 #include "tests/support/test.hpp"
 #include "tests/support/test_characters.hpp"
-#include "tests/support/crowd_pairs.hpp"
 
 // Agents who show bodies that move by themselves, each at a time of its own.
 

@@ -4,11 +4,11 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include "tests/support/allocation_count.hpp"
+#include "tests/support/crowd_pairs.hpp"
 #include "tests/support/moments.hpp"
 #include "tests/support/moving_bodies.hpp"
 #include "tests/support/test.hpp"
 #include "tests/support/test_characters.hpp"
-#include "tests/support/crowd_pairs.hpp"
 
 // When the shapes of moments are made, how long they are kept, and which are refused.
 

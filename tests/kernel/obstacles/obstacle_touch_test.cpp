@@ -258,8 +258,7 @@ TEST_F(Obstacles, InsideAnOutline) {
     }
     bch::Crowd collider;
     const Rows<std::uint32_t> rows = collider.obstacles(squares, crowd.agents(), obstacles);
-    EXPECT_EQ(std::vector<std::uint32_t>(rows[0].begin(), rows[0].end()),
-              (std::vector<std::uint32_t>{0, 1}));
+    EXPECT_EQ(std::vector<std::uint32_t>(rows[0].begin(), rows[0].end()), (std::vector<std::uint32_t>{0, 1}));
   }
 }
 

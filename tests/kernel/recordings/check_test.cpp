@@ -5,9 +5,9 @@
 
 #include <oneapi/tbb/task_arena.h>
 
+#include "tests/support/crowd_pairs.hpp"
 #include "tests/support/made_up_recording.hpp"
 #include "tests/support/test.hpp"
-#include "tests/support/crowd_pairs.hpp"
 
 // Who runs into whom in recordings that are made up.
 

@@ -6,8 +6,8 @@
 #include "layout/format/shape_validation.hpp"
 #include "tests/support/all_queries.hpp"
 #include "tests/support/baked_bytes.hpp"
-#include "tests/support/test.hpp"
 #include "tests/support/crowd_pairs.hpp"
+#include "tests/support/test.hpp"
 
 // Baked files whose checksums are right and whose content is not.
 
