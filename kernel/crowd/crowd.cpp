@@ -13,7 +13,7 @@
 #include <bch/collide.hpp>
 
 #include "kernel/broad_phase/broad_phase.hpp"
-#include "kernel/contact/contact_search.hpp"
+#include "kernel/contact/disc_contacts.hpp"
 #include "kernel/crowd/kept_items.hpp"
 #include "kernel/crowd/neighbour_rows.hpp"
 #include "kernel/crowd/periodic_agents.hpp"
@@ -73,7 +73,7 @@ struct CrowdMemory {
   std::vector<Pair> pairs;    ///< of the answer, that names agents
   std::vector<Pair> to_part;  ///< pairs that collide, as candidates name them
 
-  ContactSearch contact_search;
+  DiscContacts disc_contacts;
   std::vector<std::uint64_t> contact_offsets;
   Answers<float> distance;
   Answers<Vec2> direction;
@@ -189,8 +189,8 @@ CrowdContacts Crowd::contacts(const ShapeSet& shapes, const Agents& agents,
   return without_tasks_from_outside([&]() -> CrowdContacts {
     CrowdMemory& of = *memory_;
     const CrowdMemory::Candidates candidates = of.find(shapes, agents, 0, options.filter);
-    const Rows<DiscPair> rows = of.contact_search.find_valid(shapes, candidates.agents, candidates.pairs,
-                                                             options.leaves, options.implementation);
+    const Rows<DiscPair> rows = of.disc_contacts.find_valid(shapes, candidates.agents, candidates.pairs,
+                                                            options.leaves, options.implementation);
     of.kept.select(rows.size(), [&](std::size_t i) { return !rows[i].empty(); });
     of.kept.gather(of.pairs, [&](std::size_t i) -> Pair {
       return {of.test.origin(candidates.pairs[i].first), of.test.origin(candidates.pairs[i].second)};
@@ -209,7 +209,7 @@ Rows<DiscPair> Crowd::contacts(const ShapeSet& shapes, const Agents& agents, std
     throw std::invalid_argument(
         "contacts: expected a crowd without a period for given pairs, found one with");
   return without_tasks_from_outside([&] {
-    return memory_->contact_search.find(shapes, agents, pairs, options.leaves, options.implementation);
+    return memory_->disc_contacts.find(shapes, agents, pairs, options.leaves, options.implementation);
   });
 }
 

@@ -116,13 +116,22 @@ void add_queries_of_crowds(const CScene& scene, std::vector<CQuery>& to) {
   add(
       "collisions", false,
       [=](Found& found) {
+        return bch_crowd_collisions(found.crowd.get(), set, &all->agents, nullptr, &all->options, &found.pairs,
+                                    &found.count);
+      },
+      [](const Found& found) { return bytes(std::span(found.pairs, found.count)); });
+  add(
+      "collisions by agent", false,
+      [=](Found& found) {
+        const bch_pair* pairs = nullptr;
+        std::size_t count = 0;
         const bch_status status = bch_crowd_collisions(found.crowd.get(), set, &all->agents, nullptr,
-                                                       &all->options, &found.pairs, &found.count);
+                                                       &all->options, &pairs, &count);
         return status != BCH_OK ? status : bch_crowd_by_agent(found.crowd.get(), &found.neighbours);
       },
       [](const Found& found) {
         const bch_neighbour_rows& rows = found.neighbours;
-        return bytes(std::span(found.pairs, found.count)) + row_bytes(rows.rows, rows.offsets, rows.values);
+        return row_bytes(rows.rows, rows.offsets, rows.values);
       });
   add(
       "obstacles", true,
@@ -148,7 +157,7 @@ void add_queries_of_crowds(const CScene& scene, std::vector<CQuery>& to) {
       },
       contact_bytes);
   add(
-      "clearances", scene.agents.z != nullptr,
+      "clearances", scene.shapes.slab_count() > 1 || !scene.crowd.z.empty(),
       [=](Found& found) {
         return bch_crowd_clearances(found.crowd.get(), set, &all->agents, 0.2, nullptr, &all->options,
                                     &found.near);

@@ -137,6 +137,13 @@ def pair(values: Any, name: str) -> Tuple[float, float]:
     return number(found[0], f"{name}[0]"), number(found[1], f"{name}[1]")
 
 
+def flag(value: Any, name: str) -> bool:
+    """Return a truth value, or raise an error that names it."""
+    if not isinstance(value, (bool, np.bool_)):
+        raise rejected(value, name, "True or False")
+    return bool(value)
+
+
 def one_of(words: Dict[str, int], word: Any, name: str) -> int:
     """Return the number that stands for a word, or raise an error that names the argument."""
     wanted = f"one of {', '.join(map(repr, words))}"

@@ -26,6 +26,7 @@ from ._arrays import (
     copied,
     f4,
     f8,
+    flag,
     given,
     instances,
     number,
@@ -138,8 +139,8 @@ def plan_scene(
         count=n,
     )
     use = _library.SceneUse(
-        outlines=bool(outlines),
-        heights=bool(heights),
+        outlines=flag(outlines, "outlines"),
+        heights=flag(heights, "heights"),
         slices=address(planes),
         slice_count=len(planes),
         whole_from=number(whole_from, "whole_from"),

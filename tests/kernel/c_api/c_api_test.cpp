@@ -102,7 +102,8 @@ std::map<std::string, std::string> answers_of(const test::CScene& scene, const Q
   bch::Crowd crowd;
   const CollisionOptions colliding{.leaves = by.leaves, .implementation = by.implementation};
   const CrowdPairs pairs = crowd.collisions(set, agents, colliding);
-  all["collisions"] = bytes(pairs.span()) + bytes_of(pairs.by_agent());
+  all["collisions"] = bytes(pairs.span());
+  all["collisions by agent"] = bytes_of(pairs.by_agent());
   all["obstacles"] = bytes_of(crowd.obstacles(set, agents, walls, colliding));
   all["contacts of pairs"] =
       bytes(scene.pairs) + bytes_of(crowd.contacts(set, agents, scene.pairs, colliding));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "kernel/contact/contact_search.hpp"
+#include "kernel/contact/disc_contacts.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -26,8 +26,8 @@ bool is_light(const ShapeSet& shapes, std::size_t pairs) {
 
 }  // namespace
 
-void ContactSearch::find_in_two_passes(const Implementation& implementation, const Arguments& arguments,
-                                       std::size_t pairs, std::vector<std::uint64_t>& begins) {
+void DiscContacts::find_in_two_passes(const Implementation& implementation, const Arguments& arguments,
+                                      std::size_t pairs, std::vector<std::uint64_t>& begins) {
   begins.resize(pairs + 1);
   for_ranges(pairs, contact_grain, [&](std::size_t begin, std::size_t end) {
     implementation.kernels->count_contacts(arguments, begin, end, begins.data());
@@ -41,8 +41,8 @@ void ContactSearch::find_in_two_passes(const Implementation& implementation, con
 }
 
 /// Contacts of parts, pair by pair, numbered as discs of their bodies.
-void ContactSearch::find_of_parts(const Implementation& implementation, const Arguments& whole,
-                                  const Agents& agents, std::span<const Pair> pairs) {
+void DiscContacts::find_of_parts(const Implementation& implementation, const Arguments& whole,
+                                 const Agents& agents, std::span<const Pair> pairs) {
   items_.expand(*whole.shapes, agents, pairs);
   const ShapeSetView parts = parts_as_shapes(*whole.shapes);
   const Agents part_agents = items_.agents();
@@ -70,8 +70,8 @@ void ContactSearch::find_of_parts(const Implementation& implementation, const Ar
 }
 
 /// In one pass, with memory for as many contacts as there were before.
-void ContactSearch::find_of_few_discs(const Implementation& implementation, const Arguments& arguments,
-                                      std::size_t pairs) {
+void DiscContacts::find_of_few_discs(const Implementation& implementation, const Arguments& arguments,
+                                     std::size_t pairs) {
   constexpr std::size_t least_room = block_width * block_width;
   offsets_.resize(pairs + 1);
   offsets_[0] = 0;
@@ -83,9 +83,9 @@ void ContactSearch::find_of_few_discs(const Implementation& implementation, cons
   }
 }
 
-Rows<DiscPair> ContactSearch::find_valid(const ShapeSet& shapes, const Agents& agents,
-                                         std::span<const Pair> pairs, Leaves leaves,
-                                         const Implementation* wanted) {
+Rows<DiscPair> DiscContacts::find_valid(const ShapeSet& shapes, const Agents& agents,
+                                        std::span<const Pair> pairs, Leaves leaves,
+                                        const Implementation* wanted) {
   const FloatingPointStateGuard floats;
   const Implementation& implementation = chosen({.implementation = wanted}, "contacts");
   const ShapeSetView& view = shapes.view();
@@ -105,8 +105,8 @@ Rows<DiscPair> ContactSearch::find_valid(const ShapeSet& shapes, const Agents& a
   return {offsets_, std::span(contacts_).first(offsets_.back())};
 }
 
-Rows<DiscPair> ContactSearch::find(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
-                                   Leaves leaves, const Implementation* wanted) {
+Rows<DiscPair> DiscContacts::find(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
+                                  Leaves leaves, const Implementation* wanted) {
   require_valid(chosen({.implementation = wanted}, "contacts"), shapes.view(), agents, pairs);
   return find_valid(shapes, agents, pairs, leaves, wanted);
 }

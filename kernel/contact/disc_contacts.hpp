@@ -16,7 +16,7 @@
 namespace bch::detail {
 
 /// Finds the contacts of pairs, and keeps its memory from call to call. Contacts are counted, then written, so rows are never truncated.
-class ContactSearch {
+class DiscContacts {
  public:
   /// Returns one row per pair, ordered by the first discs and then by the second discs, valid until the next call.
   /// Errors:  throws std::invalid_argument like collide(), before the rows of the last call are touched; std::bad_alloc or
