@@ -128,7 +128,7 @@ bool ObstacleReference::outline_holds(const Agents& agents, std::uint32_t agent,
     bool odd = false;
     Vec2 a = contour.back();
     for (const Vec2 b : contour) {
-      const double ax = a.x - x, ay = a.y - y, bx = b.x - x, by = b.y - y;
+      const double ax = double{a.x} - x, ay = double{a.y} - y, bx = double{b.x} - x, by = double{b.y} - y;
       if ((ay > 0) != (by > 0)) odd ^= (ax * by - bx * ay > 0) == (by > ay);
       a = b;
     }

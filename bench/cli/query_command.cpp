@@ -200,8 +200,8 @@ void query_part(const CLI::App& command, QueryCommandOptions options,
 /// Refuses options that mean nothing beside the others.
 void require_fitting(const CLI::App& command, const QueryCommandOptions& options) {
   const bool collide = options.what == "collide", within = options.what == "within",
-             clearance = options.what == "clearance", limited = std::isfinite(options.max_distance),
-             walls = !options.obstacles.empty(), tests_leaves = collide || options.what == "contacts";
+             clearance = options.what == "clearance", walls = !options.obstacles.empty(),
+             tests_leaves = collide || options.what == "contacts";
   struct Misfit {
     bool is_one;
     std::vector<const char*> options;

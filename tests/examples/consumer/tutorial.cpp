@@ -86,7 +86,9 @@ int main() {
     people.walk(0.05);
     part(people, crowd, bodies, walls);
   }
-  const std::size_t at_last = crowd.collisions(bodies, people.agents()).size();
-  std::printf("%zu pairs collide at last\n", at_last);
-  return at_last < at_first / 2 ? 0 : 1;
+  int sweeps = 0;
+  for (; sweeps < 100 && !crowd.collisions(bodies, people.agents()).empty(); ++sweeps)
+    part(people, crowd, bodies, walls);
+  std::printf("after 10 s of walking %d more sweeps part all\n", sweeps);
+  return sweeps < 100 ? 0 : 1;
 }

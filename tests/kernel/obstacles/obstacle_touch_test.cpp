@@ -189,7 +189,7 @@ TEST_F(Obstacles, AreAsFarAsOutlinesAre) {
 /// Where a wall is as near to several segments of an outline, and several walls to one, the first ones count.
 TEST_F(Obstacles, OfEquallyNearOnesTheFirstCounts) {
   const Shape square = test::contour_shape(test::polygon({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}));
-  const ShapeSet squares({&square, 1}), discs({&square, 1}, {.outlines = false});
+  const ShapeSet squares({&square, 1});
   Crowd crowd;
   crowd.add({0, 0, 0, 0, 0});
   // Walls beside all four sides, each a metre away; the one above twice.
