@@ -116,8 +116,8 @@ void add_queries_of_crowds(const CScene& scene, std::vector<CQuery>& to) {
   add(
       "collisions", false,
       [=](Found& found) {
-        return bch_crowd_collisions(found.crowd.get(), set, &all->agents, nullptr, &all->options, &found.pairs,
-                                    &found.count);
+        return bch_crowd_collisions(found.crowd.get(), set, &all->agents, nullptr, &all->options,
+                                    &found.pairs, &found.count);
       },
       [](const Found& found) { return bytes(std::span(found.pairs, found.count)); });
   add(

@@ -99,9 +99,10 @@ TEST(Layers, LibrariesStayInTheirRooms) {
   expect_no_include("layout", "polyclipping/");
   expect_no_include("layout", "xsimd/", "^simd/(batches|neon_arch|portable_arch)");
   expect_no_include("layout", "oneapi/tbb|tbb/");
-  expect_no_include("layout", "Eigen/|layout/character/eigen",
-                    "^(character|default_character|import)/.*cpp$|^character/(clip_pose|eigen|rotation_blend)|"
-                    "^default_character/(body|human)_|^import/(fbx_document|scene|units)");
+  expect_no_include(
+      "layout", "Eigen/|layout/character/eigen",
+      "^(character|default_character|import)/.*cpp$|^character/(clip_pose|eigen|rotation_blend)|"
+      "^default_character/(body|human)_|^import/(fbx_document|scene|units)");
   expect_no_include("layout", "zlib", "^import/fbx_record");
   expect_no_include("layout", "xxhash", "^baked/checksum");
   expect_no_include("layout", "sqlite3", "^recordings/sqlite_");
