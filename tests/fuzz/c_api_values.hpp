@@ -202,6 +202,11 @@ class Caller : public Program {
 
   // ---- Structs
 
+  void draw_numbers(const void*& of) {
+    const double* numbers = nullptr;
+    draw(numbers);
+    of = numbers;
+  }
   void draw(bch_work& of) {
     of.threads = 1, of.progress = chance(2) ? hear : nullptr;
     draw(of.user);
@@ -215,9 +220,24 @@ class Caller : public Program {
     if (chance(32)) draw(of.implementation);
   }
   void draw(bch_agents& of) {
-    draw_all(of.shape, of.x, of.y, of.heading, of.count);
+    draw_all(of.shape, of.count);
+    draw_numbers(of.x), draw_numbers(of.y), draw_numbers(of.heading);
     if (chance(2)) draw(of.level);
-    if (chance(4)) draw(of.z);
+    if (chance(4)) draw_numbers(of.z);
+    // Floats are at most as far apart as the doubles whose memory they are in.
+    if (chance(4)) of.numbers = BCH_FLOATS, of.x_stride = chance(2) ? 8 : 0, of.y_stride = chance(8) ? 6 : 4;
+    if (chance(32)) of.numbers = index();
+  }
+  void draw(bch_pair_filter& of) {
+    of = BCH_PAIR_FILTER_INIT;
+    if (chance(2)) draw(of.category);
+    if (chance(2)) draw(of.mask);
+    if (chance(2)) draw(of.excluded), of.excluded_count = bytes.below(most + 1);
+  }
+  void draw(bch_crowd_options& of) {
+    of = BCH_CROWD_OPTIONS_INIT;
+    if (chance(4)) draw_all(of.period_x, of.period_y);
+    if (chance(8)) of.most_pairs = bytes.below(8);
   }
   void draw(bch_clearance_out& of) {
     draw_all(of.distance, of.direction, of.discs, of.points);
