@@ -133,8 +133,10 @@ std::vector<GridRing> rings_of(std::vector<BoundaryPiece> boundary) {
   for (GridRing& ring : RingPath(std::move(boundary)).rings()) {
     tidy(ring);
     const std::int64_t area = twice_area(ring);
-    if (area > 0) polygons.push_back({area, {std::move(ring)}});
-    if (area < 0) holes.push_back(std::move(ring));
+    if (area > 0)
+      polygons.push_back({area, {std::move(ring)}});
+    else if (area < 0)
+      holes.push_back(std::move(ring));
   }
   const auto begins_first = [](const GridRing& a, const GridRing& b) {
     return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), lexicographically_less);
