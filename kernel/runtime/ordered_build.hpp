@@ -15,8 +15,7 @@
 
 namespace bch::detail {
 
-/// The number of shapes a thread that are being built or wait for one before them. It is large enough that
-/// neither a slow pose nor writing a piece of a file, which takes as long as some twenty poses, makes the
+/// The number of shapes a thread that are being built or wait for one before them. It is large enough that a slow pose does not make the
 /// other threads wait.
 constexpr std::size_t shapes_in_flight = 24;
 
