@@ -19,6 +19,7 @@
 #include "kernel/crowd/periodic_agents.hpp"
 #include "kernel/obstacles/obstacle_rows.hpp"
 #include "kernel/runtime/task_ranges.hpp"
+#include "layout/base/floating_point_state.hpp"
 #include "layout/base/shortest.hpp"
 
 namespace bch::detail {
@@ -61,7 +62,17 @@ struct CrowdMemory {
   Candidates find(const ShapeSet& shapes, const Agents& agents, double margin, const PairFilter& filter);
   std::span<const Pair> collide(const ShapeSet& shapes, const Candidates& candidates, Leaves leaves,
                                 const Implementation* implementation);
-  std::span<const Pair> named(const Candidates& candidates);
+  Pair named(Pair candidate) const noexcept {
+    return {test.origin(candidate.first), test.origin(candidate.second)};
+  }
+  std::span<const Pair> named(std::span<const Pair> candidates);
+  /// Keeps the candidates i for which keeps(i), and makes them the pairs of the answer.
+  template <class Keeps>
+  std::span<const Pair> keep(std::span<const Pair> candidates, const Keeps& keeps) {
+    kept.select(candidates.size(), keeps);
+    kept.gather(pairs, [&](std::size_t i) { return named(candidates[i]); });
+    return pairs;
+  }
   Rows<Neighbour> by_agent(std::span<const Pair> pairs);
 
   CrowdOptions options;
@@ -89,6 +100,7 @@ struct CrowdMemory {
 
 CrowdMemory::Candidates CrowdMemory::find(const ShapeSet& shapes, const Agents& given, double margin,
                                           const PairFilter& filter) {
+  const FloatingPointStateGuard floats;
   Candidates found{given, {}};
   agents = given.size();
   if (is_periodic()) {
@@ -106,12 +118,11 @@ CrowdMemory::Candidates CrowdMemory::find(const ShapeSet& shapes, const Agents& 
 }
 
 /// Returns pairs of agents, where candidates are pairs of images.
-std::span<const Pair> CrowdMemory::named(const Candidates& candidates) {
-  if (!is_periodic()) return candidates.pairs;
-  pairs.resize(candidates.pairs.size());
+std::span<const Pair> CrowdMemory::named(std::span<const Pair> candidates) {
+  if (!is_periodic()) return candidates;
+  pairs.resize(candidates.size());
   for_ranges(pairs.size(), crowd_grain, [&](std::size_t first, std::size_t last) {
-    for (std::size_t i = first; i < last; ++i)
-      pairs[i] = {test.origin(candidates.pairs[i].first), test.origin(candidates.pairs[i].second)};
+    for (std::size_t i = first; i < last; ++i) pairs[i] = named(candidates[i]);
   });
   return pairs;
 }
@@ -122,11 +133,7 @@ std::span<const Pair> CrowdMemory::collide(const ShapeSet& shapes, const Candida
   hits.resize(candidates.pairs.size());
   bch::collide(shapes, candidates.agents, candidates.pairs, hits,
                {.implementation = implementation, .leaves = leaves});
-  kept.select(hits.size(), [&](std::size_t i) { return hits[i] != 0; });
-  kept.gather(pairs, [&](std::size_t i) -> Pair {
-    return {test.origin(candidates.pairs[i].first), test.origin(candidates.pairs[i].second)};
-  });
-  return pairs;
+  return keep(candidates.pairs, [&](std::size_t i) { return hits[i] != 0; });
 }
 
 Rows<Neighbour> CrowdMemory::by_agent(std::span<const Pair> of) {
@@ -171,7 +178,7 @@ CrowdPairs Crowd::candidates(const ShapeSet& shapes, const Agents& agents,
                              const CandidateOptions& options) & {
   return without_tasks_from_outside([&]() -> CrowdPairs {
     CrowdMemory& of = *memory_;
-    return {of.named(of.find(shapes, agents, options.margin, options.filter)), of};
+    return {of.named(of.find(shapes, agents, options.margin, options.filter).pairs), of};
   });
 }
 
@@ -191,10 +198,7 @@ CrowdContacts Crowd::contacts(const ShapeSet& shapes, const Agents& agents,
     const CrowdMemory::Candidates candidates = of.find(shapes, agents, 0, options.filter);
     const Rows<DiscPair> rows = of.disc_contacts.find_valid(shapes, candidates.agents, candidates.pairs,
                                                             options.leaves, options.implementation);
-    of.kept.select(rows.size(), [&](std::size_t i) { return !rows[i].empty(); });
-    of.kept.gather(of.pairs, [&](std::size_t i) -> Pair {
-      return {of.test.origin(candidates.pairs[i].first), of.test.origin(candidates.pairs[i].second)};
-    });
+    of.keep(candidates.pairs, [&](std::size_t i) { return !rows[i].empty(); });
     // Rows that are left out are empty, so only offsets move.
     of.kept.gather(of.contact_offsets, [&](std::size_t i) { return rows.offsets[i]; });
     of.contact_offsets.push_back(rows.values.size());
@@ -231,11 +235,8 @@ CrowdClearances Crowd::clearances(const ShapeSet& shapes, const Agents& agents, 
                .max_distance = within,
                .overlap = options.overlap,
                .distance_leaves = options.leaves});
-    of.kept.select(count, [&](std::size_t i) {
+    of.keep(candidates.pairs, [&](std::size_t i) {
       return of.distance.of_candidates[i] < std::numeric_limits<float>::infinity();
-    });
-    of.kept.gather(of.pairs, [&](std::size_t i) -> Pair {
-      return {of.test.origin(candidates.pairs[i].first), of.test.origin(candidates.pairs[i].second)};
     });
     of.distance.keep(of.kept), of.direction.keep(of.kept), of.discs.keep(of.kept), of.points.keep(of.kept);
     return {{of.pairs, of}, of.distance.kept, of.direction.kept, of.discs.kept, of.points.kept};

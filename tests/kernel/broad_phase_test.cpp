@@ -13,6 +13,9 @@
 namespace bch {
 namespace {
 
+using test::precedes;
+using test::sorted;
+
 const std::vector<Shape> shapes = test::synthetic_shapes(31, 24);  // radii from 1 cm to 4 m
 const ShapeSet set(shapes, {{0, 3, all_depths}, false});
 
@@ -30,16 +33,6 @@ void append(test::Crowd& crowd, const test::Crowd& more) {
   const Agents agents = more.agents();
   for (std::size_t i = 0; i < agents.size(); ++i)
     crowd.add({agents.shape[i], agents.x[i], agents.y[i], agents.heading[i], agents.level[i]});
-}
-
-bool before(Pair a, Pair b) {
-  return std::tie(a.first, a.second) < std::tie(b.first, b.second);
-}
-
-std::vector<Pair> sorted(std::span<const Pair> pairs) {
-  std::vector<Pair> all(pairs.begin(), pairs.end());
-  std::sort(all.begin(), all.end(), before);
-  return all;
 }
 
 /// An agent's root disc, its centre relative to the agent; with a margin the disc that holds its cut.
@@ -92,9 +85,9 @@ void expect_right(const test::Crowd& crowd, const ShapeSet& of = set) {
   for (const Pair pair : found) ASSERT_LT(pair.first, pair.second);
   EXPECT_EQ(std::adjacent_find(found.begin(), found.end()), found.end());
   const std::vector<Pair> needed = brute_force(of, agents);
-  EXPECT_TRUE(std::includes(found.begin(), found.end(), needed.begin(), needed.end(), before));
+  EXPECT_TRUE(std::includes(found.begin(), found.end(), needed.begin(), needed.end(), precedes));
   const std::vector<Pair> allowed = brute_force(of, agents, 0x1p-18, 0x1p-47 * extent + 0x1p-25 * widest);
-  EXPECT_TRUE(std::includes(allowed.begin(), allowed.end(), found.begin(), found.end(), before));
+  EXPECT_TRUE(std::includes(allowed.begin(), allowed.end(), found.begin(), found.end(), precedes));
 }
 
 TEST(BroadPhase, FindsWhatBruteForceFinds) {
@@ -213,13 +206,14 @@ TEST(BroadPhase, LeavesNobodyOutWithinAMargin) {
     time_of_impact(set, agents, all, {x, y}, times);
     for (std::size_t k = 0; k < all.size(); ++k) {
       const bool is_near = static_cast<double>(distances[k]) <= margin || times[k] <= 1;
-      ASSERT_TRUE(!is_near || std::binary_search(found.begin(), found.end(), all[k], before))
+      ASSERT_TRUE(!is_near || std::binary_search(found.begin(), found.end(), all[k], precedes))
           << margin << ": " << all[k].first << ", " << all[k].second;
     }
     const std::vector<Pair> needed = brute_force(set, agents, 0, margin);
     const std::vector<Pair> allowed = brute_force(set, agents, 0x1p-16, margin * (1 + 0x1p-15));
-    EXPECT_TRUE(std::includes(found.begin(), found.end(), needed.begin(), needed.end(), before)) << margin;
-    EXPECT_TRUE(std::includes(allowed.begin(), allowed.end(), found.begin(), found.end(), before)) << margin;
+    EXPECT_TRUE(std::includes(found.begin(), found.end(), needed.begin(), needed.end(), precedes)) << margin;
+    EXPECT_TRUE(std::includes(allowed.begin(), allowed.end(), found.begin(), found.end(), precedes))
+        << margin;
     EXPECT_LT(found.size(), all.size());
   }
   for (const double bad : {-0.1, 3e9, std::numeric_limits<double>::quiet_NaN()})

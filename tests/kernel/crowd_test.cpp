@@ -23,6 +23,9 @@
 namespace bch {
 namespace {
 
+using test::precedes;
+using test::sorted;
+
 const std::vector<Shape> shapes = test::synthetic_shapes(771, 12);
 const ShapeSet set(shapes, {.depths = {0, 3, all_depths}});
 
@@ -35,16 +38,6 @@ test::Crowd people(std::uint32_t count, double width, double height, std::uint64
     crowd.add({random.below(set.shape_count()), at(width), at(height), random.uniform(-4, 4),
                static_cast<std::uint8_t>(random.below(set.level_count()))});
   return crowd;
-}
-
-bool precedes(Pair a, Pair b) {
-  return std::tie(a.first, a.second) < std::tie(b.first, b.second);
-}
-
-std::vector<Pair> sorted(std::span<const Pair> pairs) {
-  std::vector<Pair> all(pairs.begin(), pairs.end());
-  std::sort(all.begin(), all.end(), precedes);
-  return all;
 }
 
 std::vector<Pair> all_pairs(std::uint32_t count) {

@@ -3,13 +3,26 @@
 
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include <bch/crowd.hpp>
 
 namespace bch::test {
+
+inline bool precedes(Pair a, Pair b) {
+  return std::tie(a.first, a.second) < std::tie(b.first, b.second);
+}
+
+/// Returns pairs in the order of their agents.
+inline std::vector<Pair> sorted(std::span<const Pair> pairs) {
+  std::vector<Pair> all(pairs.begin(), pairs.end());
+  std::sort(all.begin(), all.end(), precedes);
+  return all;
+}
 
 /// Returns the pairs of Crowd::candidates() in a vector of their own.
 inline std::vector<Pair> candidate_pairs(const ShapeSet& set, const Agents& agents, double margin = 0) {
