@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include <bch/geometry.hpp>
+
+namespace bch::detail {
+struct BodyLayout;
+struct BodySetView;
+}  // namespace bch::detail
+
+namespace bch {
+
+/// Represents a ball, in metres.
+struct Sphere {
+  float x = 0;
+  float y = 0;
+  float z = 0;
+  float radius = 0;
+  friend bool operator==(const Sphere&, const Sphere&) = default;
+};
+
+/// The number of spheres of a body that queries test first.
+inline constexpr std::uint32_t core_spheres = 16;
+
+/// Holds bodies of spheres for batch queries, each as one record of a fixed size. Agents name bodies by their numbers (Agents::shape) and
+/// stand at any height (Agents::z). An object that was moved from can only be assigned to or destroyed.
+class BodySet {
+ public:
+  /// Makes bodies of given spheres, in metres, in the frames of their agents. Queries number spheres as they are given.
+  /// Errors:  throws std::invalid_argument, naming the body, on no spheres or more than 4096, on a sphere that is not finite or has a
+  ///          negative radius, and on a reach outside 1e-6 to 1e6 m; std::length_error beyond 2^32 bodies.
+  explicit BodySet(std::span<const std::vector<Sphere>> bodies);
+  BodySet(BodySet&&) noexcept;
+  BodySet& operator=(BodySet&&) noexcept;
+  ~BodySet();
+
+  std::uint32_t body_count() const noexcept;
+  std::size_t bytes() const noexcept;
+  /// Returns the spheres of a body as queries use them, with the rounding margin.
+  /// Errors:  throws std::out_of_range on an index out of range.
+  std::vector<Sphere> spheres(std::uint32_t body) const;
+  Heights heights(std::uint32_t body) const;
+
+  // For the library's own parts, which alone know these types.
+  /// Makes room for bodies, one of each layout; their records have to be written before they are read.
+  explicit BodySet(std::span<const detail::BodyLayout* const> bodies);
+  const detail::BodySetView& view() const noexcept;
+  /// Writes the record of a body of given spheres. Threads may write different bodies at once.
+  float* record(std::uint32_t body) noexcept;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace bch
