@@ -9,8 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-#include <bch/query.hpp>
-
+#include "kernel/runtime/pair_validation.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 #include "kernel/simd/slab_pairs.hpp"
 #include "layout/base/floating_point_state.hpp"
@@ -158,14 +157,13 @@ void require_margin(double margin) {
   throw std::invalid_argument("candidates: expected a margin from 0 to 2e9 m, found " + shortest(margin));
 }
 
-std::span<const Pair> BroadPhase::find(const ShapeSet& shapes, const Agents& agents, double margin,
+std::span<const Pair> BroadPhase::find(const ShapeSetView& shapes, const Agents& agents, double margin,
                                        std::size_t most_pairs, const PairTest* test) {
   const FloatingPointStateGuard floats;
-  validate(shapes, agents);
+  require_valid_agents(shapes, agents);
   require_margin(margin);
   if (agents.size() == 0) return {};
-  return without_tasks_from_outside(
-      [&] { return find_valid(shapes.view(), agents, margin, most_pairs, test); });
+  return without_tasks_from_outside([&] { return find_valid(shapes, agents, margin, most_pairs, test); });
 }
 
 }  // namespace bch::detail

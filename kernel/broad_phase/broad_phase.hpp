@@ -10,7 +10,6 @@
 #include <vector>
 
 #include <bch/agents.hpp>
-#include <bch/shape_set.hpp>
 
 #include "kernel/broad_phase/crowd_grid.hpp"
 #include "kernel/broad_phase/pair_test.hpp"
@@ -33,9 +32,9 @@ class BroadPhase {
   /// miss the margin by a few millionths of the margin, of their radii and of their shapes' reach, or by 2^-26 of the largest radius.
   /// Order:   by place, along the rows of a grid; the same for any number of threads.
   /// Memory:  the pairs are valid until the next call; the object keeps 72 bytes an agent and up to 24 a pair.
-  /// Errors:  throws std::invalid_argument like validate(shapes, agents), and on a margin outside of 0 .. 2e9;
+  /// Errors:  throws std::invalid_argument like require_valid_agents(), and on a margin outside of 0 .. 2e9;
   ///          std::length_error as soon as there are more pairs than `most_pairs`, before `test` is asked.
-  std::span<const Pair> find(const ShapeSet& shapes, const Agents& agents, double margin = 0,
+  std::span<const Pair> find(const ShapeSetView& shapes, const Agents& agents, double margin = 0,
                              std::size_t most_pairs = std::numeric_limits<std::size_t>::max(),
                              const PairTest* test = nullptr);
 

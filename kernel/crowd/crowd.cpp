@@ -18,9 +18,11 @@
 #include "kernel/crowd/neighbour_rows.hpp"
 #include "kernel/crowd/periodic_agents.hpp"
 #include "kernel/obstacles/obstacle_rows.hpp"
+#include "kernel/runtime/pair_validation.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 #include "layout/base/floating_point_state.hpp"
 #include "layout/base/shortest.hpp"
+#include "layout/body/body_record.hpp"
 
 namespace bch::detail {
 namespace {
@@ -59,7 +61,7 @@ struct CrowdMemory {
   };
 
   bool is_periodic() const noexcept { return options.period.x > 0 || options.period.y > 0; }
-  Candidates find(const ShapeSet& shapes, const Agents& agents, double margin, const PairFilter& filter);
+  Candidates find(const ShapeSetView& shapes, const Agents& agents, double margin, const PairFilter& filter);
   std::span<const Pair> collide(const ShapeSet& shapes, const Candidates& candidates, Leaves leaves,
                                 const Implementation* implementation);
   Pair named(Pair candidate) const noexcept {
@@ -72,6 +74,10 @@ struct CrowdMemory {
     kept.select(candidates.size(), keeps);
     kept.gather(pairs, [&](std::size_t i) { return named(candidates[i]); });
     return pairs;
+  }
+  /// Keeps the candidates that were hits.
+  std::span<const Pair> keep_hits(std::span<const Pair> candidates) {
+    return keep(candidates, [&](std::size_t i) { return hits[i] != 0; });
   }
   Rows<Neighbour> by_agent(std::span<const Pair> pairs);
 
@@ -98,15 +104,15 @@ struct CrowdMemory {
   std::vector<Neighbour> neighbours;
 };
 
-CrowdMemory::Candidates CrowdMemory::find(const ShapeSet& shapes, const Agents& given, double margin,
+CrowdMemory::Candidates CrowdMemory::find(const ShapeSetView& shapes, const Agents& given, double margin,
                                           const PairFilter& filter) {
   const FloatingPointStateGuard floats;
   Candidates found{given, {}};
   agents = given.size();
   if (is_periodic()) {
-    validate(shapes, given);
+    require_valid_agents(shapes, given);
     require_margin(margin);
-    periodic.set(shapes.view(), given, options.period, margin);
+    periodic.set(shapes, given, options.period, margin);
     found.agents = periodic.agents();
   }
   test.set(
@@ -133,7 +139,7 @@ std::span<const Pair> CrowdMemory::collide(const ShapeSet& shapes, const Candida
   hits.resize(candidates.pairs.size());
   bch::collide(shapes, candidates.agents, candidates.pairs, hits,
                {.implementation = implementation, .leaves = leaves});
-  return keep(candidates.pairs, [&](std::size_t i) { return hits[i] != 0; });
+  return keep_hits(candidates.pairs);
 }
 
 Rows<Neighbour> CrowdMemory::by_agent(std::span<const Pair> of) {
@@ -178,7 +184,7 @@ CrowdPairs Crowd::candidates(const ShapeSet& shapes, const Agents& agents,
                              const CandidateOptions& options) & {
   return without_tasks_from_outside([&]() -> CrowdPairs {
     CrowdMemory& of = *memory_;
-    return {of.named(of.find(shapes, agents, options.margin, options.filter).pairs), of};
+    return {of.named(of.find(shapes.view(), agents, options.margin, options.filter).pairs), of};
   });
 }
 
@@ -186,8 +192,26 @@ CrowdPairs Crowd::collisions(const ShapeSet& shapes, const Agents& agents,
                              const CollisionOptions& options) & {
   return without_tasks_from_outside([&]() -> CrowdPairs {
     CrowdMemory& of = *memory_;
-    const CrowdMemory::Candidates candidates = of.find(shapes, agents, 0, options.filter);
+    const CrowdMemory::Candidates candidates = of.find(shapes.view(), agents, 0, options.filter);
     return {of.collide(shapes, candidates, options.leaves, options.implementation), of};
+  });
+}
+
+CrowdPairs Crowd::candidates(const BodySet& bodies, const Agents& agents, const CandidateOptions& options) & {
+  return without_tasks_from_outside([&]() -> CrowdPairs {
+    CrowdMemory& of = *memory_;
+    return {of.named(of.find(bodies.view().ground, agents, options.margin, options.filter).pairs), of};
+  });
+}
+
+CrowdPairs Crowd::collisions(const BodySet& bodies, const Agents& agents,
+                             const BodyCollisionOptions& options) & {
+  return without_tasks_from_outside([&]() -> CrowdPairs {
+    CrowdMemory& of = *memory_;
+    const CrowdMemory::Candidates candidates = of.find(bodies.view().ground, agents, 0, options.filter);
+    of.hits.resize(candidates.pairs.size());
+    collide(bodies, candidates.agents, candidates.pairs, of.hits, options.implementation);
+    return {of.keep_hits(candidates.pairs), of};
   });
 }
 
@@ -195,7 +219,7 @@ CrowdContacts Crowd::contacts(const ShapeSet& shapes, const Agents& agents,
                               const CollisionOptions& options) & {
   return without_tasks_from_outside([&]() -> CrowdContacts {
     CrowdMemory& of = *memory_;
-    const CrowdMemory::Candidates candidates = of.find(shapes, agents, 0, options.filter);
+    const CrowdMemory::Candidates candidates = of.find(shapes.view(), agents, 0, options.filter);
     const Rows<DiscPair> rows = of.disc_contacts.find_valid(shapes, candidates.agents, candidates.pairs,
                                                             options.leaves, options.implementation);
     of.keep(candidates.pairs, [&](std::size_t i) { return !rows[i].empty(); });
@@ -224,7 +248,7 @@ CrowdClearances Crowd::clearances(const ShapeSet& shapes, const Agents& agents, 
     // With any margin, root discs hold all discs of their cuts, which distances are measured between.
     constexpr double least_margin = 1e-9;
     const double margin = within >= 0 ? std::max(within, least_margin) : within;
-    const CrowdMemory::Candidates candidates = of.find(shapes, agents, margin, options.filter);
+    const CrowdMemory::Candidates candidates = of.find(shapes.view(), agents, margin, options.filter);
     const std::size_t count = candidates.pairs.size();
     of.distance.of_candidates.resize(count), of.direction.of_candidates.resize(count);
     of.discs.of_candidates.resize(count), of.points.of_candidates.resize(count);
@@ -247,7 +271,7 @@ CrowdPenetrations Crowd::penetrations(const ShapeSet& shapes, const Agents& agen
                                       const CrowdPenetrationOptions& options) & {
   return without_tasks_from_outside([&]() -> CrowdPenetrations {
     CrowdMemory& of = *memory_;
-    const CrowdMemory::Candidates candidates = of.find(shapes, agents, 0, options.filter);
+    const CrowdMemory::Candidates candidates = of.find(shapes.view(), agents, 0, options.filter);
     of.collide(shapes, candidates, options.leaves, options.implementation);
     of.kept.gather(of.to_part, [&](std::size_t i) { return candidates.pairs[i]; });
     of.penetrations.resize(of.to_part.size());

@@ -273,7 +273,7 @@ void CrowdState::exchange_halo() {
 void CrowdState::find_pairs(double apart) {
   counters.pairs_seconds = counters.answer_seconds = 0;
   const Stopwatch watch(counters.pairs_seconds);
-  keep_owned(columns, broad_phase.find(shapes(), columns.agents(), apart), pairs);
+  keep_owned(columns, broad_phase.find(shapes().view(), columns.agents(), apart), pairs);
   counters.pairs = pairs.size();
 }
 

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "kernel/body/body_kernel.hpp"
 #include "kernel/collide/pair_kernel.hpp"
 #include "kernel/collide/slab_kernel.hpp"
 #include "kernel/contact/contact_kernel.hpp"
@@ -54,6 +55,10 @@ struct Row {
   static void run_within_in_slabs(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
     [[maybe_unused]] const Guard guard;
     SlabKernel<WithGaps>::run(arguments, begin, end);
+  }
+  static void collide_bodies(const BodyArguments& arguments, std::size_t begin, std::size_t end) noexcept {
+    [[maybe_unused]] const Guard guard;
+    BodyKernel<Simd>::run(arguments, begin, end);
   }
   static bool run_if_valid(const Arguments& arguments, std::uint32_t count) noexcept {
     [[maybe_unused]] const Guard guard;
@@ -110,6 +115,7 @@ struct Row {
                                    run_in_slabs,
                                    run_within,
                                    run_within_in_slabs,
+                                   collide_bodies,
                                    run_if_valid,
                                    count_contacts,
                                    append_contacts,

@@ -15,6 +15,7 @@ namespace bch::detail {
 
 struct CutDiscs;
 struct Arguments;
+struct BodyArguments;
 struct Box;
 struct BoxBlock;
 struct BoxHit;
@@ -44,6 +45,8 @@ struct Kernels {
   /// Do the same as these two where distances are asked about.
   void (*run_within)(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept;
   void (*run_within_in_slabs)(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept;
+  /// Writes 1 or 0 for pairs begin .. end of bodies of spheres, with up to 256 KiB of stack; see BodyKernel.
+  void (*collide_bodies)(const BodyArguments& arguments, std::size_t begin, std::size_t end) noexcept;
   /// Writes the codes of the first `count` pairs, one or more and at most a
   /// chunk, when neither pairs nor agents were validated. Returns false, and
   /// writes nothing, unless they are surely valid. It is meant for small

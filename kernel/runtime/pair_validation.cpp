@@ -146,15 +146,17 @@ void require_valid(const Implementation& implementation, const ShapeSetView& sha
   if (i < pairs.size()) reject_pair(arguments, agents, pairs, i);
 }
 
+void require_valid_agents(const ShapeSetView& shapes, const Agents& agents) {
+  const FloatingPointStateGuard floats;
+  require_sizes(agents);
+  require_heights(shapes, agents);
+  const Arguments arguments = arguments_for(shapes, agents, {});
+  const std::size_t i = first_bad_agent(best_implementation(), arguments, agents);
+  if (i < agents.size()) reject(shapes, agents, i);
+}
+
 }  // namespace bch::detail
 
 void bch::validate(const ShapeSet& shapes, const Agents& agents) {
-  using namespace detail;
-  require_sizes(agents);
-  const FloatingPointStateGuard floats;
-  const ShapeSetView& view = shapes.view();
-  require_heights(view, agents);
-  const Arguments arguments = arguments_for(view, agents, {});
-  const std::size_t i = first_bad_agent(best_implementation(), arguments, agents);
-  if (i < agents.size()) reject(view, agents, i);
+  detail::require_valid_agents(shapes.view(), agents);
 }

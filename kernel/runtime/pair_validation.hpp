@@ -41,6 +41,10 @@ bool exact_leaves(const ShapeSet& shapes, Leaves leaves, const char* query);
 /// Returns the input of a query. Everything has to outlive the arguments; `pairs` may be empty.
 Arguments arguments_for(const ShapeSetView& view, const Agents& agents, std::span<const Pair> pairs);
 
+/// Requires that all agents are valid.
+/// Errors:  throws std::invalid_argument on sizes that differ, and naming the first agent that AgentCheck does not pass, and the value.
+void require_valid_agents(const ShapeSetView& shapes, const Agents& agents);
+
 /// Requires that the agents that pairs name are valid; other agents need not be.
 /// Errors:  throws std::invalid_argument on sizes that differ, and naming the first pair with an index out of
 ///          range or an agent that AgentCheck does not pass, and the value.

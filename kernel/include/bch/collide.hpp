@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include <bch/body_set.hpp>
 #include <bch/query.hpp>
 
 namespace bch {
@@ -32,6 +33,15 @@ namespace bch {
 ///          the threads' rounding mode, treatment of denormals and traps, and leave them as they are.
 void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
              std::span<std::uint8_t> hits, const QueryOptions& options = {});
+
+/// Tests whether the bodies of the two agents of each pair have a point in common in space, touching included, and writes 1 for a hit and
+/// 0 otherwise: whether some sphere of one overlaps some sphere of the other. What spheres hold never meets without a hit; a false
+/// positive has a gap of at most 4 um per metre of the two bodies' reaches, beside what spheres stand out. The answer is the same bits
+/// on every processor, for any number of threads, any split of the batch and either order within a pair.
+/// Levels:  bodies have one, so agents have none or 0 for all.
+/// Sizes, errors, threads: as for collide() of a ShapeSet. `implementation` is as in QueryOptions.
+void collide(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs,
+             std::span<std::uint8_t> hits, const Implementation* implementation = nullptr);
 
 /// Chooses, among `planes`, those that clear the most false collisions of given bodies when they cut the bodies into `slabs` slabs.
 /// The sample is random pairs of bodies in each other's reach which collide as seen from above, but in no slab between

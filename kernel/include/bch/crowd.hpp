@@ -9,6 +9,7 @@
 #include <memory>
 #include <span>
 
+#include <bch/body_set.hpp>
 #include <bch/clearance.hpp>
 #include <bch/obstacles.hpp>
 #include <bch/penetration.hpp>
@@ -51,6 +52,12 @@ struct CandidateOptions {
 struct CollisionOptions {
   Leaves leaves = Leaves::segments;
   PairFilter filter = {};  ///< obstacles() has no pairs and refuses one
+  const Implementation* implementation = nullptr;
+};
+
+/// Holds the options of Crowd::collisions() of bodies of spheres.
+struct BodyCollisionOptions {
+  PairFilter filter = {};
   const Implementation* implementation = nullptr;
 };
 
@@ -154,6 +161,11 @@ class Crowd {
 
   /// Finds the pairs for which collide() answers 1.
   CrowdPairs collisions(const ShapeSet& shapes, const Agents& agents, const CollisionOptions& options = {}) &;
+
+  // The same of bodies of spheres. Candidates are those whose discs, as seen from above, and heights come near each other.
+  CrowdPairs candidates(const BodySet& bodies, const Agents& agents, const CandidateOptions& options = {}) &;
+  CrowdPairs collisions(const BodySet& bodies, const Agents& agents,
+                        const BodyCollisionOptions& options = {}) &;
 
   /// Finds all pairs of discs that make agents collide. A pair of discs counts if the discs overlap, all nodes above the one overlap all
   /// nodes above the other, and, with exact leaves, segments of the two meet; see Leaves. A pair that collides only because one agent

@@ -50,11 +50,13 @@ class BodySet {
   Heights heights(std::uint32_t body) const;
 
   // For the library's own parts, which alone know these types.
-  /// Makes room for bodies, one of each layout; their records have to be written before they are read.
+  /// Makes room for bodies of layouts, which have to outlive the set. Records have to be written before they are read.
   explicit BodySet(std::span<const detail::BodyLayout* const> bodies);
   const detail::BodySetView& view() const noexcept;
-  /// Writes the record of a body of given spheres. Threads may write different bodies at once.
+  /// Returns where the record of a body is written. Threads may write different bodies at once.
   float* record(std::uint32_t body) noexcept;
+  /// Takes over what the broad phase reads of a record that was written.
+  void publish(std::uint32_t body) noexcept;
 
  private:
   struct State;

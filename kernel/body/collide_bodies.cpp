@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <bch/collide.hpp>
+
+#include "kernel/body/body_arguments.hpp"
+#include "kernel/runtime/kernels.hpp"
+#include "kernel/runtime/pair_validation.hpp"
+#include "kernel/runtime/task_ranges.hpp"
+#include "layout/base/floating_point_state.hpp"
+#include "layout/body/body_record.hpp"
+
+namespace bch {
+
+using namespace detail;
+
+void collide(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs,
+             std::span<std::uint8_t> hits, const Implementation* wanted) {
+  const FloatingPointStateGuard floats;
+  require_as_many({"collide", "pair", pairs.size()}, hits.size(), "hits");
+  const Implementation& implementation = chosen({.implementation = wanted}, "collide");
+  const BodySetView& view = bodies.view();
+  require_valid(implementation, view.ground, agents, pairs);
+  BodyArguments arguments{arguments_for(view.ground, agents, pairs), &view};
+  arguments.pairs.codes = hits.data();
+  for_ranges(pairs.size(), pairs_per_task, [&](std::size_t begin, std::size_t end) {
+    implementation.kernels->collide_bodies(arguments, begin, end);
+  });
+}
+
+}  // namespace bch

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <bch/body_set.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include "layout/base/aligned_vector.hpp"
+#include "layout/base/floating_point_state.hpp"
+#include "layout/base/number_class.hpp"
+#include "layout/base/rounding.hpp"
+#include "layout/base/shortest.hpp"
+#include "layout/body/body_layout.hpp"
+#include "layout/body/sphere_rounding.hpp"
+
+namespace bch {
+
+using namespace detail;
+
+namespace {
+
+constexpr std::uint32_t only_depth = 0;
+
+[[noreturn]] void refuse(std::size_t body, const std::string& what) {
+  throw std::invalid_argument("body set: body " + std::to_string(body) + ": " + what);
+}
+
+void require(std::span<const Sphere> spheres, std::size_t body) {
+  if (spheres.empty() || spheres.size() > most_spheres)
+    refuse(body, "expected 1 to " + std::to_string(most_spheres) + " spheres, found " +
+                     std::to_string(spheres.size()));
+  double reach = 0;
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    const Sphere& s = spheres[i];
+    if (!is_finite(s.x) || !is_finite(s.y) || !is_finite(s.z) || !is_finite(s.radius) || s.radius < 0)
+      refuse(body, "expected finite spheres with radii of at least 0, found (" + shortest(s.x) + ", " +
+                       shortest(s.y) + ", " + shortest(s.z) + ", radius " + shortest(s.radius) +
+                       ") as sphere " + std::to_string(i));
+    const double x = double{s.x}, y = double{s.y}, z = double{s.z};
+    reach = std::max(reach, std::sqrt(x * x + y * y + z * z) + double{s.radius});
+  }
+  if (!(reach >= rounding::smallest_reach && reach <= rounding::largest_reach))
+    refuse(body, "expected a reach of 1e-6 to 1e6 m, found " + shortest(reach));
+}
+
+/// Writes the record of spheres that are given in the order of their numbers.
+void write_record(const BodyLayout& layout, std::span<const Sphere> spheres, float* record) {
+  const std::uint32_t slots = layout.slot_count();
+  std::vector<float> fields(std::size_t{4} * slots);
+  float* const x = fields.data();
+  double reach = 0;
+  for (const Sphere& s : spheres) {
+    const double at[] = {double{s.x}, double{s.y}, double{s.z}};
+    reach = std::max(reach, std::sqrt(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]) + double{s.radius});
+  }
+  for (std::uint32_t slot = 0; slot < slots; ++slot) {
+    const Sphere& s = spheres[layout.sphere_in_slot[std::min(slot, layout.sphere_count - 1)]];
+    x[slot] = s.x, x[slots + slot] = s.y, x[2 * slots + slot] = s.z;
+    x[3 * slots + slot] = rounding::round_up(double{s.radius} + rounding::sphere_margin * reach);
+  }
+  write_record(layout, {x, x + slots, x + 2 * slots, x + 3 * slots}, record);
+}
+
+}  // namespace
+
+struct BodySet::State {
+  AlignedVector<float> records;
+  std::vector<std::uint64_t> record_begin;
+  std::vector<BodyLayout> own_layouts;
+  std::vector<const BodyLayout*> layouts;
+  std::vector<Root> roots;
+  std::vector<Heights> heights;
+  BodySetView view{};
+
+  explicit State(std::size_t bodies) {
+    if (bodies > std::numeric_limits<std::uint32_t>::max())
+      throw std::length_error("body set: expected fewer than 2^32 bodies, found " + std::to_string(bodies));
+    record_begin.reserve(bodies), layouts.reserve(bodies);
+    roots.resize(bodies, Root{0, 0, 0, single_disc});
+    heights.resize(bodies);
+  }
+
+  void add(const BodyLayout& layout) {
+    record_begin.push_back(layouts.empty() ? 0 : record_begin.back() + layouts.back()->record_size());
+    layouts.push_back(&layout);
+  }
+
+  /// Makes room for all records, and the view.
+  void allocate() {
+    records.resize(layouts.empty() ? 0 : record_begin.back() + layouts.back()->record_size());
+    view.ground.shape_count = view.ground.part_count = static_cast<std::uint32_t>(layouts.size());
+    view.ground.slab_count = view.ground.level_count = 1;
+    view.ground.depths = &only_depth;
+    view.ground.roots = roots.data();
+    view.ground.heights = heights.data();
+    view.records = records.data();
+    view.record_begin = record_begin.data();
+    view.layouts = layouts.data();
+  }
+
+  /// Takes over what the broad phase reads of a record.
+  void publish(std::uint32_t body) noexcept {
+    const BodyHeader& header = view.header(body);
+    roots[body] = {header.x, header.y, header.radius, single_disc};
+    heights[body] = {header.bottom, header.top};
+  }
+
+  void require_body(std::uint32_t body) const {
+    if (body >= layouts.size())
+      throw std::out_of_range("body set: body " + std::to_string(body) + " of " +
+                              std::to_string(layouts.size()));
+  }
+};
+
+BodySet::BodySet(std::span<const std::vector<Sphere>> bodies)
+    : state_(std::make_unique<State>(bodies.size())) {
+  const FloatingPointStateGuard floats;
+  state_->own_layouts.reserve(bodies.size());
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    require(bodies[i], i);
+    state_->add(state_->own_layouts.emplace_back(body_layout(bodies[i])));
+  }
+  state_->allocate();
+  for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+    ::bch::write_record(*state_->layouts[i], bodies[i], record(i));
+    publish(i);
+  }
+}
+
+BodySet::BodySet(std::span<const BodyLayout* const> bodies) : state_(std::make_unique<State>(bodies.size())) {
+  for (const BodyLayout* const layout : bodies) state_->add(*layout);
+  state_->allocate();
+}
+
+BodySet::BodySet(BodySet&&) noexcept = default;
+BodySet& BodySet::operator=(BodySet&&) noexcept = default;
+BodySet::~BodySet() = default;
+
+std::uint32_t BodySet::body_count() const noexcept {
+  return state_->view.ground.shape_count;
+}
+
+std::size_t BodySet::bytes() const noexcept {
+  return state_->records.size() * sizeof(float) +
+         body_count() * (sizeof(std::uint64_t) + sizeof(Root) + sizeof(Heights) + sizeof(const BodyLayout*));
+}
+
+std::vector<Sphere> BodySet::spheres(std::uint32_t body) const {
+  state_->require_body(body);
+  const BodyLayout& layout = *state_->layouts[body];
+  const float* const leaves = state_->view.record(body) + layout.record_leaves();
+  std::vector<Sphere> spheres(layout.sphere_count);
+  for (std::uint32_t slot = 0; slot < layout.sphere_count; ++slot) {
+    const float* const leaf = leaves + std::size_t{4} * (slot / layout.leaf_size) * layout.leaf_size;
+    const std::uint32_t in_leaf = slot % layout.leaf_size, size = layout.leaf_size;
+    spheres[layout.sphere_in_slot[slot]] = {leaf[in_leaf], leaf[size + in_leaf], leaf[2 * size + in_leaf],
+                                            leaf[3 * size + in_leaf]};
+  }
+  return spheres;
+}
+
+Heights BodySet::heights(std::uint32_t body) const {
+  state_->require_body(body);
+  return state_->heights[body];
+}
+
+const BodySetView& BodySet::view() const noexcept {
+  return state_->view;
+}
+
+float* BodySet::record(std::uint32_t body) noexcept {
+  return state_->records.data() + state_->record_begin[body];
+}
+
+void BodySet::publish(std::uint32_t body) noexcept {
+  state_->publish(body);
+}
+
+}  // namespace bch

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include "layout/base/rounding.hpp"
+
+/// Proves by how much spheres have to be enlarged so that a query in float never misses what they hold. Notation, names and the
+/// horizontal part are those of layout/base/rounding.hpp; a body's reach P is the largest distance of a point of its spheres from its
+/// origin, so that |a| <= P_A and r_A <= P_A for every sphere, and lengths are those of space.
+///
+/// The query (every kernel and the reference, same operations, same order; no contraction):
+///
+///     d.z    = float(z_B - z_A)                                the difference in double
+///     p.z    = d.z + b.z                                       p.x, p.y and d.x, d.y as there
+///     hit   <=>  ((p.x - a.x)^2 + (p.y - a.y)^2) + (p.z - a.z)^2 <= (r_A + r_B)^2
+///
+/// Spheres that have a point in common have D <= r_A + r_B <= S and |d| <= |a| + D + |b| <= 2 S. Beside the horizontal
+/// errors, 7.1 u P_B + 4.6 u |d| + u (|d| + |b|) + u D, the vertical ones are
+///
+///     (rise)      u |d| + u (|d| + |b|) + u D     d.z to float, the sum, the difference
+///     (cube)      1.5 u D                         squares and two sums: 3 u of the square are 1.5 u of its root
+///
+/// and all together, with (radii), the sides of the comparison are off by at most
+///
+///     7.1 u S + 9.2 u S + 3 u S + u S + 2 u S + 3 u S + u S + 1.5 u S + 1.5 u S  <=  29.3 u S  <=  30 u S      (3)
+///
+/// No miss: radii are enlarged by 30 u P each. What the float test accepts is at most another 30 u S apart.
+namespace bch::detail::rounding {
+
+namespace terms {
+
+constexpr double rise = 2 + 3 + 1;  // of S, by |d| <= 2 S
+constexpr double cube = 1.5;
+constexpr double sphere_error = 30;
+static_assert(sphere_error >= arm + 2 * position + (2 + 1) * sum + apart + rise + cube + radii + higher,
+              "(3)");
+
+}  // namespace terms
+
+/// The margin that is added to every sphere's radius, times the body's reach.
+constexpr double sphere_margin = terms::sphere_error * unit_roundoff;
+
+// Supports of spheres have the margin of those of discs: spheres that the float test accepts are hardly farther apart.
+static_assert(support_margin >=
+              (terms::support_error + terms::sphere_error + terms::support_float) * unit_roundoff);
+
+}  // namespace bch::detail::rounding

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <bch/body_set.hpp>
+
+#include "layout/base/random.hpp"
+#include "tests/support/test.hpp"
+
+namespace bch {
+namespace {
+
+using detail::Random;
+
+/// Makes a body of spheres in a column as tall as a person.
+std::vector<Sphere> random_body(Random& random, std::uint32_t spheres) {
+  const auto number = [&](double low, double high) { return static_cast<float>(random.between(low, high)); };
+  std::vector<Sphere> body(spheres);
+  for (Sphere& sphere : body)
+    sphere = {number(-0.25, 0.25), number(-0.2, 0.2), number(0, 1.8), number(0.02, 0.08)};
+  return body;
+}
+
+struct Crowd3 {
+  std::vector<std::uint32_t> body;
+  std::vector<double> x, y, z, heading;
+  std::vector<Pair> pairs;
+
+  Agents agents() const { return {.shape = body, .x = x, .y = y, .heading = heading, .z = z}; }
+};
+
+/// Makes a crowd of random placements in a cube, and all of its pairs.
+Crowd3 random_crowd(Random& random, std::uint32_t agents, std::uint32_t bodies, double side, double height) {
+  Crowd3 crowd;
+  for (std::uint32_t i = 0; i < agents; ++i) {
+    crowd.body.push_back(random.below(bodies));
+    crowd.x.push_back(random.between(0, side));
+    crowd.y.push_back(random.between(0, side));
+    crowd.z.push_back(random.between(0, height));
+    crowd.heading.push_back(random.between(-4, 4));
+    for (std::uint32_t j = 0; j < i; ++j) crowd.pairs.push_back({i, j});
+  }
+  return crowd;
+}
+
+BodySet random_bodies(Random& random) {
+  std::vector<std::vector<Sphere>> bodies;
+  for (const std::uint32_t spheres : {1u, 3u, 4u, 17u, 64u, 128u, 255u, 512u})
+    bodies.push_back(random_body(random, spheres));
+  return BodySet(bodies);
+}
+
+/// Returns whether the spheres of two agents overlap by more than a margin, in exact enough arithmetic.
+bool overlap(const BodySet& bodies, const Crowd3& crowd, Pair pair, double margin) {
+  struct At {
+    double x, y, z;
+  };
+  const auto placed = [&](std::uint32_t agent, const Sphere& s) -> At {
+    const double c = std::cos(crowd.heading[agent]), t = std::sin(crowd.heading[agent]);
+    return {crowd.x[agent] + c * double{s.x} - t * double{s.y},
+            crowd.y[agent] + t * double{s.x} + c * double{s.y}, crowd.z[agent] + double{s.z}};
+  };
+  for (const Sphere& a : bodies.spheres(crowd.body[pair.first]))
+    for (const Sphere& b : bodies.spheres(crowd.body[pair.second])) {
+      const At p = placed(pair.first, a), q = placed(pair.second, b);
+      const double distance =
+          std::sqrt((p.x - q.x) * (p.x - q.x) + (p.y - q.y) * (p.y - q.y) + (p.z - q.z) * (p.z - q.z));
+      if (distance <= double{a.radius} + double{b.radius} - margin) return true;
+    }
+  return false;
+}
+
+TEST(Bodies, CollideWhereSomeSpheresOverlap) {
+  Random random(1);
+  const BodySet bodies = random_bodies(random);
+  for (const double height : {0.0, 0.005, 0.4, 3.0}) {
+    const Crowd3 crowd = random_crowd(random, 60, bodies.body_count(), 3, height);
+    std::vector<std::uint8_t> hits(crowd.pairs.size());
+    std::size_t hit = 0;
+    for (const Implementation& implementation : implementations()) {
+      if (!implementation.supported()) continue;
+      collide(bodies, crowd.agents(), crowd.pairs, hits, &implementation);
+      for (std::size_t i = 0; i < hits.size(); ++i) {
+        if (overlap(bodies, crowd, crowd.pairs[i], 1e-5)) EXPECT_EQ(hits[i], 1) << implementation.name << i;
+        if (!overlap(bodies, crowd, crowd.pairs[i], -1e-5)) EXPECT_EQ(hits[i], 0) << implementation.name << i;
+        hit += hits[i];
+      }
+    }
+    EXPECT_GT(hit, 0u);
+  }
+}
+
+TEST(Bodies, ACrowdFindsTheirCollisions) {
+  Random random(2);
+  const BodySet bodies = random_bodies(random);
+  const Crowd3 crowd = random_crowd(random, 200, bodies.body_count(), 6, 1);
+  std::vector<std::uint8_t> hits(crowd.pairs.size());
+  collide(bodies, crowd.agents(), crowd.pairs, hits);
+  std::set<std::pair<std::uint32_t, std::uint32_t>> expected, found;
+  for (std::size_t i = 0; i < hits.size(); ++i)
+    if (hits[i]) expected.insert(std::minmax(crowd.pairs[i].first, crowd.pairs[i].second));
+  Crowd finder;
+  for (const auto [a, b] : finder.collisions(bodies, crowd.agents())) found.insert({a, b});
+  EXPECT_FALSE(expected.empty());
+  EXPECT_EQ(found, expected);
+}
+
+TEST(Bodies, RefuseWhatIsNoBody) {
+  const std::vector<std::vector<Sphere>> none(1), negative{{{0, 0, 0, -1}}},
+      not_finite{{{0, 0, 0, 1}, {0, std::nanf(""), 0, 1}}}, a_point{{{0, 0, 0, 0}}};
+  EXPECT_THROW(BodySet{none}, std::invalid_argument);
+  EXPECT_THROW(BodySet{negative}, std::invalid_argument);
+  EXPECT_THROW(BodySet{not_finite}, std::invalid_argument);
+  EXPECT_THROW(BodySet{a_point}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace bch
