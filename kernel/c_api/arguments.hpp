@@ -9,6 +9,7 @@
 #include <functional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include <bch/query.hpp>
 #include <bch/shape_set.hpp>
@@ -53,6 +54,24 @@ auto same_array(Value* values, std::size_t count, const char* argument) {
   using Target = std::conditional_t<std::is_const_v<Value>, const Own, Own>;
   static_assert(sizeof(Own) == sizeof(Value) && alignof(Own) == alignof(Value));
   return std::span<Target>(reinterpret_cast<Target*>(array_of(values, count, argument).data()), count);
+}
+
+/// Copies `count` parts of an array of the caller, which offsets delimit, as values of the library's own type.
+template <class Own, class Value>
+std::vector<std::vector<Own>> parts_of(const Value* values, const uint64_t* offsets, std::size_t count,
+                                       const char* argument) {
+  const auto begin = offsets_of(offsets, count, "offsets");
+  for (std::size_t i = 0; i < count; ++i)
+    if (begin[i] > begin[i + 1])
+      throw Failure(BCH_INVALID_ARGUMENT,
+                    "offsets[" + std::to_string(i + 1) + "] is less than the one before");
+  const auto all = same_array<Own>(values, begin.back(), argument);
+  std::vector<std::vector<Own>> parts;
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto of = all.subspan(begin[i], begin[i + 1] - begin[i]);
+    parts.emplace_back(of.begin(), of.end());
+  }
+  return parts;
 }
 
 /// Checks the size that a struct begins with, for a library that knows `known` bytes of it.

@@ -14,16 +14,17 @@
 
 namespace bch::c_api {
 
-/// Holds the arguments of every query: a set, agents, options.
-struct Call {
-  Call(const bch_shape_set* set, const bch_agents* of, const bch_query_options* given)
+/// Holds the arguments of every query: a set, of shapes or of bodies, agents, options.
+template <class Handle>
+struct CallOn {
+  CallOn(const Handle* set, const bch_agents* of, const bch_query_options* given)
       : shapes(object_of(set, "set").set), agents(agents_of(of)) {
     const CallOptions all = options_of(given);
     options = all.query;
     threads = all.threads;
   }
 
-  const ShapeSet& shapes;
+  decltype(Handle::set) shapes;
   const Agents agents;
   QueryOptions options;
   std::uint32_t threads;
@@ -38,14 +39,18 @@ struct Call {
   }
 };
 
+using Call = CallOn<bch_shape_set>;
+
 /// Holds the arguments of a query of pairs.
-struct PairCall : Call {
-  PairCall(const bch_shape_set* set, const bch_agents* of, const bch_pair* asked, std::size_t count,
-           const bch_query_options* given)
-      : Call(set, of, given), pairs(same_array<Pair>(asked, count, "pairs")) {}
+template <class Handle>
+struct PairCallOn : CallOn<Handle> {
+  PairCallOn(const Handle* set, const bch_agents* of, const bch_pair* asked, std::size_t count,
+             const bch_query_options* given)
+      : CallOn<Handle>(set, of, given), pairs(same_array<Pair>(asked, count, "pairs")) {}
 
   const std::span<const Pair> pairs;
 };
+using PairCall = PairCallOn<bch_shape_set>;
 
 /// Views the output arrays of a clearance of `count` pairs or agents.
 inline ClearanceAnswers clearance_answers(const bch_clearance_out* given, std::size_t count) {

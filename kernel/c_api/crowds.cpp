@@ -38,30 +38,60 @@ bch_contact_rows contact_rows(std::span<const Pair> pairs, const Rows<DiscPair>&
 }
 
 /// Holds the arguments of a query of a crowd. The last answer is gone as soon as the query begins.
-struct CrowdCall : Call {
-  CrowdCall(bch_crowd* handle, const bch_shape_set* set, const bch_agents* of, const bch_pair_filter* given,
-            const bch_query_options* how)
-      : Call(set, of, how), object(object_of(handle, "crowd")), filter(filter_of(given, agents.size())) {}
-
-  CollisionOptions collision_options() const { return {options.leaves, filter, options.implementation}; }
+template <class Handle>
+struct CrowdCallOn : CallOn<Handle> {
+  CrowdCallOn(bch_crowd* handle, const Handle* set, const bch_agents* of, const bch_pair_filter* given,
+              const bch_query_options* how)
+      : CallOn<Handle>(set, of, how),
+        object(object_of(handle, "crowd")),
+        filter(filter_of(given, this->agents.size())) {}
 
   /// Asks ask(crowd) for an answer with pairs, and returns it.
   template <class Ask>
   auto answer(Ask ask) const {
     object.last = {};
     decltype(ask(object.crowd)) found;
-    run([&] { found = ask(object.crowd); });
+    this->run([&] { found = ask(object.crowd); });
     return found;
   }
 
   bch_crowd& object;
   PairFilter filter;
 };
+using CrowdCall = CrowdCallOn<bch_shape_set>;
 
-void hand_out_pairs(const CrowdCall& call, const CrowdPairs& found, const bch_pair** pairs, size_t* count) {
+CollisionOptions collision_options(const CrowdCall& call) {
+  return {call.options.leaves, call.filter, call.options.implementation};
+}
+BodyCollisionOptions collision_options(const CrowdCallOn<bch_body_set>& call) {
+  return {call.filter, call.options.implementation};
+}
+
+template <class Ask, class Handle>
+void hand_out_pairs(const CrowdCallOn<Handle>& call, Ask ask, const bch_pair** pairs, size_t* count) {
+  required(pairs, "pairs");
+  required(count, "count");
+  const CrowdPairs found = call.answer(ask);
   call.object.last = found;
   *pairs = c_pairs(found.span());
   *count = found.size();
+}
+
+template <class Handle>
+void hand_out_candidates(const CrowdCallOn<Handle>& call, double margin, const bch_pair** pairs,
+                         size_t* count) {
+  const auto ask = [&](Crowd& crowd) {
+    return crowd.candidates(call.shapes, call.agents, {margin, call.filter});
+  };
+  hand_out_pairs(call, ask, pairs, count);
+}
+
+template <class Handle>
+void hand_out_collisions(const CrowdCallOn<Handle>& call, const bch_pair** pairs, size_t* count) {
+  const auto ask = [&](Crowd& crowd) {
+    return crowd.collisions(call.shapes, call.agents, collision_options(call));
+  };
+  hand_out_pairs(call, ask, pairs, count);
 }
 
 }  // namespace
@@ -81,28 +111,31 @@ bch_status bch_crowd_create(const bch_crowd_options* given, bch_crowd** crowd) {
 bch_status bch_crowd_candidates(bch_crowd* handle, const bch_shape_set* set, const bch_agents* agents,
                                 double margin, const bch_pair_filter* filter,
                                 const bch_query_options* options, const bch_pair** pairs, size_t* count) {
-  return guarded([&] {
-    const CrowdCall call(handle, set, agents, filter, options);
-    required(pairs, "pairs");
-    required(count, "count");
-    const auto ask = [&](Crowd& crowd) {
-      return crowd.candidates(call.shapes, call.agents, {margin, call.filter});
-    };
-    hand_out_pairs(call, call.answer(ask), pairs, count);
-  });
+  return guarded(
+      [&] { hand_out_candidates(CrowdCall(handle, set, agents, filter, options), margin, pairs, count); });
 }
 
 bch_status bch_crowd_collisions(bch_crowd* handle, const bch_shape_set* set, const bch_agents* agents,
                                 const bch_pair_filter* filter, const bch_query_options* options,
                                 const bch_pair** pairs, size_t* count) {
+  return guarded([&] { hand_out_collisions(CrowdCall(handle, set, agents, filter, options), pairs, count); });
+}
+
+bch_status bch_crowd_body_candidates(bch_crowd* handle, const bch_body_set* set, const bch_agents* agents,
+                                     double margin, const bch_pair_filter* filter,
+                                     const bch_query_options* options, const bch_pair** pairs,
+                                     size_t* count) {
   return guarded([&] {
-    const CrowdCall call(handle, set, agents, filter, options);
-    required(pairs, "pairs");
-    required(count, "count");
-    const auto ask = [&](Crowd& crowd) {
-      return crowd.collisions(call.shapes, call.agents, call.collision_options());
-    };
-    hand_out_pairs(call, call.answer(ask), pairs, count);
+    hand_out_candidates(CrowdCallOn<bch_body_set>(handle, set, agents, filter, options), margin, pairs,
+                        count);
+  });
+}
+
+bch_status bch_crowd_body_collisions(bch_crowd* handle, const bch_body_set* set, const bch_agents* agents,
+                                     const bch_pair_filter* filter, const bch_query_options* options,
+                                     const bch_pair** pairs, size_t* count) {
+  return guarded([&] {
+    hand_out_collisions(CrowdCallOn<bch_body_set>(handle, set, agents, filter, options), pairs, count);
   });
 }
 
@@ -113,7 +146,7 @@ bch_status bch_crowd_contacts(bch_crowd* handle, const bch_shape_set* set, const
     const CrowdCall call(handle, set, agents, filter, options);
     required(contacts, "contacts");
     const CrowdContacts found = call.answer(
-        [&](Crowd& crowd) { return crowd.contacts(call.shapes, call.agents, call.collision_options()); });
+        [&](Crowd& crowd) { return crowd.contacts(call.shapes, call.agents, collision_options(call)); });
     call.object.last = found.pairs;
     *contacts = contact_rows(found.pairs.span(), found.contacts);
   });
@@ -127,7 +160,7 @@ bch_status bch_crowd_contacts_of(bch_crowd* handle, const bch_shape_set* set, co
     const std::span<const Pair> of = same_array<Pair>(pairs, count, "pairs");
     required(contacts, "contacts");
     const Rows<DiscPair> found = call.answer(
-        [&](Crowd& crowd) { return crowd.contacts(call.shapes, call.agents, of, call.collision_options()); });
+        [&](Crowd& crowd) { return crowd.contacts(call.shapes, call.agents, of, collision_options(call)); });
     *contacts = contact_rows(of, found);
   });
 }

@@ -36,6 +36,9 @@ constexpr std::string_view kind_of(const bch_character*) {
 constexpr std::string_view kind_of(const bch_shape_set*) {
   return "bch_shape_set";
 }
+constexpr std::string_view kind_of(const bch_body_set*) {
+  return "bch_body_set";
+}
 constexpr std::string_view kind_of(const bch_pose_shaper*) {
   return "bch_pose_shaper";
 }

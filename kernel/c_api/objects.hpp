@@ -8,6 +8,7 @@
 #include <string>
 
 #include <bch/baked.hpp>
+#include <bch/body_set.hpp>
 #include <bch/character.hpp>
 #include <bch/pose_shape.hpp>
 #include <bch/shape_set_builder.hpp>
@@ -35,6 +36,14 @@ struct bch_shape_set {
   const std::unique_ptr<bch::BakedShapes> own;
   const bch::ShapeSet& set;
   const std::vector<float> slices;
+};
+
+struct bch_body_set {
+  explicit bch_body_set(bch::BodySet bodies)
+      : own(std::make_unique<bch::BodySet>(std::move(bodies))), set(*own) {}
+
+  const std::unique_ptr<bch::BodySet> own;
+  const bch::BodySet& set;
 };
 
 struct bch_animated_shape {

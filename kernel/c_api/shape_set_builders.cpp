@@ -153,22 +153,6 @@ void check_sources(std::span<const bch_character* const> characters,
   }
 }
 
-std::vector<std::vector<Vec2>> polygons_of(const bch_vec2* corners, const uint64_t* offsets,
-                                           size_t polygons) {
-  const auto begin = offsets_of(offsets, polygons, "offsets");
-  for (std::size_t i = 0; i < polygons; ++i)
-    if (begin[i] > begin[i + 1])
-      throw Failure(BCH_INVALID_ARGUMENT,
-                    "offsets[" + std::to_string(i + 1) + "] is less than the one before");
-  const auto points = same_array<Vec2>(corners, begin.back(), "corners");
-  std::vector<std::vector<Vec2>> all;
-  for (std::size_t i = 0; i < polygons; ++i) {
-    const auto of = points.subspan(begin[i], begin[i + 1] - begin[i]);
-    all.emplace_back(of.begin(), of.end());
-  }
-  return all;
-}
-
 /// Makes the set of all shapes of a builder, which is then empty.
 void finish(bch_shape_set_builder& builder, bch_shape_set** set) {
   required(set, "set");
@@ -262,7 +246,7 @@ bch_status bch_shape_set_builder_add_polygons(bch_shape_set_builder* builder, co
                                               const bch_heights* heights) {
   return guarded([&] {
     add_own(builder, "polygons", heights, [&](const bch_shape_set_builder& to) {
-      return shape_from_polygons(polygons_of(corners, offsets, polygons), to.threshold);
+      return shape_from_polygons(parts_of<Vec2>(corners, offsets, polygons, "corners"), to.threshold);
     });
   });
 }

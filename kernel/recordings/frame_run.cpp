@@ -111,8 +111,9 @@ std::span<const Pair> FrameRun::find(BroadPhase& phase, const ShapeSet& shapes,
                                      Strided<std::uint32_t> shape_of, double margin) const {
   const std::size_t most = options_.most_pairs > 0 ? options_.most_pairs : usual_most_pairs(size());
   try {
-    return phase.find(shapes, {shape_of, own(block_->apart_x()), own(block_->y()), own(block_->heading())},
-                      margin, most);
+    return phase.find(shapes.view(),
+                      {shape_of, own(block_->apart_x()), own(block_->y()), own(block_->heading())}, margin,
+                      most);
   } catch (const std::length_error&) {
     const std::int64_t first = block_->frame(first_), last = block_->frame(last_ - 1);
     const std::string frames = last > first

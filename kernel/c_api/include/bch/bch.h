@@ -709,6 +709,47 @@ BCH_API bch_status bch_crowd_obstacles(bch_crowd* crowd, const bch_shape_set* se
 /** Frees a crowd and its answers. */
 BCH_API bch_status bch_crowd_free(bch_crowd* crowd);
 
+/* Bodies of spheres -------------------------------------------------------------------------------------------------- */
+
+/** Represents a ball. */
+typedef struct bch_sphere {
+  float x, y, z, radius;
+} bch_sphere;
+/** Holds bodies of spheres in space, for queries. Agents name bodies by `shape`, may stand at any `z`, and have no levels. */
+typedef struct bch_body_set bch_body_set;
+/** Makes bodies of given spheres, in the frames of their agents: body i has spheres [i] to [i + 1] of the offsets. */
+BCH_API bch_status bch_body_set_create(const bch_sphere* spheres, const uint64_t* offsets, size_t count,
+                                       bch_body_set** set);
+/** Holds the size of a set of bodies. */
+typedef struct bch_body_set_info {
+  uint32_t size; /**< sizeof(bch_body_set_info) */
+  uint32_t bodies;
+  uint64_t bytes;
+} bch_body_set_info;
+#define BCH_BODY_SET_INFO_INIT \
+  { sizeof(bch_body_set_info), 0, 0 }
+/** Gets the size of a set. */
+BCH_API bch_status bch_body_set_get_info(const bch_body_set* set, bch_body_set_info* info);
+/** Gets the spheres of a body as queries use them. Writes at most `capacity` spheres, and the number of all to `count`. */
+BCH_API bch_status bch_body_set_get_spheres(const bch_body_set* set, uint32_t body, bch_sphere* spheres, size_t capacity,
+                                            size_t* count);
+/** Frees a set. */
+BCH_API bch_status bch_body_set_free(bch_body_set* set);
+
+/** Tests whether the bodies of each pair's agents have a point in common, and writes 1 or 0 to `hits`. Of the options, this and the next
+ * two use `threads` and `implementation`, and ignore the others. */
+BCH_API bch_status bch_collide_bodies(const bch_body_set* set, const bch_agents* agents, const bch_pair* pairs,
+                                      size_t count, const bch_query_options* options, uint8_t* hits);
+/** Finds every pair of agents whose bodies, as seen from above, may collide or come within a margin. */
+BCH_API bch_status bch_crowd_body_candidates(bch_crowd* crowd, const bch_body_set* set, const bch_agents* agents,
+                                             double margin, const bch_pair_filter* filter,
+                                             const bch_query_options* options, const bch_pair** pairs,
+                                             size_t* count);
+/** Finds the pairs whose bodies collide, each once, with first < second. */
+BCH_API bch_status bch_crowd_body_collisions(bch_crowd* crowd, const bch_body_set* set, const bch_agents* agents,
+                                             const bch_pair_filter* filter, const bch_query_options* options,
+                                             const bch_pair** pairs, size_t* count);
+
 /* Obstacles --------------------------------------------------------------------------------------------------------- */
 
 /** Holds obstacles in arrays: paths made of points, and obstacles made of paths, as offsets. */
