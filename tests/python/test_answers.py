@@ -189,6 +189,27 @@ class Scenes(unittest.TestCase):
             (contour,) = shapes.outline(shape)
             np.testing.assert_allclose(sorted(contour.round(4).tolist()), sorted(corners), atol=1e-4, err_msg=str(shape))
 
+    def test_bodies(self):
+        """A snowman beside another one, on the first one's head, and above it."""
+        snowman = [[0, 0, 0.5, 0.5], [0, 0, 1.25, 0.35], [0, 0, 1.75, 0.25]]
+        bodies = bch.BodySet([snowman, snowman[:1]])
+        self.assertEqual((len(bodies), len(bodies.spheres(0)), len(bodies.spheres(1))), (2, 3, 1))
+        np.testing.assert_allclose(bodies.spheres(1).tolist()[0], snowman[0], atol=1e-5)
+        agents = bch.Agents(np.array([0, 0, 1, 1], np.uint32), np.array([0.0, 0.9, 0, 0]), np.zeros(4), np.zeros(4), z=np.array([0, 0, 1.9, 2.1]))
+        pairs = np.array([[0, 1], [0, 2], [0, 3], [1, 2]], np.uint32)
+        for name in bch.implementations():
+            self.assertEqual(bch.collide(bodies, agents, pairs, implementation=name).tolist(), [True, True, False, False])
+        crowd = bch.Crowd()
+        found = {tuple(pair) for pair in crowd.collisions(bodies, agents).tolist()}
+        self.assertEqual(found, {(0, 1), (0, 2), (2, 3)})
+        self.assertEqual(crowd.by_agent()[0].tolist(), [1, 2])
+        mask = np.array([1, 1, 2, 2], np.uint32)
+        self.assertEqual(len(crowd.collisions(bodies, agents, mask=mask)), 1)
+        with self.assertRaisesRegex(bch.ArgumentError, "body 0: expected finite spheres"):
+            bch.BodySet([[[0, 0, 0, -1]]])
+        with self.assertRaises(bch.ArrayError):
+            bch.penetration(bodies, agents, pairs)
+
     def test_plans(self):
         plan = bch.plan_scene(
             [(0, 0.1), (0, 0.4), (0, 0.6), (0, 0.1)],

@@ -22,7 +22,8 @@ raise an error that says what is wanted. Every query releases the interpreter's 
 
 from . import plot
 from ._animated import AnimatedShape
-from ._arrays import DISC, PENETRATION, POSE, SOURCE
+from ._arrays import DISC, PENETRATION, POSE, SOURCE, SPHERE
+from ._bodies import BodySet
 from ._characters import Bone, Channel, Curve, Joint, Motion, make_character
 from ._crowds import Clearances, Contacts, Crowd, Neighbours, Penetrations, Rows
 from ._library import (
@@ -97,6 +98,7 @@ __all__ = [
     "AnimatedShape",
     "ArgumentError",
     "ArrayError",
+    "BodySet",
     "Bone",
     "Channel",
     "Character",
@@ -136,6 +138,7 @@ __all__ = [
     "RangeError",
     "Rows",
     "SOURCE",
+    "SPHERE",
     "ScenePlan",
     "ShapeSet",
     "ShapeSetBuilder",

@@ -29,6 +29,8 @@ f4, f8, b1 = np.dtype(np.float32), np.dtype(np.float64), np.dtype(np.bool_)
 
 #: A disc on the ground, metres.
 DISC = np.dtype([("x", f4), ("y", f4), ("radius", f4)])
+#: A ball, metres.
+SPHERE = np.dtype([("x", f4), ("y", f4), ("z", f4), ("radius", f4)])
 #: A time in a clip of a character; clip 0xffffffff is the rest pose.
 POSE = np.dtype([("clip", u4), ("seconds", f4)])
 #: The character, by its index in a list, and the pose that a shape shows. If `whole` is not 0, no slices cut the shape.
@@ -57,7 +59,7 @@ def _shape_words(shape: Shape) -> str:
 
 
 def _dtype_words(dtype: np.dtype[Any]) -> str:
-    names = {DISC: "bch.DISC", POSE: "bch.POSE", SOURCE: "bch.SOURCE", PENETRATION: "bch.PENETRATION", b1: "bool"}
+    names = {DISC: "bch.DISC", SPHERE: "bch.SPHERE", POSE: "bch.POSE", SOURCE: "bch.SOURCE", PENETRATION: "bch.PENETRATION", b1: "bool"}
     return names.get(dtype, dtype.name)
 
 

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import ctypes
 from ctypes import byref
-from typing import Any, Iterator, NamedTuple, Optional, Tuple
+from typing import Any, Iterator, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 
@@ -29,6 +29,7 @@ from ._arrays import (
     u4,
     u8,
 )
+from ._bodies import BodySet
 from ._library import ArgumentError, Exclusive, Handle, check, lib
 from ._obstacles import Obstacles
 from ._queries import Agents, Leaves, Overlap, options, pointers
@@ -145,15 +146,16 @@ class Crowd:
         chosen = _library.CrowdOptions(period_x=x, period_y=y, most_pairs=most)
         self._handle, self._exclusive = Handle("crowd", "create", byref(chosen)), Exclusive("Crowd")
 
-    def _pairs(self, find: str, shapes: ShapeSet, agents: Agents, *arguments: Any) -> UInt32:
-        pairs, count = ctypes.c_void_p(), ctypes.c_size_t()
+    def _pairs(self, find: str, shapes: Union[ShapeSet, BodySet], agents: Agents, *arguments: Any) -> UInt32:
+        pairs, count, bodies = ctypes.c_void_p(), ctypes.c_size_t(), isinstance(shapes, BodySet)
+        call, at = getattr(lib, f"bch_crowd_{'body_' * bodies}{find}"), pointers(shapes, agents, bodies)
         with self._exclusive:
-            check(getattr(lib, find)(self._handle.pointer, *pointers(shapes, agents), *arguments, byref(pairs), byref(count)))
+            check(call(self._handle.pointer, *at, *arguments, byref(pairs), byref(count)))
             return copied(pairs.value, u4, (count.value, 2))
 
     def candidates(
         self,
-        shapes: ShapeSet,
+        shapes: Union[ShapeSet, BodySet],
         agents: Agents,
         margin: float = 0.0,
         *,
@@ -168,7 +170,7 @@ class Crowd:
 
         Parameters
         ----------
-        shapes : ShapeSet
+        shapes : ShapeSet or BodySet
         agents : Agents
         margin : float
             Metres.
@@ -182,11 +184,11 @@ class Crowd:
         """
         how, _ = options(threads=threads)
         chosen = _filter(agents, category, mask, excluded)
-        return self._pairs("bch_crowd_candidates", shapes, agents, number(margin, "margin"), chosen, how)
+        return self._pairs("candidates", shapes, agents, number(margin, "margin"), chosen, how)
 
     def collisions(
         self,
-        shapes: ShapeSet,
+        shapes: Union[ShapeSet, BodySet],
         agents: Agents,
         *,
         leaves: Leaves = "segments",
@@ -205,7 +207,7 @@ class Crowd:
         """
         how, _ = options(leaves=leaves, threads=threads, implementation=implementation)
         chosen = _filter(agents, category, mask, excluded)
-        return self._pairs("bch_crowd_collisions", shapes, agents, chosen, how)
+        return self._pairs("collisions", shapes, agents, chosen, how)
 
     def contacts(
         self,

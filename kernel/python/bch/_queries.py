@@ -36,6 +36,7 @@ from ._arrays import (
     u1,
     u4,
 )
+from ._bodies import BodySet
 from ._library import ArgumentError, ArrayError, check, lib
 from ._obstacles import Obstacles
 from ._shapes import ShapeSet
@@ -180,9 +181,9 @@ def _options(
 Pairs = Union[UInt32, Obstacles]
 
 
-def pointers(shapes: ShapeSet, agents: Agents) -> Tuple[int, int]:
-    """Return the addresses of a set and of agents, or raise an error if an argument is something else."""
-    if not isinstance(shapes, ShapeSet):
+def pointers(shapes: Union[ShapeSet, BodySet], agents: Agents, bodies: bool = False) -> Tuple[int, int]:
+    """Return the addresses of a set, of bodies or of shapes, and of agents, or raise an error if an argument is something else."""
+    if not isinstance(shapes, BodySet if bodies else ShapeSet):
         hint = "; ask about its .shapes" if hasattr(shapes, "shapes") else ""
         raise ArrayError(f"shapes is a {type(shapes).__name__}; wanted is a bch.ShapeSet{hint}")
     if not isinstance(agents, Agents):
@@ -199,7 +200,7 @@ def _asked(shapes: ShapeSet, agents: Agents, pairs: Pairs) -> Tuple[int, int, in
 
 
 def collide(
-    shapes: ShapeSet,
+    shapes: Union[ShapeSet, BodySet],
     agents: Agents,
     pairs: Pairs,
     *,
@@ -216,12 +217,13 @@ def collide(
 
     Parameters
     ----------
-    shapes : ShapeSet
+    shapes : ShapeSet or BodySet
+        Bodies collide if they have a point in common in space.
     agents : Agents
     pairs : (n, 2) uint32, or Obstacles
         Indices of agents; with obstacles, every agent is tested against all of them.
     leaves : {"segments", "discs"}
-        What decides at the level of all depths: segments of the outlines, or discs that cover them.
+        What decides at the level of all depths: segments of the outlines, or discs that cover them. Bodies have no choice.
     threads : int
         Number of threads; 0: all processors. The answer is the same for any number.
     implementation : str, optional
@@ -233,9 +235,14 @@ def collide(
     -------
     (n,) bool
     """
+    how, _ = options(leaves, "zero", math.inf, threads, implementation)
+    if isinstance(shapes, BodySet):
+        at, where = pointers(shapes, agents, bodies=True), given(pairs, u4, (None, 2), "pairs")
+        hits = result(out, b1, (len(pairs),))
+        check(lib.bch_collide_bodies(*at, where, len(pairs), how, address(hits)))
+        return hits
     set_at, agents_at, where, n = _asked(shapes, agents, pairs)
     hits = result(out, b1, (n,))
-    how, _ = options(leaves, "zero", math.inf, threads, implementation)
     if isinstance(pairs, Obstacles):
         check(lib.bch_obstacles_collide(set_at, agents_at, where, how, address(hits)))
     else:
