@@ -72,7 +72,7 @@ void write_node(const SphereSlots& spheres, std::uint32_t first, std::uint32_t c
 
 }  // namespace
 
-BodyLayout body_layout(const std::vector<Sphere>& spheres) {
+BodyLayout body_layout(std::span<const Sphere> spheres) {
   BodyLayout layout;
   layout.sphere_count = static_cast<std::uint32_t>(spheres.size());
   layout.leaf_size = spheres.size() > 384 ? 8 : 4;

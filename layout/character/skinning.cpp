@@ -20,13 +20,14 @@ auto from_above(Position& position) {
   return Eigen::Map<Eigen::Vector2f>(&position.x);
 }
 
-/// Moves the middle of the positions' box, seen from above, to the origin.
+/// Moves the middle of the positions' box, seen from above, to the origin. Returns the middle.
 template <class Position>
-void put_middle_at_origin(std::vector<Position>& positions) {
+Vec2 put_middle_at_origin(std::vector<Position>& positions) {
   Eigen::AlignedBox2f box;
   for (Position& position : positions) box.extend(from_above(position));
   const Eigen::Vector2f middle = box.center();
   for (Position& position : positions) from_above(position) -= middle;
+  return {middle.x(), middle.y()};
 }
 
 void move_on_ground(Affine3d& map, double x, double y) {
@@ -166,7 +167,7 @@ std::span<const Position> Skinner::place_vertices(const Pose& pose, std::vector<
   if (const auto vertex = blend_.blend(bone_to_shape_, std::span(positions)))
     throw std::domain_error("character '" + character_->name + "': posed vertex " + std::to_string(*vertex) +
                             " is not finite");
-  if (character_->root_joint < 0) put_middle_at_origin(positions);
+  if (character_->root_joint < 0) middle_ = put_middle_at_origin(positions);
   return positions;
 }
 

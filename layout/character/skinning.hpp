@@ -46,6 +46,13 @@ class Skinner {
 
   const Character& character() const noexcept { return *character_; }
 
+  /// Returns the bones that move a vertex, in order.
+  std::span<const std::uint32_t> bones() const noexcept { return blend_.bones(); }
+  /// Returns the maps from the frames of these bones' inverse_binds to the shape of the last pose, which was not one of vertices; then
+  /// middle() was subtracted.
+  std::span<const Affine3d> bone_maps() const noexcept { return bone_to_shape_; }
+  Vec2 middle() const noexcept { return middle_; }
+
  private:
   void place_joints();
   void place_bones();
@@ -64,6 +71,7 @@ class Skinner {
   // These arrays hold the bones that move a vertex.
   std::vector<std::uint32_t> joint_of_bone_;
   std::vector<Affine3d> inverse_bind_, bone_to_shape_;
+  Vec2 middle_;  ///< of a shape without a root joint
   // These arrays hold the vertices. Each one gets its memory when its function is called first.
   std::vector<Vec3> positions_;
   std::vector<Vec2> ground_positions_;

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <bch/bodies.hpp>
+
+#include <stdexcept>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "layout/base/floating_point_state.hpp"
+#include "layout/body/body_layout.hpp"
+#include "layout/body/model/assemble_model.hpp"
+#include "layout/body/model/body_candidates.hpp"
+#include "layout/body/model/skin_pieces.hpp"
+#include "layout/body/model/sphere_choice.hpp"
+#include "layout/body/model/training_poses.hpp"
+
+namespace bch {
+
+using namespace detail;
+
+namespace {
+
+constexpr double longest_edge = 0.025;   // metres: a sphere of a forearm holds a triangle of that size
+constexpr std::uint32_t chosen_in = 12;  ///< poses
+
+}  // namespace
+
+BodyModel make_body(const Character& character, const BodyOptions& options) {
+  const FloatingPointStateGuard floats;
+  validate(character);
+  if (options.spheres < 1 || options.spheres > most_spheres)
+    throw std::invalid_argument("make_body: expected 1 to " + std::to_string(most_spheres) +
+                                " spheres, found " + std::to_string(options.spheres));
+  const auto advance = [&](double share) {
+    if (options.progress && !options.progress(share))
+      throw std::system_error(std::make_error_code(std::errc::operation_canceled), "make_body");
+  };
+  auto own = std::make_shared<const Character>(character);
+  Skinner skinner(*own);
+  const auto at_rest = skinner.pose(Pose());
+  const SkinPieces skin = cut_skin(*own, at_rest, longest_edge);
+  const auto candidates = find_candidates(*own, skin, place_points(at_rest, skin.cuts), skinner);
+  if (candidates.empty())
+    throw std::invalid_argument("character '" + own->name + "': its skin holds no ball of 4 mm to 29 cm");
+  advance(0.2);
+  const TrainingPoses poses(*own, skin, sample_poses(*own, chosen_in));
+  const SphereChoice choice = choose_spheres(skin, candidates, poses, options.spheres,
+                                             [&](double share) { advance(0.2 + 0.8 * share); });
+  BodyModel model = assemble_model(std::move(own), skin, choice, poses);
+  advance(1);
+  return model;
+}
+
+}  // namespace bch

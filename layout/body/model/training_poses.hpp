@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <bch/bodies.hpp>
+#include <bch/character.hpp>
+
+#include "layout/body/model/skin_pieces.hpp"
+#include "layout/character/skinning.hpp"
+
+namespace bch::detail {
+
+/// Represents a point of space in double.
+struct SpacePoint {
+  double x = 0, y = 0, z = 0;
+};
+
+inline double squared_distance(const SpacePoint& a, const SpacePoint& b) {
+  const double x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
+  return x * x + y * y + z * z;
+}
+
+/// Holds the skin of a character in poses in which spheres are chosen: where its points are, and where its bones take the centres of
+/// spheres.
+class TrainingPoses {
+ public:
+  /// Takes a skin in poses of a character.
+  TrainingPoses(const Character& character, const SkinPieces& skin, std::span<const PoseTime> poses);
+
+  std::size_t size() const noexcept { return poses_.size(); }
+  std::span<const SpacePoint> points(std::size_t pose) const noexcept { return poses_[pose].points; }
+  SpacePoint centre(std::size_t pose, std::span<const SphereInfluence> influences) const;
+
+ private:
+  struct Posed {
+    std::vector<SpacePoint> points;
+    std::vector<Affine3d> maps;  ///< by bone
+    SpacePoint middle;
+  };
+
+  std::vector<Posed> poses_;
+};
+
+}  // namespace bch::detail
