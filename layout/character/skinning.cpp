@@ -10,25 +10,10 @@
 #include "layout/base/number_class.hpp"
 #include "layout/character/affine_rows.hpp"
 #include "layout/character/clip_pose.hpp"
-#include "layout/character/eigen.hpp"
+#include "layout/character/middle.hpp"
 
 namespace bch::detail {
 namespace {
-
-template <class Position>
-auto from_above(Position& position) {
-  return Eigen::Map<Eigen::Vector2f>(&position.x);
-}
-
-/// Moves the middle of the positions' box, seen from above, to the origin. Returns the middle.
-template <class Position>
-Vec2 put_middle_at_origin(std::vector<Position>& positions) {
-  Eigen::AlignedBox2f box;
-  for (Position& position : positions) box.extend(from_above(position));
-  const Eigen::Vector2f middle = box.center();
-  for (Position& position : positions) from_above(position) -= middle;
-  return {middle.x(), middle.y()};
-}
 
 void move_on_ground(Affine3d& map, double x, double y) {
   map.rows[0][3] += x;
@@ -152,6 +137,19 @@ void Skinner::place(const SkinningPalette& pose) {
   }
 }
 
+void Skinner::place_bones_of(const Pose& pose) {
+  std::visit(
+      [&]<class Kind>(const Kind& kind) {
+        if constexpr (std::is_same_v<Kind, PosedVertices>)
+          throw std::invalid_argument(
+              "pose: expected transforms or a time of a clip, found vertices, which do not say where bones "
+              "are");
+        else
+          place(kind);
+      },
+      pose.kind());
+}
+
 template <class Position>
 std::span<const Position> Skinner::place_vertices(const Pose& pose, std::vector<Position>& positions) {
   positions.resize(character_->vertices.size());
@@ -159,15 +157,14 @@ std::span<const Position> Skinner::place_vertices(const Pose& pose, std::vector<
     take_vertices(posed->positions, positions);
     return positions;
   }
-  std::visit(
-      [&]<class Kind>(const Kind& kind) {
-        if constexpr (!std::is_same_v<Kind, PosedVertices>) place(kind);
-      },
-      pose.kind());
+  place_bones_of(pose);
   if (const auto vertex = blend_.blend(bone_to_shape_, std::span(positions)))
     throw std::domain_error("character '" + character_->name + "': posed vertex " + std::to_string(*vertex) +
                             " is not finite");
-  if (character_->root_joint < 0) middle_ = put_middle_at_origin(positions);
+  if (character_->root_joint < 0) {
+    middle_ = middle_of(std::span<const Position>(positions));
+    move_by(std::span(positions), {-middle_.x, -middle_.y});
+  }
   return positions;
 }
 

@@ -46,10 +46,13 @@ class Skinner {
 
   const Character& character() const noexcept { return *character_; }
 
+  /// Places the bones of a pose, which is not one of vertices; see bone_maps().
+  /// Errors:  as pose(); throws std::invalid_argument on a pose of vertices.
+  void place_bones_of(const Pose& pose);
   /// Returns the bones that move a vertex, in order.
   std::span<const std::uint32_t> bones() const noexcept { return blend_.bones(); }
-  /// Returns the maps from the frames of these bones' inverse_binds to the shape of the last pose, which was not one of vertices; then
-  /// middle() was subtracted.
+  /// Returns the maps from the frames of these bones' inverse_binds to the shape of the last pose, which was not one of vertices. Of a
+  /// shape without a root joint, pose() then moved the middle() to the origin.
   std::span<const Affine3d> bone_maps() const noexcept { return bone_to_shape_; }
   Vec2 middle() const noexcept { return middle_; }
 

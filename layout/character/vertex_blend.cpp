@@ -35,6 +35,9 @@ struct Products {
 constexpr std::size_t axes_of(const Vec3*) {
   return 3;
 }
+constexpr std::size_t axes_of(const SpaceRow*) {
+  return 3;
+}
 constexpr std::size_t axes_of(const Vec2*) {
   return 2;
 }
@@ -62,17 +65,27 @@ Float halves(Float x, Float y) {
   return Simd::shuffle<0, 4, 1, 5>(x, y) + Simd::shuffle<2, 6, 3, 7>(x, y);
 }
 
-/// Writes two positions. Returns: what is NaN in some lane if one is not finite.
+/// Returns a position. The last lane is finite if the third is.
+Float position_of(const Products<3>& sum) {
+  const auto& [x, y, z] = sum.axis;
+  const Float xy = halves(x, y), zz = z + Simd::shuffle<2, 3, 2, 3>(z, z);
+  return Simd::shuffle<0, 1, 4, 5>(xy, zz) + Simd::shuffle<2, 3, 5, 4>(xy, zz);
+}
+
+// These write two positions. They return what is NaN in some lane if one is not finite.
 Float put(const Products<3>& p, const Products<3>& q, Vec3& at_p, Vec3& at_q) {
   const auto put_one = [](const Products<3>& sum, Vec3& at) {
-    const auto& [x, y, z] = sum.axis;
-    const Float xy = halves(x, y), zz = z + Simd::shuffle<2, 3, 2, 3>(z, z);
-    // The last lane is finite if the third is.
-    const Float all = Simd::shuffle<0, 1, 4, 5>(xy, zz) + Simd::shuffle<2, 3, 5, 4>(xy, zz);
+    const Float all = position_of(sum);
     at = {Simd::lane(all, 0), Simd::lane(all, 1), Simd::lane(all, 2)};
     return all - all;
   };
   return put_one(p, at_p) | put_one(q, at_q);
+}
+Float put(const Products<3>& p, const Products<3>& q, SpaceRow& at_p, SpaceRow& at_q) {
+  const Float first = position_of(p), second = position_of(q);
+  first.store_aligned(&at_p.x);
+  second.store_aligned(&at_q.x);
+  return (first - first) | (second - second);
 }
 Float put(const Products<2>& p, const Products<2>& q, Vec2& at_p, Vec2& at_q) {
   const Float first = halves(p.axis[0], p.axis[1]), second = halves(q.axis[0], q.axis[1]);
@@ -105,24 +118,36 @@ Float blend_run(const Work<Position> work, std::size_t begin, std::size_t end, s
   return not_finite | put(last, last, position(i), position(i));
 }
 
-bool is_finite(const Vec3& position) {
+template <class Position>
+bool position_is_finite(const Position& position) {
   return detail::is_finite(position.x) && detail::is_finite(position.y) && detail::is_finite(position.z);
 }
-bool is_finite(Vec2 position) {
+bool position_is_finite(const Vec2& position) {
   return detail::is_finite(position.x) && detail::is_finite(position.y);
+}
+
+std::vector<PointInfluence> influences_of(const Character& character) {
+  std::vector<PointInfluence> all;
+  for (std::size_t v = 0; v < character.vertices.size(); ++v)
+    for (std::uint32_t i = character.influence_begin[v]; i < character.influence_begin[v + 1]; ++i)
+      all.push_back({character.influences[i].bone, character.influences[i].weight, character.vertices[v]});
+  return all;
 }
 
 }  // namespace
 
-VertexBlend::VertexBlend(const Character& character) : vertex_(character.vertices.size()) {
-  const auto& begin = character.influence_begin;
+VertexBlend::VertexBlend(const Character& character)
+    : VertexBlend(character.influence_begin, influences_of(character)) {}
+
+VertexBlend::VertexBlend(std::span<const std::uint32_t> begin, std::span<const PointInfluence> influences)
+    : vertex_(begin.size() - 1) {
   std::iota(vertex_.begin(), vertex_.end(), 0);
   const auto count = [&](std::uint32_t v) { return begin[v + 1] - begin[v]; };
   std::sort(vertex_.begin(), vertex_.end(), [&](std::uint32_t v, std::uint32_t w) {
     return count(v) != count(w) ? count(v) < count(w) : v < w;
   });
 
-  for (const Influence& influence : character.influences) bones_.push_back(influence.bone);
+  for (const PointInfluence& influence : influences) bones_.push_back(influence.bone);
   std::sort(bones_.begin(), bones_.end());
   bones_.erase(std::unique(bones_.begin(), bones_.end()), bones_.end());
   rows_.resize(3 * bones_.size());
@@ -131,9 +156,8 @@ VertexBlend::VertexBlend(const Character& character) : vertex_(character.vertice
     if (runs_.empty() || runs_.back().bones != count(v))
       runs_.push_back({count(v), runs_.empty() ? 0 : runs_.back().end});
     ++runs_.back().end;
-    const Vec3& at = character.vertices[v];
     for (std::uint32_t i = begin[v]; i < begin[v + 1]; ++i) {
-      const auto [bone, weight] = character.influences[i];
+      const auto& [bone, weight, at] = influences[i];
       weighted_.push_back({{weight * at.x, weight * at.y, weight * at.z, weight}});
       const auto found = std::lower_bound(bones_.begin(), bones_.end(), bone);
       first_row_.push_back(static_cast<std::uint32_t>(3 * (found - bones_.begin())));
@@ -163,11 +187,16 @@ std::optional<std::uint32_t> VertexBlend::blend_all(std::span<const Affine3d> ma
   }
   if (!xsimd::any(xsimd::isnan(not_finite))) return {};
   const auto first = std::find_if(positions.begin(), positions.end(),
-                                  [](const Position& position) { return !is_finite(position); });
+                                  [](const Position& position) { return !position_is_finite(position); });
   return static_cast<std::uint32_t>(first - positions.begin());
 }
 
 std::optional<std::uint32_t> VertexBlend::blend(std::span<const Affine3d> maps, std::span<Vec3> positions) {
+  return blend_all(maps, positions);
+}
+
+std::optional<std::uint32_t> VertexBlend::blend(std::span<const Affine3d> maps,
+                                                std::span<SpaceRow> positions) {
   return blend_all(maps, positions);
 }
 

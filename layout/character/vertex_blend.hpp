@@ -17,6 +17,18 @@
 
 namespace bch::detail {
 
+/// Holds the share of a bone in the place of a point, and where the point is in that bone's frame.
+struct PointInfluence {
+  std::uint32_t bone;
+  float weight;
+  Vec3 at;
+};
+
+/// Represents the place of a point of space, in a register.
+struct alignas(16) SpaceRow {
+  float x, y, z, unused;
+};
+
 /// Represents a mesh that its bones move: each vertex goes to the mean of where they take it, weighted. What does not depend
 /// on the pose is done once: a vertex is multiplied by its weights, so that every bone adds one product, and
 /// vertices of equally many bones stand together, so that how many is no surprise.
@@ -27,7 +39,10 @@ class VertexBlend {
     float at[4];
   };
 
+  /// Takes the vertices of a character.
   explicit VertexBlend(const Character& character);
+  /// Takes points: point i has influences begin[i] to begin[i + 1].
+  VertexBlend(std::span<const std::uint32_t> begin, std::span<const PointInfluence> influences);
 
   /// Returns the bones that move a vertex, in order.
   std::span<const std::uint32_t> bones() const { return bones_; }
@@ -35,6 +50,8 @@ class VertexBlend {
   /// Writes where every vertex goes. maps[i] is that of bones()[i].
   /// Returns: the first vertex whose position is not finite, if there is one.
   std::optional<std::uint32_t> blend(std::span<const Affine3d> maps, std::span<Vec3> positions);
+  /// Writes the same bits a register each.
+  std::optional<std::uint32_t> blend(std::span<const Affine3d> maps, std::span<SpaceRow> positions);
   /// Writes x and y alone, with the same bits, for views from above.
   std::optional<std::uint32_t> blend(std::span<const Affine3d> maps, std::span<Vec2> positions);
 

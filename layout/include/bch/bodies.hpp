@@ -64,4 +64,52 @@ struct BodyOptions {
 ///          std::system_error of std::errc::operation_canceled where it is cancelled.
 BodyModel make_body(const Character& character, const BodyOptions& options = {});
 
+/// Poses the spheres of a model, one pose after the other. Only one thread may use an object at a time, and one that was moved from can
+/// only be assigned to or destroyed.
+class BodyPoser {
+ public:
+  /// Copies a model.
+  /// Errors:  throws std::invalid_argument as validate() does.
+  explicit BodyPoser(const BodyModel& model);
+  BodyPoser(BodyPoser&&) noexcept;
+  BodyPoser& operator=(BodyPoser&&) noexcept;
+  ~BodyPoser();
+
+  /// Returns the spheres of a pose: a time of a clip, joint transforms or bone matrices. They hold every triangle of pose_vertices(), in
+  /// the same frame, whatever the pose. Valid until the next call.
+  /// Errors:  as PoseShaper::shape(); throws std::invalid_argument on a pose of vertices, which does not say where bones are, and
+  ///          std::domain_error on a reach outside 1e-6 to 1e6 m.
+  std::span<const Sphere> spheres(const Pose& pose);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+/// Holds a body for each of many agents, who all have poses of their own in every frame.
+///
+///     bch::LiveBodies bodies(models, model_of_agent);
+///     bodies.pose(poses);                                     // in every frame
+///     for (const auto [a, b] : crowd.collisions(bodies.set(), {body, x, y, heading})) ...
+class LiveBodies {
+ public:
+  /// Copies models. Body i is one of model model_of_body[i], in the rest pose.
+  /// Errors:  throws std::invalid_argument as validate() does, and on an index of no model.
+  LiveBodies(std::span<const BodyModel> models, std::span<const std::uint32_t> model_of_body);
+  LiveBodies(LiveBodies&&) noexcept;
+  LiveBodies& operator=(LiveBodies&&) noexcept;
+  ~LiveBodies();
+
+  /// Poses all bodies, one pose a body, on all threads of the caller's TBB arena, with the same bits for any number of them. No query may
+  /// run meanwhile. Allocates nothing after the first calls.
+  /// Errors:  throws std::invalid_argument on another number of poses and, naming the body, what BodyPoser::spheres() throws. Some
+  ///          bodies then have their new poses.
+  void pose(std::span<const Pose> poses);
+  const BodySet& set() const noexcept;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
 }  // namespace bch

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/body/posing/sphere_poser.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "layout/base/rounding.hpp"
+#include "layout/base/shortest.hpp"
+#include "layout/body/sphere_rounding.hpp"
+#include "layout/character/middle.hpp"
+#include "layout/simd/lanes.hpp"
+
+namespace bch::detail {
+namespace {
+
+using Simd = BaseLanes;
+using Float = Simd::Float;
+
+/// Corners of a sphere that are measured side by side.
+constexpr std::size_t together = 4;
+static_assert(Float::size == together);
+
+struct BlendedPoints {
+  std::vector<std::uint32_t> begin{0};
+  std::vector<PointInfluence> influences;
+
+  void end() { begin.push_back(static_cast<std::uint32_t>(influences.size())); }
+};
+
+/// Returns the vertices of a model's character, and the centres behind them.
+VertexBlend blend_of(const BodyModel& model) {
+  const Character& character = *model.character;
+  BlendedPoints points;
+  for (std::size_t v = 0; v < character.vertices.size(); ++v) {
+    for (std::uint32_t i = character.influence_begin[v]; i < character.influence_begin[v + 1]; ++i)
+      points.influences.push_back(
+          {character.influences[i].bone, character.influences[i].weight, character.vertices[v]});
+    points.end();
+  }
+  for (std::size_t s = 0; s < model.sphere_count(); ++s) {
+    for (std::uint32_t i = model.influence_begin[s]; i < model.influence_begin[s + 1]; ++i) {
+      const auto& [bone, weight, centre] = model.influences[i];
+      points.influences.push_back({bone, weight, centre});
+    }
+    points.end();
+  }
+  return {points.begin, points.influences};
+}
+
+Float half_way(const SpaceRow& a, const SpaceRow& b) {
+  return Float(0.5f) * (Float::load_aligned(&a.x) + Float::load_aligned(&b.x));
+}
+
+}  // namespace
+
+SpherePoser::SpherePoser(const BodyModel& model, const BodyLayout& layout)
+    : model_(model), layout_(layout), skinner_(*model.character), blend_(blend_of(model)) {
+  const auto vertices = static_cast<std::uint32_t>(model.character->vertices.size());
+  const auto spheres = static_cast<std::uint32_t>(model.sphere_count());
+  const auto point = [&](std::uint32_t i) { return i < vertices ? i : i + spheres; };
+  points_.resize(vertices + spheres + model.cuts.size());
+  std::vector<std::uint32_t> cuts_above(vertices, 0);  ///< by point
+  for (const auto [a, b] : model.cuts) {
+    cuts_.push_back({point(a), point(b)});
+    cuts_above.push_back(1 + std::max(cuts_above[a], cuts_above[b]));
+    most_cuts_ = std::max(most_cuts_, cuts_above.back());
+  }
+  for (std::uint32_t s = 0; s < spheres; ++s) {
+    for (std::uint32_t i = model.corner_begin[s]; i < model.corner_begin[s + 1]; ++i)
+      corners_.push_back(point(model.corners[i]));
+    while (model.corner_begin[s] < model.corner_begin[s + 1] && corners_.size() % together != 0)
+      corners_.push_back(corners_.back());
+    corner_end_.push_back(static_cast<std::uint32_t>(corners_.size()));
+  }
+  const std::size_t lines = (layout.slot_count() + record_line - 1) / record_line * record_line;
+  for (AlignedVector<float>* const field : {&x_, &y_, &z_, &radius_}) field->resize(lines);
+}
+
+void SpherePoser::place_points(const Pose& pose) {
+  const std::size_t vertices = model_.character->vertices.size();
+  const std::size_t blended = vertices + model_.sphere_count();
+  skinner_.place_bones_of(pose);
+  const std::span<SpaceRow> all(points_);
+  if (const auto bad = blend_.blend(skinner_.bone_maps(), all.first(blended)))
+    throw std::domain_error(
+        "character '" + model_.character->name + "': posed " +
+        (*bad < vertices ? "vertex " + std::to_string(*bad) : "sphere " + std::to_string(*bad - vertices)) +
+        " is not finite");
+  if (model_.character->root_joint < 0) {
+    const Vec2 middle = middle_of(std::span<const SpaceRow>(all.first(vertices)));
+    move_by(all.first(blended), {-middle.x, -middle.y});
+  }
+  SpaceRow* to = points_.data() + blended;
+  for (const auto [a, b] : cuts_) half_way(points_[a], points_[b]).store_aligned(&(to++)->x);
+}
+
+/// Sets each radius to the distance of the sphere's farthest corner, as float has it.
+void SpherePoser::measure_radii() {
+  const SpaceRow* const centres = points_.data() + model_.character->vertices.size();
+  const std::uint32_t* corner = corners_.data();
+  for (std::uint32_t s = 0; s < layout_.sphere_count; ++s) {
+    const SpaceRow& centre = centres[s];
+    const Float cx(centre.x), cy(centre.y), cz(centre.z);
+    Float farthest(0.0f);
+    for (const std::uint32_t* const end = corners_.data() + corner_end_[s]; corner != end;
+         corner += together) {
+      Float rows[4];
+      for (std::size_t i = 0; i < together; ++i) rows[i] = Float::load_aligned(&points_[corner[i]].x);
+      Float columns[4];
+      Simd::transpose(rows, columns);
+      const Float x = columns[0] - cx, y = columns[1] - cy, z = columns[2] - cz;
+      farthest = Simd::max(x * x + y * y + z * z, farthest);
+    }
+    x_[s] = centre.x, y_[s] = centre.y, z_[s] = centre.z;
+    radius_[s] = -Simd::least(-farthest);
+  }
+}
+
+/// Enlarges radii by what was rounded, so that queries miss nothing. With P the reach and u the unit roundoff: a corner is off by
+///
+///     (cut)       u P sqrt(3)      for each cut above it: a rounding of each coordinate of a mean, and the mean of its ends' errors
+///
+/// A distance r is off by 4 u r: u for each difference, 3 u of the square and so 1.5 u of the root for squares and sums, and its
+/// rounding, 0.5 u, is 3 u, of lengths that are themselves off by less than 2^-20. What is added and multiplied here rounds by less than
+/// 3 u of the sum. The reach is that of the enlarged spheres, which is at most 2^-16 larger than P.
+void SpherePoser::enlarge_radii() {
+  constexpr float unit = 0x1p-24f;
+  constexpr float distance_error = 8 * unit;  // 4 of the distance, 3 of what follows
+  float reach = 0;
+  for (std::uint32_t s = 0; s < layout_.sphere_count; ++s) {
+    const float least = model_.least_radius.empty() ? 0 : model_.least_radius[s];
+    const float radius = std::max(std::sqrt(radius_[s]), least);
+    radius_[s] = radius + distance_error * radius;
+    reach = std::max(reach, std::sqrt(x_[s] * x_[s] + y_[s] * y_[s] + z_[s] * z_[s]) + radius_[s]);
+  }
+  if (!(double{reach} >= rounding::smallest_reach && double{reach} <= rounding::largest_reach))
+    throw std::domain_error("character '" + model_.character->name +
+                            "': expected a pose with a reach of 1e-6 to 1e6 m, found " + shortest(reach));
+  // 1.01 for what the margin itself adds to the reach, and what is rounded here.
+  const float margin =
+      reach *
+      static_cast<float>(1.01 * (rounding::sphere_margin + 1.7321 * most_cuts_ * rounding::unit_roundoff));
+  for (std::uint32_t s = 0; s < layout_.sphere_count; ++s) radius_[s] += margin;
+  for (std::size_t s = layout_.sphere_count; s < x_.size(); ++s)
+    x_[s] = x_[s - 1], y_[s] = y_[s - 1], z_[s] = z_[s - 1], radius_[s] = radius_[s - 1];
+}
+
+SphereSlots SpherePoser::pose(const Pose& pose) {
+  place_points(pose);
+  measure_radii();
+  enlarge_radii();
+  return {x_.data(), y_.data(), z_.data(), radius_.data()};
+}
+
+}  // namespace bch::detail
