@@ -3,54 +3,18 @@
 
 #include <bch/body_set.hpp>
 
-#include "layout/base/random.hpp"
+#include "tests/support/body_scenes.hpp"
 #include "tests/support/test.hpp"
 
 namespace bch {
 namespace {
 
-using detail::Random;
-
-/// Makes a body of spheres in a column as tall as a person.
-std::vector<Sphere> random_body(Random& random, std::uint32_t spheres) {
-  const auto number = [&](double low, double high) { return static_cast<float>(random.between(low, high)); };
-  std::vector<Sphere> body(spheres);
-  for (Sphere& sphere : body)
-    sphere = {number(-0.25, 0.25), number(-0.2, 0.2), number(0, 1.8), number(0.02, 0.08)};
-  return body;
-}
-
-struct Crowd3 {
-  std::vector<std::uint32_t> body;
-  std::vector<double> x, y, z, heading;
-  std::vector<Pair> pairs;
-
-  Agents agents() const { return {.shape = body, .x = x, .y = y, .heading = heading, .z = z}; }
-};
-
-/// Makes a crowd of random placements in a cube, and all of its pairs.
-Crowd3 random_crowd(Random& random, std::uint32_t agents, std::uint32_t bodies, double side, double height) {
-  Crowd3 crowd;
-  for (std::uint32_t i = 0; i < agents; ++i) {
-    crowd.body.push_back(random.below(bodies));
-    crowd.x.push_back(random.between(0, side));
-    crowd.y.push_back(random.between(0, side));
-    crowd.z.push_back(random.between(0, height));
-    crowd.heading.push_back(random.between(-4, 4));
-    for (std::uint32_t j = 0; j < i; ++j) crowd.pairs.push_back({i, j});
-  }
-  return crowd;
-}
-
-BodySet random_bodies(Random& random) {
-  std::vector<std::vector<Sphere>> bodies;
-  for (const std::uint32_t spheres : {1u, 3u, 4u, 17u, 64u, 128u, 255u, 512u})
-    bodies.push_back(random_body(random, spheres));
-  return BodySet(bodies);
-}
+using test::BodyCrowd;
+using test::Random;
 
 /// Returns the spheres of all agents where these stand, in double.
-std::vector<std::vector<std::array<double, 4>>> placed_spheres(const BodySet& bodies, const Crowd3& crowd) {
+std::vector<std::vector<std::array<double, 4>>> placed_spheres(const BodySet& bodies,
+                                                               const BodyCrowd& crowd) {
   std::vector<std::vector<std::array<double, 4>>> placed(crowd.body.size());
   for (std::size_t i = 0; i < placed.size(); ++i) {
     const double c = std::cos(crowd.heading[i]), s = std::sin(crowd.heading[i]);
@@ -74,9 +38,9 @@ double gap(std::span<const std::array<double, 4>> a, std::span<const std::array<
 
 TEST(Bodies, CollideWhereSomeSpheresOverlap) {
   Random random(1);
-  const BodySet bodies = random_bodies(random);
+  const BodySet bodies = test::random_bodies(random);
   for (const double height : {0.0, 0.005, 0.4, 3.0}) {
-    const Crowd3 crowd = random_crowd(random, 40, bodies.body_count(), 3, height);
+    const BodyCrowd crowd = test::random_body_crowd(random, 40, bodies.body_count(), 3, height);
     const auto placed = placed_spheres(bodies, crowd);
     std::vector<double> gaps;
     for (const auto [a, b] : crowd.pairs) gaps.push_back(gap(placed[a], placed[b]));
@@ -94,8 +58,8 @@ TEST(Bodies, CollideWhereSomeSpheresOverlap) {
 
 TEST(Bodies, ACrowdFindsTheirCollisions) {
   Random random(2);
-  const BodySet bodies = random_bodies(random);
-  const Crowd3 crowd = random_crowd(random, 200, bodies.body_count(), 6, 1);
+  const BodySet bodies = test::random_bodies(random);
+  const BodyCrowd crowd = test::random_body_crowd(random, 200, bodies.body_count(), 6, 1);
   std::vector<std::uint8_t> hits(crowd.pairs.size());
   collide(bodies, crowd.agents(), crowd.pairs, hits);
   std::set<std::pair<std::uint32_t, std::uint32_t>> expected, found;

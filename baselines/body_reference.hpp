@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <vector>
+
+#include <bch/agents.hpp>
+#include <bch/body_set.hpp>
+
+namespace bch::baselines {
+
+/// Answers queries of bodies of spheres by comparing every sphere with every sphere, in float with the operations that
+/// layout/body/sphere_rounding.hpp lists. Written apart from the kernel, which has to give the same bits.
+class BodyReference {
+ public:
+  explicit BodyReference(const BodySet& bodies);
+
+  /// Returns what collide() answers.
+  bool collide(const Agents& agents, Pair pair) const;
+
+ private:
+  /// Returns the spheres of the agent with the larger index where they are in the other one's frame.
+  std::vector<Sphere> placed(const Agents& agents, Pair pair) const;
+
+  std::vector<std::vector<Sphere>> spheres_;  ///< per body
+};
+
+}  // namespace bch::baselines

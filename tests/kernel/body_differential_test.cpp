@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <bch/collide.hpp>
+
+#include <cmath>
+#include <utility>
+
+#include "baselines/body_reference.hpp"
+#include "tests/support/body_scenes.hpp"
+#include "tests/support/implementations.hpp"
+#include "tests/support/test.hpp"
+
+// Bodies of spheres in every implementation and in the brute-force reference: the same bits.
+namespace bch {
+namespace {
+
+using test::BodyCrowd;
+using test::Random;
+
+using Hits = std::vector<std::uint8_t>;
+
+/// Returns the reference's answers, and expects them of all implementations, and of pairs the other way round.
+Hits expect_reference(const BodySet& bodies, const BodyCrowd& crowd, const Agents& agents) {
+  const baselines::BodyReference reference(bodies);
+  Hits expected;
+  std::vector<Pair> swapped;
+  for (const Pair pair : crowd.pairs) {
+    expected.push_back(reference.collide(agents, pair));
+    swapped.push_back({pair.second, pair.first});
+  }
+  Hits hits(crowd.pairs.size());
+  for (const Implementation& implementation : test::supported())
+    for (const auto& pairs : {crowd.pairs, swapped}) {
+      std::fill(hits.begin(), hits.end(), std::uint8_t{2});
+      collide(bodies, agents, pairs, hits, &implementation);
+      const auto at = std::mismatch(hits.begin(), hits.end(), expected.begin()).first - hits.begin();
+      if (static_cast<std::size_t>(at) < hits.size())
+        ADD_FAILURE() << implementation.name << " pair " << at << ": "
+                      << int{hits[static_cast<std::size_t>(at)]};
+    }
+  return expected;
+}
+Hits expect_reference(const BodySet& bodies, const BodyCrowd& crowd) {
+  return expect_reference(bodies, crowd, crowd.agents());
+}
+
+/// Expects that some pairs collide and others do not.
+void expect_both(const Hits& hits) {
+  const auto count = std::count(hits.begin(), hits.end(), 1);
+  EXPECT_GT(count, 0);
+  EXPECT_LT(count, static_cast<std::ptrdiff_t>(hits.size()));
+}
+
+/// Makes bodies of standing and lying people, some of them off their origins, and far below.
+BodySet many_bodies(Random& random) {
+  std::vector<std::vector<Sphere>> bodies;
+  for (const std::uint32_t spheres : {1u, 2u, 5u, 16u, 63u, 128u, 256u, 385u})
+    for (const bool lies : {false, true}) bodies.push_back(test::random_body(random, spheres, lies));
+  for (const float up : {-2.0f, -0.7f, 0.3f})
+    for (Sphere& sphere : bodies.emplace_back(test::random_body(random, 100)))
+      sphere.z += up, sphere.x += 0.8f;
+  return BodySet(bodies);
+}
+
+TEST(BodyDifferential, CrowdsOnOneGroundAndOnMany) {
+  Random random(5401);
+  const BodySet bodies = many_bodies(random);
+  for (const double height : {0.0, 1e-5, 0.009, 0.0101, 0.17, 0.6, 2.5, 30.0}) {
+    SCOPED_TRACE(height);
+    expect_both(
+        expect_reference(bodies, test::random_body_crowd(random, 60, bodies.body_count(), 4, height)));
+  }
+}
+
+TEST(BodyDifferential, AgentsWithoutHeights) {
+  Random random(5402);
+  const BodySet bodies = many_bodies(random);
+  const BodyCrowd crowd = test::random_body_crowd(random, 60, bodies.body_count(), 4, 0);
+  Agents agents = crowd.agents();
+  agents.z = {};
+  const Hits hits = expect_reference(bodies, crowd, agents);
+  EXPECT_EQ(hits, expect_reference(bodies, crowd));
+  expect_both(hits);
+}
+
+TEST(BodyDifferential, FarFromTheOrigin) {
+  Random random(5403);
+  const BodySet bodies = many_bodies(random);
+  BodyCrowd crowd = test::random_body_crowd(random, 60, bodies.body_count(), 4, 1);
+  for (std::size_t i = 0; i < crowd.x.size(); ++i) crowd.x[i] += 1e7, crowd.y[i] -= 1e7, crowd.z[i] += 1e7;
+  expect_both(expect_reference(bodies, crowd));
+}
+
+TEST(BodyDifferential, FarFromEachOther) {
+  Random random(5404);
+  const BodySet bodies = many_bodies(random);
+  for (const double side : {1e3, 1e6, 1e9})
+    for (const double height : {0.0, side}) {
+      const Hits hits =
+          expect_reference(bodies, test::random_body_crowd(random, 40, bodies.body_count(), side, height));
+      EXPECT_EQ(std::count(hits.begin(), hits.end(), 1), 0);
+    }
+}
+
+TEST(BodyDifferential, EqualPlacesAndAgentsWithThemselves) {
+  Random random(5405);
+  const BodySet bodies = many_bodies(random);
+  BodyCrowd crowd = test::random_body_crowd(random, 40, bodies.body_count(), 0, 0);
+  for (std::uint32_t i = 0; i < 40; ++i) crowd.pairs.push_back({i, i});
+  const Hits hits = expect_reference(bodies, crowd);
+  EXPECT_EQ(std::count(hits.end() - 40, hits.end(), 1), 40);
+}
+
+TEST(BodyDifferential, AnyNumberOfSpheres) {
+  Random random(5406);
+  std::vector<std::vector<Sphere>> all;
+  for (std::uint32_t spheres = 1; spheres <= 40; ++spheres) all.push_back(test::random_body(random, spheres));
+  for (const std::uint32_t spheres : {383u, 384u, 392u, 393u, 1000u, 4095u, 4096u})
+    all.push_back(test::random_body(random, spheres));
+  const BodySet bodies(all);
+  expect_both(expect_reference(bodies, test::random_body_crowd(random, 80, bodies.body_count(), 6, 0.3)));
+}
+
+TEST(BodyDifferential, BodiesOfAnySize) {
+  Random random(5407);
+  for (const float scale : {1e-5f, 0.01f, 100.0f, 2e5f}) {
+    SCOPED_TRACE(scale);
+    std::vector<std::vector<Sphere>> all;
+    for (const std::uint32_t spheres : {3u, 50u, 256u, 400u})
+      for (Sphere& s : all.emplace_back(test::random_body(random, spheres, spheres == 50)))
+        s = {scale * s.x, scale * s.y, scale * s.z, scale * s.radius};
+    const BodySet bodies(all);
+    const double side = 4 * static_cast<double>(scale);
+    for (const double height : {0.0, 0.1 * side})
+      expect_both(
+          expect_reference(bodies, test::random_body_crowd(random, 40, bodies.body_count(), side, height)));
+  }
+}
+
+TEST(BodyDifferential, AnySplitOfABatch) {
+  Random random(5408);
+  const BodySet bodies = many_bodies(random);
+  const BodyCrowd crowd = test::random_body_crowd(random, 50, bodies.body_count(), 4, 0.3);
+  const Hits expected = expect_reference(bodies, crowd);
+  for (const Implementation& implementation : test::supported())
+    for (const std::size_t size : {1u, 7u, 16u, 255u, 257u}) {
+      Hits hits(expected.size());
+      for (std::size_t begin = 0; begin < hits.size(); begin += size) {
+        const std::size_t count = std::min(size, hits.size() - begin);
+        collide(bodies, crowd.agents(), std::span(crowd.pairs).subspan(begin, count),
+                std::span(hits).subspan(begin, count), &implementation);
+      }
+      EXPECT_EQ(hits, expected) << implementation.name << " in batches of " << size;
+    }
+}
+
+/// Moves the second agent of each pair to where two spheres touch: along a random line in space, to a few units in the last place of
+/// where the answer changes.
+void make_tangent(Random& random, const baselines::BodyReference& reference, BodyCrowd& crowd, bool level) {
+  for (const auto [first, second] : crowd.pairs) {
+    const double turn = random.between(-4, 4), up = level ? 0 : random.between(-1, 1);
+    const double flat = std::sqrt(1 - up * up);
+    const auto collides_at = [&](double distance) {
+      crowd.x[second] = crowd.x[first] + distance * flat * std::cos(turn);
+      crowd.y[second] = crowd.y[first] + distance * flat * std::sin(turn);
+      crowd.z[second] = crowd.z[first] + distance * up;
+      return reference.collide(crowd.agents(), {first, second});
+    };
+    double near = 0, far = 8;
+    for (int halving = 0; halving < 48; ++halving) {
+      const double middle = (near + far) / 2;
+      (collides_at(middle) ? near : far) = middle;
+    }
+    collides_at(near + random.between(-64, 64) * 0x1p-24 * near);
+  }
+}
+
+TEST(BodyDifferential, SpheresThatJustTouch) {
+  Random random(5409);
+  const BodySet bodies = many_bodies(random);
+  const baselines::BodyReference reference(bodies);
+  for (const bool level : {true, false})
+    for (const double away : {0.0, 3.0, 1e5}) {
+      BodyCrowd crowd = test::random_body_crowd(random, 800, bodies.body_count(), away, level ? 0 : 1);
+      crowd.pairs.clear();
+      for (std::uint32_t i = 0; i < 800; i += 2) crowd.pairs.push_back({i, i + 1});
+      make_tangent(random, reference, crowd, level);
+      expect_both(expect_reference(bodies, crowd));
+    }
+}
+
+}  // namespace
+}  // namespace bch

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <bch/agents.hpp>
+#include <bch/body_set.hpp>
+
+#include "tests/support/scenes.hpp"
+
+namespace bch::test {
+
+/// Makes a body of spheres in a column as tall as a person, or in a person's length on the ground.
+inline std::vector<Sphere> random_body(Random& random, std::uint32_t spheres, bool lies = false) {
+  const auto number = [&](double low, double high) { return static_cast<float>(random.between(low, high)); };
+  std::vector<Sphere> body(spheres);
+  for (Sphere& sphere : body) {
+    sphere = {number(-0.25, 0.25), number(-0.2, 0.2), number(0, 1.8), number(0.02, 0.08)};
+    if (lies) std::swap(sphere.x, sphere.z);
+  }
+  return body;
+}
+
+/// Makes bodies of few spheres and many.
+inline BodySet random_bodies(Random& random) {
+  std::vector<std::vector<Sphere>> bodies;
+  for (const std::uint32_t spheres : {1u, 3u, 4u, 17u, 64u, 128u, 255u, 512u})
+    bodies.push_back(random_body(random, spheres));
+  return BodySet(bodies);
+}
+
+/// Holds a crowd in space.
+struct BodyCrowd {
+  std::vector<std::uint32_t> body;
+  std::vector<double> x, y, z, heading;
+  std::vector<Pair> pairs;
+
+  Agents agents() const { return {.shape = body, .x = x, .y = y, .heading = heading, .z = z}; }
+};
+
+/// Makes a crowd of random placements on a square, at heights up to so much, and all of its pairs.
+inline BodyCrowd random_body_crowd(Random& random, std::uint32_t agents, std::uint32_t bodies, double side,
+                                   double height) {
+  BodyCrowd crowd;
+  for (std::uint32_t i = 0; i < agents; ++i) {
+    crowd.body.push_back(random.below(bodies));
+    crowd.x.push_back(random.between(0, side));
+    crowd.y.push_back(random.between(0, side));
+    crowd.z.push_back(random.between(0, height));
+    crowd.heading.push_back(random.between(-4, 4));
+    for (std::uint32_t j = 0; j < i; ++j) crowd.pairs.push_back({i, j});
+  }
+  return crowd;
+}
+
+}  // namespace bch::test
