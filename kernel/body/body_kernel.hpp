@@ -6,30 +6,50 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "kernel/body/band_test.hpp"
 #include "kernel/body/body_arguments.hpp"
-#include "kernel/body/sphere_test.hpp"
+#include "kernel/body/leaf_search.hpp"
+#include "kernel/body/placed_bodies.hpp"
+#include "kernel/body/sphere_pairs.hpp"
 #include "kernel/simd/agent_columns.hpp"
+#include "kernel/simd/chunk_pairs.hpp"
 #include "kernel/simd/placements.hpp"
-#include "layout/body/body_record.hpp"
 
 namespace bch::detail {
 
-/// Implements the pair query of bodies of spheres: a pair collides if some sphere of one overlaps some sphere of the other.
+/// Implements the pair query of bodies of spheres: a pair collides if some sphere of one overlaps some sphere of the other. That test
+/// alone decides a hit; what only saves work rejects nothing that it accepts (layout/body/sphere_rounding.hpp).
+///
+/// Pairs are answered in chunks, stage by stage, and each stage leaves fewer of them open: place B in A's frame; separate bands of
+/// height by their supports; accept pairs whose core spheres overlap; search the leaves of what is left.
 template <class Simd>
 class BodyKernel {
  public:
   static void run(const BodyArguments& arguments, std::size_t begin, std::size_t end) noexcept {
+    static_assert(sizeof(BodyKernel) <= 256 * 1024, "what Kernels promises");
     BodyKernel kernel(arguments);
     for (; begin < end; begin += chunk_size) {
       kernel.at_.place(arguments.pairs, begin, end);
-      for (std::uint32_t k = 0; k < kernel.at_.size; ++k)
-        arguments.pairs.codes[begin + k] = kernel.collide(k) ? 1 : 0;
+      kernel.answer_chunk(arguments.pairs.codes + begin);
     }
   }
 
  private:
-  explicit BodyKernel(const BodyArguments& arguments) noexcept : in_(arguments) {}
+  explicit BodyKernel(const BodyArguments& arguments) noexcept : in_(arguments), bands_(at_) {}
 
+  void answer_chunk(std::uint8_t* codes) noexcept {
+    __builtin_memset(codes, 0, at_.size);
+    separate();
+    accept<8>(codes);
+    accept<core_spheres>(codes);
+    for (std::uint32_t k = 0; k < open_.size; ++k) codes[open_.pair[k]] = search(open_.pair[k]);
+  }
+
+  PlacedBodies bodies(std::uint32_t pair) const noexcept {
+    return {in_.bodies->record(at_.shape_a[pair]),
+            in_.bodies->record(at_.shape_b[pair]),
+            {at_.transform(pair), rise(pair)}};
+  }
   float rise(std::uint32_t pair) const noexcept {
     const AgentColumn& z = in_.pairs.agent_z;
     if (z.first == nullptr) return 0;
@@ -37,30 +57,66 @@ class BodyKernel {
                               AgentColumns<Simd>::number(z, at_.agent_a(pair)));
   }
 
-  bool collide(std::uint32_t pair) const noexcept {
-    const float* const a = in_.bodies->record(at_.shape_a[pair]);
-    const float* const b = in_.bodies->record(at_.shape_b[pair]);
-    const SpaceTransformOf<float> b_in_a{at_.transform(pair), rise(pair)};
-    const auto& header_a = *reinterpret_cast<const BodyHeader*>(a);
-    const auto& header_b = *reinterpret_cast<const BodyHeader*>(b);
-    for (std::uint32_t j = 0; j < header_b.leaf_count * header_b.leaf_size; ++j) {
-      const SpheresOf<float> sphere = placed(b_in_a, sphere_in(b, header_b, j));
-      for (std::uint32_t i = 0; i < header_a.leaf_count * header_a.leaf_size; ++i)
-        if (spheres_overlap(sphere_in(a, header_a, i), sphere)) return true;
+  /// Leaves the pairs open of which some bands may meet.
+  void separate() noexcept {
+    bands_.place();
+    open_.size = 0;
+    for (std::uint32_t k = 0; k < at_.size; ++k) {
+      if (in_.pairs.prefetch_shapes && k + List::pairs_ahead < at_.size) prefetch(k + List::pairs_ahead);
+      open_bands_[k] = static_cast<std::uint16_t>(bands_.open(k, bodies(k)));
+      open_.add_if(open_bands_[k] != 0, k);
     }
-    return false;
   }
 
-  static SpheresOf<float> sphere_in(const float* record, const BodyHeader& header,
-                                    std::uint32_t slot) noexcept {
-    const std::uint32_t size = header.leaf_size;
-    const float* const at =
-        record + record_nodes + 5 * header.node_stride + 4 * (slot / size) * size + slot % size;
-    return {at[0], at[size], at[2 * size], at[3 * size]};
+  /// Asks for the beginnings of two records, up to their nodes.
+  [[gnu::always_inline]] void prefetch(std::uint32_t pair) const noexcept {
+    for (std::uint32_t line = 0; line < record_nodes; line += record_line) {
+      __builtin_prefetch(in_.bodies->record(at_.shape_a[pair]) + line);
+      __builtin_prefetch(in_.bodies->record(at_.shape_b[pair]) + line);
+    }
   }
+
+  /// Accepts pairs of which some of the first `count` core spheres overlap.
+  template <unsigned count>
+  void accept(std::uint8_t* codes) noexcept {
+    open_.drop_if(
+        open_,
+        [&](std::uint32_t pair) {
+          const std::uint32_t hit = cores_overlap<count>(bodies(pair));
+          codes[pair] = static_cast<std::uint8_t>(hit);
+          return hit;
+        },
+        [](std::uint32_t) {});
+  }
+
+  template <unsigned count>
+  static bool cores_overlap(const PlacedBodies& bodies) noexcept {
+    const Balls a{bodies.a + record_core, core_spheres}, b{bodies.b + record_core, core_spheres};
+    bool overlap = false;
+    for (unsigned i = 0; i < count; i += 8)
+      for (unsigned j = 0; j < count; j += 8)
+        if (count == 8 || i + j != 0) overlap |= balls_overlap<Simd, 8>(bodies.b_in_a, a.from(i), b.from(j));
+    return overlap;
+  }
+
+  std::uint8_t search(std::uint32_t pair) noexcept {
+    const PlacedBodies placed = bodies(pair);
+    Reach of_a[BandTest<Simd>::most_pairs], of_b[BandTest<Simd>::most_pairs];
+    std::uint32_t count = 0;
+    for (std::uint32_t open = open_bands_[pair]; open != 0; open &= open - 1, ++count)
+      bands_.find_reach(pair, placed, static_cast<std::uint32_t>(__builtin_ctz(open)), of_a[count],
+                        of_b[count]);
+    return leaves_.run(placed, of_a, of_b, count);
+  }
+
+  using List = ChunkPairs<Simd, chunk_size>;
 
   const BodyArguments& in_;
   Placements<Simd> at_;
+  BandTest<Simd> bands_;
+  std::uint16_t open_bands_[chunk_size];
+  List open_;
+  LeafSearch<Simd> leaves_;
 };
 
 }  // namespace bch::detail

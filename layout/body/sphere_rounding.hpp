@@ -25,7 +25,23 @@
 ///
 ///     7.1 u S + 9.2 u S + 3 u S + u S + 2 u S + 3 u S + u S + 1.5 u S + 1.5 u S  <=  29.3 u S  <=  30 u S      (3)
 ///
-/// No miss: radii are enlarged by 30 u P each. What the float test accepts is at most another 30 u S apart.
+/// No miss: radii are enlarged by 30 u P each. What the float test accepts is at most another 30 u S apart, (sphere_error).
+///
+/// Bounds. What a query leaves out by bounds must not hold spheres that the float test accepts: it tests whether bounds come within
+/// (bound_margin) S. A node's disc and heights hold its spheres exactly, with centres in the box of P about the origin, |C| <= sqrt(2) P
+/// on the ground, and R <= 3 P. Two nodes of accepted spheres have |d| <= 2 S and are tested as two spheres are, so that arm and sum grow by
+/// sqrt(2), and apart, square and radii are of R_A + R_B <= 3 S:
+///
+///     (nodes)     10.1 u S + 9.2 u S + 3.5 u S + 3 (1 + 1 + 1.5) u S + 30 u S  <=  64 u S                  (4)
+///     (heights)   30 u S, and 3 roundings of sums of up to 6 S: |d.z| <= 2 S, heights and the margin      (5)
+///
+/// A node is compared with supports of the other body as if it were the supports of its own body; where that has no support_margin, the
+/// node's part of (2), 287 u S, is missing, and its own products add 4 u (sqrt(2) + 2) P and its turned direction 15 u sqrt(2) P:
+///
+///     (axes)      287 u S + 13.7 u S + 21.3 u S + 3 u S  <=  330 u S                                       (6)
+///
+/// Points of two accepted spheres are within 30 u S of each other, so their heights above their own grounds differ by less than the grounds
+/// and bound_margin do: by at most band_overlap where equal bands alone are compared.
 namespace bch::detail::rounding {
 
 namespace terms {
@@ -36,7 +52,22 @@ constexpr double sphere_error = 30;
 static_assert(sphere_error >= arm + 2 * position + (2 + 1) * sum + apart + rise + cube + radii + higher,
               "(3)");
 
+constexpr double nodes = 64;
+static_assert(nodes >=
+                  root_2 * (arm + sum) + 2 * position + 2 * sum + 3 * (apart + square + radii) + sphere_error,
+              "(4)");
+constexpr double node_heights = 48;
+static_assert(node_heights >= sphere_error + 3 * 6, "(5)");
+constexpr double axes = 330;
+static_assert(axes >= support_error + query_error + 4 * (root_2 + 2) + 15 * root_2 + 3, "(6)");
+
 }  // namespace terms
+
+/// The margin of bounds of spheres, times the sum of both reaches.
+constexpr double bound_margin = 400 * unit_roundoff;
+static_assert(bound_margin >= terms::nodes * unit_roundoff &&
+              bound_margin >= terms::node_heights * unit_roundoff &&
+              bound_margin >= terms::axes * unit_roundoff);
 
 /// The margin that is added to every sphere's radius, times the body's reach.
 constexpr double sphere_margin = terms::sphere_error * unit_roundoff;

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+
+#include "kernel/body/placed_bodies.hpp"
+#include "kernel/simd/placements.hpp"
+#include "kernel/simd/support_directions.hpp"
+
+namespace bch::detail {
+
+/// Holds what reaches another body: along each axis x * direction_x + y * direction_y - radius is at most so much, and heights meet low .. high.
+struct Reach {
+  static constexpr unsigned axes = 3;
+  float x[axes], y[axes], most[axes];
+  float low, high;
+};
+
+/// Tests bands of one body against those of the other, by their supports; lane = direction. Sets of pairs of bands have bit body_bands
+/// * i + j for band i of A and j of B.
+template <class Simd>
+class BandTest {
+ public:
+  static constexpr std::uint32_t most_pairs = body_bands * body_bands;
+
+  explicit BandTest(const Placements<Simd>& at) noexcept : directions_(at), at_(at) {}
+
+  /// Finds the directions of all pairs of the chunk.
+  void place() noexcept { directions_.place(); }
+
+  /// Returns the pairs of bands that may meet and that no line separates.
+  std::uint32_t open(std::uint32_t pair, const PlacedBodies& bodies) const noexcept {
+    const std::uint32_t candidates = may_meet(bodies.b_in_a.tz, bodies.margin());
+    if (candidates == equal_bands) [[likely]] {
+      std::uint32_t open = 0;
+#pragma GCC unroll 3
+      for (std::uint32_t band = 0; band < body_bands; ++band)
+        open |= meet(pair, bodies, band, band) << (body_bands + 1) * band;
+      return open;
+    }
+    std::uint32_t open = 0;
+    for (std::uint32_t left = candidates; left != 0; left &= left - 1) {
+      const auto i = static_cast<std::uint32_t>(__builtin_ctz(left));
+      open |= meet(pair, bodies, i / body_bands, i % body_bands) << i;
+    }
+    return open;
+  }
+
+  /// Finds, for the bands of an open pair of them, what of either body reaches the other one, along the axis on which they overlap
+  /// least and those 45 degrees beside it.
+  void find_reach(std::uint32_t pair, const PlacedBodies& bodies, std::uint32_t bands, Reach& of_a,
+                  Reach& of_b) const noexcept {
+    alignas(64) float from_b[support_directions], overlap[support_directions];
+    const float* const a = supports(bodies.a, bands / body_bands);
+    const float* const b = supports(bodies.b, bands % body_bands);
+    Float least(__builtin_inff());
+    for (unsigned odd = 0; odd < 2; ++odd)
+      directions_.look_along(pair, odd, directions_.rows(pair, odd, a, b),
+                             [&](unsigned k, Float distance, Float by_a, Float by_b) {
+                               const Float begin = distance - by_b, both = by_a - begin;
+                               Simd::store(from_b + odd * half + k, begin);
+                               Simd::store(overlap + odd * half + k, both);
+                               least = xsimd::min(least, both);
+                             });
+    const unsigned middle = first_at_most(overlap, Simd::least(least));
+    const auto [c, s, tx, ty] = bodies.b_in_a.ground;
+    const float margin = bodies.margin();
+    for (unsigned i = 0; i < Reach::axes; ++i) {
+      const unsigned odd = middle / half, k = (middle + (i + half - 1) * beside) % half;
+      const float x = SupportDirections<Simd>::direction_x[odd][k],
+                  y = SupportDirections<Simd>::direction_y[odd][k];
+      of_a.x[i] = -x, of_a.y[i] = -y, of_a.most[i] = margin - from_b[odd * half + k];
+      of_b.x[i] = c * x + s * y, of_b.y[i] = c * y - s * x;
+      of_b.most[i] = a[odd * support_directions + k] - (tx * x + ty * y) + margin;
+    }
+    set_heights(of_a, bands / body_bands), set_heights(of_b, bands % body_bands);
+  }
+
+ private:
+  using Float = typename Simd::Float;
+  static constexpr std::uint32_t equal_bands = 1 | 1 << (body_bands + 1) | 1 << 2 * (body_bands + 1);
+  static_assert(body_bands == 3);
+  static constexpr unsigned half = support_directions / 2;
+  static constexpr unsigned beside = half / 8;  ///< 45 degrees, in directions of one half
+  static constexpr float infinite = __builtin_inff();
+  static constexpr float low[] = {-infinite, band_planes[0], band_planes[1]};
+  static constexpr float high[] = {band_planes[0], band_planes[1], infinite};
+
+  static const float* supports(const float* record, std::uint32_t band) noexcept {
+    return record + record_supports + band * support_stride;
+  }
+
+  static void set_heights(Reach& reach, std::uint32_t band) noexcept {
+    reach.low = low[band] - band_overlap, reach.high = high[band] + band_overlap;
+  }
+
+  /// Returns the pairs of bands in which spheres may overlap. (Rounding matters only to bodies that reach a plane, and then it is within
+  /// their margin.)
+  static std::uint32_t may_meet(float rise, float margin) noexcept {
+    if (__builtin_fabsf(rise) + margin <= band_overlap) [[likely]]
+      return equal_bands;
+    std::uint32_t pairs = 0;
+    for (std::uint32_t i = 0; i < body_bands; ++i)
+      for (std::uint32_t j = 0; j < body_bands; ++j)
+        pairs |= std::uint32_t{low[i] <= high[j] + rise + margin && low[j] + rise <= high[i] + margin}
+                 << (body_bands * i + j);
+    return pairs;
+  }
+
+  std::uint32_t meet(std::uint32_t pair, const PlacedBodies& bodies, std::uint32_t band_a,
+                     std::uint32_t band_b) const noexcept {
+    const float* const a = supports(bodies.a, band_a);
+    const float* const b = supports(bodies.b, band_b);
+    std::uint32_t separated = 0;
+    for (unsigned odd = 0; odd < 2; ++odd)
+      directions_.look_along(pair, odd, directions_.rows(pair, odd, a, b),
+                             [&](unsigned, Float distance, Float by_a, Float by_b) {
+                               separated |= Simd::bits(by_a + by_b < distance);
+                             });
+    return separated == 0;
+  }
+
+  static unsigned first_at_most(const float (&values)[support_directions], float most) noexcept {
+    std::uint32_t bits = 0;
+    for (unsigned k = 0; k < support_directions; k += Simd::width)
+      bits |= Simd::bits(Simd::load(values + k) <= Float(most)) << k;
+    return bits == 0 ? 0 : static_cast<unsigned>(__builtin_ctz(bits));
+  }
+
+  SupportDirections<Simd> directions_;
+  const Placements<Simd>& at_;
+};
+
+}  // namespace bch::detail

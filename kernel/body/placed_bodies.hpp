@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include "kernel/body/sphere_test.hpp"
+#include "layout/body/body_record.hpp"
+#include "layout/body/sphere_rounding.hpp"
+
+namespace bch::detail {
+
+/// Holds two bodies, and how the second lies in the first one's frame. (Functions are inlined for certain, so that instruction sets share none.)
+struct PlacedBodies {
+  const float *a, *b;  ///< records
+  SpaceTransformOf<float> b_in_a;
+
+  [[gnu::always_inline]] static const BodyHeader& header(const float* record) noexcept {
+    return *reinterpret_cast<const BodyHeader*>(record);
+  }
+  /// Returns how much more bounds have to reach, metres, so that none misses what the test of spheres accepts.
+  [[gnu::always_inline]] float margin() const noexcept {
+    return static_cast<float>(rounding::bound_margin) * (header(a).reach + header(b).reach);
+  }
+};
+
+}  // namespace bch::detail
