@@ -52,34 +52,35 @@ class BandTest {
   /// least and those 45 degrees beside it.
   void find_reach(std::uint32_t pair, const PlacedBodies& bodies, std::uint32_t bands, Reach& of_a,
                   Reach& of_b) const noexcept {
-    alignas(64) float from_b[support_directions], overlap[support_directions];
+    // Half of the directions are enough: axes are 22.5 degrees apart.
+    alignas(64) float from_b[half], overlap[half];
     const float* const a = supports(bodies.a, bands / body_bands);
     const float* const b = supports(bodies.b, bands % body_bands);
     Float least(__builtin_inff());
-    for (unsigned odd = 0; odd < 2; ++odd)
-      directions_.look_along(pair, odd, directions_.rows(pair, odd, a, b),
-                             [&](unsigned k, Float distance, Float by_a, Float by_b) {
-                               const Float begin = distance - by_b, both = by_a - begin;
-                               Simd::store(from_b + odd * half + k, begin);
-                               Simd::store(overlap + odd * half + k, both);
-                               least = xsimd::min(least, both);
-                             });
+    directions_.look_along(pair, 0, directions_.rows(pair, 0, a, b),
+                           [&](unsigned k, Float distance, Float by_a, Float by_b) {
+                             const Float begin = distance - by_b, both = by_a - begin;
+                             Simd::store(from_b + k, begin);
+                             Simd::store(overlap + k, both);
+                             least = xsimd::min(least, both);
+                           });
     const unsigned middle = first_at_most(overlap, Simd::least(least));
     const auto [c, s, tx, ty] = bodies.b_in_a.ground;
     const float margin = bodies.margin();
     for (unsigned i = 0; i < Reach::axes; ++i) {
-      const unsigned odd = middle / half, k = (middle + (i + half - 1) * beside) % half;
-      const float x = SupportDirections<Simd>::direction_x[odd][k],
-                  y = SupportDirections<Simd>::direction_y[odd][k];
-      of_a.x[i] = -x, of_a.y[i] = -y, of_a.most[i] = margin - from_b[odd * half + k];
+      const unsigned k = (middle + (i + half - 1) * beside) % half;
+      const float x = SupportDirections<Simd>::direction_x[0][k],
+                  y = SupportDirections<Simd>::direction_y[0][k];
+      of_a.x[i] = -x, of_a.y[i] = -y, of_a.most[i] = margin - from_b[k];
       of_b.x[i] = c * x + s * y, of_b.y[i] = c * y - s * x;
-      of_b.most[i] = a[odd * support_directions + k] - (tx * x + ty * y) + margin;
+      of_b.most[i] = a[k] - (tx * x + ty * y) + margin;
     }
     set_heights(of_a, bands / body_bands), set_heights(of_b, bands % body_bands);
   }
 
  private:
   using Float = typename Simd::Float;
+  using Mask = typename Simd::Mask;
   static constexpr std::uint32_t equal_bands = 1 | 1 << (body_bands + 1) | 1 << 2 * (body_bands + 1);
   static_assert(body_bands == 3);
   static constexpr unsigned half = support_directions / 2;
@@ -113,18 +114,18 @@ class BandTest {
                      std::uint32_t band_b) const noexcept {
     const float* const a = supports(bodies.a, band_a);
     const float* const b = supports(bodies.b, band_b);
-    std::uint32_t separated = 0;
+    Mask separated = Float(1.0f) < Float(0.0f);
     for (unsigned odd = 0; odd < 2; ++odd)
       directions_.look_along(pair, odd, directions_.rows(pair, odd, a, b),
                              [&](unsigned, Float distance, Float by_a, Float by_b) {
-                               separated |= Simd::bits(by_a + by_b < distance);
+                               separated = separated | (by_a + by_b < distance);
                              });
-    return separated == 0;
+    return Simd::bits(separated) == 0;
   }
 
-  static unsigned first_at_most(const float (&values)[support_directions], float most) noexcept {
+  static unsigned first_at_most(const float (&values)[half], float most) noexcept {
     std::uint32_t bits = 0;
-    for (unsigned k = 0; k < support_directions; k += Simd::width)
+    for (unsigned k = 0; k < half; k += Simd::width)
       bits |= Simd::bits(Simd::load(values + k) <= Float(most)) << k;
     return bits == 0 ? 0 : static_cast<unsigned>(__builtin_ctz(bits));
   }

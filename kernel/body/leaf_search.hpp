@@ -21,10 +21,16 @@ class LeafSearch {
   bool run(const PlacedBodies& bodies, const Reach* reach_a, const Reach* reach_b,
            std::uint32_t count) noexcept {
     bodies_ = &bodies;
-    const std::uint32_t rows = clip(bodies.a, reach_a, count, leaf_a_);
-    if (rows == 0) return false;
-    size_b_ = clip(bodies.b, reach_b, count, leaf_b_);
-    if (size_b_ == 0) return false;
+    const std::uint32_t registers_a = registers(bodies.a), registers_b = registers(bodies.b);
+    for (std::uint32_t i = 0; i < registers_a; ++i) kept_a_[i] = 0;
+    for (std::uint32_t i = 0; i < registers_b; ++i) kept_b_[i] = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      keep(bodies.a, reach_a[i], registers_a, kept_a_);
+      keep(bodies.b, reach_b[i], registers_b, kept_b_);
+    }
+    const std::uint32_t rows = list(kept_a_, registers_a, leaf_a_);
+    size_b_ = list(kept_b_, registers_b, leaf_b_);
+    if (rows == 0 || size_b_ == 0) return false;
     place_nodes();
     for (std::uint32_t row = 0; row < rows; row += rows_at_once)
       if (compare(row, rows - row < rows_at_once ? rows : row + rows_at_once)) return true;
@@ -33,31 +39,38 @@ class LeafSearch {
 
  private:
   using Float = typename Simd::Float;
+  using Mask = typename Simd::Mask;
   static constexpr std::uint32_t most_leaves = most_spheres / 4, padding = 16;
-  static constexpr std::uint32_t rows_at_once = 3;
+  static constexpr std::uint32_t rows_at_once = 4;
 
-  /// Lists the leaves of a body of which some part may meet the other one.
-  static std::uint32_t clip(const float* record, const Reach* reach, std::uint32_t count,
-                            std::uint16_t* leaves) noexcept {
-    const BodyHeader& header = PlacedBodies::header(record);
-    const std::uint32_t stride = header.node_stride;
-    std::uint32_t size = 0;
-    for (std::uint32_t k = 0; k < header.leaf_count; k += Simd::width) {
-      const float* const node = record + record_nodes + k;
+  static std::uint32_t registers(const float* record) noexcept {
+    return (PlacedBodies::header(record).leaf_count + Simd::width - 1) / Simd::width;
+  }
+
+  /// Adds to the bits of nodes those that reach the other body. No branch depends on a node.
+  [[gnu::always_inline]] static void keep(const float* record, const Reach& reach, std::uint32_t registers,
+                                          std::uint32_t* kept) noexcept {
+    const std::uint32_t stride = PlacedBodies::header(record).node_stride;
+    const float* node = record + record_nodes;
+    const Float low(reach.low), high(reach.high);
+    for (std::uint32_t i = 0; i < registers; ++i, node += Simd::width) {
+      const Float x = Simd::load(node), y = Simd::load(node + stride), r = Simd::load(node + 2 * stride);
       const Float bottom = Simd::load(node + 3 * stride), top = Simd::load(node + 4 * stride);
-      std::uint32_t kept = 0;
-      for (std::uint32_t i = 0; i < count; ++i) {
-        std::uint32_t reaches =
-            Simd::bits(Float(reach[i].low) <= top) & Simd::bits(bottom <= Float(reach[i].high));
-        if (reaches == 0) continue;
-        const Float x = Simd::load(node), y = Simd::load(node + stride), r = Simd::load(node + 2 * stride);
-        for (unsigned axis = 0; axis < Reach::axes; ++axis)
-          reaches &= Simd::bits(Float(reach[i].x[axis]) * x + Float(reach[i].y[axis]) * y - r <=
-                                Float(reach[i].most[axis]));
-        kept |= reaches;
-      }
-      size += Simd::write_set(kept, k, leaves + size);
+      Mask reaches = (low <= top) & (bottom <= high);
+#pragma GCC unroll 3
+      for (unsigned axis = 0; axis < Reach::axes; ++axis)
+        reaches =
+            reaches & (Float(reach.x[axis]) * x + Float(reach.y[axis]) * y - r <= Float(reach.most[axis]));
+      kept[i] |= Simd::bits(reaches);
     }
+  }
+
+  /// Lists the leaves whose bits are set.
+  static std::uint32_t list(const std::uint32_t* kept, std::uint32_t registers,
+                            std::uint16_t* leaves) noexcept {
+    std::uint32_t size = 0;
+    for (std::uint32_t i = 0; i < registers; ++i)
+      size += Simd::write_set(kept[i], i * Simd::width, leaves + size);
     return size;
   }
 
@@ -79,22 +92,21 @@ class LeafSearch {
   bool compare(std::uint32_t begin, std::uint32_t end) noexcept {
     const std::uint32_t stride = PlacedBodies::header(bodies_->a).node_stride;
     std::uint32_t size = 0;
-    for (std::uint32_t row = begin, first = 0; row < end; ++row) {
+    for (std::uint32_t row = begin; row < end; ++row) {
       const float* const node = bodies_->a + record_nodes + leaf_a_[row];
       const Float x(node[0]), y(node[stride]), radius(node[2 * stride]), bottom(node[3 * stride]),
           top(node[4 * stride]);
       for (std::uint32_t k = 0; k < size_b_; k += Simd::width) {
         const Float dx = Simd::load(x_ + k) - x, dy = Simd::load(y_ + k) - y,
                     sum = Simd::load(radius_ + k) + radius;
-        size += Simd::write_set(Simd::bits(dx * dx + dy * dy <= sum * sum) &
-                                    Simd::bits(bottom <= Simd::load(top_ + k)) &
-                                    Simd::bits(Simd::load(bottom_ + k) <= top),
-                                k, pair_b_ + size);
+        const Mask meet = (dx * dx + dy * dy <= sum * sum) & (bottom <= Simd::load(top_ + k)) &
+                          (Simd::load(bottom_ + k) <= top);
+        size += Simd::write_set(Simd::bits(meet), (row - begin) * most_leaves + k, meeting_ + size);
       }
-      for (; first < size; ++first) pair_a_[first] = leaf_a_[row];
     }
     for (std::uint32_t i = 0; i < size; ++i)
-      if (leaves_overlap(pair_a_[i], leaf_b_[pair_b_[i]])) return true;
+      if (leaves_overlap(leaf_a_[begin + meeting_[i] / most_leaves], leaf_b_[meeting_[i] % most_leaves]))
+        return true;
     return false;
   }
 
@@ -117,12 +129,13 @@ class LeafSearch {
 
   const PlacedBodies* bodies_ = nullptr;
   std::uint32_t size_b_ = 0;
+  std::uint32_t kept_a_[most_leaves], kept_b_[most_leaves];  ///< bits of registers of nodes
   std::uint16_t leaf_a_[most_leaves + padding], leaf_b_[most_leaves + padding];
   /// B's nodes that are left.
   alignas(64) float x_[most_leaves + padding], y_[most_leaves + padding], radius_[most_leaves + padding],
       bottom_[most_leaves + padding], top_[most_leaves + padding];
-  /// Pairs of nodes that overlap: a leaf of A, and the place of one of B among those that are left.
-  std::uint16_t pair_a_[rows_at_once * most_leaves + padding], pair_b_[rows_at_once * most_leaves + padding];
+  /// Pairs of nodes that meet: a row after `begin`, times most_leaves, and the place of one of B's.
+  std::uint16_t meeting_[rows_at_once * most_leaves + padding];
 };
 
 }  // namespace bch::detail

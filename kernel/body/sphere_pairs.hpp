@@ -42,15 +42,15 @@ template <class Simd, unsigned count, bool called = Simd::width == 1>
         to_a,
         {Simd::template columns<count>(b.field(0), part), Simd::template columns<count>(b.field(1), part),
          Simd::template columns<count>(b.field(2), part), Simd::template columns<count>(b.field(3), part)});
-  std::uint32_t any = 0;
+  auto any = Float(1.0f) < Float(0.0f);
 #pragma GCC unroll 8
   for (unsigned i = 0; i < count; i += rows) {
     const SpheresOf<Float> row{Simd::template row<count>(ax, i), Simd::template row<count>(ay, i),
                                Simd::template row<count>(az, i), Simd::template row<count>(ar, i)};
 #pragma GCC unroll 8
-    for (unsigned part = 0; part < parts; ++part) any |= Simd::bits(spheres_overlap(row, column[part]));
+    for (unsigned part = 0; part < parts; ++part) any = any | spheres_overlap(row, column[part]);
   }
-  return any != 0;
+  return Simd::bits(any) != 0;
 }
 
 template <class Simd, unsigned count>

@@ -86,7 +86,9 @@ struct Lanes<xsimd::avx2, Own> : AnyLanes<xsimd::avx2, Own> {
   template <unsigned count>
   static Float row(const float* eight, unsigned i) noexcept {
     if constexpr (count == Base::width) return Float(eight[i]);
-    return _mm256_set_m128(_mm_set1_ps(eight[i + 1]), _mm_set1_ps(eight[i]));
+    const auto k = [i](unsigned lane) { return static_cast<int>(i % 4 + lane / 4); };
+    return _mm256_permutevar_ps(_mm256_broadcast_ps(reinterpret_cast<const __m128*>(eight + i / 4 * 4)),
+                                _mm256_setr_epi32(k(0), k(1), k(2), k(3), k(4), k(5), k(6), k(7)));
   }
   template <unsigned count>
   static Float columns(const float* eight, unsigned) noexcept {
