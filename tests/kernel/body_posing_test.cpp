@@ -1,0 +1,303 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <bch/bodies.hpp>
+
+#include <gtest/gtest.h>
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/task_arena.h>
+#define XXH_INLINE_ALL  // nothing is linked
+#include <xxhash.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <bch/default_characters.hpp>
+#include <bch/import.hpp>
+#include <bch/pose_shape.hpp>
+
+#include "layout/base/random.hpp"
+#include "layout/body/body_layout.hpp"
+#include "layout/body/sphere_rounding.hpp"
+#include "tests/support/allocation_count.hpp"
+#include "tests/support/body_models.hpp"
+#include "tests/support/character_shapes.hpp"
+#include "tests/support/complaint.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace bch {
+namespace {
+
+using detail::Random;
+
+struct Point {
+  double x, y, z;
+};
+
+Point middle(const Point& a, const Point& b) {
+  return {(a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2};
+}
+
+/// Finds the sphere of each piece of each triangle: the first one that has all of its corners.
+class Covering {
+ public:
+  explicit Covering(const BodyModel& model) : model_(model) {
+    const auto vertices = static_cast<std::uint32_t>(model.character->vertices.size());
+    for (std::uint32_t i = 0; i < model.cuts.size(); ++i)
+      cut_.try_emplace(std::minmax(model.cuts[i][0], model.cuts[i][1]), vertices + i);
+    owners_.resize(vertices + model.cuts.size());
+    for (std::uint32_t s = 0; s < model.sphere_count(); ++s)
+      for (std::uint32_t i = model.corner_begin[s]; i < model.corner_begin[s + 1]; ++i)
+        owners_[model.corners[i]].push_back(s);
+  }
+
+  /// Returns by how much a piece of some triangle stands out of its sphere, metres; less than 0: how deep all are inside. Corners are
+  /// computed from posed vertices in double, whose error is added.
+  double protrusion(std::span<const Vec3> posed, std::span<const Sphere> spheres) const {
+    double most = -1e9;
+    for (const auto& triangle : model_.character->triangles) {
+      std::array<Point, 3> at;
+      for (std::size_t k = 0; k < 3; ++k)
+        at[k] = {double{posed[triangle[k]].x}, double{posed[triangle[k]].y}, double{posed[triangle[k]].z}};
+      const double one = protrusion(triangle, at, spheres);
+      EXPECT_LT(one, 1e8) << "a piece in no sphere";
+      most = std::max(most, one);
+    }
+    return most;
+  }
+
+ private:
+  double protrusion(const std::array<std::uint32_t, 3>& corners, const std::array<Point, 3>& at,
+                    std::span<const Sphere> spheres) const {
+    double least = 1e9;
+    for (const std::uint32_t s : owners_[corners[0]]) {
+      const auto begin = model_.corners.begin() + model_.corner_begin[s],
+                 end = model_.corners.begin() + model_.corner_begin[s + 1];
+      if (!std::binary_search(begin, end, corners[1]) || !std::binary_search(begin, end, corners[2]))
+        continue;
+      double most = 0;
+      for (const auto& [x, y, z] : at) {
+        const double dx = x - double{spheres[s].x}, dy = y - double{spheres[s].y},
+                     dz = z - double{spheres[s].z};
+        most = std::max(most, std::sqrt(dx * dx + dy * dy + dz * dz) * (1 + 0x1p-48));
+      }
+      least = std::min(least, most - double{spheres[s].radius});
+    }
+    if (least < 1e9) return least;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t l = (k + 1) % 3, m = (k + 2) % 3;
+      const auto found = cut_.find(std::minmax(corners[k], corners[l]));
+      if (found == cut_.end()) continue;
+      const Point half = middle(at[k], at[l]);
+      const double both =
+          std::max(protrusion({corners[k], found->second, corners[m]}, {at[k], half, at[m]}, spheres),
+                   protrusion({found->second, corners[l], corners[m]}, {half, at[l], at[m]}, spheres));
+      least = std::min(least, both);
+    }
+    return least;
+  }
+
+  const BodyModel& model_;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> cut_;
+  std::vector<std::vector<std::uint32_t>> owners_;  ///< spheres by corner
+};
+
+double reach_of(std::span<const Sphere> spheres) {
+  double reach = 0;
+  for (const Sphere& s : spheres)
+    reach = std::max(reach, std::hypot(double{s.x}, double{s.y}, double{s.z}) + double{s.radius});
+  return reach;
+}
+
+/// Expects that spheres hold all triangles of a pose, and have room for what a query rounds.
+void expect_held(const Covering& covering, BodyPoser& poser, const Character& character, const Pose& pose) {
+  const std::span<const Sphere> spheres = poser.spheres(pose);
+  const double room = detail::rounding::sphere_margin * reach_of(spheres);
+  EXPECT_LE(covering.protrusion(pose_vertices(character, pose), spheres), -room * (1 - 1e-4));
+}
+
+/// Turns all joints of a pose at random by up to half a turn.
+std::vector<Affine3d> bent(std::vector<Affine3d> joints, Random& random, double most) {
+  for (Affine3d& joint : joints) {
+    const double angle = random.between(-most, most), c = std::cos(angle), s = std::sin(angle);
+    const std::uint32_t a = random.below(3), b = (a + 1) % 3;
+    for (auto& row : joint.rows) {
+      const double old_a = row[a], old_b = row[b];
+      row[a] = c * old_a + s * old_b, row[b] = c * old_b - s * old_a;
+    }
+  }
+  return joints;
+}
+
+/// Returns the bone matrices of a pose, as a renderer has them.
+std::vector<Affine3d> palette(const Character& character, std::span<const Affine3d> world) {
+  std::vector<Affine3d> bones;
+  for (const Bone& bone : character.bones) {
+    const Affine3d& joint = world[bone.joint];
+    Affine3d map;
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 4; ++j) {
+        map.rows[i][j] = j == 3 ? joint.rows[i][3] : 0;
+        for (std::size_t k = 0; k < 3; ++k)
+          map.rows[i][j] += joint.rows[i][k] * double{bone.inverse_bind.rows[k][j]};
+      }
+    bones.push_back(map);
+  }
+  return bones;
+}
+
+void expect_held_in_poses(const BodyModel& model, std::uint32_t poses) {
+  const Character& character = *model.character;
+  const Covering covering(model);
+  BodyPoser poser(model);
+  Random random(54);
+  expect_held(covering, poser, character, Pose());
+  for (const PoseTime& at : sample_poses(character, poses)) {
+    expect_held(covering, poser, character, at);
+    const auto world = joint_transforms(character, at, JointFrame::world);
+    const auto bones = palette(character, world);
+    expect_held(covering, poser, character, SkinningPalette{bones, 0.25, -0.5});
+    const std::vector<Affine3d> joints = joint_transforms(character, at);
+    for (const double degrees : {30.0, 180.0}) {
+      const auto turned = bent(joints, random, degrees * std::numbers::pi / 180);
+      expect_held(covering, poser, character, LocalPose{turned});
+    }
+  }
+}
+
+TEST(BodyPosing, HoldsEveryTriangleInEveryPose) {
+  expect_held_in_poses(test::plain_model(default_male(), 96), test::samples(40));
+  expect_held_in_poses(test::plain_model(default_female(), 500, 0.02f), test::samples(20));
+  expect_held_in_poses(make_body(default_male(), {.spheres = 64, .draft = true}), test::samples(40));
+}
+
+/// A character far from its origin loses bits: margins have to grow with the reach.
+TEST(BodyPosing, HoldsEveryTriangleFarFromTheOrigin) {
+  const Character man = default_male();
+  const BodyModel model = test::plain_model(man, 96);
+  const Covering covering(model);
+  BodyPoser poser(model);
+  for (const double height : {1e3, 1e5}) {
+    std::vector<Affine3d> joints = joint_transforms(man, {0, 0.5f}, JointFrame::world);
+    for (Affine3d& joint : joints) joint.rows[2][3] += height;
+    expect_held(covering, poser, man, WorldPose{joints});
+  }
+}
+
+TEST(BodyPosing, HoldsMeshesWithoutRootJoints) {
+  Character box = default_male();
+  box.root_joint = -1;
+  expect_held_in_poses(test::plain_model(box, 40), test::samples(8));
+}
+
+TEST(BodyPosing, HoldsRealCharacters) {
+  const auto data = test::test_data();
+  if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set: no real characters to test with";
+  for (const char* const name : {"rocketbox_male_cmu.glb", "rocketbox_female_cmu.glb", "generic_man_cmu.glb"})
+    expect_held_in_poses(test::plain_model(import_character(*data / "characters" / name).character, 256),
+                         test::samples(8));
+}
+
+TEST(BodyPosing, GivesTheSameBitsForAllKindsOfTransforms) {
+  const Character man = default_male();
+  BodyPoser poser(test::plain_model(man, 128));
+  const auto spheres_of = [&](const Pose& pose) {
+    const auto spheres = poser.spheres(pose);
+    return std::vector<Sphere>(spheres.begin(), spheres.end());
+  };
+  for (const PoseTime& at : sample_poses(man, 9)) {
+    const std::vector<Sphere> expected = spheres_of(at);
+    EXPECT_EQ(spheres_of(LocalPose{joint_transforms(man, at)}), expected);
+    const auto world = joint_transforms(man, at, JointFrame::world);
+    EXPECT_EQ(spheres_of(WorldPose{world}), expected);
+  }
+}
+
+TEST(BodyPosing, RefusesWhatItCannotPose) {
+  const Character man = default_male();
+  BodyPoser poser(test::plain_model(man, 16));
+  const std::vector<Affine3d> few(3);
+  EXPECT_TRUE(
+      test::has(test::complaint([&] { poser.spheres(WorldPose{few}); }), "joint transforms, found 3"));
+  EXPECT_TRUE(test::has(test::complaint([&] { poser.spheres(Pose(99, 0.0f)); }), "clip"));
+  auto far = joint_transforms(man, {0, 0}, JointFrame::world);
+  for (Affine3d& joint : far) joint.rows[2][3] += 1e7;
+  EXPECT_TRUE(test::has(test::complaint<std::domain_error>([&] { poser.spheres(WorldPose{far}); }), "reach"));
+}
+
+/// Two models, whose bodies take turns.
+struct Crowd {
+  std::vector<BodyModel> models = {test::plain_model(default_male(), 100),
+                                   test::plain_model(default_female(), 500)};
+  std::vector<std::uint32_t> model_of_body;
+  std::vector<Pose> poses;
+
+  explicit Crowd(std::uint32_t bodies) {
+    for (std::uint32_t i = 0; i < bodies; ++i) {
+      model_of_body.push_back(i % 2);
+      poses.emplace_back(0u, 0.013f * static_cast<float>(i));
+    }
+  }
+};
+
+/// Returns a hash of all bodies' records.
+std::uint64_t hash_of(const BodySet& set) {
+  const detail::BodySetView& view = set.view();
+  XXH64_hash_t hash = 0;
+  for (std::uint32_t i = 0; i < set.body_count(); ++i)
+    hash = XXH3_64bits_withSeed(view.record(i), view.layouts[i]->record_size() * sizeof(float), hash);
+  return hash;
+}
+
+TEST(LiveBodies, HaveTheSpheresOfTheirPosesForAnyNumberOfThreads) {
+  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 4);
+  const Crowd crowd(101);
+  std::vector<std::uint64_t> hashes;
+  for (const int threads : {1, 2, 4})
+    tbb::task_arena(threads).execute([&] {
+      LiveBodies live(crowd.models, crowd.model_of_body);
+      live.pose(crowd.poses);
+      hashes.push_back(hash_of(live.set()));
+      if (threads > 1) return;
+      BodyPoser posers[] = {BodyPoser(crowd.models[0]), BodyPoser(crowd.models[1])};
+      for (std::uint32_t i = 0; i < crowd.poses.size(); ++i) {
+        const auto expected = posers[crowd.model_of_body[i]].spheres(crowd.poses[i]);
+        EXPECT_EQ(live.set().spheres(i), std::vector<Sphere>(expected.begin(), expected.end())) << i;
+      }
+    });
+  EXPECT_EQ(hashes[1], hashes[0]);
+  EXPECT_EQ(hashes[2], hashes[0]);
+}
+
+TEST(LiveBodies, AllocateNothingAfterTheFirstFrame) {
+  tbb::task_arena(1).execute([] {
+    const Crowd crowd(40);
+    LiveBodies live(crowd.models, crowd.model_of_body);
+    live.pose(crowd.poses);
+    const std::size_t before = test::allocation_count();
+    for (int frame = 0; frame < 3; ++frame) live.pose(crowd.poses);
+    EXPECT_EQ(test::allocation_count(), before);
+  });
+}
+
+TEST(LiveBodies, NameTheBodyThatCannotBePosed) {
+  Crowd crowd(20);
+  LiveBodies live(crowd.models, crowd.model_of_body);
+  crowd.poses[7] = Pose(99, 0.0f);
+  EXPECT_TRUE(test::has(test::complaint([&] { live.pose(crowd.poses); }), "body 7: "));
+  crowd.poses.pop_back();
+  EXPECT_TRUE(test::has(test::complaint([&] { live.pose(crowd.poses); }), "expected 20 poses, found 19"));
+  EXPECT_TRUE(test::has(test::complaint([&] {
+                          LiveBodies(crowd.models, std::vector<std::uint32_t>{0, 2});
+                        }),
+                        "found 2 of body 1"));
+}
+
+}  // namespace
+}  // namespace bch
