@@ -17,24 +17,27 @@ using Model = fcl::BVHModel<fcl::OBBRSSd>;
 
 class FclDistances final : public PairDistances {
  public:
-  explicit FclDistances(std::vector<std::shared_ptr<Model>> models) : models_(std::move(models)) {}
+  FclDistances(std::vector<std::shared_ptr<Model>> models, bool in_space)
+      : models_(std::move(models)), in_space_(in_space) {}
 
   double query(const Agents& agents, Pair pair) const override {
     const auto [a, b] = std::minmax(pair.first, pair.second);
     const fcl::DistanceRequestd request;
     fcl::DistanceResultd result;
     return fcl::distance(models_[agents.shape[a]].get(), fcl::Transform3d::Identity(),
-                         models_[agents.shape[b]].get(), fcl_transform(agents, pair), request, result);
+                         models_[agents.shape[b]].get(), fcl_transform(agents, pair, in_space_), request,
+                         result);
   }
 
  private:
   std::vector<std::shared_ptr<Model>> models_;
+  bool in_space_;
 };
 
 std::unique_ptr<PairDistances> outline_distances(std::span<const Body> bodies, Upright upright) {
   std::vector<std::shared_ptr<Model>> outlines;
   for (const Body& body : bodies) outlines.push_back(fcl_outline<fcl::OBBRSSd>(body.shape.outline, upright));
-  return std::make_unique<FclDistances>(std::move(outlines));
+  return std::make_unique<FclDistances>(std::move(outlines), false);
 }
 
 }  // namespace
@@ -50,7 +53,7 @@ std::unique_ptr<PairDistances> fcl_segment_distances(std::span<const Body> bodie
 std::unique_ptr<PairDistances> fcl_mesh_distances(std::span<const Body> bodies) {
   std::vector<std::shared_ptr<Model>> meshes;
   for (const Body& body : bodies) meshes.push_back(fcl_triangles<fcl::OBBRSSd>(body));
-  return std::make_unique<FclDistances>(std::move(meshes));
+  return std::make_unique<FclDistances>(std::move(meshes), true);
 }
 
 }  // namespace bch::baselines

@@ -22,12 +22,12 @@
 
 namespace bch::baselines {
 
-/// Returns the placement of the second agent, seen from the one with the lower index.
-inline fcl::Transform3d fcl_transform(const Agents& agents, Pair pair) {
-  const Placement at = placement(agents, pair);
+/// Returns the placement of the second agent, seen from the one with the lower index; on one ground with it, or in space.
+inline fcl::Transform3d fcl_transform(const Agents& agents, Pair pair, bool in_space) {
+  const Placement at = in_space ? placement_in_space(agents, pair) : placement(agents, pair);
   fcl::Transform3d there = fcl::Transform3d::Identity();
   there.linear() << at.cosine, -at.sine, 0, at.sine, at.cosine, 0, 0, 0, 1;
-  there.translation() << at.x, at.y, 0;
+  there.translation() << at.x, at.y, at.z;
   return there;
 }
 

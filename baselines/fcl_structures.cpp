@@ -27,6 +27,7 @@ using Traversal =
 template <class Volume>
 struct FclModel {
   std::shared_ptr<fcl::BVHModel<Volume>> mesh;
+  bool in_space = false;  ///< not an outline
 
   std::size_t bytes() const {
     return static_cast<std::size_t>(mesh->getNumBVs()) * sizeof(fcl::BVNode<Volume>) +
@@ -39,7 +40,8 @@ struct FclModel {
   template <class Counts>
   static bool meet(const FclModel& a, const FclModel& b, const Agents& agents, Pair pair, std::uint32_t,
                    Counts counts) {
-    const fcl::Transform3d here = fcl::Transform3d::Identity(), there = fcl_transform(agents, pair);
+    const fcl::Transform3d here = fcl::Transform3d::Identity(),
+                           there = fcl_transform(agents, pair, a.in_space);
     const fcl::CollisionRequestd request;
     fcl::CollisionResultd result;
     if constexpr (std::is_same_v<Counts, NoCounts>) {
@@ -58,8 +60,9 @@ struct FclModel {
 
 template <class Volume>
 std::unique_ptr<Structure> build_full(std::span<const Body> bodies, const BuildOptions&) {
-  return build_models<FclModel<Volume>>(
-      bodies, [](const Body& body) { return FclModel<Volume>{fcl_triangles<Volume>(body)}; });
+  return build_models<FclModel<Volume>>(bodies, [](const Body& body) {
+    return FclModel<Volume>{fcl_triangles<Volume>(body), true};
+  });
 }
 
 template <class Volume, Upright upright>

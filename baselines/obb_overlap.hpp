@@ -54,7 +54,7 @@ inline PlacedBox place(const Placement& placement, const ObbNode& box) noexcept 
   }
   placed.centre[0] = static_cast<float>(placement.x) + (c * box.centre[0] - s * box.centre[1]);
   placed.centre[1] = static_cast<float>(placement.y) + (s * box.centre[0] + c * box.centre[1]);
-  placed.centre[2] = box.centre[2];
+  placed.centre[2] = static_cast<float>(placement.z) + box.centre[2];
   return placed;
 }
 

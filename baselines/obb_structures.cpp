@@ -21,12 +21,13 @@ Vec2 ground(const Eigen::Vector3f& p) {
 
 /// Triangles in space.
 struct SolidTriangles {
+  static constexpr auto placed = placement_in_space;
   static bool meet(const Facet& a, const Facet& b, const Placement& at) noexcept {
     Triangle3 s, t;
     for (std::size_t i = 0; i < 3; ++i) {
       const Point2 p = exact(ground(a[i])), q = at.place(ground(b[i]));
       s[i] = {p.x, p.y, static_cast<double>(a[i].z())};
-      t[i] = {q.x, q.y, static_cast<double>(b[i].z())};
+      t[i] = {q.x, q.y, at.z + static_cast<double>(b[i].z())};
     }
     return triangles_meet(s, t);
   }
@@ -34,6 +35,7 @@ struct SolidTriangles {
 
 /// Triangles seen from above.
 struct FlatTriangles {
+  static constexpr auto placed = placement;
   static bool meet(const Facet& a, const Facet& b, const Placement& at) noexcept {
     Triangle2 s, t;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -46,6 +48,7 @@ struct FlatTriangles {
 
 /// Segments of the outline.
 struct OutlineSegments {
+  static constexpr auto placed = placement;
   static bool meet(const Facet& a, const Facet& b, const Placement& at) noexcept {
     return segments_meet({exact(ground(a[0])), exact(ground(a[1]))},
                          {at.place(ground(b[0])), at.place(ground(b[1]))});
@@ -54,6 +57,7 @@ struct OutlineSegments {
 
 /// The same, as the tree of rectangles holds them.
 struct FlatSegments {
+  static constexpr auto placed = placement;
   static bool meet(const RectangleTree::Segment& a, const RectangleTree::Segment& b,
                    const Placement& at) noexcept {
     return segments_meet({exact(a.a), exact(a.b)}, {at.place(b.a), at.place(b.b)});
@@ -70,7 +74,7 @@ struct BoxModel {
   static bool meet(const BoxModel& a, const BoxModel& b, const Agents& agents, Pair pair,
                    std::uint32_t max_depth, Counts counts) {
     using Node = typename decltype(Tree::nodes)::value_type;
-    const Placement at = placement(agents, pair);
+    const Placement at = Facets::placed(agents, pair);
     const BoxHierarchy<Node> tree_a{a.tree.nodes.data(), a.tree.height},
         tree_b{b.tree.nodes.data(), b.tree.height};
     return any_facets_meet(at, tree_a, tree_b, max_depth, counts, [&](std::uint32_t p, std::uint32_t q) {

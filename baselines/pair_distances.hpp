@@ -17,7 +17,7 @@ namespace bch::baselines {
 class PairDistances {
  public:
   virtual ~PairDistances() = default;
-  /// Returns the distance in metres; not positive where the two meet.
+  /// Returns the distance in metres; not positive where the two meet. Agents::z counts where triangles are in space.
   virtual double query(const Agents& agents, Pair pair) const = 0;
 };
 

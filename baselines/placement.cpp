@@ -11,6 +11,11 @@
 namespace bch::baselines {
 namespace {
 
+/// Returns how much higher b stands than a.
+double rise(const Agents& agents, std::uint32_t a, std::uint32_t b) {
+  return agents.z.empty() ? 0 : agents.z[b] - agents.z[a];
+}
+
 double without_dust(double value) {
   return std::abs(value) < 0x1p-100 ? 0.0 : value;
 }
@@ -24,7 +29,7 @@ FloatPlacement float_placement(const Agents& agents, Pair pair) noexcept {
   const float dx = static_cast<float>(agents.x[b] - agents.x[a]);
   const float dy = static_cast<float>(agents.y[b] - agents.y[a]);
   return {u.cosine * v.cosine + u.sine * v.sine, u.cosine * v.sine - u.sine * v.cosine,
-          u.cosine * dx + u.sine * dy, u.cosine * dy - u.sine * dx};
+          u.cosine * dx + u.sine * dy, u.cosine * dy - u.sine * dx, static_cast<float>(rise(agents, a, b))};
 }
 
 Placement placement(const Agents& agents, Pair pair) noexcept {
@@ -36,6 +41,13 @@ Placement placement(const Agents& agents, Pair pair) noexcept {
   return {without_dust(u.cosine * v.cosine + u.sine * v.sine),
           without_dust(u.cosine * v.sine - u.sine * v.cosine), without_dust(u.cosine * dx + u.sine * dy),
           without_dust(u.cosine * dy - u.sine * dx)};
+}
+
+Placement placement_in_space(const Agents& agents, Pair pair) noexcept {
+  Placement there = placement(agents, pair);
+  const auto [a, b] = std::minmax(pair.first, pair.second);
+  there.z = without_dust(rise(agents, a, b));
+  return there;
 }
 
 }  // namespace bch::baselines

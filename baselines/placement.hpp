@@ -12,6 +12,7 @@ namespace bch::baselines {
 /// the operations that layout/base/rounding.hpp lists. Tests of discs use it.
 struct FloatPlacement {
   float cosine, sine, x, y;
+  float z = 0;  ///< how much higher it stands
 };
 
 FloatPlacement float_placement(const Agents& agents, Pair pair) noexcept;
@@ -32,6 +33,7 @@ inline Point2 exact(Vec2 p) noexcept {
 /// the error of layout/base/heading.hpp, and by 4 units in the last place of the distance between the agents.
 struct Placement {
   double cosine = 1, sine = 0, x = 0, y = 0;
+  double z = 0;  ///< how much higher it stands, for tests in space
 
   Point2 place(double at_x, double at_y) const noexcept {
     return {x + (cosine * at_x - sine * at_y), y + (sine * at_x + cosine * at_y)};
@@ -43,5 +45,7 @@ struct Placement {
 /// a multiple of 2^-301 (a float is one of 2^-149), and no product of three of them underflows in the exact
 /// tests.
 Placement placement(const Agents& agents, Pair pair) noexcept;
+/// Returns the same with Agents::z.
+Placement placement_in_space(const Agents& agents, Pair pair) noexcept;
 
 }  // namespace bch::baselines

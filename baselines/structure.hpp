@@ -43,7 +43,7 @@ struct BuildOptions {
 
 /// Represents many shapes in one search structure. It is immutable, so any number of threads may ask it.
 /// Agents:  agents.shape indexes the bodies it was built from; agents.level is not read, as every query says
-///          how deep it goes.
+///          how deep it goes. agents.z is read by structures over triangles in space and by ragdolls.
 /// Depth:   a node at depth max_depth counts as a leaf, and there the overlap of the volumes is the answer:
 ///          the paper's maximum recursion depth for cylinders, the analogue for boxes. all_depths: no limit.
 /// Order:   the answer does not depend on the order within a pair.

@@ -42,6 +42,15 @@ class Suite {
     check("random", seed);
   }
 
+  /// Meshes see heights; outlines and projections do not.
+  void check_at_heights(std::uint64_t seed, std::uint32_t pairs) {
+    scene_ = test::placements(seed, bodies_, test::samples(pairs));
+    test::Random random(seed);
+    for (std::size_t i = 0; i < scene_.crowd.shape.size(); ++i)
+      scene_.crowd.z.push_back(random.uniform(-0.8, 0.8));
+    check("at heights", seed);
+  }
+
   void check_touching(std::uint64_t seed, std::uint32_t pairs) {
     scene_ = test::placements(seed, bodies_, test::samples(pairs));
     test::slide_to_contact(seed, scene_,
@@ -110,7 +119,7 @@ class Suite {
       if (i % brute_share != 0) continue;
       const auto [a, b] = std::minmax(scene_.pairs[i].first, scene_.pairs[i].second);
       const Body &body_a = bodies_[agents.shape[a]], &body_b = bodies_[agents.shape[b]];
-      const baselines::Placement at = baselines::placement(agents, scene_.pairs[i]);
+      const baselines::Placement at = baselines::placement_in_space(agents, scene_.pairs[i]);
       ASSERT_EQ(hits("obb_full")[i] == 1, test::meshes_meet(body_a, body_b, at))
           << test::replay_line(scene_, i);
       ASSERT_EQ(hits("obb_projected")[i] == 1, test::projections_meet(body_a, body_b, at))
@@ -134,7 +143,7 @@ class Suite {
             << peer.kind->name << " says " << int{peer.hits[i]} << ", " << test::replay_line(scene_, i);
         const auto [a, b] = std::minmax(scene_.pairs[i].first, scene_.pairs[i].second);
         const Agents agents = scene_.crowd.agents();
-        const baselines::Placement at = baselines::placement(agents, scene_.pairs[i]);
+        const baselines::Placement at = baselines::placement_in_space(agents, scene_.pairs[i]);
         const bool expected = full ? test::meshes_meet(bodies_[agents.shape[a]], bodies_[agents.shape[b]], at)
                                    : test::outlines_meet(outline(agents, a), outline(agents, b), at);
         ASSERT_EQ(hits(name)[i] == 1, expected) << name << ", " << test::replay_line(scene_, i);
@@ -156,6 +165,11 @@ class Suite {
 TEST(DefaultCharacters, RandomPlacements) {
   const auto characters = test::default_characters();
   Suite(characters, 16).check_random(1996, 40'000);
+}
+
+TEST(DefaultCharacters, PlacementsAtHeights) {
+  const auto characters = test::default_characters();
+  Suite(characters, 16).check_at_heights(1998, 10'000);
 }
 
 TEST(DefaultCharacters, TouchingPlacements) {

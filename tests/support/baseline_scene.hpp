@@ -57,8 +57,10 @@ bool touches(const PairScene& scene, std::size_t pair, double shift, Answer answ
 template <class Answer>
 bool bch::test::touches(const PairScene& scene, std::size_t pair, double shift, Answer answer) {
   PairScene moved;
-  for (const std::size_t i : {2 * pair, 2 * pair + 1})
+  for (const std::size_t i : {2 * pair, 2 * pair + 1}) {
     moved.crowd.add({scene.crowd.shape[i], scene.crowd.x[i], scene.crowd.y[i], scene.crowd.heading[i], 0});
+    if (!scene.crowd.z.empty()) moved.crowd.z.push_back(scene.crowd.z[i]);
+  }
   const bool here = answer(moved.crowd.agents(), Pair{0, 1});
   const double x = moved.crowd.x[1], y = moved.crowd.y[1];
   for (int direction = 0; direction < 32; ++direction) {

@@ -68,7 +68,8 @@ std::vector<Boxed<baselines::Triangle3>> triangles(const Body& body, const Place
   for (const Vec3& p : body.positions) {
     const Vec2 ground{p.x, p.y};
     const Point2 q = at != nullptr ? at->place(ground) : baselines::exact(ground);
-    placed.push_back({q.x, q.y, flat ? 0.0 : static_cast<double>(p.z)});
+    const double rise = at != nullptr ? at->z : 0;
+    placed.push_back({q.x, q.y, flat ? 0.0 : rise + static_cast<double>(p.z)});
   }
   std::vector<Boxed<baselines::Triangle3>> result;
   for (const auto& [i, j, k] : body.triangles) {
