@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "baselines/ragdoll.hpp"
+
+#include "baselines/capsule_fit.hpp"
+#include "tests/support/test.hpp"
+#include "tests/support/test_characters.hpp"
+
+namespace bch {
+namespace {
+
+using baselines::Capsule;
+using baselines::PosedRagdoll;
+using Eigen::Vector3d;
+using Segment = std::array<Vector3d, 2>;
+using test::Random;
+
+Vec3 random_point(Random& random, double around) {
+  const auto draw = [&] { return static_cast<float>(random.uniform(-around, around)); };
+  return {draw(), draw(), draw()};
+}
+
+std::vector<Capsule> random_capsules(Random& random) {
+  std::vector<Capsule> capsules(1 + random.below(20));
+  for (Capsule& capsule : capsules) {
+    const Vec3 from = random_point(random, 0.8);
+    const Vec3 along = random.below(5) == 0 ? Vec3{} : random_point(random, 0.2);
+    capsule = {0, {from, {from.x + along.x, from.y + along.y, from.z + along.z}}, 0, 0.1f};
+  }
+  return capsules;
+}
+
+/// The distance from a segment is convex along the other one, so that thirds of it find the least.
+double segment_distance(const Segment& a, const Segment& b) {
+  double low = 0, high = 1;
+  const auto at = [&](double t) { return baselines::distance(a[0] + t * (a[1] - a[0]), b); };
+  for (int i = 0; i < 60; ++i) {
+    const double third = (high - low) / 3;
+    (at(low + third) < at(high - third) ? high : low) += at(low + third) < at(high - third) ? -third : third;
+  }
+  return at(low);
+}
+
+Segment placed(const Capsule& capsule, double x, double y, double z, double heading) {
+  Segment ends;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const double px = static_cast<double>(capsule.ends[i].x), py = static_cast<double>(capsule.ends[i].y);
+    ends[i] = {x + std::cos(heading) * px - std::sin(heading) * py,
+               y + std::sin(heading) * px + std::cos(heading) * py,
+               z + static_cast<double>(capsule.ends[i].z)};
+  }
+  return ends;
+}
+
+TEST(Ragdoll, CollidesWhereCapsulesOverlap) {
+  Random random(61);
+  const std::vector<Affine3d> one_bone(1);
+  std::vector<std::vector<Capsule>> all(50);
+  std::vector<PosedRagdoll> posed(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    all[i] = random_capsules(random);
+    baselines::pose_ragdoll(all[i], one_bone, 0.5f, posed[i]);
+  }
+  const auto structure = baselines::ragdoll_structure(posed);
+  int hits = 0;
+  const int pairs = 3000;
+  for (int i = 0; i < pairs; ++i) {
+    const std::uint32_t shape[] = {random.below(50), random.below(50)};
+    const double x[] = {random.uniform(-9, 9), x[0] + random.uniform(-0.9, 0.9)},
+                 y[] = {random.uniform(-9, 9), y[0] + random.uniform(-0.9, 0.9)},
+                 z[] = {random.uniform(-9, 9), z[0] + random.uniform(-0.9, 0.9)},
+                 heading[] = {random.uniform(-4, 4), random.uniform(-4, 4)};
+    double gap = HUGE_VAL;
+    for (const Capsule& a : all[shape[0]])
+      for (const Capsule& b : all[shape[1]])
+        gap = std::min(gap, segment_distance(placed(a, x[0], y[0], z[0], heading[0]),
+                                             placed(b, x[1], y[1], z[1], heading[1])) -
+                                0.1);  // two radii of .05
+    const Agents agents{shape, x, y, heading, {}, z};
+    const bool hit = structure->query(agents, {0, 1});
+    EXPECT_EQ(hit, structure->query(agents, {1, 0}));
+    if (std::abs(gap) > 1e-5) {
+      EXPECT_EQ(hit, gap < 0) << "pair " << i << ", gap " << gap;
+    }
+    hits += hit;
+  }
+  EXPECT_GT(hits, pairs / 10);
+  EXPECT_LT(hits, pairs * 9 / 10);
+}
+
+TEST(Ragdoll, FitFindsTheCapsuleThatPointsLieOn) {
+  Random random(62);
+  const Segment ends{Vector3d(0.1, -0.2, 0.9), Vector3d(0.15, -0.1, 1.3)};
+  std::vector<baselines::WeightedPoint> points;
+  while (points.size() < 2000) {
+    Vector3d at(random.uniform(-0.2, 0.5), random.uniform(-0.5, 0.2), random.uniform(0.6, 1.6));
+    const Vector3d way = ends[1] - ends[0];
+    const double t = std::clamp((at - ends[0]).dot(way) / way.squaredNorm(), 0.0, 1.0);
+    const Vector3d foot = ends[0] + t * way;
+    points.push_back({foot + 0.08 * (at - foot).normalized(), 1});
+  }
+  const baselines::FittedCapsule fit = baselines::best_capsule(points);
+  EXPECT_NEAR(fit.radius, 0.08, 0.002);
+  const bool turned = (fit.ends[0] - ends[0]).norm() > 0.2;
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_LT((fit.ends[turned ? 1 - i : i] - ends[i]).norm(), 0.01);
+}
+
+TEST(Ragdoll, HoldsItsVerticesInThePosesOfTheFit) {
+  for (const Character& character : test::people()) {
+    std::vector<std::vector<Affine3d>> poses;
+    std::vector<std::vector<Vec3>> positions;
+    for (const PoseTime at : sample_poses(character, 5)) {
+      poses.push_back(baselines::bone_maps(character, joint_transforms(character, at, JointFrame::world)));
+      positions.push_back(pose_vertices(character, at));
+    }
+    std::vector<bool> used(character.vertices.size());
+    for (const auto& corners : character.triangles)
+      for (const std::uint32_t v : corners) used[v] = true;
+    for (const std::uint32_t count : {15u, 32u}) {
+      const std::vector<Capsule> capsules = baselines::fit_ragdoll(character, poses, count);
+      ASSERT_EQ(capsules.size(), count);
+      double thin = 0, holding = 0;
+      for (const Capsule& capsule : capsules) {
+        EXPECT_LE(capsule.thin, capsule.holding);
+        thin += static_cast<double>(capsule.thin), holding += static_cast<double>(capsule.holding);
+      }
+      RecordProperty("mean_radii_" + character.name + "_" + std::to_string(count),
+                     std::to_string(thin / count) + " " + std::to_string(holding / count));
+      for (std::size_t p = 0; p < poses.size(); ++p) {
+        double worst = -HUGE_VAL;
+        for (std::size_t v = 0; v < used.size(); ++v) {
+          if (!used[v]) continue;
+          double out = HUGE_VAL;
+          for (const Capsule& capsule : capsules) {
+            const Affine3d& map = poses[p][capsule.bone];
+            Segment ends;
+            for (std::size_t e = 0; e < 2; ++e)
+              for (int row = 0; row < 3; ++row)
+                ends[e][row] = map.rows[row][0] * static_cast<double>(capsule.ends[e].x) +
+                               map.rows[row][1] * static_cast<double>(capsule.ends[e].y) +
+                               map.rows[row][2] * static_cast<double>(capsule.ends[e].z) + map.rows[row][3];
+            const Vec3& at = positions[p][v];
+            out = std::min(out, baselines::distance({static_cast<double>(at.x), static_cast<double>(at.y),
+                                                     static_cast<double>(at.z)},
+                                                    ends) -
+                                    static_cast<double>(capsule.holding));
+          }
+          worst = std::max(worst, out);
+        }
+        EXPECT_LT(worst, 1e-5) << character.name << ", " << count << " capsules, pose " << p;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace bch
