@@ -76,28 +76,8 @@ class Ragdolls final : public Structure {
 
 }  // namespace
 
-std::vector<Affine3d> bone_maps(const Character& character, std::span<const Affine3d> joints) {
-  std::vector<Affine3d> maps;
-  for (const Bone& bone : character.bones) {
-    Affine3d map{{{0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}}};
-    const Affine3d& joint = joints[bone.joint];
-    for (std::size_t row = 0; row < 3; ++row)
-      for (std::size_t column = 0; column < 4; ++column) {
-        for (std::size_t k = 0; k < 3; ++k)
-          map.rows[row][column] +=
-              joint.rows[row][k] * static_cast<double>(bone.inverse_bind.rows[k][column]);
-        if (column < 3) continue;
-        map.rows[row][3] += joint.rows[row][3];
-        if (row < 2 && character.root_joint >= 0)
-          map.rows[row][3] -= joints[static_cast<std::size_t>(character.root_joint)].rows[row][3];
-      }
-    maps.push_back(map);
-  }
-  return maps;
-}
-
-void pose_ragdoll(std::span<const Capsule> capsules, std::span<const Affine3d> bone_maps, float grown,
-                  PosedRagdoll& posed) {
+void pose_ragdoll(const Character& character, std::span<const Capsule> capsules,
+                  std::span<const Affine3d> joints, float grown, PosedRagdoll& posed) {
   if (capsules.size() > most_capsules)
     throw std::invalid_argument("a ragdoll of " + std::to_string(capsules.size()) + " capsules, more than " +
                                 std::to_string(most_capsules));
@@ -112,12 +92,15 @@ void pose_ragdoll(std::span<const Capsule> capsules, std::span<const Affine3d> b
     const float r = is_there ? capsules[i].thin + grown * (capsules[i].holding - capsules[i].thin) : 0;
     field(Field::radius, 0) = r;
     for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double origin = axis < 2 && character.root_joint >= 0
+                                ? joints[static_cast<std::size_t>(character.root_joint)].rows[axis][3]
+                                : 0;
       const auto end = [&](std::size_t k) {
         if (!is_there) return far_away;
-        const double* const row = bone_maps[capsules[i].bone].rows[axis];
+        const double* const row = joints[capsules[i].joint].rows[axis];
         const Vec3& p = capsules[i].ends[k];
         return static_cast<float>(row[0] * static_cast<double>(p.x) + row[1] * static_cast<double>(p.y) +
-                                  row[2] * static_cast<double>(p.z) + row[3]);
+                                  row[2] * static_cast<double>(p.z) + (row[3] - origin));
       };
       const float from = end(0), to = end(1);
       field(Field::end_x, axis) = from, field(Field::along_x, axis) = to - from;

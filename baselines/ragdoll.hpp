@@ -19,21 +19,18 @@
 
 namespace bch::baselines {
 
-/// Represents all points within a radius of a segment; it moves with one bone.
+/// Represents all points within a radius of a segment; it moves with one joint.
 struct Capsule {
-  std::uint32_t bone;
-  std::array<Vec3, 2> ends;  ///< in the frame that the bone's inverse_bind expects
+  std::uint32_t joint;
+  std::array<Vec3, 2> ends;  ///< in the joint's frame
   float thin;                ///< metres: the radius of the best fit to the vertices
   float holding;  ///< metres: the radius that holds all of the capsule's vertices in all poses of the fit
 };
 
-/// Returns where bones take points of the mesh, by the transforms of all joints in the frame of WorldPose: the root joint's point on
-/// the ground becomes the origin.
-std::vector<Affine3d> bone_maps(const Character& character, std::span<const Affine3d> joints);
-
 /// Fits capsules to a character. Joints' vertices are merged and halved until there are so many groups, with the least error; names of
 /// joints do not matter. Each capsule is then the best one in the sense of least squares, its distances to the group's vertices, weighted
-/// by area, with a penalty on ends that stick out. `poses`: bone_maps() of each pose that counts.
+/// by area, with a penalty on ends that stick out. `poses`: the transforms of all
+/// joints, as of WorldPose, in each pose that counts.
 /// Errors:  throws std::invalid_argument on a character without triangles, and on no poses.
 std::vector<Capsule> fit_ragdoll(const Character& character, std::span<const std::vector<Affine3d>> poses,
                                  std::uint32_t capsules);
@@ -46,9 +43,10 @@ struct PosedRagdoll {
   std::size_t bytes() const { return lanes.size() * sizeof(float); }
 };
 
-/// Poses a ragdoll; allocates nothing after the first time. `grown`: 0 for thin capsules, 1 for those that hold their vertices.
-void pose_ragdoll(std::span<const Capsule> capsules, std::span<const Affine3d> bone_maps, float grown,
-                  PosedRagdoll& posed);
+/// Poses a ragdoll by the transforms of all joints, as of WorldPose: the root joint's point on the ground becomes the origin. Allocates
+/// nothing after the first time. `grown`: 0 for thin capsules, 1 for those that hold their vertices.
+void pose_ragdoll(const Character& character, std::span<const Capsule> capsules,
+                  std::span<const Affine3d> joints, float grown, PosedRagdoll& posed);
 
 /// Makes a structure that answers whether capsules overlap, at any Agents::z; in float, without a margin.
 std::unique_ptr<Structure> ragdoll_structure(std::vector<PosedRagdoll> ragdolls);

@@ -12,6 +12,7 @@
 
 #include "baselines/capsule_fit.hpp"
 #include "baselines/ragdoll.hpp"
+#include "layout/character/eigen.hpp"
 
 // Which vertices share a capsule? Joints that nearly move together are merged, long and flat groups are halved: what costs least, until
 // the number is right.
@@ -30,14 +31,24 @@ Eigen::Affine3d to_eigen(const Affine3d& map) {
   return result;
 }
 
-Vector3d to_eigen(const Vec3& p) {
-  return Eigen::Vector3f(p.x, p.y, p.z).cast<double>();
+/// Returns the transforms of joints with the root's point on the ground as the origin.
+std::vector<Eigen::Affine3d> rooted(const Character& character, std::span<const Affine3d> joints) {
+  std::vector<Eigen::Affine3d> maps;
+  for (const Affine3d& joint : joints) maps.push_back(to_eigen(joint));
+  if (character.root_joint < 0) return maps;
+  const Vector3d root = maps[static_cast<std::size_t>(character.root_joint)].translation();
+  for (Eigen::Affine3d& map : maps) map.pretranslate(Vector3d(-root.x(), -root.y(), 0));
+  return maps;
 }
 
-/// Holds vertices that share a capsule, and the bone that moves it.
+Vector3d to_eigen(const Vec3& p) {
+  return detail::to_eigen(p).cast<double>();
+}
+
+/// Holds vertices that share a capsule, and the joint that moves it.
 struct Group {
   std::vector<std::uint32_t> vertices, joints;  ///< joints: of the vertices, in order
-  std::uint32_t bone = 0;
+  std::uint32_t joint = 0;
   double error = 0;
 };
 
@@ -45,10 +56,9 @@ class Fit {
  public:
   Fit(const Character& character, std::span<const std::vector<Affine3d>> poses)
       : character_(character), weights_(areas()), joint_of_vertex_(strongest_joints()) {
-    for (const std::vector<Affine3d>& maps : poses) {
-      auto& bones = maps_.emplace_back();
-      for (const Affine3d& map : maps) bones.push_back(to_eigen(map));
-      posed_.push_back(posed(bones));
+    for (const std::vector<Affine3d>& joints : poses) {
+      maps_.push_back(rooted(character, joints));
+      posed_.push_back(posed(maps_.back()));
     }
   }
 
@@ -99,7 +109,10 @@ class Fit {
     }
     return joints;
   }
-  std::vector<Vector3d> posed(std::span<const Eigen::Affine3d> bones) const {
+  std::vector<Vector3d> posed(std::span<const Eigen::Affine3d> joints) const {
+    std::vector<Eigen::Affine3d> bones;
+    for (const Bone& bone : character_.bones)
+      bones.push_back(joints[bone.joint] * detail::to_eigen(bone.inverse_bind).cast<double>());
     std::vector<Vector3d> positions;
     for (std::size_t v = 0; v < character_.vertices.size(); ++v) {
       Vector3d& at = positions.emplace_back(Vector3d::Zero());
@@ -109,11 +122,11 @@ class Fit {
     return positions;
   }
 
-  /// Where a bone sees vertices in all poses: in metres, as they are in the first pose.
+  /// Where a joint sees vertices in all poses: in metres, as they are in the first pose.
   std::vector<WeightedPoint> points(const Group& group) const {
     std::vector<WeightedPoint> points;
     for (std::size_t p = 0; p < posed_.size(); ++p) {
-      const Eigen::Affine3d back = maps_[0][group.bone] * maps_[p][group.bone].inverse();
+      const Eigen::Affine3d back = maps_[0][group.joint] * maps_[p][group.joint].inverse();
       for (const std::uint32_t v : group.vertices) points.push_back({back * posed_[p][v], weights_[v]});
     }
     return points;
@@ -124,9 +137,7 @@ class Fit {
     for (std::size_t v = 0; v < weights_.size(); ++v)
       if (weights_[v] > 0) of_joint[joint_of_vertex_[v]].vertices.push_back(static_cast<std::uint32_t>(v));
     for (auto& [joint, group] : of_joint) {
-      group.joints = {joint};
-      for (std::uint32_t bone = 0; bone < character_.bones.size(); ++bone)
-        if (character_.bones[bone].joint == joint) group.bone = bone;
+      group.joints = {joint}, group.joint = joint;
       measure(group);
       groups_.push_back(std::move(group));
     }
@@ -171,7 +182,7 @@ class Fit {
     return all;
   }
 
-  /// Merges the two neighbours that then have the least error more, on the bone of one of them.
+  /// Merges the two neighbours that then have the least error more, on the joint of one of them.
   void merge() {
     double least = std::numeric_limits<double>::infinity();
     std::size_t first = 0, second = 0;
@@ -180,8 +191,8 @@ class Fit {
       for (std::size_t j = i + 1; j < groups_.size(); ++j) {
         const Group &a = groups_[i], &b = groups_[j];
         if (!adjacent(a, b)) continue;
-        for (const std::uint32_t bone : {a.bone, b.bone}) {
-          Group both{united(a.vertices, b.vertices), united(a.joints, b.joints), bone};
+        for (const std::uint32_t joint : {a.joint, b.joint}) {
+          Group both{united(a.vertices, b.vertices), united(a.joints, b.joints), joint};
           measure(both);
           if (both.error - a.error - b.error < least)
             least = both.error - a.error - b.error, first = i, second = j, best = std::move(both);
@@ -217,7 +228,7 @@ class Fit {
     for (std::size_t i = 0; i < along.size(); ++i)
       halves[along[i] < middle ? 0 : 1].vertices.push_back(group.vertices[i]);
     for (Group& half : halves) {
-      half.joints = group.joints, half.bone = group.bone;
+      half.joints = group.joints, half.joint = group.joint;
       if (half.vertices.size() < 4) return {};
       measure(half);
     }
@@ -229,10 +240,10 @@ class Fit {
     const FittedCapsule fit = best_capsule(seen);
     double holding = fit.radius;
     for (const WeightedPoint& p : seen) holding = std::max(holding, distance(p.at, fit.ends));
-    Capsule capsule{group.bone, {}, static_cast<float>(fit.radius), static_cast<float>(holding)};
-    const Eigen::Affine3d to_bind = maps_[0][group.bone].inverse();
+    Capsule capsule{group.joint, {}, static_cast<float>(fit.radius), static_cast<float>(holding)};
+    const Eigen::Affine3d to_joint = maps_[0][group.joint].inverse();
     for (std::size_t end = 0; end < 2; ++end) {
-      const Eigen::Vector3f at = (to_bind * fit.ends[end]).cast<float>();
+      const Eigen::Vector3f at = (to_joint * fit.ends[end]).cast<float>();
       capsule.ends[end] = {at.x(), at.y(), at.z()};
     }
     return capsule;

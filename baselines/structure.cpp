@@ -50,6 +50,8 @@ void validate_agent(const Agents& agents, std::uint32_t agent, std::uint32_t sha
     reject("pair ", pair, ": agent ", agent, ": position (", agents.x[agent], ", ", agents.y[agent], ")");
   if (!in_range(agents.heading[agent], detail::rounding::largest_heading))
     reject("pair ", pair, ": agent ", agent, ": heading ", agents.heading[agent]);
+  if (!agents.z.empty() && !in_range(agents.z[agent], detail::rounding::largest_position))
+    reject("pair ", pair, ": agent ", agent, ": height ", agents.z[agent]);
 }
 
 }  // namespace
@@ -60,6 +62,8 @@ void Structure::query(const Agents& agents, std::span<const Pair> pairs, std::sp
       agents.heading.size() != agents.size())
     reject("agents: ", agents.size(), " shapes but ", agents.x.size(), ", ", agents.y.size(), " and ",
            agents.heading.size(), " values of x, y and heading");
+  if (!agents.z.empty() && agents.z.size() != agents.size())
+    reject("agents: ", agents.size(), " shapes but ", agents.z.size(), " values of z");
   if (hits.size() != pairs.size()) reject(pairs.size(), " pairs but room for ", hits.size(), " hits");
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     validate_agent(agents, pairs[i].first, shape_count(), i);

@@ -4,6 +4,7 @@
 #include "baselines/ragdoll.hpp"
 
 #include "baselines/capsule_fit.hpp"
+#include "baselines/capsule_lanes.hpp"
 #include "tests/support/test.hpp"
 #include "tests/support/test_characters.hpp"
 
@@ -55,12 +56,12 @@ Segment placed(const Capsule& capsule, double x, double y, double z, double head
 
 TEST(Ragdoll, CollidesWhereCapsulesOverlap) {
   Random random(61);
-  const std::vector<Affine3d> one_bone(1);
+  const std::vector<Affine3d> one_joint(1);
   std::vector<std::vector<Capsule>> all(50);
   std::vector<PosedRagdoll> posed(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
     all[i] = random_capsules(random);
-    baselines::pose_ragdoll(all[i], one_bone, 0.5f, posed[i]);
+    baselines::pose_ragdoll({}, all[i], one_joint, 0.5f, posed[i]);
   }
   const auto structure = baselines::ragdoll_structure(posed);
   int hits = 0;
@@ -106,49 +107,61 @@ TEST(Ragdoll, FitFindsTheCapsuleThatPointsLieOn) {
   for (std::size_t i = 0; i < 2; ++i) EXPECT_LT((fit.ends[turned ? 1 - i : i] - ends[i]).norm(), 0.01);
 }
 
+struct PosedCapsule {
+  Segment ends;
+  double radius;
+};
+
+std::vector<PosedCapsule> read(const PosedRagdoll& posed) {
+  using baselines::Field;
+  std::vector<PosedCapsule> capsules;
+  const std::size_t stride = posed.lanes.size() / Field::count;
+  for (std::size_t i = 0; i < posed.capsules; ++i) {
+    const auto point = [&](std::size_t first) {
+      const auto at = [&](std::size_t axis) { return double{posed.lanes[(first + axis) * stride + i]}; };
+      return Vector3d(at(0), at(1), at(2));
+    };
+    const Vector3d end = point(Field::end_x);
+    capsules.push_back({{end, end + point(Field::along_x)}, double{posed.lanes[Field::radius * stride + i]}});
+  }
+  return capsules;
+}
+
+/// Returns by how much a vertex of a triangle is at most outside of all capsules.
+double farthest_outside(const Character& character, PoseTime at, const std::vector<PosedCapsule>& capsules) {
+  const std::vector<Vec3> positions = pose_vertices(character, at);
+  double farthest = -HUGE_VAL;
+  for (const auto& corners : character.triangles)
+    for (const std::uint32_t corner : corners) {
+      const Vec3& p = positions[corner];
+      double out = HUGE_VAL;
+      for (const PosedCapsule& capsule : capsules)
+        out = std::min(
+            out, baselines::distance({double{p.x}, double{p.y}, double{p.z}}, capsule.ends) - capsule.radius);
+      farthest = std::max(farthest, out);
+    }
+  return farthest;
+}
+
 TEST(Ragdoll, HoldsItsVerticesInThePosesOfTheFit) {
   for (const Character& character : test::people()) {
+    const std::vector<PoseTime> times = sample_poses(character, 5);
     std::vector<std::vector<Affine3d>> poses;
-    std::vector<std::vector<Vec3>> positions;
-    for (const PoseTime at : sample_poses(character, 5)) {
-      poses.push_back(baselines::bone_maps(character, joint_transforms(character, at, JointFrame::world)));
-      positions.push_back(pose_vertices(character, at));
-    }
-    std::vector<bool> used(character.vertices.size());
-    for (const auto& corners : character.triangles)
-      for (const std::uint32_t v : corners) used[v] = true;
+    for (const PoseTime at : times) poses.push_back(joint_transforms(character, at, JointFrame::world));
     for (const std::uint32_t count : {15u, 32u}) {
       const std::vector<Capsule> capsules = baselines::fit_ragdoll(character, poses, count);
       ASSERT_EQ(capsules.size(), count);
-      double thin = 0, holding = 0;
-      for (const Capsule& capsule : capsules) {
-        EXPECT_LE(capsule.thin, capsule.holding);
-        thin += static_cast<double>(capsule.thin), holding += static_cast<double>(capsule.holding);
-      }
-      RecordProperty("mean_radii_" + character.name + "_" + std::to_string(count),
-                     std::to_string(thin / count) + " " + std::to_string(holding / count));
-      for (std::size_t p = 0; p < poses.size(); ++p) {
-        double worst = -HUGE_VAL;
-        for (std::size_t v = 0; v < used.size(); ++v) {
-          if (!used[v]) continue;
-          double out = HUGE_VAL;
-          for (const Capsule& capsule : capsules) {
-            const Affine3d& map = poses[p][capsule.bone];
-            Segment ends;
-            for (std::size_t e = 0; e < 2; ++e)
-              for (int row = 0; row < 3; ++row)
-                ends[e][row] = map.rows[row][0] * static_cast<double>(capsule.ends[e].x) +
-                               map.rows[row][1] * static_cast<double>(capsule.ends[e].y) +
-                               map.rows[row][2] * static_cast<double>(capsule.ends[e].z) + map.rows[row][3];
-            const Vec3& at = positions[p][v];
-            out = std::min(out, baselines::distance({static_cast<double>(at.x), static_cast<double>(at.y),
-                                                     static_cast<double>(at.z)},
-                                                    ends) -
-                                    static_cast<double>(capsule.holding));
-          }
-          worst = std::max(worst, out);
-        }
-        EXPECT_LT(worst, 1e-5) << character.name << ", " << count << " capsules, pose " << p;
+      for (const Capsule& capsule : capsules) EXPECT_LE(capsule.thin, capsule.holding);
+      for (std::size_t i = 0; i < poses.size(); ++i) {
+        PosedRagdoll thin, holding;
+        baselines::pose_ragdoll(character, capsules, poses[i], 0, thin);
+        baselines::pose_ragdoll(character, capsules, poses[i], 1, holding);
+        const std::string where =
+            character.name + ", " + std::to_string(count) + " capsules, pose " + std::to_string(i);
+        EXPECT_LT(farthest_outside(character, times[i], read(holding)), 1e-5) << where;
+        const double beyond_fit = farthest_outside(character, times[i], read(thin));
+        EXPECT_GT(beyond_fit, 0.01) << where;
+        EXPECT_LT(beyond_fit, 0.12) << where;
       }
     }
   }
