@@ -22,6 +22,7 @@ namespace {
 
 constexpr Experiment all_experiments[] = {
     {"error_time", run_error_time, true},
+    {"bodies", run_bodies, true},
     {"construction", run_construction},
     {"query_time", run_query_time},
     {"distance", run_distance, true},

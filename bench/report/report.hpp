@@ -75,6 +75,7 @@ struct Experiment {
 std::span<const Experiment> experiments();
 
 void run_error_time(Run& run);
+void run_bodies(Run& run);
 void run_construction(Run& run);
 void run_query_time(Run& run);
 void run_distance(Run& run);

@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/report/body_subjects.hpp"
+
+#include <array>
+
+#include <bch/pose_shape.hpp>
+#include <bch/scene_plan.hpp>
+#include <bch/shape_set_builder.hpp>
+
+namespace bch::report {
+namespace {
+
+constexpr double shape_threshold = 0.01;  // metres
+constexpr std::uint32_t thin_slabs = 64;
+constexpr float tallest = 1.95f;  // metres, of the people that thin slabs are of
+/// The poses that ragdolls are fitted to, of a character.
+constexpr std::uint32_t fitted_poses = 12;
+
+std::vector<float> thin_slices() {
+  std::vector<float> planes;
+  for (std::uint32_t i = 1; i < thin_slabs; ++i)
+    planes.push_back(tallest * static_cast<float>(i) / static_cast<float>(thin_slabs));
+  return planes;
+}
+
+/// Makes shapes of one character ready for a set, pose by pose.
+struct ShapeWorkshop {
+  PoseShaper shaper;
+  PreparedShape prepared;
+
+  ShapeWorkshop(const Character& character, const ShapeSetPlan& plan)
+      : shaper(character, plan, static_cast<float>(shape_threshold)), prepared(plan) {}
+};
+
+/// Returns something of each character of a scene.
+template <class Make>
+auto of_each_character(bench::Scene& scene, Make make) {
+  std::vector<decltype(make(scene.characters()[0].character))> all;
+  for (const cli::LoadedCharacter& loaded : scene.characters()) all.push_back(make(loaded.character));
+  return all;
+}
+
+using Capsules = std::vector<baselines::Capsule>;
+
+Capsules capsules_of(const Character& character, std::uint32_t count) {
+  std::vector<std::vector<Affine3d>> poses;
+  for (const PoseTime at : sample_poses(character, fitted_poses))
+    poses.push_back(joint_transforms(character, at, JointFrame::world));
+  return baselines::fit_ragdoll(character, poses, count);
+}
+
+}  // namespace
+
+BodySubjects::BodySubjects(bench::Scene& scene) : scene_(scene) {
+  for (const ShapeSource& source : scene.sources())
+    joints_.push_back(
+        joint_transforms(scene.characters()[source.character].character, source.at, JointFrame::world));
+}
+
+void BodySubjects::add_shapes(std::string name, const std::vector<Shape>& shapes, const ShapeSetPlan& plan) {
+  const ShapeSet& set = sets_.emplace_back(shapes, plan);
+  Subject subject = subject_of(name, set, {.leaves = Leaves::segments});
+  subject.bytes = static_cast<double>(set.bytes()) / set.shape_count();
+  const auto workshops = std::make_shared<std::vector<ShapeWorkshop>>(
+      of_each_character(scene_, [&](const Character& character) { return ShapeWorkshop(character, plan); }));
+  all_.push_back({std::move(subject), [this, workshops](std::size_t shape) {
+                    ShapeWorkshop& of = (*workshops)[scene_.sources()[shape].character];
+                    of.prepared.prepare(of.shaper.shape(WorldPose{joints_[shape]}), shape);
+                  }});
+}
+
+void BodySubjects::add_slabs(std::uint32_t slabs) {
+  if (slabs == 1) return add_shapes(std::string(exact_leaves_name), scene_.shapes(), {});
+  add_shapes(slabs_name(slabs, Leaves::segments), scene_.shapes_in_slabs(slabs),
+             {.slices = standing_slices(slabs)});
+}
+
+void BodySubjects::add_thin_slabs() {
+  const ShapeSetPlan plan{.slices = thin_slices()};
+  const auto shapes = cli::build_shapes(scene_.characters(), scene_.sources(), shape_threshold, plan).shapes;
+  const ShapeSet& set = sets_.emplace_back(shapes, plan);
+  all_.push_back(
+      {subject_of(slabs_name(thin_slabs, Leaves::segments), set, {.leaves = Leaves::segments}), {}});
+}
+
+void BodySubjects::add_meshes() {
+  all_.push_back({subject_of("OBB full mesh", scene_.structure("obb_full")), {}});
+}
+
+void BodySubjects::add_ragdolls(std::uint32_t capsules) {
+  struct Growth {
+    std::string_view name;
+    float grown;
+  };
+  const auto ragdolls = std::make_shared<std::vector<Capsules>>(of_each_character(
+      scene_, [&](const Character& character) { return capsules_of(character, capsules); }));
+  const auto pose = [this, ragdolls](std::size_t shape, float grown, baselines::PosedRagdoll& posed) {
+    const std::uint32_t of = scene_.sources()[shape].character;
+    baselines::pose_ragdoll(scene_.characters()[of].character, (*ragdolls)[of], joints_[shape], grown, posed);
+  };
+  for (const auto& [name, grown] :
+       std::array<Growth, 3>{{{"thin", 0}, {"between", 0.5f}, {"holding all", 1}}}) {
+    std::vector<baselines::PosedRagdoll> posed(joints_.size());
+    for (std::size_t i = 0; i < posed.size(); ++i) pose(i, grown, posed[i]);
+    const auto bytes = static_cast<double>(posed[0].bytes());
+    const auto& structure = *structures_.emplace_back(baselines::ragdoll_structure(std::move(posed)));
+    Subject subject = subject_of(fmt::format("{} capsules, {}", capsules, name), structure);
+    subject.bytes = bytes;
+    subject.semantics = "solid";
+    all_.push_back({std::move(subject), [pose, grown = grown, kept = baselines::PosedRagdoll()](
+                                            std::size_t shape) mutable { pose(shape, grown, kept); }});
+  }
+}
+
+}  // namespace bch::report

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "baselines/ragdoll.hpp"
+#include "bench/report/subjects.hpp"
+
+// What animated people can be: outlines, whole or in slabs, capsules on bones, spheres. As subjects, with what a pose costs.
+
+namespace bch::report {
+
+/// Makes the shape of a number anew, from the transforms of joints to what can be asked.
+using MakePose = std::function<void(std::size_t shape)>;
+
+/// Represents a kind of bodies that is asked, and posed where that is timed.
+struct BodySubject {
+  Subject subject;
+  MakePose pose;  ///< or none
+};
+
+/// Makes bodies of all shapes of a scene, and owns them.
+class BodySubjects {
+ public:
+  explicit BodySubjects(bench::Scene& scene);
+
+  /// Adds bodies in slabs with exact leaves, or whole ones where there is one slab.
+  void add_slabs(std::uint32_t slabs);
+  /// Adds slabs so thin that their outlines are nearly the meshes.
+  void add_thin_slabs();
+  /// Adds ragdolls that are thin, that hold all vertices in the poses of their fit, and halfway between.
+  void add_ragdolls(std::uint32_t capsules);
+  /// Adds the meshes themselves.
+  void add_meshes();
+
+  const std::vector<BodySubject>& all() const { return all_; }
+
+ private:
+  void add_shapes(std::string name, const std::vector<Shape>& shapes, const ShapeSetPlan& plan);
+
+  bench::Scene& scene_;
+  std::vector<std::vector<Affine3d>> joints_;  ///< one a shape, as of WorldPose
+  std::deque<ShapeSet> sets_;
+  std::deque<std::unique_ptr<baselines::Structure>> structures_;
+  std::vector<BodySubject> all_;
+};
+
+}  // namespace bch::report
