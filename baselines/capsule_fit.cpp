@@ -14,30 +14,38 @@ namespace {
 using Eigen::Vector3d;
 using Ends = std::array<Vector3d, 2>;
 
-constexpr double first_step = 0.02, last_step = 0.0005;  // metres
+constexpr double first_step = 0.02, last_step = 0.0005, least_radius = 0.005;  // metres
+constexpr double growth_weight = 0.5;
 
 /// Holds the range of points along a direction.
 struct Extent {
   double low = std::numeric_limits<double>::infinity(), high = -low;
 };
 
-Extent extent(std::span<const WeightedPoint> points, const Vector3d& along) {
+Extent extent(std::span<const SkinPoint> points, const Vector3d& along) {
   Extent range;
-  for (const WeightedPoint& p : points) {
+  for (const SkinPoint& p : points) {
     const double t = p.at.dot(along);
     range = {std::min(range.low, t), std::max(range.high, t)};
   }
   return range;
 }
 
-/// Returns the capsule about a segment. Ends that stick out count like all points at once.
-FittedCapsule about(std::span<const WeightedPoint> points, const Ends& ends) {
-  double weight = 0, sum = 0, squares = 0;
-  for (const WeightedPoint& p : points) {
-    const double d = distance(p.at, ends);
-    weight += p.weight, sum += p.weight * d, squares += p.weight * d * d;
+/// Returns the capsule about a segment, with the radius that fits best. The farthest point and ends that stick out count like all points at once.
+FittedCapsule about(std::span<const SkinPoint> points, const Ends& ends) {
+  FittedCapsule fit{ends, 0, 0};
+  double weight = 0;
+  for (const SkinPoint& p : points) {
+    weight += p.weight;
+    fit.radius += p.weight * p.normal.dot(way_from(ends, p.at));
   }
-  FittedCapsule fit{ends, sum / weight, squares - sum * sum / weight};
+  fit.radius = std::max(fit.radius / weight, least_radius);
+  double outside = 0;
+  for (const SkinPoint& p : points) {
+    fit.error += p.weight * square_error(p, fit);
+    outside = std::max(outside, way_from(ends, p.at).norm() - fit.radius);
+  }
+  fit.error += growth_weight * weight * outside * outside;
   const Vector3d way = ends[1] - ends[0];
   if (way.norm() > 0) {
     const Vector3d along = way.normalized();
@@ -51,23 +59,26 @@ FittedCapsule about(std::span<const WeightedPoint> points, const Ends& ends) {
 
 }  // namespace
 
-double distance(const Vector3d& p, const Ends& segment) {
+Vector3d way_from(const Ends& segment, const Vector3d& p) {
   const Vector3d way = segment[1] - segment[0], to = p - segment[0];
   const double square = way.squaredNorm();
-  const double t = square > 0 ? std::clamp(to.dot(way) / square, 0.0, 1.0) : 0.0;
-  return (to - t * way).norm();
+  return to - (square > 0 ? std::clamp(to.dot(way) / square, 0.0, 1.0) : 0.0) * way;
 }
 
-FittedCapsule rough_capsule(std::span<const WeightedPoint> points) {
+double square_error(const SkinPoint& point, const FittedCapsule& capsule) {
+  return (way_from(capsule.ends, point.at) - capsule.radius * point.normal).squaredNorm();
+}
+
+FittedCapsule rough_capsule(std::span<const SkinPoint> points) {
   double weight = 0;
   Vector3d mean = Vector3d::Zero();
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-  for (const WeightedPoint& p : points) weight += p.weight, mean += p.weight * p.at;
+  for (const SkinPoint& p : points) weight += p.weight, mean += p.weight * p.at;
   mean /= weight;
-  for (const WeightedPoint& p : points) spread += p.weight * (p.at - mean) * (p.at - mean).transpose();
+  for (const SkinPoint& p : points) spread += p.weight * (p.at - mean) * (p.at - mean).transpose();
   const Vector3d along = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(2);
   double from_axis = 0;
-  for (const WeightedPoint& p : points) from_axis += p.weight * (p.at - mean).cross(along).norm();
+  for (const SkinPoint& p : points) from_axis += p.weight * (p.at - mean).cross(along).norm();
   const double radius = from_axis / weight, middle = mean.dot(along);
   const Extent range = extent(points, along);
   double low = range.low + radius, high = range.high - radius;
@@ -75,7 +86,7 @@ FittedCapsule rough_capsule(std::span<const WeightedPoint> points) {
   return about(points, {mean + (low - middle) * along, mean + (high - middle) * along});
 }
 
-FittedCapsule best_capsule(std::span<const WeightedPoint> points) {
+FittedCapsule best_capsule(std::span<const SkinPoint> points) {
   FittedCapsule best = rough_capsule(points);
   for (double step = first_step; step > last_step;) {
     const double before = best.error;

@@ -27,12 +27,21 @@ using Mask = std::int32_t __attribute__((vector_size(capsule_lanes * sizeof(floa
 [[gnu::always_inline]] inline void store(float* to, const Lanes& lanes) {
   __builtin_memcpy(to, &lanes, sizeof(lanes));
 }
+#ifdef __AVX__  // GCC makes two instructions of a comparison and a choice
+[[gnu::always_inline]] inline Lanes smaller(const Lanes& a, const Lanes& b) {
+  return __builtin_ia32_minps256(a, b);
+}
+[[gnu::always_inline]] inline Lanes larger(const Lanes& a, const Lanes& b) {
+  return __builtin_ia32_maxps256(a, b);
+}
+#else
 [[gnu::always_inline]] inline Lanes smaller(const Lanes& a, const Lanes& b) {
   return a < b ? a : b;
 }
 [[gnu::always_inline]] inline Lanes larger(const Lanes& a, const Lanes& b) {
   return a > b ? a : b;
 }
+#endif
 [[gnu::always_inline]] inline Lanes share(const Lanes& lanes) {
   return smaller(larger(lanes, Lanes{}), Lanes{} + 1.0f);
 }
@@ -48,30 +57,57 @@ using Mask = std::int32_t __attribute__((vector_size(capsule_lanes * sizeof(floa
 #endif
 }
 
+/// Holds a box that moves along: the whole ragdoll's, or one capsule's.
+struct Box {
+  float low[3], high[3];
+};
+
+/// Returns the mask of the capsules of some lanes whose boxes overlap a box. `low_x`: the first of the six fields of boxes.
+[[gnu::always_inline]] inline std::uint32_t near(const Box& box, const float* low_x, std::uint32_t stride) {
+  const auto field = [&](std::uint32_t i) { return load(low_x + i * stride); };
+  return bits((field(0) <= Lanes{} + box.high[0]) & (field(1) <= Lanes{} + box.high[1]) &
+              (field(2) <= Lanes{} + box.high[2]) & (field(3) >= Lanes{} + box.low[0]) &
+              (field(4) >= Lanes{} + box.low[1]) & (field(5) >= Lanes{} + box.low[2]));
+}
+
 /// Holds the second ragdoll in the first one's frame.
 struct Placed {
   alignas(sizeof(Lanes)) float fields[Field::count][most_capsules];
+  Box box;
 };
 
 [[gnu::always_inline]] inline void place(const CapsulePair& pair, std::uint32_t stride, Placed& placed) {
+  const float* const of_b = pair.b + whole_box;
   const auto turn = [&](std::uint32_t first, std::uint32_t at, float x0, float y0, float z0, Lanes* to) {
-    const Lanes x = load(pair.b + first * stride + at), y = load(pair.b + (first + 1) * stride + at),
-                z = load(pair.b + (first + 2) * stride + at);
+    const Lanes x = load(of_b + first * stride + at), y = load(of_b + (first + 1) * stride + at),
+                z = load(of_b + (first + 2) * stride + at);
     to[0] = x0 + (pair.cosine * x - pair.sine * y);
     to[1] = y0 + (pair.sine * x + pair.cosine * y);
     to[2] = z0 + z;
   };
+  Lanes lows[3], highs[3];
   for (std::uint32_t at = 0; at < stride; at += capsule_lanes) {
     Lanes end[3], along[3];
     turn(Field::end_x, at, pair.x, pair.y, pair.z, end);
     turn(Field::along_x, at, 0, 0, 0, along);
-    const Lanes r = load(pair.b + Field::radius * stride + at);
+    const Lanes r = load(of_b + Field::radius * stride + at);
     store(&placed.fields[Field::radius][at], r);
     for (std::uint32_t axis = 0; axis < 3; ++axis) {
+      const Lanes low = end[axis] + smaller(along[axis], Lanes{}) - r,
+                  high = end[axis] + larger(along[axis], Lanes{}) + r;
       store(&placed.fields[Field::end_x + axis][at], end[axis]);
       store(&placed.fields[Field::along_x + axis][at], along[axis]);
-      store(&placed.fields[Field::low_x + axis][at], end[axis] + smaller(along[axis], Lanes{}) - r);
-      store(&placed.fields[Field::high_x + axis][at], end[axis] + larger(along[axis], Lanes{}) + r);
+      store(&placed.fields[Field::low_x + axis][at], low);
+      store(&placed.fields[Field::high_x + axis][at], high);
+      lows[axis] = at == 0 ? low : smaller(lows[axis], low);
+      highs[axis] = at == 0 ? high : larger(highs[axis], high);
+    }
+  }
+  for (std::uint32_t axis = 0; axis < 3; ++axis) {
+    placed.box.low[axis] = lows[axis][0], placed.box.high[axis] = highs[axis][0];
+    for (std::uint32_t k = 1; k < capsule_lanes; ++k) {
+      placed.box.low[axis] = lows[axis][k] < placed.box.low[axis] ? lows[axis][k] : placed.box.low[axis];
+      placed.box.high[axis] = highs[axis][k] > placed.box.high[axis] ? highs[axis][k] : placed.box.high[axis];
     }
   }
 }
@@ -112,8 +148,13 @@ class Candidates {
     count_ = 0;
     return overlaps(of_a_, of_b_) != 0;
   }
-  [[gnu::always_inline]] bool rest() const {
-    return count_ > 0 && (overlaps(of_a_, of_b_) & ((1u << count_) - 1)) != 0;
+  /// Returns whether those of the last batch do, whose other lanes repeat the first one.
+  [[gnu::always_inline]] bool rest() {
+    if (count_ == 0) return false;
+    for (std::uint32_t field = 0; field <= Field::radius; ++field)
+      for (std::uint32_t k = count_; k < capsule_lanes; ++k)
+        of_a_[field][k] = of_a_[field][0], of_b_[field][k] = of_b_[field][0];
+    return overlaps(of_a_, of_b_) != 0;
   }
 
  private:
@@ -121,30 +162,44 @@ class Candidates {
   std::uint32_t stride_;
   const Placed& b_;
   std::uint32_t count_ = 0;
-  alignas(sizeof(Lanes)) float of_a_[Field::radius + 1][capsule_lanes] = {},
-                                                     of_b_[Field::radius + 1][capsule_lanes] = {};
+  alignas(sizeof(Lanes)) float of_a_[Field::radius + 1][capsule_lanes],
+      of_b_[Field::radius + 1][capsule_lanes];
 };
 
 [[gnu::always_inline]] inline std::uint32_t lane_count(std::uint32_t capsules) {
   return (capsules + capsule_lanes - 1) / capsule_lanes * capsule_lanes;
 }
 
+/// Returns the mask of capsules whose boxes overlap a box.
+[[gnu::always_inline]] inline std::uint32_t all_near(const Box& box, const float* low_x, std::uint32_t stride,
+                                                     std::uint32_t capsules) {
+  std::uint32_t mask = 0;
+  for (std::uint32_t at = 0; at < lane_count(capsules); at += capsule_lanes)
+    mask |= near(box, low_x + at, stride) << at;
+  return mask & (~0u >> (most_capsules - capsules));
+}
+
 [[gnu::always_inline]] inline bool meet(const CapsulePair& pair) {
-  const std::uint32_t stride_a = lane_count(pair.count_a), stride_b = lane_count(pair.count_b);
+  const std::uint32_t stride_a = lane_count(pair.count_a);
+  const float* const of_a = pair.a + whole_box;
   Placed b;
-  place(pair, stride_b, b);
-  Candidates candidates(pair.a, stride_a, b);
-  for (std::uint32_t i = 0; i < pair.count_a; ++i)
-    for (std::uint32_t at = 0; at < stride_b; at += capsule_lanes) {
-      const auto of_a = [&](std::uint32_t field) { return Lanes{} + pair.a[field * stride_a + i]; };
-      const auto of_b = [&](std::uint32_t field) { return load(&b.fields[field][at]); };
-      const Mask near =
-          (of_a(Field::low_x) <= of_b(Field::high_x)) & (of_b(Field::low_x) <= of_a(Field::high_x)) &
-          (of_a(Field::low_y) <= of_b(Field::high_y)) & (of_b(Field::low_y) <= of_a(Field::high_y)) &
-          (of_a(Field::low_z) <= of_b(Field::high_z)) & (of_b(Field::low_z) <= of_a(Field::high_z));
-      for (std::uint32_t left = bits(near); left != 0; left &= left - 1)
-        if (candidates.add(i, at + static_cast<std::uint32_t>(__builtin_ctz(left)))) return true;
-    }
+  place(pair, lane_count(pair.count_b), b);
+  const float* const boxes_b = b.fields[Field::low_x];
+  const std::uint32_t candidates_b =
+      all_near({{pair.a[0], pair.a[1], pair.a[2]}, {pair.a[3], pair.a[4], pair.a[5]}}, boxes_b, most_capsules,
+               pair.count_b);
+  if (candidates_b == 0) return false;
+  Candidates candidates(of_a, stride_a, b);
+  for (std::uint32_t rows = all_near(b.box, of_a + Field::low_x * stride_a, stride_a, pair.count_a);
+       rows != 0; rows &= rows - 1) {
+    const auto i = static_cast<std::uint32_t>(__builtin_ctz(rows));
+    const auto at = [&](std::uint32_t field) { return of_a[field * stride_a + i]; };
+    const Box box{{at(Field::low_x), at(Field::low_y), at(Field::low_z)},
+                  {at(Field::high_x), at(Field::high_y), at(Field::high_z)}};
+    for (std::uint32_t left = all_near(box, boxes_b, most_capsules, pair.count_b) & candidates_b; left != 0;
+         left &= left - 1)
+      if (candidates.add(i, static_cast<std::uint32_t>(__builtin_ctz(left)))) return true;
+  }
   return candidates.rest();
 }
 

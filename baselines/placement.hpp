@@ -3,8 +3,12 @@
 
 #pragma once
 
+#include <span>
+
 #include <bch/agents.hpp>
 #include <bch/geometry.hpp>
+
+#include "layout/base/heading.hpp"
 
 namespace bch::baselines {
 
@@ -16,6 +20,9 @@ struct FloatPlacement {
 };
 
 FloatPlacement float_placement(const Agents& agents, Pair pair) noexcept;
+/// Returns the same by the directions of all agents' headings.
+FloatPlacement float_placement(const Agents& agents, Pair pair,
+                               std::span<const detail::UnitVector> directions) noexcept;
 
 /// Represents a point of the ground plane in double.
 struct Point2 {

@@ -4,6 +4,7 @@
 #include "baselines/ragdoll.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -17,7 +18,6 @@ CollideCapsules collide_capsules_base, collide_capsules_avx2;
 
 namespace {
 
-constexpr float far_away = 1e9f;
 constexpr std::size_t batch_size = 64;
 
 std::size_t lanes_of(std::size_t capsules) {
@@ -47,10 +47,9 @@ class Ragdolls final : public Structure {
   std::uint32_t shape_count() const override { return static_cast<std::uint32_t>(ragdolls_.size()); }
 
  private:
-  CapsulePair placed(const Agents& agents, Pair pair) const {
+  CapsulePair placed(const Agents& agents, Pair pair, const FloatPlacement& at) const {
     const auto [a, b] = std::minmax(pair.first, pair.second);
     const PosedRagdoll &of_a = ragdolls_[agents.shape[a]], &of_b = ragdolls_[agents.shape[b]];
-    const FloatPlacement at = float_placement(agents, pair);
     return {of_a.lanes.data(),
             of_b.lanes.data(),
             of_a.capsules,
@@ -61,12 +60,22 @@ class Ragdolls final : public Structure {
             at.y,
             at.z};
   }
+  /// As engines do, a crowd's headings become directions once, not once for each pair.
   void answer(const Agents& agents, std::span<const Pair> pairs, std::span<std::uint8_t> hits,
               std::uint32_t) const override {
+    std::vector<detail::UnitVector> directions;
+    if (pairs.size() >= agents.size())
+      for (std::size_t i = 0; i < agents.size(); ++i)
+        directions.push_back(detail::unit_vector(agents.heading[i]));
     CapsulePair batch[batch_size];
     for (std::size_t begin = 0; begin < pairs.size(); begin += batch_size) {
       const std::size_t count = std::min(batch_size, pairs.size() - begin);
-      for (std::size_t i = 0; i < count; ++i) batch[i] = placed(agents, pairs[begin + i]);
+      for (std::size_t i = 0; i < count; ++i) {
+        const Pair pair = pairs[begin + i];
+        batch[i] = placed(
+            agents, pair,
+            directions.empty() ? float_placement(agents, pair) : float_placement(agents, pair, directions));
+      }
       fastest()(batch, count, &hits[begin]);
     }
   }
@@ -78,33 +87,37 @@ class Ragdolls final : public Structure {
 
 void pose_ragdoll(const Character& character, std::span<const Capsule> capsules,
                   std::span<const Affine3d> joints, float grown, PosedRagdoll& posed) {
-  if (capsules.size() > most_capsules)
-    throw std::invalid_argument("a ragdoll of " + std::to_string(capsules.size()) + " capsules, more than " +
+  if (capsules.empty() || capsules.size() > most_capsules)
+    throw std::invalid_argument("a ragdoll of " + std::to_string(capsules.size()) + " capsules, not 1 to " +
                                 std::to_string(most_capsules));
   const std::size_t stride = lanes_of(capsules.size());
   posed.capsules = static_cast<std::uint32_t>(capsules.size());
-  posed.lanes.resize(Field::count * stride);
+  posed.lanes.resize(whole_box + Field::count * stride);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    posed.lanes[axis] = std::numeric_limits<float>::max();
+    posed.lanes[3 + axis] = -std::numeric_limits<float>::max();
+  }
+  const auto root = static_cast<std::size_t>(character.root_joint);
   for (std::size_t i = 0; i < stride; ++i) {
+    const Capsule& capsule = capsules[std::min(i, capsules.size() - 1)];
+    const float r = capsule.thin + grown * (capsule.holding - capsule.thin);
     const auto field = [&](std::uint32_t first, std::size_t axis) -> float& {
-      return posed.lanes[(first + axis) * stride + i];
+      return posed.lanes[whole_box + (first + axis) * stride + i];
     };
-    const bool is_there = i < capsules.size();
-    const float r = is_there ? capsules[i].thin + grown * (capsules[i].holding - capsules[i].thin) : 0;
     field(Field::radius, 0) = r;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double origin = axis < 2 && character.root_joint >= 0
-                                ? joints[static_cast<std::size_t>(character.root_joint)].rows[axis][3]
-                                : 0;
+      const double* const row = joints[capsule.joint].rows[axis];
+      const double origin = axis < 2 && character.root_joint >= 0 ? joints[root].rows[axis][3] : 0;
       const auto end = [&](std::size_t k) {
-        if (!is_there) return far_away;
-        const double* const row = joints[capsules[i].joint].rows[axis];
-        const Vec3& p = capsules[i].ends[k];
+        const Vec3& p = capsule.ends[k];
         return static_cast<float>(row[0] * static_cast<double>(p.x) + row[1] * static_cast<double>(p.y) +
                                   row[2] * static_cast<double>(p.z) + (row[3] - origin));
       };
-      const float from = end(0), to = end(1);
+      const float from = end(0), to = end(1), low = std::min(from, to) - r, high = std::max(from, to) + r;
       field(Field::end_x, axis) = from, field(Field::along_x, axis) = to - from;
-      field(Field::low_x, axis) = std::min(from, to) - r, field(Field::high_x, axis) = std::max(from, to) + r;
+      field(Field::low_x, axis) = low, field(Field::high_x, axis) = high;
+      posed.lanes[axis] = std::min(posed.lanes[axis], low);
+      posed.lanes[3 + axis] = std::max(posed.lanes[3 + axis], high);
     }
   }
 }

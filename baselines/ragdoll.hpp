@@ -24,13 +24,13 @@ struct Capsule {
   std::uint32_t joint;
   std::array<Vec3, 2> ends;  ///< in the joint's frame
   float thin;                ///< metres: the radius of the best fit to the vertices
-  float holding;  ///< metres: the radius that holds all of the capsule's vertices in all poses of the fit
+  float holding;             ///< metres: with it, all capsules hold all vertices in all poses of the fit
 };
 
-/// Fits capsules to a character. Joints' vertices are merged and halved until there are so many groups, with the least error; names of
-/// joints do not matter. Each capsule is then the best one in the sense of least squares, its distances to the group's vertices, weighted
-/// by area, with a penalty on ends that stick out. `poses`: the transforms of all
-/// joints, as of WorldPose, in each pose that counts.
+/// Fits capsules to a character. The vertices of joints are merged and halved until there are so many groups, with the least error; names of
+/// joints do not matter. Each group has the capsule whose axis is as deep below the skin as the capsule is thick, in the sense of least
+/// squares, weighted by area, with penalties on vertices far outside and on ends that stick out. `poses`: the transforms of all joints,
+/// as of WorldPose, in each pose that counts.
 /// Errors:  throws std::invalid_argument on a character without triangles, and on no poses.
 std::vector<Capsule> fit_ragdoll(const Character& character, std::span<const std::vector<Affine3d>> poses,
                                  std::uint32_t capsules);

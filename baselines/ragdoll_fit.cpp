@@ -7,10 +7,9 @@
 #include <map>
 #include <optional>
 #include <stdexcept>
-#include <tuple>
 #include <utility>
 
-#include "baselines/capsule_fit.hpp"
+#include "baselines/posed_skin.hpp"
 #include "baselines/ragdoll.hpp"
 #include "layout/character/eigen.hpp"
 
@@ -22,28 +21,8 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int most_exchanges = 20;
-
-Eigen::Affine3d to_eigen(const Affine3d& map) {
-  Eigen::Affine3d result = Eigen::Affine3d::Identity();
-  for (int row = 0; row < 3; ++row)
-    for (int column = 0; column < 4; ++column) result.matrix()(row, column) = map.rows[row][column];
-  return result;
-}
-
-/// Returns the transforms of joints with the root's point on the ground as the origin.
-std::vector<Eigen::Affine3d> rooted(const Character& character, std::span<const Affine3d> joints) {
-  std::vector<Eigen::Affine3d> maps;
-  for (const Affine3d& joint : joints) maps.push_back(to_eigen(joint));
-  if (character.root_joint < 0) return maps;
-  const Vector3d root = maps[static_cast<std::size_t>(character.root_joint)].translation();
-  for (Eigen::Affine3d& map : maps) map.pretranslate(Vector3d(-root.x(), -root.y(), 0));
-  return maps;
-}
-
-Vector3d to_eigen(const Vec3& p) {
-  return detail::to_eigen(p).cast<double>();
-}
+constexpr int most_exchanges = 20, reassignments = 4;
+constexpr std::size_t fewest_vertices = 4;  // of a group
 
 /// Holds vertices that share a capsule, and the joint that moves it.
 struct Group {
@@ -54,13 +33,7 @@ struct Group {
 
 class Fit {
  public:
-  Fit(const Character& character, std::span<const std::vector<Affine3d>> poses)
-      : character_(character), weights_(areas()), joint_of_vertex_(strongest_joints()) {
-    for (const std::vector<Affine3d>& joints : poses) {
-      maps_.push_back(rooted(character, joints));
-      posed_.push_back(posed(maps_.back()));
-    }
-  }
+  explicit Fit(const PosedSkin& skin) : skin_(skin) {}
 
   std::vector<Capsule> capsules(std::uint32_t count) {
     split_by_joints();
@@ -74,68 +47,15 @@ class Fit {
       groups_ = before;
       break;
     }
-    std::vector<Capsule> capsules;
-    for (const Group& group : groups_) capsules.push_back(capsule(group));
-    return capsules;
+    for (int i = 0; i < reassignments; ++i) reassign();
+    return held(fitted());
   }
 
  private:
-  /// A third of the area of all triangles at a vertex, where bind positions are.
-  std::vector<double> areas() const {
-    std::vector<double> areas(character_.vertices.size());
-    for (const auto& corners : character_.triangles) {
-      const auto at = [&](std::size_t i) { return to_eigen(character_.vertices[corners[i]]); };
-      const double area = (at(1) - at(0)).cross(at(2) - at(0)).norm() / 6;
-      for (const std::uint32_t corner : corners) areas[corner] += area;
-    }
-    return areas;
-  }
-  std::span<const Influence> influences(std::size_t vertex) const {
-    return std::span(character_.influences)
-        .subspan(character_.influence_begin[vertex],
-                 character_.influence_begin[vertex + 1] - character_.influence_begin[vertex]);
-  }
-  std::vector<std::uint32_t> strongest_joints() const {
-    std::vector<std::uint32_t> joints;
-    for (std::size_t v = 0; v < character_.vertices.size(); ++v) {
-      const auto of = influences(v);
-      joints.push_back(character_
-                           .bones[std::max_element(of.begin(), of.end(),
-                                                   [](const Influence& a, const Influence& b) {
-                                                     return a.weight < b.weight;
-                                                   })
-                                      ->bone]
-                           .joint);
-    }
-    return joints;
-  }
-  std::vector<Vector3d> posed(std::span<const Eigen::Affine3d> joints) const {
-    std::vector<Eigen::Affine3d> bones;
-    for (const Bone& bone : character_.bones)
-      bones.push_back(joints[bone.joint] * detail::to_eigen(bone.inverse_bind).cast<double>());
-    std::vector<Vector3d> positions;
-    for (std::size_t v = 0; v < character_.vertices.size(); ++v) {
-      Vector3d& at = positions.emplace_back(Vector3d::Zero());
-      for (const Influence& of : influences(v))
-        at += static_cast<double>(of.weight) * (bones[of.bone] * to_eigen(character_.vertices[v]));
-    }
-    return positions;
-  }
-
-  /// Where a joint sees vertices in all poses: in metres, as they are in the first pose.
-  std::vector<WeightedPoint> points(const Group& group) const {
-    std::vector<WeightedPoint> points;
-    for (std::size_t p = 0; p < posed_.size(); ++p) {
-      const Eigen::Affine3d back = maps_[0][group.joint] * maps_[p][group.joint].inverse();
-      for (const std::uint32_t v : group.vertices) points.push_back({back * posed_[p][v], weights_[v]});
-    }
-    return points;
-  }
-
   void split_by_joints() {
     std::map<std::uint32_t, Group> of_joint;
-    for (std::size_t v = 0; v < weights_.size(); ++v)
-      if (weights_[v] > 0) of_joint[joint_of_vertex_[v]].vertices.push_back(static_cast<std::uint32_t>(v));
+    for (std::size_t v = 0; v < skin_.vertices(); ++v)
+      if (skin_.area(v) > 0) of_joint[skin_.joint(v)].vertices.push_back(static_cast<std::uint32_t>(v));
     for (auto& [joint, group] : of_joint) {
       group.joints = {joint}, group.joint = joint;
       measure(group);
@@ -144,7 +64,20 @@ class Fit {
     if (groups_.empty()) throw std::invalid_argument("a ragdoll of a character without triangles");
   }
 
-  void measure(Group& group) const { group.error = rough_capsule(points(group)).error; }
+  /// The joint that moves most of the area moves the capsule.
+  void find_joints(Group& group) const {
+    std::map<std::uint32_t, double> areas;
+    for (const std::uint32_t v : group.vertices) areas[skin_.joint(v)] += skin_.area(v);
+    double most = 0;
+    for (const auto& [joint, area] : areas) {
+      group.joints.push_back(joint);
+      if (area > most) group.joint = joint, most = area;
+    }
+  }
+
+  void measure(Group& group) const {
+    group.error = rough_capsule(skin_.seen_from(group.joint, group.vertices)).error;
+  }
 
   double total_error() const {
     double sum = 0;
@@ -159,8 +92,8 @@ class Fit {
   }
   /// The next joint up that moves vertices the most; -1: none.
   std::int32_t parent(std::uint32_t joint) const {
-    std::int32_t up = character_.joints[joint].parent;
-    while (up >= 0 && !has_group(up)) up = character_.joints[static_cast<std::size_t>(up)].parent;
+    std::int32_t up = skin_.character().joints[joint].parent;
+    while (up >= 0 && !has_group(up)) up = skin_.character().joints[static_cast<std::size_t>(up)].parent;
     return up;
   }
   bool adjacent(const Group& a, const Group& b) const {
@@ -219,7 +152,8 @@ class Fit {
   }
 
   std::optional<std::array<Group, 2>> halved(const Group& group, int axis) const {
-    const auto seen = points(group);  // the first of these are those of the first pose
+    const auto seen =
+        skin_.seen_from(group.joint, group.vertices);  // the first of these are those of the first pose
     std::vector<double> along;
     for (std::size_t i = 0; i < group.vertices.size(); ++i) along.push_back(seen[i].at[axis]);
     const auto [low, high] = std::minmax_element(along.begin(), along.end());
@@ -228,32 +162,82 @@ class Fit {
     for (std::size_t i = 0; i < along.size(); ++i)
       halves[along[i] < middle ? 0 : 1].vertices.push_back(group.vertices[i]);
     for (Group& half : halves) {
-      half.joints = group.joints, half.joint = group.joint;
-      if (half.vertices.size() < 4) return {};
+      if (half.vertices.size() < fewest_vertices) return {};
+      find_joints(half);
       measure(half);
     }
     return halves;
   }
 
-  Capsule capsule(const Group& group) const {
-    const auto seen = points(group);
-    const FittedCapsule fit = best_capsule(seen);
-    double holding = fit.radius;
-    for (const WeightedPoint& p : seen) holding = std::max(holding, distance(p.at, fit.ends));
-    Capsule capsule{group.joint, {}, static_cast<float>(fit.radius), static_cast<float>(holding)};
-    const Eigen::Affine3d to_joint = maps_[0][group.joint].inverse();
-    for (std::size_t end = 0; end < 2; ++end) {
-      const Eigen::Vector3f at = (to_joint * fit.ends[end]).cast<float>();
-      capsule.ends[end] = {at.x(), at.y(), at.z()};
+  std::vector<FittedCapsule> fitted() const {
+    std::vector<FittedCapsule> capsules;
+    for (const Group& group : groups_)
+      capsules.push_back(best_capsule(skin_.seen_from(group.joint, group.vertices)));
+    return capsules;
+  }
+
+  /// Calls visit(vertex, group, point, capsule) for every vertex and the capsule of every group, in every pose.
+  template <class Visit>
+  void for_capsules(const std::vector<FittedCapsule>& capsules, Visit visit) const {
+    for (std::size_t g = 0; g < groups_.size(); ++g)
+      for (std::size_t p = 0; p < skin_.poses(); ++p) {
+        const Eigen::Affine3d there =
+            skin_.map(p, groups_[g].joint) * skin_.map(0, groups_[g].joint).inverse();
+        const FittedCapsule posed{
+            {there * capsules[g].ends[0], there * capsules[g].ends[1]}, capsules[g].radius, 0};
+        for (std::uint32_t v = 0; v < skin_.vertices(); ++v)
+          if (skin_.area(v) > 0) visit(v, g, skin_.point(p, v), posed);
+      }
+  }
+  /// Calls visit(vertex, group, least) for every vertex that counts with the group that has the least of something.
+  template <class Visit>
+  void for_least(const std::vector<double>& of_each, Visit visit) const {
+    for (std::uint32_t v = 0; v < skin_.vertices(); ++v) {
+      if (skin_.area(v) <= 0) continue;
+      const auto of = of_each.begin() + static_cast<std::ptrdiff_t>(v * groups_.size());
+      const auto least = std::min_element(of, of + std::ssize(groups_));
+      visit(v, static_cast<std::size_t>(least - of), *least);
     }
+  }
+
+  /// Gives each vertex to the capsule that fits it best, as k-means does.
+  void reassign() {
+    std::vector<double> errors(skin_.vertices() * groups_.size());
+    for_capsules(fitted(),
+                 [&](std::uint32_t v, std::size_t g, const SkinPoint& point, const FittedCapsule& capsule) {
+                   errors[v * groups_.size() + g] += square_error(point, capsule);
+                 });
+    std::vector<std::vector<std::uint32_t>> vertices(groups_.size());
+    for_least(errors, [&](std::uint32_t v, std::size_t g, double) { vertices[g].push_back(v); });
+    for (std::size_t g = 0; g < groups_.size(); ++g)
+      if (vertices[g].size() >= fewest_vertices) groups_[g].vertices = std::move(vertices[g]);
+  }
+
+  /// Grows each capsule until it holds the vertices that need the least of it.
+  std::vector<Capsule> held(const std::vector<FittedCapsule>& fits) const {
+    std::vector<double> outside(skin_.vertices() * groups_.size(), -std::numeric_limits<double>::infinity());
+    for_capsules(fits,
+                 [&](std::uint32_t v, std::size_t g, const SkinPoint& point, const FittedCapsule& capsule) {
+                   double& most = outside[v * groups_.size() + g];
+                   most = std::max(most, way_from(capsule.ends, point.at).norm() - capsule.radius);
+                 });
+    std::vector<double> grown(groups_.size());
+    for_least(outside, [&](std::uint32_t, std::size_t g, double by) { grown[g] = std::max(grown[g], by); });
+    std::vector<Capsule> capsules;
+    for (std::size_t g = 0; g < groups_.size(); ++g)
+      capsules.push_back(capsule(groups_[g].joint, fits[g], grown[g]));
+    return capsules;
+  }
+
+  Capsule capsule(std::uint32_t joint, const FittedCapsule& fit, double grown) const {
+    Capsule capsule{joint, {}, static_cast<float>(fit.radius), static_cast<float>(fit.radius + grown)};
+    const Eigen::Affine3d to_joint = skin_.map(0, joint).inverse();
+    for (std::size_t end = 0; end < 2; ++end)
+      capsule.ends[end] = detail::vec3((to_joint * fit.ends[end]).cast<float>());
     return capsule;
   }
 
-  const Character& character_;
-  std::vector<double> weights_;
-  std::vector<std::uint32_t> joint_of_vertex_;
-  std::vector<std::vector<Eigen::Affine3d>> maps_;
-  std::vector<std::vector<Vector3d>> posed_;
+  const PosedSkin& skin_;
   std::vector<Group> groups_;
 };
 
@@ -262,7 +246,8 @@ class Fit {
 std::vector<Capsule> fit_ragdoll(const Character& character, std::span<const std::vector<Affine3d>> poses,
                                  std::uint32_t capsules) {
   if (poses.empty()) throw std::invalid_argument("a ragdoll of no poses");
-  return Fit(character, poses).capsules(capsules);
+  const PosedSkin skin(character, poses);
+  return Fit(skin).capsules(capsules);
 }
 
 }  // namespace bch::baselines

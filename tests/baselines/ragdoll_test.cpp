@@ -35,7 +35,7 @@ std::vector<Capsule> random_capsules(Random& random) {
 /// The distance from a segment is convex along the other one, so that thirds of it find the least.
 double segment_distance(const Segment& a, const Segment& b) {
   double low = 0, high = 1;
-  const auto at = [&](double t) { return baselines::distance(a[0] + t * (a[1] - a[0]), b); };
+  const auto at = [&](double t) { return baselines::way_from(b, a[0] + t * (a[1] - a[0])).norm(); };
   for (int i = 0; i < 60; ++i) {
     const double third = (high - low) / 3;
     (at(low + third) < at(high - third) ? high : low) += at(low + third) < at(high - third) ? -third : third;
@@ -93,13 +93,14 @@ TEST(Ragdoll, CollidesWhereCapsulesOverlap) {
 TEST(Ragdoll, FitFindsTheCapsuleThatPointsLieOn) {
   Random random(62);
   const Segment ends{Vector3d(0.1, -0.2, 0.9), Vector3d(0.15, -0.1, 1.3)};
-  std::vector<baselines::WeightedPoint> points;
+  std::vector<baselines::SkinPoint> points;
   while (points.size() < 2000) {
     Vector3d at(random.uniform(-0.2, 0.5), random.uniform(-0.5, 0.2), random.uniform(0.6, 1.6));
     const Vector3d way = ends[1] - ends[0];
     const double t = std::clamp((at - ends[0]).dot(way) / way.squaredNorm(), 0.0, 1.0);
     const Vector3d foot = ends[0] + t * way;
-    points.push_back({foot + 0.08 * (at - foot).normalized(), 1});
+    const Vector3d normal = (at - foot).normalized();
+    points.push_back({foot + 0.08 * normal, normal, 1});
   }
   const baselines::FittedCapsule fit = baselines::best_capsule(points);
   EXPECT_NEAR(fit.radius, 0.08, 0.002);
@@ -115,14 +116,17 @@ struct PosedCapsule {
 std::vector<PosedCapsule> read(const PosedRagdoll& posed) {
   using baselines::Field;
   std::vector<PosedCapsule> capsules;
-  const std::size_t stride = posed.lanes.size() / Field::count;
+  const std::size_t stride = (posed.lanes.size() - baselines::whole_box) / Field::count;
   for (std::size_t i = 0; i < posed.capsules; ++i) {
     const auto point = [&](std::size_t first) {
-      const auto at = [&](std::size_t axis) { return double{posed.lanes[(first + axis) * stride + i]}; };
+      const auto at = [&](std::size_t axis) {
+        return double{posed.lanes[baselines::whole_box + (first + axis) * stride + i]};
+      };
       return Vector3d(at(0), at(1), at(2));
     };
     const Vector3d end = point(Field::end_x);
-    capsules.push_back({{end, end + point(Field::along_x)}, double{posed.lanes[Field::radius * stride + i]}});
+    capsules.push_back({{end, end + point(Field::along_x)},
+                        double{posed.lanes[baselines::whole_box + Field::radius * stride + i]}});
   }
   return capsules;
 }
@@ -136,8 +140,9 @@ double farthest_outside(const Character& character, PoseTime at, const std::vect
       const Vec3& p = positions[corner];
       double out = HUGE_VAL;
       for (const PosedCapsule& capsule : capsules)
-        out = std::min(
-            out, baselines::distance({double{p.x}, double{p.y}, double{p.z}}, capsule.ends) - capsule.radius);
+        out =
+            std::min(out, baselines::way_from(capsule.ends, {double{p.x}, double{p.y}, double{p.z}}).norm() -
+                              capsule.radius);
       farthest = std::max(farthest, out);
     }
   return farthest;
@@ -161,7 +166,7 @@ TEST(Ragdoll, HoldsItsVerticesInThePosesOfTheFit) {
         EXPECT_LT(farthest_outside(character, times[i], read(holding)), 1e-5) << where;
         const double beyond_fit = farthest_outside(character, times[i], read(thin));
         EXPECT_GT(beyond_fit, 0.01) << where;
-        EXPECT_LT(beyond_fit, 0.12) << where;
+        EXPECT_LT(beyond_fit, 0.15) << where;
       }
     }
   }
