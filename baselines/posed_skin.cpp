@@ -19,16 +19,6 @@ Eigen::Affine3d to_eigen(const Affine3d& map) {
   return result;
 }
 
-/// Returns the transforms of joints with the root's point on the ground as the origin.
-std::vector<Eigen::Affine3d> rooted(const Character& character, std::span<const Affine3d> joints) {
-  std::vector<Eigen::Affine3d> maps;
-  for (const Affine3d& joint : joints) maps.push_back(to_eigen(joint));
-  if (character.root_joint < 0) return maps;
-  const Vector3d root = maps[static_cast<std::size_t>(character.root_joint)].translation();
-  for (Eigen::Affine3d& map : maps) map.pretranslate(Vector3d(-root.x(), -root.y(), 0));
-  return maps;
-}
-
 Vector3d to_eigen(const Vec3& p) {
   return detail::to_eigen(p).cast<double>();
 }
@@ -90,6 +80,15 @@ std::vector<Vector3d> normals_of(const Character& character, const std::vector<V
 }
 
 }  // namespace
+
+std::vector<Eigen::Affine3d> rooted(const Character& character, std::span<const Affine3d> joints) {
+  std::vector<Eigen::Affine3d> maps;
+  for (const Affine3d& joint : joints) maps.push_back(to_eigen(joint));
+  if (character.root_joint < 0) return maps;
+  const Vector3d root = maps[static_cast<std::size_t>(character.root_joint)].translation();
+  for (Eigen::Affine3d& map : maps) map.pretranslate(Vector3d(-root.x(), -root.y(), 0));
+  return maps;
+}
 
 PosedSkin::PosedSkin(const Character& character, std::span<const std::vector<Affine3d>> poses)
     : character_(character), areas_(areas_of(character)), joint_of_vertex_(strongest_joints(character)) {

@@ -94,9 +94,11 @@ void slide_to_contact(std::uint64_t seed, PairScene& scene,
     const baselines::Structure& structure = *structures[i % structures.size()];
     const double angle = random.uniform(-std::numbers::pi, std::numbers::pi);
     const double dx = std::cos(angle), dy = std::sin(angle);
+    const double dz = crowd.z.empty() ? 0 : random.uniform(-1, 1);
     const auto hits_at = [&](double distance) {
       crowd.x[b] = crowd.x[a] + distance * dx;
       crowd.y[b] = crowd.y[a] + distance * dy;
+      if (dz != 0) crowd.z[b] = crowd.z[a] + distance * dz;
       return structure.query(crowd.agents(), scene.pairs[i], all_depths);
     };
     double near = 0, far = 3;

@@ -35,7 +35,7 @@ std::vector<Answers> build_all(const std::vector<baselines::Body>& bodies);
 PairScene placements(std::uint64_t seed, const std::vector<baselines::Body>& bodies, std::uint32_t pairs);
 
 /// Slides the second agent of every pair to where the answer of one of the structures (in turn) changes: half
-/// of them to within 1e-13 m, the others to within 1e-8 m.
+/// of them to within 1e-13 m, the others to within 1e-8 m. Agents with heights move up or down on the way.
 void slide_to_contact(std::uint64_t seed, PairScene& scene,
                       const std::vector<const baselines::Structure*>& structures);
 
