@@ -9,6 +9,8 @@
 #include <bch/scene_plan.hpp>
 #include <bch/shape_set_builder.hpp>
 
+#include "baselines/posed_spheres.hpp"
+
 namespace bch::report {
 namespace {
 
@@ -87,6 +89,18 @@ void BodySubjects::add_thin_slabs() {
 
 void BodySubjects::add_meshes() {
   all_.push_back({subject_of("OBB full mesh", scene_.structure("obb_full")), {}});
+}
+
+void BodySubjects::add_spheres(std::uint32_t spheres) {
+  const std::vector<BodyModel>& models = scene_.models(spheres);
+  std::vector<std::vector<Sphere>> posed;
+  for (std::size_t i = 0; i < joints_.size(); ++i)
+    posed.push_back(baselines::posed_spheres(models[scene_.sources()[i].character], joints_[i],
+                                             scene_.bodies()[i].positions));
+  const BodySet& set = body_sets_.emplace_back(posed);
+  Subject subject = subject_of(fmt::format("{} spheres", spheres), set);
+  subject.bytes = static_cast<double>(set.bytes()) / set.body_count();
+  all_.push_back({std::move(subject), {}});
 }
 
 void BodySubjects::add_ragdolls(std::uint32_t capsules) {

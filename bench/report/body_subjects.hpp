@@ -36,6 +36,7 @@ class BodySubjects {
   void add_thin_slabs();
   /// Adds ragdolls that are thin, that hold all vertices in the poses of their fit, and halfway between.
   void add_ragdolls(std::uint32_t capsules);
+  void add_spheres(std::uint32_t spheres);
   /// Adds the meshes themselves.
   void add_meshes();
 
@@ -47,6 +48,7 @@ class BodySubjects {
   bench::Scene& scene_;
   std::vector<std::vector<Affine3d>> joints_;  ///< one a shape, as of WorldPose
   std::deque<ShapeSet> sets_;
+  std::deque<BodySet> body_sets_;
   std::deque<std::unique_ptr<baselines::Structure>> structures_;
   std::vector<BodySubject> all_;
 };

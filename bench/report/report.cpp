@@ -149,7 +149,8 @@ void run_report(const Options& options) {
   bench::Scene scene({.characters = options.characters,
                       .poses = options.sizes.poses,
                       .pose_seed = options.seed,
-                      .sizes = {options.sizes.pairs, options.sizes.agents}});
+                      .sizes = {options.sizes.pairs, options.sizes.agents},
+                      .draft_models = options.sizes.drafts});
   // First, as a bad file should neither cost minutes nor leave files, and an import wants a process without threads.
   scene.characters();
   const bool has_real =

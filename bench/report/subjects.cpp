@@ -148,6 +148,14 @@ Subject subject_of(std::string_view name, const ShapeSet& set, const QueryOption
           query.leaves == Leaves::segments ? "double" : "single"};
 }
 
+Subject subject_of(std::string_view name, const BodySet& set) {
+  return {std::string(name), all_depths,
+          [&set](const Agents& agents, std::span<const Pair> pairs, std::span<std::uint8_t> hits) {
+            collide(set, agents, pairs, hits);
+          },
+          [](const bench::Workload&) { return MeanTests{}; }, "solid"};
+}
+
 bench::Hits answers(const Subject& subject, const bench::Workload& workload) {
   bench::Hits hits(workload.pairs.size());
   subject.answer(workload.agents(), workload.pairs, hits);

@@ -64,6 +64,8 @@ Subject subject_of(std::string_view name, const baselines::Structure& structure,
 Subject subject_of(std::string_view name, const ShapeSet& set, const QueryOptions& query = bench::disc_query,
                    std::uint32_t depth = all_depths);
 
+Subject subject_of(std::string_view name, const BodySet& set);
+
 bench::Hits answers(const Subject& subject, const bench::Workload& workload);
 
 /// Collects the tables of an experiment over subjects, whose rows refer to subjects by number:

@@ -63,6 +63,14 @@ const std::vector<baselines::Body>& Scene::bodies() {
   return bodies_;
 }
 
+const std::vector<BodyModel>& Scene::models(std::uint32_t spheres) {
+  std::vector<BodyModel>& models = models_[spheres];
+  if (models.empty())
+    for (const cli::LoadedCharacter& loaded : characters())
+      models.push_back(make_body(loaded.character, {.spheres = spheres, .draft = options_.draft_models}));
+  return models;
+}
+
 const ShapeSet& Scene::set() {
   if (!set_) set_.emplace(shapes());
   return *set_;

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <bch/bodies.hpp>
 #include <bch/collide.hpp>
 #include <bch/shape_set.hpp>
 
@@ -32,6 +33,7 @@ struct SceneOptions {
   std::optional<std::uint64_t> pose_seed =
       {};  ///< draws the poses at random; none: they lie evenly over the clips
   WorkloadSizes sizes;
+  bool draft_models = false;  ///< of spheres: made in seconds
 };
 
 /// Holds everything that benchmarks measure on. Each thing is made when it is first asked for and kept, so a
@@ -49,6 +51,8 @@ class Scene {
   /// Returns the shapes in slabs: as standing_slices() cuts people.
   const std::vector<Shape>& shapes_in_slabs(std::uint32_t slabs);
   const std::vector<baselines::Body>& bodies();
+  /// Returns models of so many spheres, one a character.
+  const std::vector<BodyModel>& models(std::uint32_t spheres);
   /// Returns a set of the finest level alone, with all that queries may ask.
   const ShapeSet& set();
   const baselines::Structure& structure(std::string_view kind);
@@ -71,6 +75,7 @@ class Scene {
   std::vector<Shape> shapes_;
   std::map<std::uint32_t, std::vector<Shape>> shapes_in_slabs_;
   std::vector<baselines::Body> bodies_;
+  std::map<std::uint32_t, std::vector<BodyModel>> models_;
   std::optional<ShapeSet> set_;
   std::map<std::string, std::unique_ptr<baselines::Structure>, std::less<>> structures_;
   std::map<std::string, Workload, std::less<>> workloads_;
