@@ -26,7 +26,7 @@ import numpy as np
 
 KERNEL, EXACT = "BCH outline in the batch kernel", "BCH outline with exact leaves"
 TITLES = {  # of the experiments, in the order of the page
-    "error_time": "Error against run time", "construction": "Construction time", "query_time": "Query time",
+    "error_time": "Error against run time", "bodies": "Bodies in space", "construction": "Construction time", "query_time": "Query time",
     "distance": "Distance at detection", "real": "Real characters", "depth": "Depth", "volume": "Represented volume",
     "threshold": "Threshold", "mesh_detail": "Mesh detail", "density": "Crowd density", "detail": "Detail by density",
     "motions": "Motions", "recordings": "Recorded people", "simulated": "Simulated people", "stability": "Stability"}
@@ -43,6 +43,8 @@ MAN = {RADIUS: (0.42, 0.40, 0.05), CYLINDER: (7.70, 6.99, 1.75), LEAVES: (3.57, 
        MESH: (math.nan, math.nan, 0.01)}
 PAPER_VOLUMES = {"default:female": WOMAN, "default:male": MAN, "default:bulky": MAN}
 ERRORS = {"distance": "mean (cm)", "false": "false positives (%)", "excess": "excess area (%)"}  # of experiment error_time
+MESHES, THIN_SLABS = "OBB full mesh", "BCH in 64 slabs"  # of experiment bodies
+SAME_PLACE = 2e-6  # m: places of slides are bisected to a micrometre
 PROMISED_GAP = 4  # um per metre of reach, see layout/base/rounding.hpp
 
 
@@ -216,6 +218,27 @@ def error_time(data, out):
     out["error_time"] = table
     for name, error in ERRORS.items():
         out[f"error_time_{name}"] = front(table, error)
+
+
+def bodies(data, out):
+    agents = float(data["run"].value("value", what="agents of the crowd"))
+    hits, slides, poses = (data[f"bodies_{name}"].groups("subject") for name in ("hits", "slides", "poses"))
+    places = [slides[i].column("place (m)") for i in range(len(data["bodies"]))]
+    names = data["bodies"].column("structure")
+    meshes, slabs = (places[names.index(name)] for name in (MESHES, THIN_SLABS))
+    out["bodies"] = Table()
+    for i, row in enumerate(data.subjects("bodies")):
+        asked = hits[i][0]
+        earlier = [1000 * (mesh - place) for mesh, place in zip(meshes, places[i]) if not is_nan(mesh) and not is_nan(place)]
+        later = [is_nan(place) or place > mesh + SAME_PLACE for mesh, place in zip(meshes, places[i]) if not is_nan(mesh)]
+        pose = spread(poses[i].column("pose (us)") if i in poses else [], "pose (us)", "pose")
+        out["bodies"].append({
+            **key(row, "structure", "bytes a shape", "crowd (ns/pair)", "crowd (25 %)", "crowd (75 %)"), **pose,
+            "frame (us an agent)": pose["pose (us)"] + row["crowd (ns/pair)"] * asked["asked"] / agents / 1000,
+            **data.mean(earlier, "earlier than meshes (mm)", "earlier"), "later than meshes (% of slides)": Share(sum(later), len(later)),
+            "earlier than 64 slabs (mm)": data.mean([1000 * (slab - place) for slab, place in zip(slabs, places[i])])["mean (cm)"],
+            "mean (cm)": row["mean (cm)"], "false hits (% of mesh hits)": Share(asked["false hits"], asked["meshes meet"]),
+            "missed (% of mesh hits)": Share(asked["missed"], asked["meshes meet"])})
 
 
 def construction(data, out):
@@ -496,6 +519,26 @@ for error_name, error_caption in {
         "excess": "Area covered beyond the outline, against the time of a pair in a crowd."}.items():
     draws(f"error_time_{error_name}_crowd", error_caption, error_name, "crowd")(draw_error_time)
     draws(f"error_time_{error_name}_near", "The same against the time of a near miss.", error_name, "near miss")(draw_error_time)
+
+
+@draws("bodies_live", "The same against what an agent costs in a frame in which everybody is posed anew, from the transforms of joints to answers.", "frame (us an agent)", "an agent in a frame, one thread (us)", wide=True)
+@draws("bodies_crowd", "How much earlier than the meshes people who slide towards each other are reported, and false hits in a crowd, against the time of a pair; hollow: misses some hits of the meshes, a share of which stands beside it.", "crowd (ns/pair)", "crowd pair, one thread (ns)", wide=True)
+def draw_bodies(data, out, time, label):
+    families = {"exact outlines: whole, 3, 8 slabs": rf"{EXACT}|BCH in (3|8) slabs", "15 capsules: thin, between, holding": "15 capsules.*",
+                "32 capsules": "32 capsules.*", "spheres": r"\d+ spheres"}
+    for ax, error in zip(chart(label, "", (13, 4.8), 2, xscale="log"), ("earlier than meshes (mm)", "false hits (% of mesh hits)")):
+        ax.set_ylabel(error)
+        for i, (family, pattern) in enumerate(families.items()):
+            rows = [row for row in out["bodies"] if re.fullmatch(pattern, row["structure"])]
+            series(ax, rows, time, error, family, **style(i, linestyle="-", fillstyle="none"))
+            series(ax, [row for row in rows if row["missed (% of mesh hits)"] == 0], time, error, None, **style(i, linestyle="none"))
+            for row in rows:
+                missed = row["missed (% of mesh hits)"]
+                ax.annotate(f"misses {brief(missed)} %" if missed else re.sub(" spheres|BCH in |BCH outline with exact leaves", "", row["structure"]) if i in (0, 3) else "",
+                            (row[time], row[error]), (6, -11 if i == 2 else 4), textcoords="offset points", fontsize=8)
+        ax.set_ylim(min(0, ax.get_ylim()[0]))
+        number_ticks(ax.xaxis, (50, 100, 200, 500) if "ns" in time else (1, 3, 10, 30, 100, 300, 1000))
+    legend(ax, 4)
 
 
 @draws("construction_stages", "The stages from keys of a clip to a flat shape with levels and inscribed discs, likewise.", "stage", {})
