@@ -79,8 +79,7 @@ std::vector<Vector3d> normals_of(const Character& character, const std::vector<V
   return normals;
 }
 
-}  // namespace
-
+/// Returns the transforms of joints with the root's point on the ground as the origin, as poses of a character have it.
 std::vector<Eigen::Affine3d> rooted(const Character& character, std::span<const Affine3d> joints) {
   std::vector<Eigen::Affine3d> maps;
   for (const Affine3d& joint : joints) maps.push_back(to_eigen(joint));
@@ -89,6 +88,8 @@ std::vector<Eigen::Affine3d> rooted(const Character& character, std::span<const 
   for (Eigen::Affine3d& map : maps) map.pretranslate(Vector3d(-root.x(), -root.y(), 0));
   return maps;
 }
+
+}  // namespace
 
 PosedSkin::PosedSkin(const Character& character, std::span<const std::vector<Affine3d>> poses)
     : character_(character), areas_(areas_of(character)), joint_of_vertex_(strongest_joints(character)) {

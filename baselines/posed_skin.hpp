@@ -16,9 +16,6 @@
 
 namespace bch::baselines {
 
-/// Returns the transforms of joints with the root's point on the ground as the origin, as poses of a character have it.
-std::vector<Eigen::Affine3d> rooted(const Character& character, std::span<const Affine3d> joints);
-
 /// Holds the skin of a character in several poses, as joints see it.
 class PosedSkin {
  public:

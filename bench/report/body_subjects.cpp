@@ -9,8 +9,6 @@
 #include <bch/scene_plan.hpp>
 #include <bch/shape_set_builder.hpp>
 
-#include "baselines/posed_spheres.hpp"
-
 namespace bch::report {
 namespace {
 
@@ -93,14 +91,21 @@ void BodySubjects::add_meshes() {
 
 void BodySubjects::add_spheres(std::uint32_t spheres) {
   const std::vector<BodyModel>& models = scene_.models(spheres);
-  std::vector<std::vector<Sphere>> posed;
-  for (std::size_t i = 0; i < joints_.size(); ++i)
-    posed.push_back(baselines::posed_spheres(models[scene_.sources()[i].character], joints_[i],
-                                             scene_.bodies()[i].positions));
-  const BodySet& set = body_sets_.emplace_back(posed);
-  Subject subject = subject_of(fmt::format("{} spheres", spheres), set);
-  subject.bytes = static_cast<double>(set.bytes()) / set.body_count();
-  all_.push_back({std::move(subject), {}});
+  std::vector<std::uint32_t> model_of_body;
+  for (const ShapeSource& source : scene_.sources()) model_of_body.push_back(source.character);
+  LiveBodies& bodies = bodies_.emplace_back(models, model_of_body);
+  std::vector<Pose> poses;
+  for (const auto& joints : joints_) poses.emplace_back(WorldPose{joints});
+  bodies.pose(poses);
+  Subject subject = subject_of(fmt::format("{} spheres", spheres), bodies.set());
+  subject.bytes = static_cast<double>(bodies.set().bytes()) / bodies.set().body_count();
+  const auto singles = std::make_shared<std::vector<LiveBodies>>();
+  for (std::uint32_t model = 0; model < models.size(); ++model)
+    singles->emplace_back(models, std::span(&model, 1));
+  all_.push_back({std::move(subject), [this, singles](std::size_t shape) {
+                    const Pose pose{WorldPose{joints_[shape]}};
+                    (*singles)[scene_.sources()[shape].character].pose({&pose, 1});
+                  }});
 }
 
 void BodySubjects::add_ragdolls(std::uint32_t capsules) {

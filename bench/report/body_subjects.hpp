@@ -9,6 +9,8 @@
 #include <span>
 #include <vector>
 
+#include <bch/bodies.hpp>
+
 #include "baselines/ragdoll.hpp"
 #include "bench/report/subjects.hpp"
 
@@ -48,7 +50,7 @@ class BodySubjects {
   bench::Scene& scene_;
   std::vector<std::vector<Affine3d>> joints_;  ///< one a shape, as of WorldPose
   std::deque<ShapeSet> sets_;
-  std::deque<BodySet> body_sets_;
+  std::deque<LiveBodies> bodies_;
   std::deque<std::unique_ptr<baselines::Structure>> structures_;
   std::vector<BodySubject> all_;
 };

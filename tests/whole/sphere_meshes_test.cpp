@@ -3,8 +3,10 @@
 
 #include <cstdlib>
 #include <iostream>
+#include <optional>
 
-#include "baselines/posed_spheres.hpp"
+#include <bch/bodies.hpp>
+
 #include "layout/base/heading.hpp"
 #include "layout/character/affine_rows.hpp"
 #include "tests/support/baseline_scene.hpp"
@@ -59,37 +61,51 @@ class People {
  public:
   People(const std::vector<Character>& characters, std::uint32_t poses, std::uint32_t spheres) {
     Random random(81);
+    std::vector<BodyModel> models;
     for (const Character& character : characters) {
-      const BodyModel model = make_body(character, {.spheres = spheres, .draft = true});
-      PoseShaper shaper(character);
+      models.push_back(make_body(character, {.spheres = spheres, .draft = true}));
       for (const PoseTime& at : sample_poses(character, poses)) {
         const double right_angle = std::numbers::pi / 2;
-        add(model, shaper, joint_transforms(character, at, JointFrame::world));
+        joints_.push_back(joint_transforms(character, at, JointFrame::world));
         for (const double most : {right_angle / 3, right_angle, 2 * right_angle})
-          add(model, shaper, bent(character, at, random, most));
+          joints_.push_back(bent(character, at, random, most));
       }
+      model_of_body_.resize(joints_.size(), static_cast<std::uint32_t>(models.size() - 1));
     }
+    pose(models);
     meshes = baselines::kind("obb_full").build(bodies, {});
-    set = BodySet(spheres_);
-    for (auto& body : spheres_)
-      for (Sphere& sphere : body) sphere.radius = std::max(0.0f, sphere.radius - 0.01f);
-    thinner = BodySet(spheres_);
+    std::vector<std::vector<Sphere>> less;
+    for (std::uint32_t i = 0; i < bodies.size(); ++i)
+      for (Sphere& sphere : less.emplace_back(set().spheres(i)))
+        sphere.radius = std::max(0.0f, sphere.radius - 0.01f);
+    thinner = BodySet(less);
   }
+
+  const BodySet& set() const { return live_->set(); }
 
   std::vector<Body> bodies;
   std::unique_ptr<baselines::Structure> meshes;
-  BodySet set{std::vector<std::vector<Sphere>>{}}, thinner{std::vector<std::vector<Sphere>>{}};
+  BodySet thinner{std::vector<std::vector<Sphere>>{}};  ///< by 1 cm
 
  private:
-  void add(const BodyModel& model, PoseShaper& shaper, const std::vector<Affine3d>& joints) {
-    const auto positions = shaper.pose_vertices(WorldPose{joints});
-    spheres_.push_back(baselines::posed_spheres(model, joints, positions));
-    Body& body =
-        bodies.emplace_back(Body{{positions.begin(), positions.end()}, model.character->triangles, {}});
-    body.shape = shaper.shape(WorldPose{joints});
+  void pose(const std::vector<BodyModel>& models) {
+    std::vector<PoseShaper> shapers;
+    for (const BodyModel& model : models) shapers.emplace_back(*model.character);
+    std::vector<Pose> poses;
+    for (std::size_t i = 0; i < joints_.size(); ++i) {
+      const Pose& at = poses.emplace_back(WorldPose{joints_[i]});
+      PoseShaper& shaper = shapers[model_of_body_[i]];
+      const auto positions = shaper.pose_vertices(at);
+      bodies.push_back(
+          {{positions.begin(), positions.end()}, models[model_of_body_[i]].character->triangles, {}});
+      bodies.back().shape = shaper.shape(at);
+    }
+    live_.emplace(models, model_of_body_).pose(poses);
   }
 
-  std::vector<std::vector<Sphere>> spheres_;
+  std::vector<std::vector<Affine3d>> joints_;
+  std::vector<std::uint32_t> model_of_body_;
+  std::optional<LiveBodies> live_;
 };
 
 class SpheresNeverMiss : public testing::Test {
@@ -130,7 +146,7 @@ class SpheresNeverMiss : public testing::Test {
     const Agents agents = scene.crowd.agents();
     std::vector<std::uint8_t> meet(scene.pairs.size()), hits(meet.size()), thinner(meet.size());
     people.meshes->query(agents, scene.pairs, meet);
-    collide(people.set, agents, scene.pairs, hits);
+    collide(people.set(), agents, scene.pairs, hits);
     collide(people.thinner, agents, scene.pairs, thinner);
     for (std::size_t i = 0; i < meet.size(); ++i) {
       met += meet[i], of_thinner += meet[i] > thinner[i] ? 1 : 0;
