@@ -44,9 +44,7 @@ Table pose_times(const std::vector<BodySubject>& all, std::size_t shapes, std::u
 void run_bodies(Run& run) {
   BodySubjects bodies(run.scene);
   for (const std::uint32_t slabs : {1u, 3u, 8u}) bodies.add_slabs(slabs);
-  for (const std::uint32_t capsules : {15u, 32u}) bodies.add_ragdolls(capsules);
-  for (const std::uint32_t spheres : {64u, 128u, 256u, 512u})
-    if (spheres <= run.sizes().most_spheres) bodies.add_spheres(spheres);
+  bodies.add_ragdolls_and_spheres(run.sizes().most_spheres);
   bodies.add_meshes();
   bodies.add_thin_slabs();
   std::vector<Subject> subjects;

@@ -89,6 +89,12 @@ void BodySubjects::add_meshes() {
   all_.push_back({subject_of("OBB full mesh", scene_.structure("obb_full")), {}});
 }
 
+void BodySubjects::add_ragdolls_and_spheres(std::uint32_t most_spheres) {
+  for (const std::uint32_t capsules : {15u, 32u}) add_ragdolls(capsules);
+  for (const std::uint32_t spheres : {64u, 128u, 256u, 512u})
+    if (spheres <= most_spheres) add_spheres(spheres);
+}
+
 void BodySubjects::add_spheres(std::uint32_t spheres) {
   const std::vector<BodyModel>& models = scene_.models(spheres);
   std::vector<std::uint32_t> model_of_body;

@@ -36,15 +36,17 @@ class BodySubjects {
   void add_slabs(std::uint32_t slabs);
   /// Adds slabs so thin that their outlines are nearly the meshes.
   void add_thin_slabs();
-  /// Adds ragdolls that are thin, that hold all vertices in the poses of their fit, and halfway between.
-  void add_ragdolls(std::uint32_t capsules);
-  void add_spheres(std::uint32_t spheres);
+  /// Adds ragdolls of 15 and 32 capsules, each thin, holding all vertices in the poses of the fit, and halfway between; and 64 to 512
+  /// spheres.
+  void add_ragdolls_and_spheres(std::uint32_t most_spheres);
   /// Adds the meshes themselves.
   void add_meshes();
 
   const std::vector<BodySubject>& all() const { return all_; }
 
  private:
+  void add_ragdolls(std::uint32_t capsules);
+  void add_spheres(std::uint32_t spheres);
   void add_shapes(std::string name, const std::vector<Shape>& shapes, const ShapeSetPlan& plan);
 
   bench::Scene& scene_;

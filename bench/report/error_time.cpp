@@ -9,7 +9,7 @@
 
 #include "baselines/slab_bodies.hpp"
 #include "bench/base/disc_union_area.hpp"
-#include "bench/report/subjects.hpp"
+#include "bench/report/body_subjects.hpp"
 #include "bench/workload/answer_checks.hpp"
 #include "bench/workload/contender.hpp"
 
@@ -143,6 +143,9 @@ void run_error_time(Run& run) {
   for (const double threshold : full ? std::vector{0.01, 0.005, 0.02, 0.04} : std::vector{0.01, 0.04})
     add_kernel(run, threshold, points);
   add_slabs(run, points);
+  BodySubjects in_space(run.scene);
+  in_space.add_ragdolls_and_spheres(run.sizes().most_spheres);
+  for (const BodySubject& body : in_space.all()) points.add(body.subject, {});
   add_others(run, structures, points);
 
   Table areas({"subject", "shape", "excess area (%)"});

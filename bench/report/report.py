@@ -504,6 +504,8 @@ def draw_error_time(data, out, name, pairs):
     for i, (kind, label) in enumerate(kinds.items()):
         series(ax, out["error_time"].where(structure=kind), time, error, label, **style(i, linestyle="none"))
     for begin, label, looks in (("BCH in", "BCH in slabs: 2, 3, 4, 8", {"color": "#e03030", "marker": "h"}),
+                                (r"\d+ spheres", "spheres: 64 to 512", {"color": "#7b3fb5", "marker": "p"}),
+                                (r"\d+ capsules", "15 and 32 capsules", {"color": "#7b3fb5", "marker": "2", "markersize": 9}),
                                 ("FCL", "FCL", {"color": COLOURS[7], "marker": "x"}),
                                 ("single", "single cylinder", {"color": INK, "marker": "+", "markersize": 9}),
                                 ("fixed", "fixed cylinders", {"color": INK, "marker": "1", "markersize": 9})):

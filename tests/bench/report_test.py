@@ -121,6 +121,20 @@ class Tables(unittest.TestCase):
         beside = [float(row["beside (m)"]) for row in read(self.folder, "distance_cases")]
         self.assertTrue(max(beside) > 0.1 and min(beside) < -0.1 and max(map(abs, beside)) <= 0.5)
 
+    def test_only_capsules_miss_meshes(self):
+        names = [row["structure"] for row in read(self.folder, "bodies")]
+        self.assertEqual([sum(kind in name for name in names) for kind in ("slabs", "capsules", "spheres")], [3, 6, 1])
+        for row in read(self.folder, "bodies_hits"):
+            name, meeting = names[int(row["subject"])], int(row["meshes meet"])
+            self.assertGreater(meeting, 0)
+            self.assertTrue("capsules" in name or row["missed"] == "0", name)
+            self.assertTrue(name != "OBB full mesh" or row["false hits"] == "0")
+        places = self.subjects("bodies", "slides", "place (m)")
+        for (name, _), of in places.items():
+            for mesh, place in zip(places["OBB full mesh", "all"], of):
+                self.assertTrue("capsules" in name or not mesh or float(place) <= float(mesh) + 2e-6, name)
+        self.assertEqual(len({row["subject"] for row in read(self.folder, "bodies_poses")}), len(names) - 2)
+
     def test_outlines_lie_in_what_cuts_cover(self):
         rows = [row for row in read(self.folder, "volume") if "slabs" not in row["structure"]]
         outlines = {(row["character"], row["shape"]): float(row["normalised volume"]) for row in rows if row["structure"] == "outline"}
