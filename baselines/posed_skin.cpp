@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "baselines/visible_skin.hpp"
 #include "layout/character/eigen.hpp"
 
 namespace bch::baselines {
@@ -98,6 +99,7 @@ PosedSkin::PosedSkin(const Character& character, std::span<const std::vector<Aff
     positions_.push_back(posed(character, maps_.back()));
     normals_.push_back(normals_of(character, positions_.back()));
   }
+  visible_ = visible_vertices(character.triangles, positions_[0], normals_[0]);
 }
 
 std::vector<SkinPoint> PosedSkin::seen_from(std::uint32_t joint,

@@ -27,6 +27,8 @@ class PosedSkin {
   std::size_t vertices() const { return areas_.size(); }
   /// Returns a third of the area of all triangles at a vertex, where bind positions are.
   double area(std::size_t vertex) const { return areas_[vertex]; }
+  /// Returns whether a vertex is seen from outside in the first pose.
+  bool visible(std::size_t vertex) const { return visible_[vertex]; }
   /// Returns the joint that moves a vertex most.
   std::uint32_t joint(std::size_t vertex) const { return joint_of_vertex_[vertex]; }
 
@@ -41,6 +43,7 @@ class PosedSkin {
  private:
   const Character& character_;
   std::vector<double> areas_;
+  std::vector<bool> visible_;
   std::vector<std::uint32_t> joint_of_vertex_;
   std::vector<std::vector<Eigen::Affine3d>> maps_;
   std::vector<std::vector<Eigen::Vector3d>> positions_, normals_;

@@ -27,7 +27,7 @@ struct Capsule {
   float holding;             ///< metres: with it, all capsules hold all vertices in all poses of the fit
 };
 
-/// Fits capsules to a character. The vertices of joints are merged and halved until there are so many groups, with the least error; names of
+/// Fits capsules to a character. The visible vertices of joints are merged and halved until there are so many groups, with the least error; names of
 /// joints do not matter. Each group has the capsule whose axis is as deep below the skin as the capsule is thick, in the sense of least
 /// squares, weighted by area, with penalties on vertices far outside and on ends that stick out. `poses`: the transforms of all joints,
 /// as of WorldPose, in each pose that counts.

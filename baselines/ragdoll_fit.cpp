@@ -55,7 +55,8 @@ class Fit {
   void split_by_joints() {
     std::map<std::uint32_t, Group> of_joint;
     for (std::size_t v = 0; v < skin_.vertices(); ++v)
-      if (skin_.area(v) > 0) of_joint[skin_.joint(v)].vertices.push_back(static_cast<std::uint32_t>(v));
+      if (skin_.area(v) > 0 && skin_.visible(v))
+        of_joint[skin_.joint(v)].vertices.push_back(static_cast<std::uint32_t>(v));
     for (auto& [joint, group] : of_joint) {
       group.joints = {joint}, group.joint = joint;
       measure(group);
@@ -208,7 +209,9 @@ class Fit {
                    errors[v * groups_.size() + g] += square_error(point, capsule);
                  });
     std::vector<std::vector<std::uint32_t>> vertices(groups_.size());
-    for_least(errors, [&](std::uint32_t v, std::size_t g, double) { vertices[g].push_back(v); });
+    for_least(errors, [&](std::uint32_t v, std::size_t g, double) {
+      if (skin_.visible(v)) vertices[g].push_back(v);
+    });
     for (std::size_t g = 0; g < groups_.size(); ++g)
       if (vertices[g].size() >= fewest_vertices) groups_[g].vertices = std::move(vertices[g]);
   }
