@@ -535,9 +535,10 @@ def draw_bodies(data, out, time, label):
             series(ax, rows, time, error, family, **style(i, linestyle="-", fillstyle="none"))
             series(ax, [row for row in rows if row["missed (% of mesh hits)"] == 0], time, error, None, **style(i, linestyle="none"))
             for row in rows:
-                missed = row["missed (% of mesh hits)"]
-                ax.annotate(f"misses {brief(missed)} %" if missed else re.sub(" spheres|BCH in |BCH outline with exact leaves", "", row["structure"]) if i in (0, 3) else "",
-                            (row[time], row[error]), (6, -11 if i == 2 else 4), textcoords="offset points", fontsize=8)
+                missed, name = row["missed (% of mesh hits)"], row["structure"].replace("BCH in ", "").replace(" spheres", "")
+                text = f"misses {missed:.2f} %" if missed else "whole" if name == EXACT else name if "capsules" not in name else ""
+                shift, side = ((-6, -10), "right") if family == "spheres" else ((6, -11 if i == 2 else 4), "left")
+                ax.annotate(text, (row[time], row[error]), shift, textcoords="offset points", fontsize=8, ha=side)
         ax.set_ylim(min(0, ax.get_ylim()[0]))
         number_ticks(ax.xaxis, (50, 100, 200, 500) if "ns" in time else (1, 3, 10, 30, 100, 300, 1000))
     legend(ax, 4)
