@@ -27,34 +27,24 @@ using Mask = std::int32_t __attribute__((vector_size(capsule_lanes * sizeof(floa
 [[gnu::always_inline]] inline void store(float* to, const Lanes& lanes) {
   __builtin_memcpy(to, &lanes, sizeof(lanes));
 }
-#ifdef __AVX__  // GCC makes two instructions of a comparison and a choice
-[[gnu::always_inline]] inline Lanes smaller(const Lanes& a, const Lanes& b) {
-  return __builtin_ia32_minps256(a, b);
-}
-[[gnu::always_inline]] inline Lanes larger(const Lanes& a, const Lanes& b) {
-  return __builtin_ia32_maxps256(a, b);
-}
-#else
 [[gnu::always_inline]] inline Lanes smaller(const Lanes& a, const Lanes& b) {
   return a < b ? a : b;
 }
 [[gnu::always_inline]] inline Lanes larger(const Lanes& a, const Lanes& b) {
   return a > b ? a : b;
 }
-#endif
 [[gnu::always_inline]] inline Lanes share(const Lanes& lanes) {
   return smaller(larger(lanes, Lanes{}), Lanes{} + 1.0f);
 }
 
 /// Returns a bit for each lane.
 [[gnu::always_inline]] inline std::uint32_t bits(const Mask& mask) {
-#ifdef __AVX__
-  return static_cast<std::uint32_t>(__builtin_ia32_movmskps256(reinterpret_cast<Lanes>(mask)));
-#else
-  std::uint32_t all = 0;
-  for (std::uint32_t k = 0; k < capsule_lanes; ++k) all |= (mask[k] != 0 ? 1u : 0u) << k;
-  return all;
-#endif
+  constexpr Mask bit_of_lane = {1, 2, 4, 8, 16, 32, 64, 128};
+  std::uint64_t halves[capsule_lanes / 2];
+  const Mask chosen = mask & bit_of_lane;
+  __builtin_memcpy(halves, &chosen, sizeof(halves));
+  const std::uint64_t all = halves[0] | halves[1] | halves[2] | halves[3];
+  return static_cast<std::uint32_t>(all | all >> 32) & 0xff;
 }
 
 /// Holds a box that moves along: the whole ragdoll's, or one capsule's.

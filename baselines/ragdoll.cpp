@@ -11,6 +11,7 @@
 #include "baselines/built.hpp"
 #include "baselines/capsule_lanes.hpp"
 #include "baselines/placement.hpp"
+#include "layout/base/instruction_set.hpp"
 
 namespace bch::baselines {
 
@@ -24,12 +25,12 @@ std::size_t lanes_of(std::size_t capsules) {
   return (capsules + capsule_lanes - 1) / capsule_lanes * capsule_lanes;
 }
 
-CollideCapsules& fastest() {
-#if defined(__x86_64__) && !defined(BCH_SCALAR)  // as CMake's BCH_ISA
-  if (__builtin_cpu_supports("avx2")) return collide_capsules_avx2;
-#endif
-  return collide_capsules_base;
-}
+struct CapsuleImplementation : detail::InstructionSet {
+  CollideCapsules* collide;
+};
+
+constexpr CapsuleImplementation implementations[] = {
+    BCH_ON_X86({detail::avx2, collide_capsules_avx2}, ){detail::base, collide_capsules_base}};
 
 class Ragdolls final : public Structure {
  public:
@@ -67,6 +68,7 @@ class Ragdolls final : public Structure {
     if (pairs.size() >= agents.size())
       for (std::size_t i = 0; i < agents.size(); ++i)
         directions.push_back(detail::unit_vector(agents.heading[i]));
+    CollideCapsules& collide = *detail::first_supported(implementations).collide;
     CapsulePair batch[batch_size];
     for (std::size_t begin = 0; begin < pairs.size(); begin += batch_size) {
       const std::size_t count = std::min(batch_size, pairs.size() - begin);
@@ -76,7 +78,7 @@ class Ragdolls final : public Structure {
             agents, pair,
             directions.empty() ? float_placement(agents, pair) : float_placement(agents, pair, directions));
       }
-      fastest()(batch, count, &hits[begin]);
+      collide(batch, count, &hits[begin]);
     }
   }
 
