@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
+#include <algorithm>
+
 #include "bench/base/stopwatch.hpp"
 #include "bench/report/body_subjects.hpp"
 
