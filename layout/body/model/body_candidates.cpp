@@ -9,6 +9,8 @@
 #include <limits>
 #include <utility>
 
+#include "layout/base/number_class.hpp"
+
 namespace bch::detail {
 namespace {
 
@@ -171,7 +173,7 @@ bool map_back(const Affine3d& map, const Vec3d& to, Vec3& from) {
   from = {static_cast<float>(dot(right, cross(y, z)) / determinant),
           static_cast<float>(dot(x, cross(right, z)) / determinant),
           static_cast<float>(dot(x, cross(y, right)) / determinant)};
-  return std::isfinite(from.x) && std::isfinite(from.y) && std::isfinite(from.z);
+  return is_finite(from.x) && is_finite(from.y) && is_finite(from.z);
 }
 
 /// Binds a centre to bones by the mean of two points' weights.
