@@ -14,6 +14,7 @@
 #include "layout/body/model/body_candidates.hpp"
 #include "layout/body/model/skin_pieces.hpp"
 #include "layout/body/model/sphere_choice.hpp"
+#include "layout/body/model/sphere_search.hpp"
 #include "layout/body/model/training_poses.hpp"
 
 namespace bch {
@@ -24,6 +25,12 @@ namespace {
 
 constexpr double longest_edge = 0.025;   // metres: a sphere of a forearm holds a triangle of that size
 constexpr std::uint32_t chosen_in = 12;  ///< poses
+
+/// Returns as many poses as the search for better spheres expects: a character without clips has a single one.
+std::vector<PoseTime> repeated(std::vector<PoseTime> poses) {
+  poses.resize(searched_poses, poses.front());
+  return poses;
+}
 
 }  // namespace
 
@@ -46,9 +53,14 @@ BodyModel make_body(const Character& character, const BodyOptions& options) {
     throw std::invalid_argument("character '" + own->name + "': its skin holds no ball of 4 mm to 29 cm");
   advance(0.2);
   const TrainingPoses poses(*own, skin, sample_poses(*own, chosen_in));
+  const double chosen = options.draft ? 1 : 0.3;
   const SphereChoice choice = choose_spheres(skin, candidates, poses, options.spheres,
-                                             [&](double share) { advance(0.2 + 0.8 * share); });
-  BodyModel model = assemble_model(std::move(own), skin, choice, poses);
+                                             [&](double share) { advance(chosen * (0.2 + 0.8 * share)); });
+  if (options.draft) return assemble_model(std::move(own), skin, choice, poses);
+  const TrainingPoses training(*own, skin, repeated(sample_poses(*own, searched_poses)));
+  const SphereChoice better =
+      improve_spheres(skin, training, choice, [&](double share) { advance(chosen + (1 - chosen) * share); });
+  BodyModel model = assemble_model(std::move(own), skin, better, training);
   advance(1);
   return model;
 }

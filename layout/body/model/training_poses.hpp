@@ -35,6 +35,8 @@ class TrainingPoses {
 
   std::size_t size() const noexcept { return poses_.size(); }
   std::span<const SpacePoint> points(std::size_t pose) const noexcept { return poses_[pose].points; }
+  /// Returns where a bone that moves a vertex takes the frame of its inverse_bind.
+  const Affine3d& map(std::size_t pose, std::uint32_t bone) const noexcept { return poses_[pose].maps[bone]; }
   SpacePoint centre(std::size_t pose, std::span<const SphereInfluence> influences) const;
 
  private:
