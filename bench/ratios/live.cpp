@@ -13,9 +13,9 @@
 #include <utility>
 
 #include <bch/crowd.hpp>
-#include <bch/dynamic_shape_set.hpp>
 #include <bch/pose_shape.hpp>
 #include <bch/scene_plan.hpp>
+#include <bch/shape_set_builder.hpp>
 
 #include "bench/base/median.hpp"
 #include "bench/base/stopwatch.hpp"

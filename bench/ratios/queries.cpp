@@ -11,7 +11,6 @@
 
 #include <bch/clearance.hpp>
 #include <bch/crowd.hpp>
-#include <bch/penetration.hpp>
 #include <bch/time_of_impact.hpp>
 
 #include "baselines/clearance_reference.hpp"

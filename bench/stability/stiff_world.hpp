@@ -9,7 +9,6 @@
 #include <bch/clearance.hpp>
 #include <bch/collide.hpp>
 #include <bch/crowd.hpp>
-#include <bch/penetration.hpp>
 
 #include "bench/stability/stiff_contact.hpp"
 

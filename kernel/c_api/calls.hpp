@@ -7,7 +7,6 @@
 #include <vector>
 
 #include <bch/clearance.hpp>
-#include <bch/penetration.hpp>
 
 #include "kernel/c_api/arguments.hpp"
 #include "kernel/c_api/objects.hpp"

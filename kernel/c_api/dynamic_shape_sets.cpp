@@ -7,7 +7,7 @@
 
 #include <list>
 
-#include <bch/dynamic_shape_set.hpp>
+#include <bch/shape_set_builder.hpp>
 
 #include "kernel/c_api/arguments.hpp"
 #include "kernel/c_api/objects.hpp"

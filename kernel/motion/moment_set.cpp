@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include <bch/dynamic_shape_set.hpp>
 #include <bch/shape_set_builder.hpp>
 #include <bch/time_of_impact.hpp>
 

@@ -12,7 +12,6 @@
 
 #include <bch/clearance.hpp>
 #include <bch/collide.hpp>
-#include <bch/penetration.hpp>
 #include <bch/time_of_impact.hpp>
 
 #include "kernel/broad_phase/pair_limit.hpp"

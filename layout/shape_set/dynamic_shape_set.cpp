@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/dynamic_shape_set.hpp>
+#include <bch/shape_set_builder.hpp>
 
 #include <algorithm>
 #include <limits>

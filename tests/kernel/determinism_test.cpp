@@ -16,7 +16,6 @@
 #include <bch/clearance.hpp>
 #include <bch/collide.hpp>
 #include <bch/crowd.hpp>
-#include <bch/penetration.hpp>
 #include <bch/time_of_impact.hpp>
 
 #include "layout/base/floating_point_state.hpp"

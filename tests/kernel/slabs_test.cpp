@@ -11,7 +11,6 @@
 
 #include <bch/collide.hpp>
 #include <bch/crowd.hpp>
-#include <bch/dynamic_shape_set.hpp>
 #include <bch/pose_shape.hpp>
 #include <bch/shape_set_builder.hpp>
 

@@ -8,9 +8,8 @@
 #include <bch/clearance.hpp>
 #include <bch/collide.hpp>
 #include <bch/crowd.hpp>
-#include <bch/dynamic_shape_set.hpp>
 #include <bch/obstacles.hpp>
-#include <bch/penetration.hpp>
+#include <bch/shape_set_builder.hpp>
 #include <bch/time_of_impact.hpp>
 
 #include "layout/shape_set/flat_shape.hpp"

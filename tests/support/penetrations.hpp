@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include <bch/penetration.hpp>
+#include <bch/clearance.hpp>
 
 #include "tests/support/scenes.hpp"
 

@@ -6,7 +6,7 @@
 // Includes all headers of the installed components.
 
 #include <bch/agents.hpp>
-#include <bch/dynamic_shape_set.hpp>
+#include <bch/body_set.hpp>
 #include <bch/geometry.hpp>
 #include <bch/hierarchy.hpp>
 #include <bch/outline.hpp>
@@ -20,7 +20,6 @@
 #include <bch/collide.hpp>
 #include <bch/crowd.hpp>
 #include <bch/obstacles.hpp>
-#include <bch/penetration.hpp>
 #include <bch/query.hpp>
 #include <bch/time_of_impact.hpp>
 
@@ -31,6 +30,7 @@
 
 // The component characters.
 #if __has_include(<bch/character.hpp>)
+#include <bch/bodies.hpp>
 #include <bch/character.hpp>
 #include <bch/default_characters.hpp>
 #include <bch/outline_builder.hpp>

@@ -12,7 +12,6 @@
 #include <bch/body_set.hpp>
 #include <bch/clearance.hpp>
 #include <bch/obstacles.hpp>
-#include <bch/penetration.hpp>
 #include <bch/query.hpp>
 
 namespace bch::detail {

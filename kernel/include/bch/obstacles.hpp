@@ -11,7 +11,6 @@
 #include <string_view>
 
 #include <bch/clearance.hpp>
-#include <bch/penetration.hpp>
 #include <bch/query.hpp>
 #include <bch/time_of_impact.hpp>
 
