@@ -35,8 +35,9 @@ struct BodyLayout {
   }
 };
 
-/// Returns the layout of bodies like this one: spheres that are near each other share a leaf, and the largest are the core.
-BodyLayout body_layout(std::span<const Sphere> spheres);
+/// Returns the layout of bodies like one that is given in some poses: spheres that are near each other share a leaf, and the largest are the
+/// core.
+BodyLayout body_layout(std::span<const std::vector<Sphere>> poses);
 
 /// Holds the spheres of a body by slots, side by side; slots behind the last sphere repeat it.
 struct SphereSlots {

@@ -123,7 +123,7 @@ BodySet::BodySet(std::span<const std::vector<Sphere>> bodies)
   state_->own_layouts.reserve(bodies.size());
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     require(bodies[i], i);
-    state_->add(state_->own_layouts.emplace_back(body_layout(bodies[i])));
+    state_->add(state_->own_layouts.emplace_back(body_layout({&bodies[i], 1})));
   }
   state_->allocate();
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {

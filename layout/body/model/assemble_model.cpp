@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "layout/body/body_layout.hpp"
+#include "layout/body/model/core_choice.hpp"
 
 namespace bch::detail {
 namespace {
@@ -150,17 +151,24 @@ BodyModel assemble_model(std::shared_ptr<const Character> character, const SkinP
   const PieceMerger merged(skin, choice, poses);
   const SphereCorners corners(skin, character->vertices.size(), choice.spheres.size(), merged);
   std::vector<std::uint32_t> used;
-  std::vector<Sphere> spheres;
-  const std::vector<Sphere> all = posed_spheres(choice, poses, 0, skin);
   for (std::uint32_t s = 0; s < choice.spheres.size(); ++s)
-    if (!corners.of(s).empty()) used.push_back(s), spheres.push_back(all[s]);
+    if (!corners.of(s).empty()) used.push_back(s);
+  std::vector<std::vector<Sphere>> spheres(poses.size());
+  for (std::size_t pose = 0; pose < poses.size(); ++pose) {
+    const std::vector<Sphere> all = posed_spheres(choice, poses, pose, skin);
+    for (const std::uint32_t s : used) spheres[pose].push_back(all[s]);
+  }
 
   const BodyLayout layout = body_layout(spheres);
+  for (auto& in_pose : spheres) {
+    const std::vector<Sphere> all = in_pose;
+    for (std::size_t slot = 0; slot < all.size(); ++slot) in_pose[slot] = all[layout.sphere_in_slot[slot]];
+  }
   BodyModel model;
   model.character = std::move(character);
   model.cuts = corners.cuts;
   model.leaf_size = layout.leaf_size;
-  model.core = layout.core;
+  model.core = choose_core(spheres, layout.core);
   model.influence_begin.push_back(0), model.corner_begin.push_back(0);
   for (const std::uint32_t in_slot : layout.sphere_in_slot) {
     const std::uint32_t sphere = used[in_slot];
