@@ -66,6 +66,7 @@ int run(int argc, char** argv) {
   add_queries(scene);
   add_crowds(scene);
   add_bodies();
+  add_spheres(scene);
   add_obstacles(scene);
   add_moments(scene);
   add_sets(scene);

@@ -61,6 +61,8 @@ void add_queries(Scene& scene);
 void add_crowds(Scene& scene);
 /// bodies/<contacts|loop>: a crowd of bodies of discs.
 void add_bodies();
+/// spheres/<count>/<workload>/<instruction set>: bodies of spheres.
+void add_spheres(Scene& scene);
 /// obstacles/<query>: a crowd on a floor plan.
 void add_obstacles(Scene& scene);
 /// moments/<poses|shown|grid|own>: a crowd of animated shapes at times of a walk.

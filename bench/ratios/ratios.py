@@ -75,6 +75,11 @@ slices | slices/8/crowd/segments / slices/1/crowd/segments | <= 6
 slices | slices/8/build / slices/1/build | <= 4.5
 slices | slices/8/build#bytes | <= 36864
 slices | slices/2/build |
+spheres | spheres/128/crowd/avx2 / collide/crowd/segments/avx2 | <= 1.1
+spheres | spheres/256/crowd/avx2 / collide/crowd/segments/avx2 | <= 1.4
+spheres | spheres/512/crowd/avx2 / collide/crowd/segments/avx2 | <= 2.1
+spheres | spheres/256/crowd/avx2 / slices/3/crowd/segments | <= 0.72
+spheres | spheres/256/crowd/avx2 / slices/8/crowd/segments | <= 0.42
 live | live/{300,1000}/{all,6,3,0} |
 construction | construction/*/ISA/{skin,outline,hierarchy,hierarchy_welzl,levels,interior} |
 construction | construction/*/ISA/{pose,all} | <= 45000 45000 90000

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+#include <vector>
+
+#include <bch/bodies.hpp>
+#include <bch/collide.hpp>
+
+#include "baselines/body_reference.hpp"
+#include "bench/ratios/ratios.hpp"
+
+namespace bch::bench {
+namespace {
+
+/// The scene's poses as bodies of spheres.
+LiveBodies posed(Scene& scene, std::uint32_t spheres) {
+  std::vector<BodyModel> models;
+  for (const auto& character : scene.characters())
+    models.push_back(make_body(character.character, {.spheres = spheres}));
+  std::vector<std::uint32_t> model;
+  std::vector<Pose> poses;
+  for (const ShapeSource& source : scene.sources())
+    model.push_back(source.character), poses.emplace_back(source.at);
+  LiveBodies bodies(models, model);
+  bodies.pose(poses);
+  return bodies;
+}
+
+Contender spheres_contender(const BodySet& bodies, const Workload& workload,
+                            const Implementation& implementation) {
+  const auto hits = std::make_shared<Hits>(workload.pairs.size());
+  const auto call = [&bodies, &workload, &implementation, hits] {
+    collide(bodies, workload.agents(), workload.pairs, *hits, &implementation);
+  };
+  call();
+  const baselines::BodyReference reference(bodies);
+  for (std::size_t i = 0; i < hits->size(); ++i)
+    if (((*hits)[i] != 0) != reference.collide(workload.agents(), workload.pairs[i]))
+      throw std::runtime_error(
+          fmt::format("{}: pair {} of bodies of spheres is answered wrongly", workload.name, i));
+  const double bodies_bytes = static_cast<double>(bodies.bytes()) / bodies.body_count();
+  const auto count = static_cast<double>(std::count(hits->begin(), hits->end(), 1));
+  return {call, hits->size(), {{"hits", count}, {"bytes", bodies_bytes}}};
+}
+
+}  // namespace
+
+void add_spheres(Scene& scene) {
+  for (const std::uint32_t spheres : {128u, 256u, 512u}) {
+    const auto bodies =
+        once([&scene, spheres] { return std::make_shared<LiveBodies>(posed(scene, spheres)); });
+    for (const std::string_view name : {"crowd", "near_miss", "colliding"})
+      for (const Implementation* implementation : supported_implementations())
+        add(fmt::format("spheres/{}/{}/{}", spheres, name, implementation->name),
+            [&scene, bodies, name, implementation] {
+              return spheres_contender(bodies().set(), scene.workload(name), *implementation);
+            });
+  }
+}
+
+}  // namespace bch::bench
