@@ -1,12 +1,44 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
+#include <bch/bodies.hpp>
 #include <bch/collide.hpp>
 
 #include "kernel/c_api/calls.hpp"
+#include "kernel/c_api/posing.hpp"
+#include "kernel/c_api/work.hpp"
+
+struct bch_body_model {
+  explicit bch_body_model(bch::BodyModel of) : model(std::move(of)) {}
+
+  const bch::BodyModel model;
+};
+
+struct bch_live_bodies {
+  bch_live_bodies(std::span<const bch::BodyModel> models, std::span<const std::uint32_t> model_of_body)
+      : bodies(models, model_of_body), lent(std::make_unique<bch_body_set>(bodies.set())) {}
+
+  bch::LiveBodies bodies;
+  std::unique_ptr<bch_body_set> lent;
+  std::vector<bch::Pose> poses;  ///< of the last call, whose memory the next one uses
+};
 
 using namespace bch;
 using namespace bch::c_api;
+
+namespace {
+
+constexpr double progress_parts = 1000;
+
+/// Poses all bodies: pose_of(i) is that of body i.
+template <class PoseOf>
+void pose_all(bch_live_bodies& of, const PoseOf& pose_of, std::uint32_t threads) {
+  of.poses.clear();
+  for (std::uint32_t i = 0; i < of.bodies.set().body_count(); ++i) of.poses.push_back(pose_of(i));
+  on_threads(threads, [&] { of.bodies.pose(of.poses); });
+}
+
+}  // namespace
 
 bch_status bch_body_set_create(const bch_sphere* spheres, const uint64_t* offsets, size_t count,
                                bch_body_set** set) {
@@ -42,6 +74,79 @@ bch_status bch_body_set_get_spheres(const bch_body_set* set, uint32_t body, bch_
 
 bch_status bch_body_set_free(bch_body_set* set) {
   return free_object(set, "set");
+}
+
+bch_status bch_body_model_make(const bch_character* character, const bch_body_options* given,
+                               const bch_work* given_work, bch_body_model** model) {
+  return guarded([&] {
+    const Character& of = *object_of(character, "character").character;
+    const bch_body_options options = sized<bch_body_options>(given, BCH_BODY_OPTIONS_INIT, "options");
+    const bch_work work = sized<bch_work>(given_work, BCH_WORK_INIT, "work");
+    required(model, "model");
+    BodyOptions how{.spheres = options.spheres, .draft = options.draft != 0};
+    if (const auto report = Work::function_of(work))
+      how.progress = [=](double share) {
+        return report(static_cast<std::size_t>(share * progress_parts),
+                      static_cast<std::size_t>(progress_parts));
+      };
+    hand_out(std::make_unique<bch_body_model>(make_body(of, how)), model);
+  });
+}
+
+bch_status bch_body_model_get_sphere_count(const bch_body_model* model, uint32_t* count) {
+  return guarded([&] {
+    const BodyModel& of = object_of(model, "model").model;
+    required(count, "count") = static_cast<uint32_t>(of.sphere_count());
+  });
+}
+
+bch_status bch_body_model_free(bch_body_model* model) {
+  return free_object(model, "model");
+}
+
+bch_status bch_live_bodies_create(const bch_body_model* const* models, size_t model_count,
+                                  const uint32_t* model_of_body, size_t count, bch_live_bodies** bodies) {
+  return guarded([&] {
+    std::vector<BodyModel> all;
+    for (const bch_body_model* const model : array_of(models, model_count, "models"))
+      all.push_back(object_of(model, "a model of models").model);
+    const auto model_of = array_of(model_of_body, count, "model_of_body");
+    required(bodies, "bodies");
+    auto live = std::make_unique<bch_live_bodies>(all, model_of);
+    const bch_body_set* const lent = live->lent.get();
+    hand_out(std::move(live), lent, bodies);
+  });
+}
+
+bch_status bch_live_bodies_pose(bch_live_bodies* bodies, const bch_pose* poses, uint32_t threads) {
+  return guarded([&] {
+    bch_live_bodies& of = object_of(bodies, "bodies");
+    const auto times = array_of(poses, of.bodies.set().body_count(), "poses");
+    pose_all(
+        of, [&](std::size_t i) { return pose_of(times[i]); }, threads);
+  });
+}
+
+bch_status bch_live_bodies_pose_own(bch_live_bodies* bodies, const bch_pose_arrays* poses, uint32_t threads) {
+  return guarded([&] {
+    bch_live_bodies& of = object_of(bodies, "bodies");
+    const OwnPoses own(poses, of.bodies.set().body_count());
+    pose_all(
+        of, [&](std::size_t i) { return own[i]; }, threads);
+  });
+}
+
+bch_status bch_live_bodies_get_set(const bch_live_bodies* bodies, const bch_body_set** set) {
+  return guarded([&] {
+    const bch_live_bodies& of = object_of(bodies, "bodies");
+    required(set, "set") = of.lent.get();
+  });
+}
+
+bch_status bch_live_bodies_free(bch_live_bodies* bodies) {
+  return guarded([&] {
+    if (const auto taken = take_back(bodies, "bodies")) registry::end_loan(taken->lent.get());
+  });
 }
 
 bch_status bch_collide_bodies(const bch_body_set* set, const bch_agents* agents, const bch_pair* pairs,

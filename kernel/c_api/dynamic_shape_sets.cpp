@@ -112,13 +112,7 @@ bch_status bch_dynamic_shape_set_create(const bch_shape_set* start, bch_dynamic_
     required(set, "set");
     auto made = std::make_unique<bch_dynamic_shape_set>(object_of(start, "start").set);
     const bch_shape_set* const lent = made->lent.get();
-    registry::lend(lent, kind_of(lent));
-    try {
-      hand_out(std::move(made), set);
-    } catch (...) {
-      registry::end_loan(lent);
-      throw;
-    }
+    hand_out(std::move(made), lent, set);
   });
 }
 

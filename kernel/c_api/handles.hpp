@@ -36,6 +36,12 @@ constexpr std::string_view kind_of(const bch_character*) {
 constexpr std::string_view kind_of(const bch_shape_set*) {
   return "bch_shape_set";
 }
+constexpr std::string_view kind_of(const bch_body_model*) {
+  return "bch_body_model";
+}
+constexpr std::string_view kind_of(const bch_live_bodies*) {
+  return "bch_live_bodies";
+}
 constexpr std::string_view kind_of(const bch_body_set*) {
   return "bch_body_set";
 }
@@ -94,6 +100,18 @@ template <class Object>
 void hand_out(std::unique_ptr<Object> object, Object** to) {
   registry::add(object.get(), kind_of(object.get()));
   *to = object.release();
+}
+
+/// Hands an object out that lends another one, which belongs to it.
+template <class Object, class Lent>
+void hand_out(std::unique_ptr<Object> object, const Lent* lent, Object** to) {
+  registry::lend(lent, kind_of(lent));
+  try {
+    hand_out(std::move(object), to);
+  } catch (...) {
+    registry::end_loan(lent);
+    throw;
+  }
 }
 
 /// Takes an object back that was handed out; NULL is none. The object is not read before it is this thread's alone.

@@ -38,9 +38,11 @@ struct bch_shape_set {
   const std::vector<float> slices;
 };
 
+/// Holds bodies of its own, or those that live bodies lend.
 struct bch_body_set {
-  explicit bch_body_set(bch::BodySet bodies)
+  explicit bch_body_set(bch::BodySet&& bodies)
       : own(std::make_unique<bch::BodySet>(std::move(bodies))), set(*own) {}
+  explicit bch_body_set(const bch::BodySet& lent) : set(lent) {}
 
   const std::unique_ptr<bch::BodySet> own;
   const bch::BodySet& set;

@@ -210,6 +210,31 @@ class Scenes(unittest.TestCase):
         with self.assertRaises(bch.ArrayError):
             bch.penetration(bodies, agents, pairs)
 
+    def test_live_bodies(self):
+        man = bch.default_male()
+        model = bch.BodyModel(man, 64, draft=True)
+        self.assertTrue(50 < len(model) <= 64)
+        people = bch.LiveBodies([model], np.zeros(2, np.uint32))
+        resting = people.bodies.spheres(0)
+        self.assertTrue(resting["z"].max() > 1.6 and np.array_equal(resting, people.bodies.spheres(1)))
+        poses = [(0, 0.5), (1, 2.0)]
+        people.pose(poses)
+        by_clips = [people.bodies.spheres(body) for body in range(2)]
+        self.assertFalse(np.array_equal(*by_clips))
+        for threads in (1, 2):
+            people.pose(bch.Transforms(man.transforms(poses), space="parent"), threads=threads)
+            self.assertTrue(all(np.array_equal(people.bodies.spheres(body), by_clips[body]) for body in range(2)))
+        near, far = np.array([0.0, 0.2]), np.array([0.0, 2.5])
+        for x, hit in ((near, True), (far, False)):
+            agents = bch.Agents(np.array([0, 1], np.uint32), x, np.zeros(2), np.zeros(2))
+            self.assertEqual(len(bch.Crowd().collisions(people.bodies, agents)), hit)
+        with self.assertRaises(bch.ArrayError):
+            people.pose(poses[:1])
+        with self.assertRaisesRegex(bch.ArgumentError, "body 0: .*vertices"):
+            people.pose(bch.Vertices(np.zeros((2, 3, 3), np.float32)))
+        with self.assertRaisesRegex(bch.ArgumentError, "model 1 |1 models, found 1 of body 1"):
+            bch.LiveBodies(model, np.array([0, 1], np.uint32))
+
     def test_plans(self):
         plan = bch.plan_scene(
             [(0, 0.1), (0, 0.4), (0, 0.6), (0, 0.1)],

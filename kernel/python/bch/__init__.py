@@ -23,7 +23,7 @@ raise an error that says what is wanted. Every query releases the interpreter's 
 from . import plot
 from ._animated import AnimatedShape
 from ._arrays import DISC, PENETRATION, POSE, SOURCE, SPHERE
-from ._bodies import BodySet
+from ._bodies import BodyModel, BodySet, LiveBodies
 from ._characters import Bone, Channel, Curve, Joint, Motion, make_character
 from ._crowds import Clearances, Contacts, Crowd, Neighbours, Penetrations, Rows
 from ._library import (
@@ -98,6 +98,7 @@ __all__ = [
     "AnimatedShape",
     "ArgumentError",
     "ArrayError",
+    "BodyModel",
     "BodySet",
     "Bone",
     "Channel",
@@ -115,6 +116,7 @@ __all__ = [
     "FileMissing",
     "Joint",
     "KeptClip",
+    "LiveBodies",
     "MomentSet",
     "Motion",
     "Mover",

@@ -5,15 +5,19 @@
 
 from __future__ import annotations
 
-from ctypes import byref, c_size_t
-from typing import Sequence
+import ctypes
+from ctypes import byref, c_size_t, c_uint32
+from typing import Any, Sequence, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _library
-from ._arrays import SPHERE, Records, address, f4, index, listed, table, u8
-from ._library import Handle, check, lib
+from ._arrays import SPHERE, Records, UInt32, address, bounded, f4, given, index, instance, instances, listed, rejected, table, u4, u8
+from ._library import Exclusive, Handle, check, lib
+from ._poses import own_poses
+from ._progress import Watched
+from ._shapes import Character, _as_poses
 
 
 class BodySet:
@@ -42,8 +46,17 @@ class BodySet:
         offsets = np.zeros(len(rows) + 1, u8)
         np.cumsum([len(body) for body in rows], out=offsets[1:])
         spheres = np.concatenate(rows) if rows else np.empty((0, 4), f4)
-        self._handle = Handle("body_set", "create", address(spheres), address(offsets), len(rows))
-        self._pointer = self._handle.pointer
+        self._take(Handle("body_set", "create", address(spheres), address(offsets), len(rows)))
+
+    def _take(self, owner: Handle, pointer: int = 0) -> None:
+        self._handle, self._pointer = owner, pointer or owner.pointer
+
+    @classmethod
+    def _lent(cls, owner: Handle, pointer: int) -> BodySet:
+        """Return a view of bodies that belong to another object."""
+        bodies = cls.__new__(cls)
+        bodies._take(owner, pointer)
+        return bodies
 
     def _info(self) -> _library.BodySetInfo:
         info = _library.BodySetInfo()
@@ -74,3 +87,89 @@ class BodySet:
 
     def __repr__(self) -> str:
         return f"<bch.BodySet of {len(self)}>"
+
+
+class BodyModel:
+    """A character as spheres that move with its skeleton and hold every triangle of its skin in any pose.
+
+    Parameters
+    ----------
+    character : Character
+    spheres : int
+        At most 4096. More spheres err less and take longer.
+    draft : bool
+        Make the model in seconds in place of up to a minute. Its errors are about twice as large.
+    progress : bool
+        Show a progress bar on standard error. Ctrl-C ends the work in any case.
+    """
+
+    __slots__ = ("_handle", "_pointer")
+
+    def __init__(self, character: Character, spheres: int = 256, *, draft: bool = False, progress: bool = False) -> None:
+        how = _library.BodyOptions(spheres=bounded(spheres, "spheres", 1, 4096), draft=bool(draft))
+        made = instance(character, Character, "character")._pointer
+        with Watched("model", progress) as watched:
+            work = _library.Work(progress=watched.callback)
+            self._handle = Handle("body_model", "make", made, byref(how), byref(work), checked=watched.run)
+        self._pointer = self._handle.pointer
+
+    def __len__(self) -> int:
+        count = c_uint32()
+        check(lib.bch_body_model_get_sphere_count(self._pointer, byref(count)))
+        return count.value
+
+    def __repr__(self) -> str:
+        return f"<bch.BodyModel of {len(self)} spheres>"
+
+
+class LiveBodies:
+    """A body for each of many agents, who all have poses of their own in every frame.
+
+    Parameters
+    ----------
+    models : BodyModel or sequence of BodyModel
+    model_of_body : (n,) uint32, or int
+        The model of each body. A number n stands for n bodies of the first model. Bodies begin in the rest pose.
+
+    Examples
+    --------
+    >>> people = bch.LiveBodies(bch.BodyModel(bch.default_male()), 1000)
+    >>> people.pose(bch.Transforms(matrices))  # (1000, joints, 4, 4), in every frame
+    >>> crowd.collisions(people.bodies, agents)
+    """
+
+    __slots__ = ("_handle", "_exclusive", "bodies")
+
+    def __init__(self, models: Union[BodyModel, Sequence[BodyModel]], model_of_body: Union[int, UInt32]) -> None:
+        all_models = [models] if isinstance(models, BodyModel) else instances(models, BodyModel, "models")
+        if isinstance(model_of_body, (int, np.integer)):
+            model_of_body = np.zeros(bounded(model_of_body, "model_of_body", 0, 2**32 - 2), u4)
+        which = given(model_of_body, u4, (None,), "model_of_body")
+        pointers = np.array([model._pointer for model in all_models], u8)
+        self._exclusive = Exclusive("LiveBodies")
+        self._handle = Handle("live_bodies", "create", address(pointers), len(pointers), which, len(model_of_body))
+        lent = ctypes.c_void_p()
+        check(lib.bch_live_bodies_get_set(self._handle.pointer, byref(lent)))
+        #: The bodies in their last poses, for queries.
+        self.bodies = BodySet._lent(self._handle, lent.value or 0)
+
+    def pose(self, poses: Any, *, threads: int = 0) -> None:
+        """Pose all bodies, one pose a body. No query may run meanwhile.
+
+        Parameters
+        ----------
+        poses : (n,) POSE, a sequence of (clip, seconds), or Transforms
+        threads : int
+            Number of threads; 0: all processors.
+        """
+        own = own_poses(poses)
+        array: Any = _as_poses(poses) if own is None else own
+        if len(array) != len(self.bodies):
+            raise rejected(poses, "poses", f"one pose for each of {len(self.bodies)} bodies")
+        of_own, of_clips = lib.bch_live_bodies_pose_own, lib.bch_live_bodies_pose
+        call, data = (of_clips, address(array)) if own is None else (of_own, byref(own.struct))
+        with self._exclusive:
+            check(call(self._handle.pointer, data, bounded(threads, "threads", 0, 1024)))
+
+    def __repr__(self) -> str:
+        return f"<bch.LiveBodies of {len(self.bodies)}>"

@@ -736,6 +736,39 @@ BCH_API bch_status bch_body_set_get_spheres(const bch_body_set* set, uint32_t bo
 /** Frees a set. */
 BCH_API bch_status bch_body_set_free(bch_body_set* set);
 
+/** Holds a character as spheres that move with its skeleton. */
+typedef struct bch_body_model bch_body_model;
+/** Says how a model is made. */
+typedef struct bch_body_options {
+  uint32_t size;    /**< sizeof(bch_body_options) */
+  uint32_t spheres; /**< at most 4096 */
+  int32_t draft;    /**< not 0: a model in seconds, whose errors are about twice as large */
+} bch_body_options;
+#define BCH_BODY_OPTIONS_INIT \
+  { sizeof(bch_body_options), 256, 0 }
+/** Makes the model of a character, on the caller's thread: up to a minute. Progress is in thousandths. */
+BCH_API bch_status bch_body_model_make(const bch_character* character, const bch_body_options* options,
+                                       const bch_work* work, bch_body_model** model);
+/** Gets the number of spheres of a model, which may be a little less than was asked for. */
+BCH_API bch_status bch_body_model_get_sphere_count(const bch_body_model* model, uint32_t* count);
+/** Frees a model. */
+BCH_API bch_status bch_body_model_free(bch_body_model* model);
+
+/** Holds a body for each of many agents, who all have poses of their own in every frame. */
+typedef struct bch_live_bodies bch_live_bodies;
+/** Makes bodies in the rest pose: body i is one of models[model_of_body[i]]. Models are copied. */
+BCH_API bch_status bch_live_bodies_create(const bch_body_model* const* models, size_t model_count,
+                                          const uint32_t* model_of_body, size_t count, bch_live_bodies** bodies);
+/** Poses all bodies by times of clips, one pose a body, on so many threads; 0: one for each processor. No query may run meanwhile. */
+BCH_API bch_status bch_live_bodies_pose(bch_live_bodies* bodies, const bch_pose* poses, uint32_t threads);
+/** Poses all bodies by transforms of the caller, one pose a body, likewise. Posed vertices are refused: they do not say where bones
+ * are. */
+BCH_API bch_status bch_live_bodies_pose_own(bch_live_bodies* bodies, const bch_pose_arrays* poses, uint32_t threads);
+/** Lends the bodies for queries. They belong to `bodies` and are not freed. */
+BCH_API bch_status bch_live_bodies_get_set(const bch_live_bodies* bodies, const bch_body_set** set);
+/** Frees bodies, and the set that they lent. */
+BCH_API bch_status bch_live_bodies_free(bch_live_bodies* bodies);
+
 /** Tests whether the bodies of each pair's agents have a point in common, and writes 1 or 0 to `hits`. Of the options, this and the next
  * two use `threads` and `implementation`, and ignore the others. */
 BCH_API bch_status bch_collide_bodies(const bch_body_set* set, const bch_agents* agents, const bch_pair* pairs,
