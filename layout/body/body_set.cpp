@@ -146,8 +146,9 @@ std::uint32_t BodySet::body_count() const noexcept {
 }
 
 std::size_t BodySet::bytes() const noexcept {
-  return state_->records.size() * sizeof(float) +
-         body_count() * (sizeof(std::uint64_t) + sizeof(Root) + sizeof(Heights) + sizeof(const BodyLayout*));
+  constexpr std::size_t beside_record =
+      sizeof(std::uint64_t) + sizeof(Root) + sizeof(Heights) + sizeof(void*);
+  return state_->records.size() * sizeof(float) + body_count() * beside_record;
 }
 
 std::vector<Sphere> BodySet::spheres(std::uint32_t body) const {

@@ -31,6 +31,7 @@ double reach_on_ground(std::span<const std::vector<Sphere>> poses) {
 
 std::vector<Sphere> placed(const std::vector<Sphere>& spheres, const Rotation& turn, double x, double y) {
   std::vector<Sphere> all;
+  all.reserve(spheres.size());
   for (const Sphere& s : spheres)
     all.push_back({static_cast<float>(x + (turn.cosine * double{s.x} - turn.sine * double{s.y})),
                    static_cast<float>(y + (turn.sine * double{s.x} + turn.cosine * double{s.y})), s.z,

@@ -59,7 +59,8 @@ class SphereSearch {
     hand_over_farthest();
     if (number + last_rounds >= search_rounds) return;
     const double share = first_deleted + double{progress} * (last_deleted - first_deleted);
-    replace(static_cast<std::size_t>(share * static_cast<double>(fit_.balls.size()) + 0.5));
+    const double rounded_up_from_half = share * static_cast<double>(fit_.balls.size()) + 0.5;
+    replace(static_cast<std::size_t>(rounded_up_from_half));
   }
 
   SphereChoice choice() const { return fit_.choice(); }
@@ -262,6 +263,7 @@ class SphereSearch {
   void split(std::uint32_t sphere, std::uint32_t free) {
     const std::vector<std::uint32_t> pieces = fit_.balls[sphere].pieces;
     std::vector<Space> at;
+    at.reserve(pieces.size());
     for (const std::uint32_t piece : pieces) at.push_back(middle(piece));
     const auto squared = [](const Space& a, const Space& b) {
       const Space d = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
