@@ -161,7 +161,8 @@ class Crowd {
   /// Finds the pairs for which collide() answers 1.
   CrowdPairs collisions(const ShapeSet& shapes, const Agents& agents, const CollisionOptions& options = {}) &;
 
-  // The same of bodies of spheres. Candidates are those whose discs, as seen from above, and heights come near each other.
+  // The same of bodies of spheres. Candidates are those whose discs, as seen from above, come within the margin of each other, and whose
+  // heights meet.
   CrowdPairs candidates(const BodySet& bodies, const Agents& agents, const CandidateOptions& options = {}) &;
   CrowdPairs collisions(const BodySet& bodies, const Agents& agents,
                         const BodyCollisionOptions& options = {}) &;
