@@ -36,6 +36,7 @@ SceneOptions parse(CLI::App& program, int argc, char** argv, bool& is_done) {
   program.add_option("--agents", options.sizes.agents, "Agents in the crowd [10000]")
       ->type_name("N")
       ->check(CLI::Range(2u, 1'000'000u));
+  program.add_flag("--drafts", options.draft_models, "Models of spheres that take seconds and err more");
   is_done = !cli::parse_command_line(program, argc, argv);
   return options;
 }

@@ -19,14 +19,11 @@ namespace {
 
 /// The scene's poses as bodies of spheres.
 LiveBodies posed(Scene& scene, std::uint32_t spheres) {
-  std::vector<BodyModel> models;
-  for (const auto& character : scene.characters())
-    models.push_back(make_body(character.character, {.spheres = spheres}));
   std::vector<std::uint32_t> model;
   std::vector<Pose> poses;
   for (const ShapeSource& source : scene.sources())
     model.push_back(source.character), poses.emplace_back(source.at);
-  LiveBodies bodies(models, model);
+  LiveBodies bodies(scene.models(spheres), model);
   bodies.pose(poses);
   return bodies;
 }

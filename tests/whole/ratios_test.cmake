@@ -1,6 +1,6 @@
 # bch_ratios starts and finds its own answers right; ratios.py runs it and prints what it must. Nothing is timed.
 # Usage: cmake -DRATIOS=... -DSCRIPT=... -DPYTHON=... -DWORK=... -P ratios_test.cmake
-set(sizes --poses=2 --pairs=200 --agents=300)
+set(sizes --poses=2 --pairs=200 --agents=300 --drafts)
 
 # Runs a command, whose exit code has to be as expected. Sets output.
 function(run expected)
