@@ -55,7 +55,7 @@ void require_influences(const BodyModel& model) {
 /// Finds, for each triangle, whether it or all parts that cuts make of it have their corners in one sphere.
 class Covering {
  public:
-  explicit Covering(const BodyModel& model) : model_(model), spheres_(points(model)) {
+  explicit Covering(const BodyModel& model) : spheres_(points(model)) {
     for (std::uint32_t s = 0; s < model.sphere_count(); ++s)
       for (std::uint32_t i = model.corner_begin[s]; i < model.corner_begin[s + 1]; ++i)
         spheres_[model.corners[i]].push_back(s);
@@ -85,7 +85,6 @@ class Covering {
     return std::binary_search(spheres_[point].begin(), spheres_[point].end(), sphere);
   }
 
-  const BodyModel& model_;
   std::vector<std::vector<std::uint32_t>> spheres_;                          ///< by point, ascending
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middle_;  ///< by ends
 };
