@@ -158,14 +158,14 @@ TEST(BodyDifferential, AnySplitOfABatch) {
 /// Moves the second agent of each pair to where two spheres touch: along a random line in space, to a few units in the last place of
 /// where the answer changes.
 void make_tangent(Random& random, const baselines::BodyReference& reference, BodyCrowd& crowd, bool level) {
-  for (const auto [first, second] : crowd.pairs) {
+  for (const Pair pair : crowd.pairs) {
     const double turn = random.between(-4, 4), up = level ? 0 : random.between(-1, 1);
     const double flat = std::sqrt(1 - up * up);
     const auto collides_at = [&](double distance) {
-      crowd.x[second] = crowd.x[first] + distance * flat * std::cos(turn);
-      crowd.y[second] = crowd.y[first] + distance * flat * std::sin(turn);
-      crowd.z[second] = crowd.z[first] + distance * up;
-      return reference.collide(crowd.agents(), {first, second});
+      crowd.x[pair.second] = crowd.x[pair.first] + distance * flat * std::cos(turn);
+      crowd.y[pair.second] = crowd.y[pair.first] + distance * flat * std::sin(turn);
+      crowd.z[pair.second] = crowd.z[pair.first] + distance * up;
+      return reference.collide(crowd.agents(), pair);
     };
     double near = 0, far = 8;
     for (int halving = 0; halving < 48; ++halving) {

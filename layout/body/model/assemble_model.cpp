@@ -21,7 +21,7 @@ constexpr std::uint32_t none = 0xffffffff;
 class PieceMerger {
  public:
   PieceMerger(const SkinPieces& skin, const SphereChoice& choice, const TrainingPoses& poses)
-      : skin_(skin), poses_(poses), owner_(skin.nodes.size(), none) {
+      : poses_(poses), owner_(skin.nodes.size(), none) {
     const std::size_t spheres = choice.spheres.size();
     for (std::size_t pose = 0; pose < poses.size(); ++pose)
       for (const auto& sphere : choice.spheres) centres_.push_back(poses.centre(pose, sphere));
@@ -60,7 +60,6 @@ class PieceMerger {
     return true;
   }
 
-  const SkinPieces& skin_;
   const TrainingPoses& poses_;
   std::vector<std::uint32_t> owner_;  ///< by node
   std::vector<SpacePoint> centres_;   ///< by pose, then sphere
