@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <memory>
 #include <stdexcept>
-#include <vector>
 
 #include <bch/bodies.hpp>
 #include <bch/collide.hpp>
@@ -16,17 +15,6 @@
 
 namespace bch::bench {
 namespace {
-
-/// The scene's poses as bodies of spheres.
-LiveBodies posed(Scene& scene, std::uint32_t spheres) {
-  std::vector<std::uint32_t> model;
-  std::vector<Pose> poses;
-  for (const ShapeSource& source : scene.sources())
-    model.push_back(source.character), poses.emplace_back(source.at);
-  LiveBodies bodies(scene.models(spheres), model);
-  bodies.pose(poses);
-  return bodies;
-}
 
 Contender spheres_contender(const BodySet& bodies, const Workload& workload,
                             const Implementation& implementation) {
@@ -50,7 +38,7 @@ Contender spheres_contender(const BodySet& bodies, const Workload& workload,
 void add_spheres(Scene& scene) {
   for (const std::uint32_t spheres : {128u, 256u, 512u}) {
     const auto bodies =
-        once([&scene, spheres] { return std::make_shared<LiveBodies>(posed(scene, spheres)); });
+        once([&scene, spheres] { return std::make_shared<LiveBodies>(scene.live_bodies(spheres)); });
     for (const std::string_view name : {"crowd", "near_miss", "colliding"})
       for (const Implementation* implementation : supported_implementations())
         add(fmt::format("spheres/{}/{}/{}", spheres, name, implementation->name),

@@ -97,12 +97,7 @@ void BodySubjects::add_ragdolls_and_spheres(std::uint32_t most_spheres) {
 
 void BodySubjects::add_spheres(std::uint32_t spheres) {
   const std::vector<BodyModel>& models = scene_.models(spheres);
-  std::vector<std::uint32_t> model_of_body;
-  for (const ShapeSource& source : scene_.sources()) model_of_body.push_back(source.character);
-  LiveBodies& bodies = bodies_.emplace_back(models, model_of_body);
-  std::vector<Pose> poses;
-  for (const auto& joints : joints_) poses.emplace_back(WorldPose{joints});
-  bodies.pose(poses);
+  const LiveBodies& bodies = bodies_.emplace_back(scene_.live_bodies(spheres));
   Subject subject = subject_of(fmt::format("{} spheres", spheres), bodies.set());
   subject.bytes = static_cast<double>(bodies.set().bytes()) / bodies.set().body_count();
   const auto singles = std::make_shared<std::vector<LiveBodies>>();

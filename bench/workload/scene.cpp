@@ -71,6 +71,18 @@ const std::vector<BodyModel>& Scene::models(std::uint32_t spheres) {
   return models;
 }
 
+LiveBodies Scene::live_bodies(std::uint32_t spheres) {
+  std::vector<std::uint32_t> model_of_body;
+  std::vector<Pose> poses;
+  for (const ShapeSource& source : sources()) {
+    model_of_body.push_back(source.character);
+    poses.emplace_back(source.at);
+  }
+  LiveBodies bodies(models(spheres), model_of_body);
+  bodies.pose(poses);
+  return bodies;
+}
+
 const ShapeSet& Scene::set() {
   if (!set_) set_.emplace(shapes());
   return *set_;

@@ -53,6 +53,8 @@ class Scene {
   const std::vector<baselines::Body>& bodies();
   /// Returns models of so many spheres, one a character.
   const std::vector<BodyModel>& models(std::uint32_t spheres);
+  /// Returns the bodies of spheres of all sources.
+  LiveBodies live_bodies(std::uint32_t spheres);
   /// Returns a set of the finest level alone, with all that queries may ask.
   const ShapeSet& set();
   const baselines::Structure& structure(std::string_view kind);
