@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "layout/base/number_class.hpp"
+#include "layout/body/model/space_point.hpp"
 
 namespace bch::detail {
 namespace {
@@ -19,28 +20,9 @@ constexpr double grid_cell = 0.03;                                              
 constexpr double least_weight = 0.02;  ///< of a bone; smaller ones are dropped
 constexpr int most_shrinks = 40;
 
-struct Vec3d {
-  double x = 0, y = 0, z = 0;
-};
-Vec3d operator-(const Vec3d& a, const Vec3d& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-Vec3d operator+(const Vec3d& a, const Vec3d& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-Vec3d operator*(double s, const Vec3d& a) {
-  return {s * a.x, s * a.y, s * a.z};
-}
-double dot(const Vec3d& a, const Vec3d& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-Vec3d cross(const Vec3d& a, const Vec3d& b) {
+SpacePoint cross(const SpacePoint& a, const SpacePoint& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-Vec3d wide(const Vec3& a) {
-  return {double{a.x}, double{a.y}, double{a.z}};
-}
-
 using Weights = std::vector<std::pair<std::uint32_t, double>>;  ///< of bones, ascending
 
 /// Adds weights of bones, times a share.
@@ -56,7 +38,7 @@ void add(Weights& to, const Weights& weights, double share) {
 
 /// A point of the skin, its outward normal and the bones that move it.
 struct SkinPoint {
-  Vec3d at, normal;
+  SpacePoint at, normal;
   Weights weights;
 };
 
@@ -83,18 +65,18 @@ class SkinGrid {
   }
 
   /// Returns the point that is nearest to a centre, and nearer than a radius; `none` otherwise. Points at `not_at` do not count.
-  std::uint32_t nearest(const Vec3d& centre, double radius, const Vec3d& not_at) const {
+  std::uint32_t nearest(const SpacePoint& centre, double radius, const SpacePoint& not_at) const {
     std::uint32_t found = none;
     double least = radius * radius;
-    const GridCell first = clamped(cell_of(centre - Vec3d{radius, radius, radius}));
-    const GridCell last = clamped(cell_of(centre + Vec3d{radius, radius, radius}));
+    const GridCell first = clamped(cell_of(centre - SpacePoint{radius, radius, radius}));
+    const GridCell last = clamped(cell_of(centre + SpacePoint{radius, radius, radius}));
     for (std::int64_t x = first[0]; x <= last[0]; ++x)
       for (std::int64_t y = first[1]; y <= last[1]; ++y) {
         const std::size_t from = index({x, y, first[2]}), to = index({x, y, last[2]});
         for (std::size_t e = begin_[from]; e < begin_[to + 1]; ++e) {
-          const Vec3d& at = points_[entries_[e].second].at;
-          const double distance = dot(at - centre, at - centre);
-          if (distance >= least || dot(at - not_at, at - not_at) < 1e-10) continue;
+          const SpacePoint& at = points_[entries_[e].second].at;
+          const double distance = squared_distance(at, centre);
+          if (distance >= least || squared_distance(at, not_at) < 1e-10) continue;
           least = distance, found = entries_[e].second;
         }
       }
@@ -106,7 +88,7 @@ class SkinGrid {
  private:
   using GridCell = std::array<std::int64_t, 3>;
 
-  static GridCell cell_of(const Vec3d& at) {
+  static GridCell cell_of(const SpacePoint& at) {
     return {static_cast<std::int64_t>(std::floor(at.x / grid_cell)),
             static_cast<std::int64_t>(std::floor(at.y / grid_cell)),
             static_cast<std::int64_t>(std::floor(at.z / grid_cell))};
@@ -130,7 +112,7 @@ class SkinGrid {
 std::vector<SkinPoint> skin_points(const Character& character, const SkinPieces& skin,
                                    std::span<const Vec3> points) {
   std::vector<SkinPoint> all(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) all[i].at = wide(points[i]);
+  for (std::size_t i = 0; i < points.size(); ++i) all[i].at = space_point(points[i]);
   const std::size_t vertices = character.vertices.size();
   for (std::size_t v = 0; v < vertices; ++v)
     for (std::uint32_t i = character.influence_begin[v]; i < character.influence_begin[v + 1]; ++i)
@@ -138,9 +120,9 @@ std::vector<SkinPoint> skin_points(const Character& character, const SkinPieces&
   for (std::size_t i = 0; i < skin.cuts.size(); ++i)
     for (const std::uint32_t end : skin.cuts[i]) add(all[vertices + i].weights, all[end].weights, 0.5);
   double volume = 0;
-  std::vector<Vec3d> facing;
+  std::vector<SpacePoint> facing;
   for (const auto& [a, b, c] : skin.pieces) {
-    const Vec3d normal = cross(all[b].at - all[a].at, all[c].at - all[a].at);
+    const SpacePoint normal = cross(all[b].at - all[a].at, all[c].at - all[a].at);
     volume += dot(all[a].at, normal);
     facing.push_back(normal);
   }
@@ -164,10 +146,10 @@ std::vector<SkinPoint> skin_points(const Character& character, const SkinPieces&
 }
 
 /// Maps a point back through an affine map; false where the map has no inverse.
-bool map_back(const Affine3d& map, const Vec3d& to, Vec3& from) {
+bool map_back(const Affine3d& map, const SpacePoint& to, Vec3& from) {
   const auto& m = map.rows;
-  const Vec3d x{m[0][0], m[1][0], m[2][0]}, y{m[0][1], m[1][1], m[2][1]}, z{m[0][2], m[1][2], m[2][2]};
-  const Vec3d right = to - Vec3d{m[0][3], m[1][3], m[2][3]};
+  const SpacePoint x{m[0][0], m[1][0], m[2][0]}, y{m[0][1], m[1][1], m[2][1]}, z{m[0][2], m[1][2], m[2][2]};
+  const SpacePoint right = to - SpacePoint{m[0][3], m[1][3], m[2][3]};
   const double determinant = dot(x, cross(y, z));
   if (!(std::abs(determinant) > 1e-30)) return false;
   from = {static_cast<float>(dot(right, cross(y, z)) / determinant),
@@ -177,7 +159,7 @@ bool map_back(const Affine3d& map, const Vec3d& to, Vec3& from) {
 }
 
 /// Binds a centre to bones by the mean of two points' weights.
-std::vector<SphereInfluence> bind(const Vec3d& centre, const SkinPoint& p, const SkinPoint& q,
+std::vector<SphereInfluence> bind(const SpacePoint& centre, const SkinPoint& p, const SkinPoint& q,
                                   const Skinner& posed) {
   Weights weights;
   add(weights, p.weights, 0.5);
@@ -188,7 +170,7 @@ std::vector<SphereInfluence> bind(const Vec3d& centre, const SkinPoint& p, const
   std::erase_if(weights, [&](const auto& bone) { return bone.second < limit; });
   double sum = 0;
   for (const auto& bone : weights) sum += bone.second;
-  const Vec3d in_shape = centre + Vec3d{double{posed.middle().x}, double{posed.middle().y}, 0};
+  const SpacePoint in_shape = centre + SpacePoint{double{posed.middle().x}, double{posed.middle().y}, 0};
   std::vector<SphereInfluence> influences;
   for (const auto& [bone, weight] : weights) {
     const auto at =
@@ -213,7 +195,7 @@ std::vector<BodyCandidate> find_candidates(const Character& character, const Ski
     for (int i = 0; i < most_shrinks; ++i) {
       const std::uint32_t inside = grid.nearest(p.at - radius * p.normal, radius * (1 - 1e-6), p.at);
       if (inside == SkinGrid::none) break;
-      const Vec3d way = p.at - all[inside].at;
+      const SpacePoint way = p.at - all[inside].at;
       radius = dot(way, way) / (2 * dot(p.normal, way));
       touched = inside;
       if (radius < least_radius) break;

@@ -7,13 +7,10 @@
 #include <map>
 #include <utility>
 
+#include "layout/body/model/space_point.hpp"
+
 namespace bch::detail {
 namespace {
-
-double squared_distance(const Vec3& a, const Vec3& b) {
-  const double x = double{a.x} - double{b.x}, y = double{a.y} - double{b.y}, z = double{a.z} - double{b.z};
-  return x * x + y * y + z * z;
-}
 
 /// A triangle is halved so often at most, whatever its size: 2^12 pieces.
 constexpr std::uint32_t most_halvings = 12;
@@ -31,7 +28,8 @@ class Cutter {
     std::size_t longest = 0;
     double most = -1;
     for (std::size_t i = 0; i < 3; ++i) {
-      const double length = squared_distance(points_[corners[i]], points_[corners[(i + 1) % 3]]);
+      const double length =
+          squared_distance(space_point(points_[corners[i]]), space_point(points_[corners[(i + 1) % 3]]));
       if (length > most) longest = i, most = length;
     }
     if (most <= longest_ || halvings == most_halvings) {
@@ -56,8 +54,7 @@ class Cutter {
         middles_.try_emplace(ends, vertices_ + static_cast<std::uint32_t>(skin.cuts.size()));
     if (is_new) {
       skin.cuts.push_back({ends.first, ends.second});
-      const Vec3 &p = points_[ends.first], &q = points_[ends.second];
-      points_.push_back({0.5f * (p.x + q.x), 0.5f * (p.y + q.y), 0.5f * (p.z + q.z)});
+      points_.push_back(middle_of_ends(points_[ends.first], points_[ends.second]));
     }
     return found->second;
   }
@@ -80,10 +77,7 @@ std::vector<Vec3> place_points(std::span<const Vec3> vertices,
                                std::span<const std::array<std::uint32_t, 2>> cuts) {
   std::vector<Vec3> points(vertices.begin(), vertices.end());
   points.reserve(vertices.size() + cuts.size());
-  for (const auto [a, b] : cuts) {
-    const Vec3 &p = points[a], &q = points[b];
-    points.push_back({0.5f * (p.x + q.x), 0.5f * (p.y + q.y), 0.5f * (p.z + q.z)});
-  }
+  for (const auto [a, b] : cuts) points.push_back(middle_of_ends(points[a], points[b]));
   return points;
 }
 

@@ -40,6 +40,11 @@ struct SkinPieces {
 /// Halves the triangles of a character, by its vertices' positions in one pose, until no edge is longer than that, in metres.
 SkinPieces cut_skin(const Character& character, std::span<const Vec3> vertices, double longest_edge);
 
+/// Returns the middle of two points, rounded as everywhere: poses have to place a cut's point by the same operations.
+constexpr Vec3 middle_of_ends(const Vec3& a, const Vec3& b) {
+  return {0.5f * (a.x + b.x), 0.5f * (a.y + b.y), 0.5f * (a.z + b.z)};
+}
+
 /// Returns the positions of all points, given those of the vertices: a cut's is the rounded mean of its ends'.
 std::vector<Vec3> place_points(std::span<const Vec3> vertices,
                                std::span<const std::array<std::uint32_t, 2>> cuts);

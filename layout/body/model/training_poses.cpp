@@ -11,7 +11,7 @@ TrainingPoses::TrainingPoses(const Character& character, const SkinPieces& skin,
   for (const PoseTime& at : poses) {
     Posed& posed = poses_.emplace_back();
     for (const Vec3& p : place_points(skinner.pose(Pose(at)), skin.cuts))
-      posed.points.push_back({double{p.x}, double{p.y}, double{p.z}});
+      posed.points.push_back(space_point(p));
     posed.maps.resize(character.bones.size());
     for (std::size_t i = 0; i < skinner.bones().size(); ++i)
       posed.maps[skinner.bones()[i]] = skinner.bone_maps()[i];

@@ -12,19 +12,10 @@
 #include <bch/character.hpp>
 
 #include "layout/body/model/skin_pieces.hpp"
+#include "layout/body/model/space_point.hpp"
 #include "layout/character/skinning.hpp"
 
 namespace bch::detail {
-
-/// Represents a point of space in double.
-struct SpacePoint {
-  double x = 0, y = 0, z = 0;
-};
-
-inline double squared_distance(const SpacePoint& a, const SpacePoint& b) {
-  const double x = a.x - b.x, y = a.y - b.y, z = a.z - b.z;
-  return x * x + y * y + z * z;
-}
 
 /// Holds the skin of a character in poses in which spheres are chosen: where its points are, and where its bones take the centres of
 /// spheres.
