@@ -44,13 +44,13 @@ class LeafSearch {
   static constexpr std::uint32_t rows_at_once = 4;
 
   static std::uint32_t registers(const float* record) noexcept {
-    return (PlacedBodies::header(record).leaf_count + Simd::width - 1) / Simd::width;
+    return (header_of(record).leaf_count + Simd::width - 1) / Simd::width;
   }
 
   /// Adds to the bits of nodes those that reach the other body. No branch depends on a node.
   [[gnu::always_inline]] static void keep(const float* record, const Reach& reach, std::uint32_t registers,
                                           std::uint32_t* kept) noexcept {
-    const std::uint32_t stride = PlacedBodies::header(record).node_stride;
+    const std::uint32_t stride = header_of(record).node_stride;
     const float* node = record + record_nodes;
     const Float low(reach.low), high(reach.high);
     for (std::uint32_t i = 0; i < registers; ++i, node += Simd::width) {
@@ -76,7 +76,7 @@ class LeafSearch {
 
   /// Places the nodes of B that are left, side by side, with the margin.
   void place_nodes() noexcept {
-    const std::uint32_t stride = PlacedBodies::header(bodies_->b).node_stride;
+    const std::uint32_t stride = header_of(bodies_->b).node_stride;
     const float margin = bodies_->margin(), rise = bodies_->b_in_a.tz;
     for (std::uint32_t i = 0; i < size_b_; ++i) {
       const float* const node = bodies_->b + record_nodes + leaf_b_[i];
@@ -90,7 +90,7 @@ class LeafSearch {
 
   /// Compares rows begin .. end of A's nodes with B's, then the spheres of the leaves that may meet.
   bool compare(std::uint32_t begin, std::uint32_t end) noexcept {
-    const std::uint32_t stride = PlacedBodies::header(bodies_->a).node_stride;
+    const std::uint32_t stride = header_of(bodies_->a).node_stride;
     std::uint32_t size = 0;
     for (std::uint32_t row = begin; row < end; ++row) {
       const float* const node = bodies_->a + record_nodes + leaf_a_[row];
@@ -111,7 +111,7 @@ class LeafSearch {
   }
 
   static Balls leaf(const float* record, std::uint32_t leaf) noexcept {
-    const BodyHeader& header = PlacedBodies::header(record);
+    const BodyHeader& header = header_of(record);
     const std::size_t size = header.leaf_size;
     return {record + record_nodes + 5 * header.node_stride + 4 * size * leaf, size};
   }

@@ -9,17 +9,14 @@
 
 namespace bch::detail {
 
-/// Holds two bodies, and how the second lies in the first one's frame. (Functions are inlined for certain, so that instruction sets share none.)
+/// Holds two bodies, and how the second lies in the first one's frame. (Inlined for certain, so that instruction sets share no function.)
 struct PlacedBodies {
   const float *a, *b;  ///< records
   SpaceTransformOf<float> b_in_a;
 
-  [[gnu::always_inline]] static const BodyHeader& header(const float* record) noexcept {
-    return *reinterpret_cast<const BodyHeader*>(record);
-  }
   /// Returns how much more bounds have to reach, metres, so that none misses what the test of spheres accepts.
   [[gnu::always_inline]] float margin() const noexcept {
-    return static_cast<float>(rounding::bound_margin) * (header(a).reach + header(b).reach);
+    return static_cast<float>(rounding::bound_margin) * (header_of(a).reach + header_of(b).reach);
   }
 };
 

@@ -11,8 +11,6 @@
 
 namespace bch::detail {
 
-struct BodyLayout;
-
 /// Bodies are bounded in bands of height, metres above their own grounds: below the first plane, between the planes, above the last one.
 constexpr std::uint32_t body_bands = 3;
 constexpr float band_planes[body_bands - 1] = {0.5f, 1.0f};
@@ -47,19 +45,20 @@ constexpr std::uint32_t record_core = record_line;
 constexpr std::uint32_t record_supports = record_core + 4 * core_spheres;
 constexpr std::uint32_t record_nodes = record_supports + body_bands * support_stride;
 
+/// Returns the header of a record. (Inlined for certain, so that instruction sets share no function.)
+[[gnu::always_inline]] inline const BodyHeader& header_of(const float* record) noexcept {
+  return *reinterpret_cast<const BodyHeader*>(record);
+}
+
 /// Holds the records of all bodies as plain pointers: what kernels read. Valid while the set lives.
 struct BodySetView {
   ShapeSetView ground;  ///< of roots alone: the discs of the bodies, and their heights
   const float* records;
   const std::uint64_t* record_begin;  ///< per body, floats
-  const BodyLayout* const* layouts;   ///< per body
 
   /// Returns the record of a body. (Inlined for certain, so that instruction sets share no function.)
   [[gnu::always_inline]] const float* record(std::uint32_t body) const noexcept {
     return records + record_begin[body];
-  }
-  [[gnu::always_inline]] const BodyHeader& header(std::uint32_t body) const noexcept {
-    return *reinterpret_cast<const BodyHeader*>(record(body));
   }
 };
 

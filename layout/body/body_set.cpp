@@ -29,20 +29,27 @@ constexpr std::uint32_t only_depth = 0;
   throw std::invalid_argument("body set: body " + std::to_string(body) + ": " + what);
 }
 
+double reach_of(std::span<const Sphere> spheres) {
+  double reach = 0;
+  for (const Sphere& s : spheres) {
+    const double x = double{s.x}, y = double{s.y}, z = double{s.z};
+    reach = std::max(reach, std::sqrt(x * x + y * y + z * z) + double{s.radius});
+  }
+  return reach;
+}
+
 void require(std::span<const Sphere> spheres, std::size_t body) {
   if (spheres.empty() || spheres.size() > most_spheres)
     refuse(body, "expected 1 to " + std::to_string(most_spheres) + " spheres, found " +
                      std::to_string(spheres.size()));
-  double reach = 0;
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     const Sphere& s = spheres[i];
     if (!is_finite(s.x) || !is_finite(s.y) || !is_finite(s.z) || !is_finite(s.radius) || s.radius < 0)
       refuse(body, "expected finite spheres with radii of at least 0, found (" + shortest(s.x) + ", " +
                        shortest(s.y) + ", " + shortest(s.z) + ", radius " + shortest(s.radius) +
                        ") as sphere " + std::to_string(i));
-    const double x = double{s.x}, y = double{s.y}, z = double{s.z};
-    reach = std::max(reach, std::sqrt(x * x + y * y + z * z) + double{s.radius});
   }
+  const double reach = reach_of(spheres);
   if (!(reach >= rounding::smallest_reach && reach <= rounding::largest_reach))
     refuse(body, "expected a reach of 1e-6 to 1e6 m, found " + shortest(reach));
 }
@@ -52,11 +59,7 @@ void write_record(const BodyLayout& layout, std::span<const Sphere> spheres, flo
   const std::uint32_t slots = layout.slot_count();
   std::vector<float> fields(std::size_t{4} * slots);
   float* const x = fields.data();
-  double reach = 0;
-  for (const Sphere& s : spheres) {
-    const double at[] = {double{s.x}, double{s.y}, double{s.z}};
-    reach = std::max(reach, std::sqrt(at[0] * at[0] + at[1] * at[1] + at[2] * at[2]) + double{s.radius});
-  }
+  const double reach = reach_of(spheres);
   for (std::uint32_t slot = 0; slot < slots; ++slot) {
     const Sphere& s = spheres[layout.sphere_in_slot[std::min(slot, layout.sphere_count - 1)]];
     x[slot] = s.x, x[slots + slot] = s.y, x[2 * slots + slot] = s.z;
@@ -100,12 +103,11 @@ struct BodySet::State {
     view.ground.heights = heights.data();
     view.records = records.data();
     view.record_begin = record_begin.data();
-    view.layouts = layouts.data();
   }
 
   /// Takes over what the broad phase reads of a record.
   void publish(std::uint32_t body) noexcept {
-    const BodyHeader& header = view.header(body);
+    const BodyHeader& header = header_of(view.record(body));
     roots[body] = {header.x, header.y, header.radius, single_disc};
     heights[body] = {header.bottom, header.top};
   }

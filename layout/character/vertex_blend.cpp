@@ -126,6 +126,8 @@ bool position_is_finite(const Vec2& position) {
   return detail::is_finite(position.x) && detail::is_finite(position.y);
 }
 
+}  // namespace
+
 std::vector<PointInfluence> influences_of(const Character& character) {
   std::vector<PointInfluence> all;
   for (std::size_t v = 0; v < character.vertices.size(); ++v)
@@ -133,8 +135,6 @@ std::vector<PointInfluence> influences_of(const Character& character) {
       all.push_back({character.influences[i].bone, character.influences[i].weight, character.vertices[v]});
   return all;
 }
-
-}  // namespace
 
 VertexBlend::VertexBlend(const Character& character)
     : VertexBlend(character.influence_begin, influences_of(character)) {}

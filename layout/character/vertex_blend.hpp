@@ -24,6 +24,9 @@ struct PointInfluence {
   Vec3 at;
 };
 
+/// Returns those of a character's vertices: as many, in the same order, as Character::influences.
+std::vector<PointInfluence> influences_of(const Character& character);
+
 /// Represents the place of a point of space, in a register.
 struct alignas(16) SpaceRow {
   float x, y, z, unused;

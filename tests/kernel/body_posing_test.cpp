@@ -250,8 +250,12 @@ struct Crowd {
 std::uint64_t hash_of(const BodySet& set) {
   const detail::BodySetView& view = set.view();
   XXH64_hash_t hash = 0;
-  for (std::uint32_t i = 0; i < set.body_count(); ++i)
-    hash = XXH3_64bits_withSeed(view.record(i), view.layouts[i]->record_size() * sizeof(float), hash);
+  for (std::uint32_t i = 0; i < set.body_count(); ++i) {
+    const detail::BodyHeader& header = detail::header_of(view.record(i));
+    const std::size_t floats =
+        detail::record_nodes + 5 * header.node_stride + 4 * header.leaf_count * header.leaf_size;
+    hash = XXH3_64bits_withSeed(view.record(i), floats * sizeof(float), hash);
+  }
   return hash;
 }
 

@@ -21,19 +21,17 @@ constexpr std::uint32_t none = 0xffffffff;
 class PieceMerger {
  public:
   PieceMerger(const SkinPieces& skin, const SphereChoice& choice, const TrainingPoses& poses)
-      : poses_(poses), owner_(skin.nodes.size(), none) {
-    const std::size_t spheres = choice.spheres.size();
+      : poses_(poses), owner_(skin.nodes.size(), none), spheres_(choice.spheres.size()) {
     for (std::size_t pose = 0; pose < poses.size(); ++pose)
       for (const auto& sphere : choice.spheres) centres_.push_back(poses.centre(pose, sphere));
     squared_radii_.assign(centres_.size(), 0);
     for (std::size_t p = 0; p < skin.pieces.size(); ++p)
       for (const std::uint32_t corner : skin.pieces[p])
         for (std::size_t pose = 0; pose < poses.size(); ++pose) {
-          const std::size_t at = pose * spheres + choice.owner[p];
+          const std::size_t at = pose * spheres_ + choice.owner[p];
           squared_radii_[at] =
               std::max(squared_radii_[at], squared_distance(poses.points(pose)[corner], centres_[at]));
         }
-    spheres_ = spheres;
     for (std::size_t n = 0; n < skin.nodes.size(); ++n)
       if (skin.nodes[n].piece != SkinPieces::no_child) owner_[n] = choice.owner[skin.nodes[n].piece];
     // Children follow their parents.
@@ -42,6 +40,12 @@ class PieceMerger {
   }
 
   std::uint32_t owner(std::uint32_t node) const { return owner_[node]; }
+  /// Returns a sphere in a pose of the training.
+  Sphere sphere(std::size_t pose, std::uint32_t number) const {
+    const std::size_t at = pose * spheres_ + number;
+    return {static_cast<float>(centres_[at].x), static_cast<float>(centres_[at].y),
+            static_cast<float>(centres_[at].z), static_cast<float>(std::sqrt(squared_radii_[at]))};
+  }
 
  private:
   std::uint32_t owner_of_both(const SkinPieces::Node& node) const {
@@ -64,7 +68,7 @@ class PieceMerger {
   std::vector<std::uint32_t> owner_;  ///< by node
   std::vector<SpacePoint> centres_;   ///< by pose, then sphere
   std::vector<double> squared_radii_;
-  std::size_t spheres_ = 0;
+  std::size_t spheres_;
 };
 
 /// Collects the corners of each sphere, and the cuts that these need.
@@ -89,6 +93,7 @@ class SphereCorners {
     }
   }
 
+  bool has(std::size_t sphere) const { return !corners_[sphere].empty(); }
   /// Returns the corners of a sphere, as the model numbers points.
   std::vector<std::uint32_t> of(std::size_t sphere) const {
     std::vector<std::uint32_t> numbers;
@@ -125,24 +130,6 @@ class SphereCorners {
   std::vector<std::uint32_t> number_;  ///< of a cut's point in the model
 };
 
-/// Returns the spheres in a pose of the training.
-std::vector<Sphere> posed_spheres(const SphereChoice& choice, const TrainingPoses& poses, std::size_t pose,
-                                  const SkinPieces& skin) {
-  std::vector<Sphere> spheres;
-  std::vector<double> squared(choice.spheres.size(), 0);
-  std::vector<SpacePoint> centres;
-  for (const auto& sphere : choice.spheres) centres.push_back(poses.centre(pose, sphere));
-  for (std::size_t p = 0; p < skin.pieces.size(); ++p)
-    for (const std::uint32_t corner : skin.pieces[p]) {
-      double& most = squared[choice.owner[p]];
-      most = std::max(most, squared_distance(poses.points(pose)[corner], centres[choice.owner[p]]));
-    }
-  for (std::size_t s = 0; s < centres.size(); ++s)
-    spheres.push_back({static_cast<float>(centres[s].x), static_cast<float>(centres[s].y),
-                       static_cast<float>(centres[s].z), static_cast<float>(std::sqrt(squared[s]))});
-  return spheres;
-}
-
 }  // namespace
 
 BodyModel assemble_model(std::shared_ptr<const Character> character, const SkinPieces& skin,
@@ -151,12 +138,10 @@ BodyModel assemble_model(std::shared_ptr<const Character> character, const SkinP
   const SphereCorners corners(skin, character->vertices.size(), choice.spheres.size(), merged);
   std::vector<std::uint32_t> used;
   for (std::uint32_t s = 0; s < choice.spheres.size(); ++s)
-    if (!corners.of(s).empty()) used.push_back(s);
+    if (corners.has(s)) used.push_back(s);
   std::vector<std::vector<Sphere>> spheres(poses.size());
-  for (std::size_t pose = 0; pose < poses.size(); ++pose) {
-    const std::vector<Sphere> all = posed_spheres(choice, poses, pose, skin);
-    for (const std::uint32_t s : used) spheres[pose].push_back(all[s]);
-  }
+  for (std::size_t pose = 0; pose < poses.size(); ++pose)
+    for (const std::uint32_t s : used) spheres[pose].push_back(merged.sphere(pose, s));
 
   const BodyLayout layout = body_layout(spheres);
   for (auto& in_pose : spheres) {

@@ -24,31 +24,15 @@ using Float = Simd::Float;
 constexpr std::size_t together = 4;
 static_assert(Float::size == together);
 
-struct BlendedPoints {
-  std::vector<std::uint32_t> begin{0};
-  std::vector<PointInfluence> influences;
-
-  void end() { begin.push_back(static_cast<std::uint32_t>(influences.size())); }
-};
-
 /// Returns the vertices of a model's character, and the centres behind them.
 VertexBlend blend_of(const BodyModel& model) {
-  const Character& character = *model.character;
-  BlendedPoints points;
-  for (std::size_t v = 0; v < character.vertices.size(); ++v) {
-    for (std::uint32_t i = character.influence_begin[v]; i < character.influence_begin[v + 1]; ++i)
-      points.influences.push_back(
-          {character.influences[i].bone, character.influences[i].weight, character.vertices[v]});
-    points.end();
-  }
-  for (std::size_t s = 0; s < model.sphere_count(); ++s) {
-    for (std::uint32_t i = model.influence_begin[s]; i < model.influence_begin[s + 1]; ++i) {
-      const auto& [bone, weight, centre] = model.influences[i];
-      points.influences.push_back({bone, weight, centre});
-    }
-    points.end();
-  }
-  return {points.begin, points.influences};
+  std::vector<std::uint32_t> begin = model.character->influence_begin;
+  std::vector<PointInfluence> influences = influences_of(*model.character);
+  const std::uint32_t of_vertices = begin.back();
+  for (const auto& [bone, weight, centre] : model.influences) influences.push_back({bone, weight, centre});
+  for (std::size_t s = 1; s < model.influence_begin.size(); ++s)
+    begin.push_back(of_vertices + model.influence_begin[s]);
+  return {begin, influences};
 }
 
 Float half_way(const SpaceRow& a, const SpaceRow& b) {
