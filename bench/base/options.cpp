@@ -62,7 +62,7 @@ void require_absent(const CLI::App& command, const std::vector<const char*>& opt
 
 void require_unsettled(const CLI::App& command, const std::string& baked_file) {
   for (const char* option :
-       {"--clips", "--force-clips", "--up", "--scale", "--poses", "--threshold", "--slices", "--depths",
+       {"--clips", "--force-clips", "--up", "--scale", "--poses", "--threshold", "--depths",
         "--max-triangles", "--max-contours", "--max-nodes", "--max-seconds", "--max-memory"})
     if (command.get_option_no_throw(option) != nullptr && command.count(option) > 0)
       throw UsageError(
@@ -108,31 +108,7 @@ void ShapeOptions::add_to(CLI::App& command) {
       whole_between(1, 1'000'000));
   add("--threshold", threshold, "METRES", "Nodes with a smaller radius are not divided [0.01 m]",
       number_between(1e-4, 100));
-  add("--slices", slices, "LIST",
-      "Cut bodies at heights in metres, such as 0.4,1: an arm above a foot is no collision [whole]");
   add_limits_to(command);
-}
-
-std::vector<float> ShapeOptions::planes() const {
-  std::vector<float> planes;
-  for (std::size_t begin = 0; !slices.empty() && begin <= slices.size();) {
-    const std::size_t end = std::min(slices.find(',', begin), slices.size());
-    const std::string word = slices.substr(begin, end - begin);
-    const auto height = parse_number(word);
-    if (!height) throw UsageError(fmt::format("--slices: '{}' is not a number", word));
-    planes.push_back(static_cast<float>(*height));
-    begin = end + 1;
-  }
-  try {
-    validate(ShapeSetPlan{.slices = planes});
-  } catch (const std::invalid_argument& error) {
-    throw UsageError(fmt::format("--slices: {}", error.what()));
-  }
-  return planes;
-}
-
-ShapeSetPlan plan_for(const ShapeOptions& shapes, std::vector<std::uint32_t> depths) {
-  return {.depths = std::move(depths), .slices = shapes.planes()};
 }
 
 void ShapeOptions::add_limits_to(CLI::App& command) {

@@ -26,14 +26,11 @@ struct ShapeOptions {
   double scale = 0;  ///< 0: what the file says
   std::uint32_t poses = 100;
   double threshold = 0.01;
-  std::string slices;  ///< empty: bodies are whole
   CostLimits limits;
 
   void add_to(CLI::App& command);
   /// Adds the options of import_options() alone.
   void add_import_to(CLI::App& command);
-  /// Returns the planes at which bodies are cut. Errors: throws UsageError naming the value.
-  std::vector<float> planes() const;
   ImportOptions import_options() const;
   /// Returns all files that are read: these, and the clips' files.
   std::vector<std::string> inputs(std::vector<std::string> files) const;
@@ -56,9 +53,6 @@ struct AnswerOptions {
   std::vector<std::uint32_t> cut_depths() const;
   QueryOptions query_options() const;
 };
-
-/// Returns the plan of a set of such shapes.
-ShapeSetPlan plan_for(const ShapeOptions& shapes, std::vector<std::uint32_t> depths);
 
 /// Parses a depth: a number, or "all".
 /// Errors:  throws UsageError naming the option.

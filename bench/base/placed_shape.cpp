@@ -43,14 +43,6 @@ std::vector<PixelDisc> placed_cut(const Placement& placement, const Hierarchy& h
   return discs;
 }
 
-std::vector<const Shape*> parts_of(const Shape& shape) {
-  if (shape.slabs.empty()) return {&shape};
-  std::vector<const Shape*> parts;
-  for (const Shape& slab : shape.slabs)
-    if (!slab.hierarchy.nodes.empty()) parts.push_back(&slab);
-  return parts;
-}
-
 bool overlap(const PixelDisc& a, const PixelDisc& b) {
   const double x = a.centre.x - b.centre.x, y = a.centre.y - b.centre.y, r = a.radius + b.radius;
   return x * x + y * y <= r * r;

@@ -43,9 +43,6 @@ PixelDisc placed(const Placement& placement, Disc disc);
 std::vector<PixelDisc> placed_cut(const Placement& placement, const Hierarchy& hierarchy,
                                   std::uint32_t depth);
 
-/// Returns the parts of a body that have something: its slabs, or the one that it is.
-std::vector<const Shape*> parts_of(const Shape& shape);
-
 bool overlap(const PixelDisc& a, const PixelDisc& b);
 
 void draw_outline(Svg& svg, const Placement& placement, const Outline& outline);

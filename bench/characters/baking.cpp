@@ -85,7 +85,7 @@ ShapeOrigins origins_of(std::span<const LoadedCharacter> characters, std::span<c
     origins.names.push_back(file_name(character));
     for (const Clip& clip : character.character.clips) origins.names.push_back(clip.name);
   }
-  for (const auto& [character, at, whole] : sources) {
+  for (const auto& [character, at] : sources) {
     const std::uint32_t name = first_name[character];
     origins.origins.push_back(
         {name, at.clip == PoseTime::rest ? ShapeOrigin::rest_pose : name + 1 + at.clip, at.seconds});
@@ -97,10 +97,8 @@ BakedShapes bake_file(const std::string& file, std::span<const LoadedCharacter> 
                       std::span<const ShapeSource> sources, double threshold, const ShapeSetPlan& plan,
                       const CostLimits& limits, std::span<const ClipOf> animated) {
   OutputFile output(file);  // before hours of work
-  AnimateOptions how;
-  how.slices = plan.slices;
   BakedShapes baked{bake_shapes(characters, sources, threshold, plan, limits),
-                    origins_of(characters, sources, threshold), bake_clips(characters, animated, how)};
+                    origins_of(characters, sources, threshold), bake_clips(characters, animated)};
   const detail::BakedImage image(baked.set, baked.origins, baked.clips);
   for (const std::span<const std::byte> part : image.parts())
     output.write({reinterpret_cast<const char*>(part.data()), part.size()});

@@ -97,8 +97,7 @@ namespace {
 
 void require_contours(const LoadedCharacter& from, PoseTime at, const Shape& shape,
                       const CostLimits& limits) {
-  std::size_t contours = shape.outline.contours();
-  for (const Shape& slab : shape.slabs) contours += slab.outline.contours();
+  const std::size_t contours = shape.outline.contours();
   if (contours > limits.contours)
     reject(from, at,
            "its outline has " + beyond_limit(contours, "contours", limits.contours, "--max-contours"));
@@ -121,10 +120,10 @@ const Shape& ShapeMaker::make(const ShapeSource& source) {
       shaper->limit_nodes(limits_.nodes);
     }
     const auto begin = Clock::now();
-    const Shape& shape = shaper->make_outlines(source.at);
+    const Shape& shape = shaper->make_outline(source.at);
     require_contours(from, source.at, shape, limits_);
     const auto middle = Clock::now();
-    shaper->make_hierarchies();
+    shaper->make_hierarchy();
     timing_ = {seconds_between(begin, middle), seconds_between(middle, Clock::now())};
     return shape;
   } catch (const std::length_error& error) {

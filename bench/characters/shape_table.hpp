@@ -39,7 +39,7 @@ ShapeSource source_at(const LoadedCharacter& from, const std::string& clip, doub
 /// Returns the name of a pose's clip, "walk", or "rest pose".
 std::string clip_name(const LoadedCharacter& character, PoseTime at);
 
-/// Checks the number of a shape's contours, in all slabs, before hierarchies are made of them.
+/// Checks the number of a shape's contours before hierarchies are made of them.
 /// Errors:  throws InputError naming the character, clip and time, beyond the limit.
 void require_contours(const LoadedCharacter& from, PoseTime at, const Shape& shape, const CostLimits& limits);
 

@@ -43,16 +43,14 @@ struct Drawing {
   const AnimatedView& view;
   Svg& svg;
   const AnimatedShape shape;
-  const std::vector<AnimatedPart> parts;
+  const AnimatedChunk& chunk;  ///< that of the time
   Bounds at_time, at_all_times;
 
   Drawing(const AnimatedView& what, Svg& on)
-      : view(what), svg(on), shape(what.discs), parts(parts_of(what, shape)) {
-    for (const AnimatedPart& part : parts) {
-      for (const Disc& disc : part.chunk.keys) at_time.add(disc);
-      for (const AnimatedChunk& chunk : part.discs.chunks)
-        for (const Disc& disc : chunk.keys) at_all_times.add(disc);
-    }
+      : view(what), svg(on), shape(what.discs), chunk(chunk_at(what.discs, what.seconds)) {
+    for (const Disc& disc : chunk.keys) at_time.add(disc);
+    for (const AnimatedChunk& each : what.discs.chunks)
+      for (const Disc& disc : each.keys) at_all_times.add(disc);
   }
 };
 
@@ -69,24 +67,25 @@ void draw_ring(Svg& svg, const AnimatedShape& shape, const Placement& placement,
   svg.group({}, classes, [&] { draw_outline(svg, placement, rings); });
 }
 
-void draw_moment(const Drawing& drawing, const AnimatedPart& part, Pixel corner) {
+void draw_moment(const Drawing& drawing, Pixel corner) {
   Svg& svg = drawing.svg;
   const double seconds = drawing.view.seconds;
   const Placement placement = drawing.at_time.placement(corner, large);
   svg.rectangle(corner, large, large, "panel");
-  if (part.outline != nullptr) svg.group({}, "outline", [&] { draw_outline(svg, placement, *part.outline); });
-  svg.group({}, "discs", [&] { draw_discs_at(svg, part.shape, placement, seconds); });
-  draw_ring(svg, part.shape, placement, seconds, "ring");
+  if (drawing.view.outline != nullptr)
+    svg.group({}, "outline", [&] { draw_outline(svg, placement, *drawing.view.outline); });
+  svg.group({}, "discs", [&] { draw_discs_at(svg, drawing.shape, placement, seconds); });
+  draw_ring(svg, drawing.shape, placement, seconds, "ring");
   svg.text({corner.x + large / 2, corner.y + large + 20}, "label",
-           fmt::format("{}{:.3f} s: {}{}{}", part.heights.empty() ? "" : part.heights + ", ", seconds,
-                       text_of(part.chunk), part.chunk.ring_ends.empty() ? "" : " (dashed)",
-                       part.outline != nullptr ? " on the body" : ""));
+           fmt::format("{:.3f} s: {}{}{}", seconds, text_of(drawing.chunk),
+                       drawing.chunk.ring_ends.empty() ? "" : " (dashed)",
+                       drawing.view.outline != nullptr ? " on the body" : ""));
 }
 
 /// The rings of the chunk at its keys, and the way of each centre between them.
-void draw_ways(const Drawing& drawing, const AnimatedPart& part, Pixel corner) {
+void draw_ways(const Drawing& drawing, Pixel corner) {
   Svg& svg = drawing.svg;
-  const AnimatedChunk& chunk = part.chunk;
+  const AnimatedChunk& chunk = drawing.chunk;
   const Placement placement = drawing.at_time.placement(corner, large);
   svg.rectangle(corner, large, large, "panel");
   svg.open_group({}, "ways");
@@ -117,36 +116,34 @@ void draw_times(const Drawing& drawing, double top) {
     const Placement placement = drawing.at_all_times.placement(corner, small);
     drawing.svg.rectangle(corner, small, small, "panel");
     drawing.svg.group({}, "cover", [&] { draw_discs_at(drawing.svg, drawing.shape, placement, at); });
-    for (const AnimatedPart& part : drawing.parts) draw_ring(drawing.svg, part.shape, placement, at, "cover");
+    draw_ring(drawing.svg, drawing.shape, placement, at, "cover");
     drawing.svg.text({corner.x + small / 2, corner.y + small + 20}, "label", fmt::format("{:.2f} s", at));
   }
 }
 
-/// A bar for each chunk of a part, as high as it has discs, and its keys.
-void draw_chunks(const Drawing& drawing, const AnimatedPart& part, double scale, double bottom, double high) {
+/// A bar for each chunk, as high as it has discs, and its keys.
+void draw_chunks(const Drawing& drawing, double scale, double bottom, double high) {
   Svg& svg = drawing.svg;
   const double most = static_cast<double>(facts_of(drawing.view.discs).most);
   const auto at = [&](double time) { return border + (time - drawing.shape.begin()) * scale; };
-  for (const AnimatedChunk& chunk : part.discs.chunks) {
+  for (const AnimatedChunk& chunk : drawing.view.discs.chunks) {
     const double tall = high * static_cast<double>(chunk.disc_count) / most, left = at(chunk.times.front());
     svg.rectangle({left, bottom - tall}, at(chunk.times.back()) - left, tall,
-                  &chunk == &part.chunk ? "here" : "bar");
+                  &chunk == &drawing.chunk ? "here" : "bar");
   }
   svg.group({}, "keys", [&] {
-    for (const AnimatedChunk& chunk : part.discs.chunks)
+    for (const AnimatedChunk& chunk : drawing.view.discs.chunks)
       for (const double time : chunk.times) svg.line({at(time), bottom}, {at(time), bottom + tick});
   });
 }
 
-/// The chunks of all parts along the time.
+/// The chunks along the time.
 void draw_timeline(const Drawing& drawing, double top) {
   Svg& svg = drawing.svg;
   const double begin = drawing.shape.begin(), seconds = drawing.shape.end() - begin;
   const double scale = (width - 2 * border) / seconds, now = border + (drawing.view.seconds - begin) * scale;
-  const double high = bars / static_cast<double>(drawing.parts.size());
   svg.open_group("timeline");
-  for (std::size_t i = 0; i < drawing.parts.size(); ++i)
-    draw_chunks(drawing, drawing.parts[i], scale, top + static_cast<double>(i + 1) * high, high - tick - 2);
+  draw_chunks(drawing, scale, top + bars, bars - tick - 2);
   svg.group({}, "now", [&] { svg.line({now, top - 6}, {now, top + bars + tick}); });
   for (std::size_t i = 0; i <= 4; ++i) {
     const double time = begin + seconds * static_cast<double>(i) / 4;
@@ -160,19 +157,15 @@ void draw_timeline(const Drawing& drawing, double top) {
 }  // namespace
 
 std::string draw_animated(const AnimatedView& view) {
-  const std::size_t parts = std::max<std::size_t>(view.discs.slabs.size(), 1);
-  const double second = head + static_cast<double>(parts) * row, third = second + small + label + 14;
+  const double second = head + row, third = second + small + label + 14;
   const std::string title = fmt::format("{}, {} as moving discs", view.character, view.clip);
   Svg svg(width, third + bars + below, title, css);
   const Drawing drawing(view, svg);
   svg.text({border, 38}, "title", title);
   svg.text({border, 62}, "caption",
            text_of(facts_of(view.discs)) + ". At the bottom: how many discs each chunk has, and its keys.");
-  for (std::size_t i = 0; i < parts; ++i) {
-    const double top = head + static_cast<double>(i) * row;
-    draw_moment(drawing, drawing.parts[i], {border, top});
-    draw_ways(drawing, drawing.parts[i], {border + large + gap, top});
-  }
+  draw_moment(drawing, {border, head});
+  draw_ways(drawing, {border + large + gap, head});
   draw_times(drawing, second);
   draw_timeline(drawing, third);
   return std::move(svg).finish();

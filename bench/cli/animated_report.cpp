@@ -23,15 +23,8 @@ std::size_t baked_bytes(const AnimatedDiscs& discs) {
   const BakedClip clip{0, ShapeOrigin::rest_pose, discs};
   const detail::baked::PackedClips packed({&clip, 1}, 1);
   const detail::baked::ClipArrays arrays = packed.arrays();
-  return arrays.clips.size_bytes() + arrays.clip_planes.size_bytes() + arrays.slab_chunks.size_bytes() +
-         arrays.chunks.size_bytes() + arrays.key_times.size_bytes() + arrays.ring_ends.size_bytes() +
-         arrays.disc_steps.size_bytes() + arrays.disc_floats.size_bytes();
-}
-
-const AnimatedChunk& chunk_at(const AnimatedDiscs& discs, double seconds) {
-  std::size_t i = discs.chunks.size() - 1;
-  while (i > 0 && seconds < discs.chunks[i].times.front()) --i;
-  return discs.chunks[i];
+  return arrays.clips.size_bytes() + arrays.chunks.size_bytes() + arrays.key_times.size_bytes() +
+         arrays.ring_ends.size_bytes() + arrays.disc_steps.size_bytes() + arrays.disc_floats.size_bytes();
 }
 
 Json discs_json(const std::vector<Disc>& discs) {
@@ -42,27 +35,25 @@ Json discs_json(const std::vector<Disc>& discs) {
 
 }  // namespace
 
-std::span<const AnimatedDiscs> slabs_or_whole(const AnimatedDiscs& discs) {
-  return discs.slabs.empty() ? std::span(&discs, 1) : std::span(discs.slabs);
+const AnimatedChunk& chunk_at(const AnimatedDiscs& discs, double seconds) {
+  std::size_t i = discs.chunks.size() - 1;
+  while (i > 0 && seconds < discs.chunks[i].times.front()) --i;
+  return discs.chunks[i];
 }
 
 AnimatedFacts facts_of(const AnimatedDiscs& discs) {
-  const std::span<const AnimatedDiscs> parts = slabs_or_whole(discs);
-  const std::vector<AnimatedChunk>& chunks = parts.front().chunks;
+  const std::vector<AnimatedChunk>& chunks = discs.chunks;
   AnimatedFacts facts;
   facts.seconds = chunks.back().times.back() - chunks.front().times.front();
   facts.loops = discs.loops;
-  facts.slabs = discs.slabs.size();
   facts.fewest = chunks.front().disc_count;
   std::size_t all = 0;
-  for (const AnimatedDiscs& part : parts) {
-    facts.chunks += part.chunks.size();
-    for (const AnimatedChunk& chunk : part.chunks) {
-      const std::size_t count = chunk.disc_count;
-      facts.keys += chunk.times.size();
-      facts.fewest = std::min(facts.fewest, count), facts.most = std::max(facts.most, count);
-      all += count;
-    }
+  facts.chunks = chunks.size();
+  for (const AnimatedChunk& chunk : chunks) {
+    const std::size_t count = chunk.disc_count;
+    facts.keys += chunk.times.size();
+    facts.fewest = std::min(facts.fewest, count), facts.most = std::max(facts.most, count);
+    all += count;
   }
   facts.mean = static_cast<double>(all) / static_cast<double>(facts.chunks);
   facts.bytes = baked_bytes(discs);
@@ -73,30 +64,14 @@ std::string text_of(const AnimatedFacts& facts) {
   const std::string discs = facts.fewest == facts.most
                                 ? counted(facts.most, "disc")
                                 : fmt::format("{} to {} discs", facts.fewest, facts.most);
-  return fmt::format("{:.2f} s{}{}, {}, {}, {:.1f} kB", facts.seconds, facts.loops ? ", loops" : "",
-                     facts.slabs > 0 ? ", " + counted(facts.slabs, "slab") : "",
+  return fmt::format("{:.2f} s{}, {}, {}, {:.1f} kB", facts.seconds, facts.loops ? ", loops" : "",
                      counted(facts.chunks, "chunk"), discs, static_cast<double>(facts.bytes) / 1e3);
 }
 
 Json json_of(const AnimatedFacts& facts) {
-  return {{"seconds", facts.seconds}, {"loops", facts.loops},     {"slabs", facts.slabs},
-          {"chunks", facts.chunks},   {"keys", facts.keys},       {"fewest_discs", facts.fewest},
-          {"most_discs", facts.most}, {"mean_discs", facts.mean}, {"bytes", facts.bytes}};
-}
-
-std::vector<AnimatedPart> parts_of(const AnimatedView& view, const AnimatedShape& shape) {
-  const AnimatedDiscs& all = view.discs;
-  if (all.slabs.empty())
-    return {
-        {all, shape, chunk_at(all, view.seconds), view.body != nullptr ? &view.body->outline : nullptr, {}}};
-  std::vector<AnimatedPart> parts;
-  for (std::size_t i = all.slabs.size(); i-- > 0;) {
-    const Heights heights = detail::heights_of_slab(all.heights, all.slices, i);
-    parts.push_back({all.slabs[i], shape.slabs()[i], chunk_at(all.slabs[i], view.seconds),
-                     view.body != nullptr ? &view.body->slabs[i].outline : nullptr,
-                     heights.bottom <= heights.top ? text_of(heights) : fmt::format("slab {}", i)});
-  }
-  return parts;
+  return {{"seconds", facts.seconds}, {"loops", facts.loops},         {"chunks", facts.chunks},
+          {"keys", facts.keys},       {"fewest_discs", facts.fewest}, {"most_discs", facts.most},
+          {"mean_discs", facts.mean}, {"bytes", facts.bytes}};
 }
 
 std::string text_of(const AnimatedChunk& chunk) {
@@ -114,34 +89,18 @@ std::string text_of(const AnimatedView& view) {
               fmt::format("{} to {} a chunk, {:.1f} in the mean", facts.fewest, facts.most, facts.mean));
   out += fact("  baked", fmt::format("{:.1f} kB, {:.1f} kB a second", static_cast<double>(facts.bytes) / 1e3,
                                      static_cast<double>(facts.bytes) / 1e3 / facts.seconds));
-  const AnimatedShape shape(view.discs);
-  std::string time = fmt::format("  {:.2f} s", view.seconds);
-  for (const AnimatedPart& part : parts_of(view, shape)) {
-    out += fact(time, fmt::format("{}{}, keys at {:.3f} s", part.heights.empty() ? "" : part.heights + ": ",
-                                  text_of(part.chunk), fmt::join(part.chunk.times, ", ")));
-    time.clear();
-  }
-  return out;
+  const AnimatedChunk& chunk = chunk_at(view.discs, view.seconds);
+  return out + fact(fmt::format("  {:.2f} s", view.seconds),
+                    fmt::format("{}, keys at {:.3f} s", text_of(chunk), fmt::join(chunk.times, ", ")));
 }
 
 Json json_of(const AnimatedView& view) {
-  const AnimatedShape shape(view.discs);
-  Json parts = Json::array();
-  for (const AnimatedPart& part : parts_of(view, shape)) {
-    Json json = Json::object();
-    if (!part.heights.empty()) json["heights"] = part.heights;
-    for (const AnimatedChunk& chunk : part.discs.chunks) json["key_times"].push_back(chunk.times);
-    json["at"] = {{"seconds", view.seconds},
-                  {"ring_ends", part.chunk.ring_ends},
-                  {"discs", discs_json(part.shape.discs(view.seconds))}};
-    parts.push_back(std::move(json));
-  }
   Json json{{"clip", view.clip}};
   json.update(json_of(facts_of(view.discs)));
-  if (view.discs.slabs.empty())
-    json.update(parts.front());
-  else
-    json["parts"] = std::move(parts);
+  for (const AnimatedChunk& chunk : view.discs.chunks) json["key_times"].push_back(chunk.times);
+  json["at"] = {{"seconds", view.seconds},
+                {"ring_ends", chunk_at(view.discs, view.seconds).ring_ends},
+                {"discs", discs_json(AnimatedShape(view.discs).discs(view.seconds))}};
   return json;
 }
 

@@ -39,8 +39,7 @@ void run_bake(const BakeOptions& options) {
   if (!is_baked(options.output))
     throw UsageError(
         fmt::format("--output: '{}' does not end in .bch, by which baked files are known", options.output));
-  ShapeSetPlan plan = plan_for(options.shapes, options.answer.cut_depths());
-  plan.heights = options.heights;
+  const ShapeSetPlan plan{.depths = options.answer.cut_depths(), .heights = options.heights};
   require_outputs({{"--output", options.output}}, options.shapes.inputs(options.characters));
   const CostLimits& limits = options.shapes.limits;
   // Before there are threads: see import_in_child().
@@ -72,8 +71,7 @@ Example: bch bake man.glb woman.glb --rate 30 --depths 0,all -o people.bch)");
   add("--rate", options->rate, "N", "N poses per second of every clip, instead of --poses",
       number_between(1e-3, 1e4))
       ->excludes("--poses");
-  command.add_flag("--heights", options->heights,
-                   "Keep the heights of bodies, which agents with a z need; --slices always keeps them");
+  command.add_flag("--heights", options->heights, "Keep the heights of bodies, which agents with a z need");
   add("--animated", options->animated, "CLIP",
       "Also keep the clip of this name, or all, as moving discs for every time (repeatable)")
       ->allow_extra_args(false);

@@ -46,13 +46,9 @@ std::string clips_text(const ShapeOrigins& origins, std::uint32_t character) {
   return text;
 }
 
-/// The radius of a shape's root disc, of a body in slabs the largest.
+/// The radius of a shape's root disc.
 float root_radius(const ShapeSet& set, std::uint32_t shape) {
-  float largest = 0;
-  detail::visit_parts(set.view(), shape, [&](std::uint32_t part, std::uint32_t) {
-    largest = std::max(largest, set.arrays().roots[std::size_t{part} * set.level_count()].radius);
-  });
-  return largest;
+  return set.arrays().roots[std::size_t{shape} * set.level_count()].radius;
 }
 
 }  // namespace
@@ -76,20 +72,6 @@ std::string clip_name(const ShapeOrigins& origins, const BakedClip& clip) {
   return clip.clip == ShapeOrigin::rest_pose ? std::string() : origins.names[clip.clip];
 }
 
-std::uint32_t disc_count(const ShapeSet& set, std::uint32_t shape, std::uint32_t level) {
-  return set.slab_begin(shape, level).back();
-}
-
-std::string slices_text(const ShapeSet& set) {
-  return fmt::format("{} slabs, cut at {} m", set.slab_count(), fmt::join(set.slices(), ", "));
-}
-
-Json slices_json(const ShapeSet& set) {
-  Json planes = Json::array();
-  for (const float plane : set.slices()) planes.push_back(shortest(plane));
-  return planes;
-}
-
 std::string text_of(const std::string& file, const BakedShapes& baked) {
   const ShapeSet& set = baked.set;
   std::string out = printable_line(file) + "\n";
@@ -98,8 +80,7 @@ std::string text_of(const std::string& file, const BakedShapes& baked) {
                                       static_cast<double>(set.bytes()) / 1e3 /
                                           std::max(1.0, double{1} * set.shape_count())));
   out += fact("  depths", depths_text(set));
-  if (!set.slices().empty()) out += fact("  slices", slices_text(set));
-  if (set.has_heights() && set.slices().empty()) out += fact("  heights", "kept: agents may have a z");
+  if (set.has_heights()) out += fact("  heights", "kept: agents may have a z");
   out += fact("  threshold", fmt::format("{:g} mm", baked.origins.threshold * 1e3));
   out += fact("  leaves", set.exact_leaves() ? "segments, discs" : "discs");
   std::map<std::uint32_t, bool> seen;
@@ -132,7 +113,7 @@ std::string table_text(const BakedShapes& baked) {
     out += fmt::format("{:>6}  {:<{}}  {:<{}}  {:>7.2f} s  {:>6.3f} m  {:>6}\n", s,
                        printable_line(origins.names[origins.origins[s].character]), widest,
                        printable_line(clip_of(origins, s)), widest, origins.origins[s].seconds,
-                       root_radius(set, s), disc_count(set, s, set.level_count() - 1));
+                       root_radius(set, s), set.discs(s, set.level_count() - 1).size());
   return out;
 }
 
@@ -141,7 +122,6 @@ Json json_of(const std::string& file, const BakedShapes& baked) {
   Json json{{"source", file}, {"shape_count", set.shape_count()}, {"bytes", set.bytes()}};
   for (const std::uint32_t depth : set.depths()) json["depths"].push_back(depth_name(depth));
   json["threshold_m"] = shortest(static_cast<float>(origins.threshold));
-  json["slices_m"] = slices_json(set);
   json["heights"] = set.has_heights();
   json["outlines"] = set.plan().outlines;
   json["exact_leaves"] = set.exact_leaves();
@@ -154,7 +134,7 @@ Json json_of(const std::string& file, const BakedShapes& baked) {
                               {"clip", rest ? Json(nullptr) : Json(origins.names[origin.clip])},
                               {"seconds", rest ? Json(nullptr) : Json(shortest(origin.seconds))},
                               {"root_radius_m", shortest(root_radius(set, s))},
-                              {"discs", disc_count(set, s, set.level_count() - 1)}});
+                              {"discs", set.discs(s, set.level_count() - 1).size()}});
   }
   json["animated"] = Json::array();
   for (const BakedClip& clip : clips) {

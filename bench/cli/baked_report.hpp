@@ -32,11 +32,4 @@ nlohmann::ordered_json json_of(const std::string& file, const BakedShapes& baked
 /// Returns the name of a clip of a baked file; empty where it has none.
 std::string clip_name(const ShapeOrigins& origins, const BakedClip& clip);
 
-/// Describes the planes that cut a set's bodies, for people and as JSON.
-std::string slices_text(const ShapeSet& set);
-nlohmann::ordered_json slices_json(const ShapeSet& set);
-
-/// Returns the number of discs of a shape's cut.
-std::uint32_t disc_count(const ShapeSet& set, std::uint32_t shape, std::uint32_t level);
-
 }  // namespace bch::cli

@@ -44,7 +44,7 @@ void answer_level(const ShapeSet& set, const Agents& agents, std::span<const Pai
 
 double mean_discs(const ShapeSet& set, std::uint32_t level) {
   std::size_t discs = 0;
-  for (std::uint32_t s = 0; s < set.shape_count(); ++s) discs += disc_count(set, s, level);
+  for (std::uint32_t s = 0; s < set.shape_count(); ++s) discs += set.discs(s, level).size();
   return static_cast<double>(discs) / static_cast<double>(set.shape_count());
 }
 

@@ -76,10 +76,8 @@ void run_crowd_of_characters(const CrowdOptions& options) {
   const Threads threads(options.answer.threads);
   const auto sources = list_shapes(characters, options.shapes.poses);
   std::optional<CostGuard> guard(std::in_place, limits, characters, sources.size());
-  ShapeSetPlan plan = plan_for(options.shapes, depths);
-  const BuiltShapes built =
-      build_shapes(characters, sources, options.shapes.threshold, {.slices = plan.slices}, limits);
-  const ShapeSet set(built.shapes, plan);
+  const BuiltShapes built = build_shapes(characters, sources, options.shapes.threshold, {}, limits);
+  const ShapeSet set(built.shapes, {.depths = depths});
   guard.reset();
   run_crowd(options, characters, built, options.shapes.threshold, set, level, threads.count);
 }

@@ -65,10 +65,8 @@ std::string caption_of(const CrowdPicture& picture, const Window& window) {
                                ? fmt::format("All {:.1f} m × {:.1f} m", side, side)
                                : fmt::format("The middle {:.1f} m × {:.1f} m of {:.1f} m × {:.1f} m",
                                              window.width, window.height, side, side);
-  const std::size_t slabs = picture.shapes.front().slabs.size();
-  return fmt::format("{}, seen from above. Discs and collisions at depth {}{}.", part,
-                     depth_name(picture.answers.levels[picture.level].depth),
-                     slabs > 0 ? fmt::format(", slab by slab of {}", slabs) : "");
+  return fmt::format("{}, seen from above. Discs and collisions at depth {}.", part,
+                     depth_name(picture.answers.levels[picture.level].depth));
 }
 
 struct DrawnAgent {
@@ -77,25 +75,8 @@ struct DrawnAgent {
   State state = is_free;
   bool is_partner = false;  ///< collides, and its single cylinder overlaps that of a cleared agent
   std::vector<PixelDisc> discs = {};
-  std::vector<std::size_t> slab = {};  ///< per disc
-  std::vector<bool> overlaps = {};     ///< per disc
-
-  void place_discs(std::uint32_t depth) {
-    for (std::size_t i = 0; i < std::max<std::size_t>(1, shape->slabs.size()); ++i) {
-      const Hierarchy& hierarchy = shape->slabs.empty() ? shape->hierarchy : shape->slabs[i].hierarchy;
-      if (hierarchy.nodes.empty()) continue;
-      const std::vector<PixelDisc> of_slab = placed_cut(placement, hierarchy, depth);
-      discs.insert(discs.end(), of_slab.begin(), of_slab.end());
-      slab.resize(discs.size(), i);
-    }
-  }
+  std::vector<bool> overlaps = {};  ///< per disc
 };
-
-double reach_of(const Shape& shape) {
-  double reach = 0;
-  for (const Shape* part : parts_of(shape)) reach = std::max(reach, part->hierarchy.reach);
-  return reach;
-}
 
 class Scene {
  public:
@@ -126,7 +107,7 @@ void Scene::add_visible_agents(const CrowdPicture& picture) {
   drawn_index_.assign(crowd.size(), unseen);
   for (std::uint32_t i = 0; i < crowd.size(); ++i) {
     const Shape& shape = picture.shapes[crowd.shape[i]];
-    const double reach = 2 * reach_of(shape);
+    const double reach = 2 * shape.hierarchy.reach;
     const double x = crowd.x[i] - window.x, y = crowd.y[i] - window.y;
     if (x < -reach || y < -reach || x > window.width + reach || y > window.height + reach) continue;
     DrawnAgent agent{&shape,
@@ -134,7 +115,7 @@ void Scene::add_visible_agents(const CrowdPicture& picture) {
                       std::cos(crowd.heading[i]),
                       std::sin(crowd.heading[i]),
                       window.scale()}};
-    agent.place_discs(picture.answers.levels[picture.level].depth);
+    agent.discs = placed_cut(agent.placement, shape.hierarchy, picture.answers.levels[picture.level].depth);
     agent.overlaps.resize(agent.discs.size());
     drawn_index_[i] = static_cast<std::uint32_t>(agents_.size());
     agents_.push_back(std::move(agent));
@@ -157,8 +138,7 @@ void Scene::colour_by_answers(const CrowdPicture& picture) {
     DrawnAgent &a = agents_[drawn_index_[first]], &b = agents_[drawn_index_[second]];
     for (std::size_t i = 0; i < a.discs.size(); ++i)
       for (std::size_t j = 0; j < b.discs.size(); ++j)
-        if (a.slab[i] == b.slab[j] && overlap(a.discs[i], b.discs[j]))
-          a.overlaps[i] = true, b.overlaps[j] = true;
+        if (overlap(a.discs[i], b.discs[j])) a.overlaps[i] = true, b.overlaps[j] = true;
   }
 }
 

@@ -26,7 +26,7 @@ double bytes_per_shape(const CrowdRun& run) {
   return static_cast<double>(run.set.bytes()) / static_cast<double>(run.set.shape_count());
 }
 
-/// Part of the collisions at depth 0 that a level clears: of single cylinders, one for each slab.
+/// Part of the collisions at depth 0 that a level clears: of single cylinders.
 double share_cleared(const CrowdRun& run, const LevelAnswers& level) {
   const std::uint64_t single = run.answers.levels.front().hit_count;
   return single == 0 ? 0 : static_cast<double>(level.cleared) / static_cast<double>(single);
@@ -43,7 +43,6 @@ std::string facts(const CrowdRun& run) {
          fact("shapes", fmt::format("{} in contour hierarchies down to {:g} mm, {:.1f} kB each",
                                     counted(run.set.shape_count(), "pose"), run.threshold * 1e3,
                                     bytes_per_shape(run) / 1e3)) +
-         (run.set.slices().empty() ? std::string() : fact("slices", slices_text(run.set))) +
          (baked ? std::string()
                 : fact("build", fmt::format("{} a shape and thread: outline {}, hierarchy {}",
                                             time_text(outline + hierarchy), time_text(outline),
@@ -72,11 +71,8 @@ std::string conclusion(const CrowdRun& run) {
   if (finest.depth == 0 || run.answers.levels.front().hit_count == 0) return {};
   const std::string which =
       finest.depth == all_depths ? "The full hierarchy" : fmt::format("Depth {}", finest.depth);
-  const std::string of =
-      run.set.slices().empty()
-          ? "the single cylinder's collisions"
-          : fmt::format("the collisions of a cylinder for each of the {} slabs", run.set.slices().size() + 1);
-  return fmt::format("{} clears {:.1f} % of {}.\n", which, 100 * share_cleared(run, finest), of);
+  return fmt::format("{} clears {:.1f} % of the single cylinder's collisions.\n", which,
+                     100 * share_cleared(run, finest));
 }
 
 /// A baked file has settled what concerns shapes.
@@ -92,7 +88,6 @@ nlohmann::ordered_json options_json(const CrowdRun& run) {
   json["density_per_m2"] = o.density;
   json["seed"] = o.seed;
   if (!run.characters.empty()) json["depths"] = o.answer.depths;
-  if (!run.set.slices().empty()) json["slices_m"] = slices_json(run.set);
   json["leaves"] = leaves_text(run);
   return json;
 }

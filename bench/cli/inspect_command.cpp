@@ -58,13 +58,12 @@ ShapeSource at_index(const LoadedCharacter& from, std::span<const ShapeSource> s
 void inspect_shape(const InspectOptions& options, const LoadedCharacter& from, const ShapeSource& source) {
   const CostLimits& limits = options.shapes.limits;
   const CostGuard guard(limits, {&from, 1}, 1);
-  const BuiltShapes built = build_shapes({&from, 1}, {&source, 1}, options.shapes.threshold,
-                                         {.slices = options.shapes.planes()}, limits);
-  const std::size_t nodes = nodes_of(built.shapes.front());
+  const BuiltShapes built = build_shapes({&from, 1}, {&source, 1}, options.shapes.threshold, {}, limits);
+  const std::size_t nodes = built.shapes.front().hierarchy.nodes.size();
   if (!options.svg.empty() && nodes > limits.drawn_nodes)
     throw InputError(fmt::format("{}: --svg would draw {}", from.source,
                                  beyond_limit(nodes, "nodes", limits.drawn_nodes, "--max-drawn-nodes")));
-  const ShapeFacts facts = examine(built.shapes.front(), source, options.shape, options.shapes.planes());
+  const ShapeFacts facts = examine(built.shapes.front(), source, options.shape);
   write_json(options.json, {{"character", json_of(from)}, {"shape", json_of(from, facts)}});
   if (!options.svg.empty()) write_file(options.svg, draw_shape(from, facts));
   write_standard_output(text_of(from) + text_of(from, facts));
@@ -82,20 +81,17 @@ void inspect_animated(const InspectOptions& options, const LoadedCharacter& from
   const CostLimits& limits = options.shapes.limits;
   const Clip& clip = from.character.clips[source.at.clip];
   const CostGuard guard(limits, {&from, 1}, shapes_in_time(static_cast<double>(clip.seconds)));
-  const std::vector<float> planes = options.shapes.planes();
-  const BuiltShapes built =
-      build_shapes({&from, 1}, {&source, 1}, options.shapes.threshold, {.slices = planes}, limits);
-  const AnimatedDiscs discs = animate_clip(from.character, from.source, source.at.clip, {.slices = planes});
+  const BuiltShapes built = build_shapes({&from, 1}, {&source, 1}, options.shapes.threshold, {}, limits);
+  const AnimatedDiscs discs = animate_clip(from.character, from.source, source.at.clip);
   show(options, text_of(from), {"character", json_of(from)},
-       {from.character.name, clip.name, discs, *options.time, &built.shapes.front()});
+       {from.character.name, clip.name, discs, *options.time, &built.shapes.front().outline});
 }
 
 void inspect_table(const InspectOptions& options, const LoadedCharacter& from,
                    std::span<const ShapeSource> sources) {
   const CostLimits& limits = options.shapes.limits;
   const CostGuard guard(limits, {&from, 1}, sources.size());
-  const BuiltShapes built = build_shapes({&from, 1}, sources, options.shapes.threshold,
-                                         {.slices = options.shapes.planes()}, limits);
+  const BuiltShapes built = build_shapes({&from, 1}, sources, options.shapes.threshold, {}, limits);
   const ShapeTable table{sources, built.shapes};
   write_json(options.json, {{"character", json_of(from)}, {"shapes", json_of(from, table)}});
   write_standard_output(text_of(from) + text_of(from, table));
@@ -123,7 +119,7 @@ void inspect_baked_clip(const InspectOptions& options) {
   if (options.verify) require_verified(options.character, baked.set);
   for (const BakedClip& clip : baked.clips) {
     if (clip_name(baked.origins, clip) != *options.clip) continue;
-    const std::vector<AnimatedChunk>& chunks = slabs_or_whole(clip.discs).front().chunks;
+    const std::vector<AnimatedChunk>& chunks = clip.discs.chunks;
     const double begin = chunks.front().times.front(), end = chunks.back().times.back();
     if (!(*options.time >= begin && *options.time <= end))
       throw InputError(fmt::format("{}: clip '{}' is from {} to {} s and has no time {} s", options.character,
@@ -172,17 +168,15 @@ Example: bch inspect default:male --clip walk --time 1.5 --svg walk.svg)");
   add("--shape", options->shape, "INDEX", "Show this shape of the table in detail");
   add("--clip", options->clip, "NAME", "Show this clip at --time in detail");
   add("--time", options->time, "SECONDS", "Seconds from the start of --clip", number_between(0, 1e9));
-  command.add_flag(
-      "--animated", options->animated,
-      "Show the clip as moving discs, at --time and from key to key, slab by slab; also of a baked file");
+  command.add_flag("--animated", options->animated,
+                   "Show the clip as moving discs, at --time and from key to key; also of a baked file");
   options->shapes.add_to(command);
   add_threads_option(command, options->threads);
   command.add_flag(
       "--verify", options->verify,
       "Recompute what a baked file stores besides its discs and outlines, and report differences");
   add("--json", options->json, "FILE", "Write the same data as JSON, with all points of a shape's outline");
-  add("--svg", options->svg, "FILE",
-      "Draw the shape: a panel for each depth of its hierarchy or, with --slices, for each slab");
+  add("--svg", options->svg, "FILE", "Draw the shape: a panel for each depth of its hierarchy");
   CostLimits& limits = options->shapes.limits;
   OptionAdder{command, "Limits"}("--max-drawn-nodes", limits.drawn_nodes, "N",
                                  fmt::format("Nodes of the shape that --svg draws [{}]", limits.drawn_nodes),

@@ -34,52 +34,27 @@ std::size_t columns_for(std::size_t panels) {
   return panels > 4 && empty(5) < empty(4) ? 5 : 4;
 }
 
-/// What a panel shows of a body.
-struct Panel {
-  std::string group, label;
-  const Shape* part;  ///< null: nothing
-  std::uint32_t depth;
-};
-
-std::vector<Panel> panels_of(const ShapeFacts& facts) {
-  std::vector<Panel> panels;
-  for (const DepthFacts& depth : facts.depths)
-    panels.push_back({fmt::format("depth-{}", depth.depth),
-                      fmt::format("depth {}: {} disc{}, {:.3f} m²", depth.depth, depth.discs,
-                                  depth.discs == 1 ? "" : "s", depth.area),
-                      &facts.shape, depth.depth});
-  // The highest slab first, as bodies stand.
-  for (std::size_t i = facts.slabs.size(); i-- > 0;) {
-    const SlabFacts& slab = facts.slabs[i];
-    panels.push_back({fmt::format("slab-{}", i),
-                      slab.nodes == 0 ? fmt::format("slab {}: nothing", i)
-                                      : fmt::format("{}, {} disc{}", text_of(slab.heights), slab.leaves,
-                                                    slab.leaves == 1 ? "" : "s"),
-                      slab.nodes == 0 ? nullptr : &facts.shape.slabs[i], all_depths});
-  }
-  return panels;
-}
-
 /// Deeper discs stick out of the root's, so the frame is that of all of them.
-Layout lay_out(const ShapeFacts& facts, std::size_t panels) {
-  Layout layout{columns_for(panels), {}};
-  for (const Shape* part : parts_of(facts.shape))
-    for (const HierarchyNode& node : part->hierarchy.nodes) layout.bounds.add(node.disc);
+Layout lay_out(const ShapeFacts& facts) {
+  Layout layout{columns_for(facts.depths.size()), {}};
+  for (const HierarchyNode& node : facts.shape.hierarchy.nodes) layout.bounds.add(node.disc);
   return layout;
 }
 
-void draw_panel(Svg& svg, const Layout& layout, const Panel& shown, std::size_t index) {
+void draw_panel(Svg& svg, const Layout& layout, const ShapeFacts& facts, std::size_t index) {
+  const DepthFacts& shown = facts.depths[index];
   const Pixel corner{panel_border + static_cast<double>(index % layout.columns) * (panel + panel_gap),
                      panels_top + static_cast<double>(index / layout.columns) * (panel + label_height)};
   const Placement placement = layout.bounds.placement(corner, panel);
   svg.rectangle(corner, panel, panel, "panel");
-  svg.group(shown.group, {}, [&] {
-    if (shown.part == nullptr) return;
-    svg.group({}, "outline", [&] { draw_outline(svg, placement, shown.part->outline); });
+  svg.group(fmt::format("depth-{}", shown.depth), {}, [&] {
+    svg.group({}, "outline", [&] { draw_outline(svg, placement, facts.shape.outline); });
     svg.group({}, "discs",
-              [&] { draw_discs(svg, placed_cut(placement, shown.part->hierarchy, shown.depth)); });
+              [&] { draw_discs(svg, placed_cut(placement, facts.shape.hierarchy, shown.depth)); });
   });
-  svg.text({corner.x + panel / 2, corner.y + panel + 20}, "label", shown.label);
+  svg.text({corner.x + panel / 2, corner.y + panel + 20}, "label",
+           fmt::format("depth {}: {} disc{}, {:.3f} m²", shown.depth, shown.discs,
+                       shown.discs == 1 ? "" : "s", shown.area));
 }
 
 /// The round length that takes about a third of a panel, metres.
@@ -102,10 +77,9 @@ void draw_scale(Svg& svg, double right, double pixels_per_metre) {
 }  // namespace
 
 std::string draw_shape(const LoadedCharacter& character, const ShapeFacts& facts) {
-  const std::vector<Panel> panels = panels_of(facts);
-  const Layout layout = lay_out(facts, panels.size());
-  const std::size_t rows = (panels.size() + layout.columns - 1) / layout.columns;
-  const std::size_t filled = std::min(panels.size(), layout.columns);
+  const Layout layout = lay_out(facts);
+  const std::size_t panels = facts.depths.size(), rows = (panels + layout.columns - 1) / layout.columns;
+  const std::size_t filled = std::min(panels, layout.columns);
   const double width = 2 * panel_border +
                        static_cast<double>(std::max<std::size_t>(filled, 3)) * (panel + panel_gap) -
                        panel_gap;
@@ -115,14 +89,10 @@ std::string draw_shape(const LoadedCharacter& character, const ShapeFacts& facts
   svg.text({panel_border, 38}, "title", title);
   svg.text(
       {panel_border, 62}, "caption",
-      facts.slabs.empty()
-          ? fmt::format(
-                "Seen from above: outline of {:.3f} m², and the discs of its hierarchy cut at each depth.",
-                facts.outline_area)
-          : std::string(
-                "Seen from above, slab by slab: the outline of each, and the leaf discs of its hierarchy."));
+      fmt::format("Seen from above: outline of {:.3f} m², and the discs of its hierarchy cut at each depth.",
+                  facts.outline_area));
   draw_scale(svg, width - panel_border, layout.bounds.scale(panel));
-  for (std::size_t i = 0; i < panels.size(); ++i) draw_panel(svg, layout, panels[i], i);
+  for (std::size_t i = 0; i < panels; ++i) draw_panel(svg, layout, facts, i);
   return std::move(svg).finish();
 }
 

@@ -18,17 +18,11 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 std::size_t leaves(const Shape& shape) {
-  std::size_t count = 0;
-  for (const Shape* part : parts_of(shape)) count += (part->hierarchy.nodes.size() + 1) / 2;
-  return count;
+  return (shape.hierarchy.nodes.size() + 1) / 2;
 }
 
-/// Of a body in slabs the largest one.
 float root_radius(const Shape& shape) {
-  float largest = 0;
-  for (const Shape* part : parts_of(shape))
-    largest = std::max(largest, part->hierarchy.nodes.front().disc.radius);
-  return largest;
+  return shape.hierarchy.nodes.front().disc.radius;
 }
 
 std::string slabs_text(const ShapeFacts& facts) {
@@ -67,7 +61,7 @@ Json row_json(const LoadedCharacter& character, PoseTime at, const Shape& shape)
   return {{"clip", at.clip == PoseTime::rest ? Json(nullptr) : Json(clip_name(character, at))},
           {"seconds", seconds_json(at)},
           {"root_radius_m", shortest(root_radius(shape))},
-          {"nodes", nodes_of(shape)},
+          {"nodes", shape.hierarchy.nodes.size()},
           {"leaves", leaves(shape)}};
 }
 
@@ -82,29 +76,8 @@ Json contours_json(const Outline& outline) {
 
 }  // namespace
 
-std::string text_of(const Heights& heights) {
-  // The ground is at 0.00, not at -0.00.
-  const auto rounded = [](float metres) { return std::round(100 * static_cast<double>(metres)) / 100 + 0.0; };
-  return fmt::format("{:.2f} to {:.2f} m", rounded(heights.bottom), rounded(heights.top));
-}
-
-std::size_t nodes_of(const Shape& shape) {
-  std::size_t count = 0;
-  for (const Shape* part : parts_of(shape)) count += part->hierarchy.nodes.size();
-  return count;
-}
-
-ShapeFacts examine(const Shape& shape, const ShapeSource& source, std::optional<std::uint32_t> index,
-                   std::span<const float> planes) {
-  ShapeFacts facts{index, source, shape, area(shape.outline), {}, {}};
-  for (std::size_t i = 0; i < shape.slabs.size(); ++i) {
-    const Shape& slab = shape.slabs[i];
-    const std::size_t nodes = slab.hierarchy.nodes.size();
-    facts.slabs.push_back({detail::heights_of_slab(shape.heights, planes, i), slab.outline.contours(), nodes,
-                           (nodes + 1) / 2, area(slab.outline),
-                           nodes == 0 ? 0 : union_area(discs_of(slab.hierarchy, all_depths))});
-  }
-  if (!shape.slabs.empty()) return facts;
+ShapeFacts examine(const Shape& shape, const ShapeSource& source, std::optional<std::uint32_t> index) {
+  ShapeFacts facts{index, source, shape, area(shape.outline), {}};
   const std::uint32_t deepest = height(shape.hierarchy);
   for (std::uint32_t depth = 0; depth <= deepest; ++depth) {
     const std::vector<Disc> discs = discs_of(shape.hierarchy, depth);
@@ -161,13 +134,12 @@ std::string text_of(const LoadedCharacter& character, const ShapeTable& table) {
     const PoseTime at = table.sources[i].at;
     const Shape& shape = table.shapes[i];
     out += fmt::format("{:>6}  {:<{}}  {:>7.2f} s  {:>6.3f} m  {:>6}  {:>6}\n", i, shown_clip(character, at),
-                       widest, at.seconds, root_radius(shape), nodes_of(shape), leaves(shape));
+                       widest, at.seconds, root_radius(shape), shape.hierarchy.nodes.size(), leaves(shape));
   }
   return out;
 }
 
 std::string text_of(const LoadedCharacter& character, const ShapeFacts& facts) {
-  if (!facts.slabs.empty()) return fmt::format("\n{}\n", shape_title(character, facts)) + slabs_text(facts);
   const Outline& outline = facts.shape.outline;
   std::string out = fmt::format(
       "\n{}\n  outline   {}, {}, {:.4f} m2\n  hierarchy {}, {}\n\n", shape_title(character, facts),

@@ -18,7 +18,6 @@ namespace bch::cli {
 struct PlaceOptions {
   std::vector<std::string> characters{"default:male", "default:female"};
   std::vector<std::string> clip_names{"walk"};
-  ShapeOptions shapes;  ///< of which slices alone are asked for
   bench::PlacingOptions placing;
   std::optional<double> speed;  ///< none: that of the clip
   double fps = 30;

@@ -49,7 +49,6 @@ bench::PlacedClip placed_clip(const PlaceOptions& options, const detail::CastMem
                               std::uint32_t clip) {
   const Clip& played = member.character.clips[clip];
   AnimateOptions how;
-  how.slices = options.shapes.planes();
   if (double{played.seconds} < options.placing.seconds) how.loops = true;
   const AnimatedDiscs discs = animate_clip(member.character, member.name, clip, how);
   return {member.name,
@@ -150,8 +149,6 @@ Example: bch place --clip walk --seconds 5 --csv placed.csv)");
       add("--speed", options->speed, "M/S",
           "Speed of everybody, metres per second [that of the clip, 0 if it does not walk]",
           number_between(0, 20));
-  add("--slices", options->shapes.slices, "LIST",
-      "Cut bodies at these heights, in metres: an arm above a foot is no contact [whole bodies]");
   add("--obstacles", options->obstacles, "FILE.wkt",
       "Keep people out of these walls and polygons, in well-known text");
   CLI::Option* const paths =

@@ -47,8 +47,6 @@ struct QueryKind {
 
 /// More columns of a clearance.
 constexpr const char* point_columns = ",first_x,first_y,second_x,second_y";
-/// More columns of contacts, of sets of bodies in slabs.
-constexpr const char* slab_columns = ",first_slab,second_slab";
 
 /// Returns all kinds of queries; the first is the default.
 std::span<const QueryKind> query_kinds();

@@ -56,14 +56,6 @@ std::string collide_rows(const QueryInput& input) {
   return hit_rows(input, hits);
 }
 
-/// Returns the slab of a disc of an agent.
-std::size_t slab_of(const QueryInput& input, std::uint32_t agent, std::uint32_t disc) {
-  const AgentTable& table = input.table;
-  const std::uint32_t level = table.level.empty() ? input.set.level_count() - 1 : table.level[agent];
-  const std::vector<std::uint32_t> begin = input.set.slab_begin(table.shape[agent], level);
-  return static_cast<std::size_t>(std::upper_bound(begin.begin(), begin.end(), disc) - begin.begin()) - 1;
-}
-
 std::string contact_rows(const QueryInput& input) {
   bch::Crowd crowd;
   const Rows<DiscPair> rows =
@@ -71,13 +63,8 @@ std::string contact_rows(const QueryInput& input) {
                      {.leaves = input.options.leaves, .implementation = input.options.implementation});
   std::string out;
   for (std::size_t i = 0; i < input.pairs.size(); ++i)
-    for (const auto& [first, second] : rows[i]) {
-      out += fmt::format("{},{},{}", ids(input, i), first, second);
-      if (!input.set.slices().empty())
-        out += fmt::format(",{},{}", slab_of(input, input.pairs[i].first, first),
-                           slab_of(input, input.pairs[i].second, second));
-      out += "\n";
-    }
+    for (const auto& [first, second] : rows[i])
+      out += fmt::format("{},{},{}\n", ids(input, i), first, second);
   return out;
 }
 
@@ -161,8 +148,7 @@ constexpr QueryKind kinds[] = {
      time_of_impact_rows, true},
     {"contacts", "first_disc,second_disc",
      R"(one line for each two discs that overlap, by their
-                 numbers in the agents' cuts, counted from 0, depth first; of bodies in slabs also
-                 first_slab,second_slab, counted from the ground; whole bodies are in their lowest slab)",
+                 numbers in the agents' cuts, counted from 0, depth first)",
      contact_rows, false, false},
     {"penetration", "depth,x,y",
      R"(how far (metres) and in which direction (unit vector) the first agent

@@ -126,10 +126,8 @@ void answer(const QueryCommandOptions& options, const ShapeSet& set, Question& q
   how.distance_leaves = options.answer.leaves == "segments" ? Leaves::segments : Leaves::discs;
   if (options.all_pairs) pairs = pairs_of_all(options, set, table, how);
   const QueryKind& kind = query_kind(options.what);
-  std::string lines = fmt::format("{},{}{}\n", subject_columns(obstacles), kind.columns,
-                                  options.points                                        ? point_columns
-                                  : options.what == "contacts" && !set.slices().empty() ? slab_columns
-                                                                                        : "");
+  std::string lines =
+      fmt::format("{},{}{}\n", subject_columns(obstacles), kind.columns, options.points ? point_columns : "");
   const std::span<const Pair> all = pairs;
   std::size_t begin = 0;
   do {
@@ -154,8 +152,7 @@ void query_character(const QueryCommandOptions& options, const Write& write) {
   const Threads threads(options.answer.threads);
   const auto used = keep_used(sources, question.table);
   std::optional<CostGuard> guard(std::in_place, limits, std::span(&from, 1), used.size());
-  ShapeSetPlan plan = plan_for(options.shapes, depths);
-  plan.heights = options.compares_heights(question.table);
+  const ShapeSetPlan plan{.depths = depths, .heights = options.compares_heights(question.table)};
   const BuiltShapes built = build_shapes({&from, 1}, used, options.shapes.threshold, plan, limits);
   const ShapeSet set(built.shapes, plan);
   guard.reset();
@@ -168,7 +165,7 @@ void query_baked(const QueryCommandOptions& options, const Write& write) {
   Question question = read_question(options, baked.set.shape_count(), baked.set.level_count());
   if (options.compares_heights(question.table) && !baked.set.has_heights())
     throw InputError(options.character + ": was baked without heights, which agents with a z and " +
-                     "--obstacle-heights need; bake it with --heights or --slices");
+                     "--obstacle-heights need; bake it with --heights");
   const Threads threads(options.answer.threads);
   answer(options, baked.set, question, write);
 }

@@ -25,7 +25,7 @@ struct PlacedClip {
   AnimatedShape cylinder;  ///< about the agent's position, as large as the pose at each time asks
 };
 
-/// Returns the cylinder about the agent's position that holds moving discs at each time, those of each slab if there are slabs.
+/// Returns the cylinder about the agent's position that holds moving discs at each time.
 AnimatedDiscs cylinder_of(const AnimatedDiscs& discs);
 
 /// Selects what two people must keep apart.

@@ -67,8 +67,7 @@ void add_spheres(Scene& scene);
 void add_obstacles(Scene& scene);
 /// moments/<poses|shown|grid|own>: a crowd of animated shapes at times of a walk.
 void add_moments(Scene& scene);
-/// plans/<plan>/<bake|query>: sets by different plans; slices/<slabs>/<workload>/<leaves>, slices/<slabs>/build: bodies
-/// in slabs.
+/// plans/<plan>/<bake|query>: sets by different plans.
 void add_sets(Scene& scene);
 /// live/<agents>/<depth>: frames of a crowd whose characters are all posed anew, on all threads.
 void add_live(Scene& scene);

@@ -61,25 +61,9 @@ bodies | bodies/loop / bodies/contacts | >= 20
 shapes | shapes/5000 / shapes/200 | <= 1.8
 shapes | shapes/50000 / shapes/200 | <= 3
 plans | plans/{single_cylinder,depth_3,depth_6,all,mixed,all_discs,one_frame}/{bake,query} |
-slices | slices/{1,2,3,4,8}/{crowd,near_miss,colliding}/{discs,segments} |
-slices | slices/3/crowd/discs / slices/1/crowd/discs | <= 2
-slices | slices/3/crowd/segments / slices/1/crowd/segments | <= 2.4
-slices | slices/3/build / slices/1/build | <= 2.2
-slices | slices/3/build#bytes | <= 15360
-slices | slices/4/crowd/discs / slices/1/crowd/discs | <= 2.8
-slices | slices/4/crowd/segments / slices/1/crowd/segments | <= 3.3
-slices | slices/4/build / slices/1/build | <= 2.8
-slices | slices/4/build#bytes | <= 19456
-slices | slices/8/crowd/discs / slices/1/crowd/discs | <= 5
-slices | slices/8/crowd/segments / slices/1/crowd/segments | <= 6
-slices | slices/8/build / slices/1/build | <= 4.5
-slices | slices/8/build#bytes | <= 36864
-slices | slices/2/build |
 spheres | spheres/128/crowd/avx2 / collide/crowd/segments/avx2 | <= 1.1
 spheres | spheres/256/crowd/avx2 / collide/crowd/segments/avx2 | <= 1.4
 spheres | spheres/512/crowd/avx2 / collide/crowd/segments/avx2 | <= 2.1
-spheres | spheres/256/crowd/avx2 / slices/3/crowd/segments | <= 0.72
-spheres | spheres/256/crowd/avx2 / slices/8/crowd/segments | <= 0.42
 live | live/{300,1000}/{all,6,3,0} |
 construction | construction/*/ISA/{skin,outline,hierarchy,hierarchy_welzl,levels,interior} |
 construction | construction/*/ISA/{pose,all} | <= 45000 45000 90000

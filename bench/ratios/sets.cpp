@@ -11,7 +11,6 @@
 #include <bch/scene_plan.hpp>
 #include <bch/shape_set_builder.hpp>
 
-#include "baselines/slab_bodies.hpp"
 #include "bench/ratios/ratios.hpp"
 #include "bench/workload/answer_checks.hpp"
 
@@ -31,7 +30,7 @@ class Baked {
   ShapeSet build() {
     ShapeSetBuilder builder(plan_, sources_.size());
     for (std::size_t i = 0; i < sources_.size(); ++i) {
-      prepared_.prepare(shapers_[sources_[i].character].shape(sources_[i].at, sources_[i].whole), i);
+      prepared_.prepare(shapers_[sources_[i].character].shape(sources_[i].at), i);
       builder.add(prepared_);
     }
     return std::move(builder).finish();
@@ -103,35 +102,6 @@ void add_plan(Scene& scene, const std::string& name, const SceneUse& use) {
   add(name + "/query", [planned, &scene] { return planned().query(scene); });
 }
 
-/// Answers of bodies in slabs are compared with those pair by pair of parts.
-Contender query_slabs(Scene& scene, const Baked& sliced, std::uint32_t slabs, std::string_view name,
-                      Leaves leaves) {
-  const Workload& workload = scene.workload(name);
-  return collide_contender(
-      sliced.set(), workload.agents(), workload.pairs, {.leaves = leaves},
-      [&](const Hits& hits) -> std::string {
-        const baselines::SlabBodies reference(scene.shapes_in_slabs(slabs), sliced.plan(), leaves);
-        for (std::size_t i = 0; i < hits.size(); ++i)
-          if (hits[i] !=
-              reference.collide(workload.agents(), workload.pairs[i], baselines::Method::depth_first))
-            return fmt::format("{} in slabs: pair {} is answered wrongly", name, i);
-        return {};
-      });
-}
-
-void add_slabs(Scene& scene, std::uint32_t slabs) {
-  const auto sliced = once([&scene, slabs] {
-    return std::make_shared<Baked>(scene, ShapeSetPlan{.slices = standing_slices(slabs)}, scene.sources());
-  });
-  for (const std::string_view name : {"crowd", "near_miss", "colliding"})
-    for (const Leaves leaves : {Leaves::discs, Leaves::segments})
-      add(fmt::format("slices/{}/{}/{}", slabs, name, name_of(leaves)),
-          [sliced, &scene, slabs, name, leaves] {
-            return query_slabs(scene, sliced(), slabs, name, leaves);
-          });
-  add(fmt::format("slices/{}/build", slabs), [sliced] { return sliced().contender(); });
-}
-
 }  // namespace
 
 void add_sets(Scene& scene) {
@@ -142,7 +112,6 @@ void add_sets(Scene& scene) {
   add_plan(scene, "plans/mixed", {.depth = by_distance});
   add_plan(scene, "plans/all_discs", {.outlines = false});
   add_plan(scene, "plans/one_frame", {.outlines = false, .pairs_per_shape = 0});
-  for (const std::uint32_t slabs : {1u, 2u, 3u, 4u, 8u}) add_slabs(scene, slabs);
 }
 
 }  // namespace bch::bench

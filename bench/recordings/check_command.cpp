@@ -64,9 +64,9 @@ frame rate or the unit of length, the program asks for --fps or --unit, and for 
 have no names and their rows do not tell them. It prints every assumption.
 Each row becomes a pedestrian of the person's stature, in the stride that belongs to the person's
 speed, with the head above the recorded position.
-Two people overlap if their outlines overlap, seen from above; with --slices, if they overlap at the
-same height. The exit code is 1 if overlaps exceed --fail-above, and else 0, whatever is found.
-Example: bch check trajectories.sqlite --slices 0.4,0.85,1.05 --events events.csv)");
+Two people overlap if their outlines overlap, seen from above. The exit code is 1 if overlaps exceed
+--fail-above, and else 0, whatever is found.
+Example: bch check trajectories.sqlite --events events.csv)");
   options->input.add_to(command);
   add_outputs_to(command, options->outputs);
   OptionAdder{command}("--html", options->html, "FILE.html",

@@ -63,8 +63,8 @@ std::optional<BakedShapes> baked_of(const CheckInput& input) {
   const std::string& file = input.characters[0];
   if (input.characters.size() > 1)
     throw UsageError("--character: " + file + " and others: a baked set has all characters of a check");
-  if (!input.shapes.clips.empty() || !input.shapes.slices.empty() || input.depth != "all")
-    throw UsageError("--clips, --slices and --depth: " + file + " is baked already");
+  if (!input.shapes.clips.empty() || input.depth != "all")
+    throw UsageError("--clips and --depth: " + file + " is baked already");
   return load_baked(file);
 }
 
@@ -163,8 +163,6 @@ void CheckInput::add_bodies_to(CLI::App& command) {
       "Add the clips of this file to the characters, matched by bone name (repeatable)")
       ->allow_extra_args(false)
       ->needs(character);
-  add("--slices", shapes.slices, "H,H...",
-      "Cut bodies into slabs at these heights, in metres; slabs collide only at the same height [uncut]");
   add("--clip-speed", clip_speeds, "CLIP=M/S",
       "For a baked set: walking speed in a clip, 0 where people stand (repeatable)")
       ->allow_extra_args(false)
@@ -195,20 +193,18 @@ OpenedCheck::OpenedCheck(const CheckInput& input)
       reader(detail::open_trajectory(input.file, trajectory_options(input))),
       floor(floor_of(input, reader->info())),
       walls(walls_of(input, floor)),
-      recording{
-          input.file,
-          info_of(input, *reader, *this),
-          baked ? baked->set.slab_count() : static_cast<std::uint32_t>(input.shapes.planes().size() + 1),
-          baked ? baked->set.depths().back() : parse_depth("--depth", input.depth),
-          leaves_of(input, baked),
-          static_cast<std::uint32_t>(cast.size()),
-          baked.has_value(),
-          walls.has_value(),
-          floor} {}
+      recording{input.file,
+                info_of(input, *reader, *this),
+                baked ? baked->set.depths().back() : parse_depth("--depth", input.depth),
+                leaves_of(input, baked),
+                static_cast<std::uint32_t>(cast.size()),
+                baked.has_value(),
+                walls.has_value(),
+                floor} {}
 
 detail::CheckOptions OpenedCheck::options(const CheckInput& input) const {
   detail::CheckOptions how;
-  how.plan = {.depths = {recording.depth}, .slices = input.shapes.planes()};
+  how.plan = {.depths = {recording.depth}};
   how.leaves = recording.leaves;
   how.cast = cast;
   how.baked = baked ? &baked->set : nullptr;

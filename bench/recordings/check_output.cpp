@@ -129,7 +129,6 @@ nlohmann::ordered_json json_of(const CheckedRecording& recording, const CheckSum
           {"format", recording.info.format},
           {"fps", recording.info.fps},
           {"assumptions", recording.info.assumptions},
-          {"slabs", recording.slabs},
           {"depth", depth_name(recording.depth)},
           {"leaves", recording.leaves == Leaves::segments ? "segments" : "discs"},
           {"characters", recording.characters},
@@ -233,10 +232,9 @@ std::string bodies_text(const CheckedRecording& recording) {
   const char* const leaves =
       recording.leaves == Leaves::segments ? "their outlines" : "discs of their leaves";
   return fmt::format(
-      "{}, {}, {}",
+      "{}, {}",
       recording.characters == 0 ? std::string("built-in pedestrians")
                                 : counted(recording.characters, "character"),
-      recording.slabs == 1 ? "whole" : fmt::format("cut into {} slabs", recording.slabs),
       recording.depth == all_depths ? leaves : fmt::format("discs of depth {}", depth_name(recording.depth)));
 }
 

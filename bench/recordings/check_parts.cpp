@@ -114,23 +114,17 @@ CheckSummary summary_of(const Json& json) {
 }
 
 Json kept(const CheckedRecording& recording) {
-  return {{"file", recording.file},
-          {"format", recording.info.format},
-          {"fps", recording.info.fps},
-          {"assumptions", recording.info.assumptions},
-          {"rows", recording.info.rows},
-          {"slabs", recording.slabs},
-          {"depth", recording.depth},
-          {"leaves", recording.leaves},
-          {"characters", recording.characters},
-          {"baked", recording.baked},
-          {"walls", recording.walls}};
+  return {{"file", recording.file},      {"format", recording.info.format},
+          {"fps", recording.info.fps},   {"assumptions", recording.info.assumptions},
+          {"rows", recording.info.rows}, {"depth", recording.depth},
+          {"leaves", recording.leaves},  {"characters", recording.characters},
+          {"baked", recording.baked},    {"walls", recording.walls}};
 }
 
 CheckedRecording recording_of(const Json& json) {
   CheckedRecording recording{};
   int leaves = 0;
-  take(json.at("slabs"), recording.slabs), take(json.at("depth"), recording.depth);
+  take(json.at("depth"), recording.depth);
   take(json.at("leaves"), leaves), take(json.at("characters"), recording.characters);
   recording.leaves = static_cast<Leaves>(leaves);
   take(json.at("rows"), recording.info.rows);

@@ -26,7 +26,7 @@ namespace bch::cli {
 struct CheckedRecording {
   std::string file;
   detail::TrajectoryInfo info;
-  std::uint32_t slabs, depth;
+  std::uint32_t depth;
   Leaves leaves;
   std::uint32_t characters;  ///< of one's own; 0: built-in pedestrians
   bool baked;                ///< those are of a baked set
@@ -86,7 +86,7 @@ struct CheckInput {
   double fps = 0;  ///< 0: what the file says
   double max_distance = 0;
   std::size_t max_pairs = 0;  ///< 0: what is usual
-  ShapeOptions shapes;        ///< of which slices and clips alone are asked for
+  ShapeOptions shapes;        ///< of which clips alone are asked for
   std::vector<std::string> characters;
   std::string depth = "all", leaves = "segments";
   std::vector<std::string> clip_speeds;  ///< NAME=SPEED each; these and the next of a baked set alone

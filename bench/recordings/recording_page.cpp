@@ -56,17 +56,12 @@ std::vector<Vec2> contour_of(const Disc& disc) {
   return contour;
 }
 
-/// The outlines of a shape, of all its slabs. A set of depth 0 has none.
+/// The outlines of a shape. A set of depth 0 has none.
 std::vector<std::vector<Vec2>> contours_of(const ShapeSetView& view, std::uint32_t shape) {
   std::vector<std::vector<Vec2>> contours;
   if (view.shape_contours == nullptr) return contours;
-  for (std::uint32_t slab = 0; slab < view.slab_count; ++slab) {
-    const std::uint32_t part =
-        view.slab_parts == nullptr ? shape : view.slab_parts[shape * view.slab_count + slab];
-    if (part == no_part) continue;
-    for (std::uint32_t i = view.shape_contours[part].begin; i < view.shape_contours[part].end; ++i)
-      contours.emplace_back(view.points + view.contours[i].begin, view.points + view.contours[i].end);
-  }
+  for (std::uint32_t i = view.shape_contours[shape].begin; i < view.shape_contours[shape].end; ++i)
+    contours.emplace_back(view.points + view.contours[i].begin, view.points + view.contours[i].end);
   return contours;
 }
 

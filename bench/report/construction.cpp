@@ -74,48 +74,34 @@ std::string_view made_from(const Contestant& contestant) {
   return outlined ? "outline" : "triangles";
 }
 
-/// Makes flat shapes of a character's posed vertices, whole or in slabs: all that a set stores of a pose.
+/// Makes flat shapes of a character's posed vertices: all that a set stores of a pose.
 class FlatShapes {
  public:
-  FlatShapes(const Character& character, std::uint32_t slabs)
-      : plan_{.slices = standing_slices(slabs)},
-        outline_builder_(character.triangles, character.vertices.size(), character.vertices),
-        outlines_(slabs),
-        prepared_(plan_) {
-    if (slabs > 1) shape_.slabs.resize(slabs);
-  }
+  explicit FlatShapes(const Character& character)
+      : outline_builder_(character.triangles, character.vertices.size(), character.vertices) {}
 
   void build(std::span<const Vec3> positions) {
-    shape_.heights = outline_builder_.build(positions, plan_.slices, outlines_);
-    const std::span<Shape> parts = shape_.slabs.empty() ? std::span(&shape_, 1) : std::span(shape_.slabs);
-    for (std::size_t i = 0; i < parts.size(); ++i) make_part(outlines_[i], parts[i]);
+    outline_builder_.build(positions, shape_.outline);
+    hierarchy_builder_.contour(shape_.outline, 0.01f, SplitRule::centroid, shape_.hierarchy);
+    hierarchy_builder_.add_primitives(shape_.hierarchy);
     prepared_.prepare(shape_, 0);
   }
 
  private:
-  void make_part(Outline& outline, Shape& part) {
-    std::swap(outline, part.outline);
-    if (part.outline.contours() == 0) return part.hierarchy.nodes.clear();
-    hierarchy_builder_.contour(part.outline, 0.01f, SplitRule::centroid, part.hierarchy);
-    hierarchy_builder_.add_primitives(part.hierarchy);
-  }
-
-  ShapeSetPlan plan_;
   OutlineBuilder outline_builder_;
   detail::HierarchyBuilder hierarchy_builder_;
-  std::vector<Outline> outlines_;
   Shape shape_;
-  PreparedShape prepared_;
+  PreparedShape prepared_{ShapeSetPlan{}};
 };
 
-/// Adds whole bodies, or bodies in slabs, all the way from vertices to a flat shape.
-void add_flat_shapes(bench::Scene& scene, std::string_view name, std::uint32_t slabs, Builds& builds) {
+/// Adds bodies, all the way from vertices to a flat shape.
+void add_flat_shapes(bench::Scene& scene, std::string_view name, Builds& builds) {
   std::vector<FlatShapes> characters;
-  for (const auto& loaded : scene.characters()) characters.emplace_back(loaded.character, slabs);
+  for (const auto& loaded : scene.characters()) characters.emplace_back(loaded.character);
   time_each(builds.times, name, scene.bodies().size(), [&](std::size_t i) {
     characters[scene.sources()[i].character].build(scene.bodies()[i].positions);
   });
-  builds.add(name, "vertices", tree_size(slabs == 1 ? scene.shapes() : scene.shapes_in_slabs(slabs)));
+  builds.add(name, "vertices", tree_size(scene.shapes()));
 }
 
 /// The stages of construction, over all characters.
@@ -141,9 +127,7 @@ void run_construction(Run& run) {
     time_structure(builds.times, contestant, run.scene.bodies());
     builds.add(contestant.name, made_from(contestant), tree_size(contestant, run.scene.bodies()));
   }
-  add_flat_shapes(run.scene, "BCH whole body", 1, builds);
-  for (const std::uint32_t slabs : compared_slabs)
-    add_flat_shapes(run.scene, slabs_name(slabs, Leaves::segments), slabs, builds);
+  add_flat_shapes(run.scene, "BCH whole body", builds);
   run.write("construction", builds.sizes);
   run.write("construction_times", builds.times);
   run.write("construction_stages", time_stages(run));

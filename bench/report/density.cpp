@@ -218,9 +218,6 @@ std::vector<PackingRow> rows_of(Run& run) {
     rows.push_back({fmt::format("fixed cylinder {:.2f} m", radius),
                     ShapeSet(with_fixed_cylinders(shapes, radius), {{0}, true})});
   for (const std::uint32_t depth : {3u, 6u, 9u, all_depths}) add_cut(depth);
-  for (const std::uint32_t slabs : compared_slabs)
-    rows.push_back({slabs_name(slabs, Leaves::segments),
-                    ShapeSet(run.scene.shapes_in_slabs(slabs), {.slices = standing_slices(slabs)})});
   for (const Freedom freedom : {Freedom::headings, Freedom::poses})
     for (const std::uint32_t depth : {0u, 3u, all_depths}) add_cut(depth, freedom);
   return rows;

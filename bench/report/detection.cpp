@@ -17,17 +17,6 @@ namespace {
 
 constexpr double leaf_threshold = 0.01;  // metres
 
-/// Bodies in slabs, made by `shapes_in`, with both kinds of leaves.
-template <class ShapesIn>
-void add_in_slabs(ShapesIn shapes_in, std::deque<ShapeSet>& sets, std::vector<Subject>& subjects) {
-  for (const std::uint32_t slabs : compared_slabs) {
-    const ShapeSetPlan plan{.slices = standing_slices(slabs)};
-    const ShapeSet& set = sets.emplace_back(shapes_in(slabs, plan), plan);
-    for (const Leaves leaves : {Leaves::discs, Leaves::segments})
-      subjects.push_back(subject_of(slabs_name(slabs, leaves), set, {.leaves = leaves}));
-  }
-}
-
 /// Two names in one order, whoever slides.
 std::string couple(const std::string& a, const std::string& b) {
   return std::min(a, b) + " + " + std::max(a, b);
@@ -53,7 +42,7 @@ Table table_of(bench::Scene& scene, const SlideCases& cases) {
   return table;
 }
 
-/// Slides a character in random poses, by cuts, in slabs, and by exact outlines.
+/// Slides a character in random poses, by cuts and by exact outlines.
 void slide_real(Run& run, const cli::LoadedCharacter& loaded, SubjectTables& tables, Table& characters) {
   const std::span<const cli::LoadedCharacter> one(&loaded, 1);
   const std::uint32_t poses = std::min(run.sizes().poses, most_costly_poses);
@@ -69,10 +58,6 @@ void slide_real(Run& run, const cli::LoadedCharacter& loaded, SubjectTables& tab
   std::vector<Subject> subjects;
   for (const std::uint32_t depth : {0u, 3u, 6u, all_depths})
     subjects.push_back(subject_of(cut_name(depth), sets.emplace_back(shapes, ShapeSetPlan{{depth}})));
-  const auto in_slabs = [&](std::uint32_t, const ShapeSetPlan& plan) {
-    return cli::build_shapes(one, sources, leaf_threshold, plan).shapes;
-  };
-  add_in_slabs(in_slabs, sets, subjects);
   const auto outlines = baselines::kind("obb_contour").build(bodies, {});
   subjects.push_back(subject_of("OBB outline", *outlines));
   tables.add(subjects, cli::file_name(loaded));
@@ -93,11 +78,6 @@ void run_distance(Run& run) {
   for (const std::string_view name :
        {"BCH outline by centre", "BCH projected", "OBB outline", "OBB projected", "OBB full mesh"})
     subjects.push_back(subject_of(name, structures.of(name)));
-  std::deque<ShapeSet> sets;
-  const auto in_slabs = [&](std::uint32_t slabs, const ShapeSetPlan&) {
-    return run.scene.shapes_in_slabs(slabs);
-  };
-  add_in_slabs(in_slabs, sets, subjects);
   SubjectTables tables(run);
   tables.add(subjects);
   tables.slide(cases, *baselines::fcl_mesh_distances(run.scene.bodies()));

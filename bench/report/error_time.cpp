@@ -7,7 +7,6 @@
 
 #include <bch/scene_plan.hpp>
 
-#include "baselines/slab_bodies.hpp"
 #include "bench/base/disc_union_area.hpp"
 #include "bench/report/body_subjects.hpp"
 #include "bench/workload/answer_checks.hpp"
@@ -89,28 +88,6 @@ void add_kernel(Run& run, double threshold, Points& points) {
   }
 }
 
-/// Adds the kernel over bodies in slabs, whose answers are compared with those of every pair of slabs by itself.
-void add_slabs(Run& run, Points& points) {
-  for (const std::uint32_t slabs : compared_slabs) {
-    const std::vector<Shape>& shapes = run.scene.shapes_in_slabs(slabs);
-    const ShapeSetPlan plan{.slices = standing_slices(slabs)};
-    const ShapeSet& set = points.sets.emplace_back(shapes, plan);
-    for (const Leaves leaves : {Leaves::discs, Leaves::segments}) {
-      Subject subject = subject_of(slabs_name(slabs, leaves), set, {nullptr, leaves});
-      const baselines::SlabBodies reference(shapes, plan, leaves);
-      for (const std::string_view name : asked_workloads) {
-        const bench::Workload& workload = run.scene.workload(name);
-        const bench::Hits hits = answers(subject, workload);
-        for (std::size_t i = 0; i < hits.size(); ++i)
-          if ((hits[i] != 0) !=
-              reference.collide(workload.agents(), workload.pairs[i], baselines::Method::depth_first))
-            bench::require_right(subject.structure, workload, fmt::format("pair {} differs", i));
-      }
-      points.add(subject, {}).threshold = 0.01;
-    }
-  }
-}
-
 /// The area of the single cylinder; boxes cut short, and fixed cylinders, which do not cover outlines, are not measured.
 ExcessAreas excess_of(Run& run, const Contestant& contestant, std::uint32_t depth) {
   if (contestant.kind == "single") return excess_areas(run.scene.shapes(), 0);
@@ -142,7 +119,6 @@ void run_error_time(Run& run) {
   const bool full = run.sizes().poses >= full_sizes.poses;
   for (const double threshold : full ? std::vector{0.01, 0.005, 0.02, 0.04} : std::vector{0.01, 0.04})
     add_kernel(run, threshold, points);
-  add_slabs(run, points);
   BodySubjects in_space(run.scene);
   in_space.add_ragdolls_and_spheres(run.sizes().most_spheres);
   for (const BodySubject& body : in_space.all()) points.add(body.subject, {});

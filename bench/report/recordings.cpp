@@ -39,17 +39,14 @@ struct Bodies {
   const char* name;
   std::uint32_t depth = all_depths;
   Leaves leaves = Leaves::segments;
-  std::vector<float> slices = {};
-
   detail::CheckOptions options() const {
     detail::CheckOptions options;
-    options.plan = {.depths = {depth}, .slices = slices};
+    options.plan = {.depths = {depth}};
     options.leaves = leaves;
     return options;
   }
 };
 const Bodies outlines{"segments"};
-const Bodies four_slabs{"4 slabs", all_depths, Leaves::segments, {0.4f, 0.85f, 1.05f}};
 
 /// Fixed cylinders of everybody, by their indices in detail::compared_discs.
 constexpr std::array<std::size_t, 2> fixed{1, 3};
@@ -246,8 +243,7 @@ void run_recordings(Run& run) {
                              {"depth 3", 3, Leaves::discs},
                              {"depth 6", 6, Leaves::discs},
                              {"all depths", all_depths, Leaves::discs},
-                             outlines,
-                             four_slabs};
+                             outlines};
   const std::vector<Source> sources = wanted_sources(run);
   if (sources.empty()) return;
   RecordingTables tables;
@@ -264,14 +260,13 @@ void run_simulated(Run& run) {
   if (sources.empty()) return;
   Table table({"recording", "made by", "structure", "radius of discs (m)", "counted", "all", "both overlap",
                "bodies alone", "discs alone", "deepest while discs are clear (cm)"});
-  for (const Source& source : sources)
-    for (const Bodies& bodies : {outlines, four_slabs}) {
-      DiscComparison comparison(run.sizes().disc_radius);
-      const auto reader = open(run, source);
-      detail::check(*reader, bodies.options(),
-                    [&](const CheckedFrame& frame, const ShapeSet&) { comparison.add(frame); });
-      comparison.write(table, source, bodies, run.sizes().disc_radius);
-    }
+  for (const Source& source : sources) {
+    DiscComparison comparison(run.sizes().disc_radius);
+    const auto reader = open(run, source);
+    detail::check(*reader, outlines.options(),
+                  [&](const CheckedFrame& frame, const ShapeSet&) { comparison.add(frame); });
+    comparison.write(table, source, outlines, run.sizes().disc_radius);
+  }
   run.write("simulated", table);
 }
 

@@ -718,7 +718,7 @@ def draw_stability(data, out):
         places = rows.column("conditioning")
         for ax, (what, title) in zip(panels, titles.items()):
             ax.set(title=title if rows is families[0] else "", xlabel=rows[0]["axis"])
-            if min(places) > 0 and rows[0]["family"] != "slabs":
+            if min(places) > 0:
                 ax.set_xscale("log")
             elif min(places) == 0:  # which stands at the left edge
                 ax.set_xscale("symlog", linthresh=sorted(places)[1])

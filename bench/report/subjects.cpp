@@ -77,15 +77,6 @@ TreeSize size_of(const Hierarchy& hierarchy) {
   return {static_cast<double>(hierarchy.nodes.size()), static_cast<double>(height(hierarchy))};
 }
 
-TreeSize size_of(const Shape& shape) {
-  TreeSize size = size_of(shape.hierarchy);
-  for (const Shape& slab : shape.slabs) {
-    const TreeSize part = size_of(slab.hierarchy);
-    size = {size.nodes + part.nodes, std::max(size.height, part.height)};
-  }
-  return size;
-}
-
 TreeSize size_of_projected(const baselines::Body& body) {
   std::vector<Vec2> vertices;
   for (const Vec3& p : body.positions) vertices.push_back({p.x, p.y});
@@ -102,16 +93,12 @@ TreeSize size_of_boxes(std::string_view kind, const baselines::Body& body) {
 
 }  // namespace
 
-std::string slabs_name(std::uint32_t slabs, Leaves leaves) {
-  return fmt::format("BCH in {} slabs{}", slabs, leaves == Leaves::discs ? " with discs" : "");
-}
-
 std::string cut_name(std::uint32_t depth) {
   return depth == 0 ? "single cylinder" : "BCH outline to depth " + cli::depth_name(depth);
 }
 
 TreeSize tree_size(std::span<const Shape> shapes) {
-  return mean_size(shapes, [](const Shape& shape) { return size_of(shape); });
+  return mean_size(shapes, [](const Shape& shape) { return size_of(shape.hierarchy); });
 }
 
 TreeSize tree_size(const Contestant& contestant, std::span<const baselines::Body> bodies) {

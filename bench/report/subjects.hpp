@@ -26,9 +26,6 @@ namespace bch::report {
 constexpr std::string_view kernel_name = "BCH outline in the batch kernel";
 /// The name of the batch kernel with exact leaves.
 constexpr std::string_view exact_leaves_name = "BCH outline with exact leaves";
-/// The numbers of slabs that are compared, and the name of a body in so many: "BCH in 3 slabs", "BCH in 3 slabs with discs".
-constexpr std::uint32_t compared_slabs[] = {2, 3, 4, 8};
-std::string slabs_name(std::uint32_t slabs, Leaves leaves);
 /// Returns the name of a cut of the outline's hierarchy: "single cylinder", "BCH outline to depth 3".
 std::string cut_name(std::uint32_t depth);
 
@@ -43,7 +40,7 @@ struct TreeSize {
   double nodes = unknown;
   double height = unknown;  ///< edges on the longest way from the root to a leaf
 };
-/// Returns the size of hierarchies: for bodies in slabs, the nodes of all slabs and the largest height.
+/// Returns the size of hierarchies.
 TreeSize tree_size(std::span<const Shape> shapes);
 
 /// Represents anything that answers pairs: a structure down to some depth, or a kernel over a set.

@@ -133,23 +133,6 @@ Areas areas_of_cut(const Shape& shape, std::uint32_t depth) {
   return {cli::covered_area(shape.outline, discs), cli::union_area(discs)};
 }
 
-/// Adds the volumes of slabs, each as high as it is: those of their outlines, which exact leaves represent.
-void add_volumes_of_slabs(Run& run, std::uint32_t slabs, Table& table) {
-  const std::vector<float> planes = standing_slices(slabs);
-  const std::vector<Shape>& shapes = run.scene.shapes_in_slabs(slabs);
-  for (std::size_t i = 0; i < shapes.size(); ++i) {
-    double volume = 0;
-    for (std::size_t j = 0; j < shapes[i].slabs.size(); ++j) {
-      const Outline& outline = shapes[i].slabs[j].outline;
-      if (outline.contours() > 0)
-        volume += area(outline) * height_of(detail::heights_of_slab(shapes[i].heights, planes, j));
-    }
-    const double cylinder = cylinder_of(run.scene.shapes()[i]) * height_of(shapes[i].heights);
-    table.add(
-        {name_of_character(run, i), slabs_name(slabs, Leaves::segments), i, volume / cylinder, unknown});
-  }
-}
-
 }  // namespace
 
 void run_volume(Run& run) {
@@ -164,7 +147,6 @@ void run_volume(Run& run) {
         return Areas{area(shape.outline), unknown};
       },
       table);
-  for (const std::uint32_t slabs : compared_slabs) add_volumes_of_slabs(run, slabs, table);
   run.write("volume", table);
 }
 

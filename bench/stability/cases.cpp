@@ -116,16 +116,6 @@ Setups contour_setups() {
   });
 }
 
-Setups slab_setups() {
-  return varied({2, 3, 4, 8, 16, 64}, [](StabilitySetup& setup, double count) {
-    const auto slabs = static_cast<std::uint32_t>(count);
-    setup.make = [slabs](Random& random) { return slab_specimens(random, slabs); };
-    for (std::uint32_t plane = 1; plane < slabs; ++plane)
-      setup.plan.slices.push_back(2 * static_cast<float>(plane) / static_cast<float>(slabs));
-    setup.cost = std::max(1u, slabs / 4);
-  });
-}
-
 Setups height_setups() {
   return varied({0.0, 1.0, 1e2, 1e4, 1e6, 1e8, 9.9e8, 1.1e9}, [](StabilitySetup& setup, double height) {
     setup.make = prism_specimens;
@@ -220,7 +210,6 @@ constexpr StabilityFamily families[] = {
     {"rotation", "Tiny, odd and large headings", "heading, radians", rotation_setups},
     {"slender", "Slender shapes", "length by width", slender_setups},
     {"contour", "Outlines of few and many corners", "corners", contour_setups},
-    {"slabs", "Bodies in slabs", "slabs", slab_setups},
     {"heights", "One on top of the other", "height of the ground, metres", height_setups},
     {"triangles", "Triangles without area, in meshes", nullptr, triangle_setups},
     {"coincident", "One shape twice at one place", nullptr, coincident_setups},

@@ -64,9 +64,9 @@ struct Stock {
     const auto all = static_cast<std::uint32_t>(specimens.size());
     return all == first ? random.below(first) : first + random.below(all - first);
   }
-  /// The truth is about discs, so that bodies keep no outlines, but in slabs, which need them.
+  /// The truth is about discs, so that bodies keep no outlines.
   ShapeSet set(ShapeSetPlan plan) const {
-    plan.outlines = !plan.slices.empty();
+    plan.outlines = false;
     std::vector<Shape> shapes;
     for (const Specimen& specimen : specimens) shapes.push_back(specimen.shape);
     return ShapeSet(shapes, plan);

@@ -26,7 +26,7 @@ Specimen specimen(Outline outline, Outline geometry, double threshold) {
   Shape shape{std::move(outline), {}};
   shape.hierarchy = contour_hierarchy(shape.outline, static_cast<float>(threshold));
   baselines::ExactCut discs = baselines::exact_cut(shape.hierarchy, all_depths);
-  return {std::move(shape), {{std::move(discs), std::move(geometry)}}};
+  return {std::move(shape), std::move(discs), std::move(geometry)};
 }
 
 /// Returns the grid step that snap_to_grid() chooses.
@@ -64,12 +64,6 @@ std::vector<Vec2> soup(Random& random, Soup kind) {
 }
 
 }  // namespace
-
-double Specimen::reach() const {
-  double reach = shape.hierarchy.reach;
-  for (const Shape& slab : shape.slabs) reach = std::max(reach, slab.hierarchy.reach);
-  return reach;
-}
 
 Specimen raw_specimen(std::vector<Vec2> points, double threshold) {
   Outline outline;
@@ -128,17 +122,6 @@ std::vector<Specimen> usual_specimens(Random& random, double reach) {
     add(ring(random, 12, 0.1, 0.3, x, y), 0.1);
     add({point(x, y), point(y, -x)}, 9);
   }
-  return specimens;
-}
-
-std::vector<Specimen> slab_specimens(Random& random, std::uint32_t slabs) {
-  std::vector<Specimen> specimens(8);
-  for (Specimen& body : specimens)
-    for (std::uint32_t i = 0; i < slabs; ++i) {
-      Specimen slab = contour_specimen(ring(random, 24, 0.2, 0.4), 0.05);
-      body.shape.slabs.push_back(std::move(slab.shape));
-      body.parts.push_back(std::move(slab.parts[0]));
-    }
   return specimens;
 }
 

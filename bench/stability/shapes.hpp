@@ -13,18 +13,13 @@
 
 namespace bch::bench {
 
-/// Holds what a shape is at some heights: one of its slabs, or the whole of it.
-struct SpecimenPart {
-  baselines::ExactCut discs;  ///< of its leaves and all nodes above
-  Outline geometry;           ///< what must be covered: its outline, or the triangles it was made from
-};
-
-/// Holds a shape with the exact discs and the geometry of its parts.
+/// Holds a shape with its exact discs and its geometry.
 struct Specimen {
   Shape shape;
-  std::vector<SpecimenPart> parts;  ///< one a slab, or one
+  baselines::ExactCut discs;  ///< of its leaves and all nodes above
+  Outline geometry;           ///< what must be covered: its outline, or the triangles it was made from
 
-  double reach() const;
+  double reach() const { return shape.hierarchy.reach; }
 };
 
 /// The functions below make specimens.
@@ -42,8 +37,6 @@ Specimen triangle_specimen(const std::vector<Vec2>& corners, double threshold);
 std::vector<Vec2> ring(detail::Random& random, std::uint32_t corners, double inner, double outer,
                        double x = 0, double y = 0, double slenderness = 1);
 
-/// Makes bodies in slabs: rings of their own about one axis, none of which can lie inside another.
-std::vector<Specimen> slab_specimens(detail::Random& random, std::uint32_t slabs);
 /// Makes prisms a metre or two high, which begin above the ground.
 std::vector<Specimen> prism_specimens(detail::Random& random);
 

@@ -29,11 +29,8 @@ std::vector<DoubleDisc> in_double(const ExactCut& cut) {
   return rounded;
 }
 
-std::vector<ExactCut> posed(const PlacedSpecimen& placed) {
-  std::vector<ExactCut> cuts;
-  for (const SpecimenPart& part : placed.specimen->parts)
-    cuts.push_back(part.discs.posed(baselines::quad_rotation(placed.heading)));
-  return cuts;
+ExactCut posed(const PlacedSpecimen& placed) {
+  return placed.specimen->discs.posed(baselines::quad_rotation(placed.heading));
 }
 
 /// What is said of every two discs, one of either cut or above it, put together with what is said of the pairs of all discs
@@ -81,8 +78,6 @@ struct OverlapInterval {
   double begin, end;
   std::size_t i, j;
   double along, across;
-  std::size_t part = 0;
-
   bool some() const { return begin <= end; }
 };
 
@@ -167,11 +162,11 @@ Quad gap_of_heights(const PlacedSpecimen& a, const PlacedSpecimen& b) {
   return std::max(Quad{of_b.bottom} + rise - Quad{of_a.top}, Quad{of_a.bottom} - Quad{of_b.top} - rise);
 }
 
-/// The plain test of two parts: discs in the world's coordinates, everything in one type.
+/// The plain test: discs in the world's coordinates, everything in one type.
 template <class Real>
 class PlainDiscs {
  public:
-  PlainDiscs(const PlacedSpecimen& placed, const SpecimenPart& part) : cut_(part.discs) {
+  explicit PlainDiscs(const PlacedSpecimen& placed) : cut_(placed.specimen->discs) {
     const QuadVector turn = baselines::quad_rotation(static_cast<double>(static_cast<Real>(placed.heading)));
     const Real c = static_cast<Real>(turn.x), s = static_cast<Real>(turn.y);
     const Real at_x = static_cast<Real>(placed.x), at_y = static_cast<Real>(placed.y);
@@ -210,10 +205,7 @@ bool plain_heights_meet(const PlacedSpecimen& a, const PlacedSpecimen& b) {
 
 template <class Real>
 bool plain_hit(const PlacedSpecimen& a, const PlacedSpecimen& b) {
-  if (!plain_heights_meet<Real>(a, b)) return false;
-  for (std::size_t i = 0; i < a.specimen->parts.size(); ++i)
-    if (PlainDiscs<Real>(a, a.specimen->parts[i]).hit(PlainDiscs<Real>(b, b.specimen->parts[i]))) return true;
-  return false;
+  return plain_heights_meet<Real>(a, b) && PlainDiscs<Real>(a).hit(PlainDiscs<Real>(b));
 }
 
 /// The part of an outline that goes far along a direction, segment by segment, where there is too much of it to look at all.
@@ -243,29 +235,22 @@ Outline front(const Outline& outline, const PlacedSpecimen& placed, double x, do
   return part;
 }
 
-/// Makes the oracle of a slab of two agents, of which (x, y) leads from a to b.
-baselines::Oracle oracle(const PlacedSpecimen& a, const PlacedSpecimen& b, std::size_t part, double x,
-                         double y) {
+/// Makes the oracle of two agents, of which (x, y) leads from a to b.
+baselines::Oracle oracle(const PlacedSpecimen& a, const PlacedSpecimen& b, double x, double y) {
   const std::uint32_t shape[] = {0, 1};
   const double at_x[] = {a.x, b.x}, at_y[] = {a.y, b.y}, heading[] = {a.heading, b.heading};
-  return {front(a.specimen->parts[part].geometry, a, x, y),
-          front(b.specimen->parts[part].geometry, b, -x, -y),
+  return {front(a.specimen->geometry, a, x, y), front(b.specimen->geometry, b, -x, -y),
           baselines::exact_placement({shape, at_x, at_y, heading}, 0, 1)};
 }
 
 }  // namespace
 
 Trial::Trial(const PlacedSpecimen& first, const PlacedSpecimen& second)
-    : a(first), b(second), cuts_a_(posed(first)), cuts_b_(posed(second)) {}
+    : a(first), b(second), cut_a_(posed(first)), cut_b_(posed(second)) {}
 
 void Trial::put_discs_in_contact(double x, double y, const std::function<double(double)>& gap) {
-  OverlapInterval last = last_overlap(cuts_a_[0], cuts_b_[0], x, y);
-  for (std::size_t part = 1; part < cuts_a_.size(); ++part) {
-    OverlapInterval next = last_overlap(cuts_a_[part], cuts_b_[part], x, y);
-    next.part = part;
-    if (ends_later(next, last)) last = next;
-  }
-  const ExactDisc &p = cuts_a_[last.part].discs[last.i], &q = cuts_b_[last.part].discs[last.j];
+  const OverlapInterval last = last_overlap(cut_a_, cut_b_, x, y);
+  const ExactDisc &p = cut_a_.discs[last.i], &q = cut_b_.discs[last.j];
   const QuadVector line{x * last.along - y * last.across, y * last.along + x * last.across};
   const Quad radii = p.radius + q.radius;
   const Quad stretch = (radii + gap(static_cast<double>(radii))) / baselines::square_root(square(line));
@@ -280,11 +265,8 @@ void Trial::put_outlines_in_contact(double x, double y, double gap) {
   away.x = a.x + far * x, away.y = a.y + far * y;
   // In a's frame it is a that moves.
   const QuadVector way = turned_back(baselines::quad_rotation(a.heading), {far * x, far * y});
-  long double time = 2;
-  for (std::size_t part = 0; part < cuts_a_.size(); ++part)
-    time =
-        std::min(time, oracle(a, away, part, x, y)
-                           .time_of_impact(static_cast<long double>(way.x), static_cast<long double>(way.y)));
+  const long double time =
+      oracle(a, away, x, y).time_of_impact(static_cast<long double>(way.x), static_cast<long double>(way.y));
   const double distance = time <= 1 ? static_cast<double>(far * (1 - time)) : 0;
   b.x = a.x + (distance + gap) * x;
   b.y = a.y + (distance + gap) * y;
@@ -296,18 +278,14 @@ void Trial::put_on_top(double gap) {
 }
 
 double Trial::gap() const {
-  Quad least = 1e300;
-  for (std::size_t part = 0; part < cuts_a_.size(); ++part)
-    least = std::min(least, gap_of_discs(cuts_a_[part], cuts_b_[part], shift(a, b), reaches()));
-  return static_cast<double>(std::max(least, gap_of_heights(a, b)));
+  return static_cast<double>(
+      std::max(gap_of_discs(cut_a_, cut_b_, shift(a, b), reaches()), gap_of_heights(a, b)));
 }
 
 bool Trial::outlines_meet() const {
   const double dx = b.x - a.x, dy = b.y - a.y, length = std::hypot(dx, dy);
   const double x = length > 0 ? dx / length : 1, y = length > 0 ? dy / length : 0;
-  for (std::size_t part = 0; part < cuts_a_.size(); ++part)
-    if (oracle(a, b, part, x, y).cross()) return true;
-  return false;
+  return oracle(a, b, x, y).cross();
 }
 
 bool Trial::plain_float_hit() const {

@@ -22,8 +22,7 @@ class Trial {
 
   PlacedSpecimen a, b;
 
-  /// Moves b along the direction (x, y), a unit vector, to where the two collide last by their discs, in any
-  /// slab. From there it moves b along the line of the centres of the two discs that separate the agents
+  /// Moves b along the direction (x, y), a unit vector, to where the two collide last by their discs. From there it moves b along the line of the centres of the two discs that separate the agents
   /// there, which may be discs above the cuts, by the gap for the sum of their radii. Correct to the rounding
   /// of b's position.
   void put_discs_in_contact(double x, double y, const std::function<double(double radii)>& gap);
@@ -34,7 +33,7 @@ class Trial {
 
   /// Returns how far the two are from colliding by their tight discs, metres. For a choice of one disc of
   /// each cut, take the largest gap between the first one or a disc above it and the second one or a disc
-  /// above it; the result is the least value over all such choices, of all slabs; or how far their heights are
+  /// above it; the result is the least value over all such choices; or how far their heights are
   /// apart, if that is more. Its sign is exact.
   double gap() const;
   bool outlines_meet() const;
@@ -45,8 +44,7 @@ class Trial {
   double reaches() const { return a.specimen->reach() + b.specimen->reach(); }
 
  private:
-  using Cuts = std::vector<baselines::ExactCut>;
-  Cuts cuts_a_, cuts_b_;  ///< per part, in the world's axes about their agents
+  baselines::ExactCut cut_a_, cut_b_;  ///< in the world's axes about their agents
 };
 
 }  // namespace bch::bench

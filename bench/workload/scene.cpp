@@ -43,18 +43,10 @@ const std::vector<Shape>& Scene::shapes() {
   return shapes_;
 }
 
-const std::vector<Shape>& Scene::shapes_in_slabs(std::uint32_t slabs) {
-  std::vector<Shape>& shapes = shapes_in_slabs_[slabs];
-  if (shapes.empty())
-    shapes = cli::build_shapes(characters(), sources(), scene_threshold, {.slices = standing_slices(slabs)})
-                 .shapes;
-  return shapes;
-}
-
 const std::vector<baselines::Body>& Scene::bodies() {
   if (!bodies_.empty()) return bodies_;
   for (std::size_t i = 0; i < shapes().size(); ++i) {
-    const auto [index, at, whole] = sources()[i];
+    const auto [index, at] = sources()[i];
     const Character& character = characters()[index].character;
     detail::Skinner skinner(character);
     const auto positions = skinner.pose(at);

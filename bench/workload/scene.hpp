@@ -48,8 +48,6 @@ class Scene {
   std::uint32_t agents() const { return options_.sizes.agents; }  ///< of a crowd
   const std::vector<ShapeSource>& sources();
   const std::vector<Shape>& shapes();
-  /// Returns the shapes in slabs: as standing_slices() cuts people.
-  const std::vector<Shape>& shapes_in_slabs(std::uint32_t slabs);
   const std::vector<baselines::Body>& bodies();
   /// Returns models of so many spheres, one a character.
   const std::vector<BodyModel>& models(std::uint32_t spheres);
@@ -75,7 +73,6 @@ class Scene {
   std::vector<cli::LoadedCharacter> characters_;
   std::vector<ShapeSource> sources_;
   std::vector<Shape> shapes_;
-  std::map<std::uint32_t, std::vector<Shape>> shapes_in_slabs_;
   std::vector<baselines::Body> bodies_;
   std::map<std::uint32_t, std::vector<BodyModel>> models_;
   std::optional<ShapeSet> set_;

@@ -26,7 +26,7 @@ void PoseBaker::add(ShapeSetBuilder& to, std::span<const ShapeSource> sources, c
   add(
       to, sources.size(),
       [&](std::size_t i) {
-        return PoseOfCharacter{sources[i].character, sources[i].at, sources[i].whole};
+        return PoseOfCharacter{sources[i].character, sources[i].at};
       },
       steps);
 }
@@ -51,9 +51,9 @@ const Shape& PoseBaker::make(const PoseOfCharacter& source, std::size_t i, const
       shaper.emplace(*characters_[source.character].character, plan_, threshold_);
       if (most_nodes_) shaper->limit_nodes(*most_nodes_);
     }
-    const Shape& outlines = shaper->make_outlines(source.pose, source.whole);
-    if (steps.outlined) steps.outlined(i, outlines);
-    return shaper->make_hierarchies();
+    const Shape& outline = shaper->make_outline(source.pose);
+    if (steps.outlined) steps.outlined(i, outline);
+    return shaper->make_hierarchy();
   } catch (const std::length_error& error) {
     throw std::length_error(name_of(source, i) + error.what());
   } catch (const std::domain_error& error) {

@@ -28,7 +28,6 @@ struct BakedCharacter {
 struct PoseOfCharacter {
   std::uint32_t character = 0;
   Pose pose;
-  bool whole = false;  ///< see PoseShaper::shape()
 };
 
 /// Holds what happens between the steps of a baker; functions may be empty. Any thread calls them.

@@ -9,9 +9,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "kernel/runtime/pair_heights.hpp"
 #include "kernel/runtime/pair_validation.hpp"
 #include "kernel/runtime/task_ranges.hpp"
-#include "kernel/simd/slab_pairs.hpp"
 #include "layout/base/floating_point_state.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/base/shortest.hpp"
@@ -33,14 +33,6 @@ CrowdBounds bounds(const ShapeSetView& shapes, const Agents& agents, double marg
         a.add(b);
         return a;
       });
-}
-
-/// Returns whether parts of two agents are at the same height: those on different floors have none.
-bool heights_meet(const ShapeSetView& shapes, const Agents& agents, Pair pair) {
-  const auto [a, b] = pair;
-  std::uint32_t cursor = 0;
-  const SlabPairs<void> slab_pairs(shapes, agents.shape[a], agents.shape[b], agents.z[b] - agents.z[a]);
-  return slab_pairs.next(cursor).a != no_part;
 }
 
 }  // namespace
@@ -140,12 +132,13 @@ std::span<const Pair> BroadPhase::find_valid(const ShapeSetView& shapes, const A
   const std::size_t blocks = (agents.size() + block_discs - 1) / block_discs;
   if (found_.size() < blocks) found_.resize(blocks);
   PairCount count(most_pairs);
+  const Arguments in = arguments_for(shapes, agents, {});
   for_ranges(blocks, 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t b = first; b < last; ++b) {
       const std::size_t begin = b * block_discs, end = std::min(begin + block_discs, agents.size());
       find_in_block(grid, begin, end, found_[b], count);
       if (test != nullptr) found_[b].keep_if([&](Pair pair) { return test->accepts(pair); });
-      if (!agents.z.empty()) found_[b].keep_if([&](Pair pair) { return heights_meet(shapes, agents, pair); });
+      if (!agents.z.empty()) found_[b].keep_if([&](Pair pair) { return heights_meet(in, pair); });
     }
   });
   gather_pairs(blocks);

@@ -8,9 +8,7 @@
 
 #include "kernel/distance/clearance_terms.hpp"
 #include "layout/base/heading.hpp"
-#include "layout/base/planes.hpp"
 #include "layout/base/rounding.hpp"
-#include "layout/format/parts.hpp"
 
 namespace bch::detail {
 namespace {
@@ -49,29 +47,11 @@ struct PruningDisc {
   double x, y, radius;  ///< metres, in the shape's frame
 };
 
-/// The disc of an agent's root; of a body in slabs one around the discs of all.
+/// The disc of an agent's root.
 PruningDisc pruning_disc(const ShapeSetView& shapes, const Agents& agents, std::size_t agent, double margin) {
-  const auto of_root = [&](std::size_t root) -> PruningDisc {
-    return {static_cast<double>(shapes.roots[root].x), static_cast<double>(shapes.roots[root].y),
-            pruning_radius(shapes, root, margin)};
-  };
-  const std::size_t whole = agents.root(agent, shapes.level_count);
-  if (shapes.slab_parts == nullptr) return of_root(whole);
-  const std::size_t level = whole % shapes.level_count;
-  PruningDisc part[most_planes + 1];
-  std::size_t count = 0;
-  double left = 1e300, right = -1e300, low = 1e300, high = -1e300;
-  visit_parts(shapes, agents.shape[agent], [&](std::uint32_t number, std::uint32_t) {
-    const auto [x, y, r] = part[count++] = of_root(std::size_t{number} * shapes.level_count + level);
-    left = std::min(left, x - r), right = std::max(right, x + r);
-    low = std::min(low, y - r), high = std::max(high, y + r);
-  });
-  PruningDisc around{0.5 * (left + right), 0.5 * (low + high), 0};
-  for (std::size_t i = 0; i < count; ++i)
-    around.radius =
-        std::max(around.radius, std::hypot(part[i].x - around.x, part[i].y - around.y) + part[i].radius);
-  around.radius *= 1 + 0x1p-40;
-  return around;
+  const std::size_t root = agents.root(agent, shapes.level_count);
+  return {static_cast<double>(shapes.roots[root].x), static_cast<double>(shapes.roots[root].y),
+          pruning_radius(shapes, root, margin)};
 }
 
 }  // namespace

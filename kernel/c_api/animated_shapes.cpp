@@ -91,8 +91,7 @@ bch_status bch_animated_shape_animate(const bch_character* character, uint32_t c
     check_index(clip, of.clips.size(), "clip");
     const bch_animate_options given =
         sized<bch_animate_options>(options, BCH_ANIMATE_OPTIONS_INIT, "options");
-    const auto slices = array_of(given.slices, given.slice_count, "options->slices");
-    AnimateOptions how{given.spacing, given.inset, given.error, {slices.begin(), slices.end()}};
+    AnimateOptions how{given.spacing, given.inset, given.error};
     if (given.loops < -1 || given.loops > 1)
       throw Failure(BCH_INVALID_ARGUMENT, "options->loops is " + std::to_string(given.loops));
     if (given.loops >= 0) how.loops = given.loops == 1;
@@ -116,13 +115,8 @@ bch_status bch_animated_shape_get_info(const bch_animated_shape* handle, bch_ani
     all.end = shape.end();
     all.reach = shape.reach();
     all.bytes = shape.bytes();
-    all.slabs = discs.slabs.size();
-    const auto count = [&](const std::vector<AnimatedChunk>& chunks) {
-      all.chunks += chunks.size();
-      for (const AnimatedChunk& chunk : chunks) all.keys += chunk.times.size();
-    };
-    count(discs.chunks);
-    for (const AnimatedDiscs& slab : discs.slabs) count(slab.chunks);
+    all.chunks = discs.chunks.size();
+    for (const AnimatedChunk& chunk : discs.chunks) all.keys += chunk.times.size();
     fill(info, all, "info");
   });
 }

@@ -71,8 +71,6 @@ ShapeSetPlan plan_of(const bch_plan* given) {
       .outlines = plan.outlines != 0, .culling = plan.culling != 0, .heights = plan.heights != 0};
   const auto depths = array_of(plan.depths, plan.depth_count, "plan->depths");
   if (!depths.empty()) all.depths.assign(depths.begin(), depths.end());
-  const auto slices = array_of(plan.slices, plan.slice_count, "plan->slices");
-  all.slices.assign(slices.begin(), slices.end());
   validate(all);
   return all;
 }

@@ -29,7 +29,7 @@ struct CallOn {
   std::uint32_t threads;
 
   /// Returns whether bodies meet part by part, for which some queries need memory.
-  bool in_parts() const { return shapes.slab_count() > 1 || !agents.z.empty(); }
+  bool in_parts() const { return !agents.z.empty(); }
 
   /// Asks on the threads that the options want.
   template <class Ask>

@@ -119,8 +119,6 @@ Cast cast_of(const bch_check_options& options) {
 std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check_options& given) {
   if (trajectory.is_read) throw Failure(BCH_INVALID_ARGUMENT, "trajectory has been read from; open it again");
   CheckOptions options;
-  const auto slices = array_of(given.slices, given.slice_count, "options->slices");
-  options.plan.slices.assign(slices.begin(), slices.end());
   options.plan.depths = {given.depth};
   options.leaves = one_of(given.leaves, Leaves::segments, "options->leaves");
   if (!(given.max_distance >= 0 && given.max_distance <= 10))

@@ -27,15 +27,11 @@ struct bch_character {
 /// Holds a set of its own, or one that a dynamic set lends.
 struct bch_shape_set {
   explicit bch_shape_set(bch::BakedShapes baked)
-      : own(std::make_unique<bch::BakedShapes>(std::move(baked))),
-        set(own->set),
-        slices(set.slices().begin(), set.slices().end()) {}
-  explicit bch_shape_set(const bch::ShapeSet& lent)
-      : set(lent), slices(set.slices().begin(), set.slices().end()) {}
+      : own(std::make_unique<bch::BakedShapes>(std::move(baked))), set(own->set) {}
+  explicit bch_shape_set(const bch::ShapeSet& lent) : set(lent) {}
 
   const std::unique_ptr<bch::BakedShapes> own;
   const bch::ShapeSet& set;
-  const std::vector<float> slices;
 };
 
 /// Holds bodies of its own, or those that live bodies lend.

@@ -48,9 +48,9 @@ class OwnPoses {
 
 /// Makes the shape of a pose.
 /// Errors:  names the pose.
-inline const Shape& shape_of_pose(PoseShaper& shaper, const Pose& pose, std::size_t i, bool whole = false) {
+inline const Shape& shape_of_pose(PoseShaper& shaper, const Pose& pose, std::size_t i) {
   try {
-    return shaper.shape(pose, whole);
+    return shaper.shape(pose);
   } catch (const std::logic_error& error) {
     const bool large = dynamic_cast<const std::length_error*>(&error) != nullptr;
     throw Failure(large ? BCH_TOO_LARGE : BCH_INVALID_ARGUMENT,

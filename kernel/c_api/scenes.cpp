@@ -32,10 +32,7 @@ std::vector<SceneAgent> scene_agents_of(const bch_scene_agents& given) {
 }
 
 SceneUse use_of(const bch_scene_use& given) {
-  const auto slices = array_of(given.slices, given.slice_count, "use->slices");
   return {.outlines = given.outlines != 0,
-          .slices = {slices.begin(), slices.end()},
-          .whole_from = given.whole_from,
           .heights = given.heights != 0,
           .pose_step = given.pose_step,
           .pairs_per_shape = given.pairs_per_shape};
@@ -48,23 +45,8 @@ std::unique_ptr<bch_scene_plan> plan_of(const bch_scene_agents& agents, const bc
   auto made = std::make_unique<bch_scene_plan>();
   made->plan = plan_scene(scene_agents_of(agents), use);
   for (const ShapeSource& shape : made->plan.shapes)
-    made->shapes.push_back({shape.character, {shape.at.clip, shape.at.seconds}, shape.whole});
+    made->shapes.push_back({shape.character, {shape.at.clip, shape.at.seconds}});
   return made;
-}
-
-/// The bodies that planes are chosen for, cut at all of them.
-std::vector<Shape> bodies_of(std::span<const bch_character* const> characters,
-                             std::span<const bch_pose> poses, std::span<const float> planes) {
-  const ShapeSetPlan plan{.slices = {planes.begin(), planes.end()}};
-  std::vector<Shape> bodies;
-  std::optional<PoseShaper> shaper;
-  for (std::size_t i = 0; i < poses.size(); ++i) {
-    const Character& of = *object_of(characters[i], "a character of characters").character;
-    check_pose(of, poses[i], i);
-    if (i == 0 || characters[i] != characters[i - 1]) shaper.emplace(of, plan);
-    bodies.push_back(shape_of_pose(*shaper, pose_of(poses[i]), i));
-  }
-  return bodies;
 }
 
 }  // namespace
@@ -90,29 +72,6 @@ bch_status bch_depth_at_density(double people_per_square_metre, uint32_t* depth)
   });
 }
 
-bch_status bch_standing_slices(uint32_t slabs, float* slices) {
-  return guarded([&] {
-    const std::vector<float> planes = standing_slices(slabs);
-    const auto to = array_of(slices, planes.size(), "slices");
-    std::copy(planes.begin(), planes.end(), to.begin());
-  });
-}
-
-bch_status bch_best_slices(const bch_character* const* characters, const bch_pose* poses, size_t count,
-                           const float* planes, size_t plane_count, uint32_t slabs, float* slices,
-                           size_t* slice_count) {
-  return guarded([&] {
-    required(slice_count, "slice_count");
-    const auto among = array_of(planes, plane_count, "planes");
-    const std::vector<Shape> bodies =
-        bodies_of(array_of(characters, count, "characters"), array_of(poses, count, "poses"), among);
-    const std::vector<float> best = best_slices(bodies, among, slabs);
-    const auto to = array_of(slices, best.size(), "slices");
-    std::copy(best.begin(), best.end(), to.begin());
-    *slice_count = best.size();
-  });
-}
-
 bch_status bch_scene_plan_create(const bch_scene_agents* agents, const bch_scene_use* use,
                                  bch_scene_plan** plan) {
   return guarded([&] {
@@ -129,7 +88,6 @@ bch_status bch_scene_plan_get_set(const bch_scene_plan* handle, bch_plan* set) {
     bch_plan all = BCH_PLAN_INIT;
     all.outlines = of.outlines, all.culling = of.culling, all.heights = of.heights;
     all.depths = of.depths.data(), all.depth_count = of.depths.size();
-    all.slices = of.slices.data(), all.slice_count = of.slices.size();
     fill(set, all, "set");
   });
 }

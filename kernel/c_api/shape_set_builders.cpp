@@ -136,7 +136,7 @@ void add_sources(bch_shape_set_builder& to, std::span<const bch_character* const
       to, characters, sources.size(), given, [&](detail::PoseBaker& baker, const detail::BakeSteps& steps) {
         baker.add(*to.builder, sources, steps);
         std::vector<std::optional<ShapeOrigin>> known(characters.size());
-        for (const auto& [character, at, whole] : sources)
+        for (const auto& [character, at] : sources)
           to.origins.origins.push_back(origin_of(to.origins, *characters[character], at, known[character]));
       });
 }
@@ -227,8 +227,7 @@ bch_status bch_shape_set_builder_add_sources(bch_shape_set_builder* handle,
     const auto all = array_of(sources, count, "sources");
     check_sources(of, all);
     std::vector<ShapeSource> shapes;
-    for (const auto& [character, at, whole] : all)
-      shapes.push_back({character, {at.clip, at.seconds}, whole != 0});
+    for (const auto& [character, at] : all) shapes.push_back({character, {at.clip, at.seconds}});
     add_sources(builder, of, shapes, work);
   });
 }

@@ -20,21 +20,13 @@ void check_shape(const ShapeSet& set, uint32_t shape) {
   check_index(shape, set.shape_count(), "shape");
 }
 
-/// Adds the contours of a shape's part in a slab.
-void add_slab(const detail::ShapeSetView& view, uint32_t shape, uint32_t slab, OutlineWriter& to) {
-  const uint32_t part = view.slab_parts == nullptr ? shape : view.slab_parts[shape * view.slab_count + slab];
-  if (part == detail::no_part || view.shape_contours == nullptr) return;
-  const detail::ContourRange range = view.shape_contours[part];
+void add_outline(const detail::ShapeSetView& view, uint32_t shape, OutlineWriter& to) {
+  if (view.shape_contours == nullptr) return;
+  const detail::ContourRange range = view.shape_contours[shape];
   for (uint32_t i = range.begin; i < range.end; ++i) {
     const detail::Contour& contour = view.contours[i];
     to.add({view.points + contour.begin, view.points + contour.end});
   }
-}
-
-void get_outline(const ShapeSet& set, uint32_t shape, uint32_t slab, OutlineWriter& to) {
-  const bool all = slab == BCH_ALL_SLABS;
-  for (uint32_t k = all ? 0 : slab; k < (all ? set.slab_count() : slab + 1); ++k)
-    add_slab(set.view(), shape, k, to);
 }
 
 bch_shape_origin origin_of(const ShapeOrigins& origins, uint32_t shape) {
@@ -75,13 +67,11 @@ bch_status bch_shape_set_get_info(const bch_shape_set* handle, bch_shape_set_inf
     bch_shape_set_info all = BCH_SHAPE_SET_INFO_INIT;
     all.shapes = of.set.shape_count();
     all.levels = of.set.level_count();
-    all.slabs = of.set.slab_count();
     all.has_heights = of.set.has_heights();
     all.outlines = of.set.plan().outlines;
     all.exact_leaves = of.set.exact_leaves();
     all.bytes = of.set.bytes();
     all.depths = of.set.depths().data();
-    all.slices = of.slices.data();
     fill(info, all, "info");
   });
 }
@@ -112,22 +102,12 @@ bch_status bch_shape_set_get_discs(const bch_shape_set* set, uint32_t shape, uin
   });
 }
 
-bch_status bch_shape_set_get_slab_offsets(const bch_shape_set* set, uint32_t shape, uint32_t level,
-                                          uint32_t* offsets) {
-  return guarded([&] {
-    const std::vector<std::uint32_t> begin = set_of(set).slab_begin(shape, level);
-    std::copy(begin.begin(), begin.end(), &required(offsets, "offsets"));
-  });
-}
-
-bch_status bch_shape_set_get_outline(const bch_shape_set* handle, uint32_t shape, uint32_t slab,
-                                     bch_outline* outline) {
+bch_status bch_shape_set_get_outline(const bch_shape_set* handle, uint32_t shape, bch_outline* outline) {
   return guarded([&] {
     const ShapeSet& set = set_of(handle);
     check_shape(set, shape);
-    if (slab != BCH_ALL_SLABS) check_index(slab, set.slab_count(), "slab");
     OutlineWriter to(outline);
-    get_outline(set, shape, slab, to);
+    add_outline(set.view(), shape, to);
     to.finish();
   });
 }

@@ -7,14 +7,17 @@
 
 #include "kernel/collide/containment.hpp"
 #include "kernel/runtime/kernels.hpp"
-#include "kernel/simd/agent_columns.hpp"
+#include "kernel/runtime/pair_heights.hpp"
 #include "layout/format/shape_set_view.hpp"
 
 namespace bch::detail {
 namespace {
 
-bool in_slabs(const Arguments& in) noexcept {
-  return in.shapes->slab_parts != nullptr || in.agent_z.first != nullptr;
+/// Keeps apart the pairs whose heights do not meet.
+void compare_heights(const Arguments& in, std::size_t begin, std::size_t end) noexcept {
+  if (in.agent_z.first == nullptr) return;
+  for (std::size_t i = begin; i < end; ++i)
+    if (in.codes[i] != apart && !heights_meet(in, in.pairs[i])) in.codes[i] = apart;
 }
 
 /// Decides the pairs of which one outline may contain the other.
@@ -25,11 +28,7 @@ void decide_containment(const Arguments& in, std::size_t begin, std::size_t end)
       in.codes[i] &= overlap;
       continue;
     }
-    const auto [a, b] = in.pairs[i];
-    const auto shape_of = [&](std::uint32_t agent) {
-      return AgentColumns<void>::at<std::uint32_t>(in.agent_shape, agent);
-    };
-    in.codes[i] = one_contains_other(in, a, shape_of(a), b, shape_of(b)) ? overlap : apart;
+    in.codes[i] = one_contains_other(in, in.pairs[i]) ? overlap : apart;
   }
 }
 
@@ -38,16 +37,14 @@ void decide_containment(const Arguments& in, std::size_t begin, std::size_t end)
 void answer(const Implementation& implementation, const Arguments& arguments, std::size_t begin,
             std::size_t end) noexcept {
   const Kernels& kernels = *implementation.kernels;
-  const bool about_gaps = arguments.gaps != nullptr;
-  if (in_slabs(arguments))
-    return (about_gaps ? kernels.run_within_in_slabs : kernels.run_in_slabs)(arguments, begin, end);
-  (about_gaps ? kernels.run_within : kernels.run)(arguments, begin, end);
+  (arguments.gaps != nullptr ? kernels.run_within : kernels.run)(arguments, begin, end);
+  compare_heights(arguments, begin, end);
   decide_containment(arguments, begin, end);
 }
 
 bool answer_if_valid(const Implementation& implementation, const Arguments& arguments,
                      std::size_t count) noexcept {
-  if (count == 0 || count > chunk_size || in_slabs(arguments) ||
+  if (count == 0 || count > chunk_size || arguments.agent_z.first != nullptr ||
       !implementation.kernels->run_if_valid(arguments, static_cast<std::uint32_t>(count)))
     return false;
   decide_containment(arguments, 0, count);

@@ -60,7 +60,7 @@ bool one_may_be_inside(const Disc& a, const Disc& b, Point b_centre, double slac
   return x * x + y * y + r * r <= limit * limit;
 }
 
-/// Names a contour of an agent's part.
+/// Names a contour of an agent's shape.
 struct Owned {
   std::uint32_t agent;
   const Contour& contour;
@@ -88,12 +88,16 @@ bool contour_holds(const Vec2* points, const Contour& contour, PointIn<double> p
   return odd;
 }
 
-bool one_contains_other(const Arguments& in, std::uint32_t agent_a, std::uint32_t part_a,
-                        std::uint32_t agent_b, std::uint32_t part_b) noexcept {
+bool one_contains_other(const Arguments& in, Pair pair) noexcept {
   const ShapeSetView& shapes = *in.shapes;
-  const double slack = inside_slack * (double{shapes.reach[part_a]} + double{shapes.reach[part_b]});
+  const auto [agent_a, agent_b] = pair;
+  const auto shape_of = [&](std::uint32_t agent) {
+    return AgentColumns<void>::at<std::uint32_t>(in.agent_shape, agent);
+  };
+  const std::uint32_t shape_a = shape_of(agent_a), shape_b = shape_of(agent_b);
+  const double slack = inside_slack * (double{shapes.reach[shape_a]} + double{shapes.reach[shape_b]});
   const Placement b_in_a = placement(in, agent_b, agent_a);
-  const ContourRange of_a = shapes.shape_contours[part_a], of_b = shapes.shape_contours[part_b];
+  const ContourRange of_a = shapes.shape_contours[shape_a], of_b = shapes.shape_contours[shape_b];
   for (std::uint32_t j = of_b.begin; j < of_b.end; ++j) {
     const Owned b{agent_b, shapes.contours[j]};
     const Point centre = b_in_a.apply(double{b.contour.disc.x}, double{b.contour.disc.y});

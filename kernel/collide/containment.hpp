@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <cstdint>
+#include <bch/agents.hpp>
 
 #include "kernel/simd/arguments.hpp"
 #include "kernel/simd/transform.hpp"
@@ -14,14 +14,12 @@ namespace bch::detail {
 /// Returns whether a contour holds a point that is not on it; both are in the shape's frame.
 bool contour_holds(const Vec2* points, const Contour& contour, PointIn<double> p) noexcept;
 
-/// Returns whether a contour of one agent's part lies inside the other's, for two agents whose parts have cuts that do not
-/// overlap.
+/// Returns whether a contour of one agent lies inside the other's, for two agents whose cuts do not overlap.
 ///
 /// Outlines then do not meet, so one point of a contour speaks for all of it. And the answer does not hang on
 /// a rounding: discs that the float test keeps apart leave u S and more between any two outline points
 /// (layout/base/rounding.hpp), while this test, in double, is off by less than 1e-9 S.
 /// Preconditions: valid indices; the set keeps outlines.
-bool one_contains_other(const Arguments& in, std::uint32_t agent_a, std::uint32_t part_a,
-                        std::uint32_t agent_b, std::uint32_t part_b) noexcept;
+bool one_contains_other(const Arguments& in, Pair pair) noexcept;
 
 }  // namespace bch::detail

@@ -4,8 +4,10 @@
 #include "kernel/contact/disc_contacts.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
-#include <utility>
+
+#include "kernel/runtime/pair_heights.hpp"
 #include "kernel/runtime/pair_validation.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 #include "layout/base/floating_point_state.hpp"
@@ -27,46 +29,28 @@ bool is_light(const ShapeSet& shapes, std::size_t pairs) {
 }  // namespace
 
 void DiscContacts::find_in_two_passes(const Implementation& implementation, const Arguments& arguments,
-                                      std::size_t pairs, std::vector<std::uint64_t>& begins) {
-  begins.resize(pairs + 1);
+                                      std::size_t pairs) {
+  offsets_.resize(pairs + 1);
   for_ranges(pairs, contact_grain, [&](std::size_t begin, std::size_t end) {
-    implementation.kernels->count_contacts(arguments, begin, end, begins.data());
+    implementation.kernels->count_contacts(arguments, begin, end, offsets_.data());
   });
-  begins[pairs] = 0;
-  std::exclusive_scan(begins.begin(), begins.end(), begins.begin(), std::uint64_t{0});
-  contacts_.resize(begins[pairs]);
+  offsets_[pairs] = 0;
+  std::exclusive_scan(offsets_.begin(), offsets_.end(), offsets_.begin(), std::uint64_t{0});
+  contacts_.resize(offsets_[pairs]);
   for_ranges(pairs, contact_grain, [&](std::size_t begin, std::size_t end) {
-    implementation.kernels->fill_contacts(arguments, begin, end, begins.data(), contacts_.data());
+    implementation.kernels->fill_contacts(arguments, begin, end, offsets_.data(), contacts_.data());
   });
 }
 
-/// Contacts of parts, pair by pair, numbered as discs of their bodies.
-void DiscContacts::find_of_parts(const Implementation& implementation, const Arguments& whole,
-                                 const Agents& agents, std::span<const Pair> pairs) {
-  items_.expand(*whole.shapes, agents, pairs);
-  const ShapeSetView parts = parts_as_shapes(*whole.shapes);
-  const Agents part_agents = items_.agents();
-  Arguments arguments = arguments_for(parts, part_agents, items_.pairs());
-  arguments.exact_leaves = whole.exact_leaves;
-  find_in_two_passes(implementation, arguments, items_.size(), item_offsets_);
-  for_ranges(pairs.size(), contact_grain, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      for (std::size_t k = items_.begin(i); k < items_.begin(i + 1); ++k)
-        for (std::uint64_t c = item_offsets_[k]; c < item_offsets_[k + 1]; ++c) {
-          auto& [first, second] = contacts_[c];
-          first += items_.origin(k).first_disc_a, second += items_.origin(k).first_disc_b;
-          if (pairs[i].second < pairs[i].first) std::swap(first, second);
-        }
-      const auto at = [&](std::size_t item) {
-        return contacts_.begin() + static_cast<std::ptrdiff_t>(item_offsets_[item]);
-      };
-      std::sort(at(items_.begin(i)), at(items_.begin(i + 1)), [](const DiscPair& a, const DiscPair& b) {
-        return std::pair(a.first, a.second) < std::pair(b.first, b.second);
-      });
-    }
-  });
+/// Makes rows of all pairs of those whose heights meet: the others are empty.
+void DiscContacts::add_empty_rows(const Arguments& arguments, std::span<const Pair> pairs) {
+  std::size_t row = meeting_.size();
   offsets_.resize(pairs.size() + 1);
-  for (std::size_t i = 0; i <= pairs.size(); ++i) offsets_[i] = item_offsets_[items_.begin(i)];
+  offsets_[pairs.size()] = offsets_[row];
+  for (std::size_t i = pairs.size(); i-- > 0;) {
+    row -= heights_meet(arguments, pairs[i]);
+    offsets_[i] = offsets_[row];
+  }
 }
 
 /// In one pass, with memory for as many contacts as there were before.
@@ -91,13 +75,20 @@ Rows<DiscPair> DiscContacts::find_valid(const ShapeSet& shapes, const Agents& ag
   const ShapeSetView& view = shapes.view();
   Arguments arguments = arguments_for(view, agents, pairs);
   arguments.exact_leaves = exact_leaves(shapes, leaves, "contacts");
+  const bool by_height = !agents.z.empty();
+  std::span<const Pair> asked = pairs;
   try {
-    if (asks_parts(view, agents))
-      find_of_parts(implementation, arguments, agents, pairs);
-    else if (is_light(shapes, pairs.size()))
-      find_of_few_discs(implementation, arguments, pairs.size());
+    if (by_height) {
+      meeting_.clear();
+      std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(meeting_),
+                   [&](Pair pair) { return heights_meet(arguments, pair); });
+      asked = meeting_, arguments.pairs = meeting_.data();
+    }
+    if (is_light(shapes, asked.size()))
+      find_of_few_discs(implementation, arguments, asked.size());
     else
-      find_in_two_passes(implementation, arguments, pairs.size(), offsets_);
+      find_in_two_passes(implementation, arguments, asked.size());
+    if (by_height) add_empty_rows(arguments, pairs);
   } catch (...) {
     *this = {};
     throw;

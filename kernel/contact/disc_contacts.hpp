@@ -10,7 +10,6 @@
 
 #include <bch/query.hpp>
 
-#include "kernel/runtime/part_items.hpp"
 #include "kernel/simd/arguments.hpp"
 
 namespace bch::detail {
@@ -28,16 +27,14 @@ class DiscContacts {
                             Leaves leaves, const Implementation* implementation);
 
  private:
-  void find_in_two_passes(const Implementation& implementation, const Arguments& arguments, std::size_t pairs,
-                          std::vector<std::uint64_t>& begins);
+  void find_in_two_passes(const Implementation& implementation, const Arguments& arguments,
+                          std::size_t pairs);
   void find_of_few_discs(const Implementation& implementation, const Arguments& arguments, std::size_t pairs);
-  void find_of_parts(const Implementation& implementation, const Arguments& whole, const Agents& agents,
-                     std::span<const Pair> pairs);
+  void add_empty_rows(const Arguments& arguments, std::span<const Pair> pairs);
 
   std::vector<std::uint64_t> offsets_;
   std::vector<DiscPair> contacts_;
-  PartItems items_;
-  std::vector<std::uint64_t> item_offsets_;  ///< as many as items, of which pairs may have none
+  std::vector<Pair> meeting_;  ///< pairs whose heights meet, where heights count
 };
 
 }  // namespace bch::detail

@@ -6,15 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
-#include <vector>
 
 #include "kernel/distance/apart_pairs.hpp"
 #include "kernel/distance/clearance_arguments.hpp"
 #include "kernel/distance/distance_input.hpp"
 #include "kernel/distance/nearest_features.hpp"
+#include "kernel/runtime/pair_heights.hpp"
 #include "kernel/runtime/pair_validation.hpp"
-#include "kernel/runtime/part_items.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 #include "layout/base/floating_point_state.hpp"
 #include "layout/base/rounding.hpp"
@@ -46,50 +44,22 @@ class RangeAnswers {
     } else {
       open_.take_all(pairs_);
     }
-    asks_parts(shapes_, agents_) ? search_parts() : search_shapes();
+    search();
   }
 
  private:
   /// Not inlined, so that what it keeps on the stack is not there beside the other kernel.
-  [[gnu::noinline]] void search_shapes() noexcept {
+  [[gnu::noinline]] void search() noexcept {
     NearestFeatures nearest[ApartPairs::capacity];
     arguments_.in.pairs = open_.pairs().data();
     arguments_.nearest = nearest;
     implementation_.kernels->clearance(arguments_, 0, open_.size());
-    for (std::size_t k = 0; k < open_.size(); ++k)
-      put(k, {shapes_, agents_, in_order(open_.pairs()[k]), nearest[k]}, {0, 0});
-  }
-
-  /// Bodies in slabs or at different heights: the nearest parts, in a tie those in the lowest slabs.
-  void search_parts() {
-    PartItems items;
-    items.expand(shapes_, agents_, open_.pairs());
-    std::vector<NearestFeatures> nearest(items.size());
-    const Agents agents = items.agents();
-    const ShapeSetView parts = parts_as_shapes(shapes_);
-    ClearanceArguments arguments = arguments_;
-    arguments.in = arguments_for(parts, agents, items.pairs());
-    arguments.in.exact_leaves = arguments_.in.exact_leaves;
-    arguments.nearest = nearest.data();
-    implementation_.kernels->clearance(arguments, 0, items.size());
-    const auto is_before = [&](std::size_t a, std::size_t b) {
-      const auto key = [&](std::size_t i) {
-        const float distance =
-            nearest[i].a != no_node ? nearest[i].distance : std::numeric_limits<float>::infinity();
-        return std::tuple(distance, items.origin(i).slab_a, items.origin(i).slab_b);
-      };
-      return key(a) < key(b);
-    };
     for (std::size_t k = 0; k < open_.size(); ++k) {
-      std::size_t best = items.begin(k);
-      for (std::size_t i = best + 1; i < items.begin(k + 1); ++i)
-        if (is_before(i, best)) best = i;
-      if (items.begin(k) == items.begin(k + 1)) {
+      const Pair pair = open_.pairs()[k];
+      if (heights_meet(arguments_.in, pair))
+        put(k, {shapes_, agents_, in_order(pair), nearest[k]});
+      else
         put_alone(answers_, open_.index(k), std::numeric_limits<float>::infinity());
-        continue;
-      }
-      put(k, {parts, agents, items.pairs()[best], nearest[best]},
-          {items.origin(best).first_disc_a, items.origin(best).first_disc_b});
     }
   }
 
@@ -97,8 +67,8 @@ class RangeAnswers {
     return pair.first <= pair.second ? pair : Pair{pair.second, pair.first};
   }
 
-  /// Writes the answer for an open pair. `first`: the numbers of the first discs of what was found.
-  void put(std::size_t k, const FoundFeatures& found, DiscPair first) noexcept {
+  /// Writes the answer for an open pair.
+  void put(std::size_t k, const FoundFeatures& found) noexcept {
     const std::size_t i = open_.index(k);
     const NearestFeatures& nearest = found.nearest();
     if (nearest.a == no_node) return put_alone(answers_, i, std::numeric_limits<float>::infinity());
@@ -107,8 +77,7 @@ class RangeAnswers {
     answers_.distance[i] = nearest.distance;
     if (!answers_.direction.empty()) answers_.direction[i] = found.direction(is_turned ? -1 : 1);
     if (!answers_.discs.empty()) {
-      const DiscPair local = found.numbers();
-      const DiscPair discs{local.first + first.first, local.second + first.second};
+      const DiscPair discs = found.numbers();
       answers_.discs[i] = is_turned ? DiscPair{discs.second, discs.first} : discs;
     }
     if (!answers_.points.empty()) {

@@ -5,13 +5,12 @@
 
 #include <algorithm>
 #include <limits>
-#include <vector>
 
 #include "kernel/distance/apart_pairs.hpp"
 #include "kernel/distance/distance_input.hpp"
 #include "kernel/distance/time_of_impact_arguments.hpp"
+#include "kernel/runtime/pair_heights.hpp"
 #include "kernel/runtime/pair_validation.hpp"
-#include "kernel/runtime/part_items.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 #include "layout/base/floating_point_state.hpp"
 
@@ -21,30 +20,8 @@ using namespace detail;
 
 namespace {
 
-/// Bodies in slabs or at different heights meet where their first parts do.
-void find_first(const Implementation& implementation, const TimeOfImpactArguments& whole,
-                const Agents& agents, std::span<const Pair> pairs, const float* way_x, const float* way_y,
-                float* times) {
-  const ShapeSetView parts = parts_as_shapes(*whole.in.shapes);
-  PartItems items;
-  items.expand(*whole.in.shapes, agents, pairs);
-  std::vector<float> x(items.size()), y(items.size()), found(items.size());
-  for (std::size_t k = 0; k < items.size(); ++k) {
-    x[k] = way_x[items.origin(k).pair], y[k] = way_y[items.origin(k).pair];
-  }
-  const Agents part_agents = items.agents();
-  const TimeOfImpactArguments arguments{arguments_for(parts, part_agents, items.pairs()), x.data(), y.data(),
-                                        found.data()};
-  implementation.kernels->time_of_impact(arguments, 0, items.size());
-  std::fill_n(times, pairs.size(), std::numeric_limits<float>::infinity());
-  for (std::size_t k = 0; k < items.size(); ++k) {
-    float& time = times[items.origin(k).pair];
-    time = std::min(time, found[k]);
-  }
-}
-
 /// The work of one task.
-void answer(const Implementation& implementation, TimeOfImpactArguments arguments, const Agents& agents,
+void answer(const Implementation& implementation, TimeOfImpactArguments arguments,
             std::span<const Pair> pairs, const double* x, const double* y, float* times) {
   ApartPairs open;
   open.take_apart(implementation, arguments.in, pairs);
@@ -57,12 +34,11 @@ void answer(const Implementation& implementation, TimeOfImpactArguments argument
   }
   arguments.in.pairs = open.pairs().data();
   arguments.x = way_x, arguments.y = way_y, arguments.time = found;
-  if (asks_parts(*arguments.in.shapes, agents))
-    find_first(implementation, arguments, agents, open.pairs(), way_x, way_y, found);
-  else
-    implementation.kernels->time_of_impact(arguments, 0, open.size());
+  implementation.kernels->time_of_impact(arguments, 0, open.size());
   std::fill_n(times, pairs.size(), 0.0f);
-  for (std::size_t k = 0; k < open.size(); ++k) times[open.index(k)] = found[k];
+  for (std::size_t k = 0; k < open.size(); ++k)
+    times[open.index(k)] =
+        heights_meet(arguments.in, open.pairs()[k]) ? found[k] : std::numeric_limits<float>::infinity();
 }
 
 }  // namespace
@@ -77,7 +53,7 @@ void time_of_impact(const ShapeSet& shapes, const Agents& agents, std::span<cons
 
   TimeOfImpactArguments arguments{arguments_for(view, agents, {}), nullptr, nullptr, nullptr};
   for_pair_ranges(pairs.size(), ApartPairs::capacity, [&](std::size_t begin, std::size_t size) {
-    answer(implementation, arguments, agents, pairs.subspan(begin, size), displacements.x.data() + begin,
+    answer(implementation, arguments, pairs.subspan(begin, size), displacements.x.data() + begin,
            displacements.y.data() + begin, times.data() + begin);
   });
 }

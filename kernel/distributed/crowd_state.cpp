@@ -67,7 +67,7 @@ CrowdState::CrowdState(MPI_Comm of, std::span<const Character> characters, const
     const std::vector<CrowdAgent> samples = sampled_agents(characters);
     posed->add(samples);
     radii = posed->radii(samples);
-    prepare(plan.heights || !plan.slices.empty());
+    prepare(plan.heights);
   });
 }
 

@@ -5,7 +5,6 @@
 
 #include "kernel/body/body_kernel.hpp"
 #include "kernel/collide/pair_kernel.hpp"
-#include "kernel/collide/slab_kernel.hpp"
 #include "kernel/contact/contact_kernel.hpp"
 #include "kernel/distance/clearance_kernel.hpp"
 #include "kernel/distance/time_of_impact_kernel.hpp"
@@ -23,9 +22,6 @@ namespace bch::detail {
 template <class Simd>
 struct Row {
   using Guard [[maybe_unused]] = typename Simd::Guard;
-  /// Names the stages of bodies in slabs, which are compiled apart, so that what they call does not decide what is
-  /// inlined for whole bodies.
-  struct ForSlabs : Simd {};
   /// Names the stages of questions about distances, which are compiled apart, so that collide() does not pay
   /// for what only these need.
   struct WithGaps : Simd {
@@ -44,17 +40,9 @@ struct Row {
     [[maybe_unused]] const Guard guard;
     PairKernel<Simd>::run(arguments, begin, end);
   }
-  static void run_in_slabs(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
-    [[maybe_unused]] const Guard guard;
-    SlabKernel<ForSlabs>::run(arguments, begin, end);
-  }
   static void run_within(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
     [[maybe_unused]] const Guard guard;
     PairKernel<WithGaps>::run(arguments, begin, end);
-  }
-  static void run_within_in_slabs(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
-    [[maybe_unused]] const Guard guard;
-    SlabKernel<WithGaps>::run(arguments, begin, end);
   }
   static void collide_bodies(const BodyArguments& arguments, std::size_t begin, std::size_t end) noexcept {
     [[maybe_unused]] const Guard guard;
@@ -108,24 +96,10 @@ struct Row {
     ObstacleKernel<Simd>(arguments).find_gap(enough, best);
   }
 
-  static constexpr Kernels kernels{Simd::width,
-                                   check,
-                                   named,
-                                   run,
-                                   run_in_slabs,
-                                   run_within,
-                                   run_within_in_slabs,
-                                   collide_bodies,
-                                   run_if_valid,
-                                   count_contacts,
-                                   append_contacts,
-                                   fill_contacts,
-                                   extents,
-                                   clearance,
-                                   time_of_impact,
-                                   overlapping_boxes,
-                                   touches,
-                                   find_gap};
+  static constexpr Kernels kernels{
+      Simd::width,    check,           named,         run,     run_within, collide_bodies, run_if_valid,
+      count_contacts, append_contacts, fill_contacts, extents, clearance,  time_of_impact, overlapping_boxes,
+      touches,        find_gap};
 };
 
 }  // namespace bch::detail

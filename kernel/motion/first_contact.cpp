@@ -8,7 +8,7 @@
 #include <bch/time_of_impact.hpp>
 
 #include "kernel/motion/contact_search.hpp"
-#include "kernel/motion/motion_parts.hpp"
+#include "kernel/motion/valid_motions.hpp"
 #include "kernel/runtime/pair_validation.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 #include "layout/base/floating_point_state.hpp"
@@ -21,29 +21,13 @@ namespace {
 
 constexpr std::size_t grain = 16;
 
-void require_valid(const char* query, std::span<const Pair> pairs, const MotionParts& motions) {
+void require_valid(const char* query, std::span<const Pair> pairs, std::size_t motions) {
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const auto [first, second] = pairs[i];
-    const std::string pair = "pair " + std::to_string(i) + ": ";
-    if (const std::uint32_t last = std::max(first, second); last >= motions.size())
-      reject(query, pair + "motion " + std::to_string(last) + " of " + std::to_string(motions.size()));
-    if (!motions.are_cut_alike(first, motions, second))
-      reject(query, pair + "motions " + std::to_string(first) + " and " + std::to_string(second) +
-                        " have bodies that are cut at different planes");
+    if (const std::uint32_t last = std::max(first, second); last >= motions)
+      reject(query, "pair " + std::to_string(i) + ": motion " + std::to_string(last) + " of " +
+                        std::to_string(motions));
   }
-}
-
-/// Returns the first contact of the slabs of two motions' bodies.
-double first_of_slabs(ContactSearch& search, const MotionParts& a, std::size_t i, const MotionParts& b,
-                      std::size_t j, double from, double to) {
-  const std::span<const float> slices = a.slices(i).empty() ? b.slices(j) : a.slices(i);
-  double first = never;
-  for (std::size_t slab = 0; slab <= slices.size(); ++slab) {
-    const MotionFacts *const of_a = a.slab(i, slices, slab), *const of_b = b.slab(j, slices, slab);
-    if (of_a != nullptr && of_b != nullptr)
-      first = std::min(first, search.first(*of_a, *of_b, from, std::min(first, to)));
-  }
-  return first;
 }
 
 }  // namespace
@@ -54,8 +38,8 @@ void first_contact(std::span<const Motion> motions, std::span<const Pair> pairs,
   const FloatingPointStateGuard floats;
   require_as_many({query, "pair", pairs.size()}, times.size(), "times");
   require_valid(query, interval, tolerance);
-  const MotionParts parts(query, motions);
-  require_valid(query, pairs, parts);
+  const std::vector<MotionFacts> facts = valid_motions(query, motions);
+  require_valid(query, pairs, facts.size());
   std::vector<double> found(pairs.size());
   for_ranges(pairs.size(), grain, [&](std::size_t begin, std::size_t end) {
     ContactSearch search(tolerance);
@@ -64,7 +48,7 @@ void first_contact(std::span<const Motion> motions, std::span<const Pair> pairs,
       found[i] = within_limit(
           query, [i] { return "pair " + std::to_string(i); },
           [&, low = low, high = high] {
-            return first_of_slabs(search, parts, low, parts, high, interval.from, interval.to);
+            return search.first(facts[low], facts[high], interval.from, interval.to);
           });
     }
   });
@@ -76,19 +60,16 @@ double free_until(const Motion& motion, std::span<const Motion> others, const Ti
   constexpr const char* query = "free_until";
   const FloatingPointStateGuard floats;
   require_valid(query, interval, tolerance);
-  const MotionParts own(query, {&motion, 1}, others.size()), parts(query, others);
-  for (std::size_t i = 0; i < others.size(); ++i)
-    if (!own.are_cut_alike(0, parts, i))
-      reject(query, "motion " + std::to_string(i) + " has a body that is cut at other planes");
+  const std::vector<MotionFacts> own = valid_motions(query, {&motion, 1}, others.size()),
+                                 facts = valid_motions(query, others);
   ContactSearch search(tolerance);
   double first = never;
   for (std::size_t i = 0; i < others.size(); ++i)
-    first = std::min(first, within_limit(
-                                query, [i] { return "motion " + std::to_string(i); },
-                                [&] {
-                                  return first_of_slabs(search, own, 0, parts, i, interval.from,
-                                                        std::min(first, interval.to));
-                                }));
+    first = std::min(
+        first,
+        within_limit(
+            query, [i] { return "motion " + std::to_string(i); },
+            [&] { return search.first(own[0], facts[i], interval.from, std::min(first, interval.to)); }));
   return first;
 }
 

@@ -32,24 +32,14 @@ constexpr const char* query = "moments";
 constexpr std::size_t moments_a_task = 8;
 constexpr double largest_time = 1e6;  ///< seconds
 
-/// Returns a body that is whole, or its slabs.
-std::span<const AnimatedShape> parts_of(const AnimatedShape& body) {
-  return body.slabs().empty() ? std::span(&body, 1) : body.slabs();
-}
-
-/// Returns the moment with the most discs, of bodies that are cut as far as chunks of their first slabs tell.
+/// Returns the moment with the most discs.
 Moment largest_moment(std::span<const AnimatedShape* const> bodies) {
   Moment largest{0, bodies[0]->begin()};
   std::size_t most = 0;
   for (std::uint32_t i = 0; i < bodies.size(); ++i) {
-    const std::span<const AnimatedShape> parts = parts_of(*bodies[i]);
-    for (const AnimatedTreeChunk& chunk : parts[0].tree().chunks) {
-      const double seconds = std::midpoint(chunk.times.front(), chunk.times.back());
-      std::size_t nodes = 0;
-      for (const AnimatedShape& part : parts)
-        nodes += part.tree().chunks[key_place(part.tree(), seconds).chunk].nodes();
-      if (nodes > most) most = nodes, largest = {i, seconds};
-    }
+    for (const AnimatedTreeChunk& chunk : bodies[i]->tree().chunks)
+      if (chunk.nodes() > most)
+        most = chunk.nodes(), largest = {i, std::midpoint(chunk.times.front(), chunk.times.back())};
   }
   return largest;
 }
@@ -106,7 +96,7 @@ void MomentSet::State::require_valid(std::span<const std::uint32_t> body, std::s
 }
 
 Moment MomentSet::State::moment(std::uint32_t body, double seconds) const {
-  const AnimatedTree& tree = parts_of(*flattener.bodies()[body])[0].tree();
+  const AnimatedTree& tree = flattener.bodies()[body]->tree();
   return {body, std::clamp(time_in_clip(tree, seconds), tree.begin(), tree.end()) + 0.0};
 }
 
@@ -171,11 +161,6 @@ MomentSet::MomentSet(std::span<const AnimatedShape* const> bodies, const ShapeSe
   for (std::size_t i = 0; i < bodies.size(); ++i)
     if (bodies[i] == nullptr)
       throw std::invalid_argument(std::string(query) + ": body " + std::to_string(i) + " is missing");
-  for (std::size_t i = 0; i < bodies.size(); ++i)
-    if (const std::span<const float> cut = bodies[i]->slices();
-        !cut.empty() && !std::equal(cut.begin(), cut.end(), plan.slices.begin(), plan.slices.end()))
-      throw std::invalid_argument(std::string(query) + ": body " + std::to_string(i) +
-                                  " is cut at other planes");
   state_ = std::make_unique<State>(bodies, plan, kept);
 }
 MomentSet::MomentSet(MomentSet&&) noexcept = default;

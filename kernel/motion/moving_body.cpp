@@ -19,8 +19,8 @@ double share_between(double from, double to, double time) noexcept {
 
 }  // namespace
 
-MotionFacts::MotionFacts(const Motion& motion, const AnimatedShape& body)
-    : tree(&body.tree()), path(motion.path), clip_begin(motion.clip_begin) {
+MotionFacts::MotionFacts(const Motion& motion)
+    : tree(&motion.shape->tree()), path(motion.path), clip_begin(motion.clip_begin) {
   for (std::size_t k = 0; k < path.size(); ++k) {
     farthest = std::max({farthest, std::abs(path[k].x), std::abs(path[k].y)});
     if (k == 0) continue;

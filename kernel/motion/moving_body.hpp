@@ -16,7 +16,7 @@ namespace bch::detail {
 /// Bound the errors of positions for each metre a second and second, metre of a coordinate, and metre of the reaches; see ContactSearch.
 constexpr double time_rounding = 0x1p-48, position_rounding = 0x1p-48, root_rounding = 0x1p-20;
 
-/// Holds what a search wants to know of a motion beforehand, or of a slab of its body.
+/// Holds what a search wants to know of a motion beforehand.
 struct MotionFacts {
   const AnimatedTree* tree;
   std::span<const PathKey> path;
@@ -24,8 +24,8 @@ struct MotionFacts {
   double path_speed = 0;  ///< the most in a second, metres
   double farthest = 0;    ///< the largest coordinate of a key
 
-  /// Takes a motion that is valid, and its shape or a slab of that.
-  MotionFacts(const Motion& motion, const AnimatedShape& body);
+  /// Takes a motion that is valid.
+  explicit MotionFacts(const Motion& motion);
 };
 
 /// Represents a motion at times that ascend: which keys of its path and of its clip a time lies between.

@@ -7,8 +7,8 @@
 
 #include <bch/obstacles.hpp>
 
-#include "kernel/motion/motion_parts.hpp"
 #include "kernel/motion/obstacle_search.hpp"
+#include "kernel/motion/valid_motions.hpp"
 #include "kernel/runtime/pair_validation.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 #include "layout/base/floating_point_state.hpp"
@@ -24,7 +24,7 @@ void first_contact(std::span<const Motion> motions, const ObstacleSet& obstacles
   const FloatingPointStateGuard floats;
   require_as_many({query, "motion", motions.size()}, times.size(), "times");
   require_valid(query, interval, tolerance);
-  const MotionParts parts(query, motions);
+  const std::vector<MotionFacts> facts = valid_motions(query, motions);
   const Implementation& implementation = chosen({}, query);
   std::vector<double> found(motions.size());
   for_ranges(motions.size(), grain, [&](std::size_t begin, std::size_t end) {
@@ -32,13 +32,7 @@ void first_contact(std::span<const Motion> motions, const ObstacleSet& obstacles
     for (std::size_t i = begin; i < end; ++i)
       found[i] = within_limit(
           query, [i] { return "motion " + std::to_string(i); },
-          [&] {
-            double first = never;
-            for (const MotionFacts& slab : parts[i])
-              first = std::min(first, search.first(slab, motions[i].shape->reach(), interval.from,
-                                                   std::min(first, interval.to)));
-            return first;
-          });
+          [&] { return search.first(facts[i], interval.from, interval.to); });
   });
   std::copy(found.begin(), found.end(), times.begin());
 }

@@ -13,15 +13,15 @@
 
 namespace bch::detail {
 
-double ObstacleSearch::first(const MotionFacts& motion, double reach, double from, double to) {
+double ObstacleSearch::first(const MotionFacts& motion, double from, double to) {
   MovingBody body(motion);
   body_ = &body;
   looked_inside_ = 0;
-  reach_ = reach;
+  reach_ = motion.tree->reach;
   limit_.begin();
   for (double time = from; time <= to;) {
     const double end = body_->path_end(time);
-    slack_ = body_->time_slack(time) + position_rounding * motion.farthest + root_rounding * 2 * reach;
+    slack_ = body_->time_slack(time) + position_rounding * motion.farthest + root_rounding * 2 * reach_;
     // One that stands does nothing new after a round.
     const bool stands = is_one_place(body_->pose(time), body_->pose(end));
     const double period = stands ? body_->period(time) : 0,

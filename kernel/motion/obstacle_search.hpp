@@ -32,10 +32,9 @@ class ObstacleSearch {
                  double tolerance) noexcept
       : near_(implementation, obstacles), tolerance_(tolerance) {}
 
-  /// Returns the first contact of a body, or of a slab of it, from one time to another, or infinity. Contacts up to `to` do not depend on it.
-  /// `reach`: that of the whole body.
+  /// Returns the first contact of a body from one time to another, or infinity. Contacts up to `to` do not depend on it.
   /// Errors:  throws StepLimit::Reached.
-  double first(const MotionFacts& motion, double reach, double from, double to);
+  double first(const MotionFacts& motion, double from, double to);
 
  private:
   double first_on_way(double from, double end, double to);

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "kernel/motion/motion_parts.hpp"
+#include "kernel/motion/valid_motions.hpp"
 
 namespace bch::detail {
 

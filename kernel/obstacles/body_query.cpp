@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "kernel/collide/containment.hpp"
-#include "kernel/obstacles/part_tree.hpp"
+#include "kernel/obstacles/shape_tree.hpp"
 #include "kernel/runtime/kernels.hpp"
 #include "kernel/simd/ancestor_test.hpp"
 #include "kernel/simd/leaf_segments.hpp"
@@ -71,7 +71,7 @@ class AreaSide {
 };
 
 /// Returns whether an area holds what is in a leaf whose disc is touched. `disc`: its place among the nodes.
-bool leaf_is_held(const ShapeSetView& shapes, const PartTree<void>& own, std::uint32_t disc,
+bool leaf_is_held(const ShapeSetView& shapes, const ShapeTree<void>& own, std::uint32_t disc,
                   bool has_segments, std::span<const LocalSegment> segments, AreaSide& area) {
   if (has_segments) {
     const LeafSegments<void> leaves{shapes.leaf_segments};
@@ -95,62 +95,58 @@ bool leaf_is_held(const ShapeSetView& shapes, const PartTree<void>& own, std::ui
 }  // namespace
 
 void BodyQuery::prepare(std::uint32_t begin, std::uint32_t end, double limit, Look look) {
-  choose_parts(begin, end, limit, look);
-  queries_.clear(), parts_.clear(), standing_.clear();
+  choose(begin, end, limit, look);
+  queries_.clear(), bodies_.clear(), standing_.clear();
   const bool by_height = near_.obstacles().heights != nullptr && shapes_.heights != nullptr;
-  ObstaclePlace place{};
   for (std::size_t i = 0; i < chosen_count_; ++i) {
-    const auto [agent, part, looked] = chosen_[i];
-    if (i == 0 || agent != chosen_[i - 1].agent)
-      place = {agents_.x[agent], agents_.y[agent], rotation(agents_.heading[agent])};
-    parts_.push_back({shapes_, place, agents_.shape[agent], part, level_of(agent), looked, i});
-    queries_.push_back({place, parts_.back().centre(), parts_.back().outer_radius() + looked});
-    if (by_height) standing_.push_back({shapes_.heights[part], agents_.z.empty() ? 0 : agents_.z[agent]});
+    const auto [agent, looked] = chosen_[i];
+    const ObstaclePlace place{agents_.x[agent], agents_.y[agent], rotation(agents_.heading[agent])};
+    const std::uint32_t shape = agents_.shape[agent];
+    bodies_.push_back({shapes_, place, shape, level_of(agent), looked, i});
+    queries_.push_back({place, bodies_.back().centre(), bodies_.back().outer_radius() + looked});
+    if (by_height) standing_.push_back({shapes_.heights[shape], agents_.z.empty() ? 0 : agents_.z[agent]});
   }
   near_.prepare(queries_, standing_);
 }
 
-/// The distance of an agent's position tells which parts can be left out: those that have no segment near them, and are too large for an area to hold
+/// The distance of an agent's position tells who can be left out: those who have no segment near them, and are too large for an area to hold
 /// them. There is no branch that depends on the answer, so that the next agents' numbers are on their way.
-void BodyQuery::choose_parts(std::uint32_t begin, std::uint32_t end, double limit, Look look) {
+void BodyQuery::choose(std::uint32_t begin, std::uint32_t end, double limit, Look look) {
   begin_ = begin;
-  first_part_.resize(end - begin + std::size_t{1});
-  chosen_.resize((end - begin) * std::size_t{shapes_.slab_count} + 1);
+  place_.resize(end - begin + std::size_t{1});
+  chosen_.resize(end - begin + std::size_t{1});
   std::size_t count = 0;
   for (std::uint32_t agent = begin; agent < end; ++agent) {
-    first_part_[agent - begin] = count;
+    place_[agent - begin] = count;
     const DistanceBounds nearest = near_.obstacles().distance_grid.bounds(agents_.x[agent], agents_.y[agent]);
     const double looked = look == Look::touching ? 0 : std::min(limit, first_look(nearest));
-    const std::uint32_t level = level_of(agent);
-    bch::detail::visit_parts(shapes_, agents_.shape[agent], [&](std::uint32_t part, std::uint32_t) {
-      const std::uint32_t index = part * shapes_.level_count + level;
-      const Root& root = shapes_.roots[index];
-      const double to_centre = std::abs(double{root.x}) + std::abs(double{root.y});
-      const bool is_far = to_centre + outer_radius(shapes_, index) + limit < nearest.least;
-      chosen_[count] = {agent, part, looked};
-      count += !(is_far & is_too_large_for_areas(root));
-    });
+    const auto index = static_cast<std::uint32_t>(agents_.root(agent, shapes_.level_count));
+    const Root& root = shapes_.roots[index];
+    const double to_centre = std::abs(double{root.x}) + std::abs(double{root.y});
+    const bool is_far = to_centre + outer_radius(shapes_, index) + limit < nearest.least;
+    chosen_[count] = {agent, looked};
+    count += !(is_far & is_too_large_for_areas(root));
   }
-  first_part_.back() = chosen_count_ = count;
+  place_.back() = chosen_count_ = count;
 }
 
-bool BodyQuery::touches(const PlacedPart& part, std::span<const LocalSegment> segments,
+bool BodyQuery::touches(const PlacedBody& body, std::span<const LocalSegment> segments,
                         bool exact_leaves) const noexcept {
-  return implementation_.kernels->touches({&shapes_, part.root_index(), segments.data(),
+  return implementation_.kernels->touches({&shapes_, body.root_index(), segments.data(),
                                            static_cast<std::uint32_t>(segments.size()), exact_leaves});
 }
 
 /// Where no segment touches a node, everything below it is on the side of the border on which its centre is. Where they touch a leaf's disc and
 /// not the outline in it, the points of that tell. Where discs decide, a node above a touched leaf may be untouched: blocks do not have all
 /// nodes.
-bool BodyQuery::area_holds(const PlacedPart& part, std::span<const LocalSegment> segments,
+bool BodyQuery::area_holds(const PlacedBody& body, std::span<const LocalSegment> segments,
                            std::uint32_t obstacle, bool exact_leaves) {
-  const PartTree<void> own(shapes_, part.root_index());
+  const ShapeTree<void> own(shapes_, body.root_index());
   const Tree& tree = own.tree;
-  AreaSide area(near_, part.place, segments, obstacle);
+  AreaSide area(near_, body.place, segments, obstacle);
   const bool has_segments = exact_leaves && tree.segments != no_segments;
-  const Root& root = part.root();
-  if (!is_touched(segments, root.x, root.y, root.radius)) return area.holds(part.centre());
+  const Root& root = body.root();
+  if (!is_touched(segments, root.x, root.y, root.radius)) return area.holds(body.centre());
   std::uint32_t open[7 * most_wide_levels + 1], count = 0;
   open[count++] = tree.top;
   while (count != 0) {
@@ -171,13 +167,13 @@ bool BodyQuery::area_holds(const PlacedPart& part, std::span<const LocalSegment>
   return false;
 }
 
-bool BodyQuery::outline_holds(const PlacedPart& part, std::span<const LocalSegment> segments) const noexcept {
+bool BodyQuery::outline_holds(const PlacedBody& body, std::span<const LocalSegment> segments) const noexcept {
   if (shapes_.shape_contours == nullptr) return false;
-  const ContourRange contours = shapes_.shape_contours[part.part];
+  const ContourRange contours = shapes_.shape_contours[body.shape];
   for (const LocalSegment& segment : segments) {
     if (near_.obstacles().begins_path[segment.number] == 0) continue;
     const WorldSegment& world = near_.obstacles().segments[segment.slot];
-    const auto [x, y] = part.place.turned_back(world.ax - part.place.x, world.ay - part.place.y);
+    const auto [x, y] = body.place.turned_back(world.ax - body.place.x, world.ay - body.place.y);
     for (std::uint32_t i = contours.begin; i < contours.end; ++i)
       if (contour_holds(shapes_.points, shapes_.contours[i], {x, y})) return true;
   }
@@ -193,16 +189,16 @@ bool BodyQuery::has_segment_of(std::uint32_t obstacle) noexcept {
   return first != found.end() && first->obstacle == obstacle;
 }
 
-std::uint32_t BodyQuery::area_that_holds(const PlacedPart& part, bool exact_leaves) {
+std::uint32_t BodyQuery::area_that_holds(const PlacedBody& body, bool exact_leaves) {
   std::uint32_t area = no_obstacle;
   near_.any_obstacle([&](std::span<const LocalSegment> segments, std::uint32_t obstacle) {
-    if (near_.obstacles().is_area[obstacle] == 0 || !area_holds(part, segments, obstacle, exact_leaves))
+    if (near_.obstacles().is_area[obstacle] == 0 || !area_holds(body, segments, obstacle, exact_leaves))
       return false;
     area = obstacle;
     return true;
   });
   if (area == no_obstacle)
-    visit_areas_beyond(part, [&](std::uint32_t obstacle) {
+    visit_areas_beyond(body, [&](std::uint32_t obstacle) {
       area = obstacle;
       return false;
     });

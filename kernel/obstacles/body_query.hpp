@@ -10,7 +10,7 @@
 #include <bch/query.hpp>
 
 #include "kernel/obstacles/near_segments.hpp"
-#include "layout/format/parts.hpp"
+#include "layout/format/shape_set_view.hpp"
 
 namespace bch::detail {
 
@@ -19,21 +19,21 @@ inline double outer_radius(const ShapeSetView& shapes, std::uint32_t root) noexc
   return double{shapes.trees == nullptr ? shapes.roots[root].radius : shapes.trees[root].outer};
 }
 
-/// Represents a part of an agent's body.
-struct PlacedPart {
+/// Represents the body of an agent.
+struct PlacedBody {
   const ShapeSetView& shapes;
   ObstaclePlace place;
-  std::uint32_t shape, part, level;
+  std::uint32_t shape, level;
   double looked;       ///< metres from its outer disc, within which segments were looked for
-  std::size_t number;  ///< among the parts that were prepared
+  std::size_t number;  ///< among the bodies that were prepared
 
-  std::uint32_t root_index() const noexcept { return part * shapes.level_count + level; }
+  std::uint32_t root_index() const noexcept { return shape * shapes.level_count + level; }
   const Root& root() const noexcept { return shapes.roots[root_index()]; }
   Vec2 centre() const noexcept { return {root().x, root().y}; }
   double outer_radius() const noexcept { return bch::detail::outer_radius(shapes, root_index()); }
 };
 
-/// Selects which segments are looked for at first: those that touch a part, or those that the nearest one is among.
+/// Selects which segments are looked for at first: those that touch a body, or those that the nearest one is among.
 enum class Look { touching, nearest };
 
 /// Implements the stages that answer an agent's queries against obstacles; it keeps its memory from agent to agent.
@@ -45,58 +45,57 @@ class BodyQuery {
 
   NearSegments& near() noexcept { return near_; }
 
-  /// Asks for the obstacles about many agents at once, begin .. end: those that touch their parts' outer discs, or to measure a distance those that are
-  /// as near as the nearest one. near_part() then returns them. Parts from which all obstacles are farther than a limit are left out.
+  /// Asks for the obstacles about many agents at once, begin .. end: those that touch their outer discs, or to measure a distance those that are
+  /// as near as the nearest one. near_body() then returns them. Agents from which all obstacles are farther than a limit are left out.
   void prepare(std::uint32_t begin, std::uint32_t end, double limit, Look look);
 
-  /// Returns the segments that prepare() looked for about a part.
-  std::span<LocalSegment> near_part(const PlacedPart& part) { return near_.take(part.number); }
+  /// Returns the segments that prepare() looked for about a body.
+  std::span<LocalSegment> near_body(const PlacedBody& body) { return near_.take(body.number); }
 
-  /// Calls visit(part) for every part of the body of an agent that was prepared and not left out.
-  template <class Visit>
-  void visit_parts(std::uint32_t agent, const Visit& visit) {
-    const std::size_t end = first_part_[agent - begin_ + 1];
-    for (std::size_t i = first_part_[agent - begin_]; i < end; ++i) visit(parts_[i]);
+  /// Returns the body of an agent that was prepared; null where it was left out.
+  const PlacedBody* body(std::uint32_t agent) const noexcept {
+    const std::size_t i = place_[agent - begin_];
+    return i < bodies_.size() && place_[agent - begin_ + 1] > i ? &bodies_[i] : nullptr;
   }
 
-  /// Calls found(obstacle) for obstacles that a part collides with, each once, until it returns false.
+  /// Calls found(obstacle) for obstacles that a body collides with, each once, until it returns false.
   template <class Found>
-  void visit_hits(const PlacedPart& part, bool exact_leaves, const Found& found) {
-    near_part(part);
+  void visit_hits(const PlacedBody& body, bool exact_leaves, const Found& found) {
+    near_body(body);
     const bool stop = near_.any_obstacle([&](std::span<const LocalSegment> segments, std::uint32_t obstacle) {
       const bool hit =
-          touches(part, segments, exact_leaves) ||
-          (near_.obstacles().is_area[obstacle] != 0 && area_holds(part, segments, obstacle, exact_leaves)) ||
-          outline_holds(part, segments);
+          touches(body, segments, exact_leaves) ||
+          (near_.obstacles().is_area[obstacle] != 0 && area_holds(body, segments, obstacle, exact_leaves)) ||
+          outline_holds(body, segments);
       return hit && !found(obstacle);
     });
-    if (!stop) visit_areas_beyond(part, found);
+    if (!stop) visit_areas_beyond(body, found);
   }
 
-  /// Returns an area that holds a disc of a part clear of its segments, with exact leaves something of its outline, or no_obstacle.
+  /// Returns an area that holds a disc of a body clear of its segments, with exact leaves something of its outline, or no_obstacle.
   /// Precondition: near() found all segments within the root's disc.
-  std::uint32_t area_that_holds(const PlacedPart& part, bool exact_leaves);
-  /// Returns whether an area, whose segments next to a part these are, holds something of it that they do not touch.
-  bool area_holds(const PlacedPart& part, std::span<const LocalSegment> segments, std::uint32_t obstacle,
+  std::uint32_t area_that_holds(const PlacedBody& body, bool exact_leaves);
+  /// Returns whether an area, whose segments next to a body these are, holds something of it that they do not touch.
+  bool area_holds(const PlacedBody& body, std::span<const LocalSegment> segments, std::uint32_t obstacle,
                   bool exact_leaves);
-  /// Calls found(obstacle) for the areas that hold a part and have no segment next to it, until it returns false.
+  /// Calls found(obstacle) for the areas that hold a body and have no segment next to it, until it returns false.
   template <class Found>
-  bool visit_areas_beyond(const PlacedPart& part, const Found& found) {
-    if (is_too_large_for_areas(part.root())) return false;
-    for (const std::uint32_t area : near_.areas_that_hold(part.place, part.centre()))
+  bool visit_areas_beyond(const PlacedBody& body, const Found& found) {
+    if (is_too_large_for_areas(body.root())) return false;
+    for (const std::uint32_t area : near_.areas_that_hold(body.place, body.centre()))
       if (!has_segment_of(area) && !found(area)) return true;
     return false;
   }
-  /// Returns whether the outline of a part holds where a path begins, which it does not touch.
-  bool outline_holds(const PlacedPart& part, std::span<const LocalSegment> segments) const noexcept;
+  /// Returns whether the outline of a body holds where a path begins, which it does not touch.
+  bool outline_holds(const PlacedBody& body, std::span<const LocalSegment> segments) const noexcept;
 
  private:
-  void choose_parts(std::uint32_t begin, std::uint32_t end, double limit, Look look);
+  void choose(std::uint32_t begin, std::uint32_t end, double limit, Look look);
   std::uint32_t level_of(std::uint32_t agent) const noexcept {
     return agents_.level.empty() ? shapes_.level_count - 1 : agents_.level[agent];
   }
 
-  bool touches(const PlacedPart& part, std::span<const LocalSegment> segments,
+  bool touches(const PlacedBody& body, std::span<const LocalSegment> segments,
                bool exact_leaves) const noexcept;
 
   bool is_too_large_for_areas(const Root& root) const noexcept {
@@ -108,18 +107,18 @@ class BodyQuery {
   const ShapeSetView& shapes_;
   const Agents& agents_;
   NearSegments near_;
-  /// Represents a part that was not left out, and how far it looks.
+  /// Represents an agent that was not left out, and how far it looks.
   struct Chosen {
-    std::uint32_t agent, part;
+    std::uint32_t agent;
     double looked;
   };
   std::vector<Chosen> chosen_;
   std::size_t chosen_count_ = 0;
-  std::vector<NearQuery> queries_;      ///< by part
-  std::vector<StandingPart> standing_;  ///< the same, where obstacles and bodies have heights
-  std::vector<PlacedPart> parts_;
-  std::vector<std::size_t> first_part_;  ///< by agent, and one past the last
-  std::uint32_t begin_ = 0;              ///< the first agent that was prepared
+  std::vector<NearQuery> queries_;      ///< by body
+  std::vector<StandingBody> standing_;  ///< the same, where obstacles and bodies have heights
+  std::vector<PlacedBody> bodies_;
+  std::vector<std::size_t> place_;  ///< by agent, among these, and one past the last
+  std::uint32_t begin_ = 0;         ///< the first agent that was prepared
 };
 
 }  // namespace bch::detail

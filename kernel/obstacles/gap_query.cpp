@@ -77,66 +77,63 @@ void put(const ShapeSetView& shapes, const ClearanceAnswers& answers, std::size_
   if (!answers.discs.empty()) {
     const std::uint32_t disc =
         is_disc ? nearest.disc : leaf_that_holds(shapes, nearest.root, nearest.point, at.x, at.y);
-    answers.discs[i] = {nearest.first_disc + disc, nearest.segment.number};
+    answers.discs[i] = {disc, nearest.segment.number};
   }
   if (!answers.points.empty())
     answers.points[i] = {to_float({from.x + radius * unit.x, from.y + radius * unit.y}),
                          to_float({from.x + turned.x, from.y + turned.y})};
 }
 
-NearestObstacle GapQuery::find(BodyQuery& body, std::uint32_t agent, double limit, double enough,
+NearestObstacle GapQuery::find(BodyQuery& query, std::uint32_t agent, double limit, double enough,
                                bool inside) const {
   NearestObstacle nearest{.gap = std::min(limit, farthest)};
-  body.visit_parts(agent, [&](const PlacedPart& part) {
-    if (nearest.is_near_enough) return;
-    // What parts before have comes first where gaps are equal.
-    const std::uint32_t first = nearest.is_found ? 0 : no_disc;
-    ObstacleGap best{nearest.gap, first, first, first, nullptr};
-    const std::span<const LocalSegment> segments = body.near_part(part);
-    search(part, segments, enough, best, nearest);
-    nearest.is_near_enough = (nearest.is_found && nearest.gap <= enough) ||
-                             (inside && (body.area_that_holds(part, exact_leaves_) != no_obstacle ||
-                                         body.outline_holds(part, segments)));
-    if (nearest.is_near_enough || nearest.gap <= part.looked) return;
-    search_outward(body, part, enough, best, nearest);
-    nearest.is_near_enough = nearest.is_found && nearest.gap <= enough;
-  });
+  const PlacedBody* const placed = query.body(agent);
+  if (placed == nullptr) return nearest;
+  const PlacedBody& body = *placed;
+  ObstacleGap best{nearest.gap, no_disc, no_disc, no_disc, nullptr};
+  const std::span<const LocalSegment> segments = query.near_body(body);
+  search(body, segments, enough, best, nearest);
+  nearest.is_near_enough = (nearest.is_found && nearest.gap <= enough) ||
+                           (inside && (query.area_that_holds(body, exact_leaves_) != no_obstacle ||
+                                       query.outline_holds(body, segments)));
+  if (nearest.is_near_enough || nearest.gap <= body.looked) return nearest;
+  search_outward(query, body, enough, best, nearest);
+  nearest.is_near_enough = nearest.is_found && nearest.gap <= enough;
   return nearest;
 }
 
-/// Looks at the segment that is nearest to the part's centre first: its gap, which is at most twice the outer radius larger than the least
+/// Looks at the segment that is nearest to the body's centre first: its gap, which is at most twice the outer radius larger than the least
 /// one can be, leaves few others to look at.
-void GapQuery::search_outward(BodyQuery& body, const PlacedPart& part, double enough, ObstacleGap& best,
+void GapQuery::search_outward(BodyQuery& query, const PlacedBody& body, double enough, ObstacleGap& best,
                               NearestObstacle& nearest) const {
-  const double outer = part.outer_radius();
-  double seen = part.looked;
+  const double outer = body.outer_radius();
+  double seen = body.looked;
   const auto look = [&](double distance) {
     seen = distance;
-    search(part, body.near().find(part.place, part.centre(), outer + distance), enough, best, nearest);
+    search(body, query.near().find(body.place, body.centre(), outer + distance), enough, best, nearest);
   };
   if (!nearest.is_found && 2 * seen < nearest.gap) {
-    const double bound = body.near().nearest_distance(part.place, part.centre()) - outer;
+    const double bound = query.near().nearest_distance(body.place, body.centre()) - outer;
     if (bound == std::numeric_limits<double>::infinity()) return;
     if (bound > seen) look(std::min(bound, nearest.gap));
   }
   if (nearest.gap > seen && !(nearest.is_found && nearest.gap <= enough)) look(nearest.gap);
 }
 
-/// Searches segments for what comes before the best of the part.
-void GapQuery::search(const PlacedPart& part, std::span<const LocalSegment> segments, double enough,
+/// Searches segments for what comes before the best.
+void GapQuery::search(const PlacedBody& body, std::span<const LocalSegment> segments, double enough,
                       ObstacleGap& best, NearestObstacle& nearest) const {
   best.segment = nullptr;
-  implementation_.kernels->find_gap({&shapes_, part.root_index(), segments.data(),
+  implementation_.kernels->find_gap({&shapes_, body.root_index(), segments.data(),
                                      static_cast<std::uint32_t>(segments.size()), exact_leaves_},
                                     enough, best);
   if (best.segment == nullptr) return;
   nearest = {.gap = best.gap,
              .point = best.point,
              .disc = best.disc,
-             .root = part.root_index(),
-             .first_disc = first_disc(shapes_, part.shape, part.part, part.level),
+             .root = body.root_index(),
              .segment = *best.segment,
-             .place = part.place,
+             .place = body.place,
              .is_found = true};
 }
 

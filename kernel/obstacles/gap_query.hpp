@@ -15,12 +15,12 @@
 
 namespace bch::detail {
 
-/// Holds the nearest obstacle of an agent's parts so far.
+/// Holds the nearest obstacle of an agent so far.
 struct NearestObstacle {
   double gap;  ///< metres; of nothing found, the limit
-  /// Name what is nearest of the part: a segment of its outline by the point where it begins, or no_point and a disc of its cut.
+  /// Name what is nearest of the agent: a segment of its outline by the point where it begins, or no_point and a disc of its cut.
   std::uint32_t point = no_point, disc = 0;
-  std::uint32_t root = 0, first_disc = 0;  ///< of the part's level, and in the whole body
+  std::uint32_t root = 0;  ///< of the agent's level
   LocalSegment segment = {};
   ObstaclePlace place = {};
   bool is_found = false, is_near_enough = false;
@@ -39,16 +39,16 @@ class GapQuery {
 
   /// Finds the least gap of at most `limit`, metres. The search ends where one is at most `enough` or, where `inside`
   /// counts, an area holds the agent or its outline a path.
-  NearestObstacle find(BodyQuery& body, std::uint32_t agent, double limit, double enough, bool inside) const;
+  NearestObstacle find(BodyQuery& query, std::uint32_t agent, double limit, double enough, bool inside) const;
 
  private:
   /// The largest gap that there can be, metres.
   static constexpr double farthest = 8 * rounding::largest_position;
 
-  /// Finds what is nearer than the best of a part beyond the distance at which prepare() looked.
-  void search_outward(BodyQuery& body, const PlacedPart& part, double enough, ObstacleGap& best,
+  /// Finds what is nearer than the best of a body beyond the distance at which prepare() looked.
+  void search_outward(BodyQuery& query, const PlacedBody& body, double enough, ObstacleGap& best,
                       NearestObstacle& nearest) const;
-  void search(const PlacedPart& part, std::span<const LocalSegment> segments, double enough,
+  void search(const PlacedBody& body, std::span<const LocalSegment> segments, double enough,
               ObstacleGap& best, NearestObstacle& nearest) const;
 
   const Implementation& implementation_;

@@ -126,7 +126,7 @@ std::span<const std::uint32_t> NearSegments::query(const BoxTreeView& tree, cons
 std::span<LocalSegment> NearSegments::find_on_way(const ObstaclePlace& place, Vec2 centre, double distance,
                                                   Vector way) {
   boxes_.assign(1, box_about(place, centre, distance, way));
-  const std::uint32_t size = keep_level(descend(obstacles_.segment_tree), part_);
+  const std::uint32_t size = keep_level(descend(obstacles_.segment_tree), body_);
   if (memory_.size() <= size) memory_.resize(std::size_t{size} + 1);
   const bool moves = way.x != 0 || way.y != 0;
   std::size_t count = 0;
@@ -152,7 +152,7 @@ void NearSegments::visit_near(Vector from, const double& limit, const Take& take
       if (level > 0) {
         open_.push_back({square, level - 1, below});
         std::push_heap(open_.begin(), open_.end());
-      } else if (part_.empty() || is_level(obstacles_.segments[below].obstacle, part_.front())) {
+      } else if (body_.empty() || is_level(obstacles_.segments[below].obstacle, body_.front())) {
         take(below);
       }
     }
@@ -203,12 +203,12 @@ std::span<LocalSegment> NearSegments::find(const ObstaclePlace& place, Vec2 cent
   return sorted(std::span(memory_).first(count));
 }
 
-void NearSegments::prepare(std::span<const NearQuery> queries, std::span<const StandingPart> parts) {
-  parts_ = parts, part_ = {}, asked_.reset();
+void NearSegments::prepare(std::span<const NearQuery> queries, std::span<const StandingBody> bodies) {
+  bodies_ = bodies, body_ = {}, asked_.reset();
   boxes_.clear();
   for (const NearQuery& query : queries)
     boxes_.push_back(box_about(query.place, query.centre, query.distance, {0, 0}));
-  const std::uint32_t size = keep_level(descend(obstacles_.segment_tree), parts);
+  const std::uint32_t size = keep_level(descend(obstacles_.segment_tree), bodies);
   if (prepared_.size() <= size) prepared_.resize(std::size_t{size} + 1);
   prepared_end_.assign(queries.size() + 1, 0);
   std::uint32_t count = 0;
@@ -223,18 +223,18 @@ void NearSegments::prepare(std::span<const NearQuery> queries, std::span<const S
 }
 
 std::span<LocalSegment> NearSegments::take(std::size_t query) {
-  if (!parts_.empty()) part_ = parts_.subspan(query, 1), asked_.reset();
+  if (!bodies_.empty()) body_ = bodies_.subspan(query, 1), asked_.reset();
   const std::uint32_t begin = prepared_end_[query];
   return sorted(std::span(prepared_).subspan(begin, prepared_end_[query + 1] - begin));
 }
 
-std::uint32_t NearSegments::keep_level(std::uint32_t size, std::span<const StandingPart> parts) noexcept {
-  if (parts.empty()) return size;
+std::uint32_t NearSegments::keep_level(std::uint32_t size, std::span<const StandingBody> bodies) noexcept {
+  if (bodies.empty()) return size;
   std::uint32_t kept = 0;
   for (std::uint32_t k = 0; k < size; ++k) {
     const BoxHit hit = hits_[k];
     hits_[kept] = hit;
-    kept += is_level(obstacles_.segments[hit.place].obstacle, parts[hit.query]);
+    kept += is_level(obstacles_.segments[hit.place].obstacle, bodies[hit.query]);
   }
   return kept;
 }
@@ -258,8 +258,8 @@ std::span<const std::uint32_t> NearSegments::areas_that_hold(const ObstaclePlace
     about_.push_back(obstacles_.areas[slot]);
     ray.high_x = std::max(ray.high_x, obstacles_.area_boxes[slot].high_x);
   }
-  if (!part_.empty())
-    std::erase_if(about_, [&](std::uint32_t area) { return !is_level(area, part_.front()); });
+  if (!body_.empty())
+    std::erase_if(about_, [&](std::uint32_t area) { return !is_level(area, body_.front()); });
   if (about_.empty()) return areas_;
   std::sort(about_.begin(), about_.end());
   for (const std::uint32_t slot : query(obstacles_.segment_tree, ray, slots_)) {

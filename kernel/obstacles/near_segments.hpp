@@ -43,8 +43,8 @@ struct NearQuery {
   double distance;
 };
 
-/// Represents the heights of a part of an agent, and the ground that the agent stands on, metres.
-struct StandingPart {
+/// Represents the heights of an agent, and the ground that the agent stands on, metres.
+struct StandingBody {
   Heights heights;
   double ground;
 };
@@ -57,10 +57,10 @@ class NearSegments {
 
   const ObstacleView& obstacles() const noexcept { return obstacles_; }
 
-  /// Finds the segments within each of many discs, for take(). `parts` has the part that each query is about, where heights count; it must
+  /// Finds the segments within each of many discs, for take(). `bodies` has the body that each query is about, where heights count; it must
   /// outlive the queries. Empty: obstacles of all heights are near.
-  void prepare(std::span<const NearQuery> queries, std::span<const StandingPart> parts);
-  /// Returns what find() finds for one of the queries of prepare(). From here on, obstacles that are above or below its part are left out.
+  void prepare(std::span<const NearQuery> queries, std::span<const StandingBody> bodies);
+  /// Returns what find() finds for one of the queries of prepare(). From here on, obstacles that are above or below its body are left out.
   std::span<LocalSegment> take(std::size_t query);
 
   /// Finds all segments within a distance of a point of the agent's frame, in the order of their numbers, so that those of an obstacle
@@ -99,11 +99,11 @@ class NearSegments {
   /// Finds those that overlap one box.
   std::span<const std::uint32_t> query(const BoxTreeView& tree, const Box& box,
                                        std::vector<std::uint32_t>& slots);
-  /// Leaves out segments of obstacles that are above or below the query's part. Returns: how many of hits_ are left.
-  std::uint32_t keep_level(std::uint32_t size, std::span<const StandingPart> parts) noexcept;
-  bool is_level(std::uint32_t obstacle, const StandingPart& part) const noexcept {
+  /// Leaves out segments of obstacles that are above or below the query's body. Returns: how many of hits_ are left.
+  std::uint32_t keep_level(std::uint32_t size, std::span<const StandingBody> bodies) noexcept;
+  bool is_level(std::uint32_t obstacle, const StandingBody& body) const noexcept {
     const auto [bottom, top] = obstacles_.heights[obstacle];
-    return heights_meet(bottom, top, part.heights, part.ground);
+    return heights_meet(bottom, top, body.heights, body.ground);
   }
   /// Sorts the segments that were found by their numbers.
   std::span<LocalSegment> sorted(std::span<LocalSegment> segments);
@@ -135,8 +135,8 @@ class NearSegments {
   std::vector<LocalSegment> memory_, prepared_;  ///< of find() and of prepare()
   std::vector<std::uint32_t> prepared_end_;      ///< where those of the queries before one end
   std::span<LocalSegment> found_;
-  std::span<const StandingPart> parts_;  ///< of prepare()
-  std::span<const StandingPart> part_;   ///< that of the query that was taken; empty: heights do not count
+  std::span<const StandingBody> bodies_;  ///< of prepare()
+  std::span<const StandingBody> body_;    ///< that of the query that was taken; empty: heights do not count
 };
 
 /// Returns whether the way from one point to another crosses a segment, all in one frame. A vertex on the line of the way belongs to one side of it, for both of

@@ -10,10 +10,10 @@
 
 namespace bch::detail {
 
-/// Represents a part of an agent and segments of obstacles in that agent's frame.
+/// Represents an agent and segments of obstacles in that agent's frame.
 struct ObstacleArguments {
   const ShapeSetView* shapes;
-  std::uint32_t root;  ///< of the part's level
+  std::uint32_t root;  ///< of its level
   const LocalSegment* segments;
   std::uint32_t count;
   bool exact_leaves;  ///< where the tree has segments, these decide
@@ -26,7 +26,7 @@ constexpr std::uint32_t no_disc = 0xffffffff, no_point = 0xffffffff;
 struct ObstacleGap {
   double gap;            ///< metres
   std::uint32_t point;   ///< where the outline's segment begins, of ShapeSetView::points; no_point: of a disc
-  std::uint32_t disc;    ///< of the part's cut; of an outline 0
+  std::uint32_t disc;    ///< of its cut; of an outline 0
   std::uint32_t number;  ///< of the obstacle's segment
   const LocalSegment* segment;  ///< null: there is none up to the gap that stood here
 

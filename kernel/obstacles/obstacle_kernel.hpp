@@ -7,7 +7,7 @@
 
 #include "kernel/obstacles/obstacle_arguments.hpp"
 #include "kernel/obstacles/outline_segment.hpp"
-#include "kernel/obstacles/part_tree.hpp"
+#include "kernel/obstacles/shape_tree.hpp"
 #include "kernel/simd/ancestor_test.hpp"
 #include "kernel/simd/leaf_segments.hpp"
 #include "kernel/simd/tree_nodes.hpp"
@@ -16,16 +16,16 @@
 
 namespace bch::detail {
 
-/// Tests the tree of a part of a body against segments of obstacles, in double; see LocalSegment. Eight discs are compared with a segment
+/// Tests the tree of a body against segments of obstacles, in double; see LocalSegment. Eight discs are compared with a segment
 /// at a time.
 template <class Simd>
 class ObstacleKernel {
  public:
   explicit ObstacleKernel(const ObstacleArguments& in) noexcept
       : in_(in),
-        part_(*in.shapes, in.root),
-        nodes_(part_.nodes),
-        tree_(part_.tree),
+        own_(*in.shapes, in.root),
+        nodes_(own_.nodes),
+        tree_(own_.tree),
         exact_(in.exact_leaves && tree_.segments != no_segments) {}
 
   /// Returns whether a disc of the cut and all nodes above it touch the segments, and the outline in that disc does where
@@ -283,7 +283,7 @@ class ObstacleKernel {
   }
 
   const ObstacleArguments& in_;
-  const PartTree<Simd> part_;
+  const ShapeTree<Simd> own_;
   const float* const nodes_;
   const Tree& tree_;
   const bool exact_;  ///< segments of the outline decide where leaves have them

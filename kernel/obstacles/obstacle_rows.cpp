@@ -19,20 +19,17 @@ Rows<std::uint32_t> ObstacleRows::find(const ShapeSet& shapes, const Agents& age
   if (blocks_.size() < count) blocks_.resize(count);
   offsets_.assign(agents.size() + 1, 0);
   for_ranges(count, 1, [&](std::size_t first, std::size_t last) {
-    BodyQuery body(implementation, shapes.view(), agents, obstacles.view());
+    BodyQuery query(implementation, shapes.view(), agents, obstacles.view());
     for (std::size_t block = first; block < last; ++block) {
       std::vector<std::uint32_t>& found = blocks_[block];
       found.clear();
       const std::size_t end = std::min((block + 1) * agents_per_task, agents.size());
-      for_prepared(body, block * agents_per_task, end, 0, Look::touching, [&](std::uint32_t agent) {
+      for_prepared(query, block * agents_per_task, end, 0, Look::touching, [&](std::uint32_t agent) {
         const auto begin = static_cast<std::ptrdiff_t>(found.size());
-        body.visit_parts(agent, [&](const PlacedPart& part) {
-          body.visit_hits(part, exact,
-                          [&](std::uint32_t obstacle) { return found.push_back(obstacle), true; });
-        });
-        // Parts may collide with the same one.
+        if (const PlacedBody* const body = query.body(agent))
+          query.visit_hits(*body, exact,
+                           [&](std::uint32_t obstacle) { return found.push_back(obstacle), true; });
         std::sort(found.begin() + begin, found.end());
-        found.erase(std::unique(found.begin() + begin, found.end()), found.end());
         offsets_[agent + std::size_t{1}] = found.size() - static_cast<std::size_t>(begin);
       });
     }

@@ -22,11 +22,10 @@ void collide(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& ob
   const Implementation& implementation = chosen(options, "collide");
   validate(shapes, agents);
   for_agents(implementation, shapes, agents, obstacles, 0, Look::touching,
-             [&](BodyQuery& body, std::uint32_t agent) {
+             [&](BodyQuery& query, std::uint32_t agent) {
                bool hit = false;
-               body.visit_parts(agent, [&](const PlacedPart& part) {
-                 if (!hit) body.visit_hits(part, exact, [&](std::uint32_t) { return hit = true, false; });
-               });
+               if (const PlacedBody* const body = query.body(agent))
+                 query.visit_hits(*body, exact, [&](std::uint32_t) { return hit = true, false; });
                hits[agent] = hit;
              });
 }

@@ -21,7 +21,7 @@ constexpr std::size_t agents_per_task = 256;
 /// a near cache.
 constexpr std::size_t agents_together = 64;
 
-/// Calls answer(agent) for agents begin .. end, for which a body's query is prepared; those without parts have no obstacle within a limit, metres.
+/// Calls answer(agent) for agents begin .. end, for which a body's query is prepared; those who were left out have no obstacle within a limit, metres.
 template <class Answer>
 void for_prepared(BodyQuery& body, std::size_t begin, std::size_t end, double limit, Look look,
                   Answer answer) {

@@ -8,8 +8,8 @@
 #include <bch/obstacles.hpp>
 
 #include "kernel/distance/distance_input.hpp"
-#include "kernel/obstacles/part_tree.hpp"
 #include "kernel/obstacles/query_input.hpp"
+#include "kernel/obstacles/shape_tree.hpp"
 #include "kernel/obstacles/ways_out.hpp"
 #include "kernel/simd/tree_nodes.hpp"
 #include "layout/base/rounding.hpp"
@@ -59,9 +59,9 @@ bool passes(const LocalSegment& segment, const Disc& disc, Vector way, double ti
          across + std::max(aside, 0.0) < -r;
 }
 
-/// Finds when a part touches a segment, if that is before `best`.
-void find_time(const PlacedPart& part, const LocalSegment& segment, Vector way, double& best) {
-  const PartTree<void> own(part.shapes, part.root_index());
+/// Finds when a body touches a segment, if that is before `best`.
+void find_time(const PlacedBody& body, const LocalSegment& segment, Vector way, double& best) {
+  const ShapeTree<void> own(body.shapes, body.root_index());
   std::uint32_t open[7 * most_wide_levels + 1], count = 0;
   open[count++] = own.tree.top;
   while (count != 0 && best > 0) {
@@ -78,17 +78,17 @@ void find_time(const PlacedPart& part, const LocalSegment& segment, Vector way, 
   }
 }
 
-/// Returns when a part on its way touches an obstacle, or infinity.
-double impact(BodyQuery& body, const PlacedPart& part, Vector way_in_world) {
-  const Vec2 centre = part.centre();
-  body.near_part(part);
-  if (body.area_that_holds(part, false) != no_obstacle) return 0;
-  if (body.outline_holds(part, body.near().found())) return 0;
-  const Vector way = part.place.turned_back(way_in_world.x, way_in_world.y);
+/// Returns when a body on its way touches an obstacle, or infinity.
+double impact(BodyQuery& query, const PlacedBody& body, Vector way_in_world) {
+  const Vec2 centre = body.centre();
+  query.near_body(body);
+  if (query.area_that_holds(body, false) != no_obstacle) return 0;
+  if (query.outline_holds(body, query.near().found())) return 0;
+  const Vector way = body.place.turned_back(way_in_world.x, way_in_world.y);
   double best = infinity;
   for (const LocalSegment& segment :
-       body.near().find_on_way(part.place, centre, part.outer_radius(), way_in_world))
-    find_time(part, segment, way, best);
+       query.near().find_on_way(body.place, centre, body.outer_radius(), way_in_world))
+    find_time(body, segment, way, best);
   return best;
 }
 
@@ -101,12 +101,10 @@ void penetration(const ShapeSet& shapes, const Agents& agents, const ObstacleSet
   const Implementation& implementation = chosen(options, "penetration");
   validate(shapes, agents);
   for_agents(implementation, shapes, agents, obstacles, 0, Look::touching,
-             [&](BodyQuery& body, std::uint32_t agent) {
+             [&](BodyQuery& query, std::uint32_t agent) {
                WayOut longest;
-               body.visit_parts(agent, [&](const PlacedPart& part) {
-                 const WayOut way = WaysOut(body, part).longest();
-                 if (way.depth > longest.depth) longest = way;
-               });
+               if (const PlacedBody* const body = query.body(agent))
+                 longest = WaysOut(query, *body).longest();
                const auto [depth, direction] = longest;
                out[agent] = {depth > 0 ? rounding::round_up(depth) : 0.0f, direction.x, direction.y};
              });
@@ -122,12 +120,12 @@ void time_of_impact(const ShapeSet& shapes, const Agents& agents, const Displace
   for (std::size_t i = 0; i < agents.size(); ++i)
     farthest = std::max(farthest, std::abs(displacements.x[i]) + std::abs(displacements.y[i]));
   for_agents(implementation, shapes, agents, obstacles, farthest, Look::touching,
-             [&](BodyQuery& body, std::uint32_t agent) {
-               double best = infinity;
-               body.visit_parts(agent, [&](const PlacedPart& part) {
-                 best = std::min(best, impact(body, part, {displacements.x[agent], displacements.y[agent]}));
-               });
-               times[agent] = rounding::round_down(best);
+             [&](BodyQuery& query, std::uint32_t agent) {
+               const PlacedBody* const body = query.body(agent);
+               times[agent] = body == nullptr
+                                  ? static_cast<float>(infinity)
+                                  : rounding::round_down(impact(
+                                        query, *body, {displacements.x[agent], displacements.y[agent]}));
              });
 }
 

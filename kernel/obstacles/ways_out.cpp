@@ -21,18 +21,18 @@ void keep_longer(WayOut& longest, const WayOut& way) noexcept {
 
 WayOut WaysOut::longest() {
   WayOut longest;
-  std::vector<std::uint32_t> areas;  // that hold the part clear of their segments
-  body_.near_part(part_);
-  body_.near().any_obstacle([&](std::span<const LocalSegment> segments, std::uint32_t obstacle) {
+  std::vector<std::uint32_t> areas;  // that hold the body clear of their segments
+  query_.near_body(body_);
+  query_.near().any_obstacle([&](std::span<const LocalSegment> segments, std::uint32_t obstacle) {
     find_touched(segments);
     if (!touched_.empty())
       keep_longer(longest, is_post() ? from_post(*touched_.front()) : shortest(segments));
-    else if (body_.near().obstacles().is_area[obstacle] != 0 &&
-             body_.area_holds(part_, segments, obstacle, false))
+    else if (query_.near().obstacles().is_area[obstacle] != 0 &&
+             query_.area_holds(body_, segments, obstacle, false))
       areas.push_back(obstacle);
     return false;
   });
-  body_.visit_areas_beyond(part_, [&](std::uint32_t area) { return areas.push_back(area), true; });
+  query_.visit_areas_beyond(body_, [&](std::uint32_t area) { return areas.push_back(area), true; });
   if (areas.empty()) return longest;
   std::sort(areas.begin(), areas.end());
   keep_longer(longest, longest_out_of(areas));
@@ -73,7 +73,7 @@ WayOut WaysOut::from_post(const LocalSegment& post) const {
   across.from = across.to = px * across.x + py * across.y;
   across.offset = px * ux + py * uy;
   const double depth = depth_towards(1, across, {across.from, across.to});
-  const auto [x, y] = part_.place.turned(ux, uy);
+  const auto [x, y] = body_.place.turned(ux, uy);
   return {with_margin(depth, across), {x, y}};
 }
 
@@ -87,7 +87,7 @@ WayOut WaysOut::shortest(std::span<const LocalSegment> segments) {
   WayOut shortest{std::numeric_limits<double>::infinity(), {}};
   for (const LocalSegment& segment : segments) {
     if (!has_length(segment)) continue;
-    const int side = body_.near().obstacles().outside[segment.number];
+    const int side = query_.near().obstacles().outside[segment.number];
     if (!(side != 0 && has_all_behind(segment, side)) && !is_touched(segment)) continue;
     const WayOut way = over(segment, side == 0 ? beside_touched(segment) : Range{});
     if (way.depth < shortest.depth) shortest = way;
@@ -119,9 +119,9 @@ WayOut WaysOut::longest_out_of(std::span<const std::uint32_t> areas) {
     double square = std::numeric_limits<double>::infinity();
   };
   std::vector<Nearest> nearest(areas.size());
-  const Vec2 centre = part_.centre();
-  const double distance = body_.near().nearest_distance(part_.place, centre, areas);
-  for (const LocalSegment& segment : body_.near().find(part_.place, centre, distance)) {
+  const Vec2 centre = body_.centre();
+  const double distance = query_.near().nearest_distance(body_.place, centre, areas);
+  for (const LocalSegment& segment : query_.near().find(body_.place, centre, distance)) {
     const auto area = std::lower_bound(areas.begin(), areas.end(), segment.obstacle);
     if (area == areas.end() || *area != segment.obstacle || !(in_world(segment).length > 0)) continue;
     const double square = segment.square_distance(double{centre.x}, double{centre.y});
@@ -135,7 +135,7 @@ WayOut WaysOut::longest_out_of(std::span<const std::uint32_t> areas) {
 }
 
 WayOut WaysOut::over(const LocalSegment& segment, Range range) const {
-  int side = body_.near().obstacles().outside[segment.number];
+  int side = query_.near().obstacles().outside[segment.number];
   double depth = depth_towards(side == 0 ? 1 : side, segment, range);
   if (side == 0) {
     const double right = depth_towards(-1, segment, range);
@@ -160,7 +160,7 @@ double WaysOut::depth_towards(int side, const LocalSegment& segment, Range range
 
 double WaysOut::with_margin(double depth, const LocalSegment& segment) const noexcept {
   // For the rounding of the depth to float, and of the new position.
-  const double margin = 0x1p-20 * part_.outer_radius() + 2 * segment.slack;
+  const double margin = 0x1p-20 * body_.outer_radius() + 2 * segment.slack;
   return (depth + margin) * (1 + 0x1p-22);
 }
 

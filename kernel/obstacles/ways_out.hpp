@@ -20,11 +20,11 @@ struct WayOut {
   ObstaclePlace::Vector direction = {0, 0};  ///< in the world
 };
 
-/// Finds the ways out of the obstacles that a part touches, and of the areas that hold it.
+/// Finds the ways out of the obstacles that a body touches, and of the areas that hold it.
 class WaysOut {
  public:
-  WaysOut(BodyQuery& body, const PlacedPart& part)
-      : body_(body), part_(part), discs_(cut_discs(part.shapes, part.root_index())) {}
+  WaysOut(BodyQuery& query, const PlacedBody& body)
+      : query_(query), body_(body), discs_(cut_discs(body.shapes, body.root_index())) {}
 
   /// Returns the longest of the ways out of each obstacle.
   WayOut longest();
@@ -47,17 +47,17 @@ class WaysOut {
   bool has_all_behind(const LocalSegment& segment, int side) const;
   /// Returns the stretch of a segment's line beside which the touched segments are.
   Range beside_touched(const LocalSegment& segment) const;
-  /// Returns the longest of the ways out of areas, which ascend, each over the segment that is the nearest to the part's centre.
+  /// Returns the longest of the ways out of areas, which ascend, each over the segment that is the nearest to the body's centre.
   WayOut longest_out_of(std::span<const std::uint32_t> areas);
   WayOut over(const LocalSegment& segment, Range range) const;
   double depth_towards(int side, const LocalSegment& segment, Range range) const noexcept;
   double with_margin(double depth, const LocalSegment& segment) const noexcept;
   const WorldSegment& in_world(const LocalSegment& segment) const noexcept {
-    return body_.near().obstacles().segments[segment.slot];
+    return query_.near().obstacles().segments[segment.slot];
   }
 
-  BodyQuery& body_;
-  const PlacedPart& part_;
+  BodyQuery& query_;
+  const PlacedBody& body_;
   const CutDiscs discs_;
   std::vector<const LocalSegment*> touched_;
   EndsHull hull_;  ///< of what is touched

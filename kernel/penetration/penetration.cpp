@@ -11,10 +11,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "kernel/runtime/pair_heights.hpp"
 #include "kernel/runtime/pair_validation.hpp"
-#include "kernel/runtime/part_items.hpp"
 #include "kernel/runtime/task_ranges.hpp"
-#include "kernel/simd/slab_pairs.hpp"
 #include "layout/base/floating_point_state.hpp"
 #include "layout/base/heading.hpp"
 #include "layout/base/number_class.hpp"
@@ -71,17 +70,16 @@ struct Query {
   const Agents& agents;
   const Implementation& implementation;
 
-  void measure(std::uint32_t agent, std::uint32_t part, const Axes& axes, Extents& extents) const noexcept;
+  const Arguments arguments;
+
+  void measure(std::uint32_t agent, const Axes& axes, Extents& extents) const noexcept;
   void compare(Pair pair, const Axes& axes, const Extents& a, const Extents& b,
                Depths& depths) const noexcept;
-  void compare_parts(Pair pair, const Axes& axes, Depths& depths) const noexcept;
 };
 
-void Query::measure(std::uint32_t agent, std::uint32_t part, const Axes& axes,
-                    Extents& extents) const noexcept {
-  const std::uint32_t levels = shapes.level_count;
+void Query::measure(std::uint32_t agent, const Axes& axes, Extents& extents) const noexcept {
   const CutDiscs discs =
-      cut_discs(shapes, part * levels + (agents.level.empty() ? levels - 1 : agents.level[agent]));
+      cut_discs(shapes, static_cast<std::uint32_t>(agents.root(agent, shapes.level_count)));
   const Rotation turn = rotation(agents.heading[agent]);
   float x[most_axes], y[most_axes];
   for (std::uint32_t i = 0; i < axes.count; ++i) {
@@ -90,8 +88,9 @@ void Query::measure(std::uint32_t agent, std::uint32_t part, const Axes& axes,
   }
   implementation.kernels->extents(discs, x, y, axes.count, extents.low, extents.high);
   // A set of single discs has no reaches.
-  extents.reach = static_cast<double>(
-      discs.count == 1 ? std::abs(discs.x[0]) + std::abs(discs.y[0]) + discs.radius[0] : shapes.reach[part]);
+  extents.reach =
+      static_cast<double>(discs.count == 1 ? std::abs(discs.x[0]) + std::abs(discs.y[0]) + discs.radius[0]
+                                           : shapes.reach[agents.shape[agent]]);
 }
 
 /// `a` belongs to the lower index, whatever the pair's order: so that both orders agree.
@@ -107,20 +106,6 @@ void Query::compare(Pair pair, const Axes& axes, const Extents& a, const Extents
     depths.against[i] = std::max(depths.against[i], against);
   }
   depths.reach = std::max(depths.reach, a.reach + b.reach);
-}
-
-/// All parts that may meet have to come free.
-void Query::compare_parts(Pair pair, const Axes& axes, Depths& depths) const noexcept {
-  const auto [low, high] = std::minmax(pair.first, pair.second);
-  const double rise = agents.z.empty() ? 0 : agents.z[high] - agents.z[low];
-  const SlabPairs<void> slab_pairs(shapes, agents.shape[low], agents.shape[high], rise);
-  Extents a, b;
-  std::uint32_t cursor = 0;
-  for (auto parts = slab_pairs.next(cursor); parts.a != no_part; parts = slab_pairs.next(cursor)) {
-    measure(low, parts.a, axes, a);
-    measure(high, parts.b, axes, b);
-    compare(pair, axes, a, b, depths);
-  }
 }
 
 Penetration answer_of(Pair pair, const Axes& axes, bool both_ways, const Depths& depths) noexcept {
@@ -145,7 +130,7 @@ Query checked_query(const ShapeSet& shapes, const Agents& agents, std::span<cons
   const Implementation& implementation = chosen(options, "penetration");
   const ShapeSetView& view = shapes.view();
   require_valid(implementation, view, agents, pairs);
-  return {view, agents, implementation};
+  return {view, agents, implementation, arguments_for(view, agents, {})};
 }
 
 void require_directions(std::span<const Vec2> directions, std::size_t pairs) {
@@ -182,7 +167,6 @@ void penetration_along(const ShapeSet& shapes, const Agents& agents, std::span<c
   const FloatingPointStateGuard floats;
   const Query query = checked_query(shapes, agents, pairs, out, options);
   require_directions(directions, pairs.size());
-  const bool of_parts = asks_parts(query.shapes, agents);
   for_pair_ranges(pairs.size(), penetration_grain, [&](std::size_t begin, std::size_t size) {
     Axes axis;
     Extents a, b;
@@ -193,11 +177,9 @@ void penetration_along(const ShapeSet& shapes, const Agents& agents, std::span<c
       const double length = std::sqrt(x * x + y * y) * (pairs[i].second < pairs[i].first ? -1 : 1);
       axis.x[0] = x / length, axis.y[0] = y / length;
       Depths depths(axis.count);
-      if (of_parts) {
-        query.compare_parts(pairs[i], axis, depths);
-      } else {
-        query.measure(low, agents.shape[low], axis, a);
-        query.measure(high, agents.shape[high], axis, b);
+      if (heights_meet(query.arguments, pairs[i])) {
+        query.measure(low, axis, a);
+        query.measure(high, axis, b);
         query.compare(pairs[i], axis, a, b, depths);
       }
       out[i] = answer_of(pairs[i], axis, false, depths);
@@ -210,20 +192,17 @@ void penetration(const ShapeSet& shapes, const Agents& agents, std::span<const P
   const FloatingPointStateGuard floats;
   const Query query = checked_query(shapes, agents, pairs, out, options);
   const Axes axes = spread_axes(directions);
-  const bool of_parts = asks_parts(query.shapes, agents);
   for_pair_ranges(pairs.size(), penetration_grain, [&](std::size_t begin, std::size_t size) {
     Extents a, b;
     std::size_t measured = agents.size();
     for (std::size_t i = begin; i < begin + size; ++i) {
       const auto [low, high] = std::minmax(pairs[i].first, pairs[i].second);
       Depths depths(axes.count);
-      if (of_parts) {
-        query.compare_parts(pairs[i], axes, depths);
-      } else {
+      if (heights_meet(query.arguments, pairs[i])) {
         // Pairs often come agent by agent.
-        if (measured != low) query.measure(low, agents.shape[low], axes, a);
+        if (measured != low) query.measure(low, axes, a);
         measured = low;
-        query.measure(high, agents.shape[high], axes, b);
+        query.measure(high, axes, b);
         query.compare(pairs[i], axes, a, b, depths);
       }
       out[i] = answer_of(pairs[i], axes, true, depths);

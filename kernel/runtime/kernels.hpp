@@ -40,11 +40,8 @@ struct Kernels {
   /// Writes the codes of pairs begin .. end; see Arguments. Keeps up to 256 KiB
   /// on the stack, and needs no other memory.
   void (*run)(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept;
-  /// Does the same for bodies in slabs or at different heights, with up to 300 KiB. Codes are answers there: 0 or 1.
-  void (*run_in_slabs)(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept;
-  /// Do the same as these two where distances are asked about.
+  /// Does the same where distances are asked about.
   void (*run_within)(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept;
-  void (*run_within_in_slabs)(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept;
   /// Writes 1 or 0 for pairs begin .. end of bodies of spheres, with up to 256 KiB of stack; see BodyKernel.
   void (*collide_bodies)(const BodyArguments& arguments, std::size_t begin, std::size_t end) noexcept;
   /// Writes the codes of the first `count` pairs, one or more and at most a
@@ -77,9 +74,9 @@ struct Kernels {
   /// Writes which boxes of a level's blocks overlap those of many queries; see BoxQuery. Returns how many do.
   std::uint32_t (*overlapping_boxes)(const BoxBlock* blocks, const Box* queries, const BoxHit* in,
                                      std::uint32_t count, BoxHit* out) noexcept;
-  /// Returns whether a part of an agent touches the segments of an obstacle; see ObstacleKernel.
+  /// Returns whether an agent touches the segments of an obstacle; see ObstacleKernel.
   bool (*touches)(const ObstacleArguments& arguments) noexcept;
-  /// Finds the least gap between a disc of a part and one of the segments, until it is at most `enough`.
+  /// Finds the least gap between a disc of an agent and one of the segments, until it is at most `enough`.
   void (*find_gap)(const ObstacleArguments& arguments, double enough, ObstacleGap& best) noexcept;
 };
 

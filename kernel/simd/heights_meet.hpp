@@ -7,13 +7,13 @@
 
 namespace bch::detail {
 
-/// Returns whether heights from `bottom` to `top` meet those of a part whose ground is higher by `rise`, metres; touching counts. The slack
-/// is for the rounding of the sums: heights of parts are within 1e6 m or infinite. (Inlined for certain, so that instruction sets share no
+/// Returns whether heights from `bottom` to `top` meet those of a body whose ground is higher by `rise`, metres; touching counts. The slack
+/// is for the rounding of the sums: heights of bodies are within 1e6 m or infinite. (Inlined for certain, so that instruction sets share no
 /// function.)
-[[gnu::always_inline]] inline bool heights_meet(double bottom, double top, const Heights& part,
+[[gnu::always_inline]] inline bool heights_meet(double bottom, double top, const Heights& body,
                                                 double rise) noexcept {
   const double slack = 1e-9 + 0x1p-50 * __builtin_fabs(rise);
-  return bottom <= double{part.top} + rise + slack && double{part.bottom} + rise <= top + slack;
+  return bottom <= double{body.top} + rise + slack && double{body.bottom} + rise <= top + slack;
 }
 
 }  // namespace bch::detail

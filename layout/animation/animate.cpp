@@ -12,12 +12,11 @@
 #include <bch/outline_builder.hpp>
 #include <bch/pose_shape.hpp>
 
+#include "layout/animation/clip_heights.hpp"
 #include "layout/animation/cover_check.hpp"
 #include "layout/animation/disc_ring.hpp"
 #include "layout/animation/parts_apart.hpp"
-#include "layout/animation/slab_triangles.hpp"
 #include "layout/base/floating_point_state.hpp"
-#include "layout/base/planes.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/character/skinning.hpp"
 
@@ -26,14 +25,10 @@ namespace detail {
 namespace {
 
 constexpr float longest_chunk = 0.1334f, shortest_chunk = 0.017f;  ///< seconds
-/// What comes into a slab in a chunk's time is held throughout it: where vertices do that rise by more, metres, chunks are shorter, seconds.
-constexpr double most_rise = 0.01;
-constexpr float longest_of_risers = 0.0667f;
 constexpr std::uint32_t keys_of_chunk = 3;
 constexpr double points_of_disc = 4;  ///< of a contour
-constexpr double piece_edge = 0.5;    ///< of pieces that reach out of a slab, as a share of the spacing
 
-/// Makes the chunks of one clip, of the whole body or of a slab.
+/// Makes the chunks of one clip.
 class ClipAnimator {
  public:
   ClipAnimator(const Character& character, std::uint32_t clip, const AnimateOptions& options)
@@ -43,15 +38,11 @@ class ClipAnimator {
         options_(options),
         end_(character.clips[clip].seconds),
         skinner_(character),
-        slab_triangles_(character, clip, piece_edge * double{options.spacing}),
-        mesh_{character.triangles, {}} {
-    prepare_builder();
-  }
+        builder_(character.triangles, character.vertices.size(), character.vertices) {}
 
   AnimatedDiscs run();
 
  private:
-  void prepare_builder();
   std::vector<AnimatedChunk> chunks();
   void pose(float seconds, std::vector<Vec2>& vertices);
   KeyContour contour_of(const Outline& outline, const KeyPose& key, const KeyPose& next);
@@ -60,7 +51,6 @@ class ClipAnimator {
   AnimatedChunk rings(float from, float to);
   double excess(const AnimatedChunk& chunk, std::size_t key, float share);
   bool is_tight(const AnimatedChunk& chunk, const AnimatedChunk& rings);
-  void add_halves(float from, float to, std::vector<AnimatedChunk>& chunks);
   void add_chunks(float from, float to, std::vector<AnimatedChunk>& chunks);
   bool loops();
 
@@ -70,11 +60,7 @@ class ClipAnimator {
   AnimateOptions options_;
   float end_;
   Skinner skinner_;
-  SlabTriangles slab_triangles_;
-  std::optional<Heights> slab_;  ///< none: the whole body
-  MovingMesh mesh_;              ///< of the chunk
-  std::vector<Vec3> bind_;       ///< the mesh's vertices in the bind pose
-  std::optional<OutlineBuilder> builder_;
+  OutlineBuilder builder_;
   Outline outline_;
   std::vector<Vec2> now_, later_;
 };
@@ -82,13 +68,6 @@ class ClipAnimator {
 void ClipAnimator::pose(float seconds, std::vector<Vec2>& vertices) {
   const std::span<const Vec2> posed = skinner_.ground_pose({clip_, seconds});
   vertices.assign(posed.begin(), posed.end());
-  mesh_.append_middles(vertices);
-}
-
-void ClipAnimator::prepare_builder() {
-  bind_ = character_.vertices;
-  mesh_.append_middles(bind_);
-  builder_.emplace(mesh_.triangles, bind_.size(), bind_);
 }
 
 KeyContour ClipAnimator::contour_of(const Outline& outline, const KeyPose& key, const KeyPose& next) {
@@ -108,7 +87,7 @@ void ClipAnimator::add_parts(OutlineBuilder& builder, const TriangleList& triang
   for (std::size_t k = 0; k < keys.size(); ++k) builder.build(keys[k].vertices, outlines[k]);
   const std::vector<TriangleList> apart = parts_apart(triangles, keys, outlines);
   for (const TriangleList& part : apart) {
-    OutlineBuilder of_part(part, bind_.size(), bind_);
+    OutlineBuilder of_part(part, character_.vertices.size(), character_.vertices);
     add_parts(of_part, part, keys, parts);
   }
   if (!apart.empty()) return;
@@ -125,7 +104,7 @@ AnimatedChunk ClipAnimator::rings(float from, float to) {
     pose(keys[k].seconds, keys[k].vertices);
   }
   std::vector<std::vector<KeyContour>> parts;
-  add_parts(*builder_, mesh_.triangles, keys, parts);
+  add_parts(builder_, character_.triangles, keys, parts);
   return rings_along(parts, options_);
 }
 
@@ -133,7 +112,7 @@ AnimatedChunk ClipAnimator::rings(float from, float to) {
 double ClipAnimator::excess(const AnimatedChunk& chunk, std::size_t key, float share) {
   const double from = chunk.times[key], seconds = chunk.times[key + 1] - from;
   pose(static_cast<float>(from + seconds * double{share}), now_);
-  builder_->build(now_, outline_);
+  builder_.build(now_, outline_);
   double most = 0;
   for (std::size_t i = 0; i < chunk.disc_count; ++i) {
     const Disc &a = chunk.keys[key * chunk.disc_count + i], &b = chunk.keys[(key + 1) * chunk.disc_count + i];
@@ -165,27 +144,16 @@ void round_radii(AnimatedChunk& chunk) {
     disc.radius = static_cast<float>(std::ceil(double{disc.radius} / step) * step);
 }
 
-/// Appends chunks of both halves of a time.
-void ClipAnimator::add_halves(float from, float to, std::vector<AnimatedChunk>& chunks) {
-  const float between = from + (to - from) / 2;
-  add_chunks(from, between, chunks);
-  add_chunks(between, to, chunks);
-}
-
 /// Appends a chunk, or those of the halves of its time where it is not tight.
 void ClipAnimator::add_chunks(float from, float to, std::vector<AnimatedChunk>& chunks) {
-  if (slab_) {
-    slab_triangles_.look(from, to);
-    if (to - from > longest_of_risers && slab_triangles_.most_rise(*slab_) > most_rise)
-      return add_halves(from, to, chunks);
-    mesh_ = slab_triangles_.in(*slab_);
-    if (mesh_.triangles.empty()) return chunks.push_back({{double{from}, double{to}}, 0, {}, {}});
-    prepare_builder();
-  }
   const AnimatedChunk made_for_keys = rings(from, to);
   AnimatedChunk chunk = made_for_keys;
-  check_.hold(chunk, mesh_);
-  if (to - from > 2 * shortest_chunk && !is_tight(chunk, made_for_keys)) return add_halves(from, to, chunks);
+  check_.hold(chunk);
+  if (to - from > 2 * shortest_chunk && !is_tight(chunk, made_for_keys)) {
+    const float between = from + (to - from) / 2;
+    add_chunks(from, between, chunks);
+    return add_chunks(between, to, chunks);
+  }
   round_radii(chunk);
   chunks.push_back(std::move(chunk));
 }
@@ -217,19 +185,8 @@ std::vector<AnimatedChunk> ClipAnimator::chunks() {
 AnimatedDiscs ClipAnimator::run() {
   AnimatedDiscs result;
   result.loops = options_.loops ? *options_.loops : loops();
-  slab_triangles_.look(0, end_);
-  result.heights = slab_triangles_.heights();
-  if (options_.slices.empty()) {
-    result.chunks = chunks();
-    return result;
-  }
-  result.slices = options_.slices;
-  for (std::size_t i = 0; i <= options_.slices.size(); ++i) {
-    // Bounds of a part of the clip may reach slabs that those of the whole clip, which hold the body, do not.
-    slab_ = heights_of_slab(result.heights, options_.slices, i);
-    if (slab_->bottom <= slab_->top) slab_ = heights_of_slab({}, options_.slices, i);
-    result.slabs.emplace_back().chunks = chunks();
-  }
+  result.heights = clip_heights(character_, clip_);
+  result.chunks = chunks();
   return result;
 }
 
@@ -246,7 +203,6 @@ AnimatedDiscs animate(const Character& character, std::uint32_t clip, const Anim
   detail::require(options.spacing, "a spacing");
   detail::require(options.inset, "an inset");
   detail::require(options.error, "an error");
-  detail::require_planes(options.slices);
   return detail::ClipAnimator(character, clip, options).run();
 }
 

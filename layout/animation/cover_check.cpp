@@ -43,18 +43,16 @@ double way_of(const Moving& disc) {
 }  // namespace
 
 CoverCheck::CoverCheck(const Character& character, std::uint32_t clip, double spacing)
-    : clip_(clip), spacing_(spacing), bounds_(character, clip), skinner_(character) {}
+    : character_(character), clip_(clip), spacing_(spacing), bounds_(character, clip), skinner_(character) {}
 
-void CoverCheck::hold(AnimatedChunk& chunk, const MovingMesh& mesh) {
-  mesh_ = &mesh;
-  last_holder_.assign(mesh.triangles.size(), no_disc);
+void CoverCheck::hold(AnimatedChunk& chunk) {
+  last_holder_.assign(character_.triangles.size(), no_disc);
   for (std::size_t key = 0; key + 1 < chunk.times.size(); ++key) hold_between_keys(chunk, key);
 }
 
 void CoverCheck::pose(float seconds, std::vector<PlanePoint>& points) {
   points.clear();
   for (const Vec2& p : skinner_.ground_pose({clip_, seconds})) points.push_back(plane_point(p));
-  mesh_->append_middles(points);
 }
 
 /// Goes from window to window: each ends at the next key of a channel at the latest, and is as long as the bounds allow.
@@ -132,10 +130,10 @@ void CoverCheck::hold_window(AnimatedChunk& chunk, std::size_t key) {
   };
   set(grid_a_, &Moving::a);
   set(grid_b_, &Moving::b);
-  for (std::size_t t = 0; t < mesh_->triangles.size(); ++t) {
+  for (std::size_t t = 0; t < character_.triangles.size(); ++t) {
     Piece piece;
     for (std::size_t i = 0; i < 3; ++i) {
-      const std::uint32_t vertex = mesh_->triangles[t][i];
+      const std::uint32_t vertex = character_.triangles[t][i];
       piece[i] = {pose_a_[vertex], pose_b_[vertex]};
     }
     std::uint32_t& last = last_holder_[t];

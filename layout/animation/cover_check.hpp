@@ -10,15 +10,13 @@
 #include <bch/character.hpp>
 #include <bch/pose_shape.hpp>
 
-#include "layout/animation/slab_triangles.hpp"
 #include "layout/animation/winding_grid.hpp"
 #include "layout/character/motion_bounds.hpp"
 #include "layout/character/skinning.hpp"
 
 namespace bch::detail {
 
-/// Enlarges the discs of chunks until they hold triangles of a character at every real time. Those of a slab are held where they are in
-/// it and where not: SlabTriangles finds all pieces that are in it at some time of a chunk. Their corners accelerate no more than vertices.
+/// Enlarges the discs of chunks until they hold triangles of a character at every real time.
 ///
 /// It goes through a chunk in short windows [a, b], in each of which discs move evenly, and vertices, too, but for a bend: with an
 /// acceleration of at most A they leave the chord between a and b by at most A (b - a)^2 / 8. MotionBounds bounds A. A piece of a
@@ -39,9 +37,9 @@ class CoverCheck {
   /// Errors:  throws std::invalid_argument as MotionBounds does.
   CoverCheck(const Character& character, std::uint32_t clip, double spacing);
 
-  /// Enlarges the discs of a chunk, whose times have to be floats, for the triangles of a mesh.
+  /// Enlarges the discs of a chunk, whose times have to be floats, for all triangles.
   /// Errors:  throws std::invalid_argument where vertices move too fast for any window.
-  void hold(AnimatedChunk& chunk, const MovingMesh& mesh);
+  void hold(AnimatedChunk& chunk);
 
  private:
   /// Represents a point that moves evenly through a window.
@@ -68,7 +66,7 @@ class CoverCheck {
   double missing(const Piece& piece, const MovingDisc& disc) const;
   std::uint32_t enlarge(const Piece& piece, AnimatedChunk& chunk, std::size_t key);
 
-  const MovingMesh* mesh_ = nullptr;
+  const Character& character_;
   std::uint32_t clip_;
   double spacing_;
   MotionBounds bounds_;

@@ -87,30 +87,18 @@ class Elements {
 class Unpacking {
  public:
   explicit Unpacking(const ClipArrays& arrays)
-      : planes_("clip_planes", arrays.clip_planes),
-        slab_chunks_("slab_chunks", arrays.slab_chunks),
-        chunks_("chunks", arrays.chunks),
+      : chunks_("chunks", arrays.chunks),
         times_("key_times", arrays.key_times),
         ring_ends_("ring_ends", arrays.ring_ends),
         steps_("disc_steps", arrays.disc_steps),
         floats_("disc_floats", arrays.disc_floats) {}
 
   AnimatedDiscs take_discs(const ClipRecord& record, std::size_t clip) {
-    AnimatedDiscs discs{{}, record.loops == 1, {}, {}, record.heights};
-    const auto planes = planes_.take(record.planes, "clips", clip);
-    const auto slabs = slab_chunks_.take(std::size_t{record.planes} + 1, "clips", clip);
-    if (planes.empty()) {
-      discs.chunks = take_chunks(slabs[0], clip);
-      return discs;
-    }
-    discs.slices.assign(planes.begin(), planes.end());
-    for (const std::uint32_t chunks : slabs) discs.slabs.push_back({take_chunks(chunks, clip)});
-    return discs;
+    return {take_chunks(record.chunks, clip), record.loops == 1, record.heights};
   }
 
   void require_all_taken() const {
-    planes_.require_all_taken(), slab_chunks_.require_all_taken(), chunks_.require_all_taken();
-    times_.require_all_taken(), ring_ends_.require_all_taken();
+    chunks_.require_all_taken(), times_.require_all_taken(), ring_ends_.require_all_taken();
     steps_.require_all_taken(), floats_.require_all_taken();
   }
 
@@ -152,8 +140,6 @@ class Unpacking {
       chunk.keys.push_back({number(i), number(i + 1), number(i + 2)});
   }
 
-  Elements<float> planes_;
-  Elements<std::uint32_t> slab_chunks_;
   Elements<ChunkRecord> chunks_;
   std::size_t next_ = 0;  ///< chunk
   Elements<double> times_;
@@ -167,17 +153,10 @@ class Unpacking {
 PackedClips::PackedClips(std::span<const BakedClip> clips, std::size_t names) {
   for (std::size_t i = 0; i < clips.size(); ++i) {
     require_clip(i, clips[i], names);
-    const auto& [chunks, loops, slices, slabs, heights] = clips[i].discs;
-    clips_.push_back({clips[i].character, clips[i].clip, loops ? 1u : 0u, count_of(slices.size()), heights});
-    clip_planes_.insert(clip_planes_.end(), slices.begin(), slices.end());
-    if (slabs.empty()) add(chunks);
-    for (const AnimatedDiscs& slab : slabs) add(slab.chunks);
+    const auto& [chunks, loops, heights] = clips[i].discs;
+    clips_.push_back({clips[i].character, clips[i].clip, loops ? 1u : 0u, count_of(chunks.size()), heights});
+    for (const AnimatedChunk& chunk : chunks) add(chunk);
   }
-}
-
-void PackedClips::add(const std::vector<AnimatedChunk>& chunks) {
-  slab_chunks_.push_back(count_of(chunks.size()));
-  for (const AnimatedChunk& chunk : chunks) add(chunk);
 }
 
 void PackedClips::add(const AnimatedChunk& chunk) {

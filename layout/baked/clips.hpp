@@ -24,16 +24,13 @@ class PackedClips {
 
   /// Returns the sections, as long as this lives.
   ClipArrays arrays() const noexcept {
-    return {clips_, clip_planes_, slab_chunks_, chunks_, key_times_, ring_ends_, disc_steps_, disc_floats_};
+    return {clips_, chunks_, key_times_, ring_ends_, disc_steps_, disc_floats_};
   }
 
  private:
-  void add(const std::vector<AnimatedChunk>& chunks);
   void add(const AnimatedChunk& chunk);
 
   std::vector<ClipRecord> clips_;
-  std::vector<float> clip_planes_;
-  std::vector<std::uint32_t> slab_chunks_;
   std::vector<ChunkRecord> chunks_;
   std::vector<double> key_times_;
   std::vector<std::uint32_t> ring_ends_;

@@ -45,29 +45,20 @@
 ///     points          Vec2        any     metres; after a contour's last point its first one again
 ///     leaf_segments   u32         any     see below; or none
 ///     segment_margin  f32         S or 0  metres, rounding.hpp; like shape_contours
-///     slices          f32         any     planes that cut bodies into slabs, metres, ascending; at most 63
-///     slab_parts      u32         any     see below; or none
-///     heights         Heights     S or 0  metres: a part's bottom and top, infinite where it has none
-///     hull_support    f32         any     64 a shape, the largest of its parts' supports; where there are slices and supports
+///     heights         Heights     S or 0  metres: a shape's bottom and top, infinite where it has none
 ///     settings        Settings    1
 ///     origins         ShapeOrigin S or 0  what each shape shows
 ///     name_begin      u32         N + 1   name n is bytes [n] to [n + 1] of names
 ///     names           u8          any     UTF-8
 ///     clips           ClipRecord  A       moving discs, see below
-///     clip_planes     f32         any     metres, those of the clips that cut the body, one clip behind the other; so are the next six
-///     slab_chunks     u32         any     chunks of each slab, of one more than planes
-///     chunks          ChunkRecord any
+///     chunks          ChunkRecord any     of one clip behind the other; so are the next four
 ///     key_times       f64         any     seconds, ascending in a chunk
 ///     ring_ends       u32         any     of a chunk's rings among its discs
 ///     disc_steps      i16         any     x, y and radius of the discs at each key, times the chunk's power of two
 ///     disc_floats     f32         any     the same of chunks whose numbers are no such, metres
 ///
-/// Clips. Each clip takes its number of planes, and one more of slab_chunks; each of these so many chunks. Each chunk takes its number of key times and ring ends, and three numbers a disc and key from disc_steps or, where its step
+/// Clips. Each clip takes its number of chunks. Each chunk takes its number of key times and ring ends, and three numbers a disc and key from disc_steps or, where its step
 /// says so, disc_floats. Nothing is left. validate(AnimatedDiscs) lists what is checked of them.
-///
-/// Slices. Where there are planes, S is the number of parts. Shape s has in slab j the part slab_parts[s * J + j], where J is the number
-/// of planes and 1, or nothing, 2^32 - 1. Parts are numbered in the order in which they are named first; slabs of one shape that
-/// follow each other may share one.
 ///
 /// Rows. Root::row is 0 where the level's cut is a single disc; else 1, but for a shape's last level, which has the row
 /// after that of the shape before, from 2 on.
@@ -96,7 +87,7 @@ namespace bch::detail::baked {
 constexpr std::array<std::uint8_t, 8> magic{0x89, 'B', 'C', 'H', '\r', '\n', 0x1a, '\n'};
 constexpr std::uint32_t byte_order = 0x01020304;
 constexpr std::uint32_t other_byte_order = 0x04030201;
-constexpr std::uint32_t version = 7;
+constexpr std::uint32_t version = 8;
 constexpr std::size_t alignment = 64;
 
 struct FileHeader {
@@ -124,17 +115,12 @@ enum class Section : std::uint32_t {
   points,
   leaf_segments,
   segment_margin,
-  slices,
-  slab_parts,
   heights,
-  hull_support,
   settings,
   origins,
   name_begin,
   names,
   clips,
-  clip_planes,
-  slab_chunks,
   chunks,
   key_times,
   ring_ends,
@@ -167,7 +153,7 @@ static_assert(sizeof(Preamble) == sizeof(FileHeader) + section_count * sizeof(Se
 struct ClipRecord {
   std::uint32_t character, clip;
   std::uint32_t loops;  ///< 0 or 1
-  std::uint32_t planes;
+  std::uint32_t chunks;
   Heights heights;
 };
 
@@ -182,8 +168,6 @@ constexpr std::int32_t least_step = -149, largest_step = 20;  ///< of steps that
 /// Holds the sections of clips.
 struct ClipArrays {
   std::span<const ClipRecord> clips;
-  std::span<const float> clip_planes;
-  std::span<const std::uint32_t> slab_chunks;
   std::span<const ChunkRecord> chunks;
   std::span<const double> key_times;
   std::span<const std::uint32_t> ring_ends;
@@ -212,8 +196,6 @@ void for_each_section(Arrays& arrays, Visit visit) {
   visit_next("name_begin", arrays.name_begin);
   visit_next("names", arrays.names);
   visit_next("clips", arrays.clips.clips);
-  visit_next("clip_planes", arrays.clips.clip_planes);
-  visit_next("slab_chunks", arrays.clips.slab_chunks);
   visit_next("chunks", arrays.clips.chunks);
   visit_next("key_times", arrays.clips.key_times);
   visit_next("ring_ends", arrays.clips.ring_ends);

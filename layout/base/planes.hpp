@@ -10,7 +10,7 @@
 
 namespace bch::detail {
 
-/// The most planes that cut a body: agents' parts are found by loops over slabs.
+/// The most planes that cut a mesh.
 constexpr std::size_t most_planes = 63;
 
 /// Requires planes to be finite, to ascend, and to be no more than that.
@@ -19,9 +19,5 @@ void require_planes(std::span<const float> planes);
 
 /// Returns the height of a plane, between the float that names it and the next one, so that no vertex lies in it.
 double height_of(float plane);
-
-/// Returns what of a body's heights lies in a slab: slab j is below plane j and above the one before. Rounded outward; above its top where
-/// nothing does.
-Heights heights_of_slab(Heights body, std::span<const float> planes, std::size_t slab);
 
 }  // namespace bch::detail

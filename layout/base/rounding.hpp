@@ -135,14 +135,12 @@
 /// (position) that is flushed loses 1.2e-38, where u P is 6e-14 m or more. (overflow) |d| <= 2e9 sqrt(2) m (limits below),
 /// squared 8e18.
 ///
-/// VII. Slabs. A point that two meshes have in common has one height. No vertex lies in a plane, so the point lies in the same slab
-/// of both, within a piece of a triangle or on its cut edge. A corner in a plane is lower + (upper - lower) share, where share
+/// VII. Heights. Planes cut outlines between heights. A corner in a plane is lower + (upper - lower) share, where share
 /// = (h - z) / (z' - z), all in double: the two differences and the quotient leave 3 * 2^-53 of a share that is at most 1, however
 /// level the edge is, and the rest 3 roundings of lengths up to 2 P. That is below 2^-49 P, and so below 2^-25 of a grid step, which is at
-/// least 2^-24 P of the whole mesh. The corner is rounded to the grid as a vertex is; the sum stays below 1.5 grid steps (grid). A
-/// piece that is a point on the grid becomes a whisker of one step. Heights of agents at different grounds are compared in double
-/// with a slack of 1e-9 m and 2^-50 of the difference, beside which the rounding of two sums of lengths up to 1e6 m is nothing. The
-/// grid is that of the whole mesh, so that the prices above hold with the reaches of whole bodies.
+/// least 2^-24 P of the whole mesh. The corner is rounded to the grid as a vertex is; the sum stays below 1.5 grid steps (grid).
+/// Heights of agents at different grounds are compared in double with a slack of 1e-9 m and 2^-50 of the difference, beside which the
+/// rounding of two sums of lengths up to 1e6 m is nothing.
 ///
 /// VIII. Nodes that hold the discs below them, as those of bodies made of discs do, overlap wherever the discs do, if there is room to
 /// spare, (held_room). The float test accepts discs with D <= r_A + r_B + (query_error) S. With R >= |C - c| + r + room, a node of A and a

@@ -96,8 +96,8 @@ struct BodySet::State {
   void allocate() {
     // Kernels read whole registers, so a line follows.
     records.resize(layouts.empty() ? 0 : record_begin.back() + layouts.back()->record_size() + record_line);
-    view.ground.shape_count = view.ground.part_count = static_cast<std::uint32_t>(layouts.size());
-    view.ground.slab_count = view.ground.level_count = 1;
+    view.ground.shape_count = static_cast<std::uint32_t>(layouts.size());
+    view.ground.level_count = 1;
     view.ground.depths = &only_depth;
     view.ground.roots = roots.data();
     view.ground.heights = heights.data();

@@ -80,7 +80,7 @@ void depths(const ShapeArrays& a) {
 }
 
 void sizes(const ShapeArrays& a) {
-  const std::uint64_t shapes = a.part_count(), roots = shapes * a.depths.size();
+  const std::uint64_t shapes = a.shape_count(), roots = shapes * a.depths.size();
   constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
   if (roots > most) throw std::invalid_argument("roots: " + std::to_string(roots) + ", too many");
   require_size("roots", a.roots.size(), roots);
@@ -103,48 +103,14 @@ void sizes(const ShapeArrays& a) {
   if (outlines) require_size("shape_contours", a.shape_contours.size(), shapes);
   require_size("segment_margin", a.segment_margin.size(), outlines ? shapes : 0);
   if (!outlines) require_size("leaf_segments", a.leaf_segments.size(), 0);
-  if (!a.heights.empty() || !a.slices.empty()) require_size("heights", a.heights.size(), shapes);
-  require_size("hull_support", a.hull_support.size(),
-               culling && !a.slices.empty() ? a.shape_count() * support_stride : 0);
+  if (!a.heights.empty()) require_size("heights", a.heights.size(), shapes);
   if (a.leaf_segments.size() > most)
     throw std::invalid_argument("leaf_segments: " + std::to_string(a.leaf_segments.size()) + ", too many");
-}
-
-void slices(const ShapeArrays& a) {
-  require_planes(a.slices);
-  if (!a.slices.empty() && !a.trees.empty() && a.shape_contours.empty())
-    throw std::invalid_argument("slices: there are no outlines");
-}
-
-/// Parts are named in their order, and those of a shape follow each other.
-void slab_parts(const ShapeArrays& a) {
-  const std::size_t slabs = a.slab_count();
-  if (a.slices.empty()) return require_size("slab_parts", a.slab_parts.size(), 0);
-  require_size("slab_parts", a.slab_parts.size(), a.shape_count() * slabs);
-  std::uint32_t next = 0;
-  for (std::size_t i = 0, first = 0; i < a.slab_parts.size(); ++i) {
-    if (i % slabs == 0) first = next;
-    const std::uint32_t part = a.slab_parts[i];
-    if (part == next && next < a.part_count())
-      ++next;
-    else if (part != no_part && (next == first || part + 1 != next))
-      reject("slab_parts", i, std::to_string(part) + " is not the next part");
-    if (i % slabs + 1 == slabs && next == first) reject("slab_parts", i, "the shape has no part");
-  }
-  require_size("slab_parts", next, a.part_count());
 }
 
 void heights(const ShapeArrays& a) {
   require_all("heights", a.heights, "no heights",
               [](const Heights& heights) { return heights.bottom <= heights.top; });
-  if (a.slices.empty()) return;
-  for (std::size_t i = 0; i < a.slab_parts.size(); ++i) {
-    const std::uint32_t part = a.slab_parts[i];
-    const std::size_t slab = i % a.slab_count();
-    if (part == no_part) continue;
-    const Heights within = heights_of_slab(a.heights[part], a.slices, slab);
-    if (!(within.bottom <= within.top)) reject("heights", part, "none in slab " + std::to_string(slab));
-  }
 }
 
 /// Rows of supports are numbered in the order of shapes, whose deepest levels have them.
@@ -196,11 +162,6 @@ void supports(const ShapeArrays& a) {
   if ((bad & top_bit) == 0) return;
   for (std::size_t i = first_row * support_stride; i < a.support.size(); ++i)
     if (!is_length(a.support[i])) reject("support", i, "not a length");
-}
-
-void hull_supports(const ShapeArrays& a) {
-  for (std::size_t i = 0; i < a.hull_support.size(); ++i)
-    if (!is_length(a.hull_support[i])) reject("hull_support", i, "not a length");
 }
 
 void inscribed(const ShapeArrays& a) {

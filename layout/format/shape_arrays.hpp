@@ -27,16 +27,9 @@ struct ShapeArrays {
   std::span<const Vec2> points;
   std::span<const std::uint32_t> leaf_segments;
   std::span<const float> segment_margin;
-  std::span<const float> slices;  ///< planes, ascending
-  std::span<const std::uint32_t> slab_parts;
   std::span<const Heights> heights;
-  std::span<const float> hull_support;
 
-  std::size_t part_count() const noexcept { return depths.empty() ? 0 : roots.size() / depths.size(); }
-  std::size_t slab_count() const noexcept { return slices.size() + 1; }
-  std::size_t shape_count() const noexcept {
-    return slices.empty() ? part_count() : slab_parts.size() / slab_count();
-  }
+  std::size_t shape_count() const noexcept { return depths.empty() ? 0 : roots.size() / depths.size(); }
 };
 
 /// Calls visit(name, array...) for each array of a set, in the order of a baked file, with that array of every one of `sets`:
@@ -56,10 +49,7 @@ void for_each_array(Visit visit, Sets&... sets) {
   visit("points", sets.points...);
   visit("leaf_segments", sets.leaf_segments...);
   visit("segment_margin", sets.segment_margin...);
-  visit("slices", sets.slices...);
-  visit("slab_parts", sets.slab_parts...);
   visit("heights", sets.heights...);
-  visit("hull_support", sets.hull_support...);
 }
 
 }  // namespace bch::detail

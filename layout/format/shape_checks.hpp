@@ -22,8 +22,6 @@ namespace bch::detail::shape_checks {
 void alignment(const ShapeArrays& a);
 void depths(const ShapeArrays& a);
 void sizes(const ShapeArrays& a);
-void slices(const ShapeArrays& a);
-void slab_parts(const ShapeArrays& a);
 void heights(const ShapeArrays& a);
 void rows(const ShapeArrays& a);
 void single_depth(const ShapeArrays& a);
@@ -31,7 +29,6 @@ void infinite_rows(const ShapeArrays& a);
 void reaches(const ShapeArrays& a);
 void roots(const ShapeArrays& a);
 void supports(const ShapeArrays& a);
-void hull_supports(const ShapeArrays& a);
 void inscribed(const ShapeArrays& a);
 void profiles(const ShapeArrays& a);
 void shape_contours(const ShapeArrays& a);

@@ -123,17 +123,10 @@ struct ContourRange {
   std::uint32_t begin, end;
 };
 
-/// A slab in which a body has nothing.
-constexpr std::uint32_t no_part = 0xffffffff;
-
-/// Holds the nodes of all shapes and levels as plain pointers: what kernels read. Valid while the set lives. A shape is one part, or in a
-/// sliced set as many as it has slabs that are not empty and differ: slab_parts names them, slab after slab. What is said to be
-/// per shape below is per part then.
+/// Holds the nodes of all shapes and levels as plain pointers: what kernels read. Valid while the set lives.
 /// Roots:   index shape * level_count + level.
 struct ShapeSetView {
-  std::uint32_t shape_count;  ///< that agents can name
-  std::uint32_t part_count;
-  std::uint32_t slab_count;  ///< 1: bodies are whole
+  std::uint32_t shape_count;
   std::uint32_t level_count;
   bool rows_in_order;  ///< root r has row first_row + r: one level, and no cut is a single disc
 
@@ -155,12 +148,7 @@ struct ShapeSetView {
   const std::uint32_t* leaf_segments;  ///< words and lists, see Tree::segments; null where no tree has any
   const float* segment_margin;         ///< per shape, metres; see rounding.hpp, V; null without outlines
 
-  const float* slices;              ///< planes; null where bodies are whole
-  const std::uint8_t* slab_order;   ///< slabs, from the one that decides most pairs on; null without slices
-  const std::uint32_t* slab_parts;  ///< index shape * slab_count + slab, or no_part; null without slices
-  const float*
-      hull_support;  ///< per shape, support_stride floats: the largest of its parts' supports; null without slices
-  const Heights* heights;  ///< per part; null without the plan's heights
+  const Heights* heights;  ///< per shape; null without the plan's heights
 };
 
 }  // namespace bch::detail

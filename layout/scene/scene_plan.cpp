@@ -29,8 +29,6 @@ constexpr std::size_t most_levels = 255;
 void require(const SceneUse& use) {
   if (!(use.pose_step >= 0) || !is_finite(use.pose_step))
     throw std::invalid_argument("scene plan: a pose step of " + shortest(use.pose_step) + " s");
-  if (!(use.whole_from >= 0))
-    throw std::invalid_argument("scene plan: whole bodies from " + shortest(use.whole_from) + " m on");
   if (!(use.pairs_per_shape >= 0))
     throw std::invalid_argument("scene plan: " + shortest(use.pairs_per_shape) + " pairs a shape");
 }
@@ -43,8 +41,8 @@ class Shapes {
   std::uint32_t number(ShapeSource source) {
     if (source.at.clip == PoseTime::rest) source.at.seconds = 0;
     if (step_ > 0) source.at.seconds = stepped(source.at.seconds);
-    const auto [found, is_new] = numbers_.try_emplace(
-        {source.character, source.at.clip, source.at.seconds, source.whole}, list.size());
+    const auto [found, is_new] =
+        numbers_.try_emplace({source.character, source.at.clip, source.at.seconds}, list.size());
     if (is_new) list.push_back(source);
     return static_cast<std::uint32_t>(found->second);
   }
@@ -59,7 +57,7 @@ class Shapes {
   }
 
   double step_;
-  std::map<std::tuple<std::uint32_t, std::uint32_t, float, bool>, std::size_t> numbers_;
+  std::map<std::tuple<std::uint32_t, std::uint32_t, float>, std::size_t> numbers_;
 };
 
 std::vector<std::uint32_t> depths_of(std::span<const SceneAgent> agents, const SceneUse& use) {
@@ -88,24 +86,6 @@ std::uint32_t depth_at_density(double people_per_square_metre) {
   return people_per_square_metre < 3.0 ? 6 : all_depths;
 }
 
-std::vector<float> standing_slices(std::uint32_t slabs) {
-  switch (slabs) {
-    case 1:
-      return {};
-    case 2:
-      return {0.6f};
-    case 3:
-      return {0.4f, 1.0f};
-    case 4:
-      return {0.4f, 0.85f, 1.05f};
-    case 8:
-      return {0.35f, 0.7f, 0.85f, 0.95f, 1.05f, 1.2f, 1.45f};
-    default:
-      throw std::invalid_argument("standing slices: " + std::to_string(slabs) +
-                                  " slabs, not 1, 2, 3, 4 or 8");
-  }
-}
-
 ScenePlan plan_scene(std::span<const SceneAgent> agents, const SceneUse& use) {
   const FloatingPointStateGuard floats;
   require(use);
@@ -120,15 +100,12 @@ ScenePlan plan_scene(std::span<const SceneAgent> agents, const SceneUse& use) {
   const std::vector<std::uint32_t> depths = depths_of(agents, use);
   ScenePlan plan;
   plan.set.depths = different(depths);
-  plan.set.outlines = use.outlines || !use.slices.empty();
-  plan.set.slices = use.slices;
-  plan.set.heights = use.heights || !use.slices.empty();
+  plan.set.outlines = use.outlines;
+  plan.set.heights = use.heights;
   plan.set.culling = use.pairs_per_shape >= pairs_for_culling;
   Shapes shapes(use.pose_step);
   for (std::size_t i = 0; i < agents.size(); ++i) {
-    ShapeSource shows = agents[i].shows;
-    shows.whole = !use.slices.empty() && (shows.whole || agents[i].distance >= use.whole_from);
-    plan.agent_shape.push_back(shapes.number(shows));
+    plan.agent_shape.push_back(shapes.number(agents[i].shows));
     const auto level = std::lower_bound(plan.set.depths.begin(), plan.set.depths.end(), depths[i]);
     plan.agent_level.push_back(static_cast<std::uint8_t>(level - plan.set.depths.begin()));
   }

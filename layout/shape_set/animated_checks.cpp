@@ -32,12 +32,8 @@ constexpr double ring_rounding = 0x1p-21;
 /// Checks a chunk, and says of what it complains.
 class ChunkCheck {
  public:
-  ChunkCheck(const AnimatedDiscs& discs, std::size_t chunk, const std::string& of, bool may_be_empty)
-      : all_(discs.chunks),
-        chunk_(discs.chunks[chunk]),
-        index_(chunk),
-        of_(of),
-        may_be_empty_(may_be_empty) {}
+  ChunkCheck(const AnimatedDiscs& discs, std::size_t chunk)
+      : all_(discs.chunks), chunk_(discs.chunks[chunk]), index_(chunk) {}
 
   void check() const {
     check_times();
@@ -47,7 +43,7 @@ class ChunkCheck {
 
  private:
   [[noreturn]] void reject(const std::string& why) const {
-    detail::reject(of_ + "chunk " + std::to_string(index_) + ": " + why);
+    detail::reject("chunk " + std::to_string(index_) + ": " + why);
   }
 
   void check_times() const {
@@ -65,7 +61,7 @@ class ChunkCheck {
   }
 
   void check_counts() const {
-    if ((chunk_.disc_count == 0 && !may_be_empty_) || chunk_.disc_count > most_discs)
+    if (chunk_.disc_count == 0 || chunk_.disc_count > most_discs)
       reject(std::to_string(chunk_.disc_count) + " discs, not 1 to " + std::to_string(most_discs));
     if (chunk_.keys.size() != chunk_.times.size() * chunk_.disc_count)
       reject(std::to_string(chunk_.keys.size()) + " discs at " + std::to_string(chunk_.times.size()) +
@@ -106,57 +102,28 @@ class ChunkCheck {
   const std::vector<AnimatedChunk>& all_;
   const AnimatedChunk& chunk_;
   std::size_t index_;
-  const std::string& of_;  ///< which slab
-  bool may_be_empty_;
 };
 
-void require_chunks(const AnimatedDiscs& discs, const std::string& of, bool may_be_empty) {
-  if (discs.chunks.empty()) reject(of + "no chunks");
-  for (std::size_t i = 0; i < discs.chunks.size(); ++i) ChunkCheck(discs, i, of, may_be_empty).check();
-}
-
-bool has_discs(const AnimatedDiscs& slab) {
-  return std::any_of(slab.chunks.begin(), slab.chunks.end(),
-                     [](const AnimatedChunk& chunk) { return chunk.disc_count > 0; });
-}
-
-void require_slabs(const AnimatedDiscs& discs) {
-  require_planes(discs.slices);
-  if (!discs.chunks.empty()) reject("chunks beside slabs");
-  if (discs.slabs.size() != discs.slices.size() + 1)
-    reject(std::to_string(discs.slabs.size()) + " slabs for " + std::to_string(discs.slices.size()) +
-           " planes");
-  for (std::size_t i = 0; i < discs.slabs.size(); ++i) {
-    const AnimatedDiscs &slab = discs.slabs[i], &first = discs.slabs[0];
-    const std::string name = "slab " + std::to_string(i) + ": ";
-    if (!slab.slabs.empty() || !slab.slices.empty()) reject(name + "slabs of a slab");
-    require_chunks(slab, name, true);
-    if (const Heights within = heights_of_slab(discs.heights, discs.slices, i);
-        has_discs(slab) && !(within.bottom <= within.top))
-      reject(name + "it has discs, and the body's heights, from " + shortest(discs.heights.bottom) + " to " +
-             shortest(discs.heights.top) + " m, do not reach it");
-    if (slab.chunks.front().times.front() != first.chunks.front().times.front() ||
-        slab.chunks.back().times.back() != first.chunks.back().times.back())
-      reject(name + "it begins or ends at another time than slab 0");
-  }
-  if (std::none_of(discs.slabs.begin(), discs.slabs.end(), has_discs)) reject("all slabs are empty");
+void require_chunks(const AnimatedDiscs& discs) {
+  if (discs.chunks.empty()) reject("no chunks");
+  for (std::size_t i = 0; i < discs.chunks.size(); ++i) ChunkCheck(discs, i).check();
 }
 
 /// Rejects loops of next to no time.
 void require_length_of_loop(const AnimatedDiscs& discs) {
-  const std::vector<AnimatedChunk>& chunks = discs.slabs.empty() ? discs.chunks : discs.slabs[0].chunks;
+  const std::vector<AnimatedChunk>& chunks = discs.chunks;
   const double length = chunks.back().times.back() - chunks.front().times.front();
   if (discs.loops && length < shortest_loop)
     reject("a loop of " + shortest(length) + " s, which is shorter than 0.001 s");
 }
 
-/// Rejects discs that reach too little or too far, where there are some.
+/// Rejects discs that reach too little or too far.
 void require_reach_of(const AnimatedDiscs& discs) {
   double reach = 0;
   for (const AnimatedChunk& chunk : discs.chunks)
     for (const auto& [x, y, radius] : chunk.keys)
       reach = std::max(reach, length(double{x}, double{y}) + double{radius});
-  if (has_discs(discs)) require_reach(reach);
+  require_reach(reach);
 }
 
 }  // namespace
@@ -170,13 +137,9 @@ void validate(const AnimatedDiscs& discs) {
   const FloatingPointStateGuard floats;
   if (!(discs.heights.bottom <= discs.heights.top))
     reject("heights from " + shortest(discs.heights.bottom) + " to " + shortest(discs.heights.top) + " m");
-  if (discs.slabs.empty() && discs.slices.empty())
-    require_chunks(discs, "", false);
-  else
-    require_slabs(discs);
+  require_chunks(discs);
   require_length_of_loop(discs);
   require_reach_of(discs);
-  for (const AnimatedDiscs& slab : discs.slabs) require_reach_of(slab);
 }
 
 }  // namespace bch

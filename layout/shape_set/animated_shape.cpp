@@ -92,26 +92,15 @@ void measure(const AnimatedTreeChunk& chunk, AnimatedTree& tree) {
     }
 }
 
-/// A chunk without discs, of a slab, has no nodes.
-AnimatedTreeChunk tree_chunk(const AnimatedChunk& chunk) {
-  if (chunk.disc_count > 0) return animated_tree_chunk(chunk);
-  AnimatedTreeChunk empty;
-  empty.times = chunk.times;
-  empty.child_begin = {0};
-  return empty;
-}
-
 std::unique_ptr<AnimatedTree> tree_of(std::span<const AnimatedChunk> chunks, bool loops) {
   auto tree = std::make_unique<AnimatedTree>();
   tree->loops = loops;
   tree->chunks.reserve(chunks.size());
-  bool is_empty = true;
   for (const AnimatedChunk& chunk : chunks) {
-    tree->chunks.push_back(tree_chunk(chunk));
+    tree->chunks.push_back(animated_tree_chunk(chunk));
     measure(tree->chunks.back(), *tree);
-    is_empty &= chunk.disc_count == 0;
   }
-  if (!is_empty) require_reach(tree->reach);
+  require_reach(tree->reach);
   tree->hulls = animated_hulls(tree->chunks, tree->reach);
   return tree;
 }
@@ -119,8 +108,7 @@ std::unique_ptr<AnimatedTree> tree_of(std::span<const AnimatedChunk> chunks, boo
 void make_shape(const ChunkAt& at, double reach, Shape& shape) {
   shape.outline.points.clear(), shape.outline.contour_begin.assign(1, 0);
   shape.hierarchy.nodes.clear();
-  shape.hierarchy.reach = at.chunk.nodes() > 0 ? reach : 0;
-  if (at.chunk.nodes() == 0) return;
+  shape.hierarchy.reach = reach;
   shape.hierarchy.nodes.reserve(2 * at.chunk.leaf_of_disc.size());
   BinaryTree(at, shape.hierarchy).add_root();
   take_outline(at.chunk, at.place, shape.outline);
@@ -128,35 +116,26 @@ void make_shape(const ChunkAt& at, double reach, Shape& shape) {
 
 }  // namespace
 
-AnimatedShape::AnimatedShape(const AnimatedDiscs& discs) : slices_(discs.slices), heights_(discs.heights) {
+AnimatedShape::AnimatedShape(const AnimatedDiscs& discs) : heights_(discs.heights) {
   const FloatingPointStateGuard floats;
   validate(discs);
   tree_ = tree_of(discs.chunks, discs.loops);
-  for (const AnimatedDiscs& slab : discs.slabs) {
-    slabs_.push_back(AnimatedShape(tree_of(slab.chunks, discs.loops)));
-    tree_->reach = std::max(tree_->reach, slabs_.back().reach());
-  }
 }
 
-AnimatedShape::AnimatedShape(std::unique_ptr<AnimatedTree> tree) : tree_(std::move(tree)) {}
 AnimatedShape::AnimatedShape(AnimatedShape&&) noexcept = default;
 AnimatedShape& AnimatedShape::operator=(AnimatedShape&&) noexcept = default;
 AnimatedShape::~AnimatedShape() = default;
 
 double AnimatedShape::begin() const noexcept {
-  return slabs_.empty() ? tree_->begin() : slabs_[0].begin();
+  return tree_->begin();
 }
 
 double AnimatedShape::end() const noexcept {
-  return slabs_.empty() ? tree_->end() : slabs_[0].end();
+  return tree_->end();
 }
 
 bool AnimatedShape::loops() const noexcept {
   return tree_->loops;
-}
-
-std::span<const AnimatedShape> AnimatedShape::slabs() const noexcept {
-  return slabs_;
 }
 
 double AnimatedShape::reach() const noexcept {
@@ -164,8 +143,7 @@ double AnimatedShape::reach() const noexcept {
 }
 
 std::size_t AnimatedShape::bytes() const noexcept {
-  std::size_t bytes = sizeof(AnimatedTree) + slices_.size() * sizeof(float);
-  for (const AnimatedShape& slab : slabs_) bytes += sizeof(slab) + slab.bytes();
+  std::size_t bytes = sizeof(AnimatedTree);
   for (const AnimatedTreeChunk& chunk : tree_->chunks) {
     bytes +=
         sizeof(chunk) + chunk.times.size() * sizeof(double) + chunk.ring_ends.size() * sizeof(std::uint32_t);
@@ -179,12 +157,8 @@ std::size_t AnimatedShape::bytes() const noexcept {
 std::vector<Disc> AnimatedShape::discs(double seconds) const {
   const FloatingPointStateGuard floats;
   std::vector<Disc> discs;
-  const auto add = [&](const AnimatedShape& body) {
-    const ChunkAt at(*body.tree_, seconds);
-    for (const std::uint32_t leaf : at.chunk.leaf_of_disc) discs.push_back(at.node(leaf));
-  };
-  if (slabs_.empty()) add(*this);
-  for (const AnimatedShape& slab : slabs_) add(slab);
+  const ChunkAt at(*tree_, seconds);
+  for (const std::uint32_t leaf : at.chunk.leaf_of_disc) discs.push_back(at.node(leaf));
   return discs;
 }
 
@@ -197,9 +171,7 @@ Shape AnimatedShape::shape(double seconds) const {
 void AnimatedShape::shape(double seconds, Shape& shape) const {
   const FloatingPointStateGuard floats;
   shape.heights = heights_;
-  shape.slabs.resize(slabs_.size());
-  for (std::size_t i = 0; i < slabs_.size(); ++i) slabs_[i].shape(seconds, shape.slabs[i]);
-  if (slabs_.empty()) make_shape(ChunkAt(*tree_, seconds), tree_->reach, shape);
+  make_shape(ChunkAt(*tree_, seconds), tree_->reach, shape);
 }
 
 }  // namespace bch

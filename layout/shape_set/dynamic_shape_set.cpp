@@ -34,14 +34,10 @@ std::size_t grow(std::size_t needed, std::size_t room, std::size_t end, std::siz
   return room;
 }
 
-/// Returns whether one of a body's parts has a level that is a single disc, or one that is not.
+/// Returns whether a body has a level that is a single disc, or one that is not.
 bool has_level(const FlatBody& body, bool is_single) {
-  const auto has = [=](const FlatShape& part) {
-    return std::any_of(part.levels.begin(), part.levels.end(),
-                       [=](const Bvh8& tree) { return tree.is_single() == is_single; });
-  };
-  return std::any_of(body.parts.begin(), body.parts.begin() + static_cast<std::ptrdiff_t>(body.part_count),
-                     has);
+  return std::any_of(body.shape.levels.begin(), body.shape.levels.end(),
+                     [=](const Bvh8& tree) { return tree.is_single() == is_single; });
 }
 
 }  // namespace
@@ -56,26 +52,18 @@ struct DynamicShapeSet::State {
   void require(std::uint32_t shape, const FlatBody& body) const;
   bool try_replace(std::uint32_t shape, const FlatBody& body);
   void replace(std::uint32_t shape, const FlatBody& body);
-  void make_place(std::size_t part, const ShapeExtent& needed, const ShapeExtent& room);
-  void put(std::uint32_t shape, const FlatBody& body);
-  std::size_t first_part(std::uint32_t shape) const { return shape * slabs; }
+  void make_place(std::uint32_t shape, const ShapeExtent& needed, const ShapeExtent& room);
 
   ShapeSetPlan plan;
-  std::size_t
-      slabs;  ///< a shape's parts are numbered from shape * slabs on, whether it has all of them or not
   std::uint32_t shapes;
   ShapeStorage storage;
-  std::vector<Place> places;           ///< per part
+  std::vector<Place> places;           ///< per shape
   ShapeExtent end{.rows = first_row};  ///< of all places
   ShapeSet set;                        ///< stands on storage
 };
 
 DynamicShapeSet::State::State(const ShapeSet& start)
-    : plan(start.plan()),
-      slabs(start.slab_count()),
-      shapes(start.shape_count()),
-      places(shapes * slabs),
-      set(ShapeArrays(), nullptr) {
+    : plan(start.plan()), shapes(start.shape_count()), places(shapes), set(ShapeArrays(), nullptr) {
   copy(start.arrays(), shapes);
   set.refer_to(storage.arrays());
 }
@@ -83,7 +71,6 @@ DynamicShapeSet::State::State(const ShapeSet& start)
 /// Shape by shape: they may lie in any order there, and closer to each other than places may.
 void DynamicShapeSet::State::copy(const ShapeArrays& arrays, std::size_t count) {
   storage.depths.assign(arrays.depths.begin(), arrays.depths.end());
-  storage.slices.assign(arrays.slices.begin(), arrays.slices.end());
   const bool roots_only = arrays.trees.empty();
   ShapeSetPlan stored = plan;
   if (roots_only) {
@@ -92,21 +79,13 @@ void DynamicShapeSet::State::copy(const ShapeArrays& arrays, std::size_t count) 
     for_each_part([](std::size_t& part) { part = std::numeric_limits<std::size_t>::max(); }, any.size);
     std::fill(places.begin(), places.end(), any);
   }
-  storage.resize(stored, count, places.size());
+  storage.resize(stored, count);
   for (std::uint32_t shape = 0; shape < count; ++shape) {
     const FlatBody body = flat_body(arrays, shape);
-    for (std::size_t k = 0; k < body.part_count && !roots_only; ++k) {
-      const ShapeExtent extent = extent_of(body.parts[k]);
-      make_place(first_part(shape) + k, extent, extent);
-    }
-    put(shape, body);
+    const ShapeExtent extent = extent_of(body.shape);
+    if (!roots_only) make_place(shape, extent, extent);
+    storage.put(shape, body, places[shape].begin);
   }
-}
-
-void DynamicShapeSet::State::put(std::uint32_t shape, const FlatBody& body) {
-  for (std::size_t k = 0; k < body.part_count; ++k)
-    storage.put(first_part(shape) + k, body.parts[k], places[first_part(shape) + k].begin);
-  storage.put_slabs(shape, first_part(shape), body);
 }
 
 void DynamicShapeSet::State::require(std::uint32_t shape, const FlatBody& body) const {
@@ -114,7 +93,7 @@ void DynamicShapeSet::State::require(std::uint32_t shape, const FlatBody& body) 
     throw std::out_of_range("dynamic shape set: shape " + std::to_string(shape) + " of " +
                             std::to_string(shapes));
   if (set.roots_only()) {
-    if (body.plan.depths != plan.depths || body.plan.slices != plan.slices || has_level(body, false))
+    if (body.plan.depths != plan.depths || has_level(body, false))
       throw std::invalid_argument("dynamic shape set: it has single discs alone, and the shape has more");
   } else if (body.plan != plan) {
     throw std::invalid_argument("dynamic shape set: the shape was made flat with another plan");
@@ -123,12 +102,10 @@ void DynamicShapeSet::State::require(std::uint32_t shape, const FlatBody& body) 
 
 bool DynamicShapeSet::State::try_replace(std::uint32_t shape, const FlatBody& body) {
   require(shape, body);
-  for (std::size_t k = 0; k < body.part_count; ++k) {
-    if (!fits(extent_of(body.parts[k]), places[first_part(shape) + k].size)) return false;
-  }
+  if (!fits(extent_of(body.shape), places[shape].size)) return false;
   // Else set has to learn of single discs, or a kernel would not look for them.
   if (set.view().rows_in_order && has_level(body, true)) return false;
-  put(shape, body);
+  storage.put(shape, body, places[shape].begin);
   return true;
 }
 
@@ -140,19 +117,17 @@ void DynamicShapeSet::State::replace(std::uint32_t shape, const FlatBody& body) 
     ~Refresh() { of.set.refer_to(of.storage.arrays()); }
   };
   const Refresh refresh{*this};
-  for (std::size_t k = 0; k < body.part_count; ++k) {
-    const ShapeExtent needed = extent_of(body.parts[k]);
-    ShapeExtent room = needed;
-    for_each_part([](std::size_t& part) { part += part / 2; }, room);
-    make_place(first_part(shape) + k, needed, room);
-  }
-  put(shape, body);
+  const ShapeExtent needed = extent_of(body.shape);
+  ShapeExtent room = needed;
+  for_each_part([](std::size_t& part) { part += part / 2; }, room);
+  make_place(shape, needed, room);
+  storage.put(shape, body, places[shape].begin);
 }
 
 /// Parts that have room enough stay where they are.
-void DynamicShapeSet::State::make_place(std::size_t part, const ShapeExtent& needed,
+void DynamicShapeSet::State::make_place(std::uint32_t shape, const ShapeExtent& needed,
                                         const ShapeExtent& room) {
-  auto [begin, size] = places[part];
+  auto [begin, size] = places[shape];
   ShapeExtent to_lines = room, grown;
   to_lines.nodes = next_line(room.nodes);
   for_each_part(
@@ -160,7 +135,7 @@ void DynamicShapeSet::State::make_place(std::size_t part, const ShapeExtent& nee
          std::size_t& length) { more = grow(least, with_room, behind, from, length); },
       grown, needed, to_lines, end, begin, size);
   storage.make_room(end, grown);
-  places[part] = {begin, size};
+  places[shape] = {begin, size};
   for_each_part([](std::size_t& behind, std::size_t more) { behind += more; }, end, grown);
 }
 

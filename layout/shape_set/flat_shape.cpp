@@ -62,22 +62,22 @@ Bvh8 bvh8_of(const Root& root, const Tree& level, const float* nodes) {
 }
 
 /// What ShapeStorage::put_culling() was given.
-void take_culling(const ShapeArrays& arrays, std::size_t part, std::uint32_t row, FlatShape& flat) {
+void take_culling(const ShapeArrays& arrays, std::size_t shape, std::uint32_t row, FlatShape& flat) {
   if (row >= first_row)
     std::copy_n(arrays.support.data() + std::size_t{row} * support_stride, support_stride,
                 flat.supports.begin());
-  flat.profile = arrays.profiles[part];
-  flat.inscribed = arrays.inscribed[part];
+  flat.profile = arrays.profiles[shape];
+  flat.inscribed = arrays.inscribed[shape];
 }
 
 /// What ShapeStorage::put_outline() was given.
-void take_outline(const ShapeArrays& arrays, std::size_t part, FlatShape& flat) {
-  flat.outline = outline_of(arrays, part);
-  const auto [begin, end] = arrays.shape_contours[part];
+void take_outline(const ShapeArrays& arrays, std::size_t shape, FlatShape& flat) {
+  flat.outline = outline_of(arrays, shape);
+  const auto [begin, end] = arrays.shape_contours[shape];
   for (const Contour& contour : arrays.contours.subspan(begin, end - begin))
     flat.contour_disc.push_back(contour.disc);
-  flat.segment_margin = arrays.segment_margin[part];
-  const Tree& last_level = arrays.trees[(part + 1) * arrays.depths.size() - 1];
+  flat.segment_margin = arrays.segment_margin[shape];
+  const Tree& last_level = arrays.trees[(shape + 1) * arrays.depths.size() - 1];
   if (last_level.segments == no_segments) return;
   const auto words = arrays.leaf_segments.subspan(last_level.segments);
   const auto own = words.first(leaf_segments_size(words, last_level.count));
@@ -86,10 +86,10 @@ void take_outline(const ShapeArrays& arrays, std::size_t part, FlatShape& flat) 
 
 }  // namespace
 
-Outline outline_of(const ShapeArrays& arrays, std::size_t part) {
+Outline outline_of(const ShapeArrays& arrays, std::size_t shape) {
   Outline outline;
   if (arrays.shape_contours.empty()) return outline;
-  const auto [begin, end] = arrays.shape_contours[part];
+  const auto [begin, end] = arrays.shape_contours[shape];
   for (const Contour& contour : arrays.contours.subspan(begin, end - begin)) {
     const auto points = arrays.points.subspan(contour.begin, contour.end - contour.begin);
     outline.points.insert(outline.points.end(), points.begin(), points.end());
@@ -98,8 +98,8 @@ Outline outline_of(const ShapeArrays& arrays, std::size_t part) {
   return outline;
 }
 
-FlatShape flat_shape(const ShapeArrays& arrays, std::size_t part) {
-  const std::size_t levels = arrays.depths.size(), first_root = part * levels;
+FlatShape flat_shape(const ShapeArrays& arrays, std::size_t shape) {
+  const std::size_t levels = arrays.depths.size(), first_root = shape * levels;
   FlatShape flat;
   for (std::size_t k = first_root; k < first_root + levels; ++k) {
     if (!arrays.trees.empty()) {
@@ -110,30 +110,14 @@ FlatShape flat_shape(const ShapeArrays& arrays, std::size_t part) {
     flat.levels.emplace_back().root = {root.x, root.y, root.radius};
     flat.levels.back().count = 1;
   }
-  if (!arrays.reach.empty()) flat.reach = static_cast<double>(arrays.reach[part]);
-  if (!arrays.profiles.empty()) take_culling(arrays, part, arrays.roots[first_root + levels - 1].row, flat);
-  if (!arrays.shape_contours.empty()) take_outline(arrays, part, flat);
+  if (!arrays.reach.empty()) flat.reach = static_cast<double>(arrays.reach[shape]);
+  if (!arrays.profiles.empty()) take_culling(arrays, shape, arrays.roots[first_root + levels - 1].row, flat);
+  if (!arrays.shape_contours.empty()) take_outline(arrays, shape, flat);
   return flat;
 }
 
 FlatBody flat_body(const ShapeArrays& arrays, std::size_t shape) {
-  FlatBody body;
-  const auto add = [&](std::size_t part) {
-    body.parts.push_back(flat_shape(arrays, part));
-    if (!arrays.heights.empty()) body.heights.push_back(arrays.heights[part]);
-    ++body.part_count;
-  };
-  if (arrays.slices.empty()) add(shape);
-  if (!arrays.hull_support.empty())
-    std::copy_n(arrays.hull_support.data() + shape * support_stride, support_stride, body.hull.begin());
-  std::uint32_t last = no_part;
-  for (const std::uint32_t part :
-       arrays.slab_parts.subspan(arrays.slices.empty() ? 0 : shape * arrays.slab_count(),
-                                 arrays.slices.empty() ? 0 : arrays.slab_count())) {
-    if (part != no_part && part != last) add(last = part);
-    body.slab_parts.push_back(part == no_part ? part : static_cast<std::uint32_t>(body.part_count - 1));
-  }
-  return body;
+  return {{}, flat_shape(arrays, shape), arrays.heights.empty() ? Heights{} : arrays.heights[shape]};
 }
 
 }  // namespace bch::detail

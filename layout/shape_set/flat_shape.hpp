@@ -12,14 +12,11 @@
 
 namespace bch::detail {
 
-/// Returns a part of a set as ShapeStorage::put() was given it, but for its outline's grid step, which is not stored. Of a set of single
-/// discs only the roots.
-FlatShape flat_shape(const ShapeArrays& arrays, std::size_t part);
-
-/// Returns a shape of a set as ShapeStorage was given it, but for its plan, which is not known.
+/// Returns a shape of a set as ShapeStorage::put() was given it, but for its plan and its outline's grid step, which are not stored. Of a
+/// set of single discs only the roots.
 FlatBody flat_body(const ShapeArrays& arrays, std::size_t shape);
 
-/// Reads a part's outline from a set, without its grid step, which is not stored; without contours where the set has none.
-Outline outline_of(const ShapeArrays& arrays, std::size_t part);
+/// Reads a shape's outline from a set, without its grid step, which is not stored; without contours where the set has none.
+Outline outline_of(const ShapeArrays& arrays, std::size_t shape);
 
 }  // namespace bch::detail

@@ -9,7 +9,7 @@ namespace bch::detail {
 
 MomentFlattener::MomentFlattener(std::span<const AnimatedShape* const> bodies, const ShapeSetPlan& plan)
     : bodies_(bodies.begin(), bodies.end()), plan_(plan) {
-  if (plan.depths != std::vector{all_depths} || plan.culling || !plan.slices.empty()) return;
+  if (plan.depths != std::vector{all_depths} || plan.culling) return;
   for (const AnimatedShape* const body : bodies) {
     const auto& chunks = body->tree().chunks;
     levels_.emplace_back(chunks.begin(), chunks.end());
@@ -32,16 +32,14 @@ void MomentFlattener::flatten_level(std::uint32_t body, double seconds, Memory& 
   const KeyPlace at = key_place(tree, time_in_clip(tree, seconds));
   FlatBody& flat = memory.prepared.flat();
   flat.plan = plan_;
-  flat.parts.resize(1), flat.part_count = 1;
-  flat.heights.assign(plan_.heights ? 1 : 0, bodies_[body]->heights());
-  FlatShape& part = flat.parts[0];
-  part.reach = tree.reach;
-  part.levels.resize(1);
-  levels_[body][at.chunk].place(at, tree.reach, memory.nodes, part.levels[0]);
+  flat.heights = bodies_[body]->heights();
+  flat.shape.reach = tree.reach;
+  flat.shape.levels.resize(1);
+  levels_[body][at.chunk].place(at, tree.reach, memory.nodes, flat.shape.levels[0]);
   if (!plan_.outlines) return;
   memory.shape.hierarchy.reach = tree.reach;
   take_outline(tree.chunks[at.chunk], at, memory.shape.outline);
-  ShapeFlattener::add_outline(memory.shape, part);
+  ShapeFlattener::add_outline(memory.shape, flat.shape);
 }
 
 }  // namespace bch::detail

@@ -13,7 +13,7 @@
 
 namespace bch::detail {
 
-/// Makes animated shapes flat at times of their clips. Where a plan asks for the level of all depths alone, without culling data and slabs,
+/// Makes animated shapes flat at times of their clips. Where a plan asks for the level of all depths alone, without culling data,
 /// all but the discs is there from the beginning, and takes about as much memory as two keys of each chunk do.
 class MomentFlattener {
  public:

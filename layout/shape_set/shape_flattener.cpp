@@ -40,65 +40,24 @@ void require_segments(const Shape& shape) {
                                   std::to_string(outline.points.size()));
 }
 
-/// Checks that a body's heights reach a slab of it that is not empty: `within` is what of them lies there.
-void require_met(std::size_t slab, Heights body, Heights within) {
-  if (within.bottom <= within.top) return;
-  throw std::invalid_argument("slab " + std::to_string(slab) +
-                              " is not empty, and the body's heights, from " + shortest(body.bottom) +
-                              " to " + shortest(body.top) + " m, do not reach it");
-}
-
 }  // namespace
 
 ShapeFlattener::ShapeFlattener(const ShapeSetPlan& plan) : plan_(plan) {
   validate(plan);
-  plan_.heights |= !plan_.slices.empty();
 }
 
 void ShapeFlattener::flatten(const Shape& shape, std::size_t index, FlatBody& flat) {
   flat.plan = plan_;
-  flat.part_count = 0;
-  flat.slab_parts.clear(), flat.heights.clear();
   try {
     if (!(shape.heights.bottom <= shape.heights.top))
       throw std::invalid_argument("heights: from " + shortest(shape.heights.bottom) + " to " +
                                   shortest(shape.heights.top) + " m");
-    plan_.slices.empty() ? add_part(shape, shape.heights, flat) : flatten_slabs(shape, flat);
+    flat.heights = shape.heights;
+    require(shape);
+    flatten(shape, flat.shape);
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument("shape set: shape " + std::to_string(index) + ": " + error.what());
   }
-}
-
-/// A shape without slabs is one part that every slab has which the shape reaches.
-void ShapeFlattener::flatten_slabs(const Shape& shape, FlatBody& flat) {
-  const std::size_t slabs = plan_.slices.size() + 1;
-  if (!shape.slabs.empty() && shape.slabs.size() != slabs)
-    throw std::invalid_argument("slices: " + std::to_string(shape.slabs.size()) + " slabs for " +
-                                std::to_string(slabs - 1) + " planes");
-  if (shape.slabs.empty()) add_part(shape, shape.heights, flat);
-  for (std::size_t i = 0; i < slabs; ++i) {
-    const Heights within = heights_of_slab(shape.heights, plan_.slices, i);
-    const bool has_part =
-        shape.slabs.empty() ? within.bottom <= within.top : !shape.slabs[i].hierarchy.nodes.empty();
-    if (has_part && !shape.slabs.empty()) {
-      require_met(i, shape.heights, within);
-      add_part(shape.slabs[i], within, flat);
-    }
-    flat.slab_parts.push_back(has_part ? static_cast<std::uint32_t>(flat.part_count - 1) : no_part);
-  }
-  if (flat.part_count == 0) throw std::invalid_argument("slices: all slabs are empty");
-  if (!has_culling()) return;
-  flat.hull = flat.parts[0].supports;
-  for (std::size_t k = 1; k < flat.part_count; ++k)
-    std::transform(flat.hull.begin(), flat.hull.end(), flat.parts[k].supports.begin(), flat.hull.begin(),
-                   [](float a, float b) { return std::max(a, b); });
-}
-
-void ShapeFlattener::add_part(const Shape& shape, Heights heights, FlatBody& flat) {
-  require(shape);
-  if (flat.parts.size() == flat.part_count) flat.parts.emplace_back();
-  flatten(shape, flat.parts[flat.part_count++]);
-  if (plan_.heights) flat.heights.push_back(heights);
 }
 
 void ShapeFlattener::flatten(const Shape& shape, FlatShape& flat) {
@@ -112,8 +71,6 @@ void ShapeFlattener::flatten(const Shape& shape, FlatShape& flat) {
 void ShapeFlattener::require(const Shape& shape) const {
   validate(shape.hierarchy);
   if (plan_.outlines) require_segments(shape);
-  if (!plan_.slices.empty() && plan_.depths.back() > 0 && shape.outline.contours() == 0)
-    throw std::invalid_argument("slices: it has no outline, which slabs need, unless depth 0 is alone");
   if (plan_.outlines && shape.outline.contours() > 0) validate(shape.outline);
 }
 

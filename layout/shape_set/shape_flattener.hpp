@@ -14,7 +14,7 @@
 
 namespace bch::detail {
 
-/// Holds all that a set stores of a part of a shape, before it has a place there.
+/// Holds all that a set stores of a shape but its heights, before it has a place there.
 struct FlatShape {
   double reach = 0;
   std::vector<Bvh8> levels;  ///< one a depth
@@ -29,14 +29,11 @@ struct FlatShape {
       leaf_segments;  ///< of the last level, if that has exact leaves; see shape_set_view.hpp
 };
 
-/// Holds the flat form of a shape: its only part, or those of its slabs.
+/// Holds the flat form of a body.
 struct FlatBody {
   ShapeSetPlan plan;
-  std::vector<FlatShape> parts;  ///< the first part_count; more keep their memory
-  std::size_t part_count = 0;
-  std::vector<std::uint32_t> slab_parts;  ///< of slices: which of these parts each slab has, or no_part
-  std::vector<Heights> heights;           ///< one a part, with the plan's heights or slices
-  Supports hull;                          ///< of slices with culling data: the largest supports of all parts
+  FlatShape shape;
+  Heights heights;
 };
 
 /// Makes one shape after the other flat and reuses its memory. Nearly all the time that a set takes is spent
@@ -55,9 +52,7 @@ class ShapeFlattener {
   static void add_outline(const Shape& shape, FlatShape& flat);
 
  private:
-  void flatten_slabs(const Shape& shape, FlatBody& flat);
   void flatten(const Shape& shape, FlatShape& flat);
-  void add_part(const Shape& shape, Heights heights, FlatBody& flat);
   void require(const Shape& shape) const;
   bool has_culling() const;
   void add_levels(const Shape& shape, FlatShape& flat);

@@ -17,7 +17,6 @@
 #include "layout/base/rounding.hpp"
 #include "layout/format/contours.hpp"
 #include "layout/format/cut_discs.hpp"
-#include "layout/format/parts.hpp"
 #include "layout/format/shape_arrays.hpp"
 
 namespace bch {
@@ -43,40 +42,11 @@ ShapeSet build(std::span<const Shape> shapes, const ShapeSetPlan& plan) {
   return std::move(builder).finish();
 }
 
-/// So many shapes say which slabs decide most pairs.
-constexpr std::size_t sample = 50;
-
-/// Puts slabs in the order of the areas of their largest contours: those decide most pairs, without traversal.
-std::array<std::uint8_t, most_planes + 1> slab_order(const ShapeArrays& arrays) {
-  std::array<std::uint8_t, most_planes + 1> order;
-  std::iota(order.begin(), order.end(), std::uint8_t{0});
-  std::array<double, most_planes + 1> covered{};
-  const std::size_t slabs = arrays.slab_count();
-  if (arrays.shape_contours.empty()) return order;
-  for (std::size_t i = 0; i < std::min(arrays.slab_parts.size(), sample * slabs); ++i) {
-    if (arrays.slab_parts[i] == no_part) continue;
-    const auto [begin, end] = arrays.shape_contours[arrays.slab_parts[i]];
-    double largest = 0;
-    for (const Contour& contour : arrays.contours.subspan(begin, end - begin))
-      largest =
-          std::max(largest, twice_area(arrays.points.subspan(contour.begin, contour.end - contour.begin)));
-    covered[i % slabs] += largest;
-  }
-  std::sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(slabs),
-            [&](std::uint8_t a, std::uint8_t b) {
-              return covered[a] != covered[b] ? covered[a] > covered[b] : a < b;
-            });
-  return order;
-}
-
-ShapeSetView view_of(const ShapeArrays& arrays, const std::uint8_t* order) {
+ShapeSetView view_of(const ShapeArrays& arrays) {
   ShapeSetView view{};
   view.shape_count = static_cast<std::uint32_t>(arrays.shape_count());
-  view.part_count = static_cast<std::uint32_t>(arrays.part_count());
-  view.slab_count = static_cast<std::uint32_t>(arrays.slab_count());
   view.level_count = static_cast<std::uint32_t>(arrays.depths.size());
   view.rows_in_order = rows_in_order(arrays.roots);
-  if (!arrays.slices.empty()) view.slab_order = order;
   // An empty section of a file has an address as well.
   for_each_array(
       [](const char*, const auto& array, auto& data) { data = array.empty() ? nullptr : array.data(); },
@@ -98,40 +68,25 @@ void validate(const ShapeSetPlan& plan) {
   for (std::size_t i = 1; i < plan.depths.size(); ++i)
     if (plan.depths[i] <= plan.depths[i - 1])
       throw std::invalid_argument("shape set: depth " + std::to_string(plan.depths[i]) + " does not ascend");
-  require_planes(plan.slices);
-  if (!plan.slices.empty() && !plan.outlines && plan.depths.back() > 0)
-    throw std::invalid_argument("slices: they need outlines");
 }
 
 struct ShapeSet::State {
-  State(const ShapeArrays& of, std::shared_ptr<const void> keep) : memory(std::move(keep)) { refer_to(of); }
-  State(const State&) = delete;  // because view points here
-  State& operator=(const State&) = delete;
-
-  void refer_to(const ShapeArrays& of) noexcept {
-    arrays = of;
-    order = slab_order(arrays);
-    view = view_of(arrays, order.data());
-  }
-
   ShapeArrays arrays;
   std::shared_ptr<const void> memory;
-  std::array<std::uint8_t, most_planes + 1> order;
   ShapeSetView view;
 };
 
 ShapeSet::ShapeSet(std::span<const Shape> shapes, const ShapeSetPlan& plan) : ShapeSet(build(shapes, plan)) {}
 
 ShapeSet::ShapeSet(const ShapeArrays& arrays, std::shared_ptr<const void> memory)
-    : state_(new State(arrays, std::move(memory))) {}
+    : state_(new State{arrays, std::move(memory), view_of(arrays)}) {}
 
 ShapeSet::ShapeSet(ShapeSet&&) noexcept = default;
 ShapeSet& ShapeSet::operator=(ShapeSet&&) noexcept = default;
 ShapeSet::~ShapeSet() = default;
 
 void ShapeSet::refer_to(const ShapeArrays& arrays) noexcept {
-  state_->memory = nullptr;
-  state_->refer_to(arrays);
+  *state_ = {arrays, nullptr, view_of(arrays)};
 }
 
 const ShapeSetView& ShapeSet::view() const noexcept {
@@ -150,10 +105,6 @@ std::span<const std::uint32_t> ShapeSet::depths() const noexcept {
   return state_->arrays.depths;
 }
 
-std::span<const float> ShapeSet::slices() const noexcept {
-  return state_->arrays.slices;
-}
-
 bool ShapeSet::has_heights() const noexcept {
   return !state_->arrays.heights.empty();
 }
@@ -170,7 +121,6 @@ ShapeSetPlan ShapeSet::plan() const {
   return {.depths = {depths().begin(), depths().end()},
           .outlines = !arrays().shape_contours.empty(),
           .culling = !arrays().support.empty(),
-          .slices = {slices().begin(), slices().end()},
           .heights = has_heights()};
 }
 
@@ -184,35 +134,20 @@ std::vector<Disc> ShapeSet::discs(std::uint32_t shape, std::uint32_t level) cons
   require(shape < shape_count(), "shape", shape, shape_count());
   require(level < level_count(), "level", level, level_count());
   std::vector<Disc> discs;
-  visit_parts(view(), shape, [&](std::uint32_t part, std::uint32_t) {
-    const CutDiscs cut = cut_discs(view(), part * level_count() + level);
-    for (std::uint32_t i = 0; i < cut.count; ++i) discs.push_back({cut.x[i], cut.y[i], cut.radius[i]});
-  });
+  const CutDiscs cut = cut_discs(view(), shape * level_count() + level);
+  for (std::uint32_t i = 0; i < cut.count; ++i) discs.push_back({cut.x[i], cut.y[i], cut.radius[i]});
   return discs;
-}
-
-std::vector<std::uint32_t> ShapeSet::slab_begin(std::uint32_t shape, std::uint32_t level) const {
-  require(shape < shape_count(), "shape", shape, shape_count());
-  require(level < level_count(), "level", level, level_count());
-  std::vector<std::uint32_t> begin(slab_count() + 1, 0);
-  visit_parts(view(), shape, [&](std::uint32_t part, std::uint32_t slab) {
-    begin[slab + 1] = disc_count(view(), part, level);
-  });
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  return begin;
 }
 
 float ShapeSet::bounding_radius(std::uint32_t shape) const {
   const FloatingPointStateGuard floats;
   require(shape < shape_count(), "shape", shape, shape_count());
   double farthest = 0;
-  visit_parts(view(), shape, [&](std::uint32_t part, std::uint32_t) {
-    for (std::uint32_t level = 0; level < level_count(); ++level) {
-      const CutDiscs cut = cut_discs(view(), part * level_count() + level);
-      for (std::uint32_t i = 0; i < cut.count; ++i)
-        farthest = std::max(farthest, std::hypot(double{cut.x[i]}, double{cut.y[i]}) + double{cut.radius[i]});
-    }
-  });
+  for (std::uint32_t level = 0; level < level_count(); ++level) {
+    const CutDiscs cut = cut_discs(view(), shape * level_count() + level);
+    for (std::uint32_t i = 0; i < cut.count; ++i)
+      farthest = std::max(farthest, std::hypot(double{cut.x[i]}, double{cut.y[i]}) + double{cut.radius[i]});
+  }
   return rounding::round_up(farthest * (1 + 0x1p-50));
 }
 

@@ -24,7 +24,7 @@ constexpr std::size_t measured_shapes = 64;
 ShapeArrays roots_of(const ShapeArrays& all) {
   ShapeArrays roots;
   roots.depths = all.depths, roots.roots = all.roots;
-  roots.slices = all.slices, roots.slab_parts = all.slab_parts, roots.heights = all.heights;
+  roots.heights = all.heights;
   return roots;
 }
 
@@ -72,7 +72,6 @@ ShapeSetBuilder::ShapeSetBuilder(const ShapeSetPlan& plan, std::size_t expected_
     : state_(new State{plan, expected_shapes, {}}) {
   validate(plan);
   state_->storage.depths.assign(plan.depths.begin(), plan.depths.end());
-  state_->storage.slices.assign(plan.slices.begin(), plan.slices.end());
 }
 ShapeSetBuilder::ShapeSetBuilder(ShapeSetBuilder&&) noexcept = default;
 ShapeSetBuilder& ShapeSetBuilder::operator=(ShapeSetBuilder&&) noexcept = default;
@@ -109,19 +108,15 @@ void ShapeSetBuilder::go_back(const BuilderEnd& to) noexcept {
 /// What throws leaves the end as it was.
 void ShapeSetBuilder::State::add(const FlatBody& flat) {
   if (end.shapes == measured_shapes && expected_shapes > measured_shapes) reserve();
-  storage.resize(plan, end.shapes + 1, end.parts + flat.part_count);
-  ShapeExtent behind_all = end.extent;
-  for (std::size_t k = 0; k < flat.part_count; ++k) {
-    const ShapeExtent size = extent_of(flat.parts[k]);
-    ShapeExtent at = behind_all;
-    at.nodes = next_line(at.nodes);
-    storage.make_room(at, size);
-    storage.put(end.parts + k, flat.parts[k], at);
-    for_each_part([](std::size_t& behind, std::size_t from, std::size_t length) { behind = from + length; },
-                  behind_all, at, size);
-  }
-  storage.put_slabs(end.shapes, end.parts, flat);
-  end = {end.shapes + 1, end.parts + flat.part_count, behind_all};
+  storage.resize(plan, end.shapes + 1);
+  const ShapeExtent size = extent_of(flat.shape);
+  ShapeExtent at = end.extent;
+  at.nodes = next_line(at.nodes);
+  storage.make_room(at, size);
+  storage.put(end.shapes, flat, at);
+  ++end.shapes;
+  for_each_part([](std::size_t& behind, std::size_t from, std::size_t length) { behind = from + length; },
+                end.extent, at, size);
 }
 
 /// Makes room for all shapes, estimated from those so far, and a quarter. Room that is never written to takes
@@ -130,19 +125,19 @@ void ShapeSetBuilder::State::reserve() {
   const std::size_t times = (expected_shapes * 5 / 4 + measured_shapes - 1) / measured_shapes;
   ShapeExtent all = end.extent;
   for_each_part([=](std::size_t& part) { part *= times; }, all);
-  storage.reserve(plan, expected_shapes * end.parts / measured_shapes, all);
+  storage.reserve(plan, expected_shapes, all);
 }
 
 /// Every array gets shorter, so that what is added next finds zeros between shapes as behind those that stay.
 void ShapeSetBuilder::State::go_back(const BuilderEnd& to) noexcept {
   end = to;
   storage.shorten(end.extent);
-  storage.resize(plan, end.shapes, end.parts);
+  storage.resize(plan, end.shapes);
 }
 
 /// Makes the arrays end where the shapes do. An add() that threw may have left more.
 void ShapeSetBuilder::State::close() {
-  storage.resize(plan, end.shapes, end.parts);
+  storage.resize(plan, end.shapes);
   storage.make_room(end.extent, {});
 }
 
@@ -163,7 +158,6 @@ ShapeSet ShapeSetBuilder::State::finish() {
     return whole;
   }
   kept->depths = std::move(storage.depths), kept->roots = std::move(storage.roots);
-  kept->slices = std::move(storage.slices), kept->slab_parts = std::move(storage.slab_parts);
   kept->heights = std::move(storage.heights);
   return whole;
 }

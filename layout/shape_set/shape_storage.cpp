@@ -30,10 +30,6 @@ std::size_t level_end(const Bvh8& tree, std::size_t begin) {
   return inner_begin(tree, first_disc) + tree.inner.size() * inner_floats;
 }
 
-bool keeps_heights(const ShapeSetPlan& plan) {
-  return plan.heights || !plan.slices.empty();
-}
-
 void require_numbers(std::size_t count, const char* what) {
   if (count > std::numeric_limits<std::uint32_t>::max())
     throw std::length_error(std::string("shape set: more than 2^32 ") + what);
@@ -59,36 +55,34 @@ ShapeArrays ShapeStorage::arrays() const {
   return arrays;
 }
 
-void ShapeStorage::reserve(const ShapeSetPlan& plan, std::size_t parts, const ShapeExtent& extent) {
-  if (keeps_heights(plan)) heights.reserve(parts);
-  roots.reserve(parts * plan.depths.size());
+void ShapeStorage::reserve(const ShapeSetPlan& plan, std::size_t shapes, const ShapeExtent& extent) {
+  if (plan.heights) heights.reserve(shapes);
+  roots.reserve(shapes * plan.depths.size());
   if (plan.depths.back() == 0) return;
-  trees.reserve(parts * plan.depths.size());
+  trees.reserve(shapes * plan.depths.size());
   nodes.reserve(std::min<std::size_t>(extent.nodes, leaf_window));
-  reach.reserve(parts);
+  reach.reserve(shapes);
   if (plan.culling) {
     support.reserve(extent.rows * support_stride);
-    inscribed.reserve(parts), profiles.reserve(parts);
+    inscribed.reserve(shapes), profiles.reserve(shapes);
   }
   if (plan.outlines) {
-    shape_contours.reserve(parts), segment_margin.reserve(parts);
+    shape_contours.reserve(shapes), segment_margin.reserve(shapes);
     contours.reserve(extent.contours), points.reserve(extent.points);
     leaf_segments.reserve(extent.segments);
   }
 }
 
-void ShapeStorage::resize(const ShapeSetPlan& plan, std::size_t shapes, std::size_t parts) {
+void ShapeStorage::resize(const ShapeSetPlan& plan, std::size_t shapes) {
   const std::size_t levels = plan.depths.size();
-  require_numbers(parts * levels, "roots");
-  if (!plan.slices.empty()) slab_parts.resize(shapes * (plan.slices.size() + 1), no_part);
-  if (keeps_heights(plan)) heights.resize(parts);
-  roots.resize(parts * levels);
+  require_numbers(shapes * levels, "roots");
+  if (plan.heights) heights.resize(shapes);
+  roots.resize(shapes * levels);
   if (plan.depths.back() == 0) return;
-  trees.resize(parts * levels);
-  reach.resize(parts);
-  if (plan.culling && !plan.slices.empty()) hull_support.resize(shapes * support_stride);
-  if (plan.culling) inscribed.resize(parts), profiles.resize(parts);
-  if (plan.outlines) shape_contours.resize(parts), segment_margin.resize(parts);
+  trees.resize(shapes * levels);
+  reach.resize(shapes);
+  if (plan.culling) inscribed.resize(shapes), profiles.resize(shapes);
+  if (plan.outlines) shape_contours.resize(shapes), segment_margin.resize(shapes);
 }
 
 void ShapeStorage::make_room(const ShapeExtent& at, const ShapeExtent& size) {
@@ -119,17 +113,9 @@ void ShapeStorage::shorten(const ShapeExtent& end) noexcept {
   cut(leaf_segments, end.segments);
 }
 
-void ShapeStorage::put_slabs(std::size_t shape, std::size_t first_part, const FlatBody& body) {
-  std::uint32_t* out = slab_parts.data() + shape * body.slab_parts.size();
-  for (const std::uint32_t part : body.slab_parts)
-    *out++ = part == no_part ? part : static_cast<std::uint32_t>(first_part + part);
-  if (!hull_support.empty())
-    std::copy(body.hull.begin(), body.hull.end(), hull_support.data() + shape * support_stride);
-  std::copy(body.heights.begin(), body.heights.end(), heights.data() + (heights.empty() ? 0 : first_part));
-}
-
-void ShapeStorage::put(std::size_t part, const FlatShape& flat, const ShapeExtent& at) {
-  const std::size_t first_root = part * depths.size();
+void ShapeStorage::put(std::size_t shape, const FlatBody& body, const ShapeExtent& at) {
+  const FlatShape& flat = body.shape;
+  const std::size_t first_root = shape * depths.size();
   std::size_t node = at.nodes;
   for (std::size_t k = 0; k < flat.levels.size(); ++k) {
     const Bvh8& tree = flat.levels[k];
@@ -141,9 +127,10 @@ void ShapeStorage::put(std::size_t part, const FlatShape& flat, const ShapeExten
     put_level(first_root + k, tree, node);
     node = level_end(tree, node);
   }
-  if (!reach.empty()) reach[part] = rounding::round_up(flat.reach);
-  if (!profiles.empty()) put_culling(part, flat, at);
-  if (!shape_contours.empty()) put_outline(part, flat, at);
+  if (!heights.empty()) heights[shape] = body.heights;
+  if (!reach.empty()) reach[shape] = rounding::round_up(flat.reach);
+  if (!profiles.empty()) put_culling(shape, flat, at);
+  if (!shape_contours.empty()) put_outline(shape, flat, at);
 }
 
 void ShapeStorage::put_level(std::size_t root, const Bvh8& tree, std::size_t node) {
@@ -177,17 +164,17 @@ void ShapeStorage::put_level(std::size_t root, const Bvh8& tree, std::size_t nod
   }
 }
 
-void ShapeStorage::put_culling(std::size_t part, const FlatShape& flat, const ShapeExtent& at) {
+void ShapeStorage::put_culling(std::size_t shape, const FlatShape& flat, const ShapeExtent& at) {
   if (!flat.levels.back().is_single())
     std::copy(flat.supports.begin(), flat.supports.end(), support.data() + at.rows * support_stride);
-  profiles[part] = flat.profile;
-  inscribed[part] = flat.inscribed;
+  profiles[shape] = flat.profile;
+  inscribed[shape] = flat.inscribed;
 }
 
-void ShapeStorage::put_outline(std::size_t part, const FlatShape& flat, const ShapeExtent& at) {
+void ShapeStorage::put_outline(std::size_t shape, const FlatShape& flat, const ShapeExtent& at) {
   const auto contour = static_cast<std::uint32_t>(at.contours), point = static_cast<std::uint32_t>(at.points);
   const std::size_t count = flat.contour_disc.size();
-  shape_contours[part] = {contour, contour + static_cast<std::uint32_t>(count)};
+  shape_contours[shape] = {contour, contour + static_cast<std::uint32_t>(count)};
   const auto& begin = flat.outline.contour_begin;
   for (std::size_t c = 0; c < count; ++c) {
     const auto closed = static_cast<std::uint32_t>(point + c);
@@ -196,9 +183,9 @@ void ShapeStorage::put_outline(std::size_t part, const FlatShape& flat, const Sh
     Vec2* const out = std::copy(of_contour.begin(), of_contour.end(), points.data() + closed + begin[c]);
     *out = of_contour.front();
   }
-  segment_margin[part] = flat.segment_margin;
+  segment_margin[shape] = flat.segment_margin;
   if (flat.leaf_segments.empty()) return;
-  Tree& last_level = trees[(part + 1) * depths.size() - 1];
+  Tree& last_level = trees[(shape + 1) * depths.size() - 1];
   last_level.segments = static_cast<std::uint32_t>(at.segments);
   last_level.points = point;
   std::copy(flat.leaf_segments.begin(), flat.leaf_segments.end(), leaf_segments.data() + at.segments);

@@ -32,7 +32,7 @@ void for_each_part(Visit visit, Extents&... extents) {
   visit(extents.segments...);
 }
 
-ShapeExtent extent_of(const FlatShape& part);
+ShapeExtent extent_of(const FlatShape& shape);
 
 /// Returns where the next shape begins.
 constexpr std::size_t next_line(std::size_t floats) {
@@ -52,32 +52,27 @@ struct ShapeStorage {
   AlignedVector<Vec2> points;
   AlignedVector<std::uint32_t> leaf_segments;
   AlignedVector<float> segment_margin;
-  AlignedVector<float> slices;
-  AlignedVector<std::uint32_t> slab_parts;
   AlignedVector<Heights> heights;
-  AlignedVector<float> hull_support;
 
   ShapeArrays arrays() const;
 
-  /// Reserves room for so many parts of such an extent, of which nothing is written yet.
-  void reserve(const ShapeSetPlan& plan, std::size_t parts, const ShapeExtent& extent);
-  /// Makes the arrays with elements of a fixed size large enough for so many shapes and parts, as far as the plan has them.
-  void resize(const ShapeSetPlan& plan, std::size_t shapes, std::size_t parts);
+  /// Reserves room for so many shapes of such an extent, of which nothing is written yet.
+  void reserve(const ShapeSetPlan& plan, std::size_t shapes, const ShapeExtent& extent);
+  /// Makes the arrays with elements of a fixed size large enough for so many shapes, as far as the plan has them.
+  void resize(const ShapeSetPlan& plan, std::size_t shapes);
   /// Makes the others end with such an extent behind this place.
   /// Errors:  throws std::length_error beyond 2^31 floats of nodes or 2^32 of the others.
   void make_room(const ShapeExtent& at, const ShapeExtent& size);
   /// Makes the others end at this place at the latest. Allocates nothing.
   void shorten(const ShapeExtent& end) noexcept;
-  /// Writes which parts a shape has, the first of which has this number, their heights, and what is common to all of them.
-  void put_slabs(std::size_t shape, std::size_t first_part, const FlatBody& body);
-  /// Writes a part; there has to be room. Of arrays without elements nothing is written. Different parts may be
+  /// Writes a shape; there has to be room. Of arrays without elements nothing is written. Different shapes may be
   /// written at the same time.
-  void put(std::size_t part, const FlatShape& flat, const ShapeExtent& at);
+  void put(std::size_t shape, const FlatBody& body, const ShapeExtent& at);
 
  private:
   void put_level(std::size_t root, const Bvh8& tree, std::size_t node);
-  void put_culling(std::size_t part, const FlatShape& flat, const ShapeExtent& at);
-  void put_outline(std::size_t part, const FlatShape& flat, const ShapeExtent& at);
+  void put_culling(std::size_t shape, const FlatShape& flat, const ShapeExtent& at);
+  void put_outline(std::size_t shape, const FlatShape& flat, const ShapeExtent& at);
 };
 
 }  // namespace bch::detail

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "layout/base/floating_point_state.hpp"
-#include "layout/format/parts.hpp"
 #include "layout/shape_set/flat_shape.hpp"
 #include "layout/shape_set/verify_parts.hpp"
 
@@ -32,10 +31,10 @@ double extent_of(const Root& root) {
          static_cast<double>(root.radius);
 }
 
-void verify_part(const Look& look) {
+void verify_shape(const Look& look) {
   verify_levels(look);
   if (look.set.roots_only()) return;
-  const Outline outline = outline_of(look.arrays(), look.part);
+  const Outline outline = outline_of(look.arrays(), look.shape);
   verify_reach(look);
   for (std::uint32_t level = 0; level < look.levels(); ++level) {
     verify_tree(look, level);
@@ -59,7 +58,6 @@ using namespace detail;
 std::string text_of(const Finding& finding) {
   std::string text = "shape ";
   text += std::to_string(finding.shape);
-  if (finding.slab != Finding::whole) text.append(", slab ").append(std::to_string(finding.slab));
   if (finding.level != Finding::no_level) text.append(", level ").append(std::to_string(finding.level));
   return text.append(": ").append(finding.array).append(": ").append(finding.what);
 }
@@ -68,16 +66,12 @@ std::vector<Finding> verify(const ShapeSet& set, std::size_t most) {
   const FloatingPointStateGuard floats;
   std::vector<Finding> findings;
   const ShapeArrays& arrays = set.arrays();
-  const auto verify_part = [&](std::uint32_t shape, std::uint32_t slab, std::uint32_t part) {
+  for (std::uint32_t shape = 0; shape < set.shape_count() && findings.size() < most; ++shape) {
     const double reach = set.roots_only()
-                             ? verification::extent_of(arrays.roots[std::size_t{part} * set.level_count()])
-                             : static_cast<double>(arrays.reach[part]);
-    verification::verify_part({set, findings, most, shape, slab, part, reach});
-  };
-  for (std::uint32_t shape = 0; shape < set.shape_count() && findings.size() < most; ++shape)
-    visit_parts(set.view(), shape, [&](std::uint32_t part, std::uint32_t slab) {
-      verify_part(shape, set.slices().empty() ? Finding::whole : slab, part);
-    });
+                             ? verification::extent_of(arrays.roots[std::size_t{shape} * set.level_count()])
+                             : static_cast<double>(arrays.reach[shape]);
+    verification::verify_shape({set, findings, most, shape, reach});
+  }
   return findings;
 }
 

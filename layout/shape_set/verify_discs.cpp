@@ -59,27 +59,11 @@ void verify_reach(const Look& look) {
         shortest(look.reach) + " m, and its discs say " + shortest(least) + " to " + shortest(most) + " m");
 }
 
-namespace {
-
-/// The supports of a body in slabs are not below those of any of its parts.
-void verify_hull_supports(const Look& look, const Supports& of_part) {
-  if (look.arrays().hull_support.empty()) return;
-  const float* stored = look.arrays().hull_support.data() + std::size_t{look.shape} * support_stride;
-  for (std::uint32_t k = 0; k < support_stride; ++k)
-    if (static_cast<double>(stored[k]) < static_cast<double>(of_part[k]) - look.tolerance())
-      look.say("hull_support", Finding::no_level,
-               "number " + std::to_string(k) + " is " + shortest(stored[k]) + " m, below " +
-                   shortest(of_part[k]) + " m");
-}
-
-}  // namespace
-
 void verify_supports(const Look& look) {
   const std::uint32_t deepest = look.levels() - 1, row = look.arrays().roots[look.root(deepest)].row;
+  if (row < first_row) return;
   const CutDiscs discs = look.cut(deepest);
   const Supports expected = supports(discs.x, discs.y, discs.radius, discs.count, look.reach);
-  verify_hull_supports(look, expected);
-  if (row < first_row) return;
   const float* stored = look.arrays().support.data() + std::size_t{row} * support_stride;
   for (std::uint32_t k = 0; k < support_stride; ++k)
     look.compare("support", deepest, "number " + std::to_string(k), static_cast<double>(stored[k]),

@@ -160,7 +160,7 @@ void verify_cover(const Look& look, const Outline& outline, std::uint32_t level)
 
 void verify_segments(const Look& look) {
   const ShapeArrays& arrays = look.arrays();
-  const double margin = arrays.segment_margin[look.part];
+  const double margin = arrays.segment_margin[look.shape];
   if (margin + look.tolerance() * 0x1p-4 < rounding::segment_margin * look.reach)
     look.say("segment_margin", no_level, shortest(margin) + " m is below what rounding needs");
   const std::uint32_t level = look.levels() - 1;
@@ -172,7 +172,7 @@ void verify_segments(const Look& look) {
   for (std::uint32_t k = 0; k < cut.count; ++k)
     for (const std::uint32_t segment : segments_of(words, k)) leaves[tree.points + segment].push_back(k);
   if (std::count(words.begin(), words.begin() + cut.count, 0u) > 0) return;  // some name none
-  const auto [first, last] = arrays.shape_contours[look.part];
+  const auto [first, last] = arrays.shape_contours[look.shape];
   for (const Contour& contour : arrays.contours.subspan(first, last - first))
     for (std::uint32_t i = contour.begin; i < contour.end; ++i) {
       std::vector<float> x, y, radius;
@@ -186,7 +186,8 @@ void verify_segments(const Look& look) {
 
 void verify_contours(const Look& look, const Outline& outline) {
   for (std::size_t c = 0; c < outline.contours(); ++c) {
-    const std::uint32_t place = look.arrays().shape_contours[look.part].begin + static_cast<std::uint32_t>(c);
+    const std::uint32_t place =
+        look.arrays().shape_contours[look.shape].begin + static_cast<std::uint32_t>(c);
     const Disc& stored = look.arrays().contours[place].disc;
     const EnclosingDisc smallest = smallest_enclosing_disc(outline.contour(c));
     const Point off = point({stored.x, stored.y}) - point(smallest.centre);
@@ -204,7 +205,7 @@ void verify_contours(const Look& look, const Outline& outline) {
 }
 
 void verify_profile(const Look& look, const Outline& outline) {
-  const Profile& stored = look.arrays().profiles[look.part];
+  const Profile& stored = look.arrays().profiles[look.shape];
   verify_outer(look, stored);
   // Made from the reach before it was rounded up.
   const float reach = std::nextafter(static_cast<float>(look.reach), 0.0f);
@@ -219,7 +220,7 @@ void verify_profile(const Look& look, const Outline& outline) {
 
 void verify_inside(const Look& look, const Outline& outline) {
   const auto contour = outline.contours() > 0 ? largest_contour(outline) : std::span<const Vec2>();
-  const DiscBlock& discs = look.arrays().inscribed[look.part];
+  const DiscBlock& discs = look.arrays().inscribed[look.shape];
   for (std::uint32_t i = 0; i < block_width; ++i) {
     if (!(discs.x[i] < infinity)) continue;
     const Disc disc{discs.x[i], discs.y[i], discs.radius[i]};

@@ -22,24 +22,24 @@ namespace bch::detail::verification {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// Represents a part of a set that is verified, and the list that takes the findings.
+/// Represents a shape of a set that is verified, and the list that takes the findings.
 struct Look {
   const ShapeSet& set;
   std::vector<Finding>& findings;
   std::size_t most;  ///< findings
-  std::uint32_t shape, slab, part;
+  std::uint32_t shape;
   double reach;  ///< metres; of a set of roots alone what they extend to
 
   const ShapeArrays& arrays() const { return set.arrays(); }
   std::uint32_t levels() const { return set.level_count(); }
-  std::uint32_t root(std::uint32_t level) const { return part * set.level_count() + level; }
+  std::uint32_t root(std::uint32_t level) const { return shape * set.level_count() + level; }
   CutDiscs cut(std::uint32_t level) const { return cut_discs(set.view(), root(level)); }
   /// Lengths that differ by less are equal: what rounding to float does to them, and recomputing them from a reach that
   /// was rounded up.
   double tolerance() const { return 0x1p-19 * reach; }
 
   void say(const char* array, std::uint32_t level, const std::string& what) const {
-    if (findings.size() < most) findings.push_back({shape, slab, level, array, what});
+    if (findings.size() < most) findings.push_back({shape, level, array, what});
   }
   /// Reports a stored length that is not what was recomputed.
   void compare(const char* array, std::uint32_t level, const std::string& place, double stored,

@@ -61,15 +61,14 @@ struct ClearanceAnswers {
 /// exchanges the discs and negates the direction. Of gaps that are equal, the one with the first disc of the agent with the lower
 /// index counts, then that with the first disc of the other.
 ///
-/// Bodies in slabs, or at different heights, have the least distance of the parts that may meet; in a tie that of the lowest
-/// slabs. Where no parts may meet, the distance is infinite.
+/// Agents at different heights (Agents::z) that do not meet are infinitely far from each other.
 ///
 /// Options: max_distance, overlap, distance_leaves, implementation.
 /// Sizes:   as many distances as pairs; as many directions, discs and points as pairs, or none. An agent may be paired with
 ///          itself.
 /// Errors:  throws std::invalid_argument, before anything is written, as collide() does, and on a
 ///          max_distance that is negative or NaN, or an unknown overlap or distance_leaves.
-/// Threads: runs in the caller's TBB arena. Allocates nothing, except for bodies in slabs or at different heights.
+/// Threads: runs in the caller's TBB arena. Allocates nothing.
 void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                const ClearanceAnswers& answers, const QueryOptions& options = {});
 
@@ -78,8 +77,7 @@ void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pai
 /// and clearance() takes several times as much.
 ///
 /// Only the discs of the cuts count, whatever distance_leaves says, as in clearance(): more pairs are within a distance of 0 than
-/// collide. An agent inside another's outline is within every distance of it. Distances of bodies in slabs are those of parts that
-/// may meet.
+/// collide. An agent inside another's outline is within every distance of it. Agents at different heights that do not meet are within none.
 ///
 /// The answer is 1 wherever clearance() returns a finite distance of at most the given one, and wherever outlines are as close.
 /// clearance() is at most the given distance plus 1.4 um per metre of that distance and of the radii of the agents' largest discs where
@@ -87,7 +85,7 @@ void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pai
 /// batch, and for either order of a pair.
 ///
 /// Options: implementation.
-/// Units:   distances are metres, not negative; an infinite one includes every pair of which parts may meet.
+/// Units:   distances are metres, not negative; an infinite one includes every pair whose heights meet.
 /// Sizes:   one distance for all pairs, or as many as pairs; as many answers as pairs.
 /// Errors:  throws std::invalid_argument, before anything is written, as collide() does, and on a distance that is negative or
 ///          NaN, naming the pair where each has one.
@@ -121,7 +119,7 @@ void within(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> 
 ///   n behind A along u and w beside it. From there the two discs touch last at n + s(u). So f(A) >= f(q) -
 ///   |q - A| >= n + s(u) - sqrt(n^2 + w^2), for every n.
 ///
-/// Bodies in slabs, or at different heights, have the largest s(u) of the parts that may meet, and 0 where no parts may.
+/// Agents at different heights (Agents::z) that do not meet have a depth of 0.
 ///
 /// Continuity has a price: the depth may be positive where nothing overlaps yet, because one agent may reach around the
 /// other. Along a given direction no continuous depth can be zero there: if A touches B from behind, A still has to pass all of

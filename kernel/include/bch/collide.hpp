@@ -20,7 +20,7 @@ namespace bch {
 /// number of threads, any split of the batch and either order within a pair. Only the difference of positions counts, so
 /// answers far from the origin are the same as at the origin.
 ///
-/// Bodies in slabs (ShapeSetPlan::slices) collide where two of their slabs do. Agents at different heights (Agents::z) collide where parts collide whose heights meet.
+/// Agents at different heights (Agents::z) collide where their heights meet, too.
 /// Meshes that have a point in common are hits in either case. The exception is lone triangles that are points on the grid of
 /// OutlineBuilder, because outlines leave them out.
 ///
@@ -42,17 +42,5 @@ void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair>
 /// Sizes, errors, threads: as for collide() of a ShapeSet. `implementation` is as in QueryOptions.
 void collide(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs,
              std::span<std::uint8_t> hits, const Implementation* implementation = nullptr);
-
-/// Chooses, among `planes`, those that clear the most false collisions of given bodies when they cut the bodies into `slabs` slabs.
-/// The sample is random pairs of bodies in each other's reach which collide as seen from above, but in no slab between
-/// neighbouring planes. Chosen planes clear a pair if there is a chosen plane between each two of its overlapping slabs. The search
-/// is greedy: it adds one plane after the other, then chooses each anew until no exchange clears more.
-/// Sizes:   each body has one slab more than there are planes: PoseShaper makes them with ShapeSetPlan::slices = planes, 5 cm apart
-///          for instance; a hundred poses are enough.
-/// Returns: at most slabs - 1 of the planes, ascending: those that clear nothing more than the others are left out, because fewer slabs
-///          cost less; all planes where there are no more than slabs - 1. The same arguments give the same result.
-/// Errors:  throws std::invalid_argument on no bodies, on no slabs, on a body with another number of slabs, and as ShapeSet does.
-std::vector<float> best_slices(std::span<const Shape> bodies, std::span<const float> planes,
-                               std::uint32_t slabs);
 
 }  // namespace bch

@@ -140,7 +140,7 @@ struct CrowdPenetrations {
 ///          more than four times the farthest reach of a body and the margin. Obstacles do not repeat: let walls extend beyond the
 ///          borders by the reach of a body.
 /// Memory:  answers are valid until the next call. The object keeps its memory, about 72 bytes an agent and 24 a candidate beside
-///          the answers; a call like an earlier one allocates nothing, unless bodies are in slabs or at different heights.
+///          the answers; a call like an earlier one allocates nothing.
 /// Errors:  throws std::invalid_argument like validate(shapes, agents), and on options out of range. The last answer is then lost.
 /// Threads: runs in the caller's TBB arena; one call at a time. While the calling thread waits for the tasks of a call, it takes no
 ///          other tasks, so one object for each of TBB's threads is enough.
@@ -174,7 +174,6 @@ class Crowd {
   /// The deepest overlap of a pair does not grow from 0 when two agents come together, because the nodes above
   /// decide as well. For continuous forces use clearances() with Overlap::deepest, or penetration() of all pairs that are near.
   /// The contacts of bodies of discs (shape_from_discs()) are all overlaps of their discs, as in mechanical crowd models.
-  /// In slabs, ShapeSet::slab_begin() tells the slab of a disc.
   /// Order:   contacts of a pair by the first discs, then the second discs.
   CrowdContacts contacts(const ShapeSet& shapes, const Agents& agents,
                          const CollisionOptions& options = {}) &;

@@ -90,12 +90,12 @@ ObstacleSet obstacles_from_wkt(std::string_view text, Polygons polygons = Polygo
 // traversal, gives the same bits on every processor and for any number of threads, never misses a contact, and answers far from the
 // origin as at it. A disc overlaps an obstacle where its centre is at most its radius away from it; distances are computed in double. A
 // false positive has a gap of at most the sizes of discs, 4 um per metre of an agent's reach, and 9e-15 of the distances to the two ends
-// of a segment together. A body in slabs meets an obstacle where some part of it does.
+// of a segment together.
 //
-// A slab or a whole body is compared only with obstacles whose heights meet its own, as between agents with a z: touching counts, and
-// heights are widened by their rounding. For such a part there are no other obstacles, neither their segments nor their areas. Its
-// heights are metres above the agent's z, or above 0 if agents have none. Sets keep them with ShapeSetPlan::heights or slices; a body
-// without heights is infinite, and meets obstacles at all heights.
+// A body is compared only with obstacles whose heights meet its own, as between agents with a z: touching counts, and heights are widened
+// by their rounding. For it there are no other obstacles, neither their segments nor their areas. Its heights are metres above the agent's
+// z, or above 0 if agents have none. Sets keep them with ShapeSetPlan::heights; a body without heights is infinite, and meets obstacles at
+// all heights.
 //
 // Sizes:   one answer per agent.
 // Errors:  throw std::invalid_argument, before anything is written, as validate(shapes, agents) and the query of pairs.
@@ -163,8 +163,7 @@ void time_of_impact(const ShapeSet& shapes, const Agents& agents, const Displace
                     const ObstacleSet& obstacles, std::span<float> times, const QueryOptions& options = {});
 
 /// Finds when each motion first touches an obstacle: the earliest time of an interval at which its solid has a point in common with one,
-/// or infinity if there is none. The time of a body in slabs is the first of any slab. Motions have no z: obstacles count at all
-/// heights.
+/// or infinity if there is none. Motions have no z: obstacles count at all heights.
 ///
 /// The time is never later than the first contact. At that time the solid is away from the obstacle by at most the tolerance, 4 um for each
 /// metre of its reach, 2e-14 of the distances to the two ends of a segment together, and the rounding in double, as between two motions.

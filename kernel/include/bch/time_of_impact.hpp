@@ -33,13 +33,13 @@ struct Displacements {
 /// that distance. Times are the same bits on every processor, for any number of threads and any split of the batch, and for exchanged
 /// agents with the displacement negated.
 ///
-/// Bodies in slabs, or at different heights, touch when the first two parts touch that may meet.
+/// Agents at different heights (Agents::z) that do not meet never touch.
 ///
 /// Options: implementation.
 /// Sizes:   as many displacements in x, in y, and times as pairs. An agent may be paired with itself (0).
 /// Errors:  throws std::invalid_argument, before anything is written, as collide() does, and on a
 ///          displacement that is not finite or beyond the limits.
-/// Threads: runs in the caller's TBB arena. Allocates nothing, except for bodies in slabs or at different heights.
+/// Threads: runs in the caller's TBB arena. Allocates nothing.
 /// Source:  the slide of the paper's experiment, which the paper makes in small steps.
 void time_of_impact(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                     const Displacements& displacements, std::span<float> times,
@@ -57,8 +57,7 @@ class MomentSet {
  public:
   /// Takes the bodies and the plan of set(). The bodies have to outlive this object. The set has places for `kept` moments, or for as
   /// many as a call shows if these are more; moments of earlier calls are found again.
-  /// Errors:  throws std::invalid_argument on no bodies and on a bad plan, and, naming the body, on a null pointer and on a body that is
-  ///          cut at other planes than the plan's.
+  /// Errors:  throws std::invalid_argument on no bodies and on a bad plan, and, naming the body, on a null pointer.
   explicit MomentSet(std::span<const AnimatedShape* const> bodies, const ShapeSetPlan& plan = {},
                      std::size_t kept = 1000);
   MomentSet(MomentSet&&) noexcept;
@@ -73,8 +72,8 @@ class MomentSet {
   /// Errors:  throws std::invalid_argument, before anything is written, on sizes that differ and, naming the agent, on an index out of
   ///          range or a time that is not within these units.
   /// Threads: runs in the caller's TBB arena. Only one thread may call it at a time, while no query runs.
-  /// Cost:    30 us for each new moment of 125 discs, or 2 us where the plan has the level of all depths alone, without culling data,
-  ///          outlines and slices; and 10 ns for each agent.
+  /// Cost:    30 us for each new moment of 125 discs, or 2 us where the plan has the level of all depths alone, without culling data
+  ///          and outlines; and 10 ns for each agent.
   void show(std::span<const std::uint32_t> bodies, std::span<const double> seconds,
             std::span<std::uint32_t> shapes);
 
@@ -107,9 +106,8 @@ struct TimeInterval {
 };
 
 /// Finds when the two motions of each pair first touch: the earliest time of an interval at which their solids overlap (see
-/// AnimatedShape), or infinity if there is none. Paths, turning and discs are taken at every real time, not sampled. Bodies in slabs
-/// touch when the first of their slabs do; a body that is whole is in every slab that its heights reach. Motions have no z: all are on one
-/// ground. For people on different floors, ask about those of each floor.
+/// AnimatedShape), or infinity if there is none. Paths, turning and discs are taken at every real time, not sampled. Motions have no z:
+/// all are on one ground. For people on different floors, ask about those of each floor.
 ///
 /// The time is never later than the first contact. At that time the solids are apart by at most the tolerance, 2 um for each metre of
 /// both reaches, and the rounding of positions and times in double, below 1e-14 of these. That of times counts at the speed of the path
@@ -123,8 +121,8 @@ struct TimeInterval {
 /// Sizes:   as many times as pairs, which name motions by index. A motion may be paired with itself.
 /// Errors:  throws std::invalid_argument, before anything is written, on sizes that differ, an index out of range, an interval that ends
 ///          before it begins or is not within these units, a tolerance below 1e-6 m; naming the motion and key, on a shape or a path that
-///          is missing, keys that do not ascend or are not within these units; naming the pair, on bodies that are cut at different
-///          planes, and on a search of more than 1e8 steps, most of them from key to key of clips within reach.
+///          is missing, keys that do not ascend or are not within these units; and,
+///          naming the pair, on a search of more than 1e8 steps, most of them from key to key of clips within reach.
 /// Threads: runs in the caller's TBB arena. Allocates for the motions and for each task.
 /// Cost:    grows with the keys of the paths and, while two bodies are within reach of each other, with the rounds of clips that loop. Of
 ///          bodies that stand, and of which both loop in the same time or one stands still, two rounds are looked at.

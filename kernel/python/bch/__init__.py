@@ -67,7 +67,7 @@ from ._recordings import (
     dataframe,
     read_trajectory,
 )
-from ._scenes import ScenePlan, best_slices, plan_scene
+from ._scenes import ScenePlan, plan_scene
 from ._shapes import (
     ALL_DEPTHS,
     REST_POSE,
@@ -88,7 +88,6 @@ from ._shapes import (
     depth_at_density,
     import_character,
     pedestrian_strides_per_second,
-    standing_slices,
 )
 
 __version__: str = _lib.bch_version().decode()
@@ -152,7 +151,6 @@ __all__ = [
     "WALL",
     "animate",
     "bake",
-    "best_slices",
     "check",
     "clearance",
     "collide",
@@ -175,7 +173,6 @@ __all__ = [
     "plan_scene",
     "plot",
     "read_trajectory",
-    "standing_slices",
     "time_of_impact",
     "within",
 ]

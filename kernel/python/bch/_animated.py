@@ -36,7 +36,7 @@ class AnimatedShape:
         Whether the body moves so over and over. A loop takes 1 ms or more.
     """
 
-    __slots__ = ("_handle", "_pointer", "loops", "begin", "end", "reach", "nbytes", "chunk_count", "key_count", "slab_count")
+    __slots__ = ("_handle", "_pointer", "loops", "begin", "end", "reach", "nbytes", "chunk_count", "key_count")
 
     def __init__(
         self, times: npt.ArrayLike, discs: npt.ArrayLike, ring_ends: Sequence[int] = (), *, loops: bool = False
@@ -73,7 +73,6 @@ class AnimatedShape:
         self.loops = bool(info.loops)
         self.begin, self.end, self.reach = float(info.begin), float(info.end), float(info.reach)
         self.nbytes, self.chunk_count, self.key_count = int(info.bytes), int(info.chunks), int(info.keys)
-        self.slab_count = int(info.slabs)
 
     def discs(self, seconds: float) -> Records:
         """Return the discs at a time of the clip, in seconds.

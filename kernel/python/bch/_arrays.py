@@ -33,8 +33,8 @@ DISC = np.dtype([("x", f4), ("y", f4), ("radius", f4)])
 SPHERE = np.dtype([("x", f4), ("y", f4), ("z", f4), ("radius", f4)])
 #: A time in a clip of a character; clip 0xffffffff is the rest pose.
 POSE = np.dtype([("clip", u4), ("seconds", f4)])
-#: The character, by its index in a list, and the pose that a shape shows. If `whole` is not 0, no slices cut the shape.
-SOURCE = np.dtype([("character", u4), ("clip", u4), ("seconds", f4), ("whole", i4)])
+#: The character, by its index in a list, and the pose that a shape shows.
+SOURCE = np.dtype([("character", u4), ("clip", u4), ("seconds", f4)])
 #: How far the first agent of a pair has to move, metres, and the direction of the move, a unit vector.
 PENETRATION = np.dtype({"names": ["depth", "x", "y"], "formats": [f4, f8, f8], "offsets": [0, 8, 16], "itemsize": 24})
 

@@ -31,7 +31,7 @@ from ._arrays import (
 )
 from ._library import ArgumentError, Exclusive, Handle, check, lib
 from ._obstacles import Obstacles
-from ._shapes import Character, Plan, ShapeSet, _CPlan, _planes
+from ._shapes import Character, Plan, ShapeSet, _CPlan
 
 
 def animate(
@@ -41,7 +41,6 @@ def animate(
     spacing: float = 0.025,
     inset: float = 0.04,
     error: float = 0.005,
-    slices: Sequence[float] = (),
     loops: Optional[bool] = None,
 ) -> AnimatedShape:
     """Make moving discs that cover the character at every real time of a clip. A second of a clip takes about a second.
@@ -57,19 +56,14 @@ def animate(
         The largest distance of the discs' centres behind the outline, metres.
     error : float
         How much more discs may protrude between two keys than at the keys, metres.
-    slices : sequence of float
-        Heights of planes that cut the body into slabs, as in `Plan`.
     loops : bool, optional
         Whether the clip is played over and over, its end followed by its beginning at once. None: if its last pose is its first one.
     """
     of = index(clip, "clip", len(instance(character, Character, "character").clips))
-    planes = _planes(slices)
     options = _library.AnimateOptions(
         spacing=number(spacing, "spacing"),
         inset=number(inset, "inset"),
         error=number(error, "error"),
-        slices=address(planes),
-        slice_count=len(planes),
         loops=-1 if loops is None else bool(loops),
     )
     return AnimatedShape._of(Handle("animated_shape", "animate", character._pointer, of, byref(options)))

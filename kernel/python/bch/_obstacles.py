@@ -33,8 +33,8 @@ class Obstacles:
     is_area : (o,) uint8, optional
         1 for areas, 0 for lines; by default all are lines.
     heights : (o, 2) float64, optional
-        The bottom and the top of each obstacle, metres in the world, as agents' z; they may be infinite, and by default all are. Slabs
-        and bodies with heights meet only obstacles whose heights meet theirs. Bodies without heights meet all obstacles.
+        The bottom and the top of each obstacle, metres in the world, as agents' z; they may be infinite, and by default all are.
+        Bodies with heights meet only obstacles whose heights meet theirs. Bodies without heights meet all obstacles.
     """
 
     __slots__ = ("_handle", "_pointer")

@@ -59,8 +59,7 @@ class Agents:
     level : (n,) uint8, optional
         Index into the set's depths; by default every agent uses the last level.
     z : (n,) float64, optional
-        Heights of the grounds that agents stand on, metres; by default all stand on one ground. With slices, round them until people on
-            one floor have equal z: any difference makes neighbouring slabs meet.
+        Heights of the grounds that agents stand on, metres; by default all stand on one ground.
     """
 
     __slots__ = ("_arrays", "_struct", "_pointer")
@@ -212,8 +211,7 @@ def collide(
     """Test whether the two agents of each pair collide, touching included.
 
     A collision is never missed: agents whose outlines have a point in common as areas, also where one is wholly inside the
-    other, collide at every level. Bodies in slabs collide if two of their slabs
-    do.
+    other, collide at every level.
 
     Parameters
     ----------

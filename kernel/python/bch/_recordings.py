@@ -18,7 +18,7 @@ from ._library import ArrayError, Handle, check as _check, lib, said
 from ._obstacles import Obstacles
 from ._progress import Watched
 from ._queries import LEAVES, Leaves
-from ._shapes import ALL_DEPTHS, Character, Path, ShapeSet, _planes
+from ._shapes import ALL_DEPTHS, Character, Path, ShapeSet
 
 #: A person in a frame, in metres, radians and seconds; NaN where the file has no value. `motion` indexes `Trajectory.motions`, or is -1.
 TRACKED = np.dtype(
@@ -171,7 +171,6 @@ def check(
     characters: Union[Sequence[Character], ShapeSet] = (),
     clip_speeds: Mapping[str, float] = MappingProxyType({}),
     facing: float = 0.0,
-    slices: Sequence[float] = (),
     depth: int = ALL_DEPTHS,
     leaves: Leaves = "segments",
     max_distance: float = 0.0,
@@ -191,13 +190,11 @@ def check(
     characters : sequence of Character, or ShapeSet
         The bodies of the people, assigned by id or as rows name them, and scaled to the people's statures; by default built-in
         pedestrians. Each character needs a clip that walks straight on, and should have one that stands. Alternatively a set that
-        was loaded or baked. People then have its shapes, at its last level and unscaled, and `slices` and `depth` have no effect.
+        was loaded or baked. People then have its shapes, at its last level and unscaled, and `depth` has no effect.
     clip_speeds : mapping of str to float
         For a baked set: the walking speed in the clips of each name, metres per second; 0 where people stand.
     facing : float
         For a baked set: the direction that people face, radians, counter-clockwise from +x.
-    slices : sequence of float
-        Heights of planes that cut bodies into slabs, metres, such as `standing_slices` returns; by default bodies are whole.
     depth : int
         Depth in the bodies' hierarchies: 0 is one disc per body, ALL_DEPTHS the body itself.
     leaves : {"segments", "discs"}
@@ -234,12 +231,9 @@ def check(
     speeds = (_library.ClipSpeed * len(clip_speeds))(
         *(_library.ClipSpeed(encoded(clip, "clip_speeds"), number(speed, "clip_speeds")) for clip, speed in clip_speeds.items())
     )
-    planes = _planes(slices)
     with Watched("checking", progress) as watched:
         options = _library.CheckOptions(
             threads=bounded(threads, "threads", 0, 1024),
-            slices=address(planes),
-            slice_count=len(planes),
             depth=bounded(depth, "depth", 0, ALL_DEPTHS),
             characters=ctypes.cast(cast, ctypes.c_void_p),
             character_count=len(own),

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 the bch authors
 
-"""Plans of the shapes to build for a scene, and of the heights at which to cut bodies."""
+"""Plans of the shapes to build for a scene."""
 
 from __future__ import annotations
 
@@ -59,7 +59,6 @@ class ScenePlan:
         check(lib.bch_scene_plan_get_set(handle.pointer, byref(of)))
         self.plan = Plan(
             depths=tuple(copied(of.depths, u4, (of.depth_count,)).tolist()),
-            slices=tuple(copied(of.slices, f4, (of.slice_count,)).tolist()),
             outlines=bool(of.outlines),
             culling=bool(of.culling),
             heights=bool(of.heights),
@@ -97,8 +96,6 @@ def plan_scene(
     distance: Optional[Float64] = None,
     depth: Optional[UInt32] = None,
     outlines: bool = True,
-    slices: Sequence[float] = (),
-    whole_from: float = math.inf,
     heights: bool = False,
     pose_step: float = 0.0,
     pairs_per_shape: float = math.inf,
@@ -116,11 +113,7 @@ def plan_scene(
     depth : (n,) uint32, optional
         Level of detail: the cut depth that each agent needs, such as `depth_at_density` returns; by default ALL_DEPTHS.
     outlines : bool
-        Whether to keep outlines, as `Plan` does; with slices they are kept anyway.
-    slices : sequence of float
-        Heights of planes that cut the bodies of near agents, metres, such as `standing_slices(3)`.
-    whole_from : float
-        The distance from which on agents are whole bodies, metres.
+        Whether to keep outlines, as `Plan` does.
     heights : bool
         Whether agents stand at different heights.
     pose_step : float
@@ -130,7 +123,6 @@ def plan_scene(
     """
     array = _as_poses(poses)
     n = len(array)
-    planes = _planes(slices)
     agents = _library.SceneAgents(
         character=None if character is None else given(character, u4, (n,), "character"),
         poses=address(array),
@@ -141,59 +133,7 @@ def plan_scene(
     use = _library.SceneUse(
         outlines=flag(outlines, "outlines"),
         heights=flag(heights, "heights"),
-        slices=address(planes),
-        slice_count=len(planes),
-        whole_from=number(whole_from, "whole_from"),
         pairs_per_shape=number(pairs_per_shape, "pairs_per_shape"),
         pose_step=number(pose_step, "pose_step"),
     )
     return ScenePlan(Handle("scene_plan", "create", byref(agents), byref(use)))
-
-
-def best_slices(
-    characters: Union[Character, Sequence[Character]],
-    planes: npt.ArrayLike,
-    slabs: int,
-    *,
-    poses: int = 50,
-) -> List[float]:
-    """Choose the planes that clear most false collisions in a crowd of given bodies, for a given number of slabs.
-
-    Parameters
-    ----------
-    characters : Character, or a sequence of them
-    planes : (p,) array
-        The planes to choose from: heights in metres, ascending, for instance 5 cm apart.
-    slabs : int
-        The number of slabs.
-    poses : int
-        Poses per character to look at; a hundred poses in all are enough.
-
-    Returns
-    -------
-    list of float
-        At most slabs - 1 heights, metres, for `Plan.slices`, without planes that clear nothing more than the others; all planes if
-            there are no more than slabs - 1.
-    """
-    people = [characters] if isinstance(characters, Character) else instances(characters, Character, "characters")
-    count_of_each = bounded(poses, "poses", 0, 2**31)
-    each = [character.sample_poses(count_of_each) for character in people]
-    among = np.array(converted(planes, f4, "planes"), ndmin=1)
-    if among.ndim != 1:
-        raise ArgumentError(f"planes has shape {among.shape}; wanted is (p,)")
-    chosen, count = np.empty(len(among), f4), c_size_t()
-    all_poses = np.concatenate(each) if each else np.empty(0, POSE)
-    pointers = _pointers([character for character, of in zip(people, each) for _ in of], "characters")
-    check(
-        lib.bch_best_slices(
-            pointers,
-            address(all_poses),
-            len(all_poses),
-            address(among),
-            len(among),
-            bounded(slabs, "slabs", 1, 2**32 - 1),
-            address(chosen),
-            byref(count),
-        )
-    )
-    return [float(plane) for plane in chosen[: count.value]]

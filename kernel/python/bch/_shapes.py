@@ -53,22 +53,16 @@ Path = Union[str, "os.PathLike[str]"]
 ALL_DEPTHS = 0xFFFFFFFF
 #: The clip of the rest pose, which belongs to no clip.
 REST_POSE = 0xFFFFFFFF
-_ALL_SLABS = 0xFFFFFFFF
 
 
 class Plan(NamedTuple):
     """The data of its shapes that a scene will use; nothing else is built or stored."""
 
     depths: Sequence[int] = (ALL_DEPTHS,)  #: levels of detail, ascending: cut depths of the hierarchies
-    slices: Sequence[float] = ()  #: heights of planes that cut bodies into slabs, metres, ascending
     outlines: bool = True  #: keep outlines, without which discs alone decide
     culling: bool = True  #: keep culling data, which lets queries skip most of their work; changes no answer
     heights: bool = False  #: keep the heights of bodies, for agents at different heights
     threshold: float = 0.01  #: the radius below which discs are not divided, metres
-
-
-def _planes(slices: Sequence[float]) -> Float32:
-    return np.array([number(plane, f"slices[{i}]") for i, plane in enumerate(listed(slices, "slices", "numbers"))], f4)
 
 
 class _CPlan:
@@ -77,31 +71,15 @@ class _CPlan:
     def __init__(self, plan: Plan) -> None:
         depths = enumerate(listed(instance(plan, Plan, "plan").depths, "depths", "whole numbers"))
         self.depths = np.array([bounded(depth, f"depths[{i}]", 0, ALL_DEPTHS) for i, depth in depths], u4)
-        self.slices = _planes(plan.slices)
         self.struct = _library.Plan(
             outlines=bool(plan.outlines),
             culling=bool(plan.culling),
             heights=bool(plan.heights),
             depths=address(self.depths),
             depth_count=len(self.depths),
-            slices=address(self.slices),
-            slice_count=len(self.slices),
             threshold=number(plan.threshold, "threshold"),
         )
         self._pointer = ctypes.addressof(self.struct)
-
-
-def standing_slices(slabs: int) -> List[float]:
-    """Return the planes that clear most false collisions of standing people, for 1, 2, 3, 4 or 8 slabs.
-
-    Returns
-    -------
-    list of float
-        slabs - 1 heights, metres, for `Plan.slices`.
-    """
-    planes = np.empty(bounded(slabs, "slabs", 1, 64) - 1, f4)
-    check(lib.bch_standing_slices(slabs, address(planes)))
-    return [float(plane) for plane in planes]
 
 
 @overload
@@ -348,32 +326,23 @@ def _as_poses(poses: Any, name: str = "poses") -> Records:
     return array
 
 
-def _slab(slab: Optional[int], count: int) -> int:
-    return _ALL_SLABS if slab is None else index(slab, "slab", count)
-
-
 class PoseShaper:
     """Makes the outlines of a character, one pose at a time.
 
     Parameters
     ----------
     character : Character
-    plan : Plan
-        A plan whose slices cut the body.
     """
 
-    __slots__ = ("_handle", "_pointer", "_clips", "_slabs", "_exclusive")
+    __slots__ = ("_handle", "_pointer", "_clips", "_exclusive")
 
-    def __init__(self, character: Character, plan: Plan = Plan()) -> None:
-        c_plan = _CPlan(plan)
-        self._clips, self._slabs = len(instance(character, Character, "character").clips), len(plan.slices) + 1
+    def __init__(self, character: Character) -> None:
+        self._clips = len(instance(character, Character, "character").clips)
         self._exclusive = Exclusive("PoseShaper")
-        self._handle = Handle("pose_shaper", "create", character._pointer, c_plan._pointer)
+        self._handle = Handle("pose_shaper", "create", character._pointer, None)
         self._pointer: int = self._handle.pointer
 
-    def outline(
-        self, clip: int = REST_POSE, seconds: float = 0.0, slab: Optional[int] = None, *, whole: bool = False
-    ) -> List[Float32]:
+    def outline(self, clip: int = REST_POSE, seconds: float = 0.0) -> List[Float32]:
         """Return the outline of a pose: closed contours, counter-clockwise, of points in metres.
 
         Parameters
@@ -382,17 +351,13 @@ class PoseShaper:
             Index in `Character.clips`, or REST_POSE.
         seconds : float
             Time from the start of the clip.
-        slab : int, optional
-            Index of one of the slabs between the plan's slices, from the lowest; by default all of them.
-        whole : bool
-            Do not cut the body.
         """
         of = whole_number(clip, "clip")
         of = of if of == REST_POSE else index(of, "clip", self._clips)
-        which, at = _slab(slab, self._slabs), number(seconds, "seconds")
+        at = number(seconds, "seconds")
         with self._exclusive:
-            check(lib.bch_pose_shaper_make(self._pointer, _library.Pose(of, at), int(bool(whole))))
-            return _contours(lib.bch_pose_shaper_get_outline, self._pointer, which)
+            check(lib.bch_pose_shaper_make(self._pointer, _library.Pose(of, at)))
+            return _contours(lib.bch_pose_shaper_get_outline, self._pointer)
 
 
 class Origin(NamedTuple):
@@ -417,7 +382,7 @@ class ShapeSet:
     `ShapeSet.load` maps a baked file, `bake` makes a set from characters, and `ShapeSetBuilder` makes one from bodies of your own.
     """
 
-    __slots__ = ("_owner", "_pointer", "shape_count", "depths", "slices", "has_heights", "outlines", "exact_leaves", "nbytes")
+    __slots__ = ("_owner", "_pointer", "shape_count", "depths", "has_heights", "outlines", "exact_leaves", "nbytes")
 
     def __init__(self, pointer: int, owner: Any) -> None:
         self._owner = owner
@@ -426,7 +391,6 @@ class ShapeSet:
         check(lib.bch_shape_set_get_info(pointer, byref(info)))
         self.shape_count: int = info.shapes
         self.depths: Tuple[int, ...] = tuple(copied(info.depths, u4, (info.levels,)).tolist())
-        self.slices: Tuple[float, ...] = tuple(copied(info.slices, f4, (info.slabs - 1,)).tolist())
         self.has_heights, self.outlines = bool(info.has_heights), bool(info.outlines)
         self.exact_leaves, self.nbytes = bool(info.exact_leaves), int(info.bytes)
 
@@ -478,11 +442,6 @@ class ShapeSet:
     def __len__(self) -> int:
         return self.shape_count
 
-    @property
-    def slab_count(self) -> int:
-        """The number of slabs that bodies are cut into; 1: bodies are whole."""
-        return len(self.slices) + 1
-
     def discs(self, shape: int, level: int = -1) -> Records:
         """Return the discs of a shape at a level, in the order in which queries number them.
 
@@ -497,54 +456,28 @@ class ShapeSet:
         (n,) DISC
             Records of x, y and radius, metres.
         """
-        shape, number = self._place(shape, level)
+        number = whole_number(level, "level")
+        number += len(self.depths) if number < 0 else 0
+        shape, number = index(shape, "shape", self.shape_count), index(number, "level", len(self.depths))
         count = c_size_t()
         check(lib.bch_shape_set_get_discs(self._pointer, shape, number, None, 0, byref(count)))
         discs = np.empty(count.value, DISC)
         check(lib.bch_shape_set_get_discs(self._pointer, shape, number, address(discs), len(discs), byref(count)))
         return discs
 
-    def slab_begin(self, shape: int, level: int = -1) -> UInt32:
-        """Return where the discs of each slab begin among those of `discs`: slab j has the discs from [j] to [j + 1].
-
-        So `np.searchsorted(set.slab_begin(shape), disc, "right") - 1` is the slab of a disc that `contacts` names. A body that is not
-        cut has its discs in the first slab that it reaches.
-
-        Parameters
-        ----------
-        shape : int
-        level : int
-            Index into `depths`; negative indices count from the end.
-
-        Returns
-        -------
-        (slab_count + 1,) uint32
-        """
-        shape, number = self._place(shape, level)
-        begin = np.empty(self.slab_count + 1, u4)
-        check(lib.bch_shape_set_get_slab_offsets(self._pointer, shape, number, address(begin)))
-        return begin
-
-    def _place(self, shape: int, level: int) -> Tuple[int, int]:
-        number = whole_number(level, "level")
-        number += len(self.depths) if number < 0 else 0
-        return index(shape, "shape", self.shape_count), index(number, "level", len(self.depths))
-
-    def outline(self, shape: int, slab: Optional[int] = None) -> List[Float32]:
+    def outline(self, shape: int) -> List[Float32]:
         """Return the outline of a shape: closed contours, counter-clockwise, of points in metres.
 
         Parameters
         ----------
         shape : int
-        slab : int, optional
-            Index of one of the slabs, from the lowest; by default all of them.
 
         Returns
         -------
         list of (k, 2) float32
         """
         shape = index(shape, "shape", self.shape_count)
-        return _contours(lib.bch_shape_set_get_outline, self._pointer, shape, _slab(slab, self.slab_count))
+        return _contours(lib.bch_shape_set_get_outline, self._pointer, shape)
 
     def radius(self, shape: int) -> float:
         """Return the radius, in metres, of the disc about an agent's position that covers its shape at every heading."""
@@ -597,15 +530,14 @@ class ShapeSet:
         return lines
 
     def __repr__(self) -> str:
-        slabs = f", {self.slab_count} slabs" if self.slices else ""
-        return f"<bch.ShapeSet of {self.shape_count} shapes, {len(self.depths)} levels{slabs}, {self.nbytes / 1e6:.1f} MB>"
+        return f"<bch.ShapeSet of {self.shape_count} shapes, {len(self.depths)} levels, {self.nbytes / 1e6:.1f} MB>"
 
 
 class ShapeSetBuilder:
     """Builds a set body by body. Shapes are numbered in the order in which they are added.
 
-    If the plan keeps heights or has slices, bodies of your own may have a range of heights, (bottom, top) in metres. By default they
-    take part at every height.
+    If the plan keeps heights, bodies of your own may have a range of heights, (bottom, top) in metres. By default they take part at
+    every height.
 
     Parameters
     ----------
@@ -619,13 +551,13 @@ class ShapeSetBuilder:
         self._handle = Handle("shape_set_builder", "create", c_plan._pointer)
         self._pointer: int = self._handle.pointer
         self._exclusive = Exclusive("ShapeSetBuilder")
-        self._has_heights = plan.heights or len(plan.slices) > 0
+        self._has_heights = bool(plan.heights)
 
     def _heights(self, heights: Optional[Tuple[float, float]]) -> Any:
         if heights is None:
             return None
         if not self._has_heights:
-            raise ArgumentError("heights are for plans that keep them: Plan(heights=True), or one with slices")
+            raise ArgumentError("heights are for plans that keep them: Plan(heights=True)")
         bottom, top = pair(heights, "heights")
         return byref(_library.Heights(bottom, top))
 
@@ -708,7 +640,7 @@ class ShapeSetBuilder:
     def add_discs(self, discs: npt.ArrayLike, *, heights: Optional[Tuple[float, float]] = None) -> None:
         """Add a body of discs: (k, 3) numbers, x, y and radius in metres, or (k,) DISC. Queries number the discs in this order.
 
-        Discs have no outline, which plans with slices need, unless depth 0 is alone; capsules have one.
+        Discs have no outline; capsules have one.
         """
         given_discs = as_array(discs, "discs")
         if given_discs.dtype == DISC:
@@ -718,12 +650,12 @@ class ShapeSetBuilder:
             check(lib.bch_shape_set_builder_add_discs(self._pointer, address(array), len(array), self._heights(heights)))
 
     def add_cylinder(self, radius: float, *, heights: Optional[Tuple[float, float]] = None) -> None:
-        """Add a cylinder about the agent's position, with a radius in metres. Plans with slices refuse it, as they do discs."""
+        """Add a cylinder about the agent's position, with a radius in metres."""
         with self._exclusive:
             check(lib.bch_shape_set_builder_add_cylinder(self._pointer, number(radius, "radius"), self._heights(heights)))
 
     def add_mesh(self, positions: npt.ArrayLike, triangles: npt.ArrayLike) -> None:
-        """Add a mesh as it is: (n, 3) positions in metres, z up, and (t, 3) indices of them. The plan's slices cut it."""
+        """Add a mesh as it is: (n, 3) positions in metres, z up, and (t, 3) indices of them."""
         points, corners = table(positions, f4, 3, "positions"), table(triangles, u4, 3, "triangles")
         with self._exclusive:
             check(

@@ -1,21 +1,20 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 the bch authors
 
-"""Shapes from polygons: wheelchairs and trolleys among people, in slabs of height. Writes polygons.png."""
+"""Shapes from polygons: wheelchairs and trolleys among people. Writes polygons.png."""
 
 import bch
 import matplotlib.pyplot as plt
 import numpy as np
 
-# A person with arms held out, cut above the knees, and footprints with the heights that they occupy.
-plan = bch.Plan(slices=(0.7,))
+# A person, and footprints.
 woman = bch.default_female()
-builder = bch.ShapeSetBuilder(plan)
+builder = bch.ShapeSetBuilder()
 builder.add_poses(woman, [(bch.REST_POSE, 0.0)])
 wheelchair = [[(-0.55, -0.3), (0.45, -0.3), (0.6, -0.15), (0.6, 0.15), (0.45, 0.3), (-0.55, 0.3)]]
-builder.add_polygons(wheelchair, heights=(0.0, 1.3))
+builder.add_polygons(wheelchair)
 trolley = [[(-0.5, -0.28), (0.5, -0.28), (0.5, 0.28), (-0.5, 0.28)]]
-builder.add_polygons(trolley, heights=(0.0, 0.6))
+builder.add_polygons(trolley)
 shapes = builder.finish()
 names = ["person", "wheelchair", "trolley"]
 
@@ -32,5 +31,5 @@ for first, second in bch.Crowd().collisions(shapes, agents)[:5]:
 
 figure, ax = plt.subplots(figsize=(7, 6), layout="constrained")
 bch.plot.crowd(ax, shapes, agents, numbers=True)
-ax.set_title("a hand above a trolley is no collision")
+ax.set_title("people, wheelchairs and trolleys")
 figure.savefig("polygons.png", dpi=120)

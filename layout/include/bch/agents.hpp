@@ -87,11 +87,9 @@ struct Agents {
   Numbers y;
   Numbers heading;
   Strided<std::uint8_t> level = {};  ///< index into the set's depths; empty: the last level for all
-  /// Gives the heights of the grounds that agents stand on: floors, steps, a stage. Empty: one ground for all, and in sets without slices
-  /// bodies are then compared whatever their heights. Agents with a z meet only where their heights meet, and the set has to know these
-  /// heights (ShapeSetPlan::heights, slices). In sets with slices, agents of equal z are compared slab by slab, others in all pairs of
-  /// slabs whose heights meet: slabs of half a metre are then as coarse as those of half as many planes. Even a difference of 1e-12 m
-  /// makes neighbouring slabs meet at their common plane, so round z: people on one floor should have equal z.
+  /// Gives the heights of the grounds that agents stand on: floors, steps, a stage. Empty: one ground for all, and bodies are compared
+  /// whatever their heights. Agents with a z meet only where their heights have a point in common, and the set has to know these heights
+  /// (ShapeSetPlan::heights).
   Numbers z = {};
 
   std::size_t size() const noexcept { return shape.size(); }

@@ -185,7 +185,7 @@ std::vector<Affine3d> grounded(const Character& character, const Transforms& map
 class PoseShaper {
  public:
   /// Prepares the mesh of a character, which must outlive this object and must be valid (see validate()). Shapes are made for sets of
-  /// a plan: hierarchies end at its deepest cut, and its slices cut the body. A plan of depth 0 alone needs no outlines: the
+  /// a plan: hierarchies end at its deepest cut. A plan of depth 0 alone needs no outlines: the
   /// outermost vertices give its discs in a third of the time. `threshold`, in metres, is the radius below which a disc is
   /// not divided.
   /// Errors:  throws std::invalid_argument on a bad plan.
@@ -203,19 +203,17 @@ class PoseShaper {
   /// the channels' curves say, and times are clamped to the first and last key. The way of the root joint over the ground is removed
   /// from the shape, but for bone matrices and vertices; its turn stays in it.
   /// Returns: the shape down to the deepest depth, valid until the next call. It has primitives where that depth is all_depths, because
-  ///          exact leaves need them. With slices it has only its slabs, each with outline and hierarchy. With slices, or with the
-  ///          plan's heights, it also has the heights of the body.
+  ///          exact leaves need them. With the plan's heights it also has the heights of the body.
   /// Errors:  throws std::invalid_argument on a clip or a time that does not exist, transforms or vertices of another number than the
   ///          character has or that are not finite, and as OutlineBuilder and contour_hierarchy() do, std::domain_error on a position
   ///          that is not finite. The shape made before is lost.
-  /// `whole`: does not cut the body, whatever the plan's slices; the body is then one part at all of its heights.
-  const Shape& shape(const Pose& pose, bool whole = false);
+  const Shape& shape(const Pose& pose);
 
-  /// Makes the outlines of a pose, the first step of shape(), for callers that need only outlines or time each step. It makes
-  /// none for a plan of depth 0 alone without slices and heights.
-  const Shape& make_outlines(const Pose& pose, bool whole = false);
-  /// Makes the hierarchies over the last outlines, the second step of shape().
-  const Shape& make_hierarchies();
+  /// Makes the outline of a pose, the first step of shape(), for callers that need only outlines or time each step. It makes
+  /// none for a plan of depth 0 alone without heights.
+  const Shape& make_outline(const Pose& pose);
+  /// Makes the hierarchy over the last outline, the second step of shape().
+  const Shape& make_hierarchy();
 
   // Like the functions of these names above, in memory of this object: valid until the next call of the same function or of another
   // one for the same character.
@@ -255,20 +253,17 @@ struct AnimateOptions {
       0.04f;  ///< the largest distance of centres behind the outline: the more, the less discs protrude between neighbours
   float error =
       0.005f;  ///< by how much more discs may protrude between two keys than at these, unless keys are 9 ms apart
-  std::vector<float> slices =
-      {};  ///< planes that cut the body into slabs, as in ShapeSetPlan; none: discs are of the whole body
   std::optional<bool> loops =
       {};  ///< AnimatedDiscs::loops; none: whether the clip's last pose is its first one, to a 1000th of the spacing
 };
 
 /// Makes moving discs of a character's clip that hold all of its triangles at every real time of the clip. The proof is in
 /// layout/animation/cover_check.hpp. Parts of the body that are apart have rings of their own. Each number of a chunk is one of 16 bits
-/// times a power of two. With slices the discs of each slab hold all triangles that reach into the slab at some time of the chunk, as
-/// wholes, whereas PoseShaper cuts them. The heights bound those that triangles take at every real time of the clip.
-/// Cost:    about as long as the clip for people of 2 850 triangles with 30 keys a second, and more for more keys and slabs.
+/// times a power of two. The heights bound those that triangles take at every real time of the clip.
+/// Cost:    about as long as the clip for people of 2 850 triangles with 30 keys a second, and more for more keys.
 /// Errors:  throws std::invalid_argument on a clip that does not exist or takes no time, on one with channels that jump, step or are
-///          cubic, on a character without a root joint, on options that are not above 0 and on slices that validate(ShapeSetPlan)
-///          rejects; std::length_error beyond 4096 discs a chunk; std::domain_error as PoseShaper::shape() does.
+///          cubic, on a character without a root joint, and on options that are not above 0;
+///          std::length_error beyond 4096 discs a chunk; std::domain_error as PoseShaper::shape() does.
 AnimatedDiscs animate(const Character& character, std::uint32_t clip, const AnimateOptions& options = {});
 
 }  // namespace bch

@@ -18,7 +18,6 @@ namespace bch {
 struct ShapeSource {
   std::uint32_t character = 0;  ///< index in the scene's list of characters
   PoseTime at;
-  bool whole = false;  ///< not cut, in a set with slices: PoseShaper::shape(at, true)
 };
 
 /// Describes an agent of a scene to plan.
@@ -34,17 +33,13 @@ constexpr double pairs_for_culling = 500;
 
 /// Describes the queries and levels of detail that a scene is planned for.
 struct SceneUse {
-  /// Says whether to keep outlines, as ShapeSetPlan does; with slices they are kept anyway.
+  /// Says whether to keep outlines, as ShapeSetPlan does.
   bool outlines = true;
   /// Gives the cut depth of agents at a distance, for level of detail; all_depths where it does not matter. None: all_depths.
   std::function<std::uint32_t(double metres)> depth = {};
   /// Gives the cut depth by the density around agents, for level of detail, for example depth_at_density(). If both
   /// functions give a depth, the coarser counts.
   std::function<std::uint32_t(double people_per_square_metre)> density_depth = {};
-  /// Lists the planes that cut the bodies of agents who are near, for example standing_slices(3); none: bodies are whole.
-  std::vector<float> slices = {};
-  /// Gives the distance, metres, from which on agents are whole bodies, for level of detail: these cost less and clear less.
-  double whole_from = std::numeric_limits<double>::infinity();
   /// Says whether agents stand at different heights; see Agents::z.
   bool heights = false;
   /// Gives the step, in seconds, to whose multiples times within a clip are rounded down, so that agents share shapes; 0: agents share
@@ -67,15 +62,10 @@ struct ScenePlan {
 /// collisions stop a walking person at most once a second, or all_depths where no depth does.
 std::uint32_t depth_at_density(double people_per_square_metre);
 
-/// Returns planes that clear most false collisions of standing people about 1.75 m tall, metres, for 1, 2, 3, 4 or 8 slabs. They were
-/// measured (`ratios.py --table slices`, `bch_lab report --experiment error_time`); best_slices() finds planes for other bodies.
-/// Errors:  throws std::invalid_argument on another number.
-std::vector<float> standing_slices(std::uint32_t slabs);
-
 /// Plans which shapes a scene needs, each once, at which depths and with which further data.
 /// Errors:  throws std::invalid_argument on a distance or density that is negative or not finite, naming the agent, a time that is
-///          not finite, a pose step that is negative or not finite, a number of pairs that is negative or NaN, a
-///          distance of whole bodies that is negative or NaN, slices that a plan may not have, and on more than 255 different depths.
+///          not finite, a pose step that is negative or not finite, a number of pairs that is negative or NaN, and
+///          on more than 255 different depths.
 ScenePlan plan_scene(std::span<const SceneAgent> agents, const SceneUse& use = {});
 
 /// Measures the density around each agent, in people per square metre: the number of agents within `radius`, itself included,

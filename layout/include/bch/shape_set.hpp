@@ -26,15 +26,12 @@ namespace bch {
 struct Shape {
   Outline outline;
   Hierarchy hierarchy;
-  Heights heights = {};  ///< of the whole body; by default it takes part at every height
-  /// Holds the slabs of a body cut by a plan's slices: one a slab, default-made where it is empty. The heights reach all others.
-  std::vector<Shape> slabs = {};
+  Heights heights = {};  ///< by default the body takes part at every height
 };
 
 /// Makes a shape of given discs, such as the three to fifty of a body in mechanical crowd models. The discs are enlarged
 /// only by the rounding margin, and queries number them as they are given. The shape has no outline. Neighbouring discs
-/// should follow each other, because nodes of the hierarchy group them in that order. Sets with slices need outlines, so they do not take
-/// this shape, unless they have depth 0 alone; shape_from_capsules() makes circles that have outlines.
+/// should follow each other, because nodes of the hierarchy group them in that order. shape_from_capsules() makes circles that have outlines.
 /// Cost:    6 ms for 50 discs.
 /// Errors:  throws std::invalid_argument on no discs or more than 4096, on a disc that is not finite or without a radius, naming it, or
 ///          on a reach outside 1e-6 to 1e6 m.
@@ -72,16 +69,11 @@ struct AnimatedChunk {
   friend bool operator==(const AnimatedChunk&, const AnimatedChunk&) = default;
 };
 
-/// Describes a clip as moving discs: chunks that follow one another in time, each beginning when the one before it ends. A body that is
-/// cut has its discs in its slabs instead.
+/// Describes a clip as moving discs: chunks that follow one another in time, each beginning when the one before it ends.
 struct AnimatedDiscs {
   std::vector<AnimatedChunk> chunks;  ///< from the clip's beginning to its end
   bool loops = false;                 ///< whether the clip is played over and over; a loop takes 1 ms or more
-  std::vector<float> slices = {};     ///< planes that cut the body, as in ShapeSetPlan; none: it is whole
-  /// Holds the slabs of a body that is cut: one more than planes, with only chunks, from and to the same times. A slab without discs for a
-  /// time has a chunk of no discs.
-  std::vector<AnimatedDiscs> slabs = {};
-  Heights heights = {};  ///< of the whole body at all times; by default it takes part at every height
+  Heights heights = {};               ///< of the body at all times; by default it takes part at every height
   friend bool operator==(const AnimatedDiscs&, const AnimatedDiscs&) = default;
 };
 
@@ -90,13 +82,11 @@ struct AnimatedDiscs {
 ///          on fewer than two keys, on times that are not finite, not within +-1e6 s, do not ascend or leave a gap; on no discs or
 ///          more than 4096, or another number of them than in the keys; naming the disc and key, on one that is not finite or of a
 ///          radius below 0, or that does not overlap the next one of its ring; on rings that do not ascend or end before or after
-///          the last disc, on a loop of less than 1 ms, and on a reach outside 1e-6 to 1e6 m. Of a body that is cut, naming the slab
-///          too; on slices that validate(ShapeSetPlan) rejects, on another number of slabs, on chunks beside them, on slabs of slabs
-///          or that begin or end at different times, where no slab has discs, and where one has that the heights do not reach.
+///          the last disc, on a loop of less than 1 ms, and on a reach outside 1e-6 to 1e6 m.
 void validate(const AnimatedDiscs& discs);
 
 /// Represents a body that moves by itself, seen from above: a clip of a character, or other moving discs. Its solid at a time is its
-/// discs, and what the polygons of its rings' centres enclose. A body that is cut is one such solid for each slab.
+/// discs, and what the polygons of its rings' centres enclose.
 ///
 /// The discs are in a tree whose nodes are discs that move as these do, and hold them at every time. Where a chunk ends and the next one
 /// begins, the discs of the next one count alone; first_contact() of who comes from before also compares those of the one that ends. Times before the beginning and after the end are clamped to these; if the clip loops, they wrap around
@@ -117,36 +107,27 @@ class AnimatedShape {
   double begin() const noexcept;  ///< seconds of the clip
   double end() const noexcept;
   bool loops() const noexcept;
-  /// Returns the planes that cut the body; none where it is whole.
-  std::span<const float> slices() const noexcept { return slices_; }
-  /// Returns the heights of the whole body at all times.
+  /// Returns the heights of the body at all times.
   const Heights& heights() const noexcept { return heights_; }
-  /// Returns the slabs of a body that is cut, each as a body of its own; none where it is whole.
-  std::span<const AnimatedShape> slabs() const noexcept;
   /// Returns the radius about the agent's position that holds all discs at every time, metres.
   double reach() const noexcept;
   std::size_t bytes() const noexcept;
-  /// Returns the discs at a time, as they are kept, in the order in which they were given, slab after slab.
+  /// Returns the discs at a time, as they are kept, in the order in which they were given.
   std::vector<Disc> discs(double seconds) const;
   /// Returns the body at a time as a shape, whose leaves are its discs and whose outline is the rings. A set takes the shape, and so does
   /// a PreparedShape for a DynamicShapeSet, so that every query answers at every time after one call for each body and time. Discs
-  /// without rings stay in the order in which they were given; others are numbered as leaves of the tree. A body that is cut gives
-  /// a shape of slabs, for sets of the same slices.
+  /// without rings stay in the order in which they were given; others are numbered as leaves of the tree.
   /// Cost:    a few us for 200 discs, less than making it flat.
   Shape shape(double seconds) const;
   /// Makes that shape in place of another shape of this kind, whose memory it keeps.
   void shape(double seconds, Shape& shape) const;
 
   // For the library's own parts, which alone know these types.
-  /// Returns the tree of a body that is whole, or of a slab.
+  /// Returns the tree of the discs.
   const detail::AnimatedTree& tree() const noexcept { return *tree_; }
 
  private:
-  explicit AnimatedShape(std::unique_ptr<detail::AnimatedTree> tree);
-
-  std::unique_ptr<detail::AnimatedTree> tree_;  ///< without chunks where there are slabs
-  std::vector<float> slices_;
-  std::vector<AnimatedShape> slabs_;
+  std::unique_ptr<detail::AnimatedTree> tree_;
   Heights heights_;
 };
 
@@ -170,19 +151,13 @@ struct ShapeSetPlan {
   /// Says whether to keep culling data, which lets queries skip most traversals: supports and, of outlines that are kept, inscribed
   /// discs. It changes no answer, and does not pay for a set that answers few queries.
   bool culling = true;
-  /// Lists the planes that cut bodies into slabs, metres above an agent's ground, ascending, at most 63; none: bodies are
-  /// whole. Two agents then collide where they do in some slab, so an arm above a foot is no collision. Every
-  /// shape has either the slabs that PoseShaper and AnimatedShape make of these planes, or none: it is then the same at all of its
-  /// heights. Slices need outlines of all shapes, unless depth 0 is alone.
-  std::vector<float> slices = {};
-  /// Says whether to keep the heights of bodies, which agents at different heights need; see Agents::z. Slices have them anyway.
+  /// Says whether to keep the heights of bodies, which agents at different heights need; see Agents::z.
   bool heights = false;
   friend bool operator==(const ShapeSetPlan&, const ShapeSetPlan&) = default;
 };
 
 /// Checks that a plan is one that ShapeSet takes.
-/// Errors:  throws std::invalid_argument on a plan without depths, with more than 255, or with depths out of order; on more than
-///          63 slices, on slices that do not ascend or are beyond 1e6 m, and on slices without outlines, unless depth 0 is alone.
+/// Errors:  throws std::invalid_argument on a plan without depths, with more than 255, or with depths out of order.
 void validate(const ShapeSetPlan& plan);
 
 /// Holds the flat form of many shapes for batch queries: structure of arrays, aligned to cache lines, immutable. An object that was
@@ -191,9 +166,7 @@ class ShapeSet {
  public:
   /// Makes shapes flat, each at all depths of a plan, and copies what it needs of them.
   /// Errors:  throws std::invalid_argument on a plan that validate() rejects and, naming the shape, on a hierarchy, or on a
-  ///          non-empty outline that the plan uses, if validate() rejects it; with slices, on another number of slabs than
-  ///          these make, on slabs that are all empty, and on one that is not and that the body's heights do not reach;
-  ///          on a shape or slab without an outline, unless depth 0 is alone; std::length_error beyond 2^31 numbers in nodes.
+  ///          non-empty outline that the plan uses, if validate() rejects it; std::length_error beyond 2^31 numbers in nodes.
   explicit ShapeSet(std::span<const Shape> shapes, const ShapeSetPlan& plan = {});
   ShapeSet(ShapeSet&&) noexcept;
   ShapeSet& operator=(ShapeSet&&) noexcept;
@@ -202,8 +175,6 @@ class ShapeSet {
   std::uint32_t shape_count() const noexcept;
   std::uint32_t level_count() const noexcept { return static_cast<std::uint32_t>(depths().size()); }
   std::span<const std::uint32_t> depths() const noexcept;
-  std::span<const float> slices() const noexcept;
-  std::uint32_t slab_count() const noexcept { return static_cast<std::uint32_t>(slices().size() + 1); }
   /// Returns whether the heights of bodies are kept, so that agents may have a z.
   bool has_heights() const noexcept;
   /// Returns whether some level of some shape has exact leaves.
@@ -214,13 +185,9 @@ class ShapeSet {
   ShapeSetPlan plan() const;
   std::size_t bytes() const noexcept;
 
-  /// Returns the discs of a shape's cut, in the order in which queries number them: slab after slab, with those of a body that is not
-  /// cut only once.
+  /// Returns the discs of a shape's cut, in the order in which queries number them.
   /// Errors:  throws std::out_of_range on an index out of range.
   std::vector<Disc> discs(std::uint32_t shape, std::uint32_t level) const;
-  /// Returns the offsets of slabs in discs(): slab j has the discs from [j] to [j + 1]. A body that is not cut has its discs in its
-  /// first slab.
-  std::vector<std::uint32_t> slab_begin(std::uint32_t shape, std::uint32_t level) const;
   /// Returns the radius about an agent's position that holds all discs of its shape, at every level and heading, metres.
   /// Cost:    linear in the discs.
   /// Errors:  throws std::out_of_range on an index out of range.

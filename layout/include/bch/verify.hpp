@@ -14,10 +14,9 @@ namespace bch {
 
 /// Describes a stored value that contradicts the rest of its set.
 struct Finding {
-  static constexpr std::uint32_t no_level = 0xffffffff, whole = 0xffffffff;
+  static constexpr std::uint32_t no_level = 0xffffffff;
 
   std::uint32_t shape;
-  std::uint32_t slab;   ///< the first slab with this finding; `whole` where bodies are whole
   std::uint32_t level;  ///< or no_level, where the array has none
   const char* array;    ///< the name of the array, as findings and errors of loading have it
   std::string what;     ///< the value, its place, and what the rest requires
@@ -33,8 +32,7 @@ std::string text_of(const Finding& finding);
 ///   disc of the cut is found: it lies below the block nodes that lead to it, and their outer radii cover it and no more.
 /// - A level has at most as many discs as its depth allows and no fewer than the level before. Each of its discs belongs to
 ///   one of the level before, and could be the smallest disc around a part of that disc's points.
-/// - Reaches, supports and the outer ends of profiles are those of the discs. The supports of a body in slabs
-///   are not below those of its parts.
+/// - Reaches, supports and the outer ends of profiles are those of the discs.
 /// - If outlines are stored, every level's discs cover them; the leaves that name a segment cover it, and
 ///   margins are not below what rounding needs; contours' discs are the smallest; inscribed discs lie inside
 ///   the largest contour; profiles are those of the outline. If they are not stored, there are no

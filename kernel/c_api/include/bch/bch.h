@@ -26,7 +26,7 @@
  * Threads:  functions may be called from any thread. Objects that a function does not take as const are for one thread at a
  *           time; a set of shapes and obstacles answer any number of threads at once.
  * Memory:   a failed allocation gives BCH_NO_MEMORY. Queries of pairs allocate nothing, except clearances and times of impact of
- *           bodies in slabs or at different heights. No function throws, ends the program or prints.
+ *           agents at different heights. No function throws, ends the program or prints.
  */
 
 #ifdef __cplusplus
@@ -273,12 +273,10 @@ typedef struct bch_plan {
   int32_t heights;        /**< not 0: keep the heights of bodies, for agents at different heights */
   const uint32_t* depths; /**< levels of detail, ascending; NULL: BCH_ALL_DEPTHS alone */
   size_t depth_count;
-  const float* slices; /**< heights of planes that cut bodies into slabs, ascending, at most 63 */
-  size_t slice_count;
   float threshold; /**< the radius below which discs are not divided */
 } bch_plan;
 #define BCH_PLAN_INIT \
-  { sizeof(bch_plan), 1, 1, 0, NULL, 0, NULL, 0, 0.01f }
+  { sizeof(bch_plan), 1, 1, 0, NULL, 0, 0.01f }
 
 /** Selects how the bytes of a file are accessed. */
 enum {
@@ -295,16 +293,14 @@ typedef struct bch_shape_set_info {
   uint32_t size; /**< sizeof(bch_shape_set_info) */
   uint32_t shapes;
   uint32_t levels;
-  uint32_t slabs;       /**< 1: bodies are whole */
   int32_t has_heights;  /**< not 0: agents may have a z */
   int32_t outlines;     /**< not 0: outlines are kept, else discs alone decide */
   int32_t exact_leaves; /**< not 0: some level of some shape has them */
   uint64_t bytes;
-  const uint32_t* depths; /**< one per level; lives as long as the set, like the next */
-  const float* slices;    /**< slabs - 1 planes */
+  const uint32_t* depths; /**< one per level; lives as long as the set */
 } bch_shape_set_info;
 #define BCH_SHAPE_SET_INFO_INIT \
-  { sizeof(bch_shape_set_info), 0, 0, 0, 0, 0, 0, 0, NULL, NULL }
+  { sizeof(bch_shape_set_info), 0, 0, 0, 0, 0, 0, NULL }
 /** Gets the sizes and levels of a set, and what it can be queried for. */
 BCH_API bch_status bch_shape_set_get_info(const bch_shape_set* set, bch_shape_set_info* info);
 
@@ -322,9 +318,6 @@ BCH_API bch_status bch_shape_set_get_radius(const bch_shape_set* set, uint32_t s
  * all to `count`. */
 BCH_API bch_status bch_shape_set_get_discs(const bch_shape_set* set, uint32_t shape, uint32_t level,
                                            bch_disc* discs, size_t capacity, size_t* count);
-/** Gets where the discs of each slab begin among those of bch_shape_set_get_discs(): slabs + 1 numbers. */
-BCH_API bch_status bch_shape_set_get_slab_offsets(const bch_shape_set* set, uint32_t shape, uint32_t level,
-                                                  uint32_t* offsets);
 
 /** Holds closed contours: contour i has points offsets[i] to offsets[i + 1]. */
 typedef struct bch_outline {
@@ -338,12 +331,8 @@ typedef struct bch_outline {
 } bch_outline;
 #define BCH_OUTLINE_INIT \
   { sizeof(bch_outline), NULL, 0, NULL, 0, 0, 0 }
-/** Stands for all slabs in place of one. */
-#define BCH_ALL_SLABS 0xffffffffu
-/** Gets the outline of a shape, in one of its slabs or, for BCH_ALL_SLABS, of all of them. Writes as many points and offsets as fit, and
- * the numbers of all. A set without outlines has no outline. */
-BCH_API bch_status bch_shape_set_get_outline(const bch_shape_set* set, uint32_t shape, uint32_t slab,
-                                             bch_outline* outline);
+/** Gets the outline of a shape. Writes as many points and offsets as fit, and the numbers of all. A set without outlines has no outline. */
+BCH_API bch_status bch_shape_set_get_outline(const bch_shape_set* set, uint32_t shape, bch_outline* outline);
 
 /** Receives one line for each finding. */
 typedef void (*bch_finding)(void* user, const char* line);
@@ -366,13 +355,12 @@ typedef struct bch_pose_shaper bch_pose_shaper;
 /** Makes a shaper of a character, for sets of a plan. */
 BCH_API bch_status bch_pose_shaper_create(const bch_character* character, const bch_plan* plan,
                                           bch_pose_shaper** shaper);
-/** Makes the shape of a pose, in place of the previous one. `whole`, if not 0, leaves the body uncut, whatever the plan's slices. */
-BCH_API bch_status bch_pose_shaper_make(bch_pose_shaper* shaper, bch_pose pose, int32_t whole);
+/** Makes the shape of a pose, in place of the previous one. */
+BCH_API bch_status bch_pose_shaper_make(bch_pose_shaper* shaper, bch_pose pose);
 /** Makes the shape of poses[index] in the same way. */
-BCH_API bch_status bch_pose_shaper_make_own(bch_pose_shaper* shaper, const bch_pose_arrays* poses, size_t index,
-                                            int32_t whole);
+BCH_API bch_status bch_pose_shaper_make_own(bch_pose_shaper* shaper, const bch_pose_arrays* poses, size_t index);
 /** Gets the outline of the shape that was made last; see bch_shape_set_get_outline(). */
-BCH_API bch_status bch_pose_shaper_get_outline(const bch_pose_shaper* shaper, uint32_t slab, bch_outline* outline);
+BCH_API bch_status bch_pose_shaper_get_outline(const bch_pose_shaper* shaper, bch_outline* outline);
 /** Frees a shaper. */
 BCH_API bch_status bch_pose_shaper_free(bch_pose_shaper* shaper);
 
@@ -392,7 +380,6 @@ BCH_API bch_status bch_shape_set_builder_add_own_poses(bch_shape_set_builder* bu
 typedef struct bch_shape_source {
   uint32_t character; /**< index in a list of characters */
   bch_pose at;
-  int32_t whole; /**< not 0: the body is not cut, whatever the plan's slices */
 } bch_shape_source;
 /** Adds the shapes of poses of several characters, as bch_shape_set_builder_add_poses() does of one. */
 BCH_API bch_status bch_shape_set_builder_add_sources(bch_shape_set_builder* builder,
@@ -409,14 +396,13 @@ BCH_API bch_status bch_shape_set_builder_add_polygons(bch_shape_set_builder* bui
 /** Adds a body of capsules, whose outline is nowhere farther from them than a tolerance. */
 BCH_API bch_status bch_shape_set_builder_add_capsules(bch_shape_set_builder* builder, const bch_capsule* capsules,
                                                       size_t count, float tolerance, const bch_heights* heights);
-/** Adds a body of discs, which queries number as they are given. It has no outline, so it fits no plan with slices, unless depth 0 is
- * alone; the same is true of a cylinder. Capsules have outlines. */
+/** Adds a body of discs, which queries number as they are given. It has no outline; nor has a cylinder. Capsules have outlines. */
 BCH_API bch_status bch_shape_set_builder_add_discs(bch_shape_set_builder* builder, const bch_disc* discs,
                                                    size_t count, const bch_heights* heights);
 /** Adds a cylinder about the agent's position. */
 BCH_API bch_status bch_shape_set_builder_add_cylinder(bch_shape_set_builder* builder, float radius,
                                                       const bch_heights* heights);
-/** Adds a mesh, z up, as it is, with three indices of positions per triangle. Slices cut it. */
+/** Adds a mesh, z up, as it is, with three indices of positions per triangle. */
 BCH_API bch_status bch_shape_set_builder_add_mesh(bch_shape_set_builder* builder, const bch_vec3* positions,
                                                   size_t position_count, const uint32_t* triangles,
                                                   size_t triangle_count);
@@ -852,12 +838,10 @@ typedef struct bch_animate_options {
   float spacing; /**< the largest distance of discs along the outline, at keys */
   float inset;   /**< the largest distance of centres behind the outline */
   float error;   /**< by how much more discs may protrude between two keys than at these */
-  const float* slices; /**< heights of planes that cut the body into slabs, ascending, at most 63; none: it is whole */
-  size_t slice_count;
   int32_t loops; /**< 1: the clip is played over and over; 0: it ends; -1: over and over if its last pose is its first one */
 } bch_animate_options;
 #define BCH_ANIMATE_OPTIONS_INIT \
-  { sizeof(bch_animate_options), 0.025f, 0.04f, 0.005f, NULL, 0, -1 }
+  { sizeof(bch_animate_options), 0.025f, 0.04f, 0.005f, -1 }
 /** Makes moving discs of a clip that hold the character at every real time of it. A second of a clip takes about a second. */
 BCH_API bch_status bch_animated_shape_animate(const bch_character* character, uint32_t clip,
                                               const bch_animate_options* options, bch_animated_shape** shape);
@@ -886,15 +870,14 @@ typedef struct bch_animated_shape_info {
   double begin, end; /**< seconds of the clip */
   double reach;      /**< the radius that holds all discs at every time, metres */
   uint64_t bytes;
-  uint64_t chunks; /**< of all slabs */
-  uint64_t keys;   /**< of all chunks */
-  uint64_t slabs;  /**< 0: the body is whole */
+  uint64_t chunks;
+  uint64_t keys; /**< of all chunks */
 } bch_animated_shape_info;
 #define BCH_ANIMATED_SHAPE_INFO_INIT \
-  { sizeof(bch_animated_shape_info), 0, 0, 0, 0, 0, 0, 0, 0 }
+  { sizeof(bch_animated_shape_info), 0, 0, 0, 0, 0, 0, 0 }
 /** Gets the times and sizes of a body. */
 BCH_API bch_status bch_animated_shape_get_info(const bch_animated_shape* shape, bch_animated_shape_info* info);
-/** Gets the discs at a time, slab after slab. Writes at most `capacity` discs, and the number of all to `count`. */
+/** Gets the discs at a time. Writes at most `capacity` discs, and the number of all to `count`. */
 BCH_API bch_status bch_animated_shape_get_discs(const bch_animated_shape* shape, double seconds, bch_disc* discs,
                                                 size_t capacity, size_t* count);
 /** Frees a body. */
@@ -960,15 +943,6 @@ BCH_API bch_status bch_local_densities(const double* x, const double* y, size_t 
                                        double* densities);
 /** Finds the coarsest cut depth whose false collisions stop a walking person at most once a second at a density. */
 BCH_API bch_status bch_depth_at_density(double people_per_square_metre, uint32_t* depth);
-/** Writes planes that clear most false collisions of standing people, for 1, 2, 3, 4 or 8 slabs: slabs - 1 planes. */
-BCH_API bch_status bch_standing_slices(uint32_t slabs, float* slices);
-/** Chooses, among `planes`, those that clear the most false collisions of given bodies when they cut the bodies into `slabs` slabs. Body i
- * is characters[i] in poses[i]; a hundred bodies and planes 5 cm apart are enough. Writes at most slabs - 1 of the planes, ascending,
- * without those that clear nothing more than the others, or all where there are no more than slabs - 1, and the number of written
- * planes to `slice_count`. */
-BCH_API bch_status bch_best_slices(const bch_character* const* characters, const bch_pose* poses, size_t count,
-                                   const float* planes, size_t plane_count, uint32_t slabs, float* slices,
-                                   size_t* slice_count);
 
 /** Describes the agents of a scene to plan, with one entry per agent in each array. */
 typedef struct bch_scene_agents {
@@ -983,17 +957,14 @@ typedef struct bch_scene_agents {
   { sizeof(bch_scene_agents), NULL, NULL, NULL, NULL, 0 }
 /** Describes the queries and levels of detail that a scene is planned for. */
 typedef struct bch_scene_use {
-  uint32_t size;       /**< sizeof(bch_scene_use) */
-  int32_t outlines;    /**< not 0: keep outlines, as bch_plan does; with slices they are kept anyway */
-  int32_t heights;     /**< not 0: agents stand at different heights */
-  const float* slices; /**< planes that cut the bodies of agents who are near */
-  size_t slice_count;
-  double whole_from;      /**< agents from this distance on are whole bodies, metres */
+  uint32_t size;          /**< sizeof(bch_scene_use) */
+  int32_t outlines;       /**< not 0: keep outlines, as bch_plan does */
+  int32_t heights;        /**< not 0: agents stand at different heights */
   double pairs_per_shape; /**< expected pairs of a shape before it is replaced; few where shapes live for one frame */
   float pose_step; /**< the step to whose multiples times are rounded down, seconds, so that agents share shapes; 0: they are not */
 } bch_scene_use;
 #define BCH_SCENE_USE_INIT \
-  { sizeof(bch_scene_use), 1, 0, NULL, 0, (double)INFINITY, (double)INFINITY, 0 }
+  { sizeof(bch_scene_use), 1, 0, (double)INFINITY, 0 }
 /** Lists the shapes to build for a scene, each once, and the shape and level of each agent. */
 typedef struct bch_scene_plan bch_scene_plan;
 /** Plans which shapes a scene needs, at which depths and with which further data. */

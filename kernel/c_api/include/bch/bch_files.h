@@ -112,8 +112,6 @@ typedef struct bch_clip_speed {
 typedef struct bch_check_options {
   uint32_t size;              /**< sizeof(bch_check_options) */
   uint32_t threads;           /**< 0: one for each processor */
-  const float* slices;        /**< heights of planes that cut bodies into slabs, metres */
-  size_t slice_count;         /**< 0: bodies are whole */
   double max_distance;        /**< gaps up to this distance are reported, metres; 0: only overlaps */
   const bch_obstacles* walls; /**< NULL: those of the recording */
   int32_t without_walls;      /**< not 0: walls are not checked */
@@ -131,7 +129,7 @@ typedef struct bch_check_options {
   size_t max_pairs;
 } bch_check_options;
 #define BCH_CHECK_OPTIONS_INIT \
-  { sizeof(bch_check_options), 0, NULL, 0, 0, NULL, 0, NULL, NULL, BCH_ALL_DEPTHS, BCH_SEGMENTS, NULL, 0, NULL, NULL, 0, 0, 0 }
+  { sizeof(bch_check_options), 0, 0, NULL, 0, NULL, NULL, BCH_ALL_DEPTHS, BCH_SEGMENTS, NULL, 0, NULL, NULL, 0, 0, 0 }
 /** Puts a walking person on every row of a recording that has not been read from, and finds who runs into whom. */
 BCH_API bch_status bch_check_run(bch_trajectory* trajectory, const bch_check_options* options, bch_check** check);
 /** Holds the summary of a whole recording. */

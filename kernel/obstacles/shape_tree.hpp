@@ -9,14 +9,14 @@
 
 namespace bch::detail {
 
-/// Holds the tree of a part's level, also of a set of single discs, which stores none: a window of the one disc then stands for it.
+/// Holds the tree of a shape's level, also of a set of single discs, which stores none: a window of the one disc then stands for it.
 /// (`Simd` keeps instruction sets from sharing a function.)
 template <class Simd>
-struct PartTree {
+struct ShapeTree {
   const float* nodes;
   Tree tree;
 
-  PartTree(const ShapeSetView& shapes, std::uint32_t root) noexcept {
+  ShapeTree(const ShapeSetView& shapes, std::uint32_t root) noexcept {
     if (shapes.trees != nullptr) {
       nodes = shapes.nodes, tree = shapes.trees[root];
       return;
@@ -27,7 +27,7 @@ struct PartTree {
     window_[0] = only.x, window_[block_width] = only.y, window_[2 * block_width] = only.radius;
     nodes = window_, tree = {leaf_window, 0, block_width, 1, only.radius};
   }
-  PartTree(const PartTree&) = delete;
+  ShapeTree(const ShapeTree&) = delete;
 
  private:
   float window_[3 * block_width];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "kernel/motion/motion_parts.hpp"
+#include "kernel/motion/valid_motions.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,6 @@
 
 #include "kernel/runtime/validation.hpp"
 #include "layout/base/number_class.hpp"
-#include "layout/base/planes.hpp"
 #include "layout/base/shortest.hpp"
 
 namespace bch::detail {
@@ -58,28 +57,14 @@ void require_valid(const char* query, const TimeInterval& interval, double toler
     reject(query, "a tolerance of " + shortest(tolerance) + " m, not 1e-6 or more");
 }
 
-MotionParts::MotionParts(const char* query, std::span<const Motion> motions, std::size_t named_from)
-    : motions_(motions) {
+std::vector<MotionFacts> valid_motions(const char* query, std::span<const Motion> motions,
+                                       std::size_t named_from) {
+  std::vector<MotionFacts> facts;
   for (std::size_t i = 0; i < motions.size(); ++i) {
     require_valid(query, motions[i], named_from + i);
-    const AnimatedShape& shape = *motions[i].shape;
-    if (shape.slabs().empty()) facts_.emplace_back(motions[i], shape);
-    for (const AnimatedShape& slab : shape.slabs()) facts_.emplace_back(motions[i], slab);
-    begin_.push_back(facts_.size());
+    facts.emplace_back(motions[i]);
   }
-}
-
-const MotionFacts* MotionParts::slab(std::size_t motion, std::span<const float> slices,
-                                     std::size_t slab) const {
-  const MotionFacts* const first = facts_.data() + begin_[motion];
-  if (begin_[motion + 1] - begin_[motion] > 1) return first + slab;
-  const Heights within = heights_of_slab(motions_[motion].shape->heights(), slices, slab);
-  return slices.empty() || within.bottom <= within.top ? first : nullptr;
-}
-
-bool MotionParts::are_cut_alike(std::size_t motion, const MotionParts& others, std::size_t other) const {
-  const std::span<const float> one = slices(motion), two = others.slices(other);
-  return one.empty() || two.empty() || std::equal(one.begin(), one.end(), two.begin(), two.end());
+  return facts;
 }
 
 }  // namespace bch::detail
