@@ -11,7 +11,6 @@
 
 #include "bench/base/text.hpp"
 #include "layout/baked/clips.hpp"
-#include "layout/base/planes.hpp"
 
 namespace bch::cli {
 namespace {

@@ -3,14 +3,12 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "bench/base/disc_union_area.hpp"
 #include "bench/base/placed_shape.hpp"
 #include "bench/base/text.hpp"
 #include "bench/cli/inspection.hpp"
-#include "layout/base/planes.hpp"
 
 namespace bch::cli {
 namespace {
@@ -23,24 +21,6 @@ std::size_t leaves(const Shape& shape) {
 
 float root_radius(const Shape& shape) {
   return shape.hierarchy.nodes.front().disc.radius;
-}
-
-std::string slabs_text(const ShapeFacts& facts) {
-  std::string out = fmt::format("\n{:>6}  {:>16}  {:>8}  {:>9}  {:>6}  {:>6}  {:>9}  {:>10}\n", "slab",
-                                "heights", "contours", "area", "nodes", "leaves", "discs", "of outline");
-  for (std::size_t i = facts.slabs.size(); i-- > 0;) {
-    const SlabFacts& slab = facts.slabs[i];
-    if (slab.nodes == 0) {
-      out += fmt::format("{:>6}  {:>16}\n", i, "empty");
-      continue;
-    }
-    out += fmt::format("{:>6}  {:>16}  {:>8}  {:>6.4f} m2  {:>6}  {:>6}  {:>6.3f} m2  {:>10.2f}\n", i,
-                       text_of(slab.heights), slab.contours, slab.outline_area, slab.nodes, slab.leaves,
-                       slab.disc_area, slab.disc_area / slab.outline_area);
-  }
-  return out +
-         "\nHeights are those of this pose; the height above is that at rest. Areas are exact, of the leaf "
-         "discs by the arcs of their union.\n";
 }
 
 double clip_seconds(const ImportReport& report) {
@@ -193,22 +173,6 @@ Json json_of(const LoadedCharacter& character, const ShapeTable& table) {
 Json json_of(const LoadedCharacter& character, const ShapeFacts& facts) {
   Json json{{"shape", facts.index ? Json(*facts.index) : Json(nullptr)}};
   json.update(row_json(character, facts.source.at, facts.shape));
-  for (std::size_t i = 0; i < facts.slabs.size(); ++i) {
-    const SlabFacts& slab = facts.slabs[i];
-    if (slab.nodes == 0) {
-      json["slabs"].push_back(nullptr);
-      continue;
-    }
-    json["slabs"].push_back(
-        {{"bottom_m", shortest(slab.heights.bottom)},
-         {"top_m", shortest(slab.heights.top)},
-         {"nodes", slab.nodes},
-         {"leaves", slab.leaves},
-         {"outline",
-          {{"area_m2", slab.outline_area}, {"contours", contours_json(facts.shape.slabs[i].outline)}}},
-         {"disc_area_m2", slab.disc_area}});
-  }
-  if (!facts.slabs.empty()) return json;
   json["outline"] = {{"area_m2", facts.outline_area},
                      {"grid_step_m", facts.shape.outline.grid_step},
                      {"contours", contours_json(facts.shape.outline)}};

@@ -48,10 +48,9 @@ Table pose_times(const std::vector<BodySubject>& all, std::size_t shapes, std::u
 
 void run_bodies(Run& run) {
   BodySubjects bodies(run.scene);
-  for (const std::uint32_t slabs : {1u, 3u, 8u}) bodies.add_slabs(slabs);
+  bodies.add_outlines();
   bodies.add_ragdolls_and_spheres(run.sizes().most_spheres);
   bodies.add_meshes();
-  bodies.add_thin_slabs();
   std::vector<Subject> subjects;
   for (const BodySubject& body : bodies.all()) subjects.push_back(body.subject);
 

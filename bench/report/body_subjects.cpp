@@ -13,25 +13,16 @@ namespace bch::report {
 namespace {
 
 constexpr double shape_threshold = 0.01;  // metres
-constexpr std::uint32_t thin_slabs = 64;
-constexpr float tallest = 1.95f;  // metres, of the people that thin slabs are of
 /// The poses that ragdolls are fitted to, of a character.
 constexpr std::uint32_t fitted_poses = 12;
-
-std::vector<float> thin_slices() {
-  std::vector<float> planes;
-  for (std::uint32_t i = 1; i < thin_slabs; ++i)
-    planes.push_back(tallest * static_cast<float>(i) / static_cast<float>(thin_slabs));
-  return planes;
-}
 
 /// Makes shapes of one character ready for a set, pose by pose.
 struct ShapeWorkshop {
   PoseShaper shaper;
-  PreparedShape prepared;
+  PreparedShape prepared{ShapeSetPlan{}};
 
-  ShapeWorkshop(const Character& character, const ShapeSetPlan& plan)
-      : shaper(character, plan, static_cast<float>(shape_threshold)), prepared(plan) {}
+  explicit ShapeWorkshop(const Character& character)
+      : shaper(character, {}, static_cast<float>(shape_threshold)) {}
 };
 
 /// Returns something of each character of a scene.
@@ -59,30 +50,16 @@ BodySubjects::BodySubjects(bench::Scene& scene) : scene_(scene) {
         joint_transforms(scene.characters()[source.character].character, source.at, JointFrame::world));
 }
 
-void BodySubjects::add_shapes(std::string name, const std::vector<Shape>& shapes, const ShapeSetPlan& plan) {
-  const ShapeSet& set = sets_.emplace_back(shapes, plan);
-  Subject subject = subject_of(name, set, {.leaves = Leaves::segments});
+void BodySubjects::add_outlines() {
+  const ShapeSet& set = sets_.emplace_back(scene_.shapes(), ShapeSetPlan{});
+  Subject subject = subject_of(std::string(exact_leaves_name), set, {.leaves = Leaves::segments});
   subject.bytes = static_cast<double>(set.bytes()) / set.shape_count();
   const auto workshops = std::make_shared<std::vector<ShapeWorkshop>>(
-      of_each_character(scene_, [&](const Character& character) { return ShapeWorkshop(character, plan); }));
+      of_each_character(scene_, [](const Character& character) { return ShapeWorkshop(character); }));
   all_.push_back({std::move(subject), [this, workshops](std::size_t shape) {
                     ShapeWorkshop& of = (*workshops)[scene_.sources()[shape].character];
                     of.prepared.prepare(of.shaper.shape(WorldPose{joints_[shape]}), shape);
                   }});
-}
-
-void BodySubjects::add_slabs(std::uint32_t slabs) {
-  if (slabs == 1) return add_shapes(std::string(exact_leaves_name), scene_.shapes(), {});
-  add_shapes(slabs_name(slabs, Leaves::segments), scene_.shapes_in_slabs(slabs),
-             {.slices = standing_slices(slabs)});
-}
-
-void BodySubjects::add_thin_slabs() {
-  const ShapeSetPlan plan{.slices = thin_slices()};
-  const auto shapes = cli::build_shapes(scene_.characters(), scene_.sources(), shape_threshold, plan).shapes;
-  const ShapeSet& set = sets_.emplace_back(shapes, plan);
-  all_.push_back(
-      {subject_of(slabs_name(thin_slabs, Leaves::segments), set, {.leaves = Leaves::segments}), {}});
 }
 
 void BodySubjects::add_meshes() {

@@ -14,7 +14,7 @@
 #include "baselines/ragdoll.hpp"
 #include "bench/report/subjects.hpp"
 
-// What animated people can be: outlines, whole or in slabs, capsules on bones, spheres. As subjects, with what a pose costs.
+// What animated people can be: outlines, capsules on bones, spheres. As subjects, with what a pose costs.
 
 namespace bch::report {
 
@@ -32,10 +32,8 @@ class BodySubjects {
  public:
   explicit BodySubjects(bench::Scene& scene);
 
-  /// Adds bodies in slabs with exact leaves, or whole ones where there is one slab.
-  void add_slabs(std::uint32_t slabs);
-  /// Adds slabs so thin that their outlines are nearly the meshes.
-  void add_thin_slabs();
+  /// Adds outlines with exact leaves.
+  void add_outlines();
   /// Adds ragdolls of 15 and 32 capsules, each thin, holding all vertices in the poses of the fit, and halfway between; and 64 to 512
   /// spheres.
   void add_ragdolls_and_spheres(std::uint32_t most_spheres);
@@ -47,7 +45,6 @@ class BodySubjects {
  private:
   void add_ragdolls(std::uint32_t capsules);
   void add_spheres(std::uint32_t spheres);
-  void add_shapes(std::string name, const std::vector<Shape>& shapes, const ShapeSetPlan& plan);
 
   bench::Scene& scene_;
   std::vector<std::vector<Affine3d>> joints_;  ///< one a shape, as of WorldPose

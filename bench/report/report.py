@@ -43,7 +43,7 @@ MAN = {RADIUS: (0.42, 0.40, 0.05), CYLINDER: (7.70, 6.99, 1.75), LEAVES: (3.57, 
        MESH: (math.nan, math.nan, 0.01)}
 PAPER_VOLUMES = {"default:female": WOMAN, "default:male": MAN, "default:bulky": MAN}
 ERRORS = {"distance": "mean (cm)", "false": "false positives (%)", "excess": "excess area (%)"}  # of experiment error_time
-MESHES, THIN_SLABS = "OBB full mesh", "BCH in 64 slabs"  # of experiment bodies
+MESHES = "OBB full mesh"  # of experiment bodies
 SAME_PLACE = 2e-6  # m: places of slides are bisected to a micrometre
 PROMISED_GAP = 4  # um per metre of reach, see layout/base/rounding.hpp
 
@@ -224,8 +224,7 @@ def bodies(data, out):
     agents = float(data["run"].value("value", what="agents of the crowd"))
     hits, slides, poses = (data[f"bodies_{name}"].groups("subject") for name in ("hits", "slides", "poses"))
     places = [slides[i].column("place (m)") for i in range(len(data["bodies"]))]
-    names = data["bodies"].column("structure")
-    meshes, slabs = (places[names.index(name)] for name in (MESHES, THIN_SLABS))
+    meshes = places[data["bodies"].column("structure").index(MESHES)]
     out["bodies"] = Table()
     for i, row in enumerate(data.subjects("bodies")):
         asked = hits[i][0]
@@ -236,7 +235,6 @@ def bodies(data, out):
             **key(row, "structure", "bytes a shape", "crowd (ns/pair)", "crowd (25 %)", "crowd (75 %)"), **pose,
             "frame (us an agent)": pose["pose (us)"] + row["crowd (ns/pair)"] * asked["asked"] / agents / 1000,
             **data.mean(earlier, "earlier than meshes (mm)", "earlier"), "later than meshes (% of slides)": Share(sum(later), len(later)),
-            "earlier than 64 slabs (mm)": data.mean([1000 * (slab - place) for slab, place in zip(slabs, places[i])])["mean (cm)"],
             "mean (cm)": row["mean (cm)"], "false hits (% of mesh hits)": Share(asked["false hits"], asked["meshes meet"]),
             "missed (% of mesh hits)": Share(asked["missed"], asked["meshes meet"])})
 
@@ -503,13 +501,12 @@ def draw_error_time(data, out, name, pairs):
     ax.step(rows.column("ns/pair"), rows.column(error), where="post", color=COLOURS[7], linestyle="--", label="front")
     for i, (kind, label) in enumerate(kinds.items()):
         series(ax, out["error_time"].where(structure=kind), time, error, label, **style(i, linestyle="none"))
-    for begin, label, looks in (("BCH in", "BCH in slabs: 2, 3, 4, 8", {"color": "#e03030", "marker": "h"}),
-                                (r"\d+ spheres", "spheres: 64 to 512", {"color": "#7b3fb5", "marker": "p"}),
+    for begin, label, looks in ((r"\d+ spheres", "spheres: 64 to 512", {"color": "#7b3fb5", "marker": "p"}),
                                 (r"\d+ capsules", "15 and 32 capsules", {"color": "#7b3fb5", "marker": "2", "markersize": 9}),
                                 ("FCL", "FCL", {"color": COLOURS[7], "marker": "x"}),
                                 ("single", "single cylinder", {"color": INK, "marker": "+", "markersize": 9}),
                                 ("fixed", "fixed cylinders", {"color": INK, "marker": "1", "markersize": 9})):
-        series(ax, [row for row in out["error_time"] if re.match(f"{begin}.*(?<!with discs)$", row["structure"])], time, error,
+        series(ax, [row for row in out["error_time"] if re.match(begin, row["structure"])], time, error,
                label, linestyle="none", **looks)
     ax.set_ylim(-0.015 * ax.get_ylim()[1])
     legend(ax, 3)
@@ -526,7 +523,7 @@ for error_name, error_caption in {
 @draws("bodies_live", "The same against what an agent costs in a frame in which everybody is posed anew, from the transforms of joints to answers.", "frame (us an agent)", "an agent in a frame, one thread (us)", wide=True)
 @draws("bodies_crowd", "How much earlier than the meshes people who slide towards each other are reported, and false hits in a crowd, against the time of a pair; hollow: misses some hits of the meshes, a share of which stands beside it.", "crowd (ns/pair)", "crowd pair, one thread (ns)", wide=True)
 def draw_bodies(data, out, time, label):
-    families = {"exact outlines: whole, 3, 8 slabs": rf"{EXACT}|BCH in (3|8) slabs", "15 capsules: thin, between, holding": "15 capsules.*",
+    families = {"exact outlines": EXACT, "15 capsules: thin, between, holding": "15 capsules.*",
                 "32 capsules": "32 capsules.*", "spheres": r"\d+ spheres"}
     for ax, error in zip(chart(label, "", (13, 4.8), 2, xscale="log"), ("earlier than meshes (mm)", "false hits (% of mesh hits)")):
         ax.set_ylabel(error)
@@ -535,8 +532,8 @@ def draw_bodies(data, out, time, label):
             series(ax, rows, time, error, family, **style(i, linestyle="-", fillstyle="none"))
             series(ax, [row for row in rows if row["missed (% of mesh hits)"] == 0], time, error, None, **style(i, linestyle="none"))
             for row in rows:
-                missed, name = row["missed (% of mesh hits)"], row["structure"].replace("BCH in ", "").replace(" spheres", "")
-                text = f"misses {missed:.2f} %" if missed else "whole" if name == EXACT else name if "capsules" not in name else ""
+                missed, name = row["missed (% of mesh hits)"], row["structure"].replace(" spheres", "")
+                text = f"misses {missed:.2f} %" if missed else "" if name == EXACT or "capsules" in name else name
                 shift, side = ((-6, -10), "right") if family == "spheres" else ((6, -11 if i == 2 else 4), "left")
                 ax.annotate(text, (row[time], row[error]), shift, textcoords="offset points", fontsize=8, ha=side)
         ax.set_ylim(min(0, ax.get_ylim()[0]))

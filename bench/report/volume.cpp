@@ -13,12 +13,11 @@
 
 #include "bench/base/disc_union_area.hpp"
 #include "bench/report/subjects.hpp"
-#include "layout/base/planes.hpp"
 #include "layout/character/eigen.hpp"
 #include "layout/character/skinning.hpp"
 #include "layout/enclosing_disc/enclosing_disc.hpp"
 
-// Represented volume: figure 7 and table 1 of the paper, in its own terms; and what cuts over the outline and outlines of slabs
+// Represented volume: figure 7 and table 1 of the paper, in its own terms; and what cuts over the outline
 // cover. All shapes are cylinders over the ground, so that their volumes are to each other as their areas are.
 
 namespace bch::report {

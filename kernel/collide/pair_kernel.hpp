@@ -34,7 +34,7 @@ class PairKernel {
     PairKernel kernel(arguments);
     for (; begin < end; begin += chunk_size) {
       kernel.at_.place(arguments, begin, end);
-      if constexpr (KnowsGaps<Simd>) kernel.at_.set_all_gaps(arguments, begin);
+      if constexpr (KnowsGaps<Simd>) kernel.at_.set_gaps(arguments, begin);
       kernel.answer_chunk(begin);
       kernel.traversal_.run(open_traversals - chunk_size);
     }
@@ -50,6 +50,13 @@ class PairKernel {
     return true;
   }
 
+ private:
+  using Float = typename Simd::Float;
+  /// The most traversals that are open at once: those of a chunk, and as many unfinished pairs besides as fit
+  /// on the stack.
+  static constexpr std::uint32_t open_traversals = chunk_size + chunk_size * 7 / 8;
+  using List = ChunkPairs<Simd, chunk_size>;
+
   explicit PairKernel(const Arguments& arguments) noexcept
       : in_(arguments),
         shapes_(*arguments.shapes),
@@ -57,22 +64,6 @@ class PairKernel {
         axis_test_(shapes_, at_),
         profiles_(shapes_, at_, arguments.prefetch_shapes),
         traversal_(shapes_, arguments) {}
-
-  /// Returns the pairs that answer_placed() is about.
-  Placements<Simd>& placements() noexcept { return at_; }
-  /// Answers pairs that somebody else placed. Codes from `begin` on are written by the end of finish().
-  void answer_placed(std::size_t begin) noexcept {
-    answer_chunk(begin);
-    traversal_.run(open_traversals - chunk_size);
-  }
-  void finish() noexcept { traversal_.run(0); }
-
- private:
-  using Float = typename Simd::Float;
-  /// The most traversals that are open at once: those of a chunk, and as many unfinished pairs besides as fit
-  /// on the stack.
-  static constexpr std::uint32_t open_traversals = chunk_size + chunk_size * 7 / 8;
-  using List = ChunkPairs<Simd, chunk_size>;
 
   /// Answers the pairs that were placed.
   [[gnu::always_inline]] void answer_chunk(std::size_t begin) noexcept {

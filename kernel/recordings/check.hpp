@@ -24,7 +24,7 @@ namespace bch::detail {
 
 /// Holds the options of a check of a recording.
 struct CheckOptions {
-  ShapeSetPlan plan = {};            ///< one level, of any depth; slices cut the bodies
+  ShapeSetPlan plan = {};            ///< one level, of any depth
   Leaves leaves = Leaves::segments;  ///< what decides who overlaps, where the level has all depths
   double max_distance = 0;           ///< gaps up to that are measured, metres; 0: none are
   const ObstacleSet* walls = nullptr;

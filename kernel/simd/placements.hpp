@@ -56,31 +56,19 @@ class Placements {
   }
 
   /// Sets the gaps of all pairs, the first of which has that index in the batch.
-  void set_all_gaps(const Arguments& in, std::size_t begin) noexcept {
-    for (std::uint32_t k = 0; k < whole_registers(); ++k) set_gaps(k, in, begin + (k < size ? k : size - 1));
-  }
-  /// Sets the gaps of two shapes, of the pair with that index in the batch.
-  void set_gaps(std::uint32_t k, const Arguments& in, std::size_t pair) noexcept {
+  void set_gaps(const Arguments& in, std::size_t begin) noexcept {
     // A set of roots alone has no reaches and nothing to bound.
     const float* const reach = in.shapes->reach;
-    const auto [leaf, bound] =
-        gaps<Simd>(in.gaps[pair], reach == nullptr ? 0 : reach[shape_a[k]] + reach[shape_b[k]]);
-    gap[k] = leaf, bound_gap[k] = bound;
+    for (std::uint32_t k = 0; k < whole_registers(); ++k) {
+      const float distance = in.gaps[begin + (k < size ? k : size - 1)];
+      const auto [leaf, bound] =
+          gaps<Simd>(distance, reach == nullptr ? 0 : reach[shape_a[k]] + reach[shape_b[k]]);
+      gap[k] = leaf, bound_gap[k] = bound;
+    }
   }
 
   std::uint32_t agent_a(std::uint32_t pair) const noexcept { return a_[pair]; }
   std::uint32_t agent_b(std::uint32_t pair) const noexcept { return b_[pair]; }
-
-  /// Takes what was written for so many pairs, and repeats the last one up to a whole register.
-  void fill_up(std::uint32_t count) noexcept {
-    size = count;
-    for (std::uint32_t k = count; count > 0 && k < whole_registers(); ++k) {
-      c[k] = c[count - 1], s[k] = s[count - 1], tx[k] = tx[count - 1], ty[k] = ty[count - 1];
-      shape_a[k] = shape_a[count - 1], shape_b[k] = shape_b[count - 1];
-      root_a[k] = root_a[count - 1], root_b[k] = root_b[count - 1];
-      if constexpr (KnowsGaps<Simd>) gap[k] = gap[count - 1], bound_gap[k] = bound_gap[count - 1];
-    }
-  }
 
   std::uint32_t size = 0;
 
@@ -89,7 +77,7 @@ class Placements {
   std::uint32_t shape_a[chunk_size], shape_b[chunk_size];
   std::uint32_t root_a[chunk_size], root_b[chunk_size];  ///< shape * level_count + level
   alignas(64) float gap[chunk_size],
-      bound_gap[chunk_size];  ///< see Gaps; where KnowsGaps, by the two functions
+      bound_gap[chunk_size];  ///< see Gaps; where KnowsGaps
 
  private:
   static constexpr std::uint32_t pairs_ahead = 32;  ///< that agents are prefetched
