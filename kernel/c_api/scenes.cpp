@@ -25,7 +25,6 @@ std::vector<SceneAgent> scene_agents_of(const bch_scene_agents& given) {
   for (std::size_t i = 0; i < agents.size(); ++i) {
     agents[i].shows.at = {poses[i].clip, poses[i].seconds};
     if (given.character != nullptr) agents[i].shows.character = given.character[i];
-    if (given.distance != nullptr) agents[i].distance = given.distance[i];
     agents[i].density = static_cast<double>(i);
   }
   return agents;

@@ -8,7 +8,6 @@ from __future__ import annotations
 from ctypes import byref, c_double, c_void_p
 from typing import Any, Optional, Sequence, Tuple, Union
 
-import numpy as np
 import numpy.typing as npt
 
 from . import _library

@@ -11,7 +11,6 @@ import math
 from typing import Any, Dict, Literal, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
-import numpy.typing as npt
 
 from . import _library
 from ._arrays import (

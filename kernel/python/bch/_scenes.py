@@ -7,34 +7,24 @@ from __future__ import annotations
 
 import math
 from ctypes import byref, c_size_t, c_void_p
-from typing import Any, List, Optional, Sequence, Union
-
-import numpy as np
-import numpy.typing as npt
+from typing import Any, Optional, Sequence
 
 from . import _library
 from ._arrays import (
-    POSE,
     SOURCE,
-    Float64,
     Records,
     UInt8,
     UInt32,
     address,
-    bounded,
-    converted,
     copied,
-    f4,
-    f8,
     flag,
     given,
-    instances,
     number,
     u1,
     u4,
 )
-from ._library import ArgumentError, Handle, check, lib
-from ._shapes import Character, Plan, ShapeSet, ShapeSetBuilder, _as_poses, _planes, _pointers
+from ._library import Handle, check, lib
+from ._shapes import Character, Plan, ShapeSet, ShapeSetBuilder, _as_poses
 
 
 class ScenePlan:
@@ -93,7 +83,6 @@ def plan_scene(
     poses: Any,
     *,
     character: Optional[UInt32] = None,
-    distance: Optional[Float64] = None,
     depth: Optional[UInt32] = None,
     outlines: bool = True,
     heights: bool = False,
@@ -108,8 +97,6 @@ def plan_scene(
         One pose per agent.
     character : (n,) uint32, optional
         The index of each agent's character in a list of characters; by default the first one.
-    distance : (n,) float64, optional
-        Distance of each agent from the viewer, metres.
     depth : (n,) uint32, optional
         Level of detail: the cut depth that each agent needs, such as `depth_at_density` returns; by default ALL_DEPTHS.
     outlines : bool
@@ -126,7 +113,6 @@ def plan_scene(
     agents = _library.SceneAgents(
         character=None if character is None else given(character, u4, (n,), "character"),
         poses=address(array),
-        distance=None if distance is None else given(distance, f8, (n,), "distance"),
         depth=None if depth is None else given(depth, u4, (n,), "depth"),
         count=n,
     )

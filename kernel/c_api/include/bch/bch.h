@@ -949,12 +949,11 @@ typedef struct bch_scene_agents {
   uint32_t size;             /**< sizeof(bch_scene_agents) */
   const uint32_t* character; /**< index in a list of characters; NULL: all are the first */
   const bch_pose* poses;
-  const double* distance; /**< metres from the viewer; NULL: 0 */
-  const uint32_t* depth;  /**< level of detail: the cut depth that an agent needs; NULL: BCH_ALL_DEPTHS */
+  const uint32_t* depth; /**< level of detail: the cut depth that an agent needs; NULL: BCH_ALL_DEPTHS */
   size_t count;
 } bch_scene_agents;
 #define BCH_SCENE_AGENTS_INIT \
-  { sizeof(bch_scene_agents), NULL, NULL, NULL, NULL, 0 }
+  { sizeof(bch_scene_agents), NULL, NULL, NULL, 0 }
 /** Describes the queries and levels of detail that a scene is planned for. */
 typedef struct bch_scene_use {
   uint32_t size;          /**< sizeof(bch_scene_use) */
