@@ -55,8 +55,8 @@ std::size_t shapes_in_time(double seconds) {
   return static_cast<std::size_t>(std::ceil(a_second * std::min(seconds, 1e6)));
 }
 
-std::vector<BakedClip> bake_clips(std::span<const LoadedCharacter> characters, std::span<const ClipOf> clips,
-                                  const AnimateOptions& how) {
+std::vector<BakedClip> bake_clips(std::span<const LoadedCharacter> characters,
+                                  std::span<const ClipOf> clips) {
   std::vector<std::uint32_t> first_name;
   std::uint32_t names = 0;
   for (const LoadedCharacter& each : characters) {
@@ -70,7 +70,7 @@ std::vector<BakedClip> bake_clips(std::span<const LoadedCharacter> characters, s
     const auto& [character, clip] = clips[i];
     const std::uint32_t name = first_name[character];
     const LoadedCharacter& from = characters[character];
-    baked[i] = {name, name + 1 + clip, animate_clip(from.character, file_name(from), clip, how)};
+    baked[i] = {name, name + 1 + clip, animate_clip(from.character, file_name(from), clip)};
     progress.advance();
   });
   return baked;

@@ -62,8 +62,7 @@ AnimatedDiscs animate_clip(const Character& character, const std::string& name, 
 std::size_t shapes_in_time(double seconds);
 
 /// Makes moving discs of clips in parallel, with a progress bar, as a baked file has them beside origins_of().
-std::vector<BakedClip> bake_clips(std::span<const LoadedCharacter> characters, std::span<const ClipOf> clips,
-                                  const AnimateOptions& how);
+std::vector<BakedClip> bake_clips(std::span<const LoadedCharacter> characters, std::span<const ClipOf> clips);
 
 /// Returns what a baked file says about the origins of its shapes. Characters go by their sources' file
 /// names.

@@ -13,7 +13,6 @@
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/text.hpp"
 #include "bench/cli/inspection.hpp"
-#include "layout/format/parts.hpp"
 #include "layout/format/shape_arrays.hpp"
 
 namespace bch::cli {

@@ -161,17 +161,13 @@ void draw_overlaps(Svg& svg, const DrawnAgent& agent) {
 }
 
 void draw_agent(Svg& svg, const DrawnAgent& agent) {
-  svg.group({}, "shape", [&] {
-    for (const Shape* part : parts_of(*agent.shape)) draw_outline(svg, agent.placement, part->outline);
-  });
+  svg.group({}, "shape", [&] { draw_outline(svg, agent.placement, agent.shape->outline); });
   svg.group({}, "discs", [&] { draw_discs(svg, agent.discs); });
 }
 
 void draw_cylinder(Svg& svg, const DrawnAgent& agent) {
-  for (const Shape* part : parts_of(*agent.shape)) {
-    const PixelDisc disc = placed(agent.placement, part->hierarchy.nodes.front().disc);
-    svg.circle(disc.centre, disc.radius);
-  }
+  const PixelDisc disc = placed(agent.placement, agent.shape->hierarchy.nodes.front().disc);
+  svg.circle(disc.centre, disc.radius);
 }
 
 /// What matters most is drawn last.
@@ -200,12 +196,7 @@ void draw_key(Svg& svg, const CrowdPicture& picture, State state, double x, cons
               const char* second) {
   constexpr double icon = 44;
   const Shape& shape = picture.shapes.front();
-  const std::vector<const Shape*> parts = parts_of(shape);
-  const auto root_of = [](const Shape* part) { return part->hierarchy.nodes.front().disc; };
-  const Disc root =
-      root_of(*std::max_element(parts.begin(), parts.end(), [&](const Shape* a, const Shape* b) {
-        return root_of(a).radius < root_of(b).radius;
-      }));
+  const Disc root = shape.hierarchy.nodes.front().disc;
   const double scale = icon / 2 / static_cast<double>(root.radius);
   const double y = view_top + view_height + legend_height / 2;
   DrawnAgent agent{
@@ -215,7 +206,8 @@ void draw_key(Svg& svg, const CrowdPicture& picture, State state, double x, cons
        0,
        scale},
       state};
-  agent.place_discs(std::min(picture.answers.levels[picture.level].depth, 4u));
+  agent.discs =
+      placed_cut(agent.placement, shape.hierarchy, std::min(picture.answers.levels[picture.level].depth, 4u));
   svg.open_group({}, state_name[state]);
   draw_agent(svg, agent);
   if (state == is_cleared) svg.group({}, "cylinder", [&] { draw_cylinder(svg, agent); });

@@ -2,14 +2,13 @@
 // Copyright (c) 2026 the bch authors
 
 #include "baselines/obstacle_reference.hpp"
-#include "layout/base/planes.hpp"
+#include "tests/support/height_scenes.hpp"
 #include "tests/support/obstacle_answers.hpp"
 #include "tests/support/obstacle_scenes.hpp"
-#include "tests/support/slab_scenes.hpp"
 #include "tests/support/test.hpp"
 
-// Obstacles with heights, against the definition: each part of a body, as a shape of its own without heights, and the obstacles whose
-// heights meet the part's, in a set of their own.
+// Obstacles with heights, against the definition: a body without heights, and the obstacles whose heights meet the body's, in a set of
+// their own.
 
 namespace bch {
 namespace {
@@ -30,33 +29,7 @@ void raise(Random& random, ObstacleScene& scene) {
   }
 }
 
-/// The parts of bodies as shapes of their own.
-struct PartShapes {
-  struct Part {
-    std::uint32_t shape;
-    Heights heights;
-  };
-  std::vector<Shape> shapes;
-  std::vector<std::vector<Part>> of_body;
-
-  PartShapes(const std::vector<Shape>& bodies, const ShapeSetPlan& plan) {
-    for (const Shape& body : bodies) {
-      of_body.emplace_back();
-      if (body.slabs.empty()) add(body, body.heights);
-      for (std::size_t slab = 0; slab < body.slabs.size(); ++slab)
-        add(body.slabs[slab], detail::heights_of_slab(body.heights, plan.slices, slab));
-    }
-  }
-
- private:
-  void add(const Shape& part, Heights heights) {
-    if (part.hierarchy.nodes.empty()) return;
-    of_body.back().push_back({static_cast<std::uint32_t>(shapes.size()), heights});
-    shapes.push_back({part.outline, part.hierarchy});
-  }
-};
-
-/// Obstacles of a scene that are level with a part, without heights.
+/// Obstacles of a scene that are level with a body, without heights.
 struct LevelObstacles {
   LevelObstacles(const ObstacleScene& scene, const std::vector<bool>& kept) {
     std::uint32_t number = 0;
@@ -112,78 +85,51 @@ struct Question {
   }
 };
 
-/// The parameter lists the slices; none makes whole bodies.
-class ObstaclesWithHeights : public testing::TestWithParam<std::vector<float>> {
+class ObstaclesWithHeights : public testing::Test {
  protected:
-  /// Joins what the parts of an agent say of the obstacles level with them. `touched`: those that it collides with.
-  AgentAnswers joined(const Crowd& crowd, std::uint32_t agent, const ObstacleScene& scene,
-                      const Question& question, std::vector<std::uint32_t>& touched) {
-    AgentAnswers all;
-    std::uint32_t discs_before = 0;
-    for (const PartShapes::Part& part : parts.of_body[crowd.shape[agent]]) {
-      const LevelObstacles level = level_with(scene, part.heights, crowd.z[agent]);
-      Crowd one;
-      one.add({part.shape, crowd.x[agent], crowd.y[agent], crowd.heading[agent], crowd.level[agent]});
-      const AgentAnswers of = of_part(
-          one.agents(), level,
-          {question.options, {question.distances[agent]}, std::vector<double>(1, question.way[agent])});
-      const Rows<std::uint32_t> rows =
-          collider.obstacles(apart, one.agents(), *level.set, {.leaves = question.options.leaves});
-      for (const std::uint32_t obstacle : rows[0]) touched.push_back(level.obstacles[obstacle]);
-      if (of.deepest < all.deepest)
-        all.discs = {discs_before + of.discs.first, level.numbers[of.discs.second]};
-      all.hit |= of.hit, all.near |= of.near;
-      all.distance = std::min(all.distance, of.distance), all.deepest = std::min(all.deepest, of.deepest);
-      all.time = std::min(all.time, of.time);
-      if (of.way_out.depth > all.way_out.depth) all.way_out = of.way_out;
-      discs_before += static_cast<std::uint32_t>(apart.discs(part.shape, crowd.level[agent]).size());
-    }
-    std::sort(touched.begin(), touched.end());
-    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-    return all;
-  }
-
-  bool is_sliced() const { return !GetParam().empty(); }
-
-  Random random{3011};
-  ShapeSetPlan plan = plan_of(GetParam());
-  std::vector<Shape> bodies = test::bodies(random, plan);
-  ShapeSet set{bodies, plan};
-
- private:
-  static ShapeSetPlan plan_of(const std::vector<float>& slices) {
-    ShapeSetPlan plan = test::levels_of(slices);
-    plan.heights = true;
-    return plan;
-  }
-
-  AgentAnswers of_part(const Agents& part, const LevelObstacles& level, const Question& question) {
-    AgentAnswers of(question.ask(apart, part, *level.set), 0);
-    const auto is_hit = [&](const auto& obstacle) { return reference.collides(part, 0, obstacle); };
-    const bool crosses = std::any_of(level.reference.begin(), level.reference.end(), is_hit);
-    EXPECT_EQ(of.hit, crosses);
+  /// Returns what an agent says of the obstacles level with it. `touched`: those that it collides with.
+  AgentAnswers expected_of(const Crowd& crowd, std::uint32_t agent, const ObstacleScene& scene,
+                           const Question& question, std::vector<std::uint32_t>& touched) {
+    const LevelObstacles level = level_with(scene, bodies[crowd.shape[agent]].heights, crowd.z[agent]);
+    Crowd one;
+    one.add({crowd.shape[agent], crowd.x[agent], crowd.y[agent], crowd.heading[agent], crowd.level[agent]});
+    const Question its_own{
+        question.options, {question.distances[agent]}, std::vector<double>(1, question.way[agent])};
+    AgentAnswers of(its_own.ask(flat, one.agents(), *level.set), 0);
+    EXPECT_EQ(of.hit, std::ranges::any_of(level.reference, [&](const auto& obstacle) {
+                return reference.collides(one.agents(), 0, obstacle);
+              }));
+    if (of.deepest < HUGE_VALF) of.discs.second = level.numbers[of.discs.second];
+    const Rows<std::uint32_t> rows =
+        collider.obstacles(flat, one.agents(), *level.set, {.leaves = question.options.leaves});
+    for (const std::uint32_t obstacle : rows[0]) touched.push_back(level.obstacles[obstacle]);
     return of;
   }
 
+  Random random{3011};
+  const ShapeSetPlan plan{.depths = {0, 3, all_depths}, .heights = true};
+  const std::vector<Shape> bodies = test::bodies_with_heights(random);
+  const ShapeSet set{bodies, plan};
+
+ private:
   /// In long double, with the slack of the definition.
-  static LevelObstacles level_with(const ObstacleScene& scene, Heights part, double z) {
+  static LevelObstacles level_with(const ObstacleScene& scene, Heights body, double z) {
     std::vector<bool> kept;
     const long double slack = 1e-9L + std::abs(z) * 0x1p-50L;
     for (std::size_t o = 0; o < scene.is_area.size(); ++o)
       kept.push_back(scene.bottom.empty() ||
-                     (scene.bottom[o] <= static_cast<long double>(part.top) + z + slack &&
-                      static_cast<long double>(part.bottom) + z <= scene.top[o] + slack));
+                     (scene.bottom[o] <= static_cast<long double>(body.top) + z + slack &&
+                      static_cast<long double>(body.bottom) + z <= scene.top[o] + slack));
     return {scene, kept};
   }
 
-  PartShapes parts{bodies, plan};
-  ShapeSet apart{parts.shapes, {.depths = plan.depths}};
-  ObstacleReference reference{parts.shapes, {.depths = plan.depths}, Leaves::segments};
+  const ShapeSet flat{bodies, {.depths = plan.depths}};
+  ObstacleReference reference{bodies, {.depths = plan.depths}, Leaves::segments};
   bch::Crowd collider;
 };
 
 /// Obstacles of all heights, and the same ones raised.
-TEST_P(ObstaclesWithHeights, AreAsPartsSayOfThoseLevelWithThem) {
+TEST_F(ObstaclesWithHeights, AreAsWithoutHeightsWhereLevelWithABody) {
   constexpr std::uint32_t agents = 100;
   std::size_t hits = 0, passed = 0;
   for (std::uint32_t k = 0; k < test::samples(36); ++k) {
@@ -205,7 +151,7 @@ TEST_P(ObstaclesWithHeights, AreAsPartsSayOfThoseLevelWithThem) {
           whole.obstacles(set, crowd.agents(), obstacles, {.leaves = question.options.leaves});
       for (std::uint32_t i = 0; i < agents; ++i) {
         std::vector<std::uint32_t> touched;
-        const AgentAnswers expected = joined(crowd, i, scene, question, touched), of(found, i);
+        const AgentAnswers expected = expected_of(crowd, i, scene, question, touched), of(found, i);
         ASSERT_EQ(of.hit, expected.hit) << k << ", agent " << i;
         ASSERT_EQ(of.near, expected.near) << k << ", agent " << i;
         ASSERT_EQ(of.distance, expected.distance) << k << ", agent " << i;
@@ -225,10 +171,6 @@ TEST_P(ObstaclesWithHeights, AreAsPartsSayOfThoseLevelWithThem) {
   EXPECT_GT(hits, test::samples(300));
   EXPECT_GT(passed, test::samples(150));
 }
-
-INSTANTIATE_TEST_SUITE_P(Slices, ObstaclesWithHeights,
-                         testing::Values(std::vector<float>{}, test::three_slabs, test::eight_slabs),
-                         [](const auto& slices) { return "planes_" + std::to_string(slices.param.size()); });
 
 /// A box of a metre and a half beside a wall, on the ground and above it.
 class BoxAtAWall : public testing::Test {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "tests/support/slab_scenes.hpp"
+#include "tests/support/height_scenes.hpp"
 
 #include <utility>
 
@@ -11,14 +11,10 @@
 
 namespace bch::test {
 
-ShapeSetPlan levels_of(std::vector<float> slices, bool culling) {
-  return {.depths = {0, 3, all_depths}, .culling = culling, .slices = std::move(slices)};
-}
-
-std::vector<Shape> bodies(Random& random, const ShapeSetPlan& plan) {
+std::vector<Shape> bodies_with_heights(Random& random) {
   std::vector<Shape> shapes;
   for (const Character& character : default_characters()) {
-    PoseShaper shaper(character, plan);
+    PoseShaper shaper(character, {.heights = true});
     for (const PoseTime& time : sample_poses(character, 8)) shapes.push_back(shaper.shape(time));
   }
   for (Shape& shape : synthetic_shapes(26, 12)) {
@@ -30,9 +26,9 @@ std::vector<Shape> bodies(Random& random, const ShapeSetPlan& plan) {
   return shapes;
 }
 
-void raise(Random& random, PairScene& scene) {
-  for (std::size_t i = 0; i < scene.crowd.x.size(); ++i)
-    scene.crowd.z.push_back(random.below(2) == 0 ? 5 : 5 + random.uniform(-1, 1));
+void raise(Random& random, Crowd& crowd) {
+  for (std::size_t i = 0; i < crowd.x.size(); ++i)
+    crowd.z.push_back(random.below(2) == 0 ? 5 : 5 + random.uniform(-1, 1));
 }
 
 }  // namespace bch::test
