@@ -145,7 +145,6 @@ void Crowd::add(const Agent& agent) {
 PairScene random_scene(Random& random, const ShapeSet& shapes, std::uint32_t pairs) {
   const detail::ShapeSetView view = shapes.view();
   const auto extent = [&](std::uint32_t shape) {
-    if (view.slab_parts != nullptr) return static_cast<double>(shapes.bounding_radius(shape));
     const detail::Root& root = view.roots[(shape + 1) * view.level_count - 1];
     return std::hypot(static_cast<double>(root.x), static_cast<double>(root.y)) +
            static_cast<double>(root.radius);
