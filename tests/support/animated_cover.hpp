@@ -20,7 +20,7 @@ struct Cover {
   std::vector<std::uint32_t> ring_ends;
 };
 
-/// Returns the cover of a body, or of a slab, at a time of the clip.
+/// Returns the cover of a body at a time of the clip.
 Cover cover_at(const AnimatedDiscs& animated, double seconds);
 
 /// Counts the vertices and the points of the outline's segments, some millimetres apart, that a cover does not hold.

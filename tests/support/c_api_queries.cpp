@@ -60,7 +60,7 @@ void add_queries_of_pairs(const CScene& scene, std::vector<CQuery>& to) {
   const bch_shape_set* const set = scene.set.get();
   const bch_pair* const pairs = c_pairs(scene.pairs);
   const std::size_t n = scene.pairs.size();
-  const bool in_parts = scene.shapes.slab_count() > 1 || !scene.crowd.z.empty();
+  const bool needs_memory = !scene.crowd.z.empty();
   const auto* const all = &scene;
   to.push_back(
       {"validate", false, [=] { return bch_validate_agents(set, &all->agents); }, [] { return ""; }});
@@ -76,10 +76,10 @@ void add_queries_of_pairs(const CScene& scene, std::vector<CQuery>& to) {
   to.push_back(into<bch_penetration_depth>("penetration along", false, n, [=](auto* out) {
     return bch_penetration_along(set, &all->agents, pairs, n, all->along.data(), &all->options, out);
   }));
-  to.push_back(into<float>("time of impact", in_parts, n, [=](auto* out) {
+  to.push_back(into<float>("time of impact", needs_memory, n, [=](auto* out) {
     return bch_time_of_impact(set, &all->agents, pairs, n, all->x.data(), all->y.data(), &all->options, out);
   }));
-  to.push_back(clearance_into("clearance", in_parts, n, [=](auto* out) {
+  to.push_back(clearance_into("clearance", needs_memory, n, [=](auto* out) {
     return bch_clearance(set, &all->agents, pairs, n, &all->options, out);
   }));
 }
@@ -157,7 +157,7 @@ void add_queries_of_crowds(const CScene& scene, std::vector<CQuery>& to) {
       },
       contact_bytes);
   add(
-      "clearances", scene.shapes.slab_count() > 1 || !scene.crowd.z.empty(),
+      "clearances", !scene.crowd.z.empty(),
       [=](Found& found) {
         return bch_crowd_clearances(found.crowd.get(), set, &all->agents, 0.2, nullptr, &all->options,
                                     &found.near);

@@ -37,14 +37,8 @@ PathKey pose_at(const std::vector<PathKey>& path, double time) {
   return path.back();
 }
 
-/// Returns a slab, of as many as another body may have; what is whole is the same in every slab.
-const AnimatedDiscs& slab_of(const AnimatedDiscs& body, std::size_t slab) {
-  return body.slabs.empty() ? body : body.slabs[slab];
-}
-
-Meeting meeting_in_slab(const MotionCase& a, const MotionCase& b, std::size_t slab, double seconds,
-                        bool is_near) {
-  const PlacedBody placed_a = placed_at(a, slab, seconds), placed_b = placed_at(b, slab, seconds);
+Meeting meeting(const MotionCase& a, const MotionCase& b, double seconds, bool is_near) {
+  const PlacedBody placed_a = placed_at(a, seconds), placed_b = placed_at(b, seconds);
   double gap = std::numeric_limits<double>::infinity();
   for (const WorldDisc& i : placed_a.discs)
     for (const WorldDisc& j : placed_b.discs) {
@@ -64,8 +58,8 @@ Meeting meeting_in_slab(const MotionCase& a, const MotionCase& b, std::size_t sl
 
 }  // namespace
 
-PlacedBody placed_at(const MotionCase& motion, std::size_t slab, double time) {
-  const auto& chunks = slab_of(motion.discs, slab).chunks;
+PlacedBody placed_at(const MotionCase& motion, double time) {
+  const auto& chunks = motion.discs.chunks;
   const double begin = chunks.front().times.front(), end = chunks.back().times.back();
   double seconds = time - motion.clip_begin;
   if (motion.discs.loops) seconds -= std::floor(seconds / (end - begin)) * (end - begin);
@@ -132,24 +126,6 @@ AnimatedDiscs ringed_body(Random& random, std::uint32_t chunks, std::uint32_t di
   return body;
 }
 
-AnimatedDiscs sliced_body(Random& random, std::span<const float> slices) {
-  AnimatedDiscs body;
-  body.loops = random.below(2) == 0;
-  body.slices.assign(slices.begin(), slices.end());
-  for (std::size_t i = 0; i <= slices.size(); ++i) {
-    AnimatedDiscs slab = ringed_body(random, 2 + random.below(3), 10);
-    const double begin = slab.chunks.front().times.front(), end = slab.chunks.back().times.back();
-    const float across = even(random.uniform(-0.2, 0.2));
-    for (AnimatedChunk& chunk : slab.chunks) {
-      for (double& time : chunk.times) time = (time - begin) / (end - begin);
-      for (Disc& disc : chunk.keys) disc.y += across;
-      if (i > 0 && random.below(3) == 0) chunk = {chunk.times, 0, {}, {}};
-    }
-    body.slabs.emplace_back().chunks = std::move(slab.chunks);
-  }
-  return body;
-}
-
 AnimatedDiscs loose_discs(Random& random, std::uint32_t discs) {
   AnimatedDiscs body;
   body.loops = random.below(2) == 0;
@@ -197,13 +173,7 @@ Meeting meeting_at(const MotionCase& a, const MotionCase& b, double seconds) {
   const PathKey at_a = pose_at(a.path, seconds), at_b = pose_at(b.path, seconds);
   const double apart = std::hypot(at_a.x - at_b.x, at_a.y - at_b.y) - a.shape.reach() - b.shape.reach();
   if (apart > 0.1) return {apart, false};
-  Meeting first{std::numeric_limits<double>::infinity(), false};
-  for (std::size_t slab = 0; slab == 0 || slab < std::max(a.discs.slabs.size(), b.discs.slabs.size());
-       ++slab) {
-    const Meeting meeting = meeting_in_slab(a, b, slab, seconds, apart < 0);
-    first = {std::min(first.gap, meeting.gap), first.nested || meeting.nested};
-  }
-  return first;
+  return meeting(a, b, seconds, apart < 0);
 }
 
 }  // namespace bch::test

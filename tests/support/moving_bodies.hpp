@@ -22,9 +22,6 @@ namespace bch::test {
 /// Returns a body whose rings go round a body that swings its limbs: chunks with different discs, at uneven keys.
 AnimatedDiscs ringed_body(Random& random, std::uint32_t chunks = 2, std::uint32_t discs = 24);
 
-/// Returns a body of slabs, each with rings of its own, that lasts a second. All but the lowest slab are empty for some of its chunks.
-AnimatedDiscs sliced_body(Random& random, std::span<const float> slices);
-
 /// Returns discs that move each for itself, without rings.
 AnimatedDiscs loose_discs(Random& random, std::uint32_t discs = 5);
 
@@ -67,18 +64,18 @@ inline double contact_of(const MotionCase& motion, const ObstacleSet& obstacles,
 struct WorldDisc {
   double x, y, radius;
 };
-/// The solid of a body, or of a slab of it, in the world.
+/// The solid of a body in the world.
 struct PlacedBody {
   std::vector<WorldDisc> discs;
   std::vector<std::uint32_t> ring_ends;
 };
-/// Returns where the solid of a motion is at a time; what is whole is the same in every slab.
-PlacedBody placed_at(const MotionCase& motion, std::size_t slab, double time);
+/// Returns where the solid of a motion is at a time.
+PlacedBody placed_at(const MotionCase& motion, double time);
 /// Returns whether rings go round the centre of a disc: by angles, where the library counts crossings.
 bool goes_round(const PlacedBody& body, const WorldDisc& point);
 
 /// What two solids have to do with each other at a time, by all pairs of discs and by winding numbers: the gap of the nearest discs, and
-/// whether one is inside the other; of bodies that are cut in any of their slabs.
+/// whether one is inside the other.
 struct Meeting {
   double gap;
   bool nested;
