@@ -177,7 +177,7 @@ std::vector<PathKey> arc(const PathKey& begin, double speed, double turn, double
 }
 
 AnimatedDiscs cylinder_of(const AnimatedDiscs& discs) {
-  AnimatedDiscs cylinder{.loops = discs.loops, .heights = discs.heights};
+  AnimatedDiscs cylinder{{}, discs.loops, discs.heights};
   for (const AnimatedChunk& chunk : discs.chunks) {
     AnimatedChunk& one = cylinder.chunks.emplace_back();
     one.times = chunk.times;

@@ -69,7 +69,6 @@ int run(int argc, char** argv) {
   add_bodies();
   add_spheres(scene);
   add_obstacles(scene);
-  add_moments(scene);
   add_sets(scene);
   add_live(scene);
   add_construction(scene);

@@ -65,8 +65,6 @@ void add_bodies();
 void add_spheres(Scene& scene);
 /// obstacles/<query>: a crowd on a floor plan.
 void add_obstacles(Scene& scene);
-/// moments/<poses|shown|grid|own>: a crowd of animated shapes at times of a walk.
-void add_moments(Scene& scene);
 /// plans/<plan>/<bake|query>: sets by different plans.
 void add_sets(Scene& scene);
 /// live/<agents>/<depth>: frames of a crowd whose characters are all posed anew, on all threads.

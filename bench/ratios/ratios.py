@@ -72,7 +72,6 @@ construction | construction/*/clipper / construction/*/BEST/outline | >= 1000
 growth | growth/*/{skin,outline,hierarchy,hierarchy_welzl,levels,interior,pose} |
 growth | growth/*/all@n_log_n / growth/996/all@n_log_n | <= 1
 load | load/{map,read,map_alone,checksum_alone,validation_alone} |
-moments | moments/{shown,grid,own} / moments/poses | <= 2
 checks | check/{in_waves,at_random}/{400,800}/threads:2 | <= 500
 paper | collide/{paper500,paper500_cached,colliding}/discs/BEST / collide/{1}/reference |
 paper | collide/{paper500,paper500_cached,colliding}/obb_contour / collide/{1}/reference | 4630 ns / 2660 ns = 1.7 in the paper

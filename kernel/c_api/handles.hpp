@@ -75,9 +75,6 @@ constexpr std::string_view kind_of(const bch_obstacles*) {
 constexpr std::string_view kind_of(const bch_animated_shape*) {
   return "bch_animated_shape";
 }
-constexpr std::string_view kind_of(const bch_moment_set*) {
-  return "bch_moment_set";
-}
 
 /// Throws what is said of a handle that is no living object of its kind.
 template <class Object>

@@ -133,14 +133,11 @@ class Errors(unittest.TestCase):
         points = {"x": np.zeros(2), "y": np.zeros(2)}
         mesh = {"vertices": np.eye(3), "triangles": [(0, 1, 2)]}
         builder, tall = bch.ShapeSetBuilder(), bch.ShapeSetBuilder(bch.Plan(heights=True))
-        moments = bch.MomentSet([body])
         table = [
             (bch.Agents, {"shape": which, "x": np.zeros(1), "y": np.zeros(1), "heading": np.zeros(1)}),
             (bch.AnimatedShape, {"times": [0, 1], "discs": discs, "ring_ends": [1]}),
             (body.discs, {"seconds": 0.5}),
             (bch.Mover, {"shape": body, "path": [(0, 0, 0, 0)], "clip_begin": 0}),
-            (bch.MomentSet, {"bodies": [body], "plan": bch.Plan()}),
-            (moments.show, {"body": which, "seconds": np.zeros(1), "threads": 1}),
             (bch.first_contact, {"movers": [mover], "pairs": walls, "interval": (0, 1), "tolerance": 0.1, "threads": 1}),
             (bch.free_until, {"mover": mover, "others": [mover], "interval": (0, 1), "tolerance": 0.1}),
             (bch.animate, {"character": man, "clip": 99, "spacing": 0.1, "inset": 0.1, "error": 0.1, "slices": [0.5]}),
@@ -575,19 +572,6 @@ class Sets(unittest.TestCase):
             bch.AnimatedShape([0, 1], [[0, 0, 0.2]])
         with self.assertRaisesRegex(bch.ArgumentError, "chunk 0: a key at 0 s after one at 1 s"):
             bch.AnimatedShape([1, 0], [[[0, 0, 0.2]]] * 2)
-
-    def test_moments(self):
-        swing = bch.AnimatedShape([0, 1, 2], [[[0, 0, 0.2]], [[0.5, 0, 0.2]], [[0, 0, 0.2]]], loops=True)
-        moments = bch.MomentSet([swing])
-        body, seconds = np.zeros(3, np.uint32), np.array([0.0, 1.0, 2.0])
-        shape = moments.show(body, seconds)
-        self.assertEqual(shape[0], shape[2])
-        agents = bch.Agents(shape, np.array([0.0, 0.45, 3.0]), np.zeros(3), np.array([0.0, np.pi, 0.0]))
-        pairs = np.array([[0, 1], [0, 2]], np.uint32)
-        self.assertEqual(bch.collide(moments.shapes, agents, pairs).tolist(), [True, False])
-        seconds[:] = 0
-        self.assertIs(moments.show(body, seconds, out=shape, threads=1), shape)
-        self.assertEqual(bch.collide(moments.shapes, agents, pairs).tolist(), [False, False])
 
     def test_clips_of_sets(self):
         walker = bch.default_pedestrian(stature=1.7)

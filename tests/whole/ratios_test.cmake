@@ -22,7 +22,7 @@ endfunction()
 set(script ${PYTHON} ${SCRIPT})
 run(0 ${script} --program ${RATIOS} --runs 1 -- ${sizes} --benchmark_filter=-shapes/50000)
 foreach(table kernel leaves peers calls crowd distances responses obstacles bodies shapes plans slices live construction growth load
-    moments checks paper)
+    checks paper)
   expect_output("# ${table}: 1 runs")
 endforeach()
 expect_output("collide/colliding: reference / discs/sse2 +[0-9.]+ x +(PASS|needs) " "crowd/1000000/step#MiB +[0-9.]+  "

@@ -45,46 +45,6 @@ void time_of_impact(const ShapeSet& shapes, const Agents& agents, std::span<cons
                     const Displacements& displacements, std::span<float> times,
                     const QueryOptions& options = {});
 
-/// Makes and keeps the shapes of moving bodies at the times at which agents show them, for all queries. A moment is a body at a time of
-/// its clip. It is made once for all agents that show it, and is kept until its place is needed for another moment. Moments are cheap
-/// where agents share them, for instance on a grid of times. The object keeps its memory: a call allocates nothing if earlier calls have
-/// shown as many moments and bodies were as large. An object that was moved from can only be assigned to or destroyed.
-///
-///     MomentSet moments(bodies);
-///     moments.show(body, seconds, shape);                      // agents' bodies and times, and the shapes that they get
-///     collide(moments.set(), {shape, x, y, heading}, pairs, hits);
-class MomentSet {
- public:
-  /// Takes the bodies and the plan of set(). The bodies have to outlive this object. The set has places for `kept` moments, or for as
-  /// many as a call shows if these are more; moments of earlier calls are found again.
-  /// Errors:  throws std::invalid_argument on no bodies and on a bad plan, and, naming the body, on a null pointer.
-  explicit MomentSet(std::span<const AnimatedShape* const> bodies, const ShapeSetPlan& plan = {},
-                     std::size_t kept = 1000);
-  MomentSet(MomentSet&&) noexcept;
-  MomentSet& operator=(MomentSet&&) noexcept;
-  ~MomentSet();
-
-  /// Makes each moment that agents show and that does not exist yet, in parallel, and writes the shape of each agent: Agents::shape for
-  /// set(). Every query answers as for AnimatedShape::shape() at these seconds. (Candidate pairs are those of the root discs, which may
-  /// differ.)
-  /// Units:   seconds of the clip, within +-1e6, as for AnimatedShape::shape().
-  /// Sizes:   as many seconds, and shapes, as bodies, which are indices into those of the constructor.
-  /// Errors:  throws std::invalid_argument, before anything is written, on sizes that differ and, naming the agent, on an index out of
-  ///          range or a time that is not within these units.
-  /// Threads: runs in the caller's TBB arena. Only one thread may call it at a time, while no query runs.
-  /// Cost:    30 us for each new moment of 125 discs, or 2 us where the plan has the level of all depths alone, without culling data
-  ///          and outlines; and 10 ns for each agent.
-  void show(std::span<const std::uint32_t> bodies, std::span<const double> seconds,
-            std::span<std::uint32_t> shapes);
-
-  /// Returns the set that the written shapes belong to; the reference is valid until the next show().
-  const ShapeSet& set() const noexcept;
-
- private:
-  struct State;
-  std::unique_ptr<State> state_;
-};
-
 /// Places a motion at a time: a key of its path. Between two keys the motion goes straight on and turns evenly, by the difference of their
 /// headings, even if that is the long way round.
 struct PathKey {

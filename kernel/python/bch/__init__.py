@@ -38,7 +38,7 @@ from ._library import (
     implementations,
     lib as _lib,
 )
-from ._motions import MomentSet, Mover, animate, first_contact, free_until
+from ._motions import Mover, animate, first_contact, free_until
 from ._obstacles import Obstacles
 from ._outlines import Outline, outline
 from ._poses import Transforms, Vertices
@@ -116,7 +116,6 @@ __all__ = [
     "Joint",
     "KeptClip",
     "LiveBodies",
-    "MomentSet",
     "Motion",
     "Mover",
     "NEAR",

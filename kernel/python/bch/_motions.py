@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 the bch authors
 
-"""Clips as moving discs, sets of them at given times, and the first contact of agents in motion."""
+"""Clips as moving discs, and the first contact of agents in motion."""
 
 from __future__ import annotations
 
-from ctypes import byref, c_double, c_void_p
+from ctypes import byref, c_double
 from typing import Any, Optional, Sequence, Tuple, Union
 
 import numpy.typing as npt
@@ -28,9 +28,9 @@ from ._arrays import (
     table,
     u4,
 )
-from ._library import ArgumentError, Exclusive, Handle, check, lib
+from ._library import ArgumentError, Handle, check, lib
 from ._obstacles import Obstacles
-from ._shapes import Character, Plan, ShapeSet, _CPlan
+from ._shapes import Character
 
 
 def animate(
@@ -66,63 +66,6 @@ def animate(
         loops=-1 if loops is None else bool(loops),
     )
     return AnimatedShape._of(Handle("animated_shape", "animate", character._pointer, of, byref(options)))
-
-
-class MomentSet:
-    """A set of shapes of bodies that move by themselves, at the times at which agents show them, for all queries.
-
-    A moment is a body at a time of its clip. Each moment is made once for all agents that show it, so moments cost little if agents
-    share them, for instance on a grid of times.
-
-    Parameters
-    ----------
-    bodies : sequence of AnimatedShape
-    plan : Plan
-    """
-
-    __slots__ = ("_handle", "_pointer", "_bodies", "_exclusive")
-
-    def __init__(self, bodies: Sequence[AnimatedShape], plan: Plan = Plan()) -> None:
-        c_plan = _CPlan(plan)
-        self._bodies = instances(bodies, AnimatedShape, "bodies")
-        pointers = (c_void_p * len(self._bodies))(*[body._pointer for body in self._bodies])
-        self._exclusive = Exclusive("MomentSet")
-        self._handle = Handle("moment_set", "create", pointers, len(pointers), c_plan._pointer)
-        self._pointer: int = self._handle.pointer
-
-    def show(self, body: UInt32, seconds: Float64, *, out: Optional[UInt32] = None, threads: int = 0) -> UInt32:
-        """Make the moments that agents show. No query may run meanwhile, and sets that `shapes` returned before become invalid.
-
-        Parameters
-        ----------
-        body : (n,) uint32
-            The index of the body that each agent shows.
-        seconds : (n,) float64
-            The time of the clip that each agent shows.
-        out : (n,) uint32, optional
-            Where to write the result.
-        threads : int
-            Number of threads; 0: all processors.
-
-        Returns
-        -------
-        (n,) uint32
-            The index of each agent's shape in `shapes`, for `Agents`.
-        """
-        which = given(body, u4, (None,), "body")
-        times = given(seconds, f8, (len(body),), "seconds")
-        made = result(out, u4, (len(body),))
-        work = _library.Work(threads=bounded(threads, "threads", 0, 1024))
-        with self._exclusive:
-            check(lib.bch_moment_set_show(self._pointer, which, times, len(body), byref(work), address(made)))
-        return made
-
-    @property
-    def shapes(self) -> ShapeSet:
-        """The set of shapes that `show` made last, for queries."""
-        lent = c_void_p()
-        check(lib.bch_moment_set_get_shapes(self._pointer, byref(lent)))
-        return ShapeSet(lent.value or 0, self._handle)
 
 
 class Mover:

@@ -11,8 +11,8 @@
 #include <bch/pose_shape.hpp>
 #include <bch/time_of_impact.hpp>
 
-// Motions: a man walks towards another one, who stands there. first_contact() tells when they touch; a MomentSet has their bodies at
-// that time, and at any other one, for every query.
+// Motions: a man walks towards another one, who stands there. first_contact() tells when they touch; AnimatedShape::shape() makes
+// their shapes at that time, and at any other one, for every query.
 
 namespace {
 
@@ -39,16 +39,14 @@ int main() {
   const double free = bch::free_until(motions[0], std::vector<bch::Motion>{motions[1]}, {0, 5});
   std::printf("they touch at %.3f s; the first one is free until %.3f s\n", contact, free);
 
-  const bch::AnimatedShape* const bodies[] = {&body};
-  bch::MomentSet moments(bodies);
   const auto overlap_at = [&](double time) {
-    const std::vector<std::uint32_t> shown = {0, 0};
-    const std::vector<double> seconds = {time - motions[0].clip_begin, time - motions[1].clip_begin};
+    const std::vector<bch::Shape> shapes = {body.shape(time - motions[0].clip_begin),
+                                            body.shape(time - motions[1].clip_begin)};
+    const bch::ShapeSet set(shapes);
+    const std::vector<std::uint32_t> shape = {0, 1};
     const std::vector<double> x = {-3 + time, 0}, y = {0, 0}, heading = {0, std::numbers::pi};
-    std::vector<std::uint32_t> shape(2);
-    moments.show(shown, seconds, shape);
     std::uint8_t hit = 0;
-    bch::collide(moments.set(), {shape, x, y, heading}, pairs, {&hit, 1});
+    bch::collide(set, {shape, x, y, heading}, pairs, {&hit, 1});
     return hit != 0;
   };
   // Nothing overlaps before the first contact, and somebody who goes on is in the other one.

@@ -895,21 +895,6 @@ BCH_API bch_status bch_shape_set_get_clip_count(const bch_shape_set* set, size_t
 BCH_API bch_status bch_shape_set_get_clip(const bch_shape_set* set, size_t i, const char** character,
                                           const char** clip, bch_animated_shape** shape);
 
-/** Makes and keeps the shapes of bodies that move by themselves at the times at which agents show them, for all queries. */
-typedef struct bch_moment_set bch_moment_set;
-/** Makes a set of moments of bodies, which have to live as long as the set. It keeps its memory from call to call. */
-BCH_API bch_status bch_moment_set_create(const bch_animated_shape* const* bodies, size_t count, const bch_plan* plan,
-                                         bch_moment_set** set);
-/** Makes each moment that agents show, once: agent i shows body[i] at seconds[i] and gets shapes[i] for bch_agents. No query may run
- * meanwhile. Of `work` only the number of threads is used. */
-BCH_API bch_status bch_moment_set_show(bch_moment_set* set, const uint32_t* body, const double* seconds, size_t count,
-                                       const bch_work* work, uint32_t* shapes);
-/** Lends the shapes that were shown last for queries, until the next bch_moment_set_show(). They belong to the moments and are not
- * freed. */
-BCH_API bch_status bch_moment_set_get_shapes(bch_moment_set* set, const bch_shape_set** shapes);
-/** Frees moments, and the set that they lent. */
-BCH_API bch_status bch_moment_set_free(bch_moment_set* set);
-
 /** Places a motion at a time: a key of its path. To the next key the motion goes straight on and turns evenly. */
 typedef struct bch_path_key {
   double time, x, y, heading; /**< seconds, metres, radians */
