@@ -290,4 +290,12 @@ Rows<std::uint32_t> Crowd::obstacles(const ShapeSet& shapes, const Agents& agent
   });
 }
 
+Rows<std::uint32_t> Crowd::obstacles(const BodySet& bodies, const Agents& agents,
+                                     const ObstacleSet& obstacles, const CollisionOptions& options) & {
+  require_no_filter(options.filter, "obstacles");
+  return without_tasks_from_outside([&] {
+    return memory_->obstacle_rows.find(bodies, agents, obstacles, {.implementation = options.implementation});
+  });
+}
+
 }  // namespace bch

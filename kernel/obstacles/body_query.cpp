@@ -7,17 +7,17 @@
 #include <cmath>
 
 #include "kernel/collide/containment.hpp"
+#include "kernel/obstacles/area_side.hpp"
 #include "kernel/obstacles/shape_tree.hpp"
 #include "kernel/runtime/kernels.hpp"
 #include "kernel/simd/ancestor_test.hpp"
 #include "kernel/simd/leaf_segments.hpp"
 #include "kernel/simd/tree_nodes.hpp"
 #include "layout/base/number_class.hpp"
+#include "layout/base/rounding.hpp"
 
 namespace bch::detail {
 namespace {
-
-using Vector = ObstaclePlace::Vector;
 
 /// Returns how far to look for what is nearest to a body: not at all farther than it is, if that is known well enough. What is far is
 /// searched for one by one.
@@ -30,45 +30,6 @@ double first_look(DistanceBounds nearest) noexcept {
 bool is_touched(std::span<const LocalSegment> segments, float x, float y, float radius) noexcept {
   return any_touches(segments.data(), segments.size(), double{x}, double{y}, double{radius});
 }
-
-/// Tells whether an area holds points that are clear of its segments. The first one is compared with the whole area, and
-/// others by the way from there.
-class AreaSide {
- public:
-  AreaSide(NearSegments& near, const ObstaclePlace& place, std::span<const LocalSegment> segments,
-           std::uint32_t obstacle) noexcept
-      : near_(near), place_(place), segments_(segments), obstacle_(obstacle) {}
-
-  bool holds(Vec2 point) {
-    const Vector at = place_.turned(double{point.x}, double{point.y});
-    if (!is_known_) {
-      is_known_ = true, first_ = at;
-      return first_is_inside(point);
-    }
-    const Vector way{at.x - first_.x, at.y - first_.y};
-    const double square = way.x * way.x + way.y * way.y;
-    bool odd = false;
-    for (const LocalSegment& segment : segments_) {
-      const WorldSegment& world = near_.obstacles().segments[segment.slot];
-      odd ^= crosses(first_, way, square, {world.ax - place_.x, world.ay - place_.y},
-                     {world.bx - place_.x, world.by - place_.y});
-    }
-    return odd;
-  }
-
- private:
-  bool first_is_inside(Vec2 point) {
-    const auto areas = near_.areas_that_hold(place_, point);
-    return std::binary_search(areas.begin(), areas.end(), obstacle_);
-  }
-
-  NearSegments& near_;
-  const ObstaclePlace& place_;
-  std::span<const LocalSegment> segments_;
-  std::uint32_t obstacle_;
-  bool is_known_ = false;
-  Vector first_{};  ///< the first point, which is outside: had it been inside, the search would have ended
-};
 
 /// Returns whether an area holds what is in a leaf whose disc is touched. `disc`: its place among the nodes.
 bool leaf_is_held(const ShapeSetView& shapes, const ShapeTree<void>& own, std::uint32_t disc,
@@ -104,9 +65,15 @@ void BodyQuery::prepare(std::uint32_t begin, std::uint32_t end, double limit, Lo
     const std::uint32_t shape = agents_.shape[agent];
     bodies_.push_back({shapes_, place, shape, level_of(agent), looked, i});
     queries_.push_back({place, bodies_.back().centre(), bodies_.back().outer_radius() + looked});
-    if (by_height) standing_.push_back({shapes_.heights[shape], agents_.z.empty() ? 0 : agents_.z[agent]});
+    if (by_height) standing_.push_back({heights(shape, limit), agents_.z.empty() ? 0 : agents_.z[agent]});
   }
   near_.prepare(queries_, standing_);
+}
+
+Heights BodyQuery::heights(std::uint32_t shape, double limit) const noexcept {
+  const auto [bottom, top] = shapes_.heights[shape];
+  if (!in_space_) return {bottom, top};
+  return {rounding::round_down(double{bottom} - limit), -rounding::round_down(-double{top} - limit)};
 }
 
 /// The distance of an agent's position tells who can be left out: those who have no segment near them, and are too large for an area to hold

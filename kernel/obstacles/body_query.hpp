@@ -10,6 +10,7 @@
 #include <bch/query.hpp>
 
 #include "kernel/obstacles/near_segments.hpp"
+#include "layout/base/rounding.hpp"
 #include "layout/format/shape_set_view.hpp"
 
 namespace bch::detail {
@@ -33,15 +34,23 @@ struct PlacedBody {
   double outer_radius() const noexcept { return bch::detail::outer_radius(shapes, root_index()); }
 };
 
+/// The largest gap that there can be, metres.
+constexpr double farthest_gap = 8 * rounding::largest_position;
+
 /// Selects which segments are looked for at first: those that touch a body, or those that the nearest one is among.
 enum class Look { touching, nearest };
 
 /// Implements the stages that answer an agent's queries against obstacles; it keeps its memory from agent to agent.
 class BodyQuery {
  public:
+  /// With `in_space`, obstacles above and below a body are near it, too, as far away as the limit of prepare() allows.
   BodyQuery(const Implementation& implementation, const ShapeSetView& shapes, const Agents& agents,
-            const ObstacleView& obstacles) noexcept
-      : implementation_(implementation), shapes_(shapes), agents_(agents), near_(implementation, obstacles) {}
+            const ObstacleView& obstacles, bool in_space = false) noexcept
+      : implementation_(implementation),
+        shapes_(shapes),
+        agents_(agents),
+        near_(implementation, obstacles),
+        in_space_(in_space) {}
 
   NearSegments& near() noexcept { return near_; }
 
@@ -90,6 +99,7 @@ class BodyQuery {
   bool outline_holds(const PlacedBody& body, std::span<const LocalSegment> segments) const noexcept;
 
  private:
+  Heights heights(std::uint32_t shape, double limit) const noexcept;
   void choose(std::uint32_t begin, std::uint32_t end, double limit, Look look);
   std::uint32_t level_of(std::uint32_t agent) const noexcept {
     return agents_.level.empty() ? shapes_.level_count - 1 : agents_.level[agent];
@@ -107,6 +117,7 @@ class BodyQuery {
   const ShapeSetView& shapes_;
   const Agents& agents_;
   NearSegments near_;
+  const bool in_space_;
   /// Represents an agent that was not left out, and how far it looks.
   struct Chosen {
     std::uint32_t agent;

@@ -86,7 +86,7 @@ void put(const ShapeSetView& shapes, const ClearanceAnswers& answers, std::size_
 
 NearestObstacle GapQuery::find(BodyQuery& query, std::uint32_t agent, double limit, double enough,
                                bool inside) const {
-  NearestObstacle nearest{.gap = std::min(limit, farthest)};
+  NearestObstacle nearest{.gap = std::min(limit, farthest_gap)};
   const PlacedBody* const placed = query.body(agent);
   if (placed == nullptr) return nearest;
   const PlacedBody& body = *placed;

@@ -42,9 +42,6 @@ class GapQuery {
   NearestObstacle find(BodyQuery& query, std::uint32_t agent, double limit, double enough, bool inside) const;
 
  private:
-  /// The largest gap that there can be, metres.
-  static constexpr double farthest = 8 * rounding::largest_position;
-
   /// Finds what is nearer than the best of a body beyond the distance at which prepare() looked.
   void search_outward(BodyQuery& query, const PlacedBody& body, double enough, ObstacleGap& best,
                       NearestObstacle& nearest) const;

@@ -8,7 +8,7 @@
 
 #include <bch/obstacles.hpp>
 
-#include "kernel/obstacles/body_query.hpp"
+#include "kernel/obstacles/sphere_query.hpp"
 #include "kernel/runtime/pair_validation.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 #include "layout/base/floating_point_state.hpp"
@@ -40,6 +40,17 @@ void for_agents(const Implementation& implementation, const ShapeSet& shapes, co
   for_ranges(agents.size(), agents_per_task, [&](std::size_t begin, std::size_t end) {
     BodyQuery body(implementation, shapes.view(), agents, obstacles.view());
     for_prepared(body, begin, end, limit, look, [&](std::uint32_t agent) { answer(body, agent); });
+  });
+}
+
+/// Calls answer(spheres, agent) for all agents of bodies of spheres, in tasks.
+template <class Answer>
+void for_agents(const Implementation& implementation, const BodySetView& bodies, const Agents& agents,
+                const ObstacleSet& obstacles, double limit, Look look, Answer answer) {
+  for_ranges(agents.size(), agents_per_task, [&](std::size_t begin, std::size_t end) {
+    BodyQuery body(implementation, bodies.ground, agents, obstacles.view(), true);
+    SphereQuery spheres(bodies, body, agents);
+    for_prepared(body, begin, end, limit, look, [&](std::uint32_t agent) { answer(spheres, agent); });
   });
 }
 

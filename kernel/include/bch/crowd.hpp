@@ -198,6 +198,8 @@ class Crowd {
   /// obstacles answers 0.
   Rows<std::uint32_t> obstacles(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
                                 const CollisionOptions& options = {}) &;
+  Rows<std::uint32_t> obstacles(const BodySet& bodies, const Agents& agents, const ObstacleSet& obstacles,
+                                const CollisionOptions& options = {}) &;
 
  private:
   std::unique_ptr<detail::CrowdMemory> memory_;

@@ -10,6 +10,7 @@
 #include <span>
 #include <string_view>
 
+#include <bch/body_set.hpp>
 #include <bch/clearance.hpp>
 #include <bch/query.hpp>
 #include <bch/time_of_impact.hpp>
@@ -117,6 +118,20 @@ void collide(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& ob
 void within(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
             std::span<const double> distances, std::span<std::uint8_t> answers,
             const QueryOptions& options = {});
+
+// Queries of bodies of spheres. An obstacle stands upright, from its bottom to its top, on its line or over its area. A sphere touches it
+// where its centre is at most its radius away from that, in space. What spheres hold never meets an obstacle without a hit. Distances are
+// computed in double, with the same bits on every processor and for any number of threads. Sizes, errors, threads and memory are as above.
+
+/// Tests whether some sphere of each agent touches an obstacle, and writes 1 for a hit and 0 otherwise.
+void collide(const BodySet& bodies, const Agents& agents, const ObstacleSet& obstacles,
+             std::span<std::uint8_t> hits, const Implementation* implementation = nullptr);
+
+/// Tests whether some sphere of each agent comes within a distance of an obstacle, metres, and writes 1 if so and 0 otherwise. There is one
+/// distance for all agents, or one each.
+void within(const BodySet& bodies, const Agents& agents, const ObstacleSet& obstacles,
+            std::span<const double> distances, std::span<std::uint8_t> answers,
+            const Implementation* implementation = nullptr);
 
 /// Measures how far each agent is from the nearest obstacle: the least gap between a disc of its cut and a segment, or 0 where they
 /// overlap, an area holds a disc or the agent's outline a whole path. The direction leads from the agent to the obstacle. `discs` has the agent's disc and the

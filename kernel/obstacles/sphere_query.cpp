@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/obstacles/sphere_query.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "kernel/obstacles/area_side.hpp"
+
+namespace bch::detail {
+namespace {
+
+/// The segment of an obstacle that is nearest to a point, and its distance less its slack; none of an obstacle without segments.
+struct NearestSegment {
+  const LocalSegment* segment = nullptr;
+  double distance = std::numeric_limits<double>::infinity();
+};
+
+NearestSegment nearest_segment(std::span<const LocalSegment> segments, double x, double y) noexcept {
+  NearestSegment nearest;
+  for (const LocalSegment& segment : segments) {
+    const double distance = std::sqrt(segment.square_distance(x, y)) - segment.slack;
+    if (distance < nearest.distance) nearest = {&segment, distance};
+  }
+  return nearest;
+}
+
+/// Returns whether the side of a point is plain: no segment is so near that rounding decides.
+bool is_clear(const NearestSegment& nearest) noexcept {
+  return nearest.segment == nullptr || nearest.distance > nearest.segment->slack;
+}
+
+}  // namespace
+
+double SphereQuery::rise(float bottom, float top, std::uint32_t obstacle) const noexcept {
+  const WorldHeights* const heights = query_.near().obstacles().heights;
+  if (heights == nullptr) return 0;
+  const double below = heights[obstacle].bottom - (ground_ + double{top}),
+               above = ground_ + double{bottom} - heights[obstacle].top;
+  return std::max(std::max(below, above) - 0x1p-50 * std::abs(ground_), 0.0);
+}
+
+void SphereQuery::improve_by_near(SphereGap& nearest) {
+  query_.near().any_obstacle([&](std::span<const LocalSegment> segments, std::uint32_t obstacle) {
+    improve(segments, obstacle, nearest);
+    return false;
+  });
+}
+
+/// Looks farther and farther away, until nothing beyond can be nearer.
+SphereGap SphereQuery::find(std::uint32_t agent, double limit) {
+  SphereGap nearest{std::min(limit, farthest_gap)};
+  if (!begin(agent)) return nearest;
+  query_.near_body(*body_);
+  improve_by_near(nearest);
+  query_.visit_areas_beyond(*body_, [&](std::uint32_t area) { return improve({}, area, nearest), true; });
+  const double outer = body_->outer_radius();
+  for (double seen = body_->looked; seen < nearest.gap;) {
+    double next = nearest.gap;
+    if (!nearest.is_found) {
+      // What is nearest as seen from above may be far above or below.
+      const double bound = query_.near().nearest_distance(body_->place, body_->centre()) - outer;
+      if (bound == std::numeric_limits<double>::infinity()) break;
+      next = std::min(next, std::max({bound, 2 * seen, 0.05}));
+    }
+    query_.near().find(body_->place, body_->centre(), outer + next);
+    improve_by_near(nearest);
+    seen = next;
+  }
+  return nearest;
+}
+
+void SphereQuery::improve(std::span<const LocalSegment> segments, std::uint32_t obstacle,
+                          SphereGap& nearest) {
+  const BodyHeader& header = header_of(record_);
+  const bool is_area = query_.near().obstacles().is_area[obstacle] != 0;
+  AreaSide area(query_.near(), body_->place, segments, obstacle);
+  // Whether the area holds a centre that is as far from its segments as that.
+  const auto is_held = [&](const NearestSegment& segment, float x, float y) {
+    return is_area && (segments.empty() || !is_clear(segment) || area.holds({x, y}));
+  };
+  // What is left out by bounds must not depend on their rounding.
+  const double room = 0x1p-44 * (std::abs(ground_) + double{header.reach} + nearest.gap);
+  const std::uint32_t stride = header.node_stride, size = header.leaf_size;
+  const float* const nodes = record_ + record_nodes;
+  for (std::uint32_t leaf = 0; leaf < header.leaf_count; ++leaf) {
+    const float x = nodes[leaf], y = nodes[stride + leaf], radius = nodes[2 * stride + leaf];
+    if (rise(nodes[3 * stride + leaf], nodes[4 * stride + leaf], obstacle) > nearest.gap + room) continue;
+    const NearestSegment of_leaf = nearest_segment(segments, double{x}, double{y});
+    const bool is_beyond = of_leaf.distance - double{radius} > nearest.gap + room;
+    if (is_beyond && !is_held(of_leaf, x, y)) continue;
+    const float* const spheres = nodes + 5 * stride + std::size_t{4} * leaf * size;
+    for (std::uint32_t i = 0; i < size; ++i) {
+      const float sx = spheres[i], sy = spheres[size + i], sz = spheres[2 * size + i];
+      const double r = spheres[3 * size + i], h = rise(sz, sz, obstacle);
+      if (h - r > nearest.gap) continue;
+      const NearestSegment segment = nearest_segment(segments, double{sx}, double{sy});
+      const bool is_inside = is_beyond || (h - r <= nearest.gap && is_held(segment, sx, sy));
+      const double d = is_inside ? 0 : std::max(segment.distance, 0.0);
+      const double gap = std::sqrt(d * d + h * h) - r;
+      if (gap < nearest.gap || (gap == nearest.gap && !nearest.is_found))
+        nearest = {gap, leaf * size + i, segment.segment == nullptr ? LocalSegment{} : *segment.segment, true,
+                   is_inside};
+    }
+  }
+}
+
+}  // namespace bch::detail
