@@ -91,7 +91,7 @@ TEST_F(CliParts, MakeTheBytesOfOneRun) {
   const std::string floor = folder.write("floor.wkt", "POLYGON((-9 -9, 9.2 -9, 9.2 20, -9 20))");
   expect_parts_make_the_run({"check", file, "--walls", floor, "--max-distance", "0.3"}, {1, 2, 3, 7});
   const std::string few = folder.write("few.txt", crossing_people(9));
-  expect_parts_make_the_run({"check", few, "--slices", "0.4,1"}, {11});
+  expect_parts_make_the_run({"check", few, "--depth", "4", "--leaves", "discs"}, {11});
 }
 
 TEST_F(CliParts, OfRealRecordingsToo) {
@@ -200,7 +200,7 @@ TEST_F(CliParts, HaveWholeNumbersForCounts) {
   const std::string name = "part-1-of-1.summary.json",
                     manifest = read_text(parts / "part-1-of-1.manifest.json"),
                     summary = read_text(parts / name);
-  for (const char* const member : {"rows", "slabs", "people", "first_frame"})
+  for (const char* const member : {"rows", "people", "first_frame"})
     for (const char* const number : {"1e308", "1.5", "-1.0", "null", "18446744073709551616"}) {
       std::string damaged = summary;
       const std::size_t begin = damaged.find(':', damaged.find(fmt::format("\"{}\"", member))) + 1;

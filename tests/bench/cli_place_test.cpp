@@ -50,11 +50,9 @@ struct Bodies {
       {"default:male", detail::cast_member(default_male(), "").character},
       {"default:female", detail::cast_member(default_female(), "").character}};
   std::map<std::string, PoseShaper> shapers;
-  ShapeSetPlan plan;
 
-  explicit Bodies(const std::vector<float>& slices = {}) {
-    plan.slices = slices;
-    for (const auto& [name, character] : characters) shapers.emplace(name, PoseShaper(character, plan));
+  Bodies() {
+    for (const auto& [name, character] : characters) shapers.emplace(name, PoseShaper(character));
   }
 
   /// Counts who collides with whom by the outlines of poses that are made for this very time.
@@ -69,7 +67,7 @@ struct Bodies {
           shapers.at(moment.character[i]).shape({static_cast<std::uint32_t>(clip), moment.clip_time[i]}));
       shape.push_back(static_cast<std::uint32_t>(i));
     }
-    const ShapeSet set(shapes, plan);
+    const ShapeSet set(shapes);
     const Agents agents{shape, moment.x, moment.y, moment.heading};
     const std::vector<Pair> pairs = candidate_pairs(set, agents);
     std::vector<std::uint8_t> hits(pairs.size());
@@ -114,18 +112,6 @@ TEST_F(CliPlace, NobodyTouchesAnybodyAtAnyTime) {
       near += std::hypot(moment.x[i] - moment.x[0], moment.y[i] - moment.y[0]) < 0.8;
   }
   EXPECT_GT(near, 0u) << "nobody is near anybody, so that nothing was tested";
-}
-
-TEST_F(CliPlace, NobodyTouchesAnybodyAtAnyHeight) {
-  place({"--seconds", "1", "--tries", "150", "--width", "3", "--depth", "3", "--fps", "5", "--slices",
-         "0.5,1.1"});
-  Bodies cut({0.5f, 1.1f}), whole;
-  std::size_t above_each_other = 0;
-  for (const auto& [time, moment] : moments()) {
-    EXPECT_EQ(cut.collisions(moment), 0u) << time << " s";
-    above_each_other += whole.collisions(moment);
-  }
-  EXPECT_GT(above_each_other, 0u) << "nobody is above anybody, so that nothing was tested";
 }
 
 /// A wall through the middle, and a room's worth of furniture.

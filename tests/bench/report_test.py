@@ -103,8 +103,6 @@ class Tables(unittest.TestCase):
         for structure in "BCH projected", "OBB projected", "OBB full mesh":
             self.assertEqual(nodes(structure), 2 * 2864 - 1)  # a triangle a leaf
             self.assertTrue(11 < value(rows, "height", structure=structure) < 40)
-        slabs = [nodes("BCH whole body")] + [nodes(f"BCH in {count} slabs") for count in (2, 3, 4, 8)]
-        self.assertEqual(slabs, sorted(set(slabs)))  # each slab has a hierarchy of its own
         tests = self.subjects("query_time", "pairs", "node tests a pair")
         self.assertEqual(set(tests["single cylinder", "all"]), {"1"})
         self.assertTrue(all(float(count) > 5 for count in tests["BCH outline", "all"]))
@@ -123,7 +121,7 @@ class Tables(unittest.TestCase):
 
     def test_only_capsules_miss_meshes(self):
         names = [row["structure"] for row in read(self.folder, "bodies")]
-        self.assertEqual([sum(kind in name for name in names) for kind in ("slabs", "capsules", "spheres")], [3, 6, 1])
+        self.assertEqual([sum(kind in name for name in names) for kind in ("capsules", "spheres")], [6, 1])
         for row in read(self.folder, "bodies_hits"):
             name, meeting = names[int(row["subject"])], int(row["meshes meet"])
             self.assertGreater(meeting, 0)
@@ -136,7 +134,7 @@ class Tables(unittest.TestCase):
         self.assertEqual(len({row["subject"] for row in read(self.folder, "bodies_poses")}), len(names) - 2)
 
     def test_outlines_lie_in_what_cuts_cover(self):
-        rows = [row for row in read(self.folder, "volume") if "slabs" not in row["structure"]]
+        rows = read(self.folder, "volume")
         outlines = {(row["character"], row["shape"]): float(row["normalised volume"]) for row in rows if row["structure"] == "outline"}
         for row in rows:
             covered = float(row["normalised volume"])
@@ -226,9 +224,6 @@ class Data(unittest.TestCase):
             mean = lambda structure, of=of: of.value("mean (cm)", structure=structure)
             self.assertLess(mean("BCH outline to depth all"), mean("single cylinder"), character)
             self.assertLess(mean("OBB outline"), mean("single cylinder"), character)
-            for slabs in 2, 3, 4, 8:
-                self.assertLessEqual(mean(f"BCH in {slabs} slabs with discs"), mean("BCH outline to depth all"), character)
-                self.assertLessEqual(mean(f"BCH in {slabs} slabs"), mean(f"BCH in {slabs} slabs with discs"), character)
 
     def test_recorded_people_overlap_less_the_tighter_their_bodies(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -236,7 +231,7 @@ class Data(unittest.TestCase):
             counts, times = read(folder, "recordings"), read(folder, "recordings_times")
         share = lambda body: sum(int(row["in overlap (neighbours)"]) for row in counts if row["structure"] == body) / sum(
             int(row["neighbours"]) for row in counts if row["structure"] == body)
-        bodies = "single cylinder of the pose", "depth 3", "depth 6", "all depths", "segments", "4 slabs"
+        bodies = "single cylinder of the pose", "depth 3", "depth 6", "all depths", "segments"
         shares = [share(body) for body in bodies]
         self.assertEqual(shares, sorted(shares, reverse=True))
         self.assertGreater(share("fixed cylinder 0.40 m"), shares[-1])

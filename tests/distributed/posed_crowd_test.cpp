@@ -79,8 +79,8 @@ TEST_F(PosedCrowd, AnswersLikeOneProcessWhilePeopleWalk) {
   }
 }
 
-TEST_F(PosedCrowd, AnswersLikeOneProcessInSlabsAtDifferentHeights) {
-  const ShapeSetPlan plan{.slices = {0.4f, 1}};
+TEST_F(PosedCrowd, AnswersLikeOneProcessAtDifferentHeights) {
+  const ShapeSetPlan plan{.heights = true};
   World all = world(5, 1);
   all.has_heights = true;
   DistributedCrowd crowd(MPI_COMM_WORLD, characters, plan, all.dealt(), {.cell = 1, .heights = true});

@@ -255,7 +255,6 @@ class Caller : public Program {
       depths[0] = index(), depths[1] = chance(2) ? BCH_ALL_DEPTHS : index(8);
       of.depths = depths, of.depth_count = 1 + bytes.below(2);
     }
-    if (chance(2)) draw(of.slices), of.slice_count = bytes.below(3);
     of.threshold = chance(16) ? number<float>() : 0.25f;
   }
   void draw(bch_obstacle_arrays& of) {
@@ -303,14 +302,12 @@ class Caller : public Program {
   void draw(bch_scene_agents& of) {
     draw_all(of.poses, of.count);
     if (chance(2)) draw(of.character);
-    if (chance(2)) draw(of.distance);
     if (chance(2)) draw(of.depth);
   }
   void draw(bch_scene_use& of) {
     of = BCH_SCENE_USE_INIT;
     draw_all(of.outlines, of.heights);
-    if (chance(2)) draw(of.slices), of.slice_count = bytes.below(3);
-    if (chance(4)) draw_all(of.whole_from, of.pose_step);
+    if (chance(4)) draw(of.pose_step);
   }
   /// What the library tells of an object.
   template <class Info>

@@ -20,8 +20,7 @@ int main(int argc, char** argv) {
   const ShapeSetPlan plans[] = {{{0}},
                                 {{all_depths}, true, false},
                                 {{0, 1, all_depths}, true, true},
-                                {.depths = {0, all_depths}, .slices = {0.4f, 1}},
-                                {.depths = {0}, .slices = {0.4f}}};
+                                {.depths = {0, all_depths}, .heights = true}};
   int count = 0;
   for (const ShapeSetPlan& plan : plans)
     for (const char mode : {'\0', '\1', '\3', '\5', '\7'}) {

@@ -37,7 +37,7 @@ Character vanishing_man() {
 TEST(Bake, GivesTheBytesOfTheLoopOnAnyNumberOfThreads) {
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 4);
   const std::vector<Character> people = {default_male(), default_female()};
-  for (const ShapeSetPlan& plan : {ShapeSetPlan{}, ShapeSetPlan{.depths = {0, 3}, .slices = {0.8f}}}) {
+  for (const ShapeSetPlan& plan : {ShapeSetPlan{}, ShapeSetPlan{.depths = {0, 3}, .heights = true}}) {
     std::vector<Shape> shapes;
     for (const Character& person : people) {
       PoseShaper shaper(person, plan, 0.02f);
@@ -53,11 +53,10 @@ TEST(Bake, GivesTheBytesOfTheLoopOnAnyNumberOfThreads) {
 
 TEST(Bake, TakesPosesByClipAndTime) {
   const std::vector<Character> people = {default_male(), default_female()};
-  const ShapeSetPlan plan{.slices = {1}};
-  const std::vector<ShapeSource> sources = {{1, {0, 0.5f}}, {0, {}}, {1, {1, 0.25f}, true}};
+  const ShapeSetPlan plan{.heights = true};
+  const std::vector<ShapeSource> sources = {{1, {0, 0.5f}}, {0, {}}, {1, {1, 0.25f}}};
   std::vector<Shape> shapes;
-  for (const auto& [character, at, whole] : sources)
-    shapes.push_back(PoseShaper(people[character], plan).shape(at, whole));
+  for (const auto& [character, at] : sources) shapes.push_back(PoseShaper(people[character], plan).shape(at));
   EXPECT_EQ(bytes(bake(people, {.shapes = sources, .plan = plan})), bytes(ShapeSet(shapes, plan)));
 }
 

@@ -37,12 +37,8 @@ const Hashes golden{0xb001f2145d76abf1, 0x0df165085461f9bf, 0x22e4be2a917a2aab, 
                     0x7bec31661896997c, 0x5e031d2172db198f, 0xd1e385adc7ef1bda, 0xa79ec264efb3b3fc,
                     0x693851ffcce83169, 0xb9a994ab0bd8c196};
 
-/// The same of bodies in slabs, half of them at heights of their own.
-const Hashes golden_in_slabs{0xe88815e591d446b5, 0xde0b4d31d1ba4baf, 0x10d54fdfe552c312, 0xd6315e2775ef89e4,
-                             0xdd2a441365de5f93, 0x176504ed511a8a7e, 0x5096fe125a9432b4, 0x25c0855873678901,
-                             0x52cc99c3a5b22b3f, 0xb9c20e9647f0689d, 0x60036c157316f25e, 0xccdaa4d59c0639dc,
-                             0xb39697c888f3b248, 0x4c28ee19cd2faabf, 0x8c50c3e55e864184, 0xbfe57fb9e2b3802e,
-                             0x51bbf1422ada5b18, 0xffe278bad3255ddb};
+/// The same of bodies with heights, half of them on grounds of their own.
+const Hashes golden_with_heights{};
 
 /// In this order, bytes of all answers.
 class AnswerBytes {
@@ -85,9 +81,9 @@ class AnswerBytes {
   std::vector<std::string> bytes_;
 };
 
-enum class Bodies { whole, in_slabs };
+enum class Grounds { one, many };
 
-class Determinism : public testing::TestWithParam<Bodies> {
+class Determinism : public testing::TestWithParam<Grounds> {
  protected:
   Determinism() {
     test::Random random(62);
@@ -98,7 +94,7 @@ class Determinism : public testing::TestWithParam<Bodies> {
     crowd.add({16, 30, 0, 0, 0});
     crowd.add({16, 30, 1e-40, 0, 0});
     // Half of them on the same ground.
-    for (std::size_t i = 0; i < crowd.x.size() && in_slabs; ++i)
+    for (std::size_t i = 0; i < crowd.x.size() && has_heights; ++i)
       crowd.z.push_back(random.below(2) == 0 ? 0 : random.uniform(-1, 1));
     pairs = test::candidate_pairs(set, crowd.agents());
     for (std::size_t i = 0; i < pairs.size(); ++i) {
@@ -125,29 +121,15 @@ class Determinism : public testing::TestWithParam<Bodies> {
   static std::vector<Shape> shapes() {
     std::vector<Shape> all = test::synthetic_shapes(61, 16);
     all.push_back(test::contour_shape(test::polygon({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})));
-    return all;
-  }
-  /// Each of them above others, some without a slab, and some not cut.
-  static std::vector<Shape> shapes_in_slabs() {
-    const std::vector<Shape> parts = shapes();
-    std::vector<Shape> all;
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-      Shape& body = all.emplace_back();
-      if (i % 5 == 4) body = parts[i];
-      body.heights = {0.1f * static_cast<float>(i % 3), 1.4f + 0.1f * static_cast<float>(i % 4)};
-      if (i % 5 == 4) continue;
-      body.slabs = {parts[(i + 6) % parts.size()], parts[(i + 11) % parts.size()], parts[i]};
-      if (i % 5 == 3) body.slabs[i % 3] = {};
-    }
+    for (std::size_t i = 0; i < all.size(); ++i)
+      all[i].heights = {0.1f * static_cast<float>(i % 3), 0.6f + 0.1f * static_cast<float>(i % 4)};
     return all;
   }
 
-  const Hashes& expected() const { return in_slabs ? golden_in_slabs : golden; }
+  const Hashes& expected() const { return has_heights ? golden_with_heights : golden; }
 
-  const bool in_slabs = GetParam() == Bodies::in_slabs;
-  const ShapeSet set{
-      in_slabs ? shapes_in_slabs() : shapes(),
-      {.depths = {0, 3, all_depths}, .slices = in_slabs ? std::vector{0.5f, 1.2f} : std::vector<float>()}};
+  const bool has_heights = GetParam() == Grounds::many;
+  const ShapeSet set{shapes(), {.depths = {0, 3, all_depths}, .heights = has_heights}};
   test::Crowd crowd;
   std::vector<Pair> pairs;
   std::vector<double> x, y;
@@ -206,8 +188,8 @@ class Determinism : public testing::TestWithParam<Bodies> {
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Whole, Determinism, testing::Values(Bodies::whole));
-INSTANTIATE_TEST_SUITE_P(InSlabs, Determinism, testing::Values(Bodies::in_slabs));
+INSTANTIATE_TEST_SUITE_P(OneGround, Determinism, testing::Values(Grounds::one));
+INSTANTIATE_TEST_SUITE_P(ManyGrounds, Determinism, testing::Values(Grounds::many));
 
 TEST_P(Determinism, OfInstructionSets) {
   EXPECT_GT(pairs.size(), 5'000u);

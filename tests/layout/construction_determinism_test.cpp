@@ -34,8 +34,7 @@ TEST(ConstructionDeterminism, OfHierarchiesAndSets) {
 
 TEST(ConstructionDeterminism, OfCharactersInPoses) {
   EXPECT_EQ(hash_of(default_male(), {.depths = {0, 3, all_depths}}), 0x9196668657e0d711);
-  EXPECT_EQ(hash_of(default_female(), {.depths = {0, all_depths}, .slices = {0.4f, 1.0f}}),
-            0x8929bc424ae794e5);
+  EXPECT_EQ(hash_of(default_female(), {.depths = {0, all_depths}, .heights = true}), 0x8929bc424ae794e5);
 }
 
 /// Hashes of all that makes shapes: of given outlines, of capsules and discs, of characters as outlines, roots and moving discs.
@@ -47,7 +46,7 @@ std::vector<std::uint64_t> hashes_of_all(std::vector<Shape> given) {
   return {hash_of(given, {{0, 3, all_depths}, true}),
           hash_of({shape_from_capsules(arm)}, {}),
           hash_of({shape_from_discs(pair)}, {}),
-          hash_of(default_male(), {.slices = {0.4f, 1.0f}}),
+          hash_of(default_male(), {.heights = true}),
           hash_of(woman, {.depths = {0}, .outlines = false}),
           hash_of({AnimatedShape(animate(woman, 0)).shape(0.3)}, {})};
 }

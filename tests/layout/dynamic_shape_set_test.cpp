@@ -156,13 +156,13 @@ TEST(DynamicShapeSet, PlacesOfACopyDoNotReachIntoEachOther) {
                                      test::contour_shape(test::polygon({{0, 0}, {0.03f, 0}, {0, 0.04f}}))};
   detail::ShapeStorage tight;
   tight.depths.assign(plan.depths.begin(), plan.depths.end());
-  tight.resize(plan, 2, 2);
+  tight.resize(plan, 2);
   detail::ShapeExtent end{.rows = detail::first_row};
   for (std::size_t s = 0; s < 2; ++s) {
     const PreparedShape shape = flat(shapes[s], plan);
-    const detail::ShapeExtent size = detail::extent_of(shape.flat().parts[0]);
+    const detail::ShapeExtent size = detail::extent_of(shape.flat().shape);
     tight.make_room(end, size);
-    tight.put(s, shape.flat().parts[0], end);
+    tight.put(s, shape.flat(), end);
     detail::for_each_part([](std::size_t& sum, std::size_t more) { sum += more; }, end, size);
   }
   validate(tight.arrays());
@@ -173,11 +173,11 @@ TEST(DynamicShapeSet, PlacesOfACopyDoNotReachIntoEachOther) {
   DynamicShapeSet dynamic(start);
   EXPECT_EQ(answers(dynamic.set(), scene), expected);
   // As much as a place of the first shape may hold.
-  const detail::ShapeExtent place = detail::extent_of(flat(shapes[0], plan).flat().parts[0]);
+  const detail::ShapeExtent place = detail::extent_of(flat(shapes[0], plan).flat().shape);
   std::size_t most = 0;
   for (int i = 0; i < 400; ++i) {
     const PreparedShape shape = flat(test::contour_shape(test::star(random, 61, 0.3, 0.5)), plan);
-    if (dynamic.try_replace(0, shape)) most = std::max(most, detail::extent_of(shape.flat().parts[0]).nodes);
+    if (dynamic.try_replace(0, shape)) most = std::max(most, detail::extent_of(shape.flat().shape).nodes);
   }
   EXPECT_GT(most, place.nodes);  // room that is left up to the next line
   ASSERT_TRUE(dynamic.try_replace(0, flat(shapes[0], plan)));
@@ -194,7 +194,7 @@ TEST(DynamicShapeSet, PlacesTakeLittleMoreThanTheLargestShapes) {
     const PreparedShape shape = flat(test::contour_shape(outline, threshold), plan);
     dynamic.replace(0, shape);
     const detail::ShapeArrays& arrays = dynamic.set().arrays();
-    const detail::ShapeExtent size = detail::extent_of(shape.flat().parts[0]);
+    const detail::ShapeExtent size = detail::extent_of(shape.flat().shape);
     EXPECT_LE(arrays.nodes.size(), 4.5 * static_cast<double>(size.nodes) + 64) << threshold;
     EXPECT_EQ(arrays.support.size(), (detail::first_row + 1) * detail::support_stride);
     EXPECT_EQ(arrays.points.size(), size.points);

@@ -68,7 +68,7 @@ void expect_no_allocations_the_second_time(const ShapeSetPlan& plan) {
 TEST(PoseShaper, AllocatesNothingTheSecondTime) {
   expect_no_allocations_the_second_time({});
   expect_no_allocations_the_second_time({.depths = {0}});
-  expect_no_allocations_the_second_time({.slices = {0.4f, 1}});
+  expect_no_allocations_the_second_time({.heights = true});
 }
 
 TEST(PoseShaper, RejectsWhatItsPartsReject) {

@@ -124,7 +124,8 @@ TEST(ScenePlan, HasTheShortcutsThatPay) {
   EXPECT_TRUE(plan_scene({}).set.culling);
   EXPECT_FALSE(plan_scene({}, {.pairs_per_shape = 6}).set.culling);
   EXPECT_FALSE(plan_scene({}, {.outlines = false}).set.outlines);
-  EXPECT_TRUE(plan_scene({}, {.outlines = false, .slices = {1}}).set.outlines);
+  EXPECT_FALSE(plan_scene({}).set.heights);
+  EXPECT_TRUE(plan_scene({}, {.heights = true}).set.heights);
 }
 
 /// A set by the plan answers like one with everything.
@@ -156,37 +157,6 @@ TEST(ScenePlan, ChangesNoAnswer) {
       EXPECT_EQ(answers, hits(plan, {.depths = plan.set.depths, .outlines = outlines}));
       EXPECT_GT(std::count(answers.begin(), answers.end(), 1), 300);
     }
-}
-
-/// Agents who are near are cut, those who are far are not, and each shape is there once.
-TEST(ScenePlan, CutsWhoIsNear) {
-  test::Random random(94);
-  const std::vector<SceneAgent> agents = walkers(400, random);
-  const SceneUse use{.slices = standing_slices(3), .whole_from = 12};
-  const ScenePlan plan = plan_scene(agents, use);
-  EXPECT_EQ(plan.set.slices, standing_slices(3));
-  EXPECT_TRUE(plan.set.heights && plan.set.outlines);
-  std::size_t whole = 0;
-  for (std::size_t i = 0; i < agents.size(); ++i) {
-    EXPECT_EQ(plan.shapes[plan.agent_shape[i]].whole, agents[i].distance >= 12) << i;
-    whole += plan.shapes[plan.agent_shape[i]].whole;
-  }
-  EXPECT_GT(whole, 50u);
-  EXPECT_LT(whole, 350u);
-  EXPECT_FALSE(plan_scene(agents).shapes[0].whole);
-
-  const std::vector<Character> characters = test::default_characters();
-  std::vector<PoseShaper> shapers;
-  for (const Character& character : characters) shapers.emplace_back(character, plan.set);
-  std::vector<Shape> shapes;
-  for (const ShapeSource& source : plan.shapes)
-    shapes.push_back(shapers[source.character].shape(source.at, source.whole));
-  const ShapeSet set(shapes, plan.set);
-  for (std::uint32_t s = 0; s < set.shape_count(); ++s)
-    EXPECT_EQ(shapes[s].slabs.empty(), plan.shapes[s].whole);
-  EXPECT_EQ(set.plan(), plan.set);
-  EXPECT_THROW(plan_scene(agents, {.slices = {1, 0.5f}}), std::invalid_argument);
-  EXPECT_THROW(plan_scene(agents, {.whole_from = -1}), std::invalid_argument);
 }
 
 TEST(ScenePlan, RejectsWhatIsNoNumber) {

@@ -17,9 +17,8 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 
 using Arrays = DamagedArrays;
 
-const ShapeSetPlan levels{.depths = {0, 3, all_depths}, .outlines = true}, sliced{.slices = {0.4f, 1}},
-    roots{.depths = {0}}, high{.heights = true},
-    high_discs{.outlines = false, .culling = false, .heights = true}, two_levels{.depths = {2, 5}},
+const ShapeSetPlan levels{.depths = {0, 3, all_depths}, .outlines = true}, roots{.depths = {0}},
+    high{.heights = true}, two_levels{.depths = {2, 5}},
     discs_alone{.depths = {all_depths}, .outlines = false};
 
 struct Damage {
@@ -81,24 +80,9 @@ const std::vector<Damage>& all_damage() {
                 view.segment_margin);
          };
        }},
-      {"sizes", [](Arrays& a) { a.own.heights.pop_back(); }, sliced},
-      {"slices", [](Arrays& a) { a.own.slices[1] = a.own.slices[0]; }, sliced},
-      {"slices",
-       [](Arrays& a) {
-         a.own.slices.assign(1, 1), a.own.slab_parts.assign({0, 0, 1, 1, 2, 2});
-       },
-       high_discs},
-      {"slab parts",
-       [](Arrays& a) {
-         a.own.slab_parts.assign({0, 1, 2});
-       }},
-      {"slab parts", [](Arrays& a) { a.own.slab_parts[4] = 0; }, sliced},
-      {"slab parts", [](Arrays& a) { std::fill_n(a.own.slab_parts.end() - 3, 3, detail::no_part); }, sliced},
-      {"slab parts", [](Arrays& a) { std::fill_n(a.own.slab_parts.end() - 3, 3, 3u); }, sliced},
-      {"hull supports", [](Arrays& a) { a.own.hull_support.back() = nan; }, sliced},
+      {"sizes", [](Arrays& a) { a.own.heights.pop_back(); }, high},
       {"heights", [](Arrays& a) { a.own.heights[1].bottom = 2, a.own.heights[1].top = 1; }, high},
-      // Of a part in all slabs, in the highest of which it is.
-      {"heights", [](Arrays& a) { a.own.heights[1].bottom = 2, a.own.heights[1].top = 3; }, sliced},
+      {"heights", [](Arrays& a) { a.own.heights[2].top = nan; }, high},
       {"rows", [](Arrays& a) { a.own.roots[Arrays::finest].row += 1; }},
       {"rows", [](Arrays& a) { a.own.support.resize(a.own.support.size() + detail::support_stride); }},
       // What made DynamicShapeSet copy roots without their trees.
@@ -235,9 +219,8 @@ const std::vector<Damage>& named_damage() {
 }
 
 /// What the other checks read without looking: where one of these does not hold they must not run.
-const std::set<std::string> relied_upon = {"depths",   "sizes",           "slab parts", "shape contours",
-                                           "contours", "order of levels", "blocks",     "room",
-                                           "windows",  "numbers"};
+const std::set<std::string> relied_upon = {"depths", "sizes", "shape contours", "contours", "order of levels",
+                                           "blocks", "room",  "windows",        "numbers"};
 
 /// Runs the checks as validate() does, but for one. Returns: the name of the one that refuses; empty where none does.
 std::string refused_by(const detail::ShapeArrays& arrays, const std::string& without,

@@ -76,10 +76,8 @@ class Errors(unittest.TestCase):
         self.expect(ValueError, ["9"], collide)
         self.expect(IndexError, ["7"], self.shapes.discs, 7)
         self.expect(IndexError, ["7"], self.shapes.outline, 7)
-        self.expect(IndexError, ["7"], self.shapes.slab_begin, 7)
         self.expect(ValueError, ["directions is 300"], bch.penetration, self.shapes, self.agents, self.pairs, 300)
         self.expect(IndexError, ["shape is 4294967296"], self.shapes.discs, 2**32)
-        self.expect(IndexError, ["slab is -1"], self.shapes.outline, 0, -1)
         self.expect(ValueError, ["depths[0] is -1"], bch.ShapeSetBuilder, bch.Plan([-1]))
 
     def test_characters_and_scenes(self):
@@ -96,11 +94,10 @@ class Errors(unittest.TestCase):
         self.expect(TypeError, ["tangents", "(1, 2, 3)"], make, motions=bent([0], [(0, 0, 0)], "cubic"))
         self.expect(TypeError, ["times", "(2,)"], make, motions=bent([0, 1], [(0, 0, 0)]))
         self.expect(ValueError, ["out of order"], make, motions=bent([1, 0], [(0, 0, 0)] * 2))
-        self.expect(TypeError, ["distance", "float64"], bch.plan_scene, [(0, 0.0)], distance=np.zeros(1, "f4"))
-        self.expect(ValueError, ["agent 0", "-1"], bch.plan_scene, [(0, 0.0)], distance=-np.ones(1))
+        self.expect(TypeError, ["depth", "uint32"], bch.plan_scene, [(0, 0.0)], depth=np.zeros(1, "f4"))
+        self.expect(ValueError, ["agent 0", "nan"], bch.plan_scene, [(0, np.nan)])
         plan = bch.plan_scene([(0, 0.0)], character=np.array([1], np.uint32))
         self.expect(IndexError, ["sources[0].character is 1 of 1"], plan.build, [make()])
-        self.expect(ValueError, ["slabs is 0"], bch.best_slices, make(), [0.5], 0)
         self.expect(ValueError, ["NUL"], bch.Obstacles.from_wkt, "LINESTRING(0 0, 1 1)\0")
         self.expect(ValueError, ["NUL"], self.shapes.save, "a\0b")
         self.expect(ValueError, ["nan"], bch.depth_at_density, float("nan"))
@@ -140,7 +137,7 @@ class Errors(unittest.TestCase):
             (bch.Mover, {"shape": body, "path": [(0, 0, 0, 0)], "clip_begin": 0}),
             (bch.first_contact, {"movers": [mover], "pairs": walls, "interval": (0, 1), "tolerance": 0.1, "threads": 1}),
             (bch.free_until, {"mover": mover, "others": [mover], "interval": (0, 1), "tolerance": 0.1}),
-            (bch.animate, {"character": man, "clip": 99, "spacing": 0.1, "inset": 0.1, "error": 0.1, "slices": [0.5]}),
+            (bch.animate, {"character": man, "clip": 99, "spacing": 0.1, "inset": 0.1, "error": 0.1}),
             (bch.Obstacles, {**points, "path_offsets": np.array([0, 2], np.uint64)}),
             (bch.Obstacles.from_wkt, {"text": "LINESTRING(0 0, 1 1)", "heights": (0, 1)}),
             (walls.owner, {"segment": 0}),
@@ -158,16 +155,14 @@ class Errors(unittest.TestCase):
             (bch.read_trajectory, {"path": "/nowhere.csv", "fps": 1, "unit": 1, "columns": "id,frame,x,y"}),
             (
                 bch.check,
-                {"path": "/nowhere.csv", "characters": [man], "clip_speeds": {}, "facing": 0, "slices": [], "depth": 0}
+                {"path": "/nowhere.csv", "characters": [man], "clip_speeds": {}, "facing": 0, "depth": 0}
                 | {"leaves": "discs", "max_distance": 1, "walls": walls, "fps": 1, "unit": 1, "threads": 1},
             ),
             (
                 bch.plan_scene,
-                {"poses": poses, "character": which, "distance": np.zeros(1), "depth": which, "outlines": False}
-                | {"slices": [], "whole_from": 1, "pose_step": 1, "pairs_per_shape": 1},
+                {"poses": poses, "character": which, "depth": which, "outlines": False}
+                | {"pose_step": 1, "pairs_per_shape": 1},
             ),
-            (bch.best_slices, {"characters": man, "planes": [0.5], "slabs": 1, "poses": 1}),
-            (bch.standing_slices, {"slabs": 2}),
             (bch.dataframe, {"records": bch.Trajectory(np.empty(0, bch.TRACKED), 1, "", "", [], [])}),
             (bch.depth_at_density, {"people_per_square_metre": 1}),
             (man.sample_poses, {"count": 1}),
@@ -187,10 +182,9 @@ class Errors(unittest.TestCase):
             (bch.make_character, {**mesh, "name": "a", "joints": [], "bones": [], "motions": [], "root_joint": -1}),
             (bch.make_character, {**mesh, "to_ground": np.eye(4), "weights": None, "vertex_bones": None}),
             (bch.PoseShaper, {"character": man, "plan": bch.Plan()}),
-            (bch.PoseShaper(man).outline, {"clip": 0, "seconds": 0, "slab": 0}),
+            (bch.PoseShaper(man).outline, {"clip": 0, "seconds": 0}),
             (bch.ShapeSetBuilder, {"plan": bch.Plan()}),
             (lambda depths: bch.ShapeSetBuilder(bch.Plan(depths=depths)), {"depths": [0]}),
-            (lambda slices: bch.ShapeSetBuilder(bch.Plan(slices=slices)), {"slices": [0.5]}),
             (lambda threshold: bch.ShapeSetBuilder(bch.Plan(threshold=threshold)), {"threshold": 0.5}),
             (builder.add_poses, {"character": man, "poses": [], "threads": 1}),
             (builder.add_sources, {"characters": [man], "sources": np.empty(0, bch.SOURCE), "threads": 1}),
@@ -210,8 +204,7 @@ class Errors(unittest.TestCase):
             (bch.ShapeSet.from_polygons, {"bodies": [[[(0, 0), (1, 0), (0, 1)]]], "heights": None, "plan": bch.Plan()}),
             (self.shapes.save, {"path": "/nowhere/a.bch"}),
             (self.shapes.discs, {"shape": 0, "level": 0}),
-            (self.shapes.slab_begin, {"shape": 0, "level": 0}),
-            (self.shapes.outline, {"shape": 0, "slab": 0}),
+            (self.shapes.outline, {"shape": 0}),
             (self.shapes.radius, {"shape": 0}),
             (self.shapes.origin, {"shape": 0}),
             (self.shapes.keep_clip, {"shape": body, "character": "man", "clip": "walk"}),
@@ -355,7 +348,7 @@ class Libraries(unittest.TestCase):
 class Sets(unittest.TestCase):
     def test_own_bodies(self):
         shapes, _ = squares()
-        self.assertEqual((len(shapes), shapes.depths, shapes.slices, shapes.has_heights), (2, (bch.ALL_DEPTHS,), (), True))
+        self.assertEqual((len(shapes), shapes.depths, shapes.has_heights), (2, (bch.ALL_DEPTHS,), True))
         (contour,) = shapes.outline(1)
         self.assertEqual(sorted(map(tuple, contour.tolist())), [(-1, -1), (-1, 1), (1, -1), (1, 1)])
         self.assertAlmostEqual(shapes.radius(1), 2**0.5, places=2)
@@ -399,7 +392,7 @@ class Sets(unittest.TestCase):
     def test_baking(self):
         female = bch.default_female()
         self.assertEqual(female.clips[0].name, "walk")
-        plan = bch.Plan(depths=(0, 3, bch.ALL_DEPTHS), slices=bch.standing_slices(3))
+        plan = bch.Plan(depths=(0, 3, bch.ALL_DEPTHS), heights=True)
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / "women.bch"
             made = bch.bake(female, poses=8, plan=plan, path=path)
@@ -407,10 +400,7 @@ class Sets(unittest.TestCase):
             self.assertEqual(os.listdir(folder), ["women.bch"])
         self.assertEqual(loaded.origin(5), made.origin(5))
         self.assertEqual(made.origin(5).character, "default:female")
-        self.assertEqual((loaded.depths, loaded.slab_count), (plan.depths, 3))
-        whole = {tuple(p) for contour in loaded.outline(2) for p in contour.tolist()}
-        parts = {tuple(p) for slab in range(3) for contour in loaded.outline(2, slab) for p in contour.tolist()}
-        self.assertEqual(whole, parts)
+        self.assertEqual((loaded.depths, loaded.has_heights), (plan.depths, True))
         poses = female.sample_poses(8)
         outline = bch.PoseShaper(female).outline(int(poses[2]["clip"]), float(poses[2]["seconds"]))
         np.testing.assert_array_equal(outline[0], bch.bake(female, poses=poses[2:3]).outline(0)[0])
@@ -489,18 +479,6 @@ class Sets(unittest.TestCase):
             corners = np.concatenate(by_vertices.outline(shape))
             np.testing.assert_allclose(corners.max(axis=0), posed[shape, :, :2].max(axis=0), atol=1e-5)
 
-    def test_slabs_of_discs(self):
-        made = bch.bake(bch.default_male(), poses=2, plan=bch.Plan(depths=(0, bch.ALL_DEPTHS), slices=bch.standing_slices(3)))
-        np.testing.assert_array_equal(made.slab_begin(1, 0), [0, 1, 2, 3])
-        begin = made.slab_begin(0)
-        self.assertEqual((len(begin), begin[0], begin[-1]), (4, 0, len(made.discs(0))))
-        self.assertTrue((np.diff(begin.astype(int)) > 1).all())
-        agents = bch.Agents(np.zeros(2, np.uint32), np.array([0, 0.05]), np.zeros(2), np.zeros(2))
-        touching = bch.Crowd().contacts(made, agents, np.array([[0, 1]], np.uint32)).discs[0]
-        slabs = np.searchsorted(begin, touching, "right") - 1
-        np.testing.assert_array_equal(slabs[:, 0], slabs[:, 1])
-        self.assertEqual(set(slabs[:, 0].tolist()), {0, 1, 2})
-
     def test_replacing(self):
         male = bch.default_male()
         poses = male.sample_poses(6)
@@ -578,9 +556,6 @@ class Sets(unittest.TestCase):
         clip = bch.animate(walker, 40, spacing=0.1)
         self.assertTrue(clip.loops and clip.reach < 0.7, clip)
         self.assertAlmostEqual(clip.end * bch.pedestrian_strides_per_second(1.2), 1, places=6)  # one stride
-        self.assertEqual(clip.slab_count, 0)
-        cut = bch.animate(walker, 40, spacing=0.1, slices=[1.0])
-        self.assertEqual((cut.slab_count, cut.end), (2, clip.end))
         for loops in (False, True):
             self.assertEqual(bch.animate(walker, 40, spacing=0.1, loops=loops).loops, loops)
         shapes, _ = squares()

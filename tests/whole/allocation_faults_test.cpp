@@ -172,8 +172,6 @@ TEST_F(AllocationFaults, NumbersThatFunctionsTell) {
   });
   fail_each_writing(2, count,
                     [&] { return bch_shape_set_verify(set.get(), 10, nullptr, nullptr, count.data()); });
-  std::vector<std::uint32_t> begin(2);
-  fail_each_writing(0, begin, [&] { return bch_shape_set_get_slab_offsets(set.get(), 0, 2, begin.data()); });
   std::vector<double> densities(agents.count);
   fail_each_writing(1, densities, [&] {
     return bch_local_densities(crowd.x.data(), crowd.y.data(), agents.count, 1, densities.data());
@@ -293,20 +291,15 @@ TEST_F(AllocationFaults, BuildersOfManyShapes) {
 /// A shaper that ran out of memory makes the same shape later, at whichever allocation it was.
 TEST_F(AllocationFaults, AShaperMakesTheShapeThatItCouldNot) {
   const auto character = man();
-  const float slices[] = {0.5f, 1.2f};
-  bch_plan cut = plan;
-  cut.slices = slices, cut.slice_count = 2;
-  for (const bch_plan& of : {plan, cut}) {
-    const auto make = [&](auto try_to) {
-      const auto shaper = made<bch_pose_shaper_free>(bch_pose_shaper_create, character.get(), &of);
-      try_to([&] { return bch_pose_shaper_make(shaper.get(), {0, 0.25f}, 0); });
-      const auto builder = made<bch_shape_set_builder_free>(bch_shape_set_builder_create, &of);
-      expect_ok(bch_shape_set_builder_add_shape(builder.get(), shaper.get()));
-      return finished(builder);
-    };
-    const std::string expected = make([](auto call) { expect_ok(call()); });
-    fail_each(20, [&](Attempt& attempt) { EXPECT_EQ(make([&](auto call) { attempt(call); }), expected); });
-  }
+  const auto make = [&](auto try_to) {
+    const auto shaper = made<bch_pose_shaper_free>(bch_pose_shaper_create, character.get(), &plan);
+    try_to([&] { return bch_pose_shaper_make(shaper.get(), {0, 0.25f}); });
+    const auto builder = made<bch_shape_set_builder_free>(bch_shape_set_builder_create, &plan);
+    expect_ok(bch_shape_set_builder_add_shape(builder.get(), shaper.get()));
+    return finished(builder);
+  };
+  const std::string expected = make([](auto call) { expect_ok(call()); });
+  fail_each(20, [&](Attempt& attempt) { EXPECT_EQ(make([&](auto call) { attempt(call); }), expected); });
 }
 
 /// A shape that could not be replaced is the one before, and so are all others.

@@ -45,19 +45,17 @@ class Allocations : public testing::TestWithParam<std::uint32_t> {
     }
   }
 
-  const std::vector<Shape> parts = test::synthetic_shapes(54, 16);
+  const std::vector<Shape> bodies = test::synthetic_shapes(54, 16);
 };
 
-TEST_P(Allocations, BodiesThatAreWhole) {
-  expect_none(ShapeSet(parts, {{0, 3, all_depths}, true}), 0);
+TEST_P(Allocations, BodiesOnOneGround) {
+  expect_none(ShapeSet(bodies, {{0, 3, all_depths}, true}), 0);
 }
 
-/// On one ground, and at different heights.
-TEST_P(Allocations, BodiesInSlabs) {
-  std::vector<Shape> bodies(parts.size());
-  for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i].slabs = {parts[i], parts[(i + 1) % 16], {}};
-  const ShapeSet cut(bodies, {.depths = {0, 3, all_depths}, .slices = {0.4f, 1}});
-  for (const double step : {0.0, 0.3}) expect_none(cut, step);
+TEST_P(Allocations, BodiesAtDifferentHeights) {
+  std::vector<Shape> high = bodies;
+  for (Shape& body : high) body.heights = {0, 0.5f};
+  expect_none(ShapeSet(high, {.depths = {0, 3, all_depths}, .heights = true}), 0.3);
 }
 
 INSTANTIATE_TEST_SUITE_P(Threads, Allocations, testing::Values(0, 1, 2, 4),

@@ -21,7 +21,7 @@ endfunction()
 
 set(script ${PYTHON} ${SCRIPT})
 run(0 ${script} --program ${RATIOS} --runs 1 -- ${sizes} --benchmark_filter=-shapes/50000)
-foreach(table kernel leaves peers calls crowd distances responses obstacles bodies shapes plans slices live construction growth load
+foreach(table kernel leaves peers calls crowd distances responses obstacles bodies shapes plans live construction growth load
     checks paper)
   expect_output("# ${table}: 1 runs")
 endforeach()

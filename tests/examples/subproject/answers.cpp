@@ -55,17 +55,6 @@ std::vector<bch::Shape> shapes() {
   return all;
 }
 
-/// Bodies of two slabs, at heights of their own.
-std::vector<bch::Shape> shapes_in_slabs() {
-  std::vector<bch::Shape> all(17);
-  for (bch::Shape& body : all) {
-    body.heights = {0, 1.5f + static_cast<float>(random_index(8)) / 16};
-    body.slabs.push_back(star());
-    body.slabs.push_back(star());
-  }
-  return all;
-}
-
 /// Two discs that come and go.
 bch::AnimatedShape swinging() {
   const bch::AnimatedChunk chunk{
@@ -218,7 +207,6 @@ int main() {
   const Crowd crowd(4000);
   const bch::ShapeSet set(shapes());
   ask_all(set, crowd);
-  ask_all(bch::ShapeSet(shapes_in_slabs(), {.slices = {.75f}}), crowd);
   ask_of_motions(crowd);
   return is_nan_refused(set, crowd) ? 0 : 1;
 }

@@ -44,7 +44,7 @@ std::vector<std::pair<double, double>> corners_of(const bch_shape_set* set, std:
   bch_vec2 points[8];
   bch_outline outline = BCH_OUTLINE_INIT;
   outline.points = points, outline.point_capacity = 8;
-  expect_ok(bch_shape_set_get_outline(set, shape, 0, &outline));
+  expect_ok(bch_shape_set_get_outline(set, shape, &outline));
   EXPECT_EQ(outline.offset_count, 2u);
   std::vector<std::pair<double, double>> all;
   for (std::size_t i = 0; i < outline.point_count; ++i)
@@ -55,7 +55,7 @@ std::vector<std::pair<double, double>> corners_of(const bch_shape_set* set, std:
 
 TEST(CApiBuilding, SetsOfPosesHaveTheBytesOfTheLibrary) {
   const Character character = default_female();
-  const ShapeSetPlan plan{.depths = {0, 3, all_depths}, .slices = {0.6f, 1.1f}};
+  const ShapeSetPlan plan{.depths = {0, 3, all_depths}, .heights = true};
   const std::vector<PoseTime> times = sample_poses(character, 20);
   PoseShaper shaper(character, plan, 0.02f);
   ShapeOrigins origins{static_cast<double>(0.02f), {"default:female"}, {}};
@@ -72,10 +72,10 @@ TEST(CApiBuilding, SetsOfPosesHaveTheBytesOfTheLibrary) {
   std::vector<bch_pose> poses(20);
   expect_ok(bch_character_sample_poses(female.get(), 20, poses.data()));
   std::vector<bch_shape_source> sources;
-  for (const bch_pose& at : poses) sources.push_back({0, at, 0});
+  for (const bch_pose& at : poses) sources.push_back({0, at});
   bch_plan c_plan = BCH_PLAN_INIT;
   c_plan.depths = plan.depths.data(), c_plan.depth_count = 3;
-  c_plan.slices = plan.slices.data(), c_plan.slice_count = 2;
+  c_plan.heights = 1;
   c_plan.threshold = 0.02f;
   const auto builder = builder_of(&c_plan);
   for (const std::uint32_t threads : {0u, 1u, 2u}) {
@@ -90,7 +90,7 @@ TEST(CApiBuilding, SetsOfPosesHaveTheBytesOfTheLibrary) {
   }
   const auto c_shaper = made<bch_pose_shaper_free>(bch_pose_shaper_create, female.get(), &c_plan);
   for (const bch_pose& pose : poses) {
-    expect_ok(bch_pose_shaper_make(c_shaper.get(), pose, 0));
+    expect_ok(bch_pose_shaper_make(c_shaper.get(), pose));
     expect_ok(bch_shape_set_builder_add_shape(builder.get(), c_shaper.get()));
   }
   const auto set = finished(builder);
@@ -306,13 +306,11 @@ TEST(CApiBuilding, WhatIsWrongWithArrays) {
 
 TEST(CApiBuilding, ScenesArePlanned) {
   const std::uint32_t characters[] = {0, 0, 1, 0}, depths[] = {0, BCH_ALL_DEPTHS, 0, 0};
-  const bch_pose poses[] = {{0, 0.1f}, {0, 0.4f}, {0, 0.6f}, {0, 0.1f}};
-  const double distances[] = {1, 2, 3, 30};
-  const float slices[] = {0.5f, 1.1f};
+  const bch_pose poses[] = {{0, 0.1f}, {0, 0.4f}, {0, 0.6f}, {0, 0.6f}};
   bch_scene_agents of = BCH_SCENE_AGENTS_INIT;
-  of.character = characters, of.poses = poses, of.distance = distances, of.depth = depths, of.count = 4;
+  of.character = characters, of.poses = poses, of.depth = depths, of.count = 4;
   bch_scene_use use = BCH_SCENE_USE_INIT;
-  use.outlines = 0, use.slices = slices, use.slice_count = 2, use.whole_from = 20;
+  use.outlines = 0, use.heights = 1;
   use.pose_step = 0.5f, use.pairs_per_shape = 20;
   const auto plan = made<bch_scene_plan_free>(bch_scene_plan_create, &of, &use);
 
@@ -327,15 +325,14 @@ TEST(CApiBuilding, ScenesArePlanned) {
   expect_ok(bch_scene_plan_get_set(plan.get(), &set_plan));
   EXPECT_EQ(std::vector<std::uint32_t>(set_plan.depths, set_plan.depths + set_plan.depth_count),
             (std::vector<std::uint32_t>{0, BCH_ALL_DEPTHS}));
-  EXPECT_EQ(std::vector<float>(set_plan.slices, set_plan.slices + set_plan.slice_count),
-            (std::vector<float>{0.5f, 1.1f}));
+  EXPECT_EQ(set_plan.outlines, 0);
+  EXPECT_EQ(set_plan.heights, 1);
   EXPECT_EQ(set_plan.culling, 0);  // it does not pay for 20 pairs
   expect_ok(bch_scene_plan_get_shapes(plan.get(), &sources, &count));
   ASSERT_EQ(count, 3u);
   EXPECT_EQ(sources[1].character, 1u);
   EXPECT_EQ(sources[1].at.seconds, 0.5f);
-  EXPECT_EQ(sources[1].whole, 0);
-  EXPECT_EQ(sources[2].whole, 1);
+  EXPECT_EQ(sources[2].character, 0u);
 
   const auto male = person(BCH_MALE), female = person(BCH_FEMALE);
   const bch_character* const people[] = {male.get(), female.get()};
@@ -349,22 +346,16 @@ TEST(CApiBuilding, ScenesArePlanned) {
     EXPECT_STREQ(origin.character, from);
     EXPECT_EQ(origin.seconds, seconds);
   }
-  std::uint32_t offsets[4];
-  expect_ok(bch_shape_set_get_slab_offsets(set.get(), 2, 1, offsets));
-  EXPECT_EQ(offsets[1], offsets[3]);  // a whole body is in one slab
 }
 
 TEST(CApiBuilding, WhatIsWrongWithScenes) {
   const bch_pose pose{0, 0};
-  const double behind = -1;
   bch_scene_agents of = BCH_SCENE_AGENTS_INIT;
   of.count = 1;
   bch_scene_plan* none = nullptr;
   EXPECT_EQ(bch_scene_plan_create(&of, nullptr, &none), BCH_INVALID_ARGUMENT);
   EXPECT_STREQ(bch_last_error(), "agents->poses is NULL");
-  of.poses = &pose, of.distance = &behind;
-  EXPECT_EQ(bch_scene_plan_create(&of, nullptr, &none), BCH_INVALID_ARGUMENT);
-  of.distance = nullptr;
+  of.poses = &pose;
   bch_scene_use use = BCH_SCENE_USE_INIT;
   use.pose_step = -1;
   EXPECT_EQ(bch_scene_plan_create(&of, &use, &none), BCH_INVALID_ARGUMENT);
@@ -373,38 +364,11 @@ TEST(CApiBuilding, WhatIsWrongWithScenes) {
   const auto male = person(BCH_MALE);
   const bch_character* const people[] = {male.get()};
   const auto builder = builder_of(nullptr);
-  const bch_shape_source beyond{1, pose, 0}, late{0, {1'000, 0}, 0};
+  const bch_shape_source beyond{1, pose}, late{0, {1'000, 0}};
   EXPECT_EQ(bch_shape_set_builder_add_sources(builder.get(), people, 1, &beyond, 1, nullptr),
             BCH_OUT_OF_RANGE);
   EXPECT_STREQ(bch_last_error(), "sources[0].character is 1 of 1");
   EXPECT_EQ(bch_shape_set_builder_add_sources(builder.get(), people, 1, &late, 1, nullptr), BCH_OUT_OF_RANGE);
-}
-
-TEST(CApiBuilding, BestSlicesAreThoseOfTheLibrary) {
-  std::vector<float> planes;
-  for (int i = 1; i < 18; ++i) planes.push_back(0.1f * static_cast<float>(i));
-  const auto female = person(BCH_FEMALE);
-  const std::vector<const bch_character*> characters(12, female.get());
-  std::vector<bch_pose> poses(12);
-  expect_ok(bch_character_sample_poses(female.get(), 12, poses.data()));
-  const Character own = default_female();
-  PoseShaper shaper(own, {.slices = planes});
-  std::vector<Shape> shapes;
-  for (const bch_pose& at : poses) shapes.push_back(shaper.shape({at.clip, at.seconds}));
-  float found[17];
-  std::size_t count = 0;
-  const auto ask = [&](std::size_t among, std::uint32_t slabs) {
-    return bch_best_slices(characters.data(), poses.data(), poses.size(), planes.data(), among, slabs, found,
-                           &count);
-  };
-  expect_ok(ask(planes.size(), 3));
-  EXPECT_EQ(std::vector<float>(found, found + count), best_slices(shapes, planes, 3));
-  expect_ok(ask(2, 9));
-  EXPECT_EQ(count, 2u);
-  EXPECT_EQ(ask(2, 0), BCH_INVALID_ARGUMENT);
-  poses[7].clip = 1'000;
-  EXPECT_EQ(ask(2, 3), BCH_OUT_OF_RANGE);
-  EXPECT_EQ(std::string(bch_last_error()).substr(0, 24), "poses[7].clip is 1000 of");
 }
 
 TEST(CApiOutlines, AreThoseOfCpp) {

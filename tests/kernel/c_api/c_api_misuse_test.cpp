@@ -184,11 +184,11 @@ TEST_F(CApiMisuse, ValuesAndTheirPlaces) {
 }
 
 TEST_F(CApiMisuse, PlansAndBodies) {
-  const float slices[] = {1, 0.5f};
+  const std::uint32_t depths[] = {3, 0};
   bch_shape_set_builder* none = nullptr;
   bch_plan plan = BCH_PLAN_INIT;
-  plan.slices = slices, plan.slice_count = 2;
-  expect_invalid(bch_shape_set_builder_create(&plan, &none), "slice");
+  plan.depths = depths, plan.depth_count = 2;
+  expect_invalid(bch_shape_set_builder_create(&plan, &none), "depth 0 does not ascend");
   plan = BCH_PLAN_INIT;
   plan.threshold = -1;
   expect_invalid(bch_shape_set_builder_create(&plan, &none), "plan->threshold");
@@ -225,9 +225,8 @@ TEST_F(CApiMisuse, PlansAndBodies) {
   std::uint64_t offset = 7;
   bch_outline outline = BCH_OUTLINE_INIT;
   outline.points = &point, outline.point_capacity = 1, outline.offsets = &offset, outline.offset_capacity = 1;
-  expect_ok(bch_pose_shaper_make(shaper.get(), rest[0], 0));
-  expect_error(bch_pose_shaper_get_outline(shaper.get(), 1, &outline), BCH_OUT_OF_RANGE, "slab is 1");
-  expect_error(bch_shape_set_get_outline(set.get(), 0, 1, &outline), BCH_OUT_OF_RANGE, "slab is 1");
+  expect_invalid(bch_pose_shaper_get_outline(shaper.get(), &outline), "shaper has made no shape");
+  expect_error(bch_shape_set_get_outline(set.get(), 50, &outline), BCH_OUT_OF_RANGE, "50");
   EXPECT_EQ(point.x, 8);
   EXPECT_EQ(offset, 7u);
   EXPECT_EQ(outline.offset_count, 0u);

@@ -26,26 +26,14 @@ std::string bytes_of(const Rows<Value>& rows) {
   return bytes(rows.offsets) + bytes(rows.values);
 }
 
-struct Case {
-  const char* name;
-  std::vector<float> slices;
-};
-std::ostream& operator<<(std::ostream& to, const Case& of) {
-  return to << of.name;
-}
+enum class Grounds { one, many };
 
-class CApi : public testing::TestWithParam<Case> {
+class CApi : public testing::TestWithParam<Grounds> {
  protected:
   static std::vector<Shape> shapes() {
     std::vector<Shape> all = test::synthetic_shapes(281, 12);
-    if (GetParam().slices.empty()) return all;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      all[i].heights = {0, 1.7f};
-      if (i % 4 == 3) continue;
-      const Shape whole = all[i];
-      all[i] = {{}, {}, {0, 1.7f}, {whole, all[(i + 5) % 12], whole}};
-      for (Shape& slab : all[i].slabs) slab.slabs.clear();
-    }
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (i % 4 != 3) all[i].heights = {0, 1.7f};
     return all;
   }
 
@@ -54,13 +42,14 @@ class CApi : public testing::TestWithParam<Case> {
     for (int i = 0; i < 1'000; ++i) {
       all.add({random.below(12), random.uniform(-13, 13), random.uniform(-13, 13), random.uniform(-7, 7),
                static_cast<std::uint8_t>(random.below(3))});
-      if (!GetParam().slices.empty()) all.z.push_back(i % 3 == 0 ? 0 : random.uniform(-1, 1));
+      if (has_heights) all.z.push_back(i % 3 == 0 ? 0 : random.uniform(-3, 3));
     }
     return all;
   }
 
+  const bool has_heights = GetParam() == Grounds::many;
   test::Random random{282};
-  const ShapeSet set{shapes(), {.depths = {0, 3, all_depths}, .slices = GetParam().slices}};
+  const ShapeSet set{shapes(), {.depths = {0, 3, all_depths}, .heights = has_heights}};
   const test::Crowd people = crowd();
   const Agents agents = people.agents();
   const std::vector<Pair> pairs = test::candidate_pairs(set, agents, 0.4);
@@ -68,8 +57,9 @@ class CApi : public testing::TestWithParam<Case> {
   const bch_shape_set* const in = scene.set.get();
 };
 
-INSTANTIATE_TEST_SUITE_P(Of, CApi, testing::Values(Case{"Whole", {}}, Case{"Slabs", {0.5f, 1.2f}}),
-                         [](const auto& of) { return of.param.name; });
+INSTANTIATE_TEST_SUITE_P(Of, CApi, testing::Values(Grounds::one, Grounds::many), [](const auto& of) {
+  return of.param == Grounds::one ? "OneGround" : "ManyGrounds";
+});
 
 /// All answers of the C++ library, by the names of all_queries().
 std::map<std::string, std::string> answers_of(const test::CScene& scene, const QueryOptions& by) {
@@ -200,12 +190,10 @@ TEST_P(CApi, TellsWhatASetHas) {
   expect_ok(bch_shape_set_get_info(in, &info));
   EXPECT_EQ(info.shapes, set.shape_count());
   EXPECT_EQ(info.levels, set.level_count());
-  EXPECT_EQ(info.slabs, set.slab_count());
   EXPECT_EQ(info.outlines != 0, set.plan().outlines);
   EXPECT_EQ(info.has_heights != 0, set.has_heights());
   EXPECT_EQ(info.exact_leaves != 0, set.exact_leaves());
   EXPECT_TRUE(std::ranges::equal(set.depths(), std::span(info.depths, info.levels)));
-  EXPECT_TRUE(std::ranges::equal(set.slices(), std::span(info.slices, info.slabs - 1)));
   const std::uint32_t shape = 5, level = 1;
   float radius = 0;
   expect_ok(bch_shape_set_get_radius(in, shape, &radius));
@@ -217,44 +205,23 @@ TEST_P(CApi, TellsWhatASetHas) {
   std::vector<bch_disc> c_discs(count);
   expect_ok(bch_shape_set_get_discs(in, shape, level, c_discs.data(), count, &count));
   EXPECT_EQ(bytes(discs), bytes(c_discs));
-  std::vector<std::uint32_t> offsets(info.slabs + 1);
-  expect_ok(bch_shape_set_get_slab_offsets(in, shape, level, offsets.data()));
-  EXPECT_EQ(offsets, set.slab_begin(shape, level));
   std::size_t findings = 9;
   expect_ok(bch_shape_set_verify(in, 10, nullptr, nullptr, &findings));
   EXPECT_EQ(findings, 0u);
 }
 
-/// The contours of a slab, of a whole body, or of all slabs.
-Outline outline_of(const bch_shape_set* set, std::uint32_t shape, std::uint32_t slab) {
+TEST_P(CApi, TellsOutlines) {
+  const std::uint32_t shape = 2;
+  const Outline expected = shapes()[shape].outline;
   bch_outline outline = BCH_OUTLINE_INIT;
-  expect_ok(bch_shape_set_get_outline(set, shape, slab, &outline));
+  expect_ok(bch_shape_set_get_outline(in, shape, &outline));
   std::vector<bch_vec2> points(outline.point_count);
   std::vector<std::uint64_t> offsets(outline.offset_count);
   outline.points = points.data(), outline.point_capacity = points.size();
   outline.offsets = offsets.data(), outline.offset_capacity = offsets.size();
-  expect_ok(bch_shape_set_get_outline(set, shape, slab, &outline));
-  Outline all;
-  for (const bch_vec2& point : points) all.points.push_back({point.x, point.y});
-  all.contour_begin.assign(offsets.begin(), offsets.end());
-  return all;
-}
-
-TEST_P(CApi, TellsOutlines) {
-  const std::vector<Shape> of = shapes();
-  for (const std::uint32_t shape : {2u, 3u}) {
-    const std::vector<Shape> slabs = of[shape].slabs.empty() ? std::vector{of[shape]} : of[shape].slabs;
-    Outline all;
-    for (std::uint32_t slab = 0; slab < slabs.size(); ++slab) {
-      const Outline found = outline_of(in, shape, slab);
-      EXPECT_EQ(found.points, slabs[slab].outline.points);
-      EXPECT_EQ(found.contour_begin, slabs[slab].outline.contour_begin);
-      test::append(all, found);
-    }
-    if (slabs.size() > 1) {
-      EXPECT_EQ(all.points.size(), outline_of(in, shape, BCH_ALL_SLABS).points.size());
-    }
-  }
+  expect_ok(bch_shape_set_get_outline(in, shape, &outline));
+  EXPECT_EQ(bytes(points), bytes(expected.points));
+  EXPECT_EQ(std::vector<std::uint32_t>(offsets.begin(), offsets.end()), expected.contour_begin);
 }
 
 }  // namespace

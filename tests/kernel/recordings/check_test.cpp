@@ -229,17 +229,6 @@ TEST(Check, IntervalsJoinToTheWhole) {
   }
 }
 
-TEST(Check, SlabsClearSomeOfTheOverlaps) {
-  MadeUp recording(10);
-  add_crowd(recording, 60, static_cast<int>(test::samples(80)));
-  CheckOptions options;
-  const std::uint64_t whole = check_of(recording, options).all.overlapping_pairs;
-  options.plan.slices = {0.4f, 0.85f, 1.05f};
-  const std::uint64_t in_slabs = check_of(recording, options).all.overlapping_pairs;
-  EXPECT_GT(in_slabs, whole / 3);
-  EXPECT_LT(in_slabs, whole);
-}
-
 /// A deeper cut never adds an overlap, and segments add none to discs. (Discs of 2 cm at the leaves.)
 TEST(Check, IsAskedAtADepth) {
   MadeUp recording(10);

@@ -54,10 +54,9 @@ std::vector<Crime> crimes() {
       {"clips 1: character has name 5", word(Section::clips, 6, 5)},
       {"clips 0: clip has name 4", word(Section::clips, 1, 4)},
       {"clips 1: it loops 2 times", word(Section::clips, 8, 2)},
-      {"clips 0: 4 of chunks, which has 3 left", word(Section::slab_chunks, 0, 4)},
-      {"clips 1: 4294967295 of chunks, which has 1 left", word(Section::slab_chunks, 1, ~0u)},
-      {"clips 1: animated shape: no chunks", word(Section::slab_chunks, 1, 0)},
-      {"clips 1: 3 of clip_planes, which has 0 left", word(Section::clips, 9, 3)},
+      {"clips 0: 4 of chunks, which has 3 left", word(Section::clips, 3, 4)},
+      {"clips 1: 4294967295 of chunks, which has 1 left", word(Section::clips, 9, ~0u)},
+      {"clips 1: animated shape: no chunks", word(Section::clips, 9, 0)},
       {"clips 0: animated shape: heights from nan", floats(Section::clips, 4, nan)},
       {"chunks 0: 4294967295 of key_times, which has 7 left", word(Section::chunks, 0, ~0u)},
       {"chunks 1: 9 of ring_ends, which has 2 left", word(Section::chunks, 6, 9)},
@@ -99,7 +98,7 @@ TEST(BakedContent, ClipsLeaveNothing) {
     bytes.seal();
     return bytes.error();
   };
-  EXPECT_EQ(without(Section::slab_chunks, 0, 1), "file: chunks 2: belongs to no clip");
+  EXPECT_EQ(without(Section::clips, 3, 1), "file: chunks 2: belongs to no clip");
   clips.resize(1);
   EXPECT_EQ(without(Section::chunks, 4, 2), "");
   clips[0].discs.chunks[1].ring_ends.clear();

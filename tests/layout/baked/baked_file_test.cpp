@@ -134,21 +134,6 @@ TEST(BakedFile, ClipsAreStoredExactly) {
     }
 }
 
-TEST(BakedFile, HasClipsThatAreCut) {
-  const ShapeSet set(few_shapes(), full_plan);
-  const AnimatedChunk low{{0, 2}, 1, {{0, 0, 1}, {1, 0, 1}}, {}}, nothing{{0, 1}, 0, {}, {}},
-      high{{1, 2}, 1, {{0, 0, 0.5f}, {0, 1, 0.5f}}, {}};
-  std::vector<BakedClip> clips = few_clips();
-  clips.push_back({0, 1, {{}, true, {0.5f}, {{{low}}, {{nothing, high}}}, {0, 2}}});
-  clips.push_back(clips[0]);
-  BakedBytes bytes(set, origins_of(3), clips);
-  EXPECT_EQ(bytes.load().clips, clips);
-  bytes.section<std::uint32_t>(Section::slab_chunks)[3] = 1;
-  bytes.seal();
-  EXPECT_EQ(bytes.error(),
-            "file: clips 2: animated shape: slab 1: it begins or ends at another time than slab 0");
-}
-
 TEST(BakedFile, HasNoLoopsOfNextToNoTime) {
   const ShapeSet set(few_shapes(), full_plan);
   const AnimatedChunk chunk{{0, 1e-12}, 1, {{0, 0, 1}, {0, 0, 1}}, {}};
