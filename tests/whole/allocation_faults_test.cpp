@@ -109,7 +109,7 @@ class AllocationFaults : public testing::Test {
   test::OwnedCharacter man() const { return made<bch_character_free>(bch_character_default, BCH_MALE); }
   test::OwnedShaper standing(const test::OwnedCharacter& of) const {
     auto shaper = made<bch_pose_shaper_free>(bch_pose_shaper_create, of.get(), &plan);
-    expect_ok(bch_pose_shaper_make(shaper.get(), {BCH_REST_POSE, 0}, 0));
+    expect_ok(bch_pose_shaper_make(shaper.get(), {BCH_REST_POSE, 0}));
     return shaper;
   }
 
@@ -225,7 +225,7 @@ TEST_F(AllocationFaults, BuildersAndWhatTheyAdd) {
   const auto character = man();
   const auto shaper = standing(character);
   const bch_character* const people[] = {character.get()};
-  const bch_shape_source sources[] = {{0, {BCH_REST_POSE, 0}, 1}, {0, {0, 0}, 0}};
+  const bch_shape_source sources[] = {{0, {BCH_REST_POSE, 0}}, {0, {0, 0}}};
   using To = bch_shape_set_builder*;
   fail_each_adding(
       5, [&](To to) { return bch_shape_set_builder_add_polygons(to, corners, square, 1, &heights); });

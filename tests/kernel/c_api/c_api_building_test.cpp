@@ -153,7 +153,7 @@ TEST(CApiBuilding, ReplacedShapesAreThoseOfNewSets) {
   expect_ok(
       bch_dynamic_shape_set_replace_poses(dynamic.get(), female.get(), which, backwards, 2, 0.01f, nullptr));
   const auto shaper = made<bch_pose_shaper_free>(bch_pose_shaper_create, female.get(), nullptr);
-  expect_ok(bch_pose_shaper_make(shaper.get(), poses[5], 0));
+  expect_ok(bch_pose_shaper_make(shaper.get(), poses[5]));
   expect_ok(bch_dynamic_shape_set_replace(dynamic.get(), 2, shaper.get()));
   const bch_shape_set* present = nullptr;
   expect_ok(bch_dynamic_shape_set_get_shapes(dynamic.get(), &present));

@@ -146,7 +146,7 @@ TEST_F(CApiPoses, HaveTheBitsOfTheClipInEveryWay) {
 
     const auto shaper = made<bch_pose_shaper_free>(bch_pose_shaper_create, man.get(), nullptr);
     for (std::size_t i = 0; i < count; ++i) {
-      expect_ok(bch_pose_shaper_make_own(shaper.get(), &way, i, 0));
+      expect_ok(bch_pose_shaper_make_own(shaper.get(), &way, i));
       expect_ok(bch_shape_set_builder_add_shape(builder.get(), shaper.get()));
     }
     expect_same(discs_of(finished().get()), expected);
@@ -184,7 +184,7 @@ TEST_F(CApiPoses, AreRejectedWhereTheyDoNotFit) {
   const auto expect_rejected = [&](auto change, const std::string& message) {
     bch_pose_arrays arrays = arrays_of(BCH_JOINTS_IN_PARENTS, BCH_DOUBLE_ROWS, local.data(), joints);
     change(arrays);
-    EXPECT_EQ(bch_pose_shaper_make_own(shaper.get(), &arrays, 1, 0), BCH_INVALID_ARGUMENT);
+    EXPECT_EQ(bch_pose_shaper_make_own(shaper.get(), &arrays, 1), BCH_INVALID_ARGUMENT);
     EXPECT_EQ(bch_last_error(), message);
   };
   expect_rejected([](auto& a) { a.count = 26; }, "poses[1]: shape: expected 27 joint transforms, found 26");
