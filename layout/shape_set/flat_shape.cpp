@@ -117,7 +117,10 @@ FlatShape flat_shape(const ShapeArrays& arrays, std::size_t shape) {
 }
 
 FlatBody flat_body(const ShapeArrays& arrays, std::size_t shape) {
-  return {{}, flat_shape(arrays, shape), arrays.heights.empty() ? Heights{} : arrays.heights[shape]};
+  FlatBody body;  // where a member of a braced result throws, GCC 12 destroys those before it twice
+  body.shape = flat_shape(arrays, shape);
+  if (!arrays.heights.empty()) body.heights = arrays.heights[shape];
+  return body;
 }
 
 }  // namespace bch::detail

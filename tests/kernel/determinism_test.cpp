@@ -38,7 +38,11 @@ const Hashes golden{0xb001f2145d76abf1, 0x0df165085461f9bf, 0x22e4be2a917a2aab, 
                     0x693851ffcce83169, 0xb9a994ab0bd8c196};
 
 /// The same of bodies with heights, half of them on grounds of their own.
-const Hashes golden_with_heights{};
+const Hashes golden_with_heights{
+    0x60d060ac74320fc2, 0x735bdd4c18df5000, 0x5baa5d16b2371efa, 0xbc646285f1da6d36, 0xe6ec558db14e283c,
+    0x79a3a5ff4a0df064, 0xbe398da63b382eb9, 0x792a2fd8987a813d, 0x4fd6551bd76212b5, 0x8f79e5c6333d541c,
+    0xb61a8ef7db5f6ae8, 0x0a95b052543f3735, 0x218c7955d4983943, 0x1122a1c7bd6825b2, 0xa4567057f88f1c7d,
+    0x469800c6291d3bac, 0xa7a5d96074dbdddc, 0xfffad584d6936eb3};
 
 /// In this order, bytes of all answers.
 class AnswerBytes {

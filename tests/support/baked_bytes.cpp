@@ -40,7 +40,7 @@ std::vector<BakedClip> few_clips() {
                              {3}};
   const AnimatedChunk next{{4, 4.5}, 2, {{5, 0, 1}, {6, 0, 1}, {5, 0, 1}, {6, 0, 2}}, {1, 2}};
   const AnimatedChunk fine{{0, 0.1}, 1, {{0.1f, 0.3f, 0.2f}, {100, -0.7f, 0.2f}}, {}};
-  return {{0, 1, {{ringed, next}, true}}, {3, ShapeOrigin::rest_pose, {{fine}, false, {0, 1.5f}}}};
+  return {{0, 1, {{ringed, next}, true}}, {3, ShapeOrigin::rest_pose, {{fine}, false}}};
 }
 
 BakedBytes::BakedBytes(const ShapeSet& set, const ShapeOrigins& origins, std::span<const BakedClip> clips) {

@@ -60,7 +60,6 @@ void add_queries_of_pairs(const CScene& scene, std::vector<CQuery>& to) {
   const bch_shape_set* const set = scene.set.get();
   const bch_pair* const pairs = c_pairs(scene.pairs);
   const std::size_t n = scene.pairs.size();
-  const bool needs_memory = !scene.crowd.z.empty();
   const auto* const all = &scene;
   to.push_back(
       {"validate", false, [=] { return bch_validate_agents(set, &all->agents); }, [] { return ""; }});
@@ -76,10 +75,10 @@ void add_queries_of_pairs(const CScene& scene, std::vector<CQuery>& to) {
   to.push_back(into<bch_penetration_depth>("penetration along", false, n, [=](auto* out) {
     return bch_penetration_along(set, &all->agents, pairs, n, all->along.data(), &all->options, out);
   }));
-  to.push_back(into<float>("time of impact", needs_memory, n, [=](auto* out) {
+  to.push_back(into<float>("time of impact", false, n, [=](auto* out) {
     return bch_time_of_impact(set, &all->agents, pairs, n, all->x.data(), all->y.data(), &all->options, out);
   }));
-  to.push_back(clearance_into("clearance", needs_memory, n, [=](auto* out) {
+  to.push_back(clearance_into("clearance", false, n, [=](auto* out) {
     return bch_clearance(set, &all->agents, pairs, n, &all->options, out);
   }));
 }

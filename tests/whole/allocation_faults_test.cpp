@@ -126,7 +126,7 @@ class AllocationFaults : public testing::Test {
 TEST_F(AllocationFaults, Queries) {
   fail_each_making<bch_crowd>(
       1, [](bch_crowd** crowd) { return bch_crowd_create(nullptr, crowd); }, bch_crowd_free);
-  for (const bool at_heights : {false, true}) {  // where clearances and times need memory
+  for (const bool at_heights : {false, true}) {
     crowd.z.assign(at_heights ? crowd.x.size() : 0, 0);
     if (at_heights) crowd.z[1] = 0.5;
     test::CScene scene(shapes, crowd, test::candidate_pairs(shapes, crowd.agents()));
