@@ -48,6 +48,8 @@ struct CrowdOptions {
   std::uint64_t seed = 1;
   std::string json, csv, svg;
   std::string svg_depth;
+  bool live = false;  ///< bodies of spheres, posed anew in every frame
+  std::uint32_t frames = 20, spheres = 256;
 };
 
 /// Holds everything that a run of `bch crowd` knows in the end.
@@ -65,8 +67,17 @@ struct CrowdRun {
 
 std::string text_report(const CrowdRun& run);
 nlohmann::ordered_json json_report(const CrowdRun& run);
-/// Lists the colliding pairs at the finest level as CSV.
-std::string csv_report(const CrowdRun& run);
+
+/// Returns the colliding pairs at the finest level.
+std::vector<Pair> hits_of(const CrowdAnswers& answers);
+/// Lists pairs as CSV.
+std::string csv_of(std::span<const Pair> pairs);
+/// Orders pairs by their first, then their second agents.
+bool before(Pair a, Pair b);
+/// Names characters, with their numbers of triangles.
+std::string names_of(std::span<const LoadedCharacter> characters);
+/// Says how many agents stand where.
+std::string agents_text(const CrowdOptions& options, const Crowd& crowd);
 
 struct CrowdPicture {
   std::span<const Shape> shapes;

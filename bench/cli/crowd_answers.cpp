@@ -21,10 +21,6 @@ constexpr std::uint32_t most_runs = 15;
 constexpr std::uint32_t least_runs = 3;
 constexpr double enough_seconds = 0.5;  ///< for one level, once there were least_runs
 
-bool before(Pair a, Pair b) {
-  return std::tie(a.first, a.second) < std::tie(b.first, b.second);
-}
-
 /// Runs the batch until the time is known, the first time unmeasured.
 void answer_level(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs,
                   const QueryOptions& options, LevelAnswers& level) {
@@ -66,6 +62,17 @@ std::vector<Pair> candidates_of_all_levels(const ShapeSet& shapes, const Crowd& 
 }
 
 }  // namespace
+
+bool before(Pair a, Pair b) {
+  return std::tie(a.first, a.second) < std::tie(b.first, b.second);
+}
+
+std::vector<Pair> hits_of(const CrowdAnswers& answers) {
+  std::vector<Pair> hits;
+  for (std::size_t i = 0; i < answers.pairs.size(); ++i)
+    if (answers.finest().hits[i] != 0) hits.push_back(answers.pairs[i]);
+  return hits;
+}
 
 CrowdAnswers answer_crowd(const ShapeSet& set, const Crowd& crowd, const QueryOptions& options) {
   CrowdAnswers answers;

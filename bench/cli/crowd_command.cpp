@@ -12,10 +12,12 @@
 #include "bench/base/output.hpp"
 #include "bench/base/text.hpp"
 #include "bench/base/threads.hpp"
+#include "bench/characters/body_models.hpp"
 #include "bench/characters/cost_guard.hpp"
 #include "bench/cli/baked_report.hpp"
 #include "bench/cli/commands.hpp"
 #include "bench/cli/crowd.hpp"
+#include "bench/cli/live.hpp"
 
 namespace bch::cli {
 namespace {
@@ -42,7 +44,7 @@ std::uint32_t picture_level(const CrowdOptions& options, const std::vector<std::
 void write_files(const CrowdRun& run, std::uint32_t level) {
   const CrowdOptions& options = run.options;
   write_json(options.json, json_report(run));
-  if (!options.csv.empty()) write_file(options.csv, csv_report(run));
+  if (!options.csv.empty()) write_file(options.csv, csv_of(hits_of(run.answers)));
   if (!options.svg.empty())
     write_file(options.svg, draw_crowd({run.built.shapes, run.crowd, run.answers, level, options.density}));
 }
@@ -92,7 +94,16 @@ void run_baked_crowd(const CrowdOptions& options) {
   run_crowd(options, {}, {}, baked.origins.threshold, baked.set, 0, threads.count);
 }
 
+void run_live(const CLI::App& command, const CrowdOptions& options) {
+  require_absent(command, {"--poses", "--threshold", "--depths", "--leaves", "--svg-depth"},
+                 "belongs to shapes, not to --live");
+  require_outputs_of(options);
+  run_live_crowd(options);
+}
+
 void run_crowd(const CLI::App& command, const CrowdOptions& options) {
+  if (options.live) return run_live(command, options);
+  require_absent(command, {"--frames", "--spheres"}, "belongs to --live");
   if (options.svg.empty()) require_absent(command, {"--svg-depth"}, "belongs to --svg");
   if (std::none_of(options.characters.begin(), options.characters.end(), is_baked))
     return run_crowd_of_characters(options);
@@ -111,17 +122,25 @@ std::function<void()> add_crowd_command(CLI::App& program) {
   command.footer(
       R"(For each depth, prints the number of colliding pairs and the share of the cylinders' collisions that it clears.
 Shapes are drawn evenly from the poses of all characters, so a character with fewer poses appears less often.
-Example: bch crowd --agents 2000 --density 1 --svg crowd.svg)");
+With --live, everybody walks, each at a time of a clip of his own, as a body of spheres bound to his bones: prints
+what a frame takes to pose all bodies and to find who collides.
+Examples: bch crowd --agents 2000 --density 1 --svg crowd.svg
+          bch crowd --live --agents 10000)");
   const OptionAdder add(command);
   add("--agents", options->agents, "N", "Number of agents [10000]", whole_between(1, 10'000'000));
   add("--density", options->density, "N", "Agents per square metre [3]", number_between(1e-4, 100));
   add_seed_option(command, options->seed, "positions, headings and shapes");
   add_repeatable_option(command, "--character", options->characters,
                         std::string(character_or_baked_help) + " (repeatable) [male, female]", "FILE");
+  command.add_flag("--live", options->live,
+                   "Pose everybody anew in every frame, as bodies of spheres in three dimensions");
+  add("--frames", options->frames, "N", "Frames of --live that are timed [20]", whole_between(1, 1'000'000));
+  add_spheres_option(command, options->spheres);
   options->shapes.add_to(command);
   options->answer.add_to(command);
   add("--json", options->json, "FILE", "Write the table and the options as JSON");
-  add("--csv", options->csv, "FILE", "Write the pairs that collide at the last of --depths");
+  add("--csv", options->csv, "FILE",
+      "Write the pairs that collide, at the last of --depths or in the last frame");
   add("--svg", options->svg, "FILE", "Draw the middle of the crowd from above");
   add("--svg-depth", options->svg_depth, "DEPTH",
       "Depth of the discs that --svg draws, one of --depths [6, else the last]");

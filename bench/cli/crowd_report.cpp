@@ -33,13 +33,10 @@ double share_cleared(const CrowdRun& run, const LevelAnswers& level) {
 }
 
 std::string facts(const CrowdRun& run) {
-  std::string names;
-  for (const LoadedCharacter& character : run.characters)
-    names += fmt::format("{}{} ({})", names.empty() ? "" : ", ", file_name(character),
-                         counted(character.report.triangles, "triangle"));
   const bool baked = run.characters.empty();
   const double outline = run.built.outline_seconds, hierarchy = run.built.hierarchy_seconds;
-  return fact(baked ? "baked" : "characters", baked ? run.options.characters.front() : names) +
+  return fact(baked ? "baked" : "characters",
+              baked ? run.options.characters.front() : names_of(run.characters)) +
          fact("shapes", fmt::format("{} in contour hierarchies down to {:g} mm, {:.1f} kB each",
                                     counted(run.set.shape_count(), "pose"), run.threshold * 1e3,
                                     bytes_per_shape(run) / 1e3)) +
@@ -47,9 +44,7 @@ std::string facts(const CrowdRun& run) {
                 : fact("build", fmt::format("{} a shape and thread: outline {}, hierarchy {}",
                                             time_text(outline + hierarchy), time_text(outline),
                                             time_text(hierarchy)))) +
-         fact("agents",
-              fmt::format("{} on {:.1f} m x {:.1f} m, {:g} per m2, seed {}", grouped(run.crowd.size()),
-                          run.crowd.side, run.crowd.side, run.options.density, run.options.seed)) +
+         fact("agents", agents_text(run.options, run.crowd)) +
          fact("candidates", fmt::format("{} that can collide", counted(run.answers.pairs.size(), "pair"))) +
          fact("kernel", fmt::format("{}, {}, leaves {}", run.implementation, counted(run.threads, "thread"),
                                     leaves_text(run)));
@@ -98,6 +93,19 @@ nlohmann::ordered_json depth_json(std::uint32_t depth) {
 
 }  // namespace
 
+std::string names_of(std::span<const LoadedCharacter> characters) {
+  std::string names;
+  for (const LoadedCharacter& character : characters)
+    names += fmt::format("{}{} ({})", names.empty() ? "" : ", ", file_name(character),
+                         counted(character.report.triangles, "triangle"));
+  return names;
+}
+
+std::string agents_text(const CrowdOptions& options, const Crowd& crowd) {
+  return fmt::format("{} on {:.1f} m x {:.1f} m, {:g} per m2, seed {}", grouped(crowd.size()), crowd.side,
+                     crowd.side, options.density, options.seed);
+}
+
 std::string text_report(const CrowdRun& run) {
   std::uint32_t runs = 0;
   for (const LevelAnswers& level : run.answers.levels) runs = std::max(runs, level.runs);
@@ -132,11 +140,9 @@ nlohmann::ordered_json json_report(const CrowdRun& run) {
   return json;
 }
 
-std::string csv_report(const CrowdRun& run) {
+std::string csv_of(std::span<const Pair> pairs) {
   std::string out = "first,second\n";
-  for (std::size_t i = 0; i < run.answers.pairs.size(); ++i)
-    if (run.answers.finest().hits[i] != 0)
-      out += fmt::format("{},{}\n", run.answers.pairs[i].first, run.answers.pairs[i].second);
+  for (const auto [first, second] : pairs) out += fmt::format("{},{}\n", first, second);
   return out;
 }
 

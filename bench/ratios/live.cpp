@@ -8,7 +8,6 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -20,44 +19,38 @@
 #include "bench/base/median.hpp"
 #include "bench/base/stopwatch.hpp"
 #include "bench/base/text.hpp"
+#include "bench/characters/walking_crowd.hpp"
 #include "bench/ratios/ratios.hpp"
-#include "layout/base/heading.hpp"
-#include "layout/base/random.hpp"
 
 namespace bch::bench {
 namespace {
 
 constexpr double live_density = 1;  ///< agents a square metre
-constexpr double live_speed = 1.3;  ///< metres a second
-constexpr double frame_seconds = 1.0 / 60;
 constexpr int frames_until_places_fit = 30;
 
 /// A crowd in which every character is posed anew in every frame: an example of how a simulator that does so uses
 /// the library. Each agent has a shape of its own, which is skinned, outlined, divided and put into the set's arrays
-/// while other threads do so with others. Agents walk straight on in clips chosen at random.
+/// while other threads do so with others.
 class LiveCrowd {
  public:
   LiveCrowd(Scene& scene, std::uint32_t agents, std::uint32_t depth)
       : scene_(scene),
         plan_{.depths = {depth}, .culling = false},  // no shape is in enough pairs for those
-        crowd_(cli::place_crowd(agents, live_density, 1, 72)),
-        sources_(random_sources(agents)),
+        crowd_(scene.characters(), agents, live_density, 72),
         shapes_(first_shapes()),
         workshops_([this] { return Workshop(scene_, plan_); }),
-        outgrown_(agents) {
-    for (std::uint32_t i = 0; i < agents; ++i) crowd_.shape[i] = i;
-  }
+        outgrown_(agents) {}
 
   /// Computes the next frame. Runs in the caller's TBB arena.
   void step() {
-    walk();
+    crowd_.step();
     const Stopwatch watch(0);
     build_shapes();
     const double built = watch.nanoseconds();
-    pairs_ = finder_.candidates(shapes_.set(), crowd_.agents()).span();
+    pairs_ = finder_.candidates(shapes_.set(), crowd_.crowd().agents()).span();
     const double found = watch.nanoseconds();
     hits_.resize(pairs_.size());
-    collide(shapes_.set(), crowd_.agents(), pairs_, hits_);
+    collide(shapes_.set(), crowd_.crowd().agents(), pairs_, hits_);
     shapes_ms.push_back(built / 1e6), pairs_ms.push_back((found - built) / 1e6);
     answers_ms.push_back((watch.nanoseconds() - found) / 1e6);
   }
@@ -66,10 +59,10 @@ class LiveCrowd {
   void require_right() {
     std::vector<Shape> all;
     Workshop workshop(scene_, {});
-    for (const ShapeSource& source : sources_)
+    for (const ShapeSource& source : crowd_.poses())
       all.push_back(workshop.shapers[source.character].shape(source.at));
     Hits hits(pairs_.size());
-    collide(ShapeSet(all, {.depths = plan_.depths}), crowd_.agents(), pairs_, hits);
+    collide(ShapeSet(all, {.depths = plan_.depths}), crowd_.crowd().agents(), pairs_, hits);
     if (hits != hits_) throw std::runtime_error("a set whose shapes were replaced answers unlike a new one");
   }
 
@@ -97,59 +90,27 @@ class LiveCrowd {
     }
   };
 
-  const std::vector<Clip>& clips_of(const ShapeSource& source) const {
-    return scene_.characters()[source.character].character.clips;
-  }
-
-  std::vector<ShapeSource> random_sources(std::uint32_t agents) const {
-    detail::Random random(71);
-    std::vector<ShapeSource> sources;
-    for (std::uint32_t i = 0; i < agents; ++i) {
-      ShapeSource source{random.below(static_cast<std::uint32_t>(scene_.characters().size())), {}};
-      if (const auto& clips = clips_of(source); !clips.empty()) {
-        source.at.clip = random.below(static_cast<std::uint32_t>(clips.size()));
-        source.at.seconds = static_cast<float>(random.uniform(double{clips[source.at.clip].seconds}));
-      }
-      sources.push_back(source);
-    }
-    return sources;
-  }
-
   ShapeSet first_shapes() const {
     Workshop workshop(scene_, plan_);
-    ShapeSetBuilder builder(plan_, sources_.size());
-    for (std::uint32_t i = 0; i < sources_.size(); ++i) builder.add(workshop.make(sources_[i], i));
+    ShapeSetBuilder builder(plan_, crowd_.poses().size());
+    for (std::uint32_t i = 0; i < crowd_.poses().size(); ++i)
+      builder.add(workshop.make(crowd_.poses()[i], i));
     return std::move(builder).finish();
   }
 
-  /// Who leaves the square comes in again on the other side.
-  void walk() {
-    for (std::size_t i = 0; i < crowd_.size(); ++i) {
-      const detail::Rotation ahead = detail::rotation(crowd_.heading[i]);
-      const auto wrap = [&](double x) { return x - crowd_.side * std::floor(x / crowd_.side); };
-      crowd_.x[i] = wrap(crowd_.x[i] + live_speed * frame_seconds * ahead.cosine);
-      crowd_.y[i] = wrap(crowd_.y[i] + live_speed * frame_seconds * ahead.sine);
-      PoseTime& at = sources_[i].at;
-      if (at.clip == PoseTime::rest) continue;
-      const double length{clips_of(sources_[i])[at.clip].seconds};
-      at.seconds = static_cast<float>(std::fmod(double{at.seconds} + frame_seconds, length));
-    }
-  }
-
   void build_shapes() {
-    const auto count = static_cast<std::uint32_t>(sources_.size());
+    const auto count = static_cast<std::uint32_t>(crowd_.poses().size());
     tbb::parallel_for(std::uint32_t{0}, count, [&](std::uint32_t i) {
-      outgrown_[i] = !shapes_.try_replace(i, workshops_.local().make(sources_[i], i));
+      outgrown_[i] = !shapes_.try_replace(i, workshops_.local().make(crowd_.poses()[i], i));
     });
     // Rare after the first frames; the arrays may move, so one after the other.
     for (std::uint32_t i = 0; i < count; ++i)
-      if (outgrown_[i]) shapes_.replace(i, workshops_.local().make(sources_[i], i));
+      if (outgrown_[i]) shapes_.replace(i, workshops_.local().make(crowd_.poses()[i], i));
   }
 
   Scene& scene_;
   ShapeSetPlan plan_;
-  cli::Crowd crowd_;
-  std::vector<ShapeSource> sources_;  ///< one an agent, which is one a shape
+  cli::WalkingCrowd crowd_;
   DynamicShapeSet shapes_;
   tbb::enumerable_thread_specific<Workshop> workshops_;
   std::vector<std::uint8_t> outgrown_;  ///< per shape: it needs a larger place

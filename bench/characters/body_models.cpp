@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/characters/body_models.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "bench/base/exit_codes.hpp"
+#include "bench/base/options.hpp"
+#include "bench/base/progress.hpp"
+#include "layout/body/body_record.hpp"
+
+namespace bch::cli {
+
+void add_spheres_option(CLI::App& command, std::uint32_t& spheres) {
+  OptionAdder{command}("--spheres", spheres, "N", fmt::format("Spheres of a body [{}]", spheres),
+                       whole_between(1, detail::most_spheres));
+}
+
+std::vector<BodyModel> make_models(std::span<const LoadedCharacter> characters, std::uint32_t spheres) {
+  constexpr std::size_t steps = 100;  // of a character
+  std::vector<BodyModel> models;
+  Progress bar("placing spheres", steps * characters.size());
+  for (const LoadedCharacter& loaded : characters) try {
+      std::size_t done = 0;
+      const auto advance_to = [&](double share) {
+        for (; static_cast<double>(done) < share * steps; ++done) bar.advance();
+        return true;
+      };
+      models.push_back(
+          make_body(loaded.character, {.spheres = spheres, .draft = true, .progress = advance_to}));
+      advance_to(1);
+    } catch (const std::invalid_argument& error) {
+      throw InputError(loaded.source + ": " + error.what());
+    }
+  return models;
+}
+
+}  // namespace bch::cli

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <bch/bodies.hpp>
+
+#include "bench/base/command_line.hpp"
+#include "bench/characters/characters.hpp"
+
+namespace bch::cli {
+
+/// Adds the option --spheres, how many each body has.
+void add_spheres_option(CLI::App& command, std::uint32_t& spheres);
+
+/// Makes models of bodies of so many spheres, one a character, as drafts, with a progress bar.
+/// Errors:  throws InputError naming the character that make_body() refuses.
+std::vector<BodyModel> make_models(std::span<const LoadedCharacter> characters, std::uint32_t spheres);
+
+}  // namespace bch::cli

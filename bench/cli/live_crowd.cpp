@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <atomic>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include <bch/crowd.hpp>
+
+#include "bench/base/output.hpp"
+#include "bench/base/progress.hpp"
+#include "bench/base/stopwatch.hpp"
+#include "bench/base/threads.hpp"
+#include "bench/characters/body_models.hpp"
+#include "bench/cli/live.hpp"
+#include "layout/base/heading.hpp"
+
+namespace bch::cli {
+namespace {
+
+constexpr double compared_spheres = 2e9;  ///< pairs of spheres that a check compares: a second, or less
+/// Metres: nearer to touching, float and double may differ.
+constexpr double rounding_band = 1e-5;
+
+std::vector<std::uint32_t> characters_of(std::span<const ShapeSource> poses) {
+  std::vector<std::uint32_t> characters;
+  for (const ShapeSource& pose : poses) characters.push_back(pose.character);
+  return characters;
+}
+
+void pose(LiveBodies& bodies, std::span<const ShapeSource> sources, std::vector<Pose>& poses) {
+  poses.clear();
+  for (const ShapeSource& source : sources) poses.emplace_back(source.at);
+  bodies.pose(poses);
+}
+
+std::vector<Pair> sorted(const CrowdPairs& found) {
+  std::vector<Pair> pairs(found.begin(), found.end());
+  std::sort(pairs.begin(), pairs.end(), before);
+  return pairs;
+}
+
+/// Returns the least gap between any two spheres of two agents, below 0 where they overlap.
+double least_gap(const BodySet& bodies, const Crowd& crowd, Pair pair) {
+  const auto turned = [](const Sphere& s, detail::Rotation by) {
+    const double x{s.x}, y{s.y};
+    return std::pair{by.cosine * x - by.sine * y, by.sine * x + by.cosine * y};
+  };
+  const auto [a, b] = pair;
+  const detail::Rotation of_a = detail::rotation(crowd.heading[a]), of_b = detail::rotation(crowd.heading[b]);
+  const std::vector<Sphere> others = bodies.spheres(crowd.shape[b]);
+  double least = HUGE_VAL;
+  for (const Sphere& s : bodies.spheres(crowd.shape[a])) {
+    const auto [x, y] = turned(s, of_a);
+    for (const Sphere& t : others) {
+      const auto [u, v] = turned(t, of_b);
+      const double dx = crowd.x[b] + u - crowd.x[a] - x, dy = crowd.y[b] + v - crowd.y[a] - y,
+                   dz = double{t.z} - double{s.z};
+      least = std::min(least, std::sqrt(dx * dx + dy * dy + dz * dz) - double{s.radius} - double{t.radius});
+    }
+  }
+  return least;
+}
+
+/// Compares candidates, evenly spread, with all spheres against all. Returns how many.
+std::size_t require_right(const LiveRun& run) {
+  const BodySet& bodies = run.bodies.set();
+  const double each = static_cast<double>(run.options.spheres) * run.options.spheres;
+  const std::size_t step =
+      1 + static_cast<std::size_t>(static_cast<double>(run.candidates.size()) * each / compared_spheres);
+  const std::size_t count = (run.candidates.size() + step - 1) / step;
+  std::atomic<bool> is_wrong = false;
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+    const Pair pair = run.candidates[i * step];
+    const double gap = least_gap(bodies, run.crowd.crowd(), pair);
+    const bool hit = std::binary_search(run.collisions.begin(), run.collisions.end(), pair, before);
+    if (hit ? gap > rounding_band : gap < -rounding_band) is_wrong = true;
+  });
+  if (is_wrong) throw std::logic_error("collisions differ from those of all spheres against all");
+  return count;
+}
+
+void write_files(const LiveRun& run) {
+  const CrowdOptions& options = run.options;
+  write_json(options.json, json_report(run));
+  if (!options.csv.empty()) write_file(options.csv, csv_of(run.collisions));
+}
+
+}  // namespace
+
+void run_live_crowd(const CrowdOptions& options) {
+  const auto characters = load_characters(options.characters, options.shapes.import_options());
+  const Threads threads(options.answer.threads);
+  WalkingCrowd crowd(characters, options.agents, options.density, options.seed);
+  LiveBodies bodies(make_models(characters, options.spheres), characters_of(crowd.poses()));
+  const Implementation* const implementation = options.answer.query_options().implementation;
+  LiveRun run{options, characters, crowd, bodies, {}, {}, {}, 0, implementation->name, threads.count};
+  bch::Crowd finder;
+  std::vector<Pose> poses;
+  Progress progress("frames", options.frames + 1);
+  for (std::uint32_t frame = 0; frame <= options.frames; ++frame) {
+    crowd.step();
+    const bench::Stopwatch watch(0);
+    pose(bodies, crowd.poses(), poses);
+    const double posed = watch.nanoseconds();
+    const CrowdPairs hits =
+        finder.collisions(bodies.set(), crowd.crowd().agents(), {.implementation = implementation});
+    const double answered = watch.nanoseconds();
+    if (frame > 0)
+      run.times.posing.push_back(posed / 1e6), run.times.queries.push_back((answered - posed) / 1e6);
+    if (frame == options.frames) run.collisions = sorted(hits);
+    progress.advance();
+  }
+  run.candidates = sorted(finder.candidates(bodies.set(), crowd.crowd().agents()));
+  run.checked = require_right(run);
+  write_files(run);
+  write_standard_output(text_report(run) + notes_text(characters));
+}
+
+}  // namespace bch::cli
