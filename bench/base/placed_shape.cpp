@@ -32,8 +32,13 @@ Placement Bounds::placement(Pixel corner, double side) const {
       {corner.x + side / 2 - s * (left + right) / 2, corner.y + side / 2 + s * (low + high) / 2}, 1, 0, s};
 }
 
-PixelDisc placed(const Placement& placement, Disc disc) {
-  return {placement(Vec2{disc.x, disc.y}), placement.scale * static_cast<double>(disc.radius)};
+PixelDisc placed(const Placement& placement, const Sphere& sphere) {
+  return {placement(Vec2{sphere.x, sphere.y}), placement.scale * static_cast<double>(sphere.radius),
+          placement.scale * static_cast<double>(sphere.z)};
+}
+
+PixelDisc placed(const Placement& placement, const Disc& disc) {
+  return placed(placement, Sphere{disc.x, disc.y, 0, disc.radius});
 }
 
 std::vector<PixelDisc> placed_cut(const Placement& placement, const Hierarchy& hierarchy,
@@ -44,8 +49,21 @@ std::vector<PixelDisc> placed_cut(const Placement& placement, const Hierarchy& h
 }
 
 bool overlap(const PixelDisc& a, const PixelDisc& b) {
-  const double x = a.centre.x - b.centre.x, y = a.centre.y - b.centre.y, r = a.radius + b.radius;
-  return x * x + y * y <= r * r;
+  const double x = a.centre.x - b.centre.x, y = a.centre.y - b.centre.y, z = a.height - b.height,
+               r = a.radius + b.radius;
+  return x * x + y * y + z * z <= r * r;
+}
+
+std::vector<PixelDisc> visible(const std::vector<PixelDisc>& discs) {
+  const auto covers = [](const PixelDisc& a, const PixelDisc& b) {
+    const double x = a.centre.x - b.centre.x, y = a.centre.y - b.centre.y, more = a.radius - b.radius;
+    return more > 0 && x * x + y * y <= more * more;
+  };
+  std::vector<PixelDisc> seen;
+  for (const PixelDisc& disc : discs)
+    if (std::none_of(discs.begin(), discs.end(), [&](const PixelDisc& other) { return covers(other, disc); }))
+      seen.push_back(disc);
+  return seen;
 }
 
 void draw_outline(Svg& svg, const Placement& placement, const Outline& outline) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include <bch/body_set.hpp>
 #include <bch/shape_set.hpp>
 
 #include "bench/base/svg.hpp"
@@ -32,18 +33,23 @@ struct Bounds {
   Placement placement(Pixel corner, double side) const;
 };
 
+/// Represents a disc of the picture, or a sphere seen from above.
 struct PixelDisc {
   Pixel centre;
   double radius = 0;
+  double height = 0;  ///< of the centre, in pixels as well
 };
 
-PixelDisc placed(const Placement& placement, Disc disc);
+PixelDisc placed(const Placement& placement, const Disc& disc);
+PixelDisc placed(const Placement& placement, const Sphere& sphere);
 
 /// Returns the discs of a cut in the picture.
 std::vector<PixelDisc> placed_cut(const Placement& placement, const Hierarchy& hierarchy,
                                   std::uint32_t depth);
 
 bool overlap(const PixelDisc& a, const PixelDisc& b);
+/// Returns the discs that no other one covers, as seen from above.
+std::vector<PixelDisc> visible(const std::vector<PixelDisc>& discs);
 
 void draw_outline(Svg& svg, const Placement& placement, const Outline& outline);
 void draw_discs(Svg& svg, const std::vector<PixelDisc>& discs);

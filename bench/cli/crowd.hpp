@@ -4,11 +4,13 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 #include <string>
 #include <vector>
 
+#include <bch/body_set.hpp>
 #include <bch/collide.hpp>
 
 #include "bench/base/options.hpp"
@@ -79,16 +81,32 @@ std::string names_of(std::span<const LoadedCharacter> characters);
 /// Says how many agents stand where.
 std::string agents_text(const CrowdOptions& options, const Crowd& crowd);
 
-struct CrowdPicture {
-  std::span<const Shape> shapes;
-  const Crowd& crowd;
-  const CrowdAnswers& answers;
-  std::uint32_t level = 0;  ///< whose discs are drawn and whose answers are coloured
-  double density = 0;
+/// Holds what a picture shows of a body, in the frame of its agent.
+struct DrawnBody {
+  Outline outline;
+  Disc cylinder;              ///< around all of it
+  std::vector<Sphere> parts;  ///< spheres, or discs, which are at height 0
 };
 
-/// Draws the middle of the crowd from above as SVG: outlines filled, discs over them. Colours show whether an
-/// agent collides, only its single cylinder does, or neither. They differ in lightness as much as in hue, so
+struct CrowdPicture {
+  const Crowd& crowd;
+  double density = 0;
+  double reach = 0;  ///< of no body is a point farther from its agent, metres
+  std::function<DrawnBody(std::uint32_t agent)> body = {};
+  std::vector<Pair> cleared = {};    ///< only their cylinders overlap
+  std::vector<Pair> colliding = {};  ///< their parts do
+  DrawnBody key = {};                ///< stands for all of them in the legend
+  std::string title = {};
+  std::string parts_are = {};      ///< a sentence of the caption
+  std::string part_name = "disc";  ///< or "sphere"
+};
+
+/// Returns what is drawn of a crowd of shapes: the cuts and the answers at a level. Refers to all that it is made of.
+CrowdPicture picture_of(std::span<const Shape> shapes, const Crowd& crowd, const CrowdAnswers& answers,
+                        std::uint32_t level, double density);
+
+/// Draws the middle of the crowd from above as SVG: outlines filled, parts over them. Colours show whether an
+/// agent collides, only its cylinder does, or neither. They differ in lightness as much as in hue, so
 /// that they can be told apart with colour blindness and in grey print.
 std::string draw_crowd(const CrowdPicture& picture);
 

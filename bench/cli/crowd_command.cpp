@@ -46,7 +46,8 @@ void write_files(const CrowdRun& run, std::uint32_t level) {
   write_json(options.json, json_report(run));
   if (!options.csv.empty()) write_file(options.csv, csv_of(hits_of(run.answers)));
   if (!options.svg.empty())
-    write_file(options.svg, draw_crowd({run.built.shapes, run.crowd, run.answers, level, options.density}));
+    write_file(options.svg,
+               draw_crowd(picture_of(run.built.shapes, run.crowd, run.answers, level, options.density)));
 }
 
 /// Answers and reports, once there are shapes.

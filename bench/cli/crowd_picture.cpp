@@ -8,7 +8,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
+#include <utility>
 
+#include "bench/base/disc_union_area.hpp"
 #include "bench/base/placed_shape.hpp"
 #include "bench/base/text.hpp"
 
@@ -65,17 +68,21 @@ std::string caption_of(const CrowdPicture& picture, const Window& window) {
                                ? fmt::format("All {:.1f} m × {:.1f} m", side, side)
                                : fmt::format("The middle {:.1f} m × {:.1f} m of {:.1f} m × {:.1f} m",
                                              window.width, window.height, side, side);
-  return fmt::format("{}, seen from above. Discs and collisions at depth {}.", part,
-                     depth_name(picture.answers.levels[picture.level].depth));
+  return fmt::format("{}, seen from above. {}", part, picture.parts_are);
 }
 
 struct DrawnAgent {
-  const Shape* shape;
+  DrawnBody body;
   Placement placement;
   State state = is_free;
-  bool is_partner = false;  ///< collides, and its single cylinder overlaps that of a cleared agent
+  bool is_partner = false;  ///< collides, and its cylinder overlaps that of a cleared agent
   std::vector<PixelDisc> discs = {};
   std::vector<bool> overlaps = {};  ///< per disc
+
+  DrawnAgent(DrawnBody drawn, const Placement& at, State how = is_free)
+      : body(std::move(drawn)), placement(at), state(how), overlaps(body.parts.size()) {
+    for (const Sphere& part : body.parts) discs.push_back(placed(placement, part));
+  }
 };
 
 class Scene {
@@ -86,8 +93,10 @@ class Scene {
 
  private:
   void add_visible_agents(const CrowdPicture& picture);
-  void colour_by_answers(const CrowdPicture& picture);
-  void mark_partners(const CrowdPicture& picture);
+  DrawnAgent* drawn(std::uint32_t agent);
+  void colour(std::span<const Pair> pairs, State state);
+  void mark_overlaps(std::span<const Pair> colliding);
+  void mark_partners(std::span<const Pair> cleared);
 
   static constexpr std::uint32_t unseen = 0xffffffff;
   std::vector<DrawnAgent> agents_;
@@ -96,8 +105,10 @@ class Scene {
 
 Scene::Scene(const CrowdPicture& picture) : window(middle_of(picture)) {
   add_visible_agents(picture);
-  colour_by_answers(picture);
-  mark_partners(picture);
+  colour(picture.cleared, is_cleared);
+  colour(picture.colliding, is_colliding);
+  mark_overlaps(picture.colliding);
+  mark_partners(picture.cleared);
 }
 
 /// Adds the agents in the window and those just outside: their parts reach in, and they touch agents that are
@@ -105,69 +116,63 @@ Scene::Scene(const CrowdPicture& picture) : window(middle_of(picture)) {
 void Scene::add_visible_agents(const CrowdPicture& picture) {
   const Crowd& crowd = picture.crowd;
   drawn_index_.assign(crowd.size(), unseen);
+  const double reach = 2 * picture.reach;
   for (std::uint32_t i = 0; i < crowd.size(); ++i) {
-    const Shape& shape = picture.shapes[crowd.shape[i]];
-    const double reach = 2 * shape.hierarchy.reach;
     const double x = crowd.x[i] - window.x, y = crowd.y[i] - window.y;
     if (x < -reach || y < -reach || x > window.width + reach || y > window.height + reach) continue;
-    DrawnAgent agent{&shape,
-                     {{margin + window.scale() * x, view_top + view_height - window.scale() * y},
-                      std::cos(crowd.heading[i]),
-                      std::sin(crowd.heading[i]),
-                      window.scale()}};
-    agent.discs = placed_cut(agent.placement, shape.hierarchy, picture.answers.levels[picture.level].depth);
-    agent.overlaps.resize(agent.discs.size());
     drawn_index_[i] = static_cast<std::uint32_t>(agents_.size());
-    agents_.push_back(std::move(agent));
+    agents_.emplace_back(picture.body(i),
+                         Placement{{margin + window.scale() * x, view_top + view_height - window.scale() * y},
+                                   std::cos(crowd.heading[i]),
+                                   std::sin(crowd.heading[i]),
+                                   window.scale()});
   }
 }
 
-void Scene::colour_by_answers(const CrowdPicture& picture) {
-  const auto raise = [this](std::uint32_t agent, State state) {
-    if (drawn_index_[agent] == unseen) return;
-    State& old = agents_[drawn_index_[agent]].state;
-    old = std::max(old, state);
-  };
-  const CrowdAnswers& answers = picture.answers;
-  for (std::size_t p = 0; p < answers.pairs.size(); ++p) {
-    const auto [first, second] = answers.pairs[p];
-    const bool hit = answers.levels[picture.level].hits[p] != 0;
-    if (!hit && answers.levels.front().hits[p] == 0) continue;
-    for (const std::uint32_t agent : {first, second}) raise(agent, hit ? is_colliding : is_cleared);
-    if (!hit || drawn_index_[first] == unseen || drawn_index_[second] == unseen) continue;
-    DrawnAgent &a = agents_[drawn_index_[first]], &b = agents_[drawn_index_[second]];
-    for (std::size_t i = 0; i < a.discs.size(); ++i)
-      for (std::size_t j = 0; j < b.discs.size(); ++j)
-        if (overlap(a.discs[i], b.discs[j])) a.overlaps[i] = true, b.overlaps[j] = true;
+DrawnAgent* Scene::drawn(std::uint32_t agent) {
+  return drawn_index_[agent] == unseen ? nullptr : &agents_[drawn_index_[agent]];
+}
+
+void Scene::colour(std::span<const Pair> pairs, State state) {
+  for (const auto [first, second] : pairs)
+    for (DrawnAgent* const agent : {drawn(first), drawn(second)})
+      if (agent != nullptr) agent->state = state;
+}
+
+void Scene::mark_overlaps(std::span<const Pair> colliding) {
+  for (const auto [first, second] : colliding) {
+    DrawnAgent *const a = drawn(first), *const b = drawn(second);
+    if (a == nullptr || b == nullptr) continue;
+    for (std::size_t i = 0; i < a->discs.size(); ++i)
+      for (std::size_t j = 0; j < b->discs.size(); ++j)
+        if (overlap(a->discs[i], b->discs[j])) a->overlaps[i] = true, b->overlaps[j] = true;
   }
 }
 
-/// Marks those whose single cylinders explain why a cleared agent is not free.
-void Scene::mark_partners(const CrowdPicture& picture) {
-  const CrowdAnswers& answers = picture.answers;
-  for (std::size_t p = 0; p < answers.pairs.size(); ++p) {
-    const std::uint32_t first = drawn_index_[answers.pairs[p].first],
-                        second = drawn_index_[answers.pairs[p].second];
-    if (answers.levels.front().hits[p] == 0 || first == unseen || second == unseen) continue;
-    DrawnAgent &a = agents_[first], &b = agents_[second];
-    if (a.state == is_cleared && b.state == is_colliding) b.is_partner = true;
-    if (b.state == is_cleared && a.state == is_colliding) a.is_partner = true;
+/// Marks those whose cylinders explain why a cleared agent is not free.
+void Scene::mark_partners(std::span<const Pair> cleared) {
+  for (const auto [first, second] : cleared) {
+    DrawnAgent *const a = drawn(first), *const b = drawn(second);
+    if (a == nullptr || b == nullptr) continue;
+    if (a->state == is_cleared && b->state == is_colliding) b->is_partner = true;
+    if (b->state == is_cleared && a->state == is_colliding) a->is_partner = true;
   }
 }
 
 void draw_overlaps(Svg& svg, const DrawnAgent& agent) {
+  std::vector<PixelDisc> discs;
   for (std::size_t i = 0; i < agent.discs.size(); ++i)
-    if (agent.overlaps[i]) svg.circle(agent.discs[i].centre, agent.discs[i].radius);
+    if (agent.overlaps[i]) discs.push_back(agent.discs[i]);
+  draw_discs(svg, visible(discs));
 }
 
 void draw_agent(Svg& svg, const DrawnAgent& agent) {
-  svg.group({}, "shape", [&] { draw_outline(svg, agent.placement, agent.shape->outline); });
-  svg.group({}, "discs", [&] { draw_discs(svg, agent.discs); });
+  svg.group({}, "shape", [&] { draw_outline(svg, agent.placement, agent.body.outline); });
+  svg.group({}, "discs", [&] { draw_discs(svg, visible(agent.discs)); });
 }
 
 void draw_cylinder(Svg& svg, const DrawnAgent& agent) {
-  const PixelDisc disc = placed(agent.placement, agent.shape->hierarchy.nodes.front().disc);
-  svg.circle(disc.centre, disc.radius);
+  draw_discs(svg, {placed(agent.placement, agent.body.cylinder)});
 }
 
 /// What matters most is drawn last.
@@ -192,27 +197,25 @@ void Scene::draw(Svg& svg) const {
 }
 
 /// A small agent that stands for all of its kind.
-void draw_key(Svg& svg, const CrowdPicture& picture, State state, double x, const char* first,
-              const char* second) {
+void draw_key(Svg& svg, const CrowdPicture& picture, State state, double x, std::string_view first,
+              std::string_view second) {
   constexpr double icon = 44;
-  const Shape& shape = picture.shapes.front();
-  const Disc root = shape.hierarchy.nodes.front().disc;
-  const double scale = icon / 2 / static_cast<double>(root.radius);
+  const Disc cylinder = picture.key.cylinder;
+  const double scale = icon / 2 / static_cast<double>(cylinder.radius);
   const double y = view_top + view_height + legend_height / 2;
-  DrawnAgent agent{
-      &shape,
-      {{x + icon / 2 - scale * static_cast<double>(root.x), y + scale * static_cast<double>(root.y)},
+  DrawnAgent agent(
+      picture.key,
+      {{x + icon / 2 - scale * static_cast<double>(cylinder.x), y + scale * static_cast<double>(cylinder.y)},
        1,
        0,
        scale},
-      state};
-  agent.discs =
-      placed_cut(agent.placement, shape.hierarchy, std::min(picture.answers.levels[picture.level].depth, 4u));
+      state);
   svg.open_group({}, state_name[state]);
   draw_agent(svg, agent);
   if (state == is_cleared) svg.group({}, "cylinder", [&] { draw_cylinder(svg, agent); });
   if (state == is_colliding) {
-    for (const PixelDisc& disc : agent.discs) agent.overlaps.push_back(disc.centre.x > x + 0.6 * icon);
+    for (std::size_t i = 0; i < agent.discs.size(); ++i)
+      agent.overlaps[i] = agent.discs[i].centre.x > x + 0.6 * icon;
     svg.group({}, "overlap", [&] { draw_overlaps(svg, agent); });
   }
   svg.close_group();
@@ -222,7 +225,8 @@ void draw_key(Svg& svg, const CrowdPicture& picture, State state, double x, cons
 
 void draw_legend(Svg& svg, const CrowdPicture& picture, const Window& window) {
   svg.group("legend", {}, [&] {
-    draw_key(svg, picture, is_colliding, margin, "collides;", "overlapping discs are dark");
+    draw_key(svg, picture, is_colliding, margin, "collides;",
+             fmt::format("overlapping {}s are dark", picture.part_name));
     draw_key(svg, picture, is_cleared, 325, "cleared: only cylinders", "(dashed) overlap");
     draw_key(svg, picture, is_free, 635, "free: not even", "cylinders overlap");
   });
@@ -237,17 +241,40 @@ void draw_legend(Svg& svg, const CrowdPicture& picture, const Window& window) {
 
 }  // namespace
 
-std::string draw_crowd(const CrowdPicture& picture) {
-  const LevelAnswers& drawn = picture.answers.levels[picture.level];
-  const std::uint64_t single = picture.answers.levels.front().hit_count;
-  const double share = single == 0 ? 0 : static_cast<double>(drawn.cleared) / static_cast<double>(single);
-  const std::string title =
+CrowdPicture picture_of(std::span<const Shape> shapes, const Crowd& crowd, const CrowdAnswers& answers,
+                        std::uint32_t level, double density) {
+  const LevelAnswers &drawn = answers.levels[level], &single = answers.levels.front();
+  const auto body_of = [](const Shape& shape, std::uint32_t depth) {
+    DrawnBody body{shape.outline, shape.hierarchy.nodes.front().disc, {}};
+    for (const Disc& disc : discs_of(shape.hierarchy, depth))
+      body.parts.push_back({disc.x, disc.y, 0, disc.radius});
+    return body;
+  };
+  CrowdPicture picture{crowd, density};
+  for (const Shape& shape : shapes) picture.reach = std::max(picture.reach, shape.hierarchy.reach);
+  picture.body = [=, &crowd](std::uint32_t agent) {
+    return body_of(shapes[crowd.shape[agent]], drawn.depth);
+  };
+  for (std::size_t p = 0; p < answers.pairs.size(); ++p)
+    if (drawn.hits[p] != 0)
+      picture.colliding.push_back(answers.pairs[p]);
+    else if (single.hits[p] != 0)
+      picture.cleared.push_back(answers.pairs[p]);
+  picture.key = body_of(shapes.front(), std::min(drawn.depth, 4u));
+  const double share =
+      single.hit_count == 0 ? 0 : static_cast<double>(drawn.cleared) / static_cast<double>(single.hit_count);
+  picture.title =
       fmt::format("{} agents, {:g} per m²: depth {} clears {} of {} collisions at depth 0 ({:.1f} %)",
-                  grouped(picture.crowd.size()), picture.density, depth_name(drawn.depth),
-                  grouped(drawn.cleared), grouped(single), 100 * share);
+                  grouped(crowd.size()), density, depth_name(drawn.depth), grouped(drawn.cleared),
+                  grouped(single.hit_count), 100 * share);
+  picture.parts_are = fmt::format("Discs and collisions at depth {}.", depth_name(drawn.depth));
+  return picture;
+}
+
+std::string draw_crowd(const CrowdPicture& picture) {
   const Scene scene(picture);
-  Svg svg(picture_width, picture_height, title, style);
-  svg.text({margin, 36}, "title", title);
+  Svg svg(picture_width, picture_height, picture.title, style);
+  svg.text({margin, 36}, "title", picture.title);
   svg.text({margin, 60}, "caption", caption_of(picture, scene.window));
   svg.rectangle({margin, view_top}, view_width, view_height, "view");
   svg.open_clipped_group("crowd", {margin, view_top}, view_width, view_height);

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
+#include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
+#include <iterator>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -13,10 +17,12 @@
 #include "bench/base/output.hpp"
 #include "bench/base/progress.hpp"
 #include "bench/base/stopwatch.hpp"
+#include "bench/base/text.hpp"
 #include "bench/base/threads.hpp"
 #include "bench/characters/body_models.hpp"
 #include "bench/cli/live.hpp"
 #include "layout/base/heading.hpp"
+#include "layout/body/body_record.hpp"
 
 namespace bch::cli {
 namespace {
@@ -83,10 +89,43 @@ std::size_t require_right(const LiveRun& run) {
   return count;
 }
 
+/// What is drawn of the last frame.
+CrowdPicture picture_of(const LiveRun& run) {
+  const Crowd& crowd = run.crowd.crowd();
+  const BodySet& bodies = run.bodies.set();
+  CrowdPicture picture{crowd, run.options.density};
+  const auto cylinder = [&bodies](std::uint32_t body) {
+    const detail::BodyHeader& header = detail::header_of(bodies.view().record(body));
+    return Disc{header.x, header.y, header.radius};
+  };
+  for (std::uint32_t i = 0; i < bodies.body_count(); ++i) {
+    const Disc disc = cylinder(i);
+    picture.reach = std::max(picture.reach, std::hypot(double{disc.x}, double{disc.y}) + double{disc.radius});
+  }
+  const auto shapers = std::make_shared<std::vector<PoseShaper>>();
+  for (const LoadedCharacter& loaded : run.characters) shapers->emplace_back(loaded.character);
+  picture.body = [&run, &bodies, shapers, cylinder](std::uint32_t agent) {
+    const ShapeSource& pose = run.crowd.poses()[agent];
+    return DrawnBody{(*shapers)[pose.character].make_outline(pose.at).outline, cylinder(agent),
+                     bodies.spheres(agent)};
+  };
+  std::set_difference(run.candidates.begin(), run.candidates.end(), run.collisions.begin(),
+                      run.collisions.end(), std::back_inserter(picture.cleared), before);
+  picture.colliding = run.collisions;
+  picture.key = picture.body(0);
+  picture.title = fmt::format("{} agents, {:g} per m²: {} of {} pairs whose cylinders overlap do not collide",
+                              grouped(crowd.size()), run.options.density, grouped(picture.cleared.size()),
+                              grouped(run.candidates.size()));
+  picture.parts_are = fmt::format("Bodies of {}.", counted(run.options.spheres, "sphere"));
+  picture.part_name = "sphere";
+  return picture;
+}
+
 void write_files(const LiveRun& run) {
   const CrowdOptions& options = run.options;
   write_json(options.json, json_report(run));
   if (!options.csv.empty()) write_file(options.csv, csv_of(run.collisions));
+  if (!options.svg.empty()) write_file(options.svg, draw_crowd(picture_of(run)));
 }
 
 }  // namespace

@@ -44,15 +44,34 @@ TEST(Cli, CrowdGivesTheSameAnswersEverywhere) {
     }
 }
 
-TEST(Cli, CrowdDrawsAPicture) {
+/// The collisions of the last frame of a small crowd whose bodies are posed anew, and their pairs.
+CrowdAnswer live_crowd(const TemporaryFolder& folder, const Arguments& more) {
+  const std::string json_file = folder.file("live.json"), csv_file = folder.file("live.csv");
+  const Ending run = bch({"crowd", "--live", "--agents", "60", "--spheres", "32", "--frames", "2", "--json",
+                          json_file, "--csv", csv_file},
+                         more);
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  const auto json = read_json(json_file);
+  EXPECT_GT(json["checked_pairs"], 0u);
+  EXPECT_EQ(json["checked_pairs"], json["candidate_pairs"]);
+  return {{json["collisions"]}, read_text(csv_file)};
+}
+
+TEST(Cli, LiveCrowdGivesTheSameAnswersEverywhere) {
   const TemporaryFolder folder;
-  const std::string svg_file = folder.file("crowd.svg");
-  const Ending run = bch({"crowd", "--agents", "200", "--poses", "5", "--svg", svg_file});
-  ASSERT_EQ(run.code, 0) << run.err;
+  const CrowdAnswer first = live_crowd(folder, {"--threads", "1"});
+  EXPECT_GT(first.hits[0], 0u);
+  EXPECT_EQ(lines(first.csv), first.hits[0] + 1);
+  EXPECT_EQ(first, live_crowd(folder, {"--threads", "3", "--isa", "scalar"}));
+  EXPECT_NE(first, live_crowd(folder, {"--seed", "2"}));
+  EXPECT_NE(first, live_crowd(folder, {"--frames", "9"}));
+}
+
+void expect_crowd_picture(const std::string& svg_file) {
   const std::string svg = read_text(svg_file);
   EXPECT_TRUE(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
   EXPECT_LT(svg.size(), 600000u);
-  EXPECT_NE(svg.find(": depth 6 clears"), std::string::npos);  // the terminal's last line is about all depths
   for (const char* id :
        {"crowd", "colliding", "cleared", "free", "overlaps", "single-cylinders", "legend", "scale"})
     EXPECT_NE(svg.find("id=\"" + std::string(id) + "\""), std::string::npos) << id;
@@ -64,6 +83,25 @@ TEST(Cli, CrowdDrawsAPicture) {
   EXPECT_EQ(count("<g"), count("</g>"));
   EXPECT_EQ(svg.find("nan"), std::string::npos);
   EXPECT_EQ(svg.find("inf"), std::string::npos);
+}
+
+TEST(Cli, CrowdDrawsAPicture) {
+  const TemporaryFolder folder;
+  const std::string svg_file = folder.file("crowd.svg");
+  const Ending run = bch({"crowd", "--agents", "200", "--poses", "5", "--svg", svg_file});
+  ASSERT_EQ(run.code, 0) << run.err;
+  expect_crowd_picture(svg_file);
+  // The terminal's last line is about all depths.
+  EXPECT_NE(read_text(svg_file).find(": depth 6 clears"), std::string::npos);
+}
+
+TEST(Cli, LiveCrowdDrawsItsLastFrame) {
+  const TemporaryFolder folder;
+  const std::string svg_file = folder.file("crowd.svg");
+  const Ending run = bch({"crowd", "--live", "--agents", "60", "--spheres", "64", "--svg", svg_file});
+  ASSERT_EQ(run.code, 0) << run.err;
+  expect_crowd_picture(svg_file);
+  EXPECT_NE(read_text(svg_file).find("Bodies of 64 spheres."), std::string::npos);
 }
 
 }  // namespace
