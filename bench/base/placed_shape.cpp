@@ -66,6 +66,14 @@ std::vector<PixelDisc> visible(const std::vector<PixelDisc>& discs) {
   return seen;
 }
 
+double round_length(double most) {
+  double length = 1e-6;
+  for (double decade = 1e-6; decade < 1e7; decade *= 10)
+    for (const double step : {1.0, 2.0, 5.0})
+      if (step * decade <= most) length = step * decade;
+  return length;
+}
+
 void draw_outline(Svg& svg, const Placement& placement, const Outline& outline) {
   svg.begin_path();
   std::vector<Pixel> points;

@@ -51,6 +51,9 @@ bool overlap(const PixelDisc& a, const PixelDisc& b);
 /// Returns the discs that no other one covers, as seen from above.
 std::vector<PixelDisc> visible(const std::vector<PixelDisc>& discs);
 
+/// Returns the largest of 1, 2, 5, 10 ... of any decade that is at most so long: what a scale shows, metres.
+double round_length(double most);
+
 void draw_outline(Svg& svg, const Placement& placement, const Outline& outline);
 void draw_discs(Svg& svg, const std::vector<PixelDisc>& discs);
 

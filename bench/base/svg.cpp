@@ -39,7 +39,7 @@ Svg::Svg(double width, double height, std::string_view title, std::string_view c
   append(out_,
          "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" "
          "role=\"img\">\n<title>{2}</title>\n<style>\n{3}{4}</style>\n"
-         "<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\"/>\n",
+         "<rect width=\"{0}\" height=\"{1}\" fill=\"#fff\" class=\"ground\"/>\n",
          number(width), number(height), escaped(title), common_css, css);
 }
 
@@ -61,9 +61,17 @@ void Svg::open_clipped_group(std::string_view id, Pixel corner, double width, do
          id, number(corner.x), number(corner.y), number(width), number(height));
 }
 
-void Svg::circle(Pixel centre, double radius) {
-  append(out_, "<circle cx=\"{}\" cy=\"{}\" r=\"{}\"/>\n", number(centre.x), number(centre.y),
-         number(radius));
+void Svg::define_ball(std::string_view id) {
+  append(out_,
+         "<radialGradient id=\"{0}\" cx=\"35%\" cy=\"30%\" r=\"75%\"><stop class=\"{0}-lit\"/>"
+         "<stop offset=\"1\" class=\"{0}-shade\"/></radialGradient>\n",
+         id);
+}
+
+void Svg::circle(Pixel centre, double radius, std::string_view classes) {
+  append(out_, "<circle cx=\"{}\" cy=\"{}\" r=\"{}\"", number(centre.x), number(centre.y), number(radius));
+  if (!classes.empty()) append(out_, " class=\"{}\"", classes);
+  out_ += "/>\n";
 }
 
 void Svg::line(Pixel from, Pixel to) {

@@ -18,7 +18,7 @@ struct Pixel {
 /// Represents an SVG picture under construction. Coordinates are written with one decimal.
 class Svg {
  public:
-  /// Begins a picture with a white ground and its title, which screen readers and tooltips say as well. `css` says what
+  /// Begins a picture with a white ground, of the class `ground`, and its title, which screen readers and tooltips say as well. `css` says what
   /// classes look like, besides `title` and `caption`.
   Svg(double width, double height, std::string_view title, std::string_view css);
 
@@ -35,7 +35,9 @@ class Svg {
   /// Opens a group that shows nothing outside of the rectangle.
   void open_clipped_group(std::string_view id, Pixel corner, double width, double height);
 
-  void circle(Pixel centre, double radius);
+  /// Defines a paint, url(#id), that makes balls of circles: from the class `id-lit` to the class `id-shade`.
+  void define_ball(std::string_view id);
+  void circle(Pixel centre, double radius, std::string_view classes = {});
   void line(Pixel from, Pixel to);
   void rectangle(Pixel corner, double width, double height, std::string_view classes);
   /// Draws a line with a mark at each end.

@@ -14,6 +14,19 @@
 
 namespace bch::cli {
 
+void BodyKind::add_to(CLI::App& command) {
+  OptionAdder{command}("--bodies", bodies, "KIND",
+                       "Bodies: outlines, seen from above, or spheres bound to bones, in space [outlines]",
+                       one_of({"outlines", "spheres"}));
+  add_spheres_option(command, spheres);
+}
+
+bool BodyKind::are_spheres(const CLI::App& command) const {
+  if (bodies == "spheres") return true;
+  require_absent(command, {"--spheres"}, "belongs to --bodies spheres");
+  return false;
+}
+
 void add_spheres_option(CLI::App& command, std::uint32_t& spheres) {
   OptionAdder{command}("--spheres", spheres, "N", fmt::format("Spheres of a body [{}]", spheres),
                        whole_between(1, detail::most_spheres));

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <bch/bodies.hpp>
@@ -13,6 +14,16 @@
 #include "bench/characters/characters.hpp"
 
 namespace bch::cli {
+
+/// Holds the options that choose what bodies are.
+struct BodyKind {
+  std::string bodies = "outlines";  ///< or "spheres"
+  std::uint32_t spheres = 256;      ///< of a body
+
+  void add_to(CLI::App& command);
+  /// Errors:  throws UsageError on --spheres beside outlines.
+  bool are_spheres(const CLI::App& command) const;
+};
 
 /// Adds the option --spheres, how many each body has.
 void add_spheres_option(CLI::App& command, std::uint32_t& spheres);

@@ -14,6 +14,7 @@
 #include "bench/base/text.hpp"
 #include "bench/base/threads.hpp"
 #include "bench/characters/baking.hpp"
+#include "bench/characters/body_models.hpp"
 #include "bench/characters/cost_guard.hpp"
 #include "bench/cli/baked_report.hpp"
 #include "bench/cli/commands.hpp"
@@ -27,6 +28,7 @@ using Json = nlohmann::ordered_json;
 struct InspectOptions {
   std::string character;
   ShapeOptions shapes;
+  BodyKind kind;
   std::optional<std::uint32_t> shape;
   std::optional<std::string> clip;
   std::optional<double> time;
@@ -42,7 +44,7 @@ void require_consistent(const InspectOptions& options) {
     throw UsageError("--clip and --time belong together");
   if (options.shape && options.clip) throw UsageError("--shape and --clip: name a shape by one of them");
   if (options.animated && !options.clip) throw UsageError("--animated: which clip? Add --clip and --time");
-  if (!options.svg.empty() && !options.names_a_shape())
+  if (!options.svg.empty() && !options.names_a_shape() && options.kind.bodies == "outlines")
     throw UsageError("--svg: which shape? Add --shape, or --clip and --time");
   require_outputs({{"--json", options.json}, {"--svg", options.svg}},
                   options.shapes.inputs({options.character}));
@@ -66,6 +68,14 @@ void inspect_shape(const InspectOptions& options, const LoadedCharacter& from, c
   const ShapeFacts facts = examine(built.shapes.front(), source, options.shape);
   write_json(options.json, {{"character", json_of(from)}, {"shape", json_of(from, facts)}});
   if (!options.svg.empty()) write_file(options.svg, draw_shape(from, facts));
+  write_standard_output(text_of(from) + text_of(from, facts));
+}
+
+void inspect_body(const InspectOptions& options, const LoadedCharacter& from, const ShapeSource& source) {
+  const std::vector<BodyModel> models = make_models({&from, 1}, options.kind.spheres);
+  const BodyFacts facts = examine(models.front(), source);
+  write_json(options.json, {{"character", json_of(from)}, {"body", json_of(from, facts)}});
+  if (!options.svg.empty()) write_file(options.svg, draw_body(from, facts));
   write_standard_output(text_of(from) + text_of(from, facts));
 }
 
@@ -133,7 +143,12 @@ void inspect_baked_clip(const InspectOptions& options) {
 
 void run_inspect(const CLI::App& command, const InspectOptions& options) {
   require_consistent(options);
+  const bool spheres = options.kind.are_spheres(command);
+  if (spheres)
+    require_absent(command, {"--threshold", "--animated", "--verify", "--max-drawn-nodes"},
+                   "belongs to outlines, not to --bodies spheres");
   if (is_baked(options.character)) {
+    require_absent(command, {"--bodies"}, "a baked file has outlines alone");
     require_unsettled(command, options.character);
     if (options.animated) return inspect_baked_clip(options);
     require_absent(command, {"--shape", "--clip", "--svg"},
@@ -144,12 +159,16 @@ void run_inspect(const CLI::App& command, const InspectOptions& options) {
   const LoadedCharacter from = load_character(options.character, options.shapes.import_options());
   const Threads threads(options.threads);
   const auto sources = list_shapes({&from, 1}, options.shapes.poses);
-  if (options.animated)
-    inspect_animated(options, from, source_at(from, *options.clip, *options.time));
-  else if (options.clip)
-    inspect_shape(options, from, source_at(from, *options.clip, *options.time));
-  else if (options.shape)
-    inspect_shape(options, from, at_index(from, sources, *options.shape));
+  const auto named = [&] {
+    if (options.clip) return source_at(from, *options.clip, *options.time);
+    return options.shape ? at_index(from, sources, *options.shape) : ShapeSource{};
+  };
+  if (spheres)
+    inspect_body(options, from, named());
+  else if (options.animated)
+    inspect_animated(options, from, named());
+  else if (options.names_a_shape())
+    inspect_shape(options, from, named());
   else
     inspect_table(options, from, sources);
 }
@@ -162,7 +181,9 @@ std::function<void()> add_inspect_command(CLI::App& program) {
   command.footer(
       R"(Reads glTF 2, FBX, Collada, MD5, IQM, OBJ, PLY and STL, and clips of these and of BVH.
 A file is rejected if reading it crashes or takes more than 2 GiB or 60 s.
-Example: bch inspect default:male --clip walk --time 1.5 --svg walk.svg)");
+Spheres are shown in the pose that --shape, or --clip and --time name, else in the rest pose.
+Examples: bch inspect default:male --clip walk --time 1.5 --svg walk.svg
+          bch inspect default:male --bodies spheres --clip walk --time 1.5 --svg spheres.svg)");
   const OptionAdder add(command);
   add("FILE", options->character, "", character_or_baked_help)->required();
   add("--shape", options->shape, "INDEX", "Show this shape of the table in detail");
@@ -170,13 +191,15 @@ Example: bch inspect default:male --clip walk --time 1.5 --svg walk.svg)");
   add("--time", options->time, "SECONDS", "Seconds from the start of --clip", number_between(0, 1e9));
   command.add_flag("--animated", options->animated,
                    "Show the clip as moving discs, at --time and from key to key; also of a baked file");
+  options->kind.add_to(command);
   options->shapes.add_to(command);
   add_threads_option(command, options->threads);
   command.add_flag(
       "--verify", options->verify,
       "Recompute what a baked file stores besides its discs and outlines, and report differences");
   add("--json", options->json, "FILE", "Write the same data as JSON, with all points of a shape's outline");
-  add("--svg", options->svg, "FILE", "Draw the shape: a panel for each depth of its hierarchy");
+  add("--svg", options->svg, "FILE",
+      "Draw the shape, a panel for each depth of its hierarchy, or the spheres from two sides");
   CostLimits& limits = options->shapes.limits;
   OptionAdder{command, "Limits"}("--max-drawn-nodes", limits.drawn_nodes, "N",
                                  fmt::format("Nodes of the shape that --svg draws [{}]", limits.drawn_nodes),

@@ -57,18 +57,9 @@ void draw_panel(Svg& svg, const Layout& layout, const ShapeFacts& facts, std::si
                        shown.discs == 1 ? "" : "s", shown.area));
 }
 
-/// The round length that takes about a third of a panel, metres.
-double scale_length(double pixels_per_metre) {
-  const double most = panel / 2.2 / pixels_per_metre;
-  double length = 1e-6;
-  for (double decade = 1e-6; decade < 1e7; decade *= 10)
-    for (const double step : {1.0, 2.0, 5.0})
-      if (step * decade <= most) length = step * decade;
-  return length;
-}
-
 void draw_scale(Svg& svg, double right, double pixels_per_metre) {
-  const double length = scale_length(pixels_per_metre), left = right - length * pixels_per_metre;
+  const double length = round_length(panel / 2.2 / pixels_per_metre),
+               left = right - length * pixels_per_metre;
   const double y = 30;
   svg.group("scale", "scale", [&] { svg.scale(left, right, y); });
   svg.text({(left + right) / 2, y + 22}, "key middle", fmt::format("{:g} m", length));

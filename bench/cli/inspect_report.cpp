@@ -69,11 +69,13 @@ ShapeFacts examine(const Shape& shape, const ShapeSource& source, std::optional<
   return facts;
 }
 
+std::string pose_title(const LoadedCharacter& character, PoseTime at) {
+  return at.clip == PoseTime::rest ? "rest pose"
+                                   : fmt::format("{} at {:.2f} s", shown_clip(character, at), at.seconds);
+}
+
 std::string shape_title(const LoadedCharacter& character, const ShapeFacts& facts) {
-  const PoseTime at = facts.source.at;
-  const std::string pose = at.clip == PoseTime::rest
-                               ? "rest pose"
-                               : fmt::format("{} at {:.2f} s", shown_clip(character, at), at.seconds);
+  const std::string pose = pose_title(character, facts.source.at);
   return facts.index ? fmt::format("shape {}: {}", *facts.index, pose) : pose;
 }
 

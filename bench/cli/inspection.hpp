@@ -10,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include <bch/bodies.hpp>
+
 #include "bench/characters/shape_table.hpp"
 
 namespace bch::cli {
@@ -50,8 +52,29 @@ nlohmann::ordered_json json_of(const LoadedCharacter& character, const ShapeFact
 /// Draws one panel a depth: the outline filled, the discs over it.
 std::string draw_shape(const LoadedCharacter& character, const ShapeFacts& facts);
 
+/// Returns "walk at 1.25 s", or "rest pose".
+std::string pose_title(const LoadedCharacter& character, PoseTime at);
 /// Returns a title: "shape 3: walk at 1.25 s".
 std::string shape_title(const LoadedCharacter& character, const ShapeFacts& facts);
+
+/// Holds a body of spheres in a pose.
+struct BodyFacts {
+  ShapeSource source;
+  const BodyModel& model;
+  std::vector<Sphere> spheres;
+  Heights heights;
+  std::size_t bytes = 0;
+
+  std::vector<bool> are_core() const;  ///< which spheres a query tests first
+};
+
+BodyFacts examine(const BodyModel& model, const ShapeSource& source);
+
+std::string text_of(const LoadedCharacter& character, const BodyFacts& facts);
+nlohmann::ordered_json json_of(const LoadedCharacter& character, const BodyFacts& facts);
+
+/// Draws the spheres from the side and from above, with the outline of the skin and the bones.
+std::string draw_body(const LoadedCharacter& character, const BodyFacts& facts);
 
 /// Holds properties of a clip as moving discs.
 struct AnimatedFacts {
