@@ -14,6 +14,7 @@
 
 #include "bench/base/output_file.hpp"
 #include "bench/base/progress.hpp"
+#include "bench/characters/body_models.hpp"
 #include "kernel/baking/pose_baker.hpp"
 #include "layout/baked/image.hpp"
 
@@ -41,18 +42,13 @@ ShapeSet bake_shapes(std::span<const LoadedCharacter> characters, std::span<cons
   return std::move(builder).finish();
 }
 
-AnimatedDiscs animate_clip(const Character& character, const std::string& name, std::uint32_t clip,
+AnimatedDiscs animate_clip(const BodyModel& model, const std::string& name, std::uint32_t clip,
                            const AnimateOptions& how) {
   try {
-    return animate(character, clip, how);
+    return animate(model, clip, how);
   } catch (const std::invalid_argument& error) {
-    throw InputError(fmt::format("{}, clip {}: {}", name, character.clips[clip].name, error.what()));
+    throw InputError(fmt::format("{}, clip {}: {}", name, model.character->clips[clip].name, error.what()));
   }
-}
-
-std::size_t shapes_in_time(double seconds) {
-  constexpr double a_second = 8;  // which takes up to 4 s, and a shape has 1 s
-  return static_cast<std::size_t>(std::ceil(a_second * std::min(seconds, 1e6)));
 }
 
 std::vector<BakedClip> bake_clips(std::span<const LoadedCharacter> characters,
@@ -64,13 +60,15 @@ std::vector<BakedClip> bake_clips(std::span<const LoadedCharacter> characters,
     names += 1 + static_cast<std::uint32_t>(each.character.clips.size());
   }
   std::vector<BakedClip> baked(clips.size());
+  if (clips.empty()) return baked;
+  const std::vector<BodyModel> models = make_models(characters, animated_spheres);
   Progress progress("animating clips", clips.size());
-  if (!clips.empty()) progress.show();
+  progress.show();
   tbb::parallel_for(std::size_t{0}, clips.size(), [&](std::size_t i) {
     const auto& [character, clip] = clips[i];
     const std::uint32_t name = first_name[character];
-    const LoadedCharacter& from = characters[character];
-    baked[i] = {name, name + 1 + clip, animate_clip(from.character, file_name(from), clip)};
+    baked[i] = {name, name + 1 + clip,
+                animate_clip(models[character], file_name(characters[character]), clip)};
     progress.advance();
   });
   return baked;

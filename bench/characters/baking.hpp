@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <bch/baked.hpp>
+#include <bch/bodies.hpp>
 #include <bch/pose_shape.hpp>
 #include <bch/shape_set.hpp>
 
@@ -53,13 +54,13 @@ std::vector<ClipOf> find_clips(std::span<const std::string> names, std::span<con
   return found;
 }
 
+/// The spheres of bodies that clips are made of as moving discs.
+constexpr std::uint32_t animated_spheres = 256;
+
 /// Makes moving discs of a clip; errors call its character `name`.
 /// Errors:  throws InputError where animate() refuses the clip.
-AnimatedDiscs animate_clip(const Character& character, const std::string& name, std::uint32_t clip,
+AnimatedDiscs animate_clip(const BodyModel& model, const std::string& name, std::uint32_t clip,
                            const AnimateOptions& how = {});
-
-/// Returns how many shapes may cost as much as moving discs of so many seconds of clips; limits know no others.
-std::size_t shapes_in_time(double seconds);
 
 /// Makes moving discs of clips in parallel, with a progress bar, as a baked file has them beside origins_of().
 std::vector<BakedClip> bake_clips(std::span<const LoadedCharacter> characters, std::span<const ClipOf> clips);

@@ -19,19 +19,15 @@ constexpr std::size_t times = 6;  ///< that small panels show
 constexpr double small = (2 * large + gap - (times - 1) * gap) / times;
 constexpr double width = 2 * border + 2 * large + gap;
 constexpr double label = 30, row = large + label + 8, bars = 90, tick = 6, below = 36;
-constexpr std::size_t most_key_colours = 5;
 
 constexpr const char* css =
     R"(.label { font-size: 13px; text-anchor: middle }
 .tick { font-size: 12px; text-anchor: middle; fill: #4a5866 }
 .panel { fill: #f7f9fa; stroke: #d3dae0 }
 .outline { fill: #a9bccb; stroke: #3f566b; stroke-width: 1.1; stroke-linejoin: round }
-.ring { fill: none; stroke: #1c2733; stroke-width: 1; stroke-dasharray: 4 2; stroke-linejoin: round }
 .discs { fill: #d55e00; fill-opacity: .13; stroke: #a84300; stroke-width: .8 }
 .cover { fill: #d55e00; stroke: none }
 .ways { fill: none; stroke: #1c2733; stroke-opacity: .55; stroke-width: .8 }
-.key0, .key1, .key2, .key3, .key4 { fill: none; stroke-width: 1.8; stroke-linejoin: round }
-.key0 { stroke: #0072b2 } .key1 { stroke: #009e73 } .key2 { stroke: #d55e00 } .key3 { stroke: #cc79a7 } .key4 { stroke: #e69f00 }
 .bar { fill: #cdd9e2; stroke: none }
 .here { fill: #d55e00; stroke: none }
 .keys { fill: none; stroke: #3f566b; stroke-width: 1 }
@@ -60,13 +56,6 @@ void draw_discs_at(Svg& svg, const AnimatedShape& shape, const Placement& placem
   draw_discs(svg, discs);
 }
 
-void draw_ring(Svg& svg, const AnimatedShape& shape, const Placement& placement, double seconds,
-               std::string_view classes) {
-  const Outline rings = shape.shape(seconds).outline;
-  if (rings.contours() == 0) return;
-  svg.group({}, classes, [&] { draw_outline(svg, placement, rings); });
-}
-
 void draw_moment(const Drawing& drawing, Pixel corner) {
   Svg& svg = drawing.svg;
   const double seconds = drawing.view.seconds;
@@ -75,14 +64,12 @@ void draw_moment(const Drawing& drawing, Pixel corner) {
   if (drawing.view.outline != nullptr)
     svg.group({}, "outline", [&] { draw_outline(svg, placement, *drawing.view.outline); });
   svg.group({}, "discs", [&] { draw_discs_at(svg, drawing.shape, placement, seconds); });
-  draw_ring(svg, drawing.shape, placement, seconds, "ring");
   svg.text({corner.x + large / 2, corner.y + large + 20}, "label",
-           fmt::format("{:.3f} s: {}{}{}", seconds, text_of(drawing.chunk),
-                       drawing.chunk.ring_ends.empty() ? "" : " (dashed)",
+           fmt::format("{:.3f} s: {}{}", seconds, counted(drawing.chunk.disc_count, "disc"),
                        drawing.view.outline != nullptr ? " on the body" : ""));
 }
 
-/// The rings of the chunk at its keys, and the way of each centre between them.
+/// The way of each centre from key to key of the chunk.
 void draw_ways(const Drawing& drawing, Pixel corner) {
   Svg& svg = drawing.svg;
   const AnimatedChunk& chunk = drawing.chunk;
@@ -97,14 +84,8 @@ void draw_ways(const Drawing& drawing, Pixel corner) {
     for (std::size_t disc = 0; disc < chunk.disc_count; ++disc)
       svg.line(centre(key - 1, disc), centre(key, disc));
   svg.close_group();
-  if (chunk.disc_count > 0) {
-    const AnimatedDiscs alone{{chunk}, false};
-    const AnimatedShape shape(alone);
-    for (std::size_t key = 0; key < std::min(chunk.times.size(), most_key_colours); ++key)
-      draw_ring(svg, shape, placement, chunk.times[key], fmt::format("key{}", key));
-  }
   svg.text({corner.x + large / 2, corner.y + large + 20}, "label",
-           fmt::format("keys at {:.3f} s: rings, and ways of the discs", fmt::join(chunk.times, ", ")));
+           fmt::format("keys at {:.3f} s: the ways of the discs", fmt::join(chunk.times, ", ")));
 }
 
 /// What the discs cover, at even times of the clip.
@@ -116,7 +97,6 @@ void draw_times(const Drawing& drawing, double top) {
     const Placement placement = drawing.at_all_times.placement(corner, small);
     drawing.svg.rectangle(corner, small, small, "panel");
     drawing.svg.group({}, "cover", [&] { draw_discs_at(drawing.svg, drawing.shape, placement, at); });
-    draw_ring(drawing.svg, drawing.shape, placement, at, "cover");
     drawing.svg.text({corner.x + small / 2, corner.y + small + 20}, "label", fmt::format("{:.2f} s", at));
   }
 }

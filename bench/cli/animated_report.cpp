@@ -23,7 +23,7 @@ std::size_t baked_bytes(const AnimatedDiscs& discs) {
   const detail::baked::PackedClips packed({&clip, 1}, 1);
   const detail::baked::ClipArrays arrays = packed.arrays();
   return arrays.clips.size_bytes() + arrays.chunks.size_bytes() + arrays.key_times.size_bytes() +
-         arrays.ring_ends.size_bytes() + arrays.disc_steps.size_bytes() + arrays.disc_floats.size_bytes();
+         arrays.disc_steps.size_bytes() + arrays.disc_floats.size_bytes();
 }
 
 Json discs_json(const std::vector<Disc>& discs) {
@@ -73,12 +73,6 @@ Json json_of(const AnimatedFacts& facts) {
           {"mean_discs", facts.mean}, {"bytes", facts.bytes}};
 }
 
-std::string text_of(const AnimatedChunk& chunk) {
-  if (chunk.disc_count == 0) return "nothing";
-  return fmt::format("{} in {}", counted(chunk.disc_count, "disc"),
-                     chunk.ring_ends.empty() ? "no ring" : counted(chunk.ring_ends.size(), "ring"));
-}
-
 std::string text_of(const AnimatedView& view) {
   const AnimatedFacts facts = facts_of(view.discs);
   std::string out = fmt::format("\n{} as moving discs\n", printable_line(view.clip));
@@ -90,7 +84,8 @@ std::string text_of(const AnimatedView& view) {
                                      static_cast<double>(facts.bytes) / 1e3 / facts.seconds));
   const AnimatedChunk& chunk = chunk_at(view.discs, view.seconds);
   return out + fact(fmt::format("  {:.2f} s", view.seconds),
-                    fmt::format("{}, keys at {:.3f} s", text_of(chunk), fmt::join(chunk.times, ", ")));
+                    fmt::format("{}, keys at {:.3f} s", counted(chunk.disc_count, "disc"),
+                                fmt::join(chunk.times, ", ")));
 }
 
 Json json_of(const AnimatedView& view) {
@@ -98,7 +93,6 @@ Json json_of(const AnimatedView& view) {
   json.update(json_of(facts_of(view.discs)));
   for (const AnimatedChunk& chunk : view.discs.chunks) json["key_times"].push_back(chunk.times);
   json["at"] = {{"seconds", view.seconds},
-                {"ring_ends", chunk_at(view.discs, view.seconds).ring_ends},
                 {"discs", discs_json(AnimatedShape(view.discs).discs(view.seconds))}};
   return json;
 }

@@ -28,13 +28,6 @@ struct BakeOptions {
   std::vector<std::string> animated;  ///< names of clips
 };
 
-double seconds_of(std::span<const LoadedCharacter> characters, std::span<const ClipOf> clips) {
-  double seconds = 0;
-  for (const auto& [character, clip] : clips)
-    seconds += static_cast<double>(characters[character].character.clips[clip].seconds);
-  return seconds;
-}
-
 void run_bake(const BakeOptions& options) {
   if (!is_baked(options.output))
     throw UsageError(
@@ -48,8 +41,7 @@ void run_bake(const BakeOptions& options) {
   const auto sources = options.rate > 0 ? list_shapes_at_rate(characters, options.rate)
                                         : list_shapes(characters, options.shapes.poses);
   const auto animated = find_clips<LoadedCharacter>(options.animated, characters, "--animated");
-  const CostGuard guard(limits, characters,
-                        sources.size() + shapes_in_time(seconds_of(characters, animated)));
+  const CostGuard guard(limits, characters, sources.size());
   const BakedShapes baked =
       bake_file(options.output, characters, sources, options.shapes.threshold, plan, limits, animated);
   write_standard_output(text_of(options.output, baked) + notes_text(characters));

@@ -90,9 +90,9 @@ void show(const InspectOptions& options, const std::string& head, const Json& he
 void inspect_animated(const InspectOptions& options, const LoadedCharacter& from, const ShapeSource& source) {
   const CostLimits& limits = options.shapes.limits;
   const Clip& clip = from.character.clips[source.at.clip];
-  const CostGuard guard(limits, {&from, 1}, shapes_in_time(static_cast<double>(clip.seconds)));
   const BuiltShapes built = build_shapes({&from, 1}, {&source, 1}, options.shapes.threshold, {}, limits);
-  const AnimatedDiscs discs = animate_clip(from.character, from.source, source.at.clip);
+  const std::vector<BodyModel> models = make_models({&from, 1}, animated_spheres);
+  const AnimatedDiscs discs = animate_clip(models.front(), from.source, source.at.clip);
   show(options, text_of(from), {"character", json_of(from)},
        {from.character.name, clip.name, discs, *options.time, &built.shapes.front().outline});
 }

@@ -102,13 +102,11 @@ struct AnimatedView {
 
 /// Returns the chunk of a time.
 const AnimatedChunk& chunk_at(const AnimatedDiscs& discs, double seconds);
-/// Returns "112 discs in 2 rings".
-std::string text_of(const AnimatedChunk& chunk);
 
 std::string text_of(const AnimatedView& view);
 nlohmann::ordered_json json_of(const AnimatedView& view);
 
-/// Draws the discs at the time on the body's outline and, from key to key, the rings and the ways of the discs; what they
+/// Draws the discs at the time on the body's outline and, from key to key, the ways of the discs; what they
 /// cover at times all over the clip; and the keys and discs of its chunks along the time.
 std::string draw_animated(const AnimatedView& view);
 

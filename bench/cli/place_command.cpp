@@ -19,6 +19,7 @@
 #include "bench/base/text.hpp"
 #include "bench/base/wkt_input.hpp"
 #include "bench/characters/baking.hpp"
+#include "bench/characters/body_models.hpp"
 #include "bench/characters/characters.hpp"
 #include "bench/cli/commands.hpp"
 #include "bench/cli/place.hpp"
@@ -46,11 +47,11 @@ detail::CastMember member_of(const LoadedCharacter& loaded) {
 
 /// A clip that is too short is played over and over.
 bench::PlacedClip placed_clip(const PlaceOptions& options, const detail::CastMember& member,
-                              std::uint32_t clip) {
+                              const BodyModel& model, std::uint32_t clip) {
   const Clip& played = member.character.clips[clip];
   AnimateOptions how;
   if (double{played.seconds} < options.placing.seconds) how.loops = true;
-  const AnimatedDiscs discs = animate_clip(member.character, member.name, clip, how);
+  const AnimatedDiscs discs = animate_clip(model, member.name, clip, how);
   return {member.name,
           played.name,
           options.speed.value_or(speed_of(member, clip)),
@@ -73,11 +74,13 @@ std::vector<bench::PlacedClip> clips_of(const PlaceOptions& options, std::string
   std::vector<detail::CastMember> members;
   for (const LoadedCharacter& loaded : characters) members.push_back(member_of(loaded));
   const std::vector<ClipOf> wanted = find_clips<detail::CastMember>(options.clip_names, members, "--clip");
+  const std::vector<BodyModel> models = make_models(characters, animated_spheres);
   std::vector<std::optional<bench::PlacedClip>> built(wanted.size());
   Progress progress("animating clips", wanted.size());
   progress.show();
   tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t i) {
-    built[i].emplace(placed_clip(options, members[wanted[i].character], wanted[i].clip));
+    built[i].emplace(
+        placed_clip(options, members[wanted[i].character], models[wanted[i].character], wanted[i].clip));
     progress.advance();
   });
   std::vector<bench::PlacedClip> clips;

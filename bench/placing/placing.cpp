@@ -116,7 +116,7 @@ class Crowd {
         spacing_(spacing),
         interval_{0, options.seconds},
         obstacles_(options.obstacles),
-        path_disc_({{{{0, 1}, 1, {path_disc, path_disc}, {}}}}) {}
+        path_disc_({{{{0, 1}, 1, {path_disc, path_disc}}}}) {}
 
   bool has_room(const PlacedPerson& person) const {
     if (obstacles_ != nullptr && !is_clear(person)) return false;

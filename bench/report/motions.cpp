@@ -12,9 +12,9 @@
 
 #include <bch/pose_shape.hpp>
 
+#include "baselines/outline_depth.hpp"
 #include "bench/base/stopwatch.hpp"
 #include "bench/report/subjects.hpp"
-#include "layout/animation/contour.hpp"
 #include "layout/base/random.hpp"
 #include "layout/character/skinning.hpp"
 
@@ -49,10 +49,10 @@ struct Cover {
   void add(const Shape& cover, const Outline& outline) {
     const std::vector<Disc> discs = ShapeSet({{cover}}, {.outlines = false, .culling = false}).discs(0, 0);
     for (const Disc& disc : discs)
-      outside.push_back(double{disc.radius} - detail::depth_in(outline, {double{disc.x}, double{disc.y}}));
+      outside.push_back(double{disc.radius} - baselines::depth_in(outline, {double{disc.x}, double{disc.y}}));
     for (const Vec2& vertex : outline.points) {
       const detail::PlanePoint p = detail::plane_point(vertex);
-      double away = std::max(0.0, -detail::depth_in(cover.outline, p));
+      double away = std::max(0.0, -baselines::depth_in(cover.outline, p));
       for (const Disc& disc : discs)
         away = std::min(away, std::max(0.0, detail::length(p - detail::PlanePoint{disc.x, disc.y}) -
                                                 double{disc.radius}));

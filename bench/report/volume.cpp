@@ -53,10 +53,6 @@ double enclosed_volume(std::span<const Vec3> positions,
   return volume / 6;
 }
 
-double height_of(const Heights& heights) {
-  return static_cast<double>(heights.top) - static_cast<double>(heights.bottom);
-}
-
 /// The area of a pose's single cylinder.
 double cylinder_of(const Shape& shape) {
   const double radius = static_cast<double>(shape.hierarchy.nodes[0].disc.radius);

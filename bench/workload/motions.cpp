@@ -17,6 +17,8 @@
 #include <bch/collide.hpp>
 #include <bch/pose_shape.hpp>
 
+#include "bench/characters/baking.hpp"
+#include "bench/characters/body_models.hpp"
 #include "bench/placing/placing.hpp"
 #include "bench/workload/scene.hpp"
 #include "layout/base/random.hpp"
@@ -58,12 +60,15 @@ double gap_at(const Motion& a, const Motion& b, double time) {
   return double{gap};
 }
 
-AnimatedClip animated_clip(const Character& character, std::uint32_t clip, double most_seconds) {
+AnimatedClip animated_clip(const Character& character, BodyModel model, std::uint32_t clip,
+                           double most_seconds) {
   Character shorter = character;
   float& seconds = shorter.clips[clip].seconds;
   constexpr auto least = static_cast<float>(least_clip_seconds);
   seconds = least * std::floor(std::min(seconds, static_cast<float>(most_seconds)) / least);
-  return {&character, clip, double{seconds}, AnimatedShape(animate(shorter, clip, {.loops = true}))};
+  const double lasts = seconds;
+  model.character = std::make_shared<const Character>(std::move(shorter));
+  return {&character, clip, lasts, AnimatedShape(animate(model, clip, {.loops = true}))};
 }
 
 }  // namespace
@@ -75,14 +80,16 @@ std::vector<AnimatedClip> animated_clips(std::span<const cli::LoadedCharacter> c
       std::none_of(characters.begin(), characters.end(), [&](const cli::LoadedCharacter& loaded) {
         return std::any_of(loaded.character.clips.begin(), loaded.character.clips.end(), is_named);
       });
-  std::vector<std::pair<const Character*, std::uint32_t>> wanted;
-  for (const cli::LoadedCharacter& loaded : characters)
-    for (std::uint32_t clip = 0; clip < loaded.character.clips.size(); ++clip)
-      if (all || is_named(loaded.character.clips[clip])) wanted.emplace_back(&loaded.character, clip);
+  const std::vector<BodyModel> models = cli::make_models(characters, cli::animated_spheres);
+  std::vector<cli::ClipOf> wanted;
+  for (std::uint32_t i = 0; i < characters.size(); ++i)
+    for (std::uint32_t clip = 0; clip < characters[i].character.clips.size(); ++clip)
+      if (all || is_named(characters[i].character.clips[clip])) wanted.push_back({i, clip});
   std::vector<std::optional<AnimatedClip>> made(wanted.size());
   tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t i) {
     try {
-      made[i].emplace(animated_clip(*wanted[i].first, wanted[i].second, most_seconds));
+      const auto [of, clip] = wanted[i];
+      made[i].emplace(animated_clip(characters[of].character, models[of], clip, most_seconds));
     } catch (const std::invalid_argument&) {
       // Left out.
     }

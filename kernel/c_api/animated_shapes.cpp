@@ -6,7 +6,7 @@
 #include <string>
 
 #include <bch/baked.hpp>
-#include <bch/pose_shape.hpp>
+#include <bch/bodies.hpp>
 
 #include "kernel/c_api/arguments.hpp"
 #include "kernel/c_api/objects.hpp"
@@ -41,13 +41,10 @@ AnimatedDiscs discs_of(const bch_animated_arrays* given) {
   const std::size_t chunks = arrays.chunk_count;
   const auto keys = array_of(arrays.key_counts, chunks, "arrays->key_counts");
   const auto discs = array_of(arrays.disc_counts, chunks, "arrays->disc_counts");
-  std::span<const std::uint32_t> rings;
-  if (arrays.ring_counts != nullptr) rings = array_of(arrays.ring_counts, chunks, "arrays->ring_counts");
   std::size_t disc_keys = 0;
   for (std::size_t i = 0; i < chunks; ++i) disc_keys += std::size_t{keys[i]} * discs[i];
   Cursor times(array_of(arrays.times, sum_of(keys), "arrays->times"));
   Cursor all(std::span<const Disc>(same_array<Disc>(arrays.discs, disc_keys, "arrays->discs")));
-  Cursor ends(array_of(arrays.ring_ends, sum_of(rings), "arrays->ring_ends"));
   AnimatedDiscs made;
   made.loops = arrays.loops != 0;
   made.chunks.resize(chunks);
@@ -55,11 +52,9 @@ AnimatedDiscs discs_of(const bch_animated_arrays* given) {
     AnimatedChunk& chunk = made.chunks[i];
     const auto at = times.take(keys[i]);
     const auto of = all.take(std::size_t{keys[i]} * discs[i]);
-    const auto ring = ends.take(rings.empty() ? 0 : rings[i]);
     chunk.times.assign(at.begin(), at.end());
     chunk.disc_count = discs[i];
     chunk.keys.assign(of.begin(), of.end());
-    chunk.ring_ends.assign(ring.begin(), ring.end());
   }
   return made;
 }
@@ -83,15 +78,15 @@ uint32_t add_name(ShapeOrigins& origins, const char* name) {
 using namespace bch;
 using namespace bch::c_api;
 
-bch_status bch_animated_shape_animate(const bch_character* character, uint32_t clip,
+bch_status bch_animated_shape_animate(const bch_body_model* model, uint32_t clip,
                                       const bch_animate_options* options, bch_animated_shape** shape) {
   return guarded([&] {
     required(shape, "shape");
-    const Character& of = *object_of(character, "character").character;
-    check_index(clip, of.clips.size(), "clip");
+    const BodyModel& of = object_of(model, "model").model;
+    check_index(clip, of.character->clips.size(), "clip");
     const bch_animate_options given =
         sized<bch_animate_options>(options, BCH_ANIMATE_OPTIONS_INIT, "options");
-    AnimateOptions how{given.spacing, given.inset, given.error};
+    AnimateOptions how{.error = given.error};
     if (given.loops < -1 || given.loops > 1)
       throw Failure(BCH_INVALID_ARGUMENT, "options->loops is " + std::to_string(given.loops));
     if (given.loops >= 0) how.loops = given.loops == 1;

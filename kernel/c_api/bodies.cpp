@@ -8,12 +8,6 @@
 #include "kernel/c_api/posing.hpp"
 #include "kernel/c_api/work.hpp"
 
-struct bch_body_model {
-  explicit bch_body_model(bch::BodyModel of) : model(std::move(of)) {}
-
-  const bch::BodyModel model;
-};
-
 struct bch_live_bodies {
   bch_live_bodies(std::span<const bch::BodyModel> models, std::span<const std::uint32_t> model_of_body)
       : bodies(models, model_of_body), lent(std::make_unique<bch_body_set>(bodies.set())) {}

@@ -8,6 +8,7 @@
 #include <string>
 
 #include <bch/baked.hpp>
+#include <bch/bodies.hpp>
 #include <bch/body_set.hpp>
 #include <bch/character.hpp>
 #include <bch/pose_shape.hpp>
@@ -42,6 +43,12 @@ struct bch_body_set {
 
   const std::unique_ptr<bch::BodySet> own;
   const bch::BodySet& set;
+};
+
+struct bch_body_model {
+  explicit bch_body_model(bch::BodyModel of) : model(std::move(of)) {}
+
+  const bch::BodyModel model;
 };
 
 struct bch_animated_shape {

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <utility>
 
-#include "kernel/motion/body_at.hpp"
 #include "kernel/motion/hull_separation.hpp"
 #include "kernel/motion/path.hpp"
 #include "layout/base/number_class.hpp"
@@ -42,7 +41,6 @@ struct RelativeWay {
 double ContactSearch::first(const MotionFacts& a, const MotionFacts& b, double from, double to) {
   MovingBody body_a(a), body_b(b);
   a_ = &body_a, b_ = &body_b;
-  looked_inside_ = 0;
   limit_.begin();
   const double reaches = a.tree->reach + b.tree->reach;
   const double slack_of_places = position_rounding * (a.farthest + b.farthest) + root_rounding * reaches;
@@ -88,10 +86,7 @@ double ContactSearch::first_near(double from, double end, double to, unsigned le
     double until = std::min(end, clip_end), found = never;
     if (level > 0) until = std::min({end, a_->hull_end(level - 1), b_->hull_end(level - 1)});
     const double last = is_finite(until) ? until : time + 1;
-    if (a_->chunk().nodes() == 0 || b_->chunk().nodes() == 0) {
-      until = std::min(end, clip_end);
-    } else if (level == 0) {
-      if (nested_where_a_chunk_begins(time)) return time;
+    if (level == 0) {
       found = first_between(time, last);
     } else if (!hulls_are_apart(time, last, level - 1)) {
       found = first_near(time, until, to, level - 1);
@@ -131,13 +126,6 @@ void ContactSearch::place(double from, double end) {
   nodes_a_.place(*a_, {from, a.x - b.x, a.y - b.y, a.heading},
                  {end, a_end.x - b_end.x, a_end.y - b_end.y, a_end.heading});
   nodes_b_.place(*b_, {from, 0, 0, b.heading}, {end, 0, 0, b_end.heading});
-}
-
-bool ContactSearch::nested_where_a_chunk_begins(double time) {
-  const std::uint32_t begun = a_->chunks_begun() + b_->chunks_begun();
-  if (std::exchange(looked_inside_, begun) == begun || hulls_are_apart(time, time, 0)) return false;
-  const BodyAt a(*a_, time), b(*b_, time);
-  return a.holds(b) || b.holds(a);
 }
 
 /// What may touch sooner is looked at first.

@@ -41,10 +41,6 @@ namespace bch::detail {
 ///
 /// Where both stand and repeat themselves together, nothing changes after a round of theirs; two are looked at, which hold one whatever
 /// rounds. What else goes on for too long is given up: StepLimit.
-///
-/// What one body's rings go round holds another one's ring wholly or not at all, as long as no discs overlap. Whether it does can
-/// change only in the beginning and where a chunk begins, and is asked then; between, a ring would have to pass through the other
-/// one's discs.
 class ContactSearch {
  public:
   explicit ContactSearch(double tolerance) : tolerance_(tolerance) {}
@@ -62,7 +58,6 @@ class ContactSearch {
   void place(double from, double end);
   template <class Make>
   void open_children(PlacedNodes& nodes, std::uint32_t node, const MovingDisc& other, double last, Make make);
-  bool nested_where_a_chunk_begins(double time);
 
   struct Open {
     std::uint32_t i, j;
@@ -75,7 +70,6 @@ class ContactSearch {
   double room_ = 0;  ///< what two discs are enlarged by in an interval
   MovingBody* a_ = nullptr;
   MovingBody* b_ = nullptr;
-  std::uint32_t looked_inside_ = 0;  ///< chunks of both that had begun
   PlacedNodes nodes_a_, nodes_b_;
   std::vector<Open> open_;
 };

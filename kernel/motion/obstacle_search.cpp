@@ -7,7 +7,6 @@
 #include <cmath>
 #include <utility>
 
-#include "kernel/motion/body_at.hpp"
 #include "kernel/motion/path.hpp"
 #include "layout/base/number_class.hpp"
 
@@ -64,11 +63,9 @@ double ObstacleSearch::first_near(double from, double end, double to) {
   for (double time = from; time <= to;) {
     limit_.count(1);
     const double until = std::min(body_->clip_end(time), end);
-    if (body_->chunk().nodes() > 0) {
-      if (nested_where_a_chunk_begins(time)) return time;
-      const double found = first_between(time, is_finite(until) ? until : time + 1);
-      if (found < never) return found;
-    }
+    if (is_inside_where_a_chunk_begins(time)) return time;
+    const double found = first_between(time, is_finite(until) ? until : time + 1);
+    if (found < never) return found;
     if (until >= end) return never;
     time = until;
   }
@@ -95,16 +92,18 @@ void ObstacleSearch::place(double from, double end) {
   }
 }
 
-bool ObstacleSearch::nested_where_a_chunk_begins(double time) {
+bool ObstacleSearch::is_inside_where_a_chunk_begins(double time) {
   const std::uint32_t begun = body_->chunks_begun();
-  if (std::exchange(looked_inside_, begun) == begun) return false;
+  if (near_.obstacles().area_tree.levels == 0 || std::exchange(looked_inside_, begun) == begun) return false;
   const PathKey pose = body_->pose(time);
-  const BodyAt body(*body_, time);
-  return body.any_part([&](const PlanePoint& p) { return is_in_area(pose.x + p.x, pose.y + p.y); }) ||
-         std::any_of(found_.begin(), found_.end(), [&](const WorldSegment& segment) {
-           return near_.obstacles().begins_path[segment.number] != 0 &&
-                  body.goes_round({segment.ax - pose.x, segment.ay - pose.y});
-         });
+  const Rotation turn = rotation(pose.heading);
+  const AnimatedTreeChunk& chunk = body_->chunk();
+  const KeyPlace at{0, body_->key(), body_->share(time)};
+  return std::any_of(chunk.leaf_of_disc.begin(), chunk.leaf_of_disc.end(), [&](std::uint32_t leaf) {
+    const Disc disc = chunk.disc(at, leaf);
+    const double x = disc.x, y = disc.y;
+    return is_in_area(pose.x + (turn.cosine * x - turn.sine * y), pose.y + (turn.sine * x + turn.cosine * y));
+  });
 }
 
 void ObstacleSearch::open(std::uint32_t node, std::uint32_t segment, double last) {

@@ -23,9 +23,8 @@ namespace bch::detail {
 /// that is long or far are off by 2^-48 of these at most: StillSegment::slack. Twice that is at most 1.8e-14 of the distances to both its
 /// ends together, as OutlineSegment derives for half of it.
 ///
-/// An area holds a ring wholly or not at all, and so do rings a path, as long as no disc touches a segment. Whether it does can
-/// change only in the beginning and where a chunk begins, and is asked then. An area without a segment within reach holds the body
-/// if it holds the body's position.
+/// An area holds a disc wholly or not at all as long as no disc touches a segment. Whether it does can change only in the beginning and
+/// where a chunk begins, and is asked then. An area without a segment within reach holds the body if it holds the body's position.
 class ObstacleSearch {
  public:
   ObstacleSearch(const Implementation& implementation, const ObstacleView& obstacles,
@@ -44,7 +43,7 @@ class ObstacleSearch {
   bool look_about(double from, double end);
   void place(double from, double end);
   void open(std::uint32_t node, std::uint32_t segment, double last);
-  bool nested_where_a_chunk_begins(double time);
+  bool is_inside_where_a_chunk_begins(double time);
   bool is_in_area(double x, double y);
 
   struct Open {

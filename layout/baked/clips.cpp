@@ -89,7 +89,6 @@ class Unpacking {
   explicit Unpacking(const ClipArrays& arrays)
       : chunks_("chunks", arrays.chunks),
         times_("key_times", arrays.key_times),
-        ring_ends_("ring_ends", arrays.ring_ends),
         steps_("disc_steps", arrays.disc_steps),
         floats_("disc_floats", arrays.disc_floats) {}
 
@@ -98,7 +97,7 @@ class Unpacking {
   }
 
   void require_all_taken() const {
-    chunks_.require_all_taken(), times_.require_all_taken(), ring_ends_.require_all_taken();
+    chunks_.require_all_taken(), times_.require_all_taken();
     steps_.require_all_taken(), floats_.require_all_taken();
   }
 
@@ -112,9 +111,7 @@ class Unpacking {
 
   void unpack(const ChunkRecord& record, AnimatedChunk& chunk) {
     const auto times = times_.take(record.keys, "chunks", next_);
-    const auto ends = ring_ends_.take(record.rings, "chunks", next_);
     chunk.times.assign(times.begin(), times.end());
-    chunk.ring_ends.assign(ends.begin(), ends.end());
     chunk.disc_count = record.discs;
     // No product of two numbers of 32 bits is too large for 64, but three times it may be.
     const std::uint64_t discs = std::uint64_t{record.keys} * record.discs;
@@ -143,7 +140,6 @@ class Unpacking {
   Elements<ChunkRecord> chunks_;
   std::size_t next_ = 0;  ///< chunk
   Elements<double> times_;
-  Elements<std::uint32_t> ring_ends_;
   Elements<std::int16_t> steps_;
   Elements<float> floats_;
 };
@@ -161,9 +157,8 @@ PackedClips::PackedClips(std::span<const BakedClip> clips, std::size_t names) {
 
 void PackedClips::add(const AnimatedChunk& chunk) {
   const std::int32_t step = step_of(chunk.keys);
-  chunks_.push_back({count_of(chunk.times.size()), chunk.disc_count, count_of(chunk.ring_ends.size()), step});
+  chunks_.push_back({count_of(chunk.times.size()), chunk.disc_count, step});
   key_times_.insert(key_times_.end(), chunk.times.begin(), chunk.times.end());
-  ring_ends_.insert(ring_ends_.end(), chunk.ring_ends.begin(), chunk.ring_ends.end());
   for_each_number(chunk.keys, [&](float number) {
     if (step == float_step)
       disc_floats_.push_back(number);

@@ -24,7 +24,7 @@ class PackedClips {
 
   /// Returns the sections, as long as this lives.
   ClipArrays arrays() const noexcept {
-    return {clips_, chunks_, key_times_, ring_ends_, disc_steps_, disc_floats_};
+    return {clips_, chunks_, key_times_, disc_steps_, disc_floats_};
   }
 
  private:
@@ -33,7 +33,6 @@ class PackedClips {
   std::vector<ClipRecord> clips_;
   std::vector<ChunkRecord> chunks_;
   std::vector<double> key_times_;
-  std::vector<std::uint32_t> ring_ends_;
   std::vector<std::int16_t> disc_steps_;
   std::vector<float> disc_floats_;
 };

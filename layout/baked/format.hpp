@@ -51,14 +51,13 @@
 ///     name_begin      u32         N + 1   name n is bytes [n] to [n + 1] of names
 ///     names           u8          any     UTF-8
 ///     clips           ClipRecord  A       moving discs, see below
-///     chunks          ChunkRecord any     of one clip behind the other; so are the next four
+///     chunks          ChunkRecord any     of one clip behind the other; so are the next three
 ///     key_times       f64         any     seconds, ascending in a chunk
-///     ring_ends       u32         any     of a chunk's rings among its discs
 ///     disc_steps      i16         any     x, y and radius of the discs at each key, times the chunk's power of two
 ///     disc_floats     f32         any     the same of chunks whose numbers are no such, metres
 ///
-/// Clips. Each clip takes its number of chunks. Each chunk takes its number of key times and ring ends, and three numbers a disc and key from disc_steps or, where its step
-/// says so, disc_floats. Nothing is left. validate(AnimatedDiscs) lists what is checked of them.
+/// Clips. Each clip takes its number of chunks. Each chunk takes its number of key times, and three numbers a disc and key from disc_steps
+/// or, where its step says so, disc_floats. Nothing is left. validate(AnimatedDiscs) lists what is checked of them.
 ///
 /// Rows. Root::row is 0 where the level's cut is a single disc; else 1, but for a shape's last level, which has the row
 /// after that of the shape before, from 2 on.
@@ -123,7 +122,6 @@ enum class Section : std::uint32_t {
   clips,
   chunks,
   key_times,
-  ring_ends,
   disc_steps,
   disc_floats,
   count,
@@ -159,7 +157,7 @@ struct ClipRecord {
 
 /// Represents a chunk of a clip.
 struct ChunkRecord {
-  std::uint32_t keys, discs, rings;
+  std::uint32_t keys, discs;
   std::int32_t step;  ///< numbers are in disc_steps, times 2^step; or float_step
 };
 constexpr std::int32_t float_step = std::numeric_limits<std::int32_t>::max();
@@ -170,7 +168,6 @@ struct ClipArrays {
   std::span<const ClipRecord> clips;
   std::span<const ChunkRecord> chunks;
   std::span<const double> key_times;
-  std::span<const std::uint32_t> ring_ends;
   std::span<const std::int16_t> disc_steps;
   std::span<const float> disc_floats;
 };
@@ -198,7 +195,6 @@ void for_each_section(Arrays& arrays, Visit visit) {
   visit_next("clips", arrays.clips.clips);
   visit_next("chunks", arrays.clips.chunks);
   visit_next("key_times", arrays.clips.key_times);
-  visit_next("ring_ends", arrays.clips.ring_ends);
   visit_next("disc_steps", arrays.clips.disc_steps);
   visit_next("disc_floats", arrays.clips.disc_floats);
 }

@@ -11,7 +11,6 @@
 #include "layout/base/floating_point_state.hpp"
 #include "layout/base/number_class.hpp"
 #include "layout/base/planes.hpp"
-#include "layout/base/ring_edges.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/hierarchy/builder.hpp"
 #include "layout/hierarchy/disc_box.hpp"
@@ -22,9 +21,6 @@ namespace {
 
 constexpr std::uint32_t most_discs = 4096;
 constexpr double largest_time = 1e6;  ///< seconds
-/// How far apart consecutive discs of a ring may be that overlap, times their coordinates: they may have been rounded to float.
-constexpr double ring_rounding = 0x1p-21;
-
 [[noreturn]] void reject(const std::string& what) {
   throw std::invalid_argument("animated shape: " + what);
 }
@@ -66,13 +62,6 @@ class ChunkCheck {
     if (chunk_.keys.size() != chunk_.times.size() * chunk_.disc_count)
       reject(std::to_string(chunk_.keys.size()) + " discs at " + std::to_string(chunk_.times.size()) +
              " keys, not " + std::to_string(chunk_.disc_count) + " at each");
-    std::uint32_t end = 0;
-    for (const std::uint32_t next : chunk_.ring_ends) {
-      if (next <= end) reject("a ring's end at " + std::to_string(next) + " after " + std::to_string(end));
-      end = next;
-    }
-    if (!chunk_.ring_ends.empty() && end != chunk_.disc_count)
-      reject("rings of " + std::to_string(end) + " discs of " + std::to_string(chunk_.disc_count));
   }
 
   void check_key(std::size_t key) const {
@@ -85,18 +74,6 @@ class ChunkCheck {
           discs[i].radius < 0)
         reject(name(i) + ", of " + shortest(discs[i].radius) + " m at (" + shortest(discs[i].x) + ", " +
                shortest(discs[i].y) + ") m");
-    for_each_ring_edge(chunk_.ring_ends, [&](std::uint32_t i, std::uint32_t next) {
-      if (!overlap(discs[i], discs[next]))
-        reject(name(i) + " does not overlap disc " + std::to_string(next) + ", the next one of its ring");
-    });
-  }
-
-  static bool overlap(const Disc& a, const Disc& b) {
-    const double x = double{a.x} - double{b.x}, y = double{a.y} - double{b.y},
-                 radii = double{a.radius} + double{b.radius};
-    const float farthest = std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y)});
-    const double spare = ring_rounding * double{farthest};
-    return x * x + y * y <= (radii + spare) * (radii + spare);
   }
 
   const std::vector<AnimatedChunk>& all_;

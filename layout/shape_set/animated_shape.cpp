@@ -111,7 +111,6 @@ void make_shape(const ChunkAt& at, double reach, Shape& shape) {
   shape.hierarchy.reach = reach;
   shape.hierarchy.nodes.reserve(2 * at.chunk.leaf_of_disc.size());
   BinaryTree(at, shape.hierarchy).add_root();
-  take_outline(at.chunk, at.place, shape.outline);
 }
 
 }  // namespace
@@ -145,8 +144,7 @@ double AnimatedShape::reach() const noexcept {
 std::size_t AnimatedShape::bytes() const noexcept {
   std::size_t bytes = sizeof(AnimatedTree);
   for (const AnimatedTreeChunk& chunk : tree_->chunks) {
-    bytes +=
-        sizeof(chunk) + chunk.times.size() * sizeof(double) + chunk.ring_ends.size() * sizeof(std::uint32_t);
+    bytes += sizeof(chunk) + chunk.times.size() * sizeof(double);
     bytes +=
         (chunk.numbers.size() + chunk.child_begin.size() + chunk.leaf_of_disc.size()) * sizeof(std::uint16_t);
   }

@@ -56,7 +56,6 @@ class Builder {
   explicit Builder(const AnimatedChunk& chunk) : chunk_(chunk) {
     tree_.times = chunk.times;
     tree_.step = step_for(chunk);
-    tree_.ring_ends = chunk.ring_ends;
     tree_.leaf_of_disc.resize(chunk.disc_count);
     discs_.reserve(chunk.keys.size());
     for (const Disc& disc : chunk.keys) discs_.push_back(rounded(disc, tree_.step));
@@ -152,11 +151,10 @@ class Builder {
     return best;
   }
 
-  /// Discs without rings stay in their order, by which queries number them. Others may be sorted along an axis.
+  /// Splits discs in their order, or sorted along an axis.
   Split best_split(std::span<const std::uint32_t> discs, std::size_t parts, std::size_t most) const {
     Split best;
     try_order({discs.begin(), discs.end()}, parts, most, best);
-    if (chunk_.ring_ends.empty()) return best;
     for (float Disc::*const axis : {&Disc::x, &Disc::y}) {
       std::vector<std::uint32_t> order(discs.begin(), discs.end());
       std::vector<double> along(chunk_.disc_count, 0.0);
@@ -235,25 +233,6 @@ KeyPlace key_place(const AnimatedTree& tree, double seconds) noexcept {
   return {static_cast<std::size_t>(next - chunks.begin() - 1),
           static_cast<std::size_t>(after - times.begin() - 1),
           std::clamp((seconds - from) / (to - from), 0.0, 1.0)};
-}
-
-void take_outline(const AnimatedTreeChunk& chunk, const KeyPlace& at, Outline& outline) {
-  outline.points.clear();
-  outline.contour_begin.assign(1, 0);
-  std::size_t begin = 0;
-  for (const std::uint32_t end : chunk.ring_ends) {
-    double twice_area = 0;
-    for (std::size_t i = begin; i < end; ++i) {
-      const Disc disc = chunk.disc(at, chunk.leaf_of_disc[i]),
-                 next = chunk.disc(at, chunk.leaf_of_disc[i + 1 < end ? i + 1 : begin]);
-      outline.points.push_back({disc.x, disc.y});
-      twice_area += double{disc.x} * double{next.y} - double{next.x} * double{disc.y};
-    }
-    if (twice_area < 0)
-      std::reverse(outline.points.begin() + static_cast<std::ptrdiff_t>(begin), outline.points.end());
-    outline.contour_begin.push_back(end);
-    begin = end;
-  }
 }
 
 double time_in_clip(const AnimatedTree& tree, double seconds) noexcept {

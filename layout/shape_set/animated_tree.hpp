@@ -56,7 +56,6 @@ struct AnimatedTreeChunk {
   std::vector<std::uint16_t>
       child_begin;  ///< per node above the leaves: its first child; and the number of nodes
   std::vector<std::uint16_t> leaf_of_disc;  ///< per disc in the order in which they were given: its node
-  std::vector<std::uint32_t> ring_ends;
   float speed = 0;  ///< the most that a node's centre moves in a second, metres
 
   std::uint32_t nodes() const noexcept { return child_begin.back(); }
@@ -105,16 +104,12 @@ KeyPlace key_place(const AnimatedTree& tree, double seconds) noexcept;
 /// Returns the time of a clip that loops, or not, at which it looks as it does at any `seconds`.
 double time_in_clip(const AnimatedTree& tree, double seconds) noexcept;
 
-/// Makes the polygons of the centres of a chunk's rings at a time, counter-clockwise.
-void take_outline(const AnimatedTreeChunk& chunk, const KeyPlace& at, Outline& outline);
-
 /// Builds the tree over a chunk that is valid. Its discs are rounded to the step, outward; those whose numbers are of 16 bits as they are
 /// keep them, where no radius is more than two fifths of the largest coordinate.
 ///
 /// Derivation: a centre goes to the nearest multiple, at most sqrt(1/2) steps away, and the radius up to the next multiple of itself and
-/// that way, so that the new disc holds the old one, and reaches out of it by less than 2 sqrt(1/2) + 1 < 2.42 steps. Rings hold what they
-/// did: where an edge moves from old centres to new ones, the discs about the centres between, larger by the way so far, hold it,
-/// because the old ones overlap, and are in the new ones. A step is 2^-14 of the reach at most.
+/// that way, so that the new disc holds the old one, and reaches out of it by less than 2 sqrt(1/2) + 1 < 2.42 steps. A step is 2^-14 of the
+/// reach at most.
 AnimatedTreeChunk animated_tree_chunk(const AnimatedChunk& chunk);
 
 }  // namespace bch::detail

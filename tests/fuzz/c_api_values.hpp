@@ -291,13 +291,13 @@ class Caller : public Program {
     if (chance(4)) draw(of.to_ground);
   }
   void draw(bch_animated_arrays& of) {
-    auto* const parts = fresh<std::uint32_t>(3);  // keys, discs and rings, of one chunk
-    parts[0] = 2 + bytes.below(3), parts[1] = 1 + bytes.below(3), parts[2] = bytes.below(2);
+    auto* const parts = fresh<std::uint32_t>(2);  // keys and discs, of one chunk
+    parts[0] = 2 + bytes.below(3), parts[1] = 1 + bytes.below(3);
     auto* const times = fresh<double>(room);
     for (std::uint32_t i = 0; i < most; ++i) times[i] = chance(64) ? number<double>() : i;
-    of.key_counts = parts, of.disc_counts = parts + 1, of.ring_counts = chance(4) ? parts + 2 : nullptr;
+    of.key_counts = parts, of.disc_counts = parts + 1;
     of.times = times, of.chunk_count = chance(32) ? 0 : 1;
-    draw_all(of.loops, of.discs, of.ring_ends);
+    draw_all(of.loops, of.discs);
   }
   void draw(bch_scene_agents& of) {
     draw_all(of.poses, of.count);

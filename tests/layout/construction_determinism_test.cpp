@@ -43,12 +43,13 @@ std::vector<std::uint64_t> hashes_of_all(std::vector<Shape> given) {
   const std::vector<Capsule> arm{{{0.1f, 0}, {0.1f, 0.7f}, 0.05f}};
   const std::vector<Disc> pair{{0, -0.2f, 0.15f}, {1e-40f, 0.2f, 0.15f}};
   const Character woman = default_pedestrian(Sex::female, 1.63);
-  return {hash_of(given, {{0, 3, all_depths}, true}),
-          hash_of({shape_from_capsules(arm)}, {}),
-          hash_of({shape_from_discs(pair)}, {}),
-          hash_of(default_male(), {.heights = true}),
-          hash_of(woman, {.depths = {0}, .outlines = false}),
-          hash_of({AnimatedShape(animate(woman, 0)).shape(0.3)}, {})};
+  return {
+      hash_of(given, {{0, 3, all_depths}, true}),
+      hash_of({shape_from_capsules(arm)}, {}),
+      hash_of({shape_from_discs(pair)}, {}),
+      hash_of(default_male(), {.heights = true}),
+      hash_of(woman, {.depths = {0}, .outlines = false}),
+      hash_of({AnimatedShape(animate(make_body(woman, {.spheres = 32, .draft = true}), 0)).shape(0.3)}, {})};
 }
 
 /// Whoever links with -ffast-math begins with denormal numbers off.

@@ -132,12 +132,12 @@ class Errors(unittest.TestCase):
         builder, tall = bch.ShapeSetBuilder(), bch.ShapeSetBuilder(bch.Plan(heights=True))
         table = [
             (bch.Agents, {"shape": which, "x": np.zeros(1), "y": np.zeros(1), "heading": np.zeros(1)}),
-            (bch.AnimatedShape, {"times": [0, 1], "discs": discs, "ring_ends": [1]}),
+            (bch.AnimatedShape, {"times": [0, 1], "discs": discs, "loops": False}),
             (body.discs, {"seconds": 0.5}),
             (bch.Mover, {"shape": body, "path": [(0, 0, 0, 0)], "clip_begin": 0}),
             (bch.first_contact, {"movers": [mover], "pairs": walls, "interval": (0, 1), "tolerance": 0.1, "threads": 1}),
             (bch.free_until, {"mover": mover, "others": [mover], "interval": (0, 1), "tolerance": 0.1}),
-            (bch.animate, {"character": man, "clip": 99, "spacing": 0.1, "inset": 0.1, "error": 0.1}),
+            (bch.animate, {"model": bch.BodyModel(man, 16, draft=True), "clip": 99, "error": 0.1}),
             (bch.Obstacles, {**points, "path_offsets": np.array([0, 2], np.uint64)}),
             (bch.Obstacles.from_wkt, {"text": "LINESTRING(0 0, 1 1)", "heights": (0, 1)}),
             (walls.owner, {"segment": 0}),
@@ -553,11 +553,12 @@ class Sets(unittest.TestCase):
 
     def test_clips_of_sets(self):
         walker = bch.default_pedestrian(stature=1.7)
-        clip = bch.animate(walker, 40, spacing=0.1)
+        model = bch.BodyModel(walker, 64, draft=True)
+        clip = bch.animate(model, 40)
         self.assertTrue(clip.loops and clip.reach < 0.7, clip)
         self.assertAlmostEqual(clip.end * bch.pedestrian_strides_per_second(1.2), 1, places=6)  # one stride
         for loops in (False, True):
-            self.assertEqual(bch.animate(walker, 40, spacing=0.1, loops=loops).loops, loops)
+            self.assertEqual(bch.animate(model, 40, loops=loops).loops, loops)
         shapes, _ = squares()
         shapes.keep_clip(clip, "walker", walker.clips[40].name)
         shapes.keep_clip(clip, "nobody")

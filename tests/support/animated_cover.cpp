@@ -6,36 +6,19 @@
 #include <algorithm>
 #include <cmath>
 
-#include "layout/animation/contour.hpp"
-
 namespace bch::test {
 namespace {
 
-double cross(const Disc& from, const Disc& to, const Vec2& p) {
-  return (double{to.x} - double{from.x}) * (double{p.y} - double{from.y}) -
-         (double{to.y} - double{from.y}) * (double{p.x} - double{from.x});
-}
-
-bool holds(const Cover& cover, const Vec2& p) {
-  for (const Disc& disc : cover.discs) {
+bool holds(std::span<const Disc> cover, const Vec2& p) {
+  return std::any_of(cover.begin(), cover.end(), [&](const Disc& disc) {
     const double x = double{p.x} - double{disc.x}, y = double{p.y} - double{disc.y};
-    if (std::sqrt(x * x + y * y) <= double{disc.radius}) return true;
-  }
-  int turns = 0;
-  std::uint32_t begin = 0;
-  for (const std::uint32_t end : cover.ring_ends) {
-    for (std::uint32_t i = begin; i < end; ++i) {
-      const Disc &a = cover.discs[i], &b = cover.discs[i + 1 < end ? i + 1 : begin];
-      if ((a.y > p.y) != (b.y > p.y) && (cross(a, b, p) > 0) == (b.y > a.y)) turns += b.y > a.y ? 1 : -1;
-    }
-    begin = end;
-  }
-  return turns != 0;
+    return std::sqrt(x * x + y * y) <= double{disc.radius};
+  });
 }
 
 }  // namespace
 
-Cover cover_at(const AnimatedDiscs& animated, double seconds) {
+std::vector<Disc> cover_at(const AnimatedDiscs& animated, double seconds) {
   std::size_t c = 0, key = 0;
   while (animated.chunks[c].times.back() < seconds) ++c;
   const AnimatedChunk& chunk = animated.chunks[c];
@@ -44,15 +27,15 @@ Cover cover_at(const AnimatedDiscs& animated, double seconds) {
   const auto mix = [share](float a, float b) {
     return static_cast<float>(double{a} + (double{b} - double{a}) * share);
   };
-  Cover cover = {{}, chunk.ring_ends};
+  std::vector<Disc> cover;
   for (std::size_t i = 0; i < chunk.disc_count; ++i) {
     const Disc &a = chunk.keys[key * chunk.disc_count + i], &b = chunk.keys[(key + 1) * chunk.disc_count + i];
-    cover.discs.push_back({mix(a.x, b.x), mix(a.y, b.y), mix(a.radius, b.radius)});
+    cover.push_back({mix(a.x, b.x), mix(a.y, b.y), mix(a.radius, b.radius)});
   }
   return cover;
 }
 
-std::size_t left_out(const Cover& cover, std::span<const Vec2> vertices, const Outline& outline) {
+std::size_t left_out(std::span<const Disc> cover, std::span<const Vec2> vertices, const Outline& outline) {
   const auto out = [&](const Vec2& p) { return !holds(cover, p); };
   std::size_t count = static_cast<std::size_t>(std::count_if(vertices.begin(), vertices.end(), out));
   for (std::size_t c = 0; c < outline.contours(); ++c) {
@@ -67,16 +50,9 @@ std::size_t left_out(const Cover& cover, std::span<const Vec2> vertices, const O
   return count;
 }
 
-double most_out(const Cover& cover, const Outline& outline) {
-  double most = -1e9;
-  for (const Disc& disc : cover.discs)
-    most = std::max(most, double{disc.radius} - detail::depth_in(outline, {double{disc.x}, double{disc.y}}));
-  return most;
-}
-
-double excess_in(const Cover& cover, std::span<const Vec2> vertices, double x, double y) {
+double excess_in(std::span<const Disc> cover, std::span<const Vec2> vertices, double x, double y) {
   double of_discs = -1e9, of_vertices = -1e9;
-  for (const Disc& disc : cover.discs)
+  for (const Disc& disc : cover)
     of_discs = std::max(of_discs, x * double{disc.x} + y * double{disc.y} + double{disc.radius});
   for (const Vec2& p : vertices) of_vertices = std::max(of_vertices, x * double{p.x} + y * double{p.y});
   return of_discs - of_vertices;

@@ -14,22 +14,13 @@
 
 namespace bch::test {
 
-/// Discs at a time, and the ends of their rings.
-struct Cover {
-  std::vector<Disc> discs;
-  std::vector<std::uint32_t> ring_ends;
-};
-
-/// Returns the cover of a body at a time of the clip.
-Cover cover_at(const AnimatedDiscs& animated, double seconds);
+/// Returns the discs of a body at a time of the clip.
+std::vector<Disc> cover_at(const AnimatedDiscs& animated, double seconds);
 
 /// Counts the vertices and the points of the outline's segments, some millimetres apart, that a cover does not hold.
-std::size_t left_out(const Cover& cover, std::span<const Vec2> vertices, const Outline& outline);
-
-/// Returns how far a disc of a cover reaches out of an outline at most.
-double most_out(const Cover& cover, const Outline& outline);
+std::size_t left_out(std::span<const Disc> cover, std::span<const Vec2> vertices, const Outline& outline);
 
 /// Returns the largest coordinate of a cover in a direction, less that of what it covers.
-double excess_in(const Cover& cover, std::span<const Vec2> vertices, double x, double y);
+double excess_in(std::span<const Disc> cover, std::span<const Vec2> vertices, double x, double y);
 
 }  // namespace bch::test

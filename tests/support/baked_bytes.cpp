@@ -26,21 +26,20 @@ ShapeOrigins origins_of(std::size_t shapes) {
 }
 
 std::vector<BakedClip> few_clips() {
-  const AnimatedChunk ringed{{1, 3, 4},
-                             3,
-                             {{0, 0, 1},
-                              {1, 0, 1},
-                              {0, 1, 1},
-                              {0, 0.25f, 1},
-                              {1.5f, 0, 1},
-                              {0, 1, 1},
-                              {-0.125f, 0, 1},
-                              {1, 0, 0.5f},
-                              {0, 1, 1}},
-                             {3}};
-  const AnimatedChunk next{{4, 4.5}, 2, {{5, 0, 1}, {6, 0, 1}, {5, 0, 1}, {6, 0, 2}}, {1, 2}};
-  const AnimatedChunk fine{{0, 0.1}, 1, {{0.1f, 0.3f, 0.2f}, {100, -0.7f, 0.2f}}, {}};
-  return {{0, 1, {{ringed, next}, true}}, {3, ShapeOrigin::rest_pose, {{fine}, false}}};
+  const AnimatedChunk first{{1, 3, 4},
+                            3,
+                            {{0, 0, 1},
+                             {1, 0, 1},
+                             {0, 1, 1},
+                             {0, 0.25f, 1},
+                             {1.5f, 0, 1},
+                             {0, 1, 1},
+                             {-0.125f, 0, 1},
+                             {1, 0, 0.5f},
+                             {0, 1, 1}}};
+  const AnimatedChunk next{{4, 4.5}, 2, {{5, 0, 1}, {6, 0, 1}, {5, 0, 1}, {6, 0, 2}}};
+  const AnimatedChunk fine{{0, 0.1}, 1, {{0.1f, 0.3f, 0.2f}, {100, -0.7f, 0.2f}}};
+  return {{0, 1, {{first, next}, true}}, {3, ShapeOrigin::rest_pose, {{fine}, false}}};
 }
 
 BakedBytes::BakedBytes(const ShapeSet& set, const ShapeOrigins& origins, std::span<const BakedClip> clips) {

@@ -16,16 +16,6 @@ float even(double value) {
   return static_cast<float>(std::ceil(value * 0x1p16) * 0x1p-16);
 }
 
-/// Makes the discs of a key so large that each overlaps the next one of its ring.
-void overlap_next(std::vector<Disc>& discs) {
-  const std::vector<Disc> before = discs;
-  for (std::size_t i = 0; i < discs.size(); ++i)
-    for (const std::size_t other : {(i + 1) % discs.size(), (i + discs.size() - 1) % discs.size()})
-      discs[i].radius = std::max(
-          discs[i].radius,
-          even(0.51 * double{std::hypot(before[i].x - before[other].x, before[i].y - before[other].y)}));
-}
-
 PathKey pose_at(const std::vector<PathKey>& path, double time) {
   if (time <= path.front().time) return path.front();
   for (std::size_t k = 1; k < path.size(); ++k)
@@ -37,28 +27,9 @@ PathKey pose_at(const std::vector<PathKey>& path, double time) {
   return path.back();
 }
 
-Meeting meeting(const MotionCase& a, const MotionCase& b, double seconds, bool is_near) {
-  const PlacedBody placed_a = placed_at(a, seconds), placed_b = placed_at(b, seconds);
-  double gap = std::numeric_limits<double>::infinity();
-  for (const WorldDisc& i : placed_a.discs)
-    for (const WorldDisc& j : placed_b.discs) {
-      const double x = i.x - j.x, y = i.y - j.y, far = gap + i.radius + j.radius;
-      if (x * x + y * y < far * std::abs(far)) gap = std::sqrt(x * x + y * y) - i.radius - j.radius;
-    }
-  // Where no discs overlap a ring is inside as a whole or not at all.
-  bool nested = false;
-  const auto look_inside = [&](const PlacedBody& body, const PlacedBody& of) {
-    for (const std::uint32_t end : of.ring_ends) nested |= goes_round(body, of.discs[end - 1]);
-    for (std::size_t i = 0; i < of.discs.size() && of.ring_ends.empty(); ++i)
-      nested |= goes_round(body, of.discs[i]);
-  };
-  if (gap > 0 && is_near) look_inside(placed_a, placed_b), look_inside(placed_b, placed_a);
-  return {gap, nested};
-}
-
 }  // namespace
 
-PlacedBody placed_at(const MotionCase& motion, double time) {
+std::vector<WorldDisc> placed_at(const MotionCase& motion, double time) {
   const auto& chunks = motion.discs.chunks;
   const double begin = chunks.front().times.front(), end = chunks.back().times.back();
   double seconds = time - motion.clip_begin;
@@ -68,7 +39,7 @@ PlacedBody placed_at(const MotionCase& motion, double time) {
   while (k + 1 < chunks.size() && seconds > chunks[k].times.back()) ++k;
   const PathKey pose = pose_at(motion.path, time);
   const double c = std::cos(pose.heading), s = std::sin(pose.heading);
-  PlacedBody placed{{}, chunks[k].ring_ends};
+  std::vector<WorldDisc> placed;
   const AnimatedChunk& chunk = chunks[k];
   std::size_t key = 0;
   while (key + 2 < chunk.times.size() && seconds > chunk.times[key + 1]) ++key;
@@ -78,27 +49,13 @@ PlacedBody placed_at(const MotionCase& motion, double time) {
                &to = chunk.keys[(key + 1) * chunk.disc_count + i];
     const double x = std::lerp(double{from.x}, double{to.x}, share),
                  y = std::lerp(double{from.y}, double{to.y}, share);
-    placed.discs.push_back({pose.x + c * x - s * y, pose.y + s * x + c * y,
-                            std::lerp(double{from.radius}, double{to.radius}, share)});
+    placed.push_back({pose.x + c * x - s * y, pose.y + s * x + c * y,
+                      std::lerp(double{from.radius}, double{to.radius}, share)});
   }
   return placed;
 }
 
-bool goes_round(const PlacedBody& body, const WorldDisc& point) {
-  double angle = 0;
-  std::size_t begin = 0;
-  for (const std::uint32_t end : body.ring_ends) {
-    for (std::size_t i = begin; i < end; ++i) {
-      const WorldDisc &from = body.discs[i], &to = body.discs[i + 1 < end ? i + 1 : begin];
-      const double ax = from.x - point.x, ay = from.y - point.y, bx = to.x - point.x, by = to.y - point.y;
-      angle += std::atan2(ax * by - ay * bx, ax * bx + ay * by);
-    }
-    begin = end;
-  }
-  return std::abs(angle) > std::numbers::pi;
-}
-
-AnimatedDiscs ringed_body(Random& random, std::uint32_t chunks, std::uint32_t discs) {
+AnimatedDiscs swinging_body(Random& random, std::uint32_t chunks, std::uint32_t discs) {
   AnimatedDiscs body;
   body.loops = random.below(2) == 0;
   double time = random.uniform(-1, 1);
@@ -110,17 +67,13 @@ AnimatedDiscs ringed_body(Random& random, std::uint32_t chunks, std::uint32_t di
     for (std::uint32_t k = 0; k < keys; ++k) {
       if (k > 0) time += random.uniform(0.02, 0.2);
       chunk.times.push_back(time);
-      std::vector<Disc> ring;
       for (std::uint32_t i = 0; i < chunk.disc_count; ++i) {
         const double angle = 2 * std::numbers::pi * i / chunk.disc_count;
         const double swing = 0.15 * std::sin(pace * time) * std::pow(std::sin(angle), 3);
-        ring.push_back({even(deep * std::cos(angle) + swing), even(wide * std::sin(angle)),
-                        even(random.uniform(0.001, 0.02))});
+        chunk.keys.push_back({even(deep * std::cos(angle) + swing), even(wide * std::sin(angle)),
+                              even(random.uniform(0.001, 0.02))});
       }
-      overlap_next(ring);
-      chunk.keys.insert(chunk.keys.end(), ring.begin(), ring.end());
     }
-    chunk.ring_ends = {chunk.disc_count};
     body.chunks.push_back(std::move(chunk));
   }
   return body;
@@ -144,13 +97,13 @@ AnimatedDiscs loose_discs(Random& random, std::uint32_t discs) {
 }
 
 AnimatedDiscs still_disc(float radius, float x, float y) {
-  return {{{{0, 1}, 1, {{x, y, radius}, {x, y, radius}}, {}}}, false};
+  return {{{{0, 1}, 1, {{x, y, radius}, {x, y, radius}}}}, false};
 }
 
 MotionCase random_motion(Random& random) {
   return random_motion(random, random.below(4) == 0
                                    ? loose_discs(random, 1 + random.below(6))
-                                   : ringed_body(random, 1 + random.below(3), 12 + random.below(20)));
+                                   : swinging_body(random, 1 + random.below(3), 12 + random.below(20)));
 }
 
 MotionCase random_motion(Random& random, AnimatedDiscs body) {
@@ -169,11 +122,18 @@ MotionCase random_motion(Random& random, AnimatedDiscs body) {
   return {std::move(body), std::move(path), random.uniform(-3, 3)};
 }
 
-Meeting meeting_at(const MotionCase& a, const MotionCase& b, double seconds) {
+double gap_at(const MotionCase& a, const MotionCase& b, double seconds) {
   const PathKey at_a = pose_at(a.path, seconds), at_b = pose_at(b.path, seconds);
   const double apart = std::hypot(at_a.x - at_b.x, at_a.y - at_b.y) - a.shape.reach() - b.shape.reach();
-  if (apart > 0.1) return {apart, false};
-  return meeting(a, b, seconds, apart < 0);
+  if (apart > 0.1) return apart;
+  double gap = std::numeric_limits<double>::infinity();
+  const std::vector<WorldDisc> discs = placed_at(b, seconds);
+  for (const WorldDisc& i : placed_at(a, seconds))
+    for (const WorldDisc& j : discs) {
+      const double x = i.x - j.x, y = i.y - j.y, far = gap + i.radius + j.radius;
+      if (x * x + y * y < far * std::abs(far)) gap = std::sqrt(x * x + y * y) - i.radius - j.radius;
+    }
+  return gap;
 }
 
 }  // namespace bch::test

@@ -19,10 +19,10 @@
 
 namespace bch::test {
 
-/// Returns a body whose rings go round a body that swings its limbs: chunks with different discs, at uneven keys.
-AnimatedDiscs ringed_body(Random& random, std::uint32_t chunks = 2, std::uint32_t discs = 24);
+/// Returns a body whose discs stand round one that swings its limbs: chunks with different discs, at uneven keys.
+AnimatedDiscs swinging_body(Random& random, std::uint32_t chunks = 2, std::uint32_t discs = 24);
 
-/// Returns discs that move each for itself, without rings.
+/// Returns discs that move each for itself.
 AnimatedDiscs loose_discs(Random& random, std::uint32_t discs = 5);
 
 /// Returns one disc that stands still for a second.
@@ -64,23 +64,10 @@ inline double contact_of(const MotionCase& motion, const ObstacleSet& obstacles,
 struct WorldDisc {
   double x, y, radius;
 };
-/// The solid of a body in the world.
-struct PlacedBody {
-  std::vector<WorldDisc> discs;
-  std::vector<std::uint32_t> ring_ends;
-};
-/// Returns where the solid of a motion is at a time.
-PlacedBody placed_at(const MotionCase& motion, double time);
-/// Returns whether rings go round the centre of a disc: by angles, where the library counts crossings.
-bool goes_round(const PlacedBody& body, const WorldDisc& point);
+/// Returns where the discs of a motion are at a time.
+std::vector<WorldDisc> placed_at(const MotionCase& motion, double time);
 
-/// What two solids have to do with each other at a time, by all pairs of discs and by winding numbers: the gap of the nearest discs, and
-/// whether one is inside the other.
-struct Meeting {
-  double gap;
-  bool nested;
-  bool overlap() const { return gap <= 0 || nested; }
-};
-Meeting meeting_at(const MotionCase& a, const MotionCase& b, double seconds);
+/// Returns the gap of the nearest discs of two motions at a time, by all pairs of them.
+double gap_at(const MotionCase& a, const MotionCase& b, double seconds);
 
 }  // namespace bch::test

@@ -7,21 +7,19 @@ from __future__ import annotations
 
 import ctypes
 from ctypes import byref, c_size_t
-from typing import Sequence
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _library
-from ._arrays import DISC, Records, address, bounded, converted, f4, f8, listed, number, u4
+from ._arrays import DISC, Records, address, converted, f4, f8, number, u4
 from ._library import ArrayError, Handle, check, lib
 
 
 class AnimatedShape:
     """A body that moves by itself: discs whose centres and radii are linear in time between keys. `animate` makes one of a clip.
 
-    At any time the body covers its discs, and what the polygons of its rings' centres enclose. Times before its beginning and after
-    its end are clamped to these; if it loops, they wrap around instead: its end is followed by its beginning at once.
+    Times before its beginning and after its end are clamped to these; if it loops, they wrap around instead: its end is followed by its beginning at once.
 
     Parameters
     ----------
@@ -29,33 +27,24 @@ class AnimatedShape:
         Times of the keys, seconds, ascending; at least two.
     discs : (k, n, 3) numbers
         x, y and radius of each disc at each key, metres, relative to the agent's position.
-    ring_ends : sequence of int
-        The end of each ring among the discs, ascending; the last one is n. None: there are discs alone. Consecutive discs of a
-        ring have to overlap.
     loops : bool
         Whether the body moves so over and over. A loop takes 1 ms or more.
     """
 
     __slots__ = ("_handle", "_pointer", "loops", "begin", "end", "reach", "nbytes", "chunk_count", "key_count")
 
-    def __init__(
-        self, times: npt.ArrayLike, discs: npt.ArrayLike, ring_ends: Sequence[int] = (), *, loops: bool = False
-    ) -> None:
+    def __init__(self, times: npt.ArrayLike, discs: npt.ArrayLike, *, loops: bool = False) -> None:
         keys, all_discs = converted(times, f8, "times"), converted(discs, f4, "discs")
         if keys.ndim != 1 or all_discs.ndim != 3 or all_discs.shape[::2] != (len(keys), 3):
             raise ArrayError(f"discs have shape {all_discs.shape} at times of shape {keys.shape}; wanted are (k, n, 3) at (k,)")
-        given_ends = enumerate(listed(ring_ends, "ring_ends", "whole numbers"))
-        ends = np.array([bounded(end, f"ring_ends[{i}]", 0, 2**32 - 1) for i, end in given_ends], u4)
-        counts = np.array([len(keys), all_discs.shape[1], len(ends)], u4)
+        counts = np.array([len(keys), all_discs.shape[1]], u4)
         arrays = _library.AnimatedArrays(
             loops=bool(loops),
             key_counts=address(counts),
             disc_counts=address(counts[1:]),
-            ring_counts=address(counts[2:]),
             chunk_count=1,
             times=address(keys),
             discs=address(all_discs),
-            ring_ends=address(ends),
         )
         self._take(Handle("animated_shape", "create", ctypes.addressof(arrays)))
 

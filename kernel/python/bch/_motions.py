@@ -19,7 +19,6 @@ from ._arrays import (
     bounded,
     f8,
     given,
-    index,
     instance,
     instances,
     number,
@@ -28,44 +27,28 @@ from ._arrays import (
     table,
     u4,
 )
+from ._bodies import BodyModel
 from ._library import ArgumentError, Handle, check, lib
 from ._obstacles import Obstacles
-from ._shapes import Character
 
 
-def animate(
-    character: Character,
-    clip: int,
-    *,
-    spacing: float = 0.025,
-    inset: float = 0.04,
-    error: float = 0.005,
-    loops: Optional[bool] = None,
-) -> AnimatedShape:
-    """Make moving discs that cover the character at every real time of a clip. A second of a clip takes about a second.
+def animate(model: BodyModel, clip: int, *, error: float = 0.005, loops: Optional[bool] = None) -> AnimatedShape:
+    """Make moving discs that cover a body at every real time of a clip, one for each sphere of the model.
 
     Parameters
     ----------
-    character : Character
+    model : BodyModel
     clip : int
-        Index in `Character.clips`.
-    spacing : float
-        The largest distance of discs along the outline, at keys, metres.
-    inset : float
-        The largest distance of the discs' centres behind the outline, metres.
+        Index in `Character.clips` of the model's character.
     error : float
         How much more discs may protrude between two keys than at the keys, metres.
     loops : bool, optional
         Whether the clip is played over and over, its end followed by its beginning at once. None: if its last pose is its first one.
     """
-    of = index(clip, "clip", len(instance(character, Character, "character").clips))
-    options = _library.AnimateOptions(
-        spacing=number(spacing, "spacing"),
-        inset=number(inset, "inset"),
-        error=number(error, "error"),
-        loops=-1 if loops is None else bool(loops),
-    )
-    return AnimatedShape._of(Handle("animated_shape", "animate", character._pointer, of, byref(options)))
+    of = bounded(clip, "clip", 0, 2**32 - 1)
+    options = _library.AnimateOptions(error=number(error, "error"), loops=-1 if loops is None else bool(loops))
+    pointer = instance(model, BodyModel, "model")._pointer
+    return AnimatedShape._of(Handle("animated_shape", "animate", pointer, of, byref(options)))
 
 
 class Mover:

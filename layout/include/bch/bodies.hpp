@@ -8,12 +8,14 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include <bch/body_set.hpp>
 #include <bch/character.hpp>
 #include <bch/pose_shape.hpp>
+#include <bch/shape_set.hpp>
 
 namespace bch {
 
@@ -63,6 +65,21 @@ struct BodyOptions {
 /// Errors:  throws std::invalid_argument as validate(Character) does, on spheres out of range, and on a character without triangles;
 ///          std::system_error of std::errc::operation_canceled where it is cancelled.
 BodyModel make_body(const Character& character, const BodyOptions& options = {});
+
+/// Holds the options of animate().
+struct AnimateOptions {
+  float error = 0.005f;  ///< metres, by how much discs may stand out of the spheres between two keys, unless these are 18 ms apart
+  std::optional<bool> loops =
+      {};  ///< AnimatedDiscs::loops; none: whether the clip's last pose is its first one, to 0.025 mm
+};
+
+/// Makes moving discs of a clip, one for each sphere as seen from above, that hold all triangles at every real time of the clip. The proof is in
+/// layout/animation/clip_samples.hpp. Each number of a chunk is one of 16 bits times a power of two. The heights bound those that
+/// triangles take at every real time of the clip.
+/// Errors:  throws std::invalid_argument as validate() does, on a clip that does not exist or takes no time, on one with channels that
+///          jump, step or are cubic, on a character without a root joint, and on an error that is not above 0; std::domain_error as
+///          BodyPoser::spheres() does.
+AnimatedDiscs animate(const BodyModel& model, std::uint32_t clip, const AnimateOptions& options = {});
 
 /// Poses the spheres of a model, one pose after the other. Only one thread may use an object at a time, and one that was moved from can
 /// only be assigned to or destroyed.

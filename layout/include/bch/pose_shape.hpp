@@ -246,24 +246,4 @@ ShapeSet bake(std::span<const Character> characters, const BakeOptions& options 
 /// Makes a set of one character.
 ShapeSet bake(const Character& character, const BakeOptions& options = {});
 
-/// Holds the options of animate(), which say how close its discs are to a body, in metres. The defaults are for people.
-struct AnimateOptions {
-  float spacing = 0.025f;  ///< the largest distance of discs along the outline, at keys
-  float inset =
-      0.04f;  ///< the largest distance of centres behind the outline: the more, the less discs protrude between neighbours
-  float error =
-      0.005f;  ///< by how much more discs may protrude between two keys than at these, unless keys are 9 ms apart
-  std::optional<bool> loops =
-      {};  ///< AnimatedDiscs::loops; none: whether the clip's last pose is its first one, to a 1000th of the spacing
-};
-
-/// Makes moving discs of a character's clip that hold all of its triangles at every real time of the clip. The proof is in
-/// layout/animation/cover_check.hpp. Parts of the body that are apart have rings of their own. Each number of a chunk is one of 16 bits
-/// times a power of two. The heights bound those that triangles take at every real time of the clip.
-/// Cost:    about as long as the clip for people of 2 850 triangles with 30 keys a second, and more for more keys.
-/// Errors:  throws std::invalid_argument on a clip that does not exist or takes no time, on one with channels that jump, step or are
-///          cubic, on a character without a root joint, and on options that are not above 0;
-///          std::length_error beyond 4096 discs a chunk; std::domain_error as PoseShaper::shape() does.
-AnimatedDiscs animate(const Character& character, std::uint32_t clip, const AnimateOptions& options = {});
-
 }  // namespace bch

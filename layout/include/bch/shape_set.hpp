@@ -57,15 +57,12 @@ struct Capsule {
 Shape shape_from_capsules(std::span<const Capsule> capsules, float tolerance = 0.001f,
                           float threshold = 0.01f);
 
-/// Describes discs that move through a part of a clip. Rings of discs lie along the outline, and each disc goes straight on from key
-/// to key: its centre and its radius are linear in time. At any time the chunk covers its discs, and what the polygons of the rings'
-/// centres enclose. Consecutive discs of a ring, the last and the first too, overlap at every key, and so at all times between.
+/// Describes discs that move through a part of a clip. Each disc goes straight on from key to key: its centre and its radius are linear in
+/// time.
 struct AnimatedChunk {
   std::vector<double> times;     ///< of the keys, at least two, ascending; seconds of the clip
   std::uint32_t disc_count = 0;  ///< the number of discs at each key
   std::vector<Disc> keys;        ///< times.size() * disc_count, key by key; in the shape's frame, metres
-  std::vector<std::uint32_t>
-      ring_ends;  ///< the end of each ring among the discs, ascending; the last is disc_count. None: discs alone
   friend bool operator==(const AnimatedChunk&, const AnimatedChunk&) = default;
 };
 
@@ -81,12 +78,11 @@ struct AnimatedDiscs {
 /// Errors:  throws std::invalid_argument on heights of which the bottom is above the top or NaN; naming the chunk, on no chunks,
 ///          on fewer than two keys, on times that are not finite, not within +-1e6 s, do not ascend or leave a gap; on no discs or
 ///          more than 4096, or another number of them than in the keys; naming the disc and key, on one that is not finite or of a
-///          radius below 0, or that does not overlap the next one of its ring; on rings that do not ascend or end before or after
-///          the last disc, on a loop of less than 1 ms, and on a reach outside 1e-6 to 1e6 m.
+///          radius below 0; on a loop of less than 1 ms, and on a reach outside 1e-6 to 1e6 m.
 void validate(const AnimatedDiscs& discs);
 
 /// Represents a body that moves by itself, seen from above: a clip of a character, or other moving discs. Its solid at a time is its
-/// discs, and what the polygons of its rings' centres enclose.
+/// discs.
 ///
 /// The discs are in a tree whose nodes are discs that move as these do, and hold them at every time. Where a chunk ends and the next one
 /// begins, the discs of the next one count alone; first_contact() of who comes from before also compares those of the one that ends. Times before the beginning and after the end are clamped to these; if the clip loops, they wrap around
@@ -114,9 +110,8 @@ class AnimatedShape {
   std::size_t bytes() const noexcept;
   /// Returns the discs at a time, as they are kept, in the order in which they were given.
   std::vector<Disc> discs(double seconds) const;
-  /// Returns the body at a time as a shape, whose leaves are its discs and whose outline is the rings. A set takes the shape, and so does
-  /// a PreparedShape for a DynamicShapeSet, so that every query answers at every time after one call for each body and time. Discs
-  /// without rings stay in the order in which they were given; others are numbered as leaves of the tree.
+  /// Returns the body at a time as a shape without outline, whose leaves are its discs, numbered as leaves of the tree. A set takes the
+  /// shape, and so does a PreparedShape for a DynamicShapeSet.
   /// Cost:    a few us for 200 discs, less than making it flat.
   Shape shape(double seconds) const;
   /// Makes that shape in place of another shape of this kind, whose memory it keeps.

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include <bch/bodies.hpp>
 #include <bch/collide.hpp>
 #include <bch/default_characters.hpp>
 #include <bch/pose_shape.hpp>
@@ -19,7 +20,7 @@ namespace {
 /// Returns the first half second of a clip, played over and over.
 bch::AnimatedDiscs first_half_second(bch::Character character, std::uint32_t clip) {
   character.clips[clip].seconds = 0.5f;
-  bch::AnimatedDiscs discs = bch::animate(character, clip);
+  bch::AnimatedDiscs discs = bch::animate(bch::make_body(character, {.spheres = 64, .draft = true}), clip);
   discs.loops = true;
   return discs;
 }

@@ -60,8 +60,7 @@ bch::AnimatedShape swinging() {
   const bch::AnimatedChunk chunk{
       {0, 1, 2},
       2,
-      {{0, 0, .25f}, {.25f, 0, .25f}, {0, 0, .25f}, {.5f, 0, .25f}, {0, 0, .25f}, {.25f, 0, .25f}},
-      {}};
+      {{0, 0, .25f}, {.25f, 0, .25f}, {0, 0, .25f}, {.5f, 0, .25f}, {0, 0, .25f}, {.25f, 0, .25f}}};
   return bch::AnimatedShape({.chunks = {chunk}, .loops = true});
 }
 

@@ -19,7 +19,7 @@ using OwnedAnimated = test::Owned<bch_animated_shape, bch_animated_shape_free>;
 
 /// Moving discs in arrays, as callers have them.
 struct Arrays {
-  std::vector<std::uint32_t> keys, discs, rings, ends;
+  std::vector<std::uint32_t> keys, discs;
   std::vector<double> times;
   std::vector<Disc> all;
   bch_animated_arrays arrays = BCH_ANIMATED_ARRAYS_INIT;
@@ -28,16 +28,13 @@ struct Arrays {
     for (const AnimatedChunk& chunk : of.chunks) {
       keys.push_back(static_cast<std::uint32_t>(chunk.times.size()));
       discs.push_back(chunk.disc_count);
-      rings.push_back(static_cast<std::uint32_t>(chunk.ring_ends.size()));
       times.insert(times.end(), chunk.times.begin(), chunk.times.end());
       all.insert(all.end(), chunk.keys.begin(), chunk.keys.end());
-      ends.insert(ends.end(), chunk.ring_ends.begin(), chunk.ring_ends.end());
     }
     arrays.loops = of.loops;
-    arrays.key_counts = keys.data(), arrays.disc_counts = discs.data(), arrays.ring_counts = rings.data();
+    arrays.key_counts = keys.data(), arrays.disc_counts = discs.data();
     arrays.chunk_count = keys.size();
     arrays.times = times.data(), arrays.discs = reinterpret_cast<const bch_disc*>(all.data());
-    arrays.ring_ends = ends.data();
   }
   OwnedAnimated shape() const { return made<bch_animated_shape_free>(bch_animated_shape_create, &arrays); }
 };
@@ -68,24 +65,25 @@ void expect_body(const bch_animated_shape* shape, const AnimatedShape& expected)
 TEST(CApiMotions, BodiesAreTheirArrays) {
   test::Random random(3141);
   for (const AnimatedDiscs& discs :
-       {test::loose_discs(random), test::ringed_body(random, 1), test::ringed_body(random, 2)})
+       {test::loose_discs(random), test::swinging_body(random, 1), test::swinging_body(random, 2)})
     expect_body(Arrays(discs).shape().get(), AnimatedShape(discs));
 }
 
 TEST(CApiMotions, ClipsAreAnimated) {
   constexpr std::uint32_t clip = 40;
-  const Character character = default_pedestrian(Sex::female, 1.7);
-  const auto of = made<bch_character_free>(bch_character_pedestrian, BCH_PEDESTRIAN_FEMALE, 1.7, 0);
+  const BodyModel model = make_body(default_pedestrian(Sex::female, 1.7), {.spheres = 64, .draft = true});
+  const auto character = made<bch_character_free>(bch_character_pedestrian, BCH_PEDESTRIAN_FEMALE, 1.7, 0);
+  const auto of = made<bch_body_model_free>(bch_body_model_create, character.get(), 64, 1, nullptr);
   bch_animate_options options = BCH_ANIMATE_OPTIONS_INIT;
-  options.spacing = 0.05f, options.inset = 0.05f, options.error = 0.01f;
+  options.error = 0.01f;
   const auto animated = [&] {
     return made<bch_animated_shape_free>(bch_animated_shape_animate, of.get(), clip, &options);
   };
-  AnimateOptions own{.spacing = 0.05f, .inset = 0.05f, .error = 0.01f};
-  expect_body(animated().get(), AnimatedShape(animate(character, clip, own)));
+  AnimateOptions own{.error = 0.01f};
+  expect_body(animated().get(), AnimatedShape(animate(model, clip, own)));
   for (const bool loops : {false, true}) {
     options.loops = loops, own.loops = loops;
-    expect_body(animated().get(), AnimatedShape(animate(character, clip, own)));
+    expect_body(animated().get(), AnimatedShape(animate(model, clip, own)));
   }
   bch_animated_shape* none = nullptr;
   EXPECT_EQ(bch_animated_shape_animate(of.get(), 9999, nullptr, &none), BCH_OUT_OF_RANGE);
@@ -128,7 +126,7 @@ TEST(CApiMotions, SetsKeepThem) {
 
 TEST(CApiMotions, ShapesAtATimeAreAdded) {
   test::Random random(3142);
-  const AnimatedDiscs discs = test::ringed_body(random);
+  const AnimatedDiscs discs = test::swinging_body(random);
   const OwnedAnimated body = Arrays(discs).shape();
   const auto builder = made<bch_shape_set_builder_free>(bch_shape_set_builder_create, nullptr);
   expect_ok(bch_shape_set_builder_add_moment(builder.get(), body.get(), 0.5));

@@ -19,7 +19,7 @@ constexpr TimeInterval all_times{-1e6, 1e6};
 /// Returns a disc of 0.25 m that goes ahead by a way and back again in each round of some seconds.
 AnimatedDiscs pendulum(double seconds, float way, bool loops = true) {
   const Disc rest{0, 0, 0.25f}, ahead{way, 0, 0.25f};
-  return {{{{0, seconds / 2, seconds}, 1, {rest, ahead, rest}, {1}}}, loops};
+  return {{{{0, seconds / 2, seconds}, 1, {rest, ahead, rest}}}, loops};
 }
 
 MotionCase standing(AnimatedDiscs body, double x, double y, double begin = 0) {

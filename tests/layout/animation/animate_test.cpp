@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "layout/animation/contour.hpp"
-#include "layout/base/ring_edges.hpp"
+#include <bch/bodies.hpp>
+
 #include "layout/character/skinning.hpp"
 #include "tests/support/animated_cover.hpp"
+#include "tests/support/body_models.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/test.hpp"
 #include "tests/support/test_characters.hpp"
@@ -14,7 +15,6 @@
 namespace bch {
 namespace {
 
-using test::Cover;
 using test::cover_at;
 using test::excess_in;
 using test::left_out;
@@ -37,58 +37,55 @@ void expect_as_said(const AnimatedDiscs& animated, float seconds) {
     before = chunk.times.back();
     EXPECT_TRUE(std::is_sorted(chunk.times.begin(), chunk.times.end()));
     ASSERT_EQ(chunk.keys.size(), chunk.times.size() * chunk.disc_count);
-    ASSERT_FALSE(chunk.ring_ends.empty());
-    ASSERT_EQ(chunk.ring_ends.back(), chunk.disc_count);
     float reach = 0;
-    for (const Disc& disc : chunk.keys)
-      reach = std::max({reach, std::abs(disc.x), std::abs(disc.y), disc.radius});
+    for (const Disc& disc : chunk.keys) reach = std::max({reach, std::abs(disc.x), std::abs(disc.y)});
     const double step = std::exp2(std::ceil(std::log2(double{reach})) - 15);
     for (const Disc& disc : chunk.keys)
       for (const float number : {disc.x, disc.y, disc.radius})
         EXPECT_EQ(std::remainder(double{number}, step), 0.0) << number;
-    for (std::size_t key = 0; key < chunk.times.size(); ++key)
-      detail::for_each_ring_edge(chunk.ring_ends, [&](std::uint32_t i, std::uint32_t after) {
-        const Disc& disc = chunk.keys[key * chunk.disc_count + i];
-        const Disc& next = chunk.keys[key * chunk.disc_count + after];
-        EXPECT_LT(std::hypot(disc.x - next.x, disc.y - next.y), disc.radius + next.radius);
-      });
   }
 }
 
-/// Looks at random times. Half of them are in the first 16th of a clip, where they are close to each other.
-void expect_held(const Character& character, std::uint32_t times, double most_excess) {
-  const AnimatedDiscs animated = animate(character, 0);
+/// Looks at random times. Half of them are in the first 16th of a clip, where they are close to each other. Discs stand out farther than
+/// the spheres of the pose by hardly more than the error.
+void expect_held(const BodyModel& model, std::uint32_t times) {
+  constexpr float error = 0.005f;
+  constexpr double bend = 0.001;
+  const Character& character = *model.character;
+  const AnimatedDiscs animated = animate(model, 0, {.error = error});
   const float end = character.clips[0].seconds;
   expect_as_said(animated, end);
   detail::Skinner skinner(character);
   OutlineBuilder builder(character.triangles, character.vertices.size());
+  BodyPoser poser(model);
   Outline outline;
   Random random(31);
-  double sum = 0;
   for (std::uint32_t i = 0; i < times; ++i) {
     const auto seconds = static_cast<float>(random.uniform(0, double{end} / (i % 2 == 0 ? 1 : 16)));
     const std::span<const Vec2> vertices = skinner.ground_pose({0, seconds});
     builder.build(vertices, outline);
-    const Cover cover = cover_at(animated, double{seconds});
+    const std::vector<Disc> cover = cover_at(animated, double{seconds});
     ASSERT_EQ(left_out(cover, vertices, outline), 0u) << character.name << " at " << seconds << " s";
-    const double turn = random.uniform(0, 2 * std::numbers::pi);
-    const double excess = excess_in(cover, vertices, std::cos(turn), std::sin(turn));
-    EXPECT_LT(excess, 4 * most_excess) << character.name << " at " << seconds << " s";
-    sum += excess;
+    std::vector<Disc> posed;
+    for (const Sphere& sphere : poser.spheres(Pose(0, seconds)))
+      posed.push_back({sphere.x, sphere.y, sphere.radius});
+    const double turn = random.uniform(0, 2 * std::numbers::pi), x = std::cos(turn), y = std::sin(turn);
+    EXPECT_LT(excess_in(cover, vertices, x, y) - excess_in(posed, vertices, x, y), double{error} + bend)
+        << character.name << " at " << seconds << " s";
   }
-  EXPECT_LT(sum / times, most_excess) << character.name;
 }
 
 TEST(Animate, HoldsCharactersAtEveryTime) {
   for (const Character& character : test::default_characters())
-    expect_held(with_short_clip(character, 0.8f), test::samples(800), 0.005);
+    expect_held(make_body(with_short_clip(character, 0.8f), {.spheres = 96, .draft = true}),
+                test::samples(800));
 }
 
 TEST(Animate, HoldsRealCharacters) {
   const auto data = test::test_data();
   if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set";
   for (const Character& character : test::real_characters(*data))
-    expect_held(with_short_clip(character, 0.12f), test::samples(200), 0.006);
+    expect_held(test::plain_model(with_short_clip(character, 0.12f), 96), test::samples(200));
 }
 
 /// A body of bars, each 0.4 m times 0.06 m, on joints of their own that turn from and to an angle about x and back, once a second.
@@ -128,74 +125,56 @@ Character bars(const std::vector<Bar>& of) {
   return body;
 }
 
+BodyModel model_of(const Character& body) {
+  return test::plain_model(body, 8);
+}
+
 TEST(Animate, FollowsArcsBetweenDistantKeys) {
-  expect_held(bars({{0, 0, 2}}), test::samples(4000), 0.004);
+  expect_held(model_of(bars({{0, 0, 2}})), test::samples(4000));
 }
 
 TEST(Animate, HoldsPartsThatComeOutFromUnderOthersAndPartsApart) {
-  // Discs go ahead of a part that comes out, so that less is promised of how close they are.
-  expect_held(bars({{0, 0, 0}, {0, 0, 1.5f}, {0, 0, -1}}), test::samples(2000), 0.02);
-  expect_held(bars({{0.1f, 0, 1}, {-0.9f, 0, 1}}), test::samples(1000), 0.02);
-}
-
-/// Returns the most that a disc reaches out of the body at random times, and expects two rings in each chunk.
-double most_out_of_two_parts(const Character& character) {
-  const AnimatedDiscs animated = animate(character, 0);
-  for (const AnimatedChunk& chunk : animated.chunks) EXPECT_EQ(chunk.ring_ends.size(), 2u);
-  detail::Skinner skinner(character);
-  OutlineBuilder builder(character.triangles, character.vertices.size());
-  Outline outline;
-  Random random(312);
-  double most = 0;
-  for (std::uint32_t i = 0; i < test::samples(200); ++i) {
-    const auto seconds = static_cast<float>(random.uniform(0, 1));
-    builder.build(skinner.ground_pose({0, seconds}), outline);
-    most = std::max(most, test::most_out(cover_at(animated, double{seconds}), outline));
-  }
-  return most;
-}
-
-TEST(Animate, GivesPartsRingsOfTheirOwn) {
-  // Two bars side by side; and two of which one's tip sweeps over the other's, so that they are one contour for a while.
-  EXPECT_LT(most_out_of_two_parts(bars({{0.1f, 0, 1}, {-0.9f, 0, 1}})), 0.02);
-  EXPECT_LT(most_out_of_two_parts(bars({{0, 0, 0}, {0.75f, 2.5f, 3.8f}})), 0.02);
+  expect_held(model_of(bars({{0, 0, 0}, {0, 0, 1.5f}, {0, 0, -1}})), test::samples(2000));
+  expect_held(model_of(bars({{0.1f, 0, 1}, {-0.9f, 0, 1}})), test::samples(1000));
 }
 
 TEST(Animate, KnowsLoops) {
   Character body = bars({{0, 0, 1}});
-  EXPECT_TRUE(animate(body, 0).loops);
+  EXPECT_TRUE(animate(model_of(body), 0).loops);
   body.clips[0].seconds = 0.75f;
-  EXPECT_FALSE(animate(body, 0).loops);
+  EXPECT_FALSE(animate(model_of(body), 0).loops);
   // A clip whose ends differ, played over and over: at its end the body jumps to where it begins.
-  const AnimatedDiscs forced = animate(body, 0, {.loops = true});
+  const AnimatedDiscs forced = animate(model_of(body), 0, {.loops = true});
   const AnimatedShape jumping(forced);
   EXPECT_TRUE(jumping.loops());
   EXPECT_EQ(jumping.discs(0.75), jumping.discs(0));
   EXPECT_EQ(jumping.discs(0.75 + 0.25), jumping.discs(0.25));
   EXPECT_NE(jumping.discs(std::nextafter(0.75, 0.0)), jumping.discs(0));
   body.clips[0].seconds = 1;
-  EXPECT_FALSE(animate(body, 0, {.loops = false}).loops);
+  EXPECT_FALSE(animate(model_of(body), 0, {.loops = false}).loops);
   body.clips[0].seconds = 1e-7f;  // at whose end it is where it was
-  EXPECT_NO_THROW(validate(animate(body, 0)));
+  EXPECT_NO_THROW(validate(animate(model_of(body), 0)));
 }
 
-TEST(Animate, FollowsItsOptions) {
-  const Character body = bars({{0, 0, 1}});
-  const AnimatedDiscs coarse = animate(body, 0, {.spacing = 0.05f});
-  EXPECT_LT(coarse.chunks[0].disc_count, animate(body, 0).chunks[0].disc_count);
-  EXPECT_THROW(animate(body, 0, {.spacing = 1e-5f}), std::length_error);
+TEST(Animate, FollowsItsError) {
+  const BodyModel body = model_of(bars({{0, 0, 2}}));
+  const auto keys = [&](float error) {
+    std::size_t count = 0;
+    for (const AnimatedChunk& chunk : animate(body, 0, {.error = error}).chunks) count += chunk.times.size();
+    return count;
+  };
+  EXPECT_LT(keys(0.05f), keys(0.005f));
+  EXPECT_LT(keys(0.005f), keys(0.0005f));
 }
 
 TEST(Animate, RefusesWhatItCannotHold) {
   using test::complaint;
   const Character body = bars({{0, 0, 1}});
   const auto message = [](const Character& of, std::uint32_t clip = 0, const AnimateOptions& options = {}) {
-    return complaint([&] { animate(of, clip, options); });
+    return complaint([&] { animate(model_of(of), clip, options); });
   };
   EXPECT_EQ(message(body, 1), "character 'bars': no clip 1");
-  EXPECT_EQ(message(body, 0, {.spacing = 0}), "animated discs: a spacing of 0 m");
-  EXPECT_EQ(message(body, 0, {.inset = std::nanf("")}), "animated discs: an inset of nan m");
-  EXPECT_EQ(message(body, 0, {.error = -1}), "animated discs: an error of -1 m");
+  EXPECT_EQ(message(body, 0, {.error = -1}), "animate: expected an error above 0 m, found -1 m");
   const std::string uneven = "character 'bars': clip 'swing' has channels that are not linear between keys";
   Character other = body;
   other.clips[0].channels[0].rotation_curve.interpolation = Interpolation::step;

@@ -127,7 +127,7 @@ TEST(BakedFile, ClipsAreStoredExactly) {
   const ShapeSet set(few_shapes(), full_plan);
   for (const float step : {0x1p-30f, 0x1p-15f, 1.0f, 0x1p3f})
     for (const float most : {32767.0f, 32769.0f}) {
-      const AnimatedChunk chunk{{0, 1}, 1, {{most * step, -most * step, step}, {0, 0, step}}, {}};
+      const AnimatedChunk chunk{{0, 1}, 1, {{most * step, -most * step, step}, {0, 0, step}}};
       if (most * step * 3 > 1e6f || most * step < 1e-5f) continue;
       BakedBytes bytes(set, origins_of(3), std::vector<BakedClip>{{0, 1, {{chunk}, false}}});
       EXPECT_EQ(bytes.load().clips[0].discs.chunks[0], chunk) << most << " x " << step;
@@ -137,7 +137,7 @@ TEST(BakedFile, ClipsAreStoredExactly) {
 
 TEST(BakedFile, HasNoLoopsOfNextToNoTime) {
   const ShapeSet set(few_shapes(), full_plan);
-  const AnimatedChunk chunk{{0, 1e-12}, 1, {{0, 0, 1}, {0, 0, 1}}, {}};
+  const AnimatedChunk chunk{{0, 1e-12}, 1, {{0, 0, 1}, {0, 0, 1}}};
   BakedBytes bytes(set, origins_of(3), std::vector<BakedClip>{{0, 1, {{chunk}, false}}});
   EXPECT_EQ(bytes.load().clips[0].discs.chunks[0], chunk);
   bytes.section<detail::baked::ClipRecord>(Section::clips)[0].loops = 1;

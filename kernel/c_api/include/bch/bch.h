@@ -827,39 +827,35 @@ BCH_API bch_status bch_obstacles_time_of_impact(const bch_shape_set* set, const 
 
 /* Motions ----------------------------------------------------------------------------------------------------------- */
 
-/** Represents a body that moves by itself: discs whose centres and radii are linear in time from key to key, and what their rings enclose.
+/** Represents a body that moves by itself: discs whose centres and radii are linear in time from key to key.
  * It has a shape at every time. Times before the beginning and after the end are clamped to these; if the clip loops, they wrap around
  * instead: its end is followed by its beginning at once. */
 typedef struct bch_animated_shape bch_animated_shape;
 
-/** Says how close the discs of a clip are to the body, metres. */
+/** Says how moving discs of a clip are made. */
 typedef struct bch_animate_options {
   uint32_t size; /**< sizeof(bch_animate_options) */
-  float spacing; /**< the largest distance of discs along the outline, at keys */
-  float inset;   /**< the largest distance of centres behind the outline */
   float error;   /**< by how much more discs may protrude between two keys than at these */
   int32_t loops; /**< 1: the clip is played over and over; 0: it ends; -1: over and over if its last pose is its first one */
 } bch_animate_options;
 #define BCH_ANIMATE_OPTIONS_INIT \
-  { sizeof(bch_animate_options), 0.025f, 0.04f, 0.005f, -1 }
-/** Makes moving discs of a clip that hold the character at every real time of it. A second of a clip takes about a second. */
-BCH_API bch_status bch_animated_shape_animate(const bch_character* character, uint32_t clip,
+  { sizeof(bch_animate_options), 0.005f, -1 }
+/** Makes moving discs of a clip that hold the character of a model at every real time of it, one for each sphere. */
+BCH_API bch_status bch_animated_shape_animate(const bch_body_model* model, uint32_t clip,
                                               const bch_animate_options* options, bch_animated_shape** shape);
 
 /** Holds moving discs in arrays of the caller: chunks that follow one another in time, each with discs of its own. */
 typedef struct bch_animated_arrays {
   uint32_t size;             /**< sizeof(bch_animated_arrays) */
   int32_t loops;             /**< not 0: the clip is played over and over; it takes 1 ms or more */
-  const uint32_t* key_counts; /**< one per chunk, like the next two */
+  const uint32_t* key_counts; /**< one per chunk, like the next one */
   const uint32_t* disc_counts;
-  const uint32_t* ring_counts; /**< NULL: discs without rings */
   size_t chunk_count;
   const double* times;       /**< of the keys of all chunks, seconds; a chunk begins when the one before it ends */
   const bch_disc* discs;     /**< of the chunks, key by key */
-  const uint32_t* ring_ends; /**< of each chunk's rings among its discs, ascending */
 } bch_animated_arrays;
 #define BCH_ANIMATED_ARRAYS_INIT \
-  { sizeof(bch_animated_arrays), 0, NULL, NULL, NULL, 0, NULL, NULL, NULL }
+  { sizeof(bch_animated_arrays), 0, NULL, NULL, 0, NULL, NULL }
 /** Makes a body from moving discs. */
 BCH_API bch_status bch_animated_shape_create(const bch_animated_arrays* arrays, bch_animated_shape** shape);
 

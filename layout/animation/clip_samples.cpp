@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "layout/animation/clip_samples.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "layout/base/rounding.hpp"
+#include "layout/body/model/skin_pieces.hpp"
+
+namespace bch::detail {
+namespace {
+
+constexpr double wanted_bend = 0.0004;     ///< metres
+constexpr double longest_window = 0.0084;  ///< seconds
+/// What positions in float are off by, as a share of their size: of skinning (some ten operations deep), and of discs between keys.
+constexpr double rounding_share = 4e-6;
+
+}  // namespace
+
+ClipSamples::ClipSamples(const BodyModel& model, std::uint32_t clip)
+    : model_(model),
+      clip_(clip),
+      bounds_(*model.character, clip),
+      skinner_(*model.character),
+      poser_(model),
+      heights_{std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()} {}
+
+void ClipSamples::take(float from, float to) {
+  samples_.clear();
+  reach_ = 0;
+  add(from);
+  const std::vector<float>& keys = bounds_.key_times();
+  while (from < to) {
+    const auto key = std::upper_bound(keys.begin(), keys.end(), from);
+    const double acceleration = bounds_.acceleration(from);
+    const float limit = key == keys.end() ? to : std::min(to, *key);
+    const double left = double{limit} - double{from};
+    const double even = std::sqrt(8 * wanted_bend / std::max(acceleration, 1e-9));
+    const double parts = std::ceil(left / std::min(longest_window, even));
+    const float after = parts <= 1 ? limit : static_cast<float>(double{from} + left / parts);
+    if (!(from < after)) throw std::invalid_argument("animate: vertices move too fast");
+    const double seconds = double{after} - double{from}, bend = acceleration * seconds * seconds / 8;
+    add(after);
+    const double rise = bounds_.height_acceleration(from) * seconds * seconds / 8;
+    for (std::size_t i = samples_.size() - 2; i < samples_.size(); ++i) {
+      samples_[i].room = std::max(samples_[i].room, bend);
+      take_in(samples_[i], rise);
+    }
+    from = after;
+  }
+  for (Sample& sample : samples_) sample.room += rounding_share * reach_;
+}
+
+void ClipSamples::add(float seconds) {
+  Sample& sample = samples_.emplace_back();
+  sample.seconds = seconds;
+  const std::span<const Sphere> spheres = poser_.spheres(Pose(clip_, seconds));
+  sample.spheres.assign(spheres.begin(), spheres.end());
+  const std::vector<Vec3> points = place_points(skinner_.pose({clip_, seconds}), model_.cuts);
+  sample.bottom = std::numeric_limits<double>::infinity(), sample.top = -sample.bottom;
+  const auto reach_to = [&](float x, float y) {
+    reach_ = std::max({reach_, double{std::abs(x)}, double{std::abs(y)}});
+  };
+  for (const Sphere& sphere : sample.spheres) reach_to(sphere.x, sphere.y);
+  for (const std::uint32_t corner : model_.corners) {
+    const Vec3& point = points[corner];
+    sample.corners.push_back({double{point.x}, double{point.y}});
+    reach_to(point.x, point.y);
+    sample.bottom = std::min(sample.bottom, double{point.z});
+    sample.top = std::max(sample.top, double{point.z});
+  }
+}
+
+void ClipSamples::take_in(const Sample& sample, double rise) {
+  const double room = rise + rounding_share * std::max(-sample.bottom, sample.top);
+  heights_ = {std::min(heights_.bottom, rounding::round_down(sample.bottom - room)),
+              std::max(heights_.top, -rounding::round_down(-sample.top - room))};
+}
+
+double ClipSamples::share(std::size_t i, std::size_t first, std::size_t last) const noexcept {
+  const double from = samples_[first].seconds, to = samples_[last].seconds;
+  return (double{samples_[i].seconds} - from) / (to - from);
+}
+
+double ClipSamples::radius(std::size_t i, std::size_t sphere, const PlanePoint& centre) const noexcept {
+  const Sample& sample = samples_[i];
+  double square = 0;
+  for (std::uint32_t c = model_.corner_begin[sphere]; c < model_.corner_begin[sphere + 1]; ++c)
+    square = std::max(square, squared_length(sample.corners[c] - centre));
+  const double least = model_.least_radius.empty() ? 0 : double{model_.least_radius[sphere]};
+  return std::max(std::sqrt(square) + sample.room, least);
+}
+
+}  // namespace bch::detail
