@@ -15,6 +15,7 @@
 #include "bench/base/printable.hpp"
 #include "bench/base/text.hpp"
 #include "bench/recordings/embedding.hpp"
+#include "layout/base/base64.hpp"
 
 namespace bch::cli {
 namespace {
@@ -83,10 +84,10 @@ std::string wall_blocks(const PageFacts& facts, PagePoint corner) {
 
 /// Returns how a content security policy names a script or a style.
 std::string policy_source(std::string_view hash) {
-  std::vector<std::byte> bytes;
+  std::string bytes;
   for (std::size_t i = 0; i + 1 < hash.size(); i += 2)
-    bytes.push_back(static_cast<std::byte>(std::stoi(std::string(hash.substr(i, 2)), nullptr, 16)));
-  return "'sha256-" + base64(bytes) + "'";
+    bytes += static_cast<char>(std::stoi(std::string(hash.substr(i, 2)), nullptr, 16));
+  return "'sha256-" + detail::to_base64(bytes) + "'";
 }
 
 /// Nothing is loaded, and no script runs but the page's own.

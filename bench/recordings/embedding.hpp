@@ -19,14 +19,6 @@
 
 namespace bch::cli {
 
-/// Returns how many characters that many bytes take in base64.
-constexpr std::size_t base64_size(std::size_t bytes) {
-  return (bytes + 2) / 3 * 4;
-}
-
-/// Writes bytes in base64 (RFC 4648, section 4).
-std::string base64(std::span<const std::byte> bytes);
-
 /// Writes JSON that may stand in a script element: without "<", ">" and "&", which are written as \u003c and so on.
 /// Bytes of texts that are not UTF-8 are replaced.
 std::string script_json(const nlohmann::ordered_json& json);

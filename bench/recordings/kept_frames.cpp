@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "bench/recordings/embedding.hpp"
+#include "layout/base/base64.hpp"
 
 namespace bch::cli {
 namespace {
@@ -121,8 +122,8 @@ std::size_t KeptFrames::block_size() const {
                     place = narrow_places() ? 4 : 8;
   constexpr std::size_t heading_speed_marks = 5, frame = 2 * sizeof(double) + 2 * sizeof(std::uint32_t);
   constexpr std::size_t tag = 100, tags = 12, id_digits = 8;
-  return base64_size(people_.size() * (id + shape + place + heading_speed_marks) + overlaps_.size() * 2 * id +
-                     size() * frame) +
+  return detail::base64_size(people_.size() * (id + shape + place + heading_speed_marks) +
+                             overlaps_.size() * 2 * id + size() * frame) +
          tags * tag + ids().size() * id_digits;
 }
 

@@ -9,6 +9,7 @@
 
 #include "bench/base/printable.hpp"
 #include "bench/recordings/embedding.hpp"
+#include "layout/base/base64.hpp"
 
 namespace bch::cli {
 namespace {
@@ -95,7 +96,7 @@ void PageShapes::add(const PageShape& shape) {
 std::size_t PageShapes::block_size() const {
   constexpr std::size_t tags = 500, quotes = 3;
   const std::size_t offsets = contours_begin_.size() + points_begin_.size() + discs_begin_.size();
-  return base64_size(4 * (offsets + points_.size()) + 2 * discs_.size()) + tags + name_bytes_ +
+  return detail::base64_size(4 * (offsets + points_.size()) + 2 * discs_.size()) + tags + name_bytes_ +
          quotes * size();
 }
 

@@ -10,6 +10,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "layout/base/base64.hpp"
 #include "layout/import/scene.hpp"
 
 namespace bch::detail::importing {
@@ -43,25 +44,12 @@ std::uint32_t little_endian(std::string_view bytes, std::size_t at) {
   return number;
 }
 
-std::string base64(std::string_view text, const JsonValue& place) {
-  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  while (!text.empty() && text.back() == '=') text.remove_suffix(1);
-  std::array<int, 256> value_of;
-  value_of.fill(-1);
-  for (std::size_t d = 0; d < digits.size(); ++d)
-    value_of[static_cast<unsigned char>(digits[d])] = static_cast<int>(d);
-
-  std::string bytes;
-  bytes.reserve(text.size() / 4 * 3 + 3);
-  std::uint32_t group = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const int value = value_of[static_cast<unsigned char>(text[i])];
-    if (value < 0) place.reject("is no base64 at its digit " + std::to_string(i));
-    group = group << 6 | static_cast<std::uint32_t>(value);
-    constexpr int shifts[] = {-1, 4, 2, 0};
-    if (i % 4 > 0) bytes += static_cast<char>(group >> shifts[i % 4]);
+std::string from_base64(std::string_view text, const JsonValue& place) {
+  try {
+    return detail::from_base64(text);
+  } catch (const std::invalid_argument& error) {
+    place.reject(std::string("is ") + error.what());
   }
-  return bytes;
 }
 
 /// "%20" becomes a blank.
@@ -163,7 +151,7 @@ std::string_view GltfFile::buffer(const JsonValue& json, std::size_t index) {
     if (added && uri.starts_with("data:")) {
       const std::size_t comma = uri.find(";base64,");
       if (comma == std::string::npos) json["uri"].reject("is data that is not in base64");
-      place->second = base64(std::string_view(uri).substr(comma + 8), json["uri"]);
+      place->second = from_base64(std::string_view(uri).substr(comma + 8), json["uri"]);
     } else if (added) {
       place->second = files_.read(path_.parent_path() / without_escapes(uri));
       if (place->second.empty())
