@@ -8,6 +8,7 @@
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "layout/base/aligned_vector.hpp"
 #include "layout/base/floating_point_state.hpp"
@@ -73,7 +74,7 @@ void write_record(const BodyLayout& layout, std::span<const Sphere> spheres, flo
 struct BodySet::State {
   AlignedVector<float> records;
   std::vector<std::uint64_t> record_begin;
-  std::vector<BodyLayout> own_layouts;
+  std::vector<BodyLayout> own_layouts;  ///< which are not moved once bodies have them
   std::vector<const BodyLayout*> layouts;
   std::vector<Root> roots;
   std::vector<Heights> heights;
@@ -134,8 +135,10 @@ BodySet::BodySet(std::span<const std::vector<Sphere>> bodies)
   }
 }
 
-BodySet::BodySet(std::span<const BodyLayout* const> bodies) : state_(std::make_unique<State>(bodies.size())) {
-  for (const BodyLayout* const layout : bodies) state_->add(*layout);
+BodySet::BodySet(std::vector<BodyLayout> layouts, std::span<const std::uint32_t> layout_of_body)
+    : state_(std::make_unique<State>(layout_of_body.size())) {
+  state_->own_layouts = std::move(layouts);
+  for (const std::uint32_t layout : layout_of_body) state_->add(state_->own_layouts[layout]);
   state_->allocate();
 }
 

@@ -103,6 +103,28 @@ class BodyPoser {
   std::unique_ptr<State> state_;
 };
 
+/// Names a pose of a body of one of several models.
+struct PoseOfBody {
+  std::uint32_t model = 0;
+  Pose pose;
+};
+
+/// Says which bodies bake() makes.
+struct BakeBodiesOptions {
+  std::uint32_t poses =
+      100;  ///< of each model, spread evenly over its character's clips, one model after the other
+  std::vector<PoseOfBody> bodies = {};  ///< which poses of which models; none: `poses`
+  /// Hears on the caller's thread, twenty times a second at most, how many bodies are made. Returning false cancels.
+  std::function<bool(std::size_t done, std::size_t total)> progress = {};
+};
+
+/// Makes a set of models in many poses, on all threads of the caller's TBB arena: the same bits for any number of them.
+/// Errors:  throws std::invalid_argument as validate() does and on a model that is not there; what BodyPoser::spheres() throws, with the
+///          number of the body; and std::system_error of std::errc::operation_canceled where it is cancelled.
+BodySet bake(std::span<const BodyModel> models, const BakeBodiesOptions& options = {});
+/// Makes a set of one model.
+BodySet bake(const BodyModel& model, const BakeBodiesOptions& options = {});
+
 /// Holds a body for each of many agents, who all have poses of their own in every frame.
 ///
 ///     bch::LiveBodies bodies(models, model_of_agent);

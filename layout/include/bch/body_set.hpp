@@ -50,8 +50,8 @@ class BodySet {
   Heights heights(std::uint32_t body) const;
 
   // For the library's own parts, which alone know these types.
-  /// Makes room for bodies of layouts, which have to outlive the set. Records have to be written before they are read.
-  explicit BodySet(std::span<const detail::BodyLayout* const> bodies);
+  /// Makes room for bodies, of which number i has layout layout_of_body[i]. Records have to be written before they are read.
+  BodySet(std::vector<detail::BodyLayout> layouts, std::span<const std::uint32_t> layout_of_body);
   const detail::BodySetView& view() const noexcept;
   /// Returns where the record of a body is written. Threads may write different bodies at once.
   float* record(std::uint32_t body) noexcept;
