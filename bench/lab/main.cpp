@@ -10,6 +10,7 @@
 #include "bench/base/output.hpp"
 #include "bench/base/run_main.hpp"
 #include "bench/base/threads.hpp"
+#include "bench/lab/models.hpp"
 #include "bench/report/report.hpp"
 #include "bench/stability/tables.hpp"
 
@@ -123,6 +124,18 @@ void run_stability(const CLI::App& command, const StabilityOptions& options) {
       throw std::runtime_error("a promise is broken: " + broken);
 }
 
+void add_models_options(CLI::App& command, bench::ModelsOptions& options) {
+  command.footer(
+      "Fails if one is another, unless it writes them. Takes up to a minute a model.\n"
+      "Example: bch_lab models --out layout/body/default_models");
+  command.add_option("--spheres", options.spheres, "Make only the models of so many spheres [all]")
+      ->type_name("N")
+      ->check(one_of({"64", "128", "256", "512"}));
+  command
+      .add_option("--out", options.folder, "Write the files that the library is built with into this folder")
+      ->type_name("DIR");
+}
+
 int run(int argc, char** argv) {
   CLI::App program("Measures bounding cylinder hierarchies against the paper and against exact arithmetic.",
                    "bch_lab");
@@ -137,10 +150,17 @@ int run(int argc, char** argv) {
       *program.add_subcommand("report", "Run the paper's experiments, and write tables");
   CLI::App& stability_command =
       *program.add_subcommand("stability", "Judge collision tests on hard cases by exact arithmetic");
+  bench::ModelsOptions models;
+  CLI::App& models_command = *program.add_subcommand(
+      "models", "Make the built-in characters' bodies of spheres anew, and compare them with the library's");
+  add_models_options(models_command, models);
   add_report_options(report_command, report);
   add_stability_options(stability_command, stability);
   if (!parse_command_line(program, argc, argv)) return exit_success;
-  report_command.parsed() ? run_report(report) : run_stability(stability_command, stability);
+  if (models_command.parsed())
+    write_standard_output(bench::remake_models(models));
+  else
+    report_command.parsed() ? run_report(report) : run_stability(stability_command, stability);
   return exit_success;
 }
 

@@ -12,6 +12,7 @@
 #include "layout/base/shortest.hpp"
 #include "layout/character/eigen.hpp"
 #include "layout/default_character/body_weights.hpp"
+#include "layout/default_character/character_at_rest.hpp"
 #include "layout/default_character/parametric_body.hpp"
 #include "layout/default_character/parametric_motion.hpp"
 
@@ -31,7 +32,10 @@ std::string joint_name(std::uint32_t joint) {
   return (left ? "left " : "right ") + std::string(joint_names[left ? joint : joint - side_joints]);
 }
 
-Character at_rest(std::string name, const BodyShape& shape, const JointPositions& joints) {
+}  // namespace
+
+Character detail::character_at_rest(std::string name, const BodyShape& shape) {
+  const JointPositions joints = joint_positions(shape);
   Character character;
   character.name = std::move(name);
   for (std::uint32_t j = 0; j < body_joint_count; ++j) {
@@ -46,6 +50,8 @@ Character at_rest(std::string name, const BodyShape& shape, const JointPositions
   attach_skin(character, parametric_body(shape), joints);
   return character;
 }
+
+namespace {
 
 /// 212 s, the length of the paper's recordings.
 void add_clips(Character& character, const Manner& m) {
@@ -94,7 +100,7 @@ Character default_pedestrian(Sex sex, double stature, double shoulders) {
                                 ", not from -1 to 1");
   const BodyShape shape = sex == Sex::male ? male_shape() : female_shape();
   const JointPositions joints = joint_positions(shape);
-  Character character = at_rest(sex == Sex::male ? "pedestrian male" : "pedestrian female", shape, joints);
+  Character character = character_at_rest(sex == Sex::male ? "pedestrian male" : "pedestrian female", shape);
   const Manner manner{joints, shape.stature, 1, 1, 0.05, 0.8, 0.15, 1};
   for (std::uint32_t k = 0; k < pedestrian_speeds; ++k) {
     const double speed = k * pedestrian_speed_step;
@@ -113,7 +119,7 @@ Character default_male() {
   const FloatingPointStateGuard floats;
   const BodyShape shape = male_shape();
   const JointPositions joints = joint_positions(shape);
-  Character character = at_rest("default male", shape, joints);
+  Character character = character_at_rest("default male", shape);
   add_clips(character, {joints, shape.stature, 1.06, 1.04, 0.27, 1.0, 0.27, 1.25});
   return character;
 }
@@ -122,7 +128,7 @@ Character default_bulky_male() {
   const FloatingPointStateGuard floats;
   const BodyShape shape = bulky_male_shape();
   const JointPositions joints = joint_positions(shape);
-  Character character = at_rest("default bulky male", shape, joints);
+  Character character = character_at_rest("default bulky male", shape);
   add_clips(character, {joints, shape.stature, 0.95, 1.02, 0.24, 0.80, 0.30, 0.75});
   return character;
 }
@@ -131,7 +137,7 @@ Character default_female() {
   const FloatingPointStateGuard floats;
   const BodyShape shape = female_shape();
   const JointPositions joints = joint_positions(shape);
-  Character character = at_rest("default female", shape, joints);
+  Character character = character_at_rest("default female", shape);
   add_clips(character, {joints, shape.stature, 0.96, 1.10, 0.19, 1.0, 0.20, 0.9});
   return character;
 }

@@ -52,10 +52,13 @@ void require_influences(const BodyModel& model) {
   }
 }
 
-/// Finds, for each triangle, whether it or all parts that cuts make of it have their corners in one sphere.
+/// Finds, for each triangle, whether it or all parts that cuts make of it have their corners in one sphere. Which of its edges is cut
+/// first has to be tried, so that a model made in bad faith would take for ever: work and depth are limited.
 class Covering {
  public:
-  explicit Covering(const BodyModel& model) : spheres_(points(model)) {
+  explicit Covering(const BodyModel& model)
+      : spheres_(points(model)),
+        left_(most_work * (points(model) + model.character->triangles.size() + model.corners.size())) {
     for (std::uint32_t s = 0; s < model.sphere_count(); ++s)
       for (std::uint32_t i = model.corner_begin[s]; i < model.corner_begin[s + 1]; ++i)
         spheres_[model.corners[i]].push_back(s);
@@ -64,20 +67,28 @@ class Covering {
       middle_.try_emplace(std::minmax(model.cuts[i][0], model.cuts[i][1]), vertices + i);
   }
 
-  bool holds(const std::array<std::uint32_t, 3>& corners) const {
+  bool holds(const std::array<std::uint32_t, 3>& corners, int halvings = 0) {
     const auto [a, b, c] = corners;
+    const std::size_t work = 1 + spheres_[a].size();
+    if (work > left_) refuse("cuts whose order is found soon", "none that was");
+    left_ -= work;
     for (const std::uint32_t s : spheres_[a])
       if (has(b, s) && has(c, s)) return true;
+    if (halvings == most_halvings) return false;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t from = corners[k], to = corners[(k + 1) % 3], other = corners[(k + 2) % 3];
       const auto found = middle_.find(std::minmax(from, to));
-      if (found != middle_.end() && holds({from, found->second, other}) && holds({found->second, to, other}))
+      if (found != middle_.end() && holds({from, found->second, other}, halvings + 1) &&
+          holds({found->second, to, other}, halvings + 1))
         return true;
     }
     return false;
   }
 
  private:
+  static constexpr std::size_t most_work = 64;  ///< times the size of a model; make_body()'s take 4
+  static constexpr int most_halvings = 64;
+
   static std::size_t points(const BodyModel& model) {
     return model.character->vertices.size() + model.cuts.size();
   }
@@ -87,6 +98,7 @@ class Covering {
 
   std::vector<std::vector<std::uint32_t>> spheres_;                          ///< by point, ascending
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> middle_;  ///< by ends
+  std::size_t left_;                                                         ///< of the work
 };
 
 void require_corners(const BodyModel& model) {
@@ -103,7 +115,7 @@ void require_corners(const BodyModel& model) {
                    std::to_string(vertices + model.cuts.size()),
                std::to_string(model.corners[i]));
     }
-  const Covering covering(model);
+  Covering covering(model);
   for (std::size_t t = 0; t < model.character->triangles.size(); ++t)
     if (!covering.holds(model.character->triangles[t]))
       refuse("spheres that hold all triangles", "triangle " + std::to_string(t) + " outside");

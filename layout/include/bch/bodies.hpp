@@ -51,6 +51,14 @@ struct BodyModel {
 /// Errors:  throws std::invalid_argument naming the place and the value.
 void validate(const BodyModel& model);
 
+/// Writes a model, with its character, as bytes: for files, other processes and other programs on machines of the same byte order.
+/// Errors:  throws std::invalid_argument as validate() does.
+std::vector<std::byte> to_bytes(const BodyModel& model);
+
+/// Reads a model from bytes of to_bytes(), which need not be trusted.
+/// Errors:  throws std::invalid_argument on other bytes, and as validate() does.
+BodyModel body_model(std::span<const std::byte> bytes);
+
 /// Says how make_body() works.
 struct BodyOptions {
   std::uint32_t spheres = 256;  ///< at most 4096
@@ -65,6 +73,12 @@ struct BodyOptions {
 /// Errors:  throws std::invalid_argument as validate(Character) does, on spheres out of range, and on a character without triangles;
 ///          std::system_error of std::errc::operation_canceled where it is cancelled.
 BodyModel make_body(const Character& character, const BodyOptions& options = {});
+
+/// Returns the model that comes with the library of a built-in character: what make_body() makes of default_male() or default_female(),
+/// with 64, 128, 256 or 512 spheres. Pedestrians (default_pedestrian()), who have the same skins, take the same models.
+/// Cost:    milliseconds.
+/// Errors:  throws std::invalid_argument on another skin or skeleton, and on another number of spheres, both of which make_body() takes.
+BodyModel default_body(const Character& built_in, std::uint32_t spheres = 256);
 
 /// Holds the options of animate().
 struct AnimateOptions {

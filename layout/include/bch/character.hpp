@@ -17,6 +17,7 @@ struct Joint {
   std::string name;
   std::int32_t parent = -1;  ///< -1: a root
   Affine3 rest;              ///< the transform in the parent's frame, where a clip does not move the joint
+  friend bool operator==(const Joint&, const Joint&) = default;
 };
 
 /// Holds a value at a time, which is in seconds.
@@ -66,12 +67,14 @@ struct Clip {
 struct Bone {
   std::uint32_t joint = 0;
   Affine3 inverse_bind;
+  friend bool operator==(const Bone&, const Bone&) = default;
 };
 
 /// Holds the share of one bone in the position of a vertex (linear blend skinning).
 struct Influence {
   std::uint32_t bone;
   float weight;
+  friend bool operator==(const Influence&, const Influence&) = default;
 };
 
 /// Holds everything about a character that does not depend on the pose: one mesh, a skeleton, clips.
