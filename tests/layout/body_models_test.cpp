@@ -101,10 +101,9 @@ TEST(ModelBytes, OfUsersAreCheckedLikeModels) {
   EXPECT_TRUE(
       test::has(test::complaint([&] { body_model(bytes); }), "expected at least 1 more bytes, found 0"));
   EXPECT_TRUE(test::has(test::complaint([] { to_bytes(BodyModel{}); }), "expected a character, found none"));
-  BodyModel thin = test::plain_model(default_male(), 16);
-  thin.corner_begin[16] = thin.corner_begin[15];
-  thin.corners.resize(thin.corner_begin[16]);
-  EXPECT_TRUE(test::has(test::complaint([&] { to_bytes(thin); }), "outside"));
+  BodyModel odd = test::plain_model(default_male(), 16);
+  odd.core[3] = 16;
+  EXPECT_TRUE(test::has(test::complaint([&] { to_bytes(thin); }), "core spheres below 16, found 16"));
 }
 
 TEST(DefaultBodies, AreModelsOfTheirCharacters) {
