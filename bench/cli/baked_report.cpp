@@ -117,7 +117,7 @@ std::string table_text(const BakedShapes& baked) {
 }
 
 Json json_of(const std::string& file, const BakedShapes& baked) {
-  const auto& [set, origins, clips] = baked;
+  const auto& [set, origins, clips, bodies] = baked;
   Json json{{"source", file}, {"shape_count", set.shape_count()}, {"bytes", set.bytes()}};
   for (const std::uint32_t depth : set.depths()) json["depths"].push_back(depth_name(depth));
   json["threshold_m"] = shortest(static_cast<float>(origins.threshold));

@@ -57,7 +57,8 @@ bch_status bch_shape_set_save(const bch_shape_set* handle, const char* path) {
   return guarded([&] {
     const bch_shape_set& set = object_of(handle, "set");
     required(path, "path");
-    set.own ? save_baked(path, set.set, set.own->origins, set.own->clips) : save_baked(path, set.set);
+    set.own ? save_baked(path, set.set, set.own->origins, set.own->clips, set.own->bodies)
+            : save_baked(path, set.set);
   });
 }
 

@@ -154,6 +154,17 @@ ShapeOrigins origins_of(const baked::Arrays& arrays) {
   return origins;
 }
 
+std::vector<BakedBody> bodies_of(const baked::BodyArrays& arrays) {
+  std::vector<BakedBody> bodies;
+  std::uint64_t begin = 0;
+  for (const std::uint64_t end : arrays.ends) {
+    const auto bytes = arrays.bytes.subspan(begin, end - begin);
+    bodies.emplace_back(bytes.begin(), bytes.end());
+    begin = end;
+  }
+  return bodies;
+}
+
 }  // namespace
 
 BakedShapes load_baked(const std::filesystem::path& file, FileAccess access) {
@@ -182,7 +193,8 @@ BakedShapes load_baked(std::span<const std::byte> bytes, const std::string& name
   } catch (const std::invalid_argument& error) {
     reject(name, error.what());
   }
-  return {ShapeSet(arrays.shapes, std::move(memory)), std::move(origins), std::move(clips)};
+  return {ShapeSet(arrays.shapes, std::move(memory)), std::move(origins), std::move(clips),
+          bodies_of(arrays.bodies)};
 }
 
 }  // namespace bch

@@ -55,6 +55,8 @@
 ///     key_times       f64         any     seconds, ascending in a chunk
 ///     disc_steps      i16         any     x, y and radius of the discs at each key, times the chunk's power of two
 ///     disc_floats     f32         any     the same of chunks whose numbers are no such, metres
+///     body_ends       u64         any     where bytes of each model of a body end among the next; ascending
+///     body_bytes      u8          any     of models, see to_bytes(); they are checked when a model is read
 ///
 /// Clips. Each clip takes its number of chunks. Each chunk takes its number of key times, and three numbers a disc and key from disc_steps
 /// or, where its step says so, disc_floats. Nothing is left. validate(AnimatedDiscs) lists what is checked of them.
@@ -124,6 +126,8 @@ enum class Section : std::uint32_t {
   key_times,
   disc_steps,
   disc_floats,
+  body_ends,
+  body_bytes,
   count,
 };
 constexpr std::uint32_t section_count = static_cast<std::uint32_t>(Section::count);
@@ -172,6 +176,12 @@ struct ClipArrays {
   std::span<const float> disc_floats;
 };
 
+/// Holds the sections of models of bodies.
+struct BodyArrays {
+  std::span<const std::uint64_t> ends;
+  std::span<const std::byte> bytes;
+};
+
 /// Holds all sections of a file.
 struct Arrays {
   ShapeArrays shapes;
@@ -180,6 +190,7 @@ struct Arrays {
   std::span<const std::uint32_t> name_begin;
   std::span<const char> names;
   ClipArrays clips = {};
+  BodyArrays bodies = {};
 };
 
 /// Calls visit(Section, name, span) for every section, in order.
@@ -197,6 +208,8 @@ void for_each_section(Arrays& arrays, Visit visit) {
   visit_next("key_times", arrays.clips.key_times);
   visit_next("disc_steps", arrays.clips.disc_steps);
   visit_next("disc_floats", arrays.clips.disc_floats);
+  visit_next("body_ends", arrays.bodies.ends);
+  visit_next("body_bytes", arrays.bodies.bytes);
 }
 
 /// Returns how many zeros follow a section of this size, in bytes.

@@ -11,10 +11,13 @@
 
 namespace bch::detail {
 
-BakedImage::BakedImage(const ShapeSet& set, const ShapeOrigins& origins, std::span<const BakedClip> clips)
+BakedImage::BakedImage(const ShapeSet& set, const ShapeOrigins& origins, std::span<const BakedClip> clips,
+                       std::span<const BakedBody> bodies)
     : settings_{origins.threshold}, origins_(origins.origins), clips_(clips, origins.names.size()) {
   add_names(origins.names);
-  arrays_ = {set.arrays(), {&settings_, 1}, origins_, name_begin_, names_, clips_.arrays()};
+  add_bodies(bodies);
+  arrays_ = {set.arrays(),    {&settings_, 1},          origins_, name_begin_, names_,
+             clips_.arrays(), {body_ends_, body_bytes_}};
   baked::validate(arrays_);
   lay_out();
 }
@@ -26,6 +29,13 @@ void BakedImage::add_names(const std::vector<std::string>& names) {
     if (names_.size() > std::numeric_limits<std::uint32_t>::max())
       throw std::invalid_argument("names: longer than 4 GiB together");
     name_begin_.push_back(static_cast<std::uint32_t>(names_.size()));
+  }
+}
+
+void BakedImage::add_bodies(std::span<const BakedBody> bodies) {
+  for (const BakedBody& body : bodies) {
+    body_bytes_.insert(body_bytes_.end(), body.begin(), body.end());
+    body_ends_.push_back(body_bytes_.size());
   }
 }
 

@@ -22,7 +22,8 @@ class BakedImage {
   /// Takes a set, which has to outlive this.
   /// Errors:  throws std::invalid_argument where load_baked() would refuse the file: a set out of the domain of
   ///          validate(ShapeArrays), origins of another number of shapes, names that are not there, bad clips.
-  BakedImage(const ShapeSet& set, const ShapeOrigins& origins, std::span<const BakedClip> clips = {});
+  BakedImage(const ShapeSet& set, const ShapeOrigins& origins, std::span<const BakedClip> clips = {},
+             std::span<const BakedBody> bodies = {});
   BakedImage(const BakedImage&) = delete;
   BakedImage& operator=(const BakedImage&) = delete;
 
@@ -32,6 +33,7 @@ class BakedImage {
 
  private:
   void add_names(const std::vector<std::string>& names);
+  void add_bodies(std::span<const BakedBody> bodies);
   void lay_out();
 
   baked::Preamble preamble_{};
@@ -40,6 +42,8 @@ class BakedImage {
   std::vector<std::uint32_t> name_begin_;
   std::vector<char> names_;
   baked::PackedClips clips_;
+  std::vector<std::uint64_t> body_ends_;
+  std::vector<std::byte> body_bytes_;
   baked::Arrays arrays_;
   std::vector<std::span<const std::byte>> parts_;
 };

@@ -38,8 +38,8 @@ class TemporaryFile {
 }  // namespace
 
 void save_baked(const fs::path& file, const ShapeSet& set, const ShapeOrigins& origins,
-                std::span<const BakedClip> clips) {
-  const detail::BakedImage image(set, origins, clips);
+                std::span<const BakedClip> clips, std::span<const BakedBody> bodies) {
+  const detail::BakedImage image(set, origins, clips, bodies);
   const TemporaryFile temporary(file);
   const auto require = [&](bool good) {
     if (!good) throw BakedFileError(file.string() + ": " + std::strerror(errno));

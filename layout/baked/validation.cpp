@@ -50,6 +50,15 @@ void require_origins(std::span<const ShapeOrigin> origins, std::size_t shapes, s
   }
 }
 
+void require_bodies(const BodyArrays& bodies) {
+  std::uint64_t begin = 0;
+  for (std::size_t i = 0; i < bodies.ends.size(); begin = bodies.ends[i++])
+    if (bodies.ends[i] < begin) reject("body_ends", i, std::to_string(bodies.ends[i]) + " does not ascend");
+  if (begin != bodies.bytes.size())
+    throw std::invalid_argument("body_ends: they end with " + std::to_string(begin) + ", and there are " +
+                                std::to_string(bodies.bytes.size()) + " body_bytes");
+}
+
 }  // namespace
 
 void validate(const Arrays& arrays, const std::function<void(std::size_t)>& before_nodes) {
@@ -58,6 +67,7 @@ void validate(const Arrays& arrays, const std::function<void(std::size_t)>& befo
   require_settings(arrays.settings);
   require_origins(arrays.origins, arrays.shapes.shape_count(),
                   require_names(arrays.name_begin, arrays.names.size()));
+  require_bodies(arrays.bodies);
 }
 
 }  // namespace bch::detail::baked

@@ -34,6 +34,10 @@ struct BakedClip {
   friend bool operator==(const BakedClip&, const BakedClip&) = default;
 };
 
+/// Holds a model of bodies of spheres as to_bytes() writes it, with its character. body_model() reads it, and checks it then: who loads
+/// shapes alone needs nothing that knows characters.
+using BakedBody = std::vector<std::byte>;
+
 /// Tells which characters, clips and times the shapes of a set come from. Queries do not use them.
 struct ShapeOrigins {
   double threshold = 0;              ///< of all hierarchies, metres; see contour_hierarchy()
@@ -49,11 +53,12 @@ class BakedFileError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Holds the content of a baked file: a set, the origins of its shapes, and clips as moving discs.
+/// Holds the content of a baked file: a set, the origins of its shapes, clips as moving discs, and models of bodies of spheres.
 struct BakedShapes {
   ShapeSet set;
   ShapeOrigins origins;
   std::vector<BakedClip> clips = {};
+  std::vector<BakedBody> bodies = {};
 };
 
 /// Selects how load_baked() accesses the bytes of a file.
@@ -76,13 +81,13 @@ BakedShapes load_baked(const std::filesystem::path& file, FileAccess access = Fi
 BakedShapes load_baked(std::span<const std::byte> bytes, const std::string& name,
                        std::shared_ptr<const void> memory);
 
-/// Writes a set, and clips, as a baked file. It writes a temporary file beside `file`, and renames it over `file` once it is complete.
-/// The same set and clips give the same bytes. A clip takes 6 bytes per disc and key where numbers are of 16 bits times a power of two,
+/// Writes a set, clips and models of bodies as a baked file. It writes a temporary file beside `file`, and renames it over `file` once it is complete.
+/// The same content gives the same bytes. A clip takes 6 bytes per disc and key where numbers are of 16 bits times a power of two,
 /// as those of animate() are, and 12 otherwise.
 /// Errors:  throws BakedFileError where the file cannot be written, and leaves none; std::invalid_argument where load_baked()
 ///          would refuse it: on a set() of a DynamicShapeSet of which a shape was replaced, origins of another number of
 ///          shapes, origins or clips with names that do not exist, and clips that validate() refuses.
 void save_baked(const std::filesystem::path& file, const ShapeSet& set, const ShapeOrigins& origins = {},
-                std::span<const BakedClip> clips = {});
+                std::span<const BakedClip> clips = {}, std::span<const BakedBody> bodies = {});
 
 }  // namespace bch
