@@ -12,12 +12,14 @@ namespace bch::detail {
 struct DiscSets;
 struct OutlineLoops;
 struct InteriorLoops;
+struct PosingLoops;
 
 /// Holds the loops of construction, compiled for one instruction set. All sets give the same bits.
 struct BuildLoops {
   void (*solve_discs)(const DiscSets& sets) noexcept;
   const OutlineLoops& outline;
   const InteriorLoops& interior;
+  const PosingLoops& posing;
 };
 
 /// Represents a row of the table of instruction sets that construction is compiled for.

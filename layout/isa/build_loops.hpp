@@ -4,6 +4,7 @@
 #pragma once
 
 #include "layout/base/build_implementation.hpp"
+#include "layout/body/posing/posing_lanes.hpp"
 #include "layout/culling/interior_lanes.hpp"
 #include "layout/enclosing_disc/disc_lanes.hpp"
 #include "layout/outline/lanes.hpp"
@@ -14,6 +15,6 @@ namespace bch::detail {
 /// more than every processor has, so that instruction sets share no function.
 template <class Simd>
 constexpr BuildLoops build_loops{DiscLanes<Simd>::solve, OutlineLanes<Simd>::loops,
-                                 InteriorLanes<Simd>::loops};
+                                 InteriorLanes<Simd>::loops, PosingLanes<Simd>::loops};
 
 }  // namespace bch::detail

@@ -22,8 +22,10 @@
 #include <bch/import.hpp>
 #include <bch/pose_shape.hpp>
 
+#include "layout/base/build_implementation.hpp"
 #include "layout/base/random.hpp"
 #include "layout/body/body_layout.hpp"
+#include "layout/body/posing/posing_loops.hpp"
 #include "layout/body/sphere_rounding.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/body_models.hpp"
@@ -216,6 +218,32 @@ TEST(BodyPosing, GivesTheSameBitsForAllKindsOfTransforms) {
     EXPECT_EQ(spheres_of(LocalPose{joint_transforms(man, at)}), expected);
     const auto world = joint_transforms(man, at, JointFrame::world);
     EXPECT_EQ(spheres_of(WorldPose{world}), expected);
+  }
+}
+
+TEST(BodyPosing, MeasuresTheSameBitsByAllInstructionSets) {
+  constexpr std::uint32_t spheres = 16, points = 200;
+  Random random(7);
+  std::vector<float> at(std::size_t{4} * points), centres(std::size_t{4} * spheres);
+  for (std::vector<float>* const some : {&at, &centres})
+    for (float& number : *some) number = static_cast<float>(random.between(-1, 1));
+  std::vector<std::uint32_t> corners, end;
+  for (std::uint32_t s = 0; s < spheres; ++s) {
+    for (std::uint32_t i = 0; i < s * detail::corner_block; ++i) corners.push_back(random.below(points));
+    end.push_back(static_cast<std::uint32_t>(corners.size()));  // the first sphere has none
+  }
+  const auto measured = [&](const detail::BuildImplementation& by) {
+    std::vector<float> all(std::size_t{4} * spheres), least(spheres, 0.5f);
+    const detail::SphereFields to{&all[0], &all[spheres], &all[2 * spheres], &all[3 * spheres]};
+    by.loops.posing.measure({spheres, at.data(), centres.data(), corners.data(), end.data()}, to);
+    all.push_back(by.loops.posing.take_roots(to, spheres, least.data(), 0x1p-20f));
+    return all;
+  };
+  const std::vector<float> expected = measured(detail::build_implementations().back());
+  EXPECT_EQ(expected[3 * spheres], 0.5f + 0x1p-20f * 0.5f);
+  for (const detail::BuildImplementation& by : detail::build_implementations()) {
+    if (!by.supported()) continue;
+    EXPECT_EQ(measured(by), expected) << by.name;
   }
 }
 

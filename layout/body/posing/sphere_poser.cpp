@@ -8,8 +8,10 @@
 #include <stdexcept>
 #include <string>
 
+#include "layout/base/build_implementation.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/base/shortest.hpp"
+#include "layout/body/posing/posing_loops.hpp"
 #include "layout/body/sphere_rounding.hpp"
 #include "layout/character/middle.hpp"
 #include "layout/simd/lanes.hpp"
@@ -17,12 +19,7 @@
 namespace bch::detail {
 namespace {
 
-using Simd = BaseLanes;
-using Float = Simd::Float;
-
-/// Corners of a sphere that are measured side by side.
-constexpr std::size_t together = 4;
-static_assert(Float::size == together);
+using Float = BaseLanes::Float;
 
 /// Returns the vertices of a model's character, and the centres behind them.
 VertexBlend blend_of(const BodyModel& model) {
@@ -56,12 +53,14 @@ SpherePoser::SpherePoser(const BodyModel& model, const BodyLayout& layout)
   for (std::uint32_t s = 0; s < spheres; ++s) {
     for (std::uint32_t i = model.corner_begin[s]; i < model.corner_begin[s + 1]; ++i)
       corners_.push_back(point(model.corners[i]));
-    while (model.corner_begin[s] < model.corner_begin[s + 1] && corners_.size() % together != 0)
+    while (model.corner_begin[s] < model.corner_begin[s + 1] && corners_.size() % corner_block != 0)
       corners_.push_back(corners_.back());
     corner_end_.push_back(static_cast<std::uint32_t>(corners_.size()));
   }
   const std::size_t lines = (layout.slot_count() + record_line - 1) / record_line * record_line;
-  for (AlignedVector<float>* const field : {&x_, &y_, &z_, &radius_}) field->resize(lines);
+  for (AlignedVector<float>* const field : {&x_, &y_, &z_, &radius_, &least_}) field->resize(lines);
+  std::copy(model.least_radius.begin(), model.least_radius.end(), least_.begin());
+  for (std::size_t s = spheres; s < lines; ++s) least_[s] = least_[s - 1];
 }
 
 void SpherePoser::place_points(const Pose& pose) {
@@ -82,45 +81,27 @@ void SpherePoser::place_points(const Pose& pose) {
   for (const auto [a, b] : cuts_) half_way(points_[a], points_[b]).store_aligned(&(to++)->x);
 }
 
-/// Sets each radius to the distance of the sphere's farthest corner, as float has it.
-void SpherePoser::measure_radii() {
-  const SpaceRow* const centres = points_.data() + model_.character->vertices.size();
-  const std::uint32_t* corner = corners_.data();
-  for (std::uint32_t s = 0; s < layout_.sphere_count; ++s) {
-    const SpaceRow& centre = centres[s];
-    const Float cx(centre.x), cy(centre.y), cz(centre.z);
-    Float farthest(0.0f);
-    for (const std::uint32_t* const end = corners_.data() + corner_end_[s]; corner != end;
-         corner += together) {
-      Float rows[4];
-      for (std::size_t i = 0; i < together; ++i) rows[i] = Float::load_aligned(&points_[corner[i]].x);
-      Float columns[4];
-      Simd::transpose(rows, columns);
-      const Float x = columns[0] - cx, y = columns[1] - cy, z = columns[2] - cz;
-      farthest = Simd::max(x * x + y * y + z * z, farthest);
-    }
-    x_[s] = centre.x, y_[s] = centre.y, z_[s] = centre.z;
-    radius_[s] = -Simd::least(-farthest);
-  }
-}
-
-/// Enlarges radii by what was rounded, so that queries miss nothing. With P the reach and u the unit roundoff: a corner is off by
+/// Sets radii to the distances of the farthest corners, and enlarges them by what was rounded, so that queries miss nothing. With P the
+/// reach and u the unit roundoff: a corner is off by
 ///
 ///     (cut)       u P sqrt(3)      for each cut above it: a rounding of each coordinate of a mean, and the mean of its ends' errors
 ///
 /// A distance r is off by 4 u r: u for each difference, 3 u of the square and so 1.5 u of the root for squares and sums, and its
 /// rounding, 0.5 u, is 3 u, of lengths that are themselves off by less than 2^-20. What is added and multiplied here rounds by less than
 /// 3 u of the sum. The reach is that of the enlarged spheres, which is at most 2^-16 larger than P.
-void SpherePoser::enlarge_radii() {
+void SpherePoser::fit_radii() {
   constexpr float unit = 0x1p-24f;
   constexpr float distance_error = 8 * unit;  // 4 of the distance, 3 of what follows
-  float reach = 0;
-  for (std::uint32_t s = 0; s < layout_.sphere_count; ++s) {
-    const float least = model_.least_radius.empty() ? 0 : model_.least_radius[s];
-    const float radius = std::max(std::sqrt(radius_[s]), least);
-    radius_[s] = radius + distance_error * radius;
-    reach = std::max(reach, std::sqrt(x_[s] * x_[s] + y_[s] * y_[s] + z_[s] * z_[s]) + radius_[s]);
-  }
+  const PosingLoops& loops = best_build_implementation().loops.posing;
+  const SphereFields fields{x_.data(), y_.data(), z_.data(), radius_.data()};
+  const std::uint32_t spheres = layout_.sphere_count;
+  loops.measure({spheres, &points_[0].x, &points_[model_.character->vertices.size()].x, corners_.data(),
+                 corner_end_.data()},
+                fields);
+  for (std::size_t s = spheres; s < x_.size(); ++s)
+    x_[s] = x_[s - 1], y_[s] = y_[s - 1], z_[s] = z_[s - 1], radius_[s] = radius_[s - 1];
+  const float reach =
+      loops.take_roots(fields, static_cast<std::uint32_t>(x_.size()), least_.data(), distance_error);
   if (!(double{reach} >= rounding::smallest_reach && double{reach} <= rounding::largest_reach))
     throw std::domain_error("character '" + model_.character->name +
                             "': expected a pose with a reach of 1e-6 to 1e6 m, found " + shortest(reach));
@@ -128,15 +109,12 @@ void SpherePoser::enlarge_radii() {
   const float margin =
       reach *
       static_cast<float>(1.01 * (rounding::sphere_margin + 1.7321 * most_cuts_ * rounding::unit_roundoff));
-  for (std::uint32_t s = 0; s < layout_.sphere_count; ++s) radius_[s] += margin;
-  for (std::size_t s = layout_.sphere_count; s < x_.size(); ++s)
-    x_[s] = x_[s - 1], y_[s] = y_[s - 1], z_[s] = z_[s - 1], radius_[s] = radius_[s - 1];
+  for (float& radius : radius_) radius += margin;
 }
 
 SphereSlots SpherePoser::pose(const Pose& pose) {
   place_points(pose);
-  measure_radii();
-  enlarge_radii();
+  fit_radii();
   return {x_.data(), y_.data(), z_.data(), radius_.data()};
 }
 

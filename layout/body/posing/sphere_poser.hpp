@@ -32,19 +32,18 @@ class SpherePoser {
 
  private:
   void place_points(const Pose& pose);
-  void measure_radii();
-  void enlarge_radii();
+  void fit_radii();
 
   const BodyModel& model_;
   const BodyLayout& layout_;
   Skinner skinner_;
-  VertexBlend blend_;                               ///< of the vertices, and then of the centres
-  AlignedVector<SpaceRow> points_;                  ///< vertices, centres, cuts
-  std::vector<std::array<std::uint32_t, 2>> cuts_;  ///< numbers among points_
-  std::vector<std::uint32_t> corners_;              ///< numbers among points_, filled up to fours by sphere
-  std::vector<std::uint32_t> corner_end_;           ///< by sphere
-  std::uint32_t most_cuts_ = 0;                     ///< that a corner is away from a vertex
-  AlignedVector<float> x_, y_, z_, radius_;         ///< by slots, filled up to whole lines
+  VertexBlend blend_;                                ///< of the vertices, and then of the centres
+  AlignedVector<SpaceRow> points_;                   ///< vertices, centres, cuts
+  std::vector<std::array<std::uint32_t, 2>> cuts_;   ///< numbers among points_
+  std::vector<std::uint32_t> corners_;               ///< numbers among points_, filled up to blocks by sphere
+  std::vector<std::uint32_t> corner_end_;            ///< by sphere
+  std::uint32_t most_cuts_ = 0;                      ///< that a corner is away from a vertex
+  AlignedVector<float> x_, y_, z_, radius_, least_;  ///< by slots, filled up to whole lines
 };
 
 }  // namespace bch::detail
