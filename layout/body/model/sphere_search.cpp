@@ -33,6 +33,7 @@ constexpr int last_rounds = search_rounds / 5;                // which neither d
 constexpr float most_leverage = 4;  // of a contact: by how much later it is where a front is 1 less far
 constexpr float kept_gradient = 0.9f, kept_square = 0.99f;
 constexpr float least_contacts = 0.05f;  // of the mean: what spheres without contact count
+constexpr float exposing_growth = 0.02f;  // metres: whoever grows by as much has the mean of contacts more
 
 float dot_of(const Space& a, const Space& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -203,7 +204,8 @@ class SphereSearch {
       const float x = at[0] - ball.x[0], y = at[1] - ball.y[0], z = at[2] - ball.z[0];
       const float reach = ball.radius[0] + 0.1f;
       if (best.sphere != none && x * x + y * y + z * z > reach * reach) continue;
-      const float price = fit_.growth(ball, piece) * (contacts_[q] + base_contacts_);
+      const float growth = fit_.growth(ball, piece);
+      const float price = growth * (contacts_[q] + mean_contacts_ * (least_contacts + growth / exposing_growth));
       if (price < best.price) best = {q, price};
       if (price <= 0) break;
     }
@@ -231,7 +233,7 @@ class SphereSearch {
   void replace(std::size_t count) {
     if (fit_.balls.size() < 2) return;
     const float all = std::accumulate(contacts_.begin(), contacts_.end(), 0.0f);
-    base_contacts_ = least_contacts * all / static_cast<float>(fit_.balls.size()) + 1e-6f;
+    mean_contacts_ = all / static_cast<float>(fit_.balls.size()) + 1e-6f;
     std::vector<float> worth;
     for (std::uint32_t s = 0; s < fit_.balls.size(); ++s) worth.push_back(-price_of_deletion(s));
     std::vector<std::uint32_t> freed = by_falling(worth);
@@ -325,7 +327,7 @@ class SphereSearch {
   std::vector<std::vector<Descent>> descents_;
   std::vector<std::vector<Space>> gradients_;
   std::vector<float> blame_, contacts_;
-  float base_contacts_ = 0;
+  float mean_contacts_ = 0;
 };
 
 }  // namespace
