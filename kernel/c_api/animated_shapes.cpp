@@ -136,14 +136,15 @@ bch_status bch_animated_shape_free(bch_animated_shape* shape) {
 bch_status bch_shape_set_add_clip(bch_shape_set* set, const bch_animated_shape* shape, const char* character,
                                   const char* clip) {
   return guarded([&] {
-    auto& [shapes, origins, clips] = owned_by(set);
+    BakedShapes& to = owned_by(set);
+    ShapeOrigins& origins = to.origins;
     const bch_animated_shape& of = object_of(shape, "shape");
     required(character, "character");
     const std::size_t names = origins.names.size();
     try {
       const uint32_t first = add_name(origins, character);
       const uint32_t second = clip == nullptr ? ShapeOrigin::rest_pose : add_name(origins, clip);
-      clips.push_back({first, second, of.discs});
+      to.clips.push_back({first, second, of.discs});
     } catch (...) {
       origins.names.resize(names);
       throw;
@@ -161,11 +162,12 @@ bch_status bch_shape_set_get_clip_count(const bch_shape_set* handle, size_t* cou
 bch_status bch_shape_set_get_clip(const bch_shape_set* set, size_t i, const char** character,
                                   const char** clip, bch_animated_shape** shape) {
   return guarded([&] {
-    const auto& [shapes, origins, clips] = owned_by(set);
-    check_index(i, clips.size(), "i");
-    const BakedClip& of = clips[i];
+    const BakedShapes& from = owned_by(set);
+    check_index(i, from.clips.size(), "i");
+    const BakedClip& of = from.clips[i];
+    const std::vector<std::string>& names = from.origins.names;
     if (shape != nullptr) hand_out(std::make_unique<bch_animated_shape>(of.discs), shape);
-    if (character != nullptr) *character = origins.names[of.character].c_str();
-    if (clip != nullptr) *clip = of.clip == ShapeOrigin::rest_pose ? nullptr : origins.names[of.clip].c_str();
+    if (character != nullptr) *character = names[of.character].c_str();
+    if (clip != nullptr) *clip = of.clip == ShapeOrigin::rest_pose ? nullptr : names[of.clip].c_str();
   });
 }
