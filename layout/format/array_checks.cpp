@@ -5,7 +5,6 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "layout/base/planes.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/format/shape_checks.hpp"
 

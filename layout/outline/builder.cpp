@@ -4,7 +4,6 @@
 #include <bch/outline_builder.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -12,8 +11,7 @@
 
 #include "layout/base/build_implementation.hpp"
 #include "layout/base/floating_point_state.hpp"
-#include "layout/base/planes.hpp"
-#include "layout/base/rounding.hpp"
+#include "layout/base/number_class.hpp"
 #include "layout/outline/candidates.hpp"
 #include "layout/outline/contour_index.hpp"
 #include "layout/outline/grid_snap.hpp"
@@ -40,17 +38,15 @@ GridBox box_around(std::span<const Stretch> contour) {
   return {{box.low.x - 1, box.low.y - 1}, {box.high.x + 1, box.high.y + 1}};
 }
 
-/// A slab may hold no more of a body than a tip at the origin, while outlines have a smallest reach. That becomes a square which
-/// holds it. (The grid is finer than the square: a coarser one has no points so near but the origin.)
-void keep_reach(Outline& slab) {
-  constexpr float half = 0x1p-19f;
-  static_assert(static_cast<double>(half) > rounding::smallest_reach);
-  const bool is_reached = std::any_of(slab.points.begin(), slab.points.end(), [](Vec2 p) {
-    return std::hypot(double{p.x}, double{p.y}) >= rounding::smallest_reach;
-  });
-  if (slab.points.empty() || is_reached) return;
-  slab.points.assign({{-half, -half}, {half, -half}, {half, half}, {-half, half}});
-  slab.contour_begin.assign({0, 4});
+Heights heights_of(std::span<const Vec3> positions, std::span<const std::uint32_t> vertices) {
+  Heights all{std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()};
+  for (const std::uint32_t v : vertices) {
+    const float z = positions[v].z;
+    if (!is_finite(z))
+      throw std::invalid_argument("outline: the height of vertex " + std::to_string(v) + " is not finite");
+    all = {std::min(all.bottom, z), std::max(all.top, z)};
+  }
+  return all;
 }
 
 }  // namespace
@@ -70,12 +66,9 @@ struct OutlineBuilder::State {
   }
 
   template <class Position>
-  double snap(std::span<const Position> positions);
-  template <class Position>
   void build(std::span<const Position> positions, Outline& outline);
-  Heights build(std::span<const Vec3> positions, std::span<const float> planes, std::span<Outline> slabs);
-  void walk_all(const CandidateList& list);
-  void find_outside(const CandidateList& list);
+  void walk_all();
+  void find_outside();
   void walk_outside();
   bool is_in_later_contour(GridPoint point) const;
   std::span<const Stretch> contour(std::size_t i) const {
@@ -91,9 +84,7 @@ struct OutlineBuilder::State {
   OutlineTopology topology;
   std::vector<GridPoint> points;
   OutlineCandidates candidates;
-  CandidateList whole;
-  PlaneCuts cuts;
-  std::vector<CandidateList> slab_lists;
+  CandidateList list;
   OutlineWalk walk;
   std::vector<Stretch> stretches;
   std::vector<std::size_t> contour_begin;
@@ -105,54 +96,28 @@ struct OutlineBuilder::State {
 };
 
 template <class Position>
-double OutlineBuilder::State::snap(std::span<const Position> positions) {
+void OutlineBuilder::State::build(std::span<const Position> positions, Outline& outline) {
   if (positions.size() != vertices)
     throw std::invalid_argument("outline: " + std::to_string(positions.size()) + " positions for " +
                                 std::to_string(vertices) + " vertices");
-  return snap_to_grid(positions, topology.used, points);
-}
-
-template <class Position>
-void OutlineBuilder::State::build(std::span<const Position> positions, Outline& outline) {
-  const double step = snap(positions);
-  candidates.find(topology, points, whole);
-  if (whole.segments().empty())
+  const double step = snap_to_grid(positions, topology.used, points);
+  candidates.find(topology, points, list);
+  if (list.segments().empty())
     throw std::invalid_argument("outline: every triangle is a point when seen from above");
-  walk_all(whole);
+  walk_all();
   write(step, outline);
-}
-
-Heights OutlineBuilder::State::build(std::span<const Vec3> positions, std::span<const float> planes,
-                                     std::span<Outline> slabs) {
-  if (slabs.size() != planes.size() + 1)
-    throw std::invalid_argument("outline: " + std::to_string(slabs.size()) + " slabs for " +
-                                std::to_string(planes.size()) + " planes");
-  require_planes(planes);
-  const double step = snap(positions);
-  cuts.cut(topology, positions, points, step, planes);
-  slab_lists.resize(slabs.size());
-  candidates.find(topology, points, cuts, slab_lists);
-  bool any = false;
-  for (std::size_t i = 0; i < slabs.size(); ++i) {
-    contour_begin.assign(1, 0);
-    if (!slab_lists[i].segments().empty()) walk_all(slab_lists[i]), any = true;
-    write(step, slabs[i]);
-    keep_reach(slabs[i]);
-  }
-  if (!any) throw std::invalid_argument("outline: every triangle is a point when seen from above");
-  return cuts.heights();
 }
 
 /// Finds all contours. An island is connected and no contour crosses it, so unless a contour has come along
 /// it, it is as a whole inside or outside, and any of its points tells. Of pieces that touch, the one with
 /// the leftmost vertex comes first.
-void OutlineBuilder::State::walk_all(const CandidateList& list) {
+void OutlineBuilder::State::walk_all() {
   stretches.clear();
   contour_begin.assign(1, 0);
   walk.begin(list);
   walk_from(list.boxes().first_end(list.segments().data()));
 
-  find_outside(list);
+  find_outside();
   if (!outside.empty()) walk_outside();
 }
 
@@ -170,7 +135,7 @@ void OutlineBuilder::State::walk_outside() {
 }
 
 /// Fills outside, in the order of the islands' leftmost vertices.
-void OutlineBuilder::State::find_outside(const CandidateList& list) {
+void OutlineBuilder::State::find_outside() {
   outside.clear();
   const std::span<const GridPoint> island_points = list.island_points();
   for (std::uint32_t island = 0; island < island_points.size(); ++island)
@@ -241,15 +206,10 @@ void OutlineBuilder::build(std::span<const Vec2> positions, Outline& outline) {
   state_->build(positions, outline);
 }
 
-void OutlineBuilder::build(std::span<const Vec3> positions, Outline& outline) {
+Heights OutlineBuilder::build(std::span<const Vec3> positions, Outline& outline) {
   const FloatingPointStateGuard floats;
   state_->build(positions, outline);
-}
-
-Heights OutlineBuilder::build(std::span<const Vec3> positions, std::span<const float> planes,
-                              std::span<Outline> slabs) {
-  const FloatingPointStateGuard floats;
-  return state_->build(positions, planes, slabs);
+  return heights_of(positions, state_->topology.used);
 }
 
 }  // namespace bch

@@ -9,7 +9,8 @@
 namespace bch::detail {
 namespace {
 
-constexpr std::uint32_t no_island = 0xffffffff;
+/// The way round which a triangle goes, seen from above; 0: it is seen edge-on, or nearly.
+constexpr std::uint8_t counter_clockwise = 1, clockwise = 2;
 
 /// Writes the numbers of the edges that do not have a triangle on either side. Without a branch: one that is
 /// not accepted is overwritten by the next. Four at a time, and both triangles in one load, because this loop runs
@@ -31,22 +32,6 @@ std::size_t choose(std::span<const OutlineTopology::EdgeTriangles> edges, const 
 /// The sides of an edge, by its first use's direction, that a use's triangle is on; none where that is seen edge-on.
 int seen_beside(const OutlineTopology::EdgeUse& use, int side) {
   return use.direction > 0 || side == 0 ? side : side ^ (counter_clockwise | clockwise);
-}
-
-/// Numbers the islands of a slab, whose segments are given by nodes of the cuts.
-void number_islands(PlaneCuts& cuts, std::vector<std::uint32_t>& number, CandidateList& list,
-                    std::vector<GridPoint>& points) {
-  const std::span<std::uint32_t> nodes = list.islands();
-  points.clear();
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    std::uint32_t& island = number[cuts.root(nodes[i])];
-    if (island == no_island) {
-      island = static_cast<std::uint32_t>(points.size());
-      points.push_back(list.segments()[i].a);
-    }
-    nodes[i] = island;
-  }
-  list.finish(points);
 }
 
 }  // namespace
@@ -111,76 +96,6 @@ void OutlineCandidates::add_uses(std::span<const GridPoint> points, EdgeUses use
   } else if (seen != (counter_clockwise | clockwise)) {
     add(uses[0]);
   }
-}
-
-/// An edge of a triangle that is cut may be a candidate in one slab and none in another, so that it is looked at in each.
-void OutlineCandidates::find(const OutlineTopology& topology, std::span<const GridPoint> points,
-                             PlaneCuts& cuts, std::span<CandidateList> slabs) {
-  find_sides(points);
-  for (const std::uint32_t t : cuts.cut_triangles()) sides_[t] = 0;
-  const std::span<const std::uint32_t> chosen = choose(topology);
-  for (CandidateList& list : slabs) list.begin(chosen.size() + topology.uses.size() + cuts.borders().size());
-  for (const std::uint32_t e : chosen)
-    add_edge(topology.manifold[e], topology.manifold_triangles[e], cuts, slabs);
-  for (std::size_t e = 0; e < topology.edges_of_uses(); ++e) add_uses(topology.uses_of(e), cuts, slabs);
-  for (const auto& [a, b, slab, node] : cuts.borders()) slabs[slab].add(a, b, node);
-  numbers_.assign(cuts.nodes(), no_island);
-  for (CandidateList& list : slabs) number_islands(cuts, numbers_, list, island_points_);
-}
-
-std::uint8_t OutlineCandidates::side_in_slab(std::uint32_t triangle, std::uint32_t slab,
-                                             const PlaneCuts& cuts) const {
-  return cuts.is_cut(triangle) ? cuts.side(triangle, slab) : sides_[triangle];
-}
-
-/// Adds an edge of two triangles in each slab where it is a candidate. Its pieces are connected with those of the triangles.
-void OutlineCandidates::add_edge(const OutlineTopology::ManifoldEdge& edge,
-                                 const OutlineTopology::EdgeTriangles& triangles, PlaneCuts& cuts,
-                                 std::span<CandidateList> slabs) const {
-  const auto [a, b] = edge;
-  const auto [lowest, highest] = std::minmax({cuts.slab(a), cuts.slab(b)});
-  for (std::uint32_t slab = lowest; slab <= highest; ++slab) {
-    std::uint32_t node = a;
-    if (lowest != highest)
-      cuts.connect(node = cuts.node(triangles.first, slab), cuts.node(triangles.second, slab));
-    else
-      cuts.connect(a, b);
-    if ((side_in_slab(triangles.first, slab, cuts) & side_in_slab(triangles.second, slab, cuts)) != 0)
-      continue;
-    const auto [from, to] = cuts.piece(a, b, slab);
-    slabs[slab].add(from, to, node);
-  }
-}
-
-/// The same for an edge's uses. Uses that are together are at the same heights, too.
-void OutlineCandidates::add_uses(EdgeUses uses, PlaneCuts& cuts, std::span<CandidateList> slabs) const {
-  bool together = true;
-  for (const auto& use : uses)
-    together &= cuts.same_place(use.a, uses[0].a) && cuts.same_place(use.b, uses[0].b);
-  const auto node_of = [&](const auto& use, std::uint32_t slab) {
-    return cuts.slab(use.a) == cuts.slab(use.b) ? use.a : cuts.node(use.triangle, slab);
-  };
-  const auto for_slabs = [&](const auto& use, auto each) {
-    const auto [lowest, highest] = std::minmax({cuts.slab(use.a), cuts.slab(use.b)});
-    for (std::uint32_t slab = lowest; slab <= highest; ++slab) each(slab);
-  };
-  const auto add = [&](const auto& use, std::uint32_t slab) {
-    if (cuts.slab(use.a) == cuts.slab(use.b)) cuts.connect(use.a, use.b);
-    const auto [from, to] = cuts.piece(use.a, use.b, slab);
-    slabs[slab].add(from, to, node_of(use, slab));
-  };
-  if (!together) {
-    for (const auto& use : uses) for_slabs(use, [&](std::uint32_t slab) { add(use, slab); });
-    return;
-  }
-  for_slabs(uses[0], [&](std::uint32_t slab) {
-    int seen = 0;
-    for (const auto& use : uses) {
-      seen |= seen_beside(use, side_in_slab(use.triangle, slab, cuts));
-      cuts.connect(node_of(uses[0], slab), node_of(use, slab));
-    }
-    if (seen != (counter_clockwise | clockwise)) add(uses[0], slab);
-  });
 }
 
 }  // namespace bch::detail

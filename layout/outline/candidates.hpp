@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "layout/outline/grid_geometry.hpp"
-#include "layout/outline/plane_cuts.hpp"
 #include "layout/outline/segment_boxes.hpp"
 #include "layout/outline/segment_search.hpp"
 #include "layout/outline/topology.hpp"
@@ -36,7 +35,6 @@ class CandidateList {
 
   std::span<const Segment> segments() const { return {segments_.data(), count_}; }  ///< none is a point
   std::size_t room() const { return segments_.size(); }  ///< for segments, and a block more
-  std::span<std::uint32_t> islands() { return {islands_.data(), count_}; }  ///< of each segment
   std::uint32_t island(std::size_t segment) const { return islands_[segment]; }
   std::span<const GridPoint> island_points() const { return island_points_; }
   const SegmentBoxes& boxes() const { return boxes_; }
@@ -59,10 +57,6 @@ class OutlineCandidates {
   /// Finds those of the pose in which vertex i is at points[i]. Allocates nothing.
   void find(const OutlineTopology& topology, std::span<const GridPoint> points, CandidateList& list);
 
-  /// Finds those of every slab of a pose that planes cut: of the part of the mesh that lies in it.
-  void find(const OutlineTopology& topology, std::span<const GridPoint> points, PlaneCuts& cuts,
-            std::span<CandidateList> slabs);
-
  private:
   using EdgeUses = std::span<const OutlineTopology::EdgeUse>;
 
@@ -70,17 +64,12 @@ class OutlineCandidates {
   std::span<const std::uint32_t> choose(const OutlineTopology& topology);
   void add_uses(std::span<const GridPoint> points, EdgeUses uses, const OutlineTopology& topology,
                 CandidateList& list) const;
-  std::uint8_t side_in_slab(std::uint32_t triangle, std::uint32_t slab, const PlaneCuts& cuts) const;
-  void add_edge(const OutlineTopology::ManifoldEdge& edge, const OutlineTopology::EdgeTriangles& triangles,
-                PlaneCuts& cuts, std::span<CandidateList> slabs) const;
-  void add_uses(EdgeUses uses, PlaneCuts& cuts, std::span<CandidateList> slabs) const;
 
   const OutlineLoops* loops_;
   std::vector<std::array<std::uint32_t, 3>> triangles_;  ///< and points that fill them up
-  std::vector<std::uint8_t> sides_;                      ///< of each triangle; 0 of one that is cut
+  std::vector<std::uint8_t> sides_;                      ///< of each triangle
   std::vector<std::uint32_t> chosen_;                    ///< manifold edges
   std::vector<GridPoint> island_points_;
-  std::vector<std::uint32_t> numbers_;  ///< of islands, by the nodes that stand for them
 };
 
 }  // namespace bch::detail

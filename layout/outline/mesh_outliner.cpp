@@ -5,76 +5,96 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
-#include <utility>
 
-#include "layout/base/number_class.hpp"
+#include "layout/base/rounding.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/outline/grid_snap.hpp"
+#include "layout/outline/mesh_between.hpp"
 #include "layout/outline/union_rings.hpp"
 
 namespace bch::detail {
+namespace {
 
-MeshOutliner::MeshOutliner(std::span<const std::array<std::uint32_t, 3>> triangles,
-                           std::span<const Vec3> bind_pose, const OutlineOptions& options) {
-  const auto [bottom, top] = options.between;
-  if (!(bottom < top))
-    throw std::invalid_argument("outline: between " + shortest(bottom) + " and " + shortest(top) +
-                                " m there is nothing");
-  if (is_finite(bottom)) planes_.push_back(bottom), slab_ = 1;
-  if (is_finite(top)) planes_.push_back(top);
-  if (!options.holes) {
-    builder_.emplace(triangles, bind_pose.size(), bind_pose);
-    return;
-  }
-  topology_ = outline_topology(triangles, bind_pose.size(), bind_pose);
-  points_.resize(topology_.used.size());
-}
-
-Outline MeshOutliner::outline(std::span<const Vec3> positions) {
-  if (!builder_) return with_holes(positions);
-  Outline outline;
-  if (planes_.empty()) {
-    builder_->build(positions, outline);
-    return outline;
-  }
-  std::vector<Outline> slabs(planes_.size() + 1);
-  builder_->build(positions, planes_, slabs);
-  return std::move(slabs[slab_]);
-}
-
-Outline MeshOutliner::with_holes(std::span<const Vec3> positions) {
-  const double step = snap_to_grid(positions, topology_.used, points_);
-  if (!planes_.empty()) cuts_.cut(topology_, positions, points_, step, planes_);
+/// Triangles that share no corner, on their grid.
+struct GridMesh {
+  std::span<const Vec3> corners;
   std::vector<GridTriangle> triangles;
-  for (std::uint32_t t = 0; t < topology_.triangles.size(); ++t) add_triangles(t, triangles);
+  double step;
+};
+
+GridMesh grid_mesh(std::span<const std::array<Vec3, 3>> pieces) {
+  GridMesh mesh{{pieces.data()->data(), 3 * pieces.size()}, {}, 0};
+  std::vector<std::uint32_t> all(mesh.corners.size());
+  std::iota(all.begin(), all.end(), 0u);
+  std::vector<GridPoint> points(all.size());
+  mesh.step = snap_to_grid(mesh.corners, all, points);
+  for (std::size_t i = 0; i < points.size(); i += 3)
+    mesh.triangles.push_back({points[i], points[i + 1], points[i + 2]});
+  return mesh;
+}
+
+bool is_point(const GridTriangle& triangle) {
+  return triangle[0] == triangle[1] && triangle[0] == triangle[2];
+}
+
+Outline with_holes(const GridMesh& mesh) {
   Outline outline;
-  outline.grid_step = static_cast<float>(step);
-  for (const GridRing& ring : rings_of(union_boundary(triangles))) {
+  outline.grid_step = static_cast<float>(mesh.step);
+  for (const GridRing& ring : rings_of(union_boundary(mesh.triangles))) {
     for (const GridPoint& p : ring)
-      outline.points.push_back({static_cast<float>(p.x * step), static_cast<float>(p.y * step)});
+      outline.points.push_back({static_cast<float>(p.x * mesh.step), static_cast<float>(p.y * mesh.step)});
     outline.contour_begin.push_back(static_cast<std::uint32_t>(outline.points.size()));
   }
   return outline;
 }
 
-/// Adds what of a triangle lies in the slab: where planes cut it, the fan about a piece's first corner, as PlaneCuts says.
-void MeshOutliner::add_triangles(std::uint32_t triangle, std::vector<GridTriangle>& to) const {
-  const auto& corners = topology_.triangles[triangle];
-  const auto slab_of = [&](std::size_t k) { return planes_.empty() ? 0 : cuts_.slab(corners[k % 3]); };
-  if (planes_.empty() || !cuts_.is_cut(triangle)) {
-    if (slab_of(0) == slab_) to.push_back({points_[corners[0]], points_[corners[1]], points_[corners[2]]});
-    return;
+Outline without_holes(const GridMesh& mesh) {
+  Outline outline;
+  if (std::all_of(mesh.triangles.begin(), mesh.triangles.end(), is_point)) return outline;
+  std::vector<std::array<std::uint32_t, 3>> triangles(mesh.triangles.size());
+  std::iota(triangles.data()->data(), triangles.data()->data() + mesh.corners.size(), 0u);
+  OutlineBuilder(triangles, mesh.corners.size(), mesh.corners).build(mesh.corners, outline);
+  return outline;
+}
+
+/// A cut may leave a tip at the origin, which has no outline.
+bool is_reached(std::span<const std::array<Vec3, 3>> pieces) {
+  return std::any_of(pieces.begin(), pieces.end(), [](const std::array<Vec3, 3>& piece) {
+    return std::any_of(piece.begin(), piece.end(), [](const Vec3& p) {
+      return std::max(std::abs(p.x), std::abs(p.y)) >= static_cast<float>(rounding::smallest_reach);
+    });
+  });
+}
+
+}  // namespace
+
+MeshOutliner::MeshOutliner(std::span<const std::array<std::uint32_t, 3>> triangles,
+                           std::span<const Vec3> bind_pose, const OutlineOptions& options)
+    : builder_(triangles, bind_pose.size(), bind_pose),
+      triangles_(triangles.begin(), triangles.end()),
+      between_(options.between),
+      holes_(options.holes) {
+  const auto [bottom, top] = between_;
+  if (!(bottom < top))
+    throw std::invalid_argument("outline: between " + shortest(bottom) + " and " + shortest(top) +
+                                " m there is nothing");
+}
+
+Outline MeshOutliner::outline(std::span<const Vec3> positions) {
+  const bool cuts = between_ != Heights{};
+  if (!cuts && !holes_) {
+    std::vector<Vec2> seen_from_above;  // heights may have any value
+    for (const auto& [x, y, z] : positions) seen_from_above.push_back({x, y});
+    Outline outline;
+    builder_.build(seen_from_above, outline);
+    return outline;
   }
-  std::vector<GridPoint> piece;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto [low, high] = std::minmax({slab_of(k), slab_of(k + 1)});
-    if (slab_ < low || high < slab_) continue;
-    for (const GridPoint& end :
-         cuts_.piece(corners[k], corners[(k + 1) % 3], static_cast<std::uint32_t>(slab_)))
-      if (piece.empty() || !(piece.back() == end)) piece.push_back(end);
-  }
-  for (std::size_t i = 1; i + 1 < piece.size(); ++i) to.push_back({piece[0], piece[i], piece[i + 1]});
+  const std::vector<std::array<Vec3, 3>> pieces = mesh_between(positions, triangles_, between_);
+  if (cuts && !is_reached(pieces)) return {};
+  const GridMesh mesh = grid_mesh(pieces);
+  return holes_ ? with_holes(mesh) : without_holes(mesh);
 }
 
 }  // namespace bch::detail

@@ -3,15 +3,12 @@
 
 #pragma once
 
-#include <optional>
+#include <array>
+#include <cstdint>
 #include <span>
 #include <vector>
 
 #include <bch/outline_builder.hpp>
-
-#include "layout/outline/plane_cuts.hpp"
-#include "layout/outline/topology.hpp"
-#include "layout/outline/union_boundary.hpp"
 
 namespace bch::detail {
 
@@ -24,19 +21,14 @@ class MeshOutliner {
                const OutlineOptions& options);
 
   /// Returns the outline of a pose.
-  /// Errors:  throws std::invalid_argument as OutlineBuilder::build() does.
+  /// Errors:  throws std::invalid_argument as OutlineBuilder::build() does, and on a height that is not finite where some cut.
   Outline outline(std::span<const Vec3> positions);
 
  private:
-  Outline with_holes(std::span<const Vec3> positions);
-  void add_triangles(std::uint32_t triangle, std::vector<GridTriangle>& to) const;
-
-  std::vector<float> planes_;
-  std::size_t slab_ = 0;
-  std::optional<OutlineBuilder> builder_;  ///< this, or what follows
-  OutlineTopology topology_;
-  std::vector<GridPoint> points_;
-  PlaneCuts cuts_;
+  OutlineBuilder builder_;  ///< of the whole mesh; what is cut in a pose is a mesh of its own
+  std::vector<std::array<std::uint32_t, 3>> triangles_;
+  Heights between_;
+  bool holes_;
 };
 
 }  // namespace bch::detail

@@ -33,7 +33,7 @@ struct PoseShaper::State {
 void PoseShaper::State::make_outline(const Pose& pose) {
   if (extremes) return extremes->find(skinner.ground_pose(pose));
   if (!plan.heights) return outline_builder->build(skinner.ground_pose(pose), shape.outline);
-  shape.heights = outline_builder->build(skinner.pose(pose), {}, {&shape.outline, 1});
+  shape.heights = outline_builder->build(skinner.pose(pose), shape.outline);
 }
 
 void PoseShaper::State::make_hierarchy() {

@@ -10,7 +10,6 @@
 
 #include "layout/base/floating_point_state.hpp"
 #include "layout/base/number_class.hpp"
-#include "layout/base/planes.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/hierarchy/builder.hpp"
 #include "layout/hierarchy/disc_box.hpp"

@@ -8,7 +8,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "layout/base/planes.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/culling/profile.hpp"

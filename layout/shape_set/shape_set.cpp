@@ -13,7 +13,6 @@
 #include <bch/shape_set_builder.hpp>
 
 #include "layout/base/floating_point_state.hpp"
-#include "layout/base/planes.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/format/contours.hpp"
 #include "layout/format/cut_discs.hpp"

@@ -5,9 +5,9 @@
 
 #include "layout/character/skinning.hpp"
 #include "tests/support/character_shapes.hpp"
+#include "tests/support/cut_soups.hpp"
 #include "tests/support/outline_checks.hpp"
 #include "tests/support/outline_soups.hpp"
-#include "tests/support/slab_soups.hpp"
 #include "tests/support/test.hpp"
 #include "tests/support/test_characters.hpp"
 
@@ -152,36 +152,35 @@ TEST(Soups, HaveTheOutlinesOfTheirUnions) {
   EXPECT_GT(compared, 9900);
 }
 
-void expect_like_clipper(const Outline& slab, const test::Soup& clipped) {
-  expect_equals_inflated_union(slab, clipped.positions, clipped.triangles);
-  test::expect_covers(slab, clipped.positions, clipped.triangles);
+void expect_like_clipper(const Outline& found, const test::Soup& part) {
+  expect_equals_inflated_union(found, part.positions, part.triangles);
+  test::expect_covers(found, part.positions, part.triangles);
 }
 
-void expect_right_slabs(const std::vector<Character>& characters, std::uint32_t poses) {
-  const std::vector<std::vector<float>> cuts = {
-      {0.4f, 1.0f}, {0.35f, 0.7f, 0.85f, 0.95f, 1.05f, 1.2f, 1.45f}, {-1, 0.01f, 1.65f, 9}};
+void expect_right_cuts(const std::vector<Character>& characters, std::uint32_t poses) {
+  const std::vector<Heights> cuts = {{.top = 0.4f},    {0.4f, 1},   {1, 1.2f},
+                                     {.bottom = 1.2f}, {-1, 0.01f}, {1.65f, 9}};
   for (const Character& character : characters) {
     detail::Skinner skinner(character);
-    OutlineBuilder builder(character.triangles, character.vertices.size(), character.vertices);
     std::size_t turn = 0;
     for (const PoseTime& time : sample_poses(character, test::samples(poses))) {
       SCOPED_TRACE(character.name + ", clip " + std::to_string(time.clip) + ", " +
                    std::to_string(time.seconds) + " s");
-      test::expect_right_slabs(builder, skinner.pose(time), character.triangles, cuts[turn++ % cuts.size()],
-                               expect_like_clipper);
+      test::expect_right_cut(skinner.pose(time), character.triangles, cuts[turn++ % cuts.size()],
+                             expect_like_clipper);
       if (testing::Test::HasFailure()) return;
     }
   }
 }
 
-TEST(DefaultSlabs, HaveTheOutlinesOfTheirUnions) {
-  expect_right_slabs(test::default_characters(), 30);
+TEST(DefaultCuts, HaveTheOutlinesOfTheirUnions) {
+  expect_right_cuts(test::default_characters(), 90);
 }
 
-TEST(RealSlabs, HaveTheOutlinesOfTheirUnions) {
+TEST(RealCuts, HaveTheOutlinesOfTheirUnions) {
   const auto data = test::test_data();
   if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set: no real characters to test with";
-  expect_right_slabs(test::real_characters(*data), 15);
+  expect_right_cuts(test::real_characters(*data), 45);
 }
 
 }  // namespace

@@ -51,18 +51,10 @@ class OutlineBuilder {
   /// Errors:  throws std::invalid_argument on another number of positions than of vertices, a coordinate that
   ///          is not finite, a reach outside 1e-6 to 1e6 m, or when every triangle is a point.
   void build(std::span<const Vec2> positions, Outline& outline);
-  /// Writes the outline of positions with heights, which may have any value.
-  void build(std::span<const Vec3> positions, Outline& outline);
-
-  /// Writes the outlines of the slabs into which horizontal planes cut a pose: below the first plane, between neighbouring planes,
-  /// and above the last. Triangles are cut. An empty slab gets an outline without contours. A slab that reaches less than 1e-6 m
-  /// from the origin gets a square of 4 um. A point that two meshes share lies within 1.5 grid steps of both outlines of one slab,
-  /// wherever the planes are, because a plane is half a float step above its number.
-  /// Sizes:   slabs.size() == planes.size() + 1.
-  /// Units:   metres above the ground, ascending; at most 63 planes.
+  /// Writes the outline of positions with heights.
   /// Returns: the heights of all vertices that triangles use.
-  /// Errors:  as the other overloads; also on planes that are not finite or do not ascend, or a height that is not finite.
-  Heights build(std::span<const Vec3> positions, std::span<const float> planes, std::span<Outline> slabs);
+  /// Errors:  as the other overload; also on such a height that is not finite.
+  Heights build(std::span<const Vec3> positions, Outline& outline);
 
   // For the library's own parts, which alone know this type.
 
@@ -77,7 +69,8 @@ class OutlineBuilder {
 
 /// Says what of a mesh outline() finds.
 struct OutlineOptions {
-  /// Cuts the mesh at two heights, metres, and leaves out what is below and above; infinite ones cut nothing.
+  /// Cuts the mesh at two heights, metres, and leaves out what is below and above; infinite ones cut nothing. A cut mesh is learned anew
+  /// in every pose.
   Heights between = {};
   /// Finds also the holes of the union, and what lies in them, as clockwise contours after the counter-clockwise one that is around
   /// them. Contours then come to no point twice, and what has no area is left out. It takes some hundred times as long.
@@ -87,7 +80,7 @@ struct OutlineOptions {
 };
 
 /// Finds the outline of a mesh as it stands: the exact union of its triangles seen from above. OutlineBuilder says what that is;
-/// between heights where there is nothing, it has no contours.
+/// between heights where there is nothing, or nothing but points and what is within 1e-6 m of the origin, it has no contours.
 /// Sizes:   triangle indices are below positions.size(); vertices that no triangle uses do not count.
 /// Errors:  throws std::invalid_argument on no triangles, an index out of range, a coordinate that is not finite (a
 ///          height only where some cut), a reach outside 1e-6 to 1e6 m, and heights that are NaN or do not ascend.
