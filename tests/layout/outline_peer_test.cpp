@@ -11,7 +11,7 @@
 #include "tests/support/test.hpp"
 #include "tests/support/test_characters.hpp"
 
-// Outlines of bodies and of slabs against libpolyclipping, an independent implementation.
+// Outlines of bodies, whole and between two heights, against libpolyclipping, an independent implementation.
 
 namespace bch {
 namespace {
