@@ -15,7 +15,7 @@
 namespace bch::cli {
 namespace {
 
-constexpr double edge_width = 20, views_top = 84, body_view = 400, view_gap = 20;
+constexpr double edge_width = 20, views_top = 84, body_view = 360, view_gap = 20;
 constexpr double side_height = 640, above_height = 330;  ///< panels: from the side, and from above
 constexpr double body_picture_width = 2 * (edge_width + body_view) + view_gap,
                  body_picture_height = views_top + side_height + edge_width;
@@ -31,8 +31,8 @@ constexpr const char* body_style = R"(.key { font-size: 17px }
 .ball-lit { stop-color: #e3edf5 } .ball-shade { stop-color: #7d9db8 }
 .core-lit { stop-color: #ffcfa3 } .core-shade { stop-color: #d2601a }
 .skin { fill: none; stroke: #111a22; stroke-width: 1.6; stroke-linejoin: round }
-.bone-edge { stroke: #111a22; stroke-width: 5; stroke-linecap: round }
-.bone { stroke: #fff; stroke-width: 2.4; stroke-linecap: round; fill: #fff }
+.bone-edge { stroke: #111a22; stroke-width: 3.8; stroke-linecap: round }
+.bone { stroke: #fff; stroke-width: 1.8; stroke-linecap: round }
 .scale { fill: none; stroke: #1c2733; stroke-width: 2 }
 @media (prefers-color-scheme: dark) {
 .ground { fill: #12161b } .panel { fill: #1d242b } text, .caption { fill: #dde4ea }

@@ -98,12 +98,15 @@ class Scene {
   void mark_overlaps(std::span<const Pair> colliding);
   void mark_partners(std::span<const Pair> cleared);
 
+  bool reaches_in(const DrawnAgent& agent) const;
+
+  double reach_;  ///< of a body, metres
   static constexpr std::uint32_t unseen = 0xffffffff;
   std::vector<DrawnAgent> agents_;
   std::vector<std::uint32_t> drawn_index_;  ///< per agent of the crowd
 };
 
-Scene::Scene(const CrowdPicture& picture) : window(middle_of(picture)) {
+Scene::Scene(const CrowdPicture& picture) : window(middle_of(picture)), reach_(picture.reach) {
   add_visible_agents(picture);
   colour(picture.cleared, is_cleared);
   colour(picture.colliding, is_colliding);
@@ -111,12 +114,11 @@ Scene::Scene(const CrowdPicture& picture) : window(middle_of(picture)) {
   mark_partners(picture.cleared);
 }
 
-/// Adds the agents in the window and those just outside: their parts reach in, and they touch agents that are
-/// inside.
+/// Adds the agents in the window and those just outside: their parts reach in, or they touch agents whose parts do.
 void Scene::add_visible_agents(const CrowdPicture& picture) {
   const Crowd& crowd = picture.crowd;
   drawn_index_.assign(crowd.size(), unseen);
-  const double reach = 2 * picture.reach;
+  const double reach = 2 * reach_;
   for (std::uint32_t i = 0; i < crowd.size(); ++i) {
     const double x = crowd.x[i] - window.x, y = crowd.y[i] - window.y;
     if (x < -reach || y < -reach || x > window.width + reach || y > window.height + reach) continue;
@@ -175,12 +177,18 @@ void draw_cylinder(Svg& svg, const DrawnAgent& agent) {
   draw_discs(svg, {placed(agent.placement, agent.body.cylinder)});
 }
 
+bool Scene::reaches_in(const DrawnAgent& agent) const {
+  const double x = agent.placement.origin.x - margin, y = agent.placement.origin.y - view_top,
+               reach = reach_ * window.scale();
+  return x >= -reach && y >= -reach && x <= view_width + reach && y <= view_height + reach;
+}
+
 /// What matters most is drawn last.
 void Scene::draw(Svg& svg) const {
   const auto draw = [&](const char* id, const char* classes, const auto& is_drawn, const auto& how) {
     svg.group(id, classes, [&] {
       for (const DrawnAgent& agent : agents_)
-        if (is_drawn(agent)) how(svg, agent);
+        if (is_drawn(agent) && reaches_in(agent)) how(svg, agent);
     });
   };
   for (std::size_t state = 0; state < states; ++state)
