@@ -4,10 +4,29 @@
 #include "baselines/body_reference.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
 
 #include "baselines/placement.hpp"
 
 namespace bch::baselines {
+namespace {
+
+float square_between(const Sphere& a, const Sphere& b) {
+  const float x = b.x - a.x, y = b.y - a.y, z = b.z - a.z;
+  return (x * x + y * y) + z * z;
+}
+
+/// Returns the gap of spheres that a distance makes, rounded up.
+float gap_above(double distance) {
+  const double wide = std::min(distance, 1e10) * (1 + 0x1p-19);
+  const float nearest = static_cast<float>(wide);
+  return static_cast<double>(nearest) < wide ? std::nextafter(nearest, std::numeric_limits<float>::infinity())
+                                             : nearest;
+}
+
+}  // namespace
 
 BodyReference::BodyReference(const BodySet& bodies) {
   for (std::uint32_t body = 0; body < bodies.body_count(); ++body) spheres_.push_back(bodies.spheres(body));
@@ -24,14 +43,30 @@ std::vector<Sphere> BodyReference::placed(const Agents& agents, Pair pair) const
   return spheres;
 }
 
-bool BodyReference::collide(const Agents& agents, Pair pair) const {
+bool BodyReference::within(const Agents& agents, Pair pair, double distance) const {
+  const float gap = gap_above(distance);
   const std::vector<Sphere> other = placed(agents, pair);
   for (const Sphere& a : spheres_[agents.shape[std::min(pair.first, pair.second)]])
     for (const Sphere& b : other) {
-      const float x = b.x - a.x, y = b.y - a.y, z = b.z - a.z, radii = a.radius + b.radius;
-      if ((x * x + y * y) + z * z <= radii * radii) return true;
+      const float radii = (a.radius + gap) + b.radius;
+      if (square_between(a, b) <= radii * radii) return true;
     }
   return false;
+}
+
+BodyClearance BodyReference::clearance(const Agents& agents, Pair pair) const {
+  const std::vector<Sphere>& own = spheres_[agents.shape[std::min(pair.first, pair.second)]];
+  const std::vector<Sphere> other = placed(agents, pair);
+  BodyClearance least{std::numeric_limits<float>::infinity(), 0, 0};
+  for (std::uint32_t i = 0; i < own.size(); ++i)
+    for (std::uint32_t j = 0; j < other.size(); ++j) {
+      const float square = square_between(own[i], other[j]), radii = own[i].radius + other[j].radius;
+      const float apart = std::sqrt(square) * (1 + 0x1p-21f) - radii;
+      const float gap = square <= radii * radii ? std::min(apart, 0.0f) : apart * (1 - 0x1.8p-20f);
+      if (gap < least.distance) least = {gap, i, j};
+    }
+  if (pair.second < pair.first) std::swap(least.first, least.second);
+  return least;
 }
 
 }  // namespace bch::baselines

@@ -3,12 +3,19 @@
 
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include <bch/agents.hpp>
 #include <bch/body_set.hpp>
 
 namespace bch::baselines {
+
+/// Holds the nearest spheres of a pair, those of its own first agent first.
+struct BodyClearance {
+  float distance;
+  std::uint32_t first, second;
+};
 
 /// Answers queries of bodies of spheres by comparing every sphere with every sphere, in float with the operations that
 /// layout/body/sphere_rounding.hpp lists. Written apart from the kernel, which has to give the same bits.
@@ -17,7 +24,11 @@ class BodyReference {
   explicit BodyReference(const BodySet& bodies);
 
   /// Returns what collide() answers.
-  bool collide(const Agents& agents, Pair pair) const;
+  bool collide(const Agents& agents, Pair pair) const { return within(agents, pair, 0); }
+  /// Returns what within() answers.
+  bool within(const Agents& agents, Pair pair, double distance) const;
+  /// Returns what clearance() answers with Overlap::deepest.
+  BodyClearance clearance(const Agents& agents, Pair pair) const;
 
  private:
   /// Returns the spheres of the agent with the larger index where they are in the other one's frame.

@@ -16,6 +16,11 @@ struct Reach {
   static constexpr unsigned axes = 3;
   float x[axes], y[axes], most[axes];
   float low, high;
+
+  [[gnu::always_inline]] void widen(float margin) noexcept {
+    for (float& each : most) each += margin;
+    low -= margin, high += margin;
+  }
 };
 
 /// Tests bands of one body against those of the other, by their supports; lane = direction. Sets of pairs of bands have bit body_bands
@@ -52,30 +57,25 @@ class BandTest {
   /// least and those 45 degrees beside it.
   void find_reach(std::uint32_t pair, const PlacedBodies& bodies, std::uint32_t bands, Reach& of_a,
                   Reach& of_b) const noexcept {
-    // Half of the directions are enough: axes are 22.5 degrees apart.
-    alignas(64) float from_b[half], overlap[half];
-    const float* const a = supports(bodies.a, bands / body_bands);
-    const float* const b = supports(bodies.b, bands % body_bands);
-    Float least(__builtin_inff());
-    directions_.look_along(pair, 0, directions_.rows(pair, 0, a, b),
-                           [&](unsigned k, Float distance, Float by_a, Float by_b) {
-                             const Float begin = distance - by_b, both = by_a - begin;
-                             Simd::store(from_b + k, begin);
-                             Simd::store(overlap + k, both);
-                             least = xsimd::min(least, both);
-                           });
-    const unsigned middle = first_at_most(overlap, Simd::least(least));
-    const auto [c, s, tx, ty] = bodies.b_in_a.ground;
-    const float margin = bodies.margin();
-    for (unsigned i = 0; i < Reach::axes; ++i) {
-      const unsigned k = (middle + (i + half - 1) * beside) % half;
-      const float x = SupportDirections<Simd>::direction_x[0][k],
-                  y = SupportDirections<Simd>::direction_y[0][k];
-      of_a.x[i] = -x, of_a.y[i] = -y, of_a.most[i] = margin - from_b[k];
-      of_b.x[i] = c * x + s * y, of_b.y[i] = c * y - s * x;
-      of_b.most[i] = a[k] - (tx * x + ty * y) + margin;
-    }
+    find_axes(pair, bodies, supports(bodies.a, bands / body_bands), supports(bodies.b, bands % body_bands),
+              of_a, of_b);
+    of_a.widen(bodies.margin()), of_b.widen(bodies.margin());
     set_heights(of_a, bands / body_bands), set_heights(of_b, bands % body_bands);
+  }
+
+  /// Does the same for whole bodies, without a margin. Returns how far they are apart at least.
+  float find_reach_of_all(std::uint32_t pair, const PlacedBodies& bodies, Reach& of_a,
+                          Reach& of_b) const noexcept {
+    alignas(64) float a[support_stride], b[support_stride];
+    find_all_supports(bodies.a, a), find_all_supports(bodies.b, b);
+    const float across = find_axes(pair, bodies, a, b, of_a, of_b);
+    const BodyHeader &header_a = header_of(bodies.a), &header_b = header_of(bodies.b);
+    const float rise = bodies.b_in_a.tz;
+    of_a.low = header_b.bottom + rise, of_a.high = header_b.top + rise;
+    of_b.low = header_a.bottom - rise, of_b.high = header_a.top - rise;
+    const float below = of_a.low - header_a.top, above = header_a.bottom - of_a.high;
+    const float up = below < above ? above : below;
+    return across < up ? up : across;
   }
 
  private:
@@ -88,6 +88,42 @@ class BandTest {
   static constexpr float infinite = __builtin_inff();
   static constexpr float low[] = {-infinite, band_planes[0], band_planes[1]};
   static constexpr float high[] = {band_planes[0], band_planes[1], infinite};
+
+  /// Finds the axes of Reach and what reaches along them, without a margin. Returns how far bodies are apart along the first one.
+  float find_axes(std::uint32_t pair, const PlacedBodies& bodies, const float* a, const float* b, Reach& of_a,
+                  Reach& of_b) const noexcept {
+    // Half of the directions are enough: axes are 22.5 degrees apart.
+    alignas(64) float from_b[half], overlap[half];
+    Float least(__builtin_inff());
+    directions_.look_along(pair, 0, directions_.rows(pair, 0, a, b),
+                           [&](unsigned k, Float distance, Float by_a, Float by_b) {
+                             const Float begin = distance - by_b, both = by_a - begin;
+                             Simd::store(from_b + k, begin);
+                             Simd::store(overlap + k, both);
+                             least = xsimd::min(least, both);
+                           });
+    const unsigned middle = first_at_most(overlap, Simd::least(least));
+    const auto [c, s, tx, ty] = bodies.b_in_a.ground;
+    for (unsigned i = 0; i < Reach::axes; ++i) {
+      const unsigned k = (middle + (i + half - 1) * beside) % half;
+      const float x = SupportDirections<Simd>::direction_x[0][k],
+                  y = SupportDirections<Simd>::direction_y[0][k];
+      of_a.x[i] = -x, of_a.y[i] = -y, of_a.most[i] = -from_b[k];
+      of_b.x[i] = c * x + s * y, of_b.y[i] = c * y - s * x;
+      of_b.most[i] = a[k] - (tx * x + ty * y);
+    }
+    return -overlap[middle];
+  }
+
+  /// Finds the largest of the bands' supports.
+  static void find_all_supports(const float* record, float (&to)[support_stride]) noexcept {
+    for (unsigned k = 0; k < support_stride; k += Simd::width) {
+      Float most = Simd::load(supports(record, 0) + k);
+      for (std::uint32_t band = 1; band < body_bands; ++band)
+        most = xsimd::max(most, Simd::load(supports(record, band) + k));
+      Simd::store(to + k, most);
+    }
+  }
 
   static const float* supports(const float* record, std::uint32_t band) noexcept {
     return record + record_supports + band * support_stride;
@@ -114,11 +150,12 @@ class BandTest {
                      std::uint32_t band_b) const noexcept {
     const float* const a = supports(bodies.a, band_a);
     const float* const b = supports(bodies.b, band_b);
+    const Float gap(bodies.wide_gap());
     Mask separated = Float(1.0f) < Float(0.0f);
     for (unsigned odd = 0; odd < 2; ++odd)
       directions_.look_along(pair, odd, directions_.rows(pair, odd, a, b),
                              [&](unsigned, Float distance, Float by_a, Float by_b) {
-                               separated = separated | (by_a + by_b < distance);
+                               separated = separated | (by_a + by_b + gap < distance);
                              });
     return Simd::bits(separated) == 0;
   }

@@ -3,16 +3,29 @@
 
 #pragma once
 
+#include "kernel/body/placed_bodies.hpp"
+#include "kernel/simd/agent_columns.hpp"
 #include "kernel/simd/arguments.hpp"
+#include "kernel/simd/placements.hpp"
 
 namespace bch::detail {
-
-struct BodySetView;
 
 /// Holds what the kernel of bodies of spheres reads and writes: plain pointers only, as Arguments.
 struct BodyArguments {
   Arguments pairs;  ///< agents, pairs and codes; its shapes are the discs of the bodies
   const BodySetView* bodies;
 };
+
+/// Returns the bodies of a pair of a chunk.
+template <class Simd>
+[[gnu::always_inline]] inline PlacedBodies placed_bodies(const BodyArguments& in, const Placements<Simd>& at,
+                                                         std::uint32_t pair) noexcept {
+  const AgentColumn& z = in.pairs.agent_z;
+  const float rise = z.first == nullptr ? 0
+                                        : static_cast<float>(AgentColumns<Simd>::number(z, at.agent_b(pair)) -
+                                                             AgentColumns<Simd>::number(z, at.agent_a(pair)));
+  return {
+      in.bodies->record(at.shape_a[pair]), in.bodies->record(at.shape_b[pair]), {at.transform(pair), rise}};
+}
 
 }  // namespace bch::detail

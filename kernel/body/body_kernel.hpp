@@ -11,17 +11,17 @@
 #include "kernel/body/leaf_search.hpp"
 #include "kernel/body/placed_bodies.hpp"
 #include "kernel/body/sphere_pairs.hpp"
-#include "kernel/simd/agent_columns.hpp"
 #include "kernel/simd/chunk_pairs.hpp"
 #include "kernel/simd/placements.hpp"
 
 namespace bch::detail {
 
-/// Implements the pair query of bodies of spheres: a pair collides if some sphere of one overlaps some sphere of the other. That test
-/// alone decides a hit; what only saves work rejects nothing that it accepts (layout/body/sphere_rounding.hpp).
+/// Implements the pair queries of bodies of spheres that are answered by yes or no: a pair is a hit if some sphere of one meets some sphere of
+/// the other, that is, overlaps it or comes within a gap. That test alone decides a hit; what only saves work rejects nothing that it
+/// accepts (layout/body/sphere_rounding.hpp).
 ///
 /// Pairs are answered in chunks, stage by stage, and each stage leaves fewer of them open: place B in A's frame; separate bands of
-/// height by their supports; accept pairs whose core spheres overlap; search the leaves of what is left.
+/// height by their supports; accept pairs whose core spheres meet; search the leaves of what is left.
 template <class Simd>
 class BodyKernel {
  public:
@@ -30,6 +30,7 @@ class BodyKernel {
     BodyKernel kernel(arguments);
     for (; begin < end; begin += chunk_size) {
       kernel.at_.place(arguments.pairs, begin, end);
+      kernel.gaps_ = arguments.pairs.gaps == nullptr ? nullptr : arguments.pairs.gaps + begin;
       kernel.answer_chunk(arguments.pairs.codes + begin);
     }
   }
@@ -46,15 +47,9 @@ class BodyKernel {
   }
 
   PlacedBodies bodies(std::uint32_t pair) const noexcept {
-    return {in_.bodies->record(at_.shape_a[pair]),
-            in_.bodies->record(at_.shape_b[pair]),
-            {at_.transform(pair), rise(pair)}};
-  }
-  float rise(std::uint32_t pair) const noexcept {
-    const AgentColumn& z = in_.pairs.agent_z;
-    if (z.first == nullptr) return 0;
-    return static_cast<float>(AgentColumns<Simd>::number(z, at_.agent_b(pair)) -
-                              AgentColumns<Simd>::number(z, at_.agent_a(pair)));
+    PlacedBodies placed = placed_bodies(in_, at_, pair);
+    if (gaps_ != nullptr) placed.gap = gaps_[pair];
+    return placed;
   }
 
   /// Leaves the pairs open of which some bands may meet.
@@ -76,13 +71,13 @@ class BodyKernel {
     }
   }
 
-  /// Accepts pairs of which some of the first `count` core spheres overlap.
+  /// Accepts pairs of which some of the first `count` core spheres meet.
   template <unsigned count>
   void accept(std::uint8_t* codes) noexcept {
     open_.drop_if(
         open_,
         [&](std::uint32_t pair) {
-          const std::uint32_t hit = cores_overlap<count>(bodies(pair));
+          const std::uint32_t hit = cores_meet<count>(bodies(pair));
           codes[pair] = static_cast<std::uint8_t>(hit);
           return hit;
         },
@@ -90,13 +85,13 @@ class BodyKernel {
   }
 
   template <unsigned count>
-  static bool cores_overlap(const PlacedBodies& bodies) noexcept {
-    const Balls a{bodies.a + record_core, core_spheres}, b{bodies.b + record_core, core_spheres};
-    bool overlap = false;
+  static bool cores_meet(const PlacedBodies& bodies) noexcept {
+    bool meet = false;
     for (unsigned i = 0; i < count; i += 8)
       for (unsigned j = 0; j < count; j += 8)
-        if (count == 8 || i + j != 0) overlap |= balls_overlap<Simd, 8>(bodies.b_in_a, a.from(i), b.from(j));
-    return overlap;
+        if (count == 8 || i + j != 0)
+          meet |= balls_meet<Simd, 8>(bodies.b_in_a, core_of(bodies.a, i), core_of(bodies.b, j), bodies.gap);
+    return meet;
   }
 
   std::uint8_t search(std::uint32_t pair) noexcept {
@@ -112,6 +107,7 @@ class BodyKernel {
   using List = ChunkPairs<Simd, chunk_size>;
 
   const BodyArguments& in_;
+  const float* gaps_ = nullptr;  ///< of the chunk
   Placements<Simd> at_;
   BandTest<Simd> bands_;
   std::uint16_t open_bands_[chunk_size];

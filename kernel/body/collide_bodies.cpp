@@ -24,7 +24,7 @@ void collide(const BodySet& bodies, const Agents& agents, std::span<const Pair> 
   BodyArguments arguments{arguments_for(view.ground, agents, pairs), &view};
   arguments.pairs.codes = hits.data();
   for_ranges(pairs.size(), pairs_per_task, [&](std::size_t begin, std::size_t end) {
-    implementation.kernels->collide_bodies(arguments, begin, end);
+    implementation.kernels->run_bodies(arguments, begin, end);
   });
 }
 

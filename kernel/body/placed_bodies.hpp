@@ -13,10 +13,16 @@ namespace bch::detail {
 struct PlacedBodies {
   const float *a, *b;  ///< records
   SpaceTransformOf<float> b_in_a;
+  float gap = 0;  ///< spheres that are apart by at most this meet; metres
 
-  /// Returns how much more bounds have to reach, metres, so that none misses what the test of spheres accepts.
+  /// Returns the gap that bounds allow, so that none misses what the test of spheres accepts, where they have a margin for reaches.
+  [[gnu::always_inline]] float wide_gap() const noexcept {
+    return gap + static_cast<float>(rounding::bound_share) * __builtin_fabsf(gap);
+  }
+  /// Returns how much more other bounds have to reach, metres.
   [[gnu::always_inline]] float margin() const noexcept {
-    return static_cast<float>(rounding::bound_margin) * (header_of(a).reach + header_of(b).reach);
+    return static_cast<float>(rounding::bound_margin) * (header_of(a).reach + header_of(b).reach) +
+           wide_gap();
   }
 };
 

@@ -20,7 +20,7 @@ struct SpheresOf {
   Float x, y, z, radius;
 };
 
-/// Returns where a sphere of B is in A's frame. Every answer rests on the order of these operations, and of those of spheres_overlap(); see
+/// Returns where a sphere of B is in A's frame. Every answer rests on the order of these operations, and of those of spheres_meet(); see
 /// layout/body/sphere_rounding.hpp. (Inlined for certain, so that instruction sets share no function.)
 template <class Float>
 [[gnu::always_inline]] inline SpheresOf<Float> placed(const SpaceTransformOf<Float>& b_in_a,
@@ -29,12 +29,20 @@ template <class Float>
   return {x, y, b_in_a.tz + b.z, b.radius};
 }
 
-/// Returns whether spheres in one frame overlap, touching included: a bool or a mask.
+/// Returns the square of the distance of the centres of spheres in one frame.
 template <class Float>
-[[gnu::always_inline]] inline auto spheres_overlap(const SpheresOf<Float>& a,
+[[gnu::always_inline]] inline Float square_between(const SpheresOf<Float>& a,
                                                    const SpheresOf<Float>& b) noexcept {
-  const Float x = b.x - a.x, y = b.y - a.y, z = b.z - a.z, radii = a.radius + b.radius;
-  return (x * x + y * y) + z * z <= radii * radii;
+  const Float x = b.x - a.x, y = b.y - a.y, z = b.z - a.z;
+  return (x * x + y * y) + z * z;
+}
+
+/// Returns whether spheres in one frame are apart by at most a gap, which is included: a bool or a mask.
+template <class Float>
+[[gnu::always_inline]] inline auto spheres_meet(const SpheresOf<Float>& a, const SpheresOf<Float>& b,
+                                                Float gap) noexcept {
+  const Float radii = (a.radius + gap) + b.radius;
+  return square_between(a, b) <= radii * radii;
 }
 
 }  // namespace bch::detail

@@ -126,7 +126,8 @@ void BroadPhase::gather_pairs(std::size_t blocks) {
 }
 
 std::span<const Pair> BroadPhase::find_valid(const ShapeSetView& shapes, const Agents& agents, double margin,
-                                             std::size_t most_pairs, const PairTest* test) {
+                                             std::size_t most_pairs, const PairTest* test,
+                                             double height_margin) {
   const CrowdGrid grid(bounds(shapes, agents, margin));
   sort_discs(grid, shapes, agents, margin);
   const std::size_t blocks = (agents.size() + block_discs - 1) / block_discs;
@@ -138,7 +139,8 @@ std::span<const Pair> BroadPhase::find_valid(const ShapeSetView& shapes, const A
       const std::size_t begin = b * block_discs, end = std::min(begin + block_discs, agents.size());
       find_in_block(grid, begin, end, found_[b], count);
       if (test != nullptr) found_[b].keep_if([&](Pair pair) { return test->accepts(pair); });
-      if (!agents.z.empty()) found_[b].keep_if([&](Pair pair) { return heights_meet(in, pair); });
+      if (!agents.z.empty())
+        found_[b].keep_if([&](Pair pair) { return heights_meet(in, pair, height_margin); });
     }
   });
   gather_pairs(blocks);
@@ -151,12 +153,13 @@ void require_margin(double margin) {
 }
 
 std::span<const Pair> BroadPhase::find(const ShapeSetView& shapes, const Agents& agents, double margin,
-                                       std::size_t most_pairs, const PairTest* test) {
+                                       std::size_t most_pairs, const PairTest* test, double height_margin) {
   const FloatingPointStateGuard floats;
   require_valid_agents(shapes, agents);
   require_margin(margin);
   if (agents.size() == 0) return {};
-  return without_tasks_from_outside([&] { return find_valid(shapes, agents, margin, most_pairs, test); });
+  return without_tasks_from_outside(
+      [&] { return find_valid(shapes, agents, margin, most_pairs, test, height_margin); });
 }
 
 }  // namespace bch::detail

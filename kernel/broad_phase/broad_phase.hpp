@@ -28,7 +28,8 @@ void require_margin(double margin);
 /// Threads: runs in the caller's TBB arena; one call at a time.
 class BroadPhase {
  public:
-  /// Returns every pair of agents whose root discs overlap or come within a margin of each other, once, with first < second. Other pairs
+  /// Returns every pair of agents whose root discs overlap or come within a margin of each other, and whose heights do so within a margin
+  /// of their own, once, with first < second. Other pairs
   /// miss the margin by a few millionths of the margin, of their radii and of their shapes' reach, or by 2^-26 of the largest radius.
   /// Order:   by place, along the rows of a grid; the same for any number of threads.
   /// Memory:  the pairs are valid until the next call; the object keeps 72 bytes an agent and up to 24 a pair.
@@ -36,11 +37,11 @@ class BroadPhase {
   ///          std::length_error as soon as there are more pairs than `most_pairs`, before `test` is asked.
   std::span<const Pair> find(const ShapeSetView& shapes, const Agents& agents, double margin = 0,
                              std::size_t most_pairs = std::numeric_limits<std::size_t>::max(),
-                             const PairTest* test = nullptr);
+                             const PairTest* test = nullptr, double height_margin = 0);
 
  private:
   std::span<const Pair> find_valid(const ShapeSetView& shapes, const Agents& agents, double margin,
-                                   std::size_t most_pairs, const PairTest* test);
+                                   std::size_t most_pairs, const PairTest* test, double height_margin);
   void sort_discs(const CrowdGrid& grid, const ShapeSetView& shapes, const Agents& agents, double margin);
   void find_in_block(const CrowdGrid& grid, std::size_t begin, std::size_t end, PairList& list,
                      PairCount& count) const;

@@ -23,6 +23,7 @@
 #include "layout/base/floating_point_state.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/body/body_record.hpp"
+#include "layout/body/sphere_rounding.hpp"
 
 namespace bch::detail {
 namespace {
@@ -61,7 +62,13 @@ struct CrowdMemory {
   };
 
   bool is_periodic() const noexcept { return options.period.x > 0 || options.period.y > 0; }
-  Candidates find(const ShapeSetView& shapes, const Agents& agents, double margin, const PairFilter& filter);
+  Candidates find(const ShapeSetView& shapes, const Agents& agents, double margin, const PairFilter& filter,
+                  double height_margin = 0);
+  /// Finds those of bodies of spheres that may be within a distance.
+  Candidates find(const BodySet& bodies, const Agents& agents, double within, const PairFilter& filter) {
+    const double margin = within * (1 + rounding::bound_share);
+    return find(bodies.view().ground, agents, margin, filter, margin);
+  }
   std::span<const Pair> collide(const ShapeSet& shapes, const Candidates& candidates, Leaves leaves,
                                 const Implementation* implementation);
   Pair named(Pair candidate) const noexcept {
@@ -78,6 +85,18 @@ struct CrowdMemory {
   /// Keeps the candidates that were hits.
   std::span<const Pair> keep_hits(std::span<const Pair> candidates) {
     return keep(candidates, [&](std::size_t i) { return hits[i] != 0; });
+  }
+  /// Asks ask() for the distances of the candidates and what goes with them, and keeps those that are near.
+  template <class Ask, class... Value>
+  CrowdPairs keep_near(std::span<const Pair> candidates, const Ask& ask, Answers<Value>&... beside) {
+    distance.of_candidates.resize(candidates.size());
+    (beside.of_candidates.resize(candidates.size()), ...);
+    ask();
+    keep(candidates,
+         [&](std::size_t i) { return distance.of_candidates[i] < std::numeric_limits<float>::infinity(); });
+    distance.keep(kept);
+    (beside.keep(kept), ...);
+    return {pairs, *this};
   }
   Rows<Neighbour> by_agent(std::span<const Pair> pairs);
 
@@ -96,6 +115,8 @@ struct CrowdMemory {
   Answers<Vec2> direction;
   Answers<DiscPair> discs;
   Answers<NearestPoints> points;
+  Answers<Vec3> space_direction;
+  Answers<NearestSpacePoints> space_points;
   std::vector<Penetration> penetrations;
   ObstacleRows obstacle_rows;
 
@@ -105,7 +126,7 @@ struct CrowdMemory {
 };
 
 CrowdMemory::Candidates CrowdMemory::find(const ShapeSetView& shapes, const Agents& given, double margin,
-                                          const PairFilter& filter) {
+                                          const PairFilter& filter, double height_margin) {
   const FloatingPointStateGuard floats;
   Candidates found{given, {}};
   agents = given.size();
@@ -119,7 +140,7 @@ CrowdMemory::Candidates CrowdMemory::find(const ShapeSetView& shapes, const Agen
       filter, given.size(),
       found.agents.shape.size() > agents ? periodic.origin_of_image() : std::span<const std::uint32_t>());
   found.pairs = broad_phase.find(shapes, found.agents, margin, options.most_pairs,
-                                 test.accepts_all() ? nullptr : &test);
+                                 test.accepts_all() ? nullptr : &test, height_margin);
   return found;
 }
 
@@ -200,7 +221,7 @@ CrowdPairs Crowd::collisions(const ShapeSet& shapes, const Agents& agents,
 CrowdPairs Crowd::candidates(const BodySet& bodies, const Agents& agents, const CandidateOptions& options) & {
   return without_tasks_from_outside([&]() -> CrowdPairs {
     CrowdMemory& of = *memory_;
-    return {of.named(of.find(bodies.view().ground, agents, options.margin, options.filter).pairs), of};
+    return {of.named(of.find(bodies, agents, options.margin, options.filter).pairs), of};
   });
 }
 
@@ -208,7 +229,7 @@ CrowdPairs Crowd::collisions(const BodySet& bodies, const Agents& agents,
                              const BodyCollisionOptions& options) & {
   return without_tasks_from_outside([&]() -> CrowdPairs {
     CrowdMemory& of = *memory_;
-    const CrowdMemory::Candidates candidates = of.find(bodies.view().ground, agents, 0, options.filter);
+    const CrowdMemory::Candidates candidates = of.find(bodies, agents, 0, options.filter);
     of.hits.resize(candidates.pairs.size());
     collide(bodies, candidates.agents, candidates.pairs, of.hits, options.implementation);
     return {of.keep_hits(candidates.pairs), of};
@@ -249,21 +270,35 @@ CrowdClearances Crowd::clearances(const ShapeSet& shapes, const Agents& agents, 
     constexpr double least_margin = 1e-9;
     const double margin = within >= 0 ? std::max(within, least_margin) : within;
     const CrowdMemory::Candidates candidates = of.find(shapes.view(), agents, margin, options.filter);
-    const std::size_t count = candidates.pairs.size();
-    of.distance.of_candidates.resize(count), of.direction.of_candidates.resize(count);
-    of.discs.of_candidates.resize(count), of.points.of_candidates.resize(count);
-    clearance(shapes, candidates.agents, candidates.pairs,
-              {of.distance.of_candidates, of.direction.of_candidates, of.discs.of_candidates,
-               of.points.of_candidates},
-              {.implementation = options.implementation,
-               .max_distance = within,
-               .overlap = options.overlap,
-               .distance_leaves = options.leaves});
-    of.keep(candidates.pairs, [&](std::size_t i) {
-      return of.distance.of_candidates[i] < std::numeric_limits<float>::infinity();
-    });
-    of.distance.keep(of.kept), of.direction.keep(of.kept), of.discs.keep(of.kept), of.points.keep(of.kept);
-    return {{of.pairs, of}, of.distance.kept, of.direction.kept, of.discs.kept, of.points.kept};
+    const auto ask = [&] {
+      clearance(shapes, candidates.agents, candidates.pairs,
+                {of.distance.of_candidates, of.direction.of_candidates, of.discs.of_candidates,
+                 of.points.of_candidates},
+                {.implementation = options.implementation,
+                 .max_distance = within,
+                 .overlap = options.overlap,
+                 .distance_leaves = options.leaves});
+    };
+    const CrowdPairs near = of.keep_near(candidates.pairs, ask, of.direction, of.discs, of.points);
+    return {near, of.distance.kept, of.direction.kept, of.discs.kept, of.points.kept};
+  });
+}
+
+CrowdBodyClearances Crowd::clearances(const BodySet& bodies, const Agents& agents, double within,
+                                      const BodyClearanceOptions& options) & {
+  return without_tasks_from_outside([&]() -> CrowdBodyClearances {
+    CrowdMemory& of = *memory_;
+    const CrowdMemory::Candidates candidates = of.find(bodies, agents, within, options.filter);
+    const auto ask = [&] {
+      clearance(
+          bodies, candidates.agents, candidates.pairs,
+          {of.distance.of_candidates, of.space_direction.of_candidates, of.discs.of_candidates,
+           of.space_points.of_candidates},
+          {.implementation = options.implementation, .max_distance = within, .overlap = options.overlap});
+    };
+    const CrowdPairs near =
+        of.keep_near(candidates.pairs, ask, of.space_direction, of.discs, of.space_points);
+    return {near, of.distance.kept, of.space_direction.kept, of.discs.kept, of.space_points.kept};
   });
 }
 

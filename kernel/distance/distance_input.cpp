@@ -18,20 +18,39 @@ std::string place(const Asked& asked, std::size_t i) {
   return std::string(asked.query) + ": " + asked.one + " " + std::to_string(i) + ": ";
 }
 
-}  // namespace
+void require_none_or_as_many(const Asked& asked, std::size_t size, const char* what) {
+  if (size != 0) require_as_many(asked, size, what);
+}
 
-void require_valid(const Asked& asked, const ClearanceAnswers& answers, const QueryOptions& options) {
-  const auto require = [&](std::size_t size, const char* name) {
-    if (size != 0) require_as_many(asked, size, name);
-  };
+/// Requires the sizes of all answers but the discs or spheres, and the options.
+template <class Answers>
+void require_valid_answers(const Asked& asked, const Answers& answers, const QueryOptions& options) {
   require_as_many(asked, answers.distance.size(), "distances");
-  require(answers.direction.size(), "directions");
-  require(answers.discs.size(), "discs");
-  require(answers.points.size(), "points");
+  require_none_or_as_many(asked, answers.direction.size(), "directions");
+  require_none_or_as_many(asked, answers.points.size(), "points");
   if (!(options.max_distance >= 0))
     throw std::invalid_argument(std::string(asked.query) + ": a max_distance of " +
                                 shortest(options.max_distance) + " m");
   require_choice(asked.query, "overlap is", static_cast<int>(options.overlap), "zero (0) and deepest (1)");
+}
+
+template <class Answers>
+void put_distance(const Answers& answers, std::size_t i, float distance) noexcept {
+  answers.distance[i] = distance;
+  if (!answers.direction.empty()) answers.direction[i] = {};
+  if (!answers.points.empty()) answers.points[i] = {};
+}
+
+}  // namespace
+
+void require_valid(const Asked& asked, const ClearanceAnswers& answers, const QueryOptions& options) {
+  require_none_or_as_many(asked, answers.discs.size(), "discs");
+  require_valid_answers(asked, answers, options);
+}
+
+void require_valid(const Asked& asked, const BodyClearanceAnswers& answers, const QueryOptions& options) {
+  require_none_or_as_many(asked, answers.spheres.size(), "spheres");
+  require_valid_answers(asked, answers, options);
 }
 
 void require_distances(const Asked& asked, std::span<const double> distances) {
@@ -55,10 +74,13 @@ void require_valid(const Asked& asked, const Displacements& displacements, std::
 }
 
 void put_alone(const ClearanceAnswers& answers, std::size_t i, float distance) noexcept {
-  answers.distance[i] = distance;
-  if (!answers.direction.empty()) answers.direction[i] = {0, 0};
+  put_distance(answers, i, distance);
   if (!answers.discs.empty()) answers.discs[i] = no_discs;
-  if (!answers.points.empty()) answers.points[i] = {};
+}
+
+void put_alone(const BodyClearanceAnswers& answers, std::size_t i, float distance) noexcept {
+  put_distance(answers, i, distance);
+  if (!answers.spheres.empty()) answers.spheres[i] = no_discs;
 }
 
 }  // namespace bch::detail

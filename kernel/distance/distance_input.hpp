@@ -17,6 +17,7 @@ namespace bch::detail {
 
 /// Requires of clearance() the sizes of its answers, and its options.
 void require_valid(const Asked& asked, const ClearanceAnswers& answers, const QueryOptions& options);
+void require_valid(const Asked& asked, const BodyClearanceAnswers& answers, const QueryOptions& options);
 /// Requires of within() one distance, or as many as it answers, none of them negative or NaN.
 void require_distances(const Asked& asked, std::span<const double> distances);
 /// Requires of time_of_impact() the sizes of displacements and times, and displacements within the limits.
@@ -24,5 +25,6 @@ void require_valid(const Asked& asked, const Displacements& displacements, std::
 
 /// Writes the distance of a pair or an agent without anything beside it.
 void put_alone(const ClearanceAnswers& answers, std::size_t i, float distance) noexcept;
+void put_alone(const BodyClearanceAnswers& answers, std::size_t i, float distance) noexcept;
 
 }  // namespace bch::detail

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "kernel/body/body_clearance_kernel.hpp"
 #include "kernel/body/body_kernel.hpp"
 #include "kernel/collide/pair_kernel.hpp"
 #include "kernel/contact/contact_kernel.hpp"
@@ -44,9 +45,14 @@ struct Row {
     [[maybe_unused]] const Guard guard;
     PairKernel<WithGaps>::run(arguments, begin, end);
   }
-  static void collide_bodies(const BodyArguments& arguments, std::size_t begin, std::size_t end) noexcept {
+  static void run_bodies(const BodyArguments& arguments, std::size_t begin, std::size_t end) noexcept {
     [[maybe_unused]] const Guard guard;
     BodyKernel<Simd>::run(arguments, begin, end);
+  }
+  static void body_clearance(const BodyClearanceArguments& arguments, std::size_t begin,
+                             std::size_t end) noexcept {
+    [[maybe_unused]] const Guard guard;
+    BodyClearanceKernel<Simd>::run(arguments, begin, end);
   }
   static bool run_if_valid(const Arguments& arguments, std::uint32_t count) noexcept {
     [[maybe_unused]] const Guard guard;
@@ -96,10 +102,23 @@ struct Row {
     ObstacleKernel<Simd>(arguments).find_gap(enough, best);
   }
 
-  static constexpr Kernels kernels{
-      Simd::width,    check,           named,         run,     run_within, collide_bodies, run_if_valid,
-      count_contacts, append_contacts, fill_contacts, extents, clearance,  time_of_impact, overlapping_boxes,
-      touches,        find_gap};
+  static constexpr Kernels kernels{Simd::width,
+                                   check,
+                                   named,
+                                   run,
+                                   run_within,
+                                   run_bodies,
+                                   body_clearance,
+                                   run_if_valid,
+                                   count_contacts,
+                                   append_contacts,
+                                   fill_contacts,
+                                   extents,
+                                   clearance,
+                                   time_of_impact,
+                                   overlapping_boxes,
+                                   touches,
+                                   find_gap};
 };
 
 }  // namespace bch::detail

@@ -16,6 +16,7 @@ namespace bch::detail {
 struct CutDiscs;
 struct Arguments;
 struct BodyArguments;
+struct BodyClearanceArguments;
 struct Box;
 struct BoxBlock;
 struct BoxHit;
@@ -43,7 +44,10 @@ struct Kernels {
   /// Does the same where distances are asked about.
   void (*run_within)(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept;
   /// Writes 1 or 0 for pairs begin .. end of bodies of spheres, with up to 256 KiB of stack; see BodyKernel.
-  void (*collide_bodies)(const BodyArguments& arguments, std::size_t begin, std::size_t end) noexcept;
+  void (*run_bodies)(const BodyArguments& arguments, std::size_t begin, std::size_t end) noexcept;
+  /// Writes the nearest spheres of those pairs, with as much stack; see BodyClearanceArguments.
+  void (*body_clearance)(const BodyClearanceArguments& arguments, std::size_t begin,
+                         std::size_t end) noexcept;
   /// Writes the codes of the first `count` pairs, one or more and at most a
   /// chunk, when neither pairs nor agents were validated. Returns false, and
   /// writes nothing, unless they are surely valid. It is meant for small

@@ -15,8 +15,9 @@
 
 namespace bch::detail {
 
-/// Returns whether the heights of two valid agents have a point in common; those of agents without a z always have.
-inline bool heights_meet(const Arguments& in, Pair pair) noexcept {
+/// Returns whether the heights of two valid agents have a point in common or come within a margin, metres; those of agents without a z
+/// always do.
+inline bool heights_meet(const Arguments& in, Pair pair, double margin = 0) noexcept {
   if (in.agent_z.first == nullptr) return true;
   using Columns = AgentColumns<void>;
   const auto [a, b] = std::minmax(pair.first, pair.second);
@@ -24,7 +25,7 @@ inline bool heights_meet(const Arguments& in, Pair pair) noexcept {
     return in.shapes->heights[Columns::at<std::uint32_t>(in.agent_shape, agent)];
   };
   const Heights of_a = heights_of(a);
-  return heights_meet(double{of_a.bottom}, double{of_a.top}, heights_of(b),
+  return heights_meet(double{of_a.bottom} - margin, double{of_a.top} + margin, heights_of(b),
                       Columns::number(in.agent_z, b) - Columns::number(in.agent_z, a));
 }
 

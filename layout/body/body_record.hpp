@@ -54,11 +54,17 @@ constexpr std::uint32_t record_nodes = record_supports + body_bands * support_st
 struct BodySetView {
   ShapeSetView ground;  ///< of roots alone: the discs of the bodies, and their heights
   const float* records;
-  const std::uint64_t* record_begin;  ///< per body, floats
+  const std::uint64_t* record_begin;           ///< per body, floats
+  const std::uint32_t* const* sphere_in_slot;  ///< per body, the numbers of its spheres
 
   /// Returns the record of a body. (Inlined for certain, so that instruction sets share no function.)
   [[gnu::always_inline]] const float* record(std::uint32_t body) const noexcept {
     return records + record_begin[body];
+  }
+  /// Returns the number of the sphere in a slot of a body.
+  [[gnu::always_inline]] std::uint32_t number(std::uint32_t body, std::uint32_t slot) const noexcept {
+    const std::uint32_t last = header_of(record(body)).sphere_count - 1;
+    return sphere_in_slot[body][slot < last ? slot : last];
   }
 };
 

@@ -76,6 +76,7 @@ struct BodySet::State {
   std::vector<std::uint64_t> record_begin;
   std::vector<BodyLayout> own_layouts;  ///< which are not moved once bodies have them
   std::vector<const BodyLayout*> layouts;
+  std::vector<const std::uint32_t*> sphere_in_slot;
   std::vector<Root> roots;
   std::vector<Heights> heights;
   BodySetView view{};
@@ -104,13 +105,16 @@ struct BodySet::State {
     view.ground.heights = heights.data();
     view.records = records.data();
     view.record_begin = record_begin.data();
+    for (const BodyLayout* const layout : layouts) sphere_in_slot.push_back(layout->sphere_in_slot.data());
+    view.sphere_in_slot = sphere_in_slot.data();
   }
 
-  /// Takes over what the broad phase reads of a record.
+  /// Takes over what the broad phase reads of a record, and makes it larger by what queries accept beyond the spheres.
   void publish(std::uint32_t body) noexcept {
     const BodyHeader& header = header_of(view.record(body));
-    roots[body] = {header.x, header.y, header.radius, single_disc};
-    heights[body] = {header.bottom, header.top};
+    const float margin = 2 * static_cast<float>(rounding::sphere_margin) * header.reach;
+    roots[body] = {header.x, header.y, header.radius + margin, single_disc};
+    heights[body] = {header.bottom - margin, header.top + margin};
   }
 
   void require_body(std::uint32_t body) const {
@@ -152,7 +156,7 @@ std::uint32_t BodySet::body_count() const noexcept {
 
 std::size_t BodySet::bytes() const noexcept {
   constexpr std::size_t beside_record =
-      sizeof(std::uint64_t) + sizeof(Root) + sizeof(Heights) + sizeof(void*);
+      sizeof(std::uint64_t) + sizeof(Root) + sizeof(Heights) + 2 * sizeof(void*);
   return state_->records.size() * sizeof(float) + body_count() * beside_record;
 }
 

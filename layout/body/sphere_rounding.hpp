@@ -42,6 +42,24 @@
 ///
 /// Points of two accepted spheres are within 30 u S of each other, so their heights above their own grounds differ by less than the grounds
 /// and bound_margin do: by at most band_overlap where equal bands alone are compared.
+///
+/// Distances. With v = D - (r_A + r_B), |a| + r_A <= P_A and |d| <= |a| + |b| + D the float root of the square is off by
+///
+///     9.1 u |b| + 7.6 u |d| + (2 + 1.5 + 1) u D  <=  16.7 u S + 12.1 u v                                   (7)
+///
+/// and clearance() is, where no test of a hit accepts the two,
+///
+///     w = (sqrt(square) far - R) near        R = r_A + r_B,  far = 1 + 8 u,  near = 1 - 24 u
+///
+/// Never too large: the product adds 9 u D, the sum of radii u S, the difference and the last product u v each. Published radii have
+/// room for what is of S, near takes off what is of v, (distance). Above 0: a square that the test refuses has a root of at least
+/// R (1 - 1.5 u), and far lifts it above R.
+///
+/// Within d: the test with gap g = d (1 + 32 u), radii^2 = ((r_A + g) + r_B)^2, accepts all with w <= d. These have v <= d (1 + 26 u) and a
+/// root of at most (R + d (1 + 27 u)) (1 - 6 u), and the right side's own is at least (R + g) (1 - 3.5 u).
+///
+/// Bounds of spheres that may be within a gap g: what is accepted, or has w <= g, has v <= 30 u S + 48 u g + g; bounds that are apart by g, with
+/// |d| <= 2 S + g, bring 16 u g where they are placed, 11 u g along axes and 4 u g for squares and sums: (bound_share).
 namespace bch::detail::rounding {
 
 namespace terms {
@@ -61,6 +79,17 @@ static_assert(node_heights >= sphere_error + 3 * 6, "(5)");
 constexpr double axes = 330;
 static_assert(axes >= support_error + query_error + 4 * (root_2 + 2) + 15 * root_2 + 3, "(6)");
 
+constexpr double length_b = arm + 2 * sum, length_d = position + 3 * sum,
+                 length_between = 2 * apart + cube + 1;
+constexpr double of_distance = length_d + length_between, lifted = 8, shortened = 24;  // of D
+static_assert(of_distance <= 12.1 + 0x1p-40 && length_b + length_d <= 16.7 + 0x1p-40, "(7)");
+static_assert(sphere_error >= of_distance + lifted + 1 + 1 && of_distance + lifted + 1 >= length_b + length_d,
+              "what is of S");
+static_assert(shortened >= of_distance + lifted + 1 + 2, "(distance)");
+static_assert(lifted > 1.5 + 1 + 1, "the root and the product");
+constexpr double of_gap = 48 + 16 + 11 + 4;
+static_assert(48 >= shortened + 4 + of_distance);
+
 }  // namespace terms
 
 /// The margin of bounds of spheres, times the sum of both reaches.
@@ -68,6 +97,14 @@ constexpr double bound_margin = 400 * unit_roundoff;
 static_assert(bound_margin >= terms::nodes * unit_roundoff &&
               bound_margin >= terms::node_heights * unit_roundoff &&
               bound_margin >= terms::axes * unit_roundoff);
+
+/// The margin of bounds of spheres within a gap, times the gap.
+constexpr double bound_share = 128 * unit_roundoff;
+static_assert(bound_share >= terms::of_gap * unit_roundoff);
+/// What distances of centres and gaps are multiplied with in clearance().
+constexpr float far_centres = 1 + 0x1p-21f, near_gap = 1 - 0x1.8p-20f;
+static_assert(double{far_centres} - 1 == terms::lifted * unit_roundoff &&
+              1 - double{near_gap} == terms::shortened * unit_roundoff);
 
 /// The margin that is added to every sphere's radius, times the body's reach.
 constexpr double sphere_margin = terms::sphere_error * unit_roundoff;

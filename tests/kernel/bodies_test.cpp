@@ -71,6 +71,45 @@ TEST(Bodies, ACrowdFindsTheirCollisions) {
   EXPECT_EQ(found, expected);
 }
 
+TEST(Bodies, ACrowdFindsThoseThatAreNear) {
+  Random random(3);
+  const BodySet bodies = test::random_bodies(random);
+  const BodyCrowd crowd = test::random_body_crowd(random, 200, bodies.body_count(), 8, 4);
+  constexpr double limit = 0.5;
+  std::vector<float> distance(crowd.pairs.size());
+  clearance(bodies, crowd.agents(), crowd.pairs, {distance},
+            {.max_distance = limit, .overlap = Overlap::deepest});
+  std::map<std::pair<std::uint32_t, std::uint32_t>, float> expected, found;
+  for (std::size_t i = 0; i < distance.size(); ++i)
+    if (distance[i] <= static_cast<float>(limit))
+      expected[std::minmax(crowd.pairs[i].first, crowd.pairs[i].second)] = distance[i];
+  Crowd finder;
+  const CrowdBodyClearances near =
+      finder.clearances(bodies, crowd.agents(), limit, {.overlap = Overlap::deepest});
+  for (std::size_t i = 0; i < near.pairs.size(); ++i)
+    found[{near.pairs[i].first, near.pairs[i].second}] = near.distance[i];
+  EXPECT_EQ(found, expected);
+  const auto placed = placed_spheres(bodies, crowd);
+  const auto is_above = [&](const auto& each) {
+    return each.second > 0 && std::abs(crowd.z[each.first.first] - crowd.z[each.first.second]) > 2;
+  };
+  EXPECT_TRUE(std::any_of(expected.begin(), expected.end(), is_above)) << "some are near only in height";
+  for (std::size_t i = 0; i < near.pairs.size(); ++i) {
+    const auto [a, b] = near.pairs[i];
+    const auto [p, q] = near.points[i];
+    const Vec3 d = near.direction[i];
+    const float gap = near.distance[i];
+    EXPECT_NEAR(double{gap}, bch::gap(placed[a], placed[b]), 2e-5);
+    EXPECT_NEAR(crowd.x[a] + double{p.x + gap * d.x}, crowd.x[b] + double{q.x}, 2e-5);
+    EXPECT_NEAR(crowd.y[a] + double{p.y + gap * d.y}, crowd.y[b] + double{q.y}, 2e-5);
+    EXPECT_NEAR(crowd.z[a] + double{p.z + gap * d.z}, crowd.z[b] + double{q.z}, 2e-5);
+    const auto& sphere = placed[a][near.spheres[i].first];
+    const double at[] = {crowd.x[a] + double{p.x} - sphere[0], crowd.y[a] + double{p.y} - sphere[1],
+                         crowd.z[a] + double{p.z} - sphere[2]};
+    EXPECT_NEAR(std::hypot(at[0], at[1], at[2]), sphere[3], 2e-5);
+  }
+}
+
 TEST(Bodies, RefuseWhatIsNoBody) {
   const std::vector<std::vector<Sphere>> none(1), negative{{{0, 0, 0, -1}}},
       not_finite{{{0, 0, 0, 1}, {0, std::nanf(""), 0, 1}}}, a_point{{{0, 0, 0, 0}}};

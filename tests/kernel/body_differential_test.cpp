@@ -3,7 +3,10 @@
 
 #include <bch/collide.hpp>
 
+#include <bch/clearance.hpp>
+
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "baselines/body_reference.hpp"
@@ -20,26 +23,96 @@ using test::Random;
 
 using Hits = std::vector<std::uint8_t>;
 
+/// Holds all answers about the distances of pairs.
+struct Distances {
+  std::vector<float> distance;
+  std::vector<Vec3> direction;
+  std::vector<DiscPair> spheres;
+  std::vector<NearestSpacePoints> points;
+
+  explicit Distances(std::size_t pairs) : distance(pairs), direction(pairs), spheres(pairs), points(pairs) {}
+  Distances(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs,
+            const QueryOptions& options)
+      : Distances(pairs.size()) {
+    clearance(bodies, agents, pairs, {distance, direction, spheres, points}, options);
+  }
+};
+
+/// Holds the reference's answers about pairs.
+struct Expected {
+  Hits hits;
+  std::vector<baselines::BodyClearance> nearest;
+  std::vector<double> distances;  ///< those of the pairs, or a little less or more
+  Hits within;                    ///< these distances
+
+  Expected(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs) {
+    const baselines::BodyReference reference(bodies);
+    for (const Pair pair : pairs) {
+      hits.push_back(reference.collide(agents, pair));
+      nearest.push_back(reference.clearance(agents, pair));
+      const double factor[] = {1 - 0x1p-18, 1, 1.1};
+      distances.push_back(std::max(0.0, static_cast<double>(nearest.back().distance)) *
+                          factor[distances.size() % 3]);
+      within.push_back(reference.within(agents, pair, distances.back()));
+    }
+  }
+  void turn() {
+    for (baselines::BodyClearance& each : nearest) std::swap(each.first, each.second);
+  }
+};
+
+/// Expects the reference's distances, and that what goes with them is the same whatever overlaps and limits are asked for.
+void expect_distances(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs,
+                      const Expected& expected, const Implementation& implementation) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  const Distances deepest(bodies, agents, pairs,
+                          {.implementation = &implementation, .overlap = Overlap::deepest});
+  const Distances apart(bodies, agents, pairs, {.implementation = &implementation});
+  std::vector<float> sorted = apart.distance;
+  std::sort(sorted.begin(), sorted.end());
+  const float limit = sorted[sorted.size() / 2];
+  const Distances limited(bodies, agents, pairs,
+                          {.implementation = &implementation, .max_distance = static_cast<double>(limit)});
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const float distance = expected.nearest[i].distance;
+    const DiscPair spheres{expected.nearest[i].first, expected.nearest[i].second};
+    ASSERT_EQ(deepest.distance[i], distance) << "pair " << i;
+    ASSERT_EQ(deepest.spheres[i], spheres) << "pair " << i;
+    const bool overlap = distance <= 0, is_near = distance <= limit;
+    ASSERT_EQ(overlap, expected.hits[i] == 1) << "pair " << i;
+    ASSERT_EQ(apart.distance[i], overlap ? 0 : distance) << "pair " << i;
+    ASSERT_EQ(apart.spheres[i], overlap ? no_discs : spheres) << "pair " << i;
+    ASSERT_EQ(apart.points[i], overlap ? NearestSpacePoints{} : deepest.points[i]) << "pair " << i;
+    ASSERT_EQ(apart.direction[i], overlap ? Vec3{} : deepest.direction[i]) << "pair " << i;
+    ASSERT_EQ(limited.distance[i], is_near ? apart.distance[i] : infinity) << "pair " << i;
+    ASSERT_EQ(limited.spheres[i], is_near ? apart.spheres[i] : no_discs) << "pair " << i;
+  }
+  Hits near(pairs.size());
+  within(bodies, agents, pairs, expected.distances, near, &implementation);
+  EXPECT_EQ(near, expected.within);
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    ASSERT_TRUE(near[i] == 1 || i % 3 == 0 || expected.hits[i] == 1) << "pair " << i;
+}
+
 /// Returns the reference's answers, and expects them of all implementations, and of pairs the other way round.
 Hits expect_reference(const BodySet& bodies, const BodyCrowd& crowd, const Agents& agents) {
-  const baselines::BodyReference reference(bodies);
-  Hits expected;
+  Expected expected(bodies, agents, crowd.pairs);
   std::vector<Pair> swapped;
-  for (const Pair pair : crowd.pairs) {
-    expected.push_back(reference.collide(agents, pair));
-    swapped.push_back({pair.second, pair.first});
-  }
+  for (const Pair pair : crowd.pairs) swapped.push_back({pair.second, pair.first});
   Hits hits(crowd.pairs.size());
-  for (const Implementation& implementation : test::supported())
-    for (const auto& pairs : {crowd.pairs, swapped}) {
+  for (const auto& pairs : {crowd.pairs, swapped}) {
+    for (const Implementation& implementation : test::supported()) {
+      SCOPED_TRACE(implementation.name);
       std::fill(hits.begin(), hits.end(), std::uint8_t{2});
       collide(bodies, agents, pairs, hits, &implementation);
-      const auto at = std::mismatch(hits.begin(), hits.end(), expected.begin()).first - hits.begin();
+      const auto at = std::mismatch(hits.begin(), hits.end(), expected.hits.begin()).first - hits.begin();
       if (static_cast<std::size_t>(at) < hits.size())
-        ADD_FAILURE() << implementation.name << " pair " << at << ": "
-                      << int{hits[static_cast<std::size_t>(at)]};
+        ADD_FAILURE() << "pair " << at << ": " << int{hits[static_cast<std::size_t>(at)]};
+      expect_distances(bodies, agents, pairs, expected, implementation);
     }
-  return expected;
+    expected.turn();
+  }
+  return expected.hits;
 }
 Hits expect_reference(const BodySet& bodies, const BodyCrowd& crowd) {
   return expect_reference(bodies, crowd, crowd.agents());

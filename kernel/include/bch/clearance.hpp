@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include <bch/body_set.hpp>
 #include <bch/query.hpp>
 
 namespace bch {
@@ -93,6 +94,41 @@ void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pai
 void within(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
             std::span<const double> distances, std::span<std::uint8_t> answers,
             const QueryOptions& options = {});
+
+/// Holds the points of two bodies that are nearest to each other, as NearestPoints does, in space.
+struct NearestSpacePoints {
+  Vec3 first, second;
+  friend bool operator==(const NearestSpacePoints&, const NearestSpacePoints&) = default;
+};
+
+/// Holds the output arrays of clearance() of bodies, as ClearanceAnswers does, in space. Spheres have the numbers of BodySet::spheres().
+struct BodyClearanceAnswers {
+  std::span<float> distance;
+  std::span<Vec3> direction = {};
+  std::span<DiscPair> spheres = {};  ///< the nearest spheres, or no_discs
+  std::span<NearestSpacePoints> points = {};
+};
+
+/// Measures how far apart in space the bodies of the two agents of each pair are: the least gap between a sphere of one and a sphere of
+/// the other, or with Overlap::zero 0 where spheres overlap, that is, exactly where collide() answers 1.
+///
+/// It is never larger than the distance of what the spheres hold, and below the gap of the spheres by no more than 6 um per metre of the
+/// two bodies' reaches and of the distance. Directions, points, Overlap::deepest, ties and bits are as for a ShapeSet, in space; where
+/// centres coincide, the direction is (1, 0, 0).
+/// Options: max_distance, overlap, implementation.
+/// Sizes, errors, threads: as for clearance() of a ShapeSet, without levels.
+void clearance(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs,
+               const BodyClearanceAnswers& answers, const QueryOptions& options = {});
+
+/// Tests whether the bodies of the two agents of each pair come within a distance of each other in space, and writes 1 if so and 0
+/// otherwise: whether some sphere of one is within the distance of some sphere of the other. Within 0 are those that collide.
+///
+/// The answer is 1 wherever clearance() is at most the given distance, and clearance() is at most that and 4 um per metre of it and of the
+/// largest radii where the answer is 1. It has the same bits everywhere, and in either order of a pair.
+/// Units, sizes, errors, threads: as for within() of a ShapeSet, without levels. `implementation` is as in QueryOptions.
+void within(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs,
+            std::span<const double> distances, std::span<std::uint8_t> answers,
+            const Implementation* implementation = nullptr);
 
 /// Tells how far the first agent of a pair has to move to be free of the second, which stays, and in which direction.
 ///

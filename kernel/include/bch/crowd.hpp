@@ -60,6 +60,13 @@ struct BodyCollisionOptions {
   const Implementation* implementation = nullptr;
 };
 
+/// Holds the options of Crowd::clearances() of bodies of spheres.
+struct BodyClearanceOptions {
+  Overlap overlap = Overlap::zero;
+  PairFilter filter = {};
+  const Implementation* implementation = nullptr;
+};
+
 /// Holds the options of Crowd::clearances().
 struct CrowdClearanceOptions {
   Leaves leaves = Leaves::discs;  ///< what distances are measured from, see QueryOptions::distance_leaves
@@ -101,6 +108,7 @@ class CrowdPairs {
 
  private:
   friend class Crowd;
+  friend struct detail::CrowdMemory;
   CrowdPairs(std::span<const Pair> pairs, detail::CrowdMemory& memory) noexcept
       : pairs_(pairs), memory_(&memory) {}
 
@@ -121,6 +129,15 @@ struct CrowdClearances {
   std::span<const Vec2> direction;
   std::span<const DiscPair> discs;
   std::span<const NearestPoints> points;
+};
+
+/// Holds the pairs of a crowd of bodies of spheres that are near each other. The meaning of arrays is that of BodyClearanceAnswers.
+struct CrowdBodyClearances {
+  CrowdPairs pairs;
+  std::span<const float> distance;
+  std::span<const Vec3> direction;
+  std::span<const DiscPair> spheres;
+  std::span<const NearestSpacePoints> points;
 };
 
 /// Holds the pairs of a crowd that collide, and how far the first agent of each has to move to be free of the second.
@@ -161,8 +178,8 @@ class Crowd {
   /// Finds the pairs for which collide() answers 1.
   CrowdPairs collisions(const ShapeSet& shapes, const Agents& agents, const CollisionOptions& options = {}) &;
 
-  // The same of bodies of spheres. Candidates are those whose discs, as seen from above, come within the margin of each other, and whose
-  // heights meet.
+  // The same of bodies of spheres. Candidates are those whose discs, as seen from above, and whose heights come within the margin of each
+  // other.
   CrowdPairs candidates(const BodySet& bodies, const Agents& agents, const CandidateOptions& options = {}) &;
   CrowdPairs collisions(const BodySet& bodies, const Agents& agents,
                         const BodyCollisionOptions& options = {}) &;
@@ -189,6 +206,11 @@ class Crowd {
   /// Finds the pairs whose clearance() is at most `within`, metres, finite.
   CrowdClearances clearances(const ShapeSet& shapes, const Agents& agents, double within,
                              const CrowdClearanceOptions& options = {}) &;
+
+  /// Finds the same of bodies of spheres, in space. With Overlap::deepest it has a contact of each pair that collides: where the deepest
+  /// two spheres overlap, with a normal and a depth that grows from 0, for physics.
+  CrowdBodyClearances clearances(const BodySet& bodies, const Agents& agents, double within,
+                                 const BodyClearanceOptions& options = {}) &;
 
   /// Finds the pairs that collide, and their penetration().
   CrowdPenetrations penetrations(const ShapeSet& shapes, const Agents& agents,
