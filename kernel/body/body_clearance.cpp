@@ -7,6 +7,7 @@
 
 #include <bch/clearance.hpp>
 
+#include "kernel/body/agent_sphere.hpp"
 #include "kernel/body/body_clearance_arguments.hpp"
 #include "kernel/distance/clearance_arguments.hpp"
 #include "kernel/distance/distance_input.hpp"
@@ -14,7 +15,6 @@
 #include "kernel/runtime/pair_validation.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 #include "layout/base/floating_point_state.hpp"
-#include "layout/base/heading.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/body/body_record.hpp"
 
@@ -23,37 +23,6 @@ namespace bch {
 using namespace detail;
 
 namespace {
-
-struct SpaceVector {
-  double x, y, z;
-};
-
-Vec3 rounded(const SpaceVector& v) {
-  return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
-/// Represents a sphere of an agent: relative to the agent's position, in the world's axes.
-struct AgentSphere {
-  SpaceVector centre;
-  double radius;
-
-  AgentSphere(const BodySetView& bodies, const Agents& agents, std::uint32_t agent, std::uint32_t slot) {
-    const float* const record = bodies.record(agents.shape[agent]);
-    const BodyHeader& header = header_of(record);
-    const std::size_t size = header.leaf_size;
-    const float* const x =
-        record + record_nodes + 5 * header.node_stride + 4 * size * (slot / size) + slot % size;
-    const auto [c, s] = rotation(agents.heading[agent]);
-    const double at_x = double{x[0]}, at_y = double{x[size]};
-    centre = {c * at_x - s * at_y, s * at_x + c * at_y, double{x[2 * size]}};
-    radius = double{x[3 * size]};
-  }
-  /// Returns the point of the sphere that is farthest along a unit vector, or with a sign of -1 against it.
-  Vec3 end(const SpaceVector& unit, double sign) const {
-    const double r = sign * radius;
-    return rounded({centre.x + r * unit.x, centre.y + r * unit.y, centre.z + r * unit.z});
-  }
-};
 
 /// Holds what was found of a pair of agents, and all outputs of it: in double, from the positions themselves. A is the lower index.
 class FoundSpheres {

@@ -16,13 +16,6 @@ namespace {
 
 using Vector = ObstaclePlace::Vector;
 
-/// Returns the vector from a point to the nearest one of a segment, in the agent's frame.
-Vector to_nearest_point(const LocalSegment& segment, double x, double y) noexcept {
-  const double along = segment.along(x, y), aside = -segment.across(x, y);
-  const double forward = std::clamp(along, segment.from, segment.to) - along;
-  return {forward * segment.x - aside * segment.y, forward * segment.y + aside * segment.x};
-}
-
 double square(Vector v) noexcept {
   return v.x * v.x + v.y * v.y;
 }

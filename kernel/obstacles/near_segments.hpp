@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -35,6 +36,13 @@ struct ObstaclePlace {
 };
 
 constexpr std::uint32_t no_obstacle = 0xffffffff;
+
+/// Returns the vector from a point to the nearest one of a segment, in the agent's frame.
+inline ObstaclePlace::Vector to_nearest_point(const LocalSegment& segment, double x, double y) noexcept {
+  const double along = segment.along(x, y), aside = -segment.across(x, y);
+  const double forward = std::clamp(along, segment.from, segment.to) - along;
+  return {forward * segment.x - aside * segment.y, forward * segment.y + aside * segment.x};
+}
 
 /// Represents a disc that is asked about, of an agent's frame.
 struct NearQuery {

@@ -2,15 +2,64 @@
 // Copyright (c) 2026 the bch authors
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include <bch/obstacles.hpp>
 
+#include "kernel/body/agent_sphere.hpp"
 #include "kernel/distance/distance_input.hpp"
 #include "kernel/obstacles/query_input.hpp"
 
 namespace bch {
 
 using namespace detail;
+
+namespace {
+
+/// Holds the sphere of an agent and the point of an obstacle that are nearest to each other, relative to the agent's position.
+class FoundObstacle {
+ public:
+  FoundObstacle(const BodySetView& bodies, const Agents& agents, std::uint32_t agent,
+                const ObstacleView& obstacles, const SphereGap& nearest)
+      : sphere_(bodies, agents, agent, nearest.slot), at_(sphere_.centre) {
+    if (!nearest.is_inside) {
+      const Sphere own = sphere_of(bodies.record(agents.shape[agent]), nearest.slot);
+      const auto [x, y] = to_nearest_point(nearest.segment, double{own.x}, double{own.y});
+      const auto [c, s] = rotation(agents.heading[agent]);
+      at_.x += c * x - s * y, at_.y += s * x + c * y;
+    }
+    if (obstacles.heights != nullptr) {
+      const double ground = agents.z.empty() ? 0 : agents.z[agent];
+      const auto [bottom, top] = obstacles.heights[nearest.obstacle];
+      at_.z = std::clamp(at_.z, bottom - ground, top - ground);
+    }
+    const SpaceVector way{at_.x - sphere_.centre.x, at_.y - sphere_.centre.y, at_.z - sphere_.centre.z};
+    const double length = std::sqrt((way.x * way.x + way.y * way.y) + way.z * way.z);
+    unit_ = length > 0 ? SpaceVector{way.x / length, way.y / length, way.z / length} : SpaceVector{1, 0, 0};
+  }
+
+  Vec3 direction() const { return rounded(unit_); }
+  NearestSpacePoints points() const { return {sphere_.end(unit_, 1), rounded(at_)}; }
+
+ private:
+  const AgentSphere sphere_;
+  SpaceVector at_, unit_;
+};
+
+void put(const BodySetView& bodies, const Agents& agents, std::uint32_t agent, const ObstacleView& obstacles,
+         const SphereGap& nearest, const BodyClearanceAnswers& answers) {
+  answers.distance[agent] = rounding::round_down(nearest.gap);
+  if (answers.direction.empty() && answers.spheres.empty() && answers.points.empty()) return;
+  const FoundObstacle found(bodies, agents, agent, obstacles, nearest);
+  if (!answers.direction.empty()) answers.direction[agent] = found.direction();
+  if (!answers.spheres.empty())
+    answers.spheres[agent] = {bodies.number(agents.shape[agent], nearest.slot),
+                              nearest.is_inside ? no_discs.second : nearest.segment.number};
+  if (!answers.points.empty()) answers.points[agent] = found.points();
+}
+
+}  // namespace
 
 void collide(const BodySet& bodies, const Agents& agents, const ObstacleSet& obstacles,
              std::span<std::uint8_t> hits, const Implementation* wanted) {
@@ -39,6 +88,24 @@ void within(const BodySet& bodies, const Agents& agents, const ObstacleSet& obst
   for_agents(implementation, bodies.view(), agents, obstacles, most, Look::nearest,
              [&](SphereQuery& query, std::uint32_t agent) {
                answers[agent] = query.find(agent, distances[distances.size() == 1 ? 0 : agent]).is_found;
+             });
+}
+
+void clearance(const BodySet& bodies, const Agents& agents, const ObstacleSet& obstacles,
+               const BodyClearanceAnswers& answers, const QueryOptions& options) {
+  const FloatingPointStateGuard floats;
+  require_valid({"clearance", "agent", agents.size()}, answers, options);
+  const Implementation& implementation = chosen(options, "clearance");
+  const BodySetView& view = bodies.view();
+  require_valid_agents(view.ground, agents);
+  const bool zero = options.overlap == Overlap::zero;
+  for_agents(implementation, view, agents, obstacles, options.max_distance, Look::nearest,
+             [&](SphereQuery& query, std::uint32_t agent) {
+               const SphereGap nearest = query.find(agent, options.max_distance);
+               if (!nearest.is_found)
+                 return put_alone(answers, agent, std::numeric_limits<float>::infinity());
+               if (zero && nearest.gap <= 0) return put_alone(answers, agent, 0);
+               put(view, agents, agent, obstacles.view(), nearest, answers);
              });
 }
 

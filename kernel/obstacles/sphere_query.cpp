@@ -101,8 +101,9 @@ void SphereQuery::improve(std::span<const LocalSegment> segments, std::uint32_t 
       const double d = is_inside ? 0 : std::max(segment.distance, 0.0);
       const double gap = std::sqrt(d * d + h * h) - r;
       if (gap < nearest.gap || (gap == nearest.gap && !nearest.is_found))
-        nearest = {gap, leaf * size + i, segment.segment == nullptr ? LocalSegment{} : *segment.segment, true,
-                   is_inside};
+        nearest = {gap,      leaf * size + i,
+                   obstacle, segment.segment == nullptr ? LocalSegment{} : *segment.segment,
+                   true,     is_inside};
     }
   }
 }

@@ -15,6 +15,7 @@ namespace bch::detail {
 struct SphereGap {
   double gap;              ///< metres; of nothing found, the limit
   std::uint32_t slot = 0;  ///< of the sphere
+  std::uint32_t obstacle = no_obstacle;
   LocalSegment segment = {};
   bool is_found = false;
   bool is_inside = false;  ///< the area holds the centre, as seen from above; the segment says nothing then

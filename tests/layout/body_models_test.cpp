@@ -103,7 +103,7 @@ TEST(ModelBytes, OfUsersAreCheckedLikeModels) {
   EXPECT_TRUE(test::has(test::complaint([] { to_bytes(BodyModel{}); }), "expected a character, found none"));
   BodyModel odd = test::plain_model(default_male(), 16);
   odd.core[3] = 16;
-  EXPECT_TRUE(test::has(test::complaint([&] { to_bytes(thin); }), "core spheres below 16, found 16"));
+  EXPECT_TRUE(test::has(test::complaint([&] { to_bytes(odd); }), "core spheres below 16, found 16"));
 }
 
 TEST(DefaultBodies, AreModelsOfTheirCharacters) {

@@ -133,6 +133,14 @@ void within(const BodySet& bodies, const Agents& agents, const ObstacleSet& obst
             std::span<const double> distances, std::span<std::uint8_t> answers,
             const Implementation* implementation = nullptr);
 
+/// Measures how far each agent is in space from the nearest obstacle: the least gap between a sphere and an obstacle, or with
+/// Overlap::zero 0 where they touch. The direction leads from the agent to the obstacle; `spheres` has the number of the sphere and that of
+/// the segment, which is 2^32 - 1 above, in and below an area. Points are relative to the agent's position. Of equal gaps that of the
+/// first obstacle counts. Where collide() answers 1 the distance is 0, and nowhere else.
+/// Options: max_distance, overlap, implementation.
+void clearance(const BodySet& bodies, const Agents& agents, const ObstacleSet& obstacles,
+               const BodyClearanceAnswers& answers, const QueryOptions& options = {});
+
 /// Measures how far each agent is from the nearest obstacle: the least gap between a disc of its cut and a segment, or 0 where they
 /// overlap, an area holds a disc or the agent's outline a whole path. The direction leads from the agent to the obstacle. `discs` has the agent's disc and the
 /// number of the segment; of equal gaps the first disc counts, and then the first segment. `points` are both relative to the agent's

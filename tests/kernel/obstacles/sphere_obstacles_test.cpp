@@ -84,6 +84,12 @@ void expect_right(const BodySet& bodies, const BodyCrowd& crowd, const ObstacleS
     within(bodies, agents, obstacles, distances, others, &implementation);
     EXPECT_EQ(others, near) << implementation.name;
   }
+  std::vector<float> distance(n), deepest(n);
+  std::vector<Vec3> direction(n);
+  std::vector<DiscPair> which(n);
+  std::vector<NearestSpacePoints> points(n);
+  clearance(bodies, agents, obstacles, {distance, direction, which, points});
+  clearance(bodies, agents, obstacles, {.distance = deepest}, {.overlap = Overlap::deepest});
   Crowd finder;
   const Rows<std::uint32_t> rows = finder.obstacles(bodies, agents, obstacles);
   for (std::uint32_t agent = 0; agent < n; ++agent) {
@@ -98,6 +104,22 @@ void expect_right(const BodySet& bodies, const BodyCrowd& crowd, const ObstacleS
     EXPECT_EQ(hits[agent] != 0, !rows[agent].empty());
     expect_answer(hits[agent] != 0, least, 0, "hit", agent);
     expect_answer(near[agent] != 0, least, distances[agent], "within", agent);
+    if (least == unlimited) {
+      EXPECT_EQ(distance[agent], HUGE_VALF);
+      continue;
+    }
+    EXPECT_NEAR(deepest[agent], static_cast<double>(least),
+                1e-6 * (1 + std::abs(static_cast<double>(least))));
+    EXPECT_EQ(distance[agent] == 0, hits[agent] != 0 || deepest[agent] == 0) << deepest[agent];
+    if (distance[agent] == 0) continue;
+    EXPECT_EQ(distance[agent], deepest[agent]);
+    const auto [from, to] = points[agent];
+    const auto along = [&](float Vec3::*axis) {
+      return double{from.*axis} + double{distance[agent]} * double{direction[agent].*axis} - double{to.*axis};
+    };
+    EXPECT_LT(std::hypot(along(&Vec3::x), along(&Vec3::y), along(&Vec3::z)),
+              1e-5 * (1 + double{distance[agent]}));
+    EXPECT_LT(which[agent].first, spheres.size());
   }
 }
 
