@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <bch/bodies.hpp>
+#include <bch/pose_shape.hpp>
 
 #include "bench/base/command_line.hpp"
 #include "bench/characters/characters.hpp"
@@ -27,6 +28,9 @@ struct BodyKind {
 
 /// Adds the option --spheres, how many each body has.
 void add_spheres_option(CLI::App& command, std::uint32_t& spheres);
+
+/// Poses a body a source, of the models of its character.
+LiveBodies posed_bodies(std::span<const BodyModel> models, std::span<const ShapeSource> sources);
 
 /// Makes models of bodies of so many spheres, one a character, as drafts, with a progress bar.
 /// Errors:  throws InputError naming the character that make_body() refuses.

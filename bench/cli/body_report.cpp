@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/base/text.hpp"
+#include "bench/characters/body_models.hpp"
 #include "bench/cli/inspection.hpp"
 
 namespace bch::cli {
@@ -18,10 +19,7 @@ std::vector<bool> BodyFacts::are_core() const {
 }
 
 BodyFacts examine(const BodyModel& model, const ShapeSource& source) {
-  const std::uint32_t first = 0;
-  LiveBodies bodies({&model, 1}, {&first, 1});
-  const Pose pose(source.at);
-  bodies.pose({&pose, 1});
+  const LiveBodies bodies = posed_bodies({&model, 1}, {&source, 1});
   const BodySet& set = bodies.set();
   return {source, model, set.spheres(0), set.heights(0), set.bytes()};
 }

@@ -12,6 +12,7 @@
 
 #include <bch/body_set.hpp>
 #include <bch/collide.hpp>
+#include <bch/crowd.hpp>
 
 #include "bench/base/options.hpp"
 #include "bench/characters/crowd.hpp"
@@ -76,6 +77,7 @@ std::vector<Pair> hits_of(const CrowdAnswers& answers);
 std::string csv_of(std::span<const Pair> pairs);
 /// Orders pairs by their first, then their second agents.
 bool before(Pair a, Pair b);
+std::vector<Pair> sorted(const CrowdPairs& found);
 /// Names characters, with their numbers of triangles.
 std::string names_of(std::span<const LoadedCharacter> characters);
 /// Says how many agents stand where.

@@ -51,9 +51,7 @@ std::vector<Pair> candidates_of_all_levels(const ShapeSet& shapes, const Crowd& 
   std::vector<Pair> all;
   for (std::uint32_t level = 0; level < shapes.level_count(); ++level) {
     const std::vector<std::uint8_t> levels(crowd.size(), static_cast<std::uint8_t>(level));
-    const CrowdPairs found = finder.candidates(shapes, crowd.at_level(levels));
-    std::vector<Pair> some(found.begin(), found.end());
-    std::sort(some.begin(), some.end(), before);
+    const std::vector<Pair> some = sorted(finder.candidates(shapes, crowd.at_level(levels)));
     std::vector<Pair> both;
     std::set_union(all.begin(), all.end(), some.begin(), some.end(), std::back_inserter(both), before);
     all = std::move(both);
@@ -65,6 +63,12 @@ std::vector<Pair> candidates_of_all_levels(const ShapeSet& shapes, const Crowd& 
 
 bool before(Pair a, Pair b) {
   return std::tie(a.first, a.second) < std::tie(b.first, b.second);
+}
+
+std::vector<Pair> sorted(const CrowdPairs& found) {
+  std::vector<Pair> pairs(found.begin(), found.end());
+  std::sort(pairs.begin(), pairs.end(), before);
+  return pairs;
 }
 
 std::vector<Pair> hits_of(const CrowdAnswers& answers) {

@@ -31,22 +31,10 @@ constexpr double compared_spheres = 2e9;  ///< pairs of spheres that a check com
 /// Metres: nearer to touching, float and double may differ.
 constexpr double rounding_band = 1e-5;
 
-std::vector<std::uint32_t> characters_of(std::span<const ShapeSource> poses) {
-  std::vector<std::uint32_t> characters;
-  for (const ShapeSource& pose : poses) characters.push_back(pose.character);
-  return characters;
-}
-
 void pose(LiveBodies& bodies, std::span<const ShapeSource> sources, std::vector<Pose>& poses) {
   poses.clear();
   for (const ShapeSource& source : sources) poses.emplace_back(source.at);
   bodies.pose(poses);
-}
-
-std::vector<Pair> sorted(const CrowdPairs& found) {
-  std::vector<Pair> pairs(found.begin(), found.end());
-  std::sort(pairs.begin(), pairs.end(), before);
-  return pairs;
 }
 
 /// Returns the least gap between any two spheres of two agents, below 0 where they overlap.
@@ -134,7 +122,7 @@ void run_live_crowd(const CrowdOptions& options) {
   const auto characters = load_characters(options.characters, options.shapes.import_options());
   const Threads threads(options.answer.threads);
   WalkingCrowd crowd(characters, options.agents, options.density, options.seed);
-  LiveBodies bodies(make_models(characters, options.spheres), characters_of(crowd.poses()));
+  LiveBodies bodies = posed_bodies(make_models(characters, options.spheres), crowd.poses());
   const Implementation* const implementation = options.answer.query_options().implementation;
   LiveRun run{options, characters, crowd, bodies, {}, {}, {}, 0, implementation->name, threads.count};
   bch::Crowd finder;

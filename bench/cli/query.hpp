@@ -10,19 +10,22 @@
 #include <utility>
 #include <vector>
 
+#include <bch/body_set.hpp>
 #include <bch/geometry.hpp>
 #include <bch/obstacles.hpp>
 #include <bch/query.hpp>
 
 #include "bench/base/csv_input.hpp"
 #include "bench/base/options.hpp"
+#include "bench/characters/body_models.hpp"
 #include "bench/recordings/parts.hpp"
 
 namespace bch::cli {
 
 /// Holds the input of a query.
 struct QueryInput {
-  const ShapeSet& set;
+  const ShapeSet* set;    ///< the bodies, or
+  const BodySet* bodies;  ///< those of spheres; one of the two is there
   const AgentTable& table;
   std::span<const Pair> pairs;
   QueryOptions options;
@@ -43,6 +46,7 @@ struct QueryKind {
   std::string (*rows)(const QueryInput& input);
   bool moving = false;       ///< asks how agents move
   bool of_obstacles = true;  ///< can be asked about obstacles
+  bool of_spheres = false;   ///< can be asked of bodies of spheres
 };
 
 /// More columns of a clearance.
@@ -64,6 +68,9 @@ std::string query_help();
 /// Errors:  throws std::length_error where there are more pairs of neighbours than `most`.
 std::vector<Pair> all_pairs(const ShapeSet& set, const AgentTable& table, const std::string& what,
                             const QueryOptions& options, std::size_t most);
+/// Returns all pairs of bodies of spheres that collide, likewise.
+std::vector<Pair> all_pairs(const BodySet& bodies, const AgentTable& table, const QueryOptions& options,
+                            std::size_t most);
 
 /// Holds what the command line of bch query says.
 struct QueryCommandOptions {
@@ -79,6 +86,7 @@ struct QueryCommandOptions {
   bool points = false;
   PartOptions part;
   std::optional<Part> only;  ///< of pairs, or of agents by obstacles
+  BodyKind kind;
   ShapeOptions shapes;
   AnswerOptions answer;
 

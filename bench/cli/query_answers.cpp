@@ -14,6 +14,8 @@
 #include <bch/crowd.hpp>
 #include <bch/time_of_impact.hpp>
 
+#include "bench/cli/crowd.hpp"
+
 namespace bch::cli {
 namespace {
 
@@ -51,15 +53,18 @@ void ask(const QueryInput& input, Query query) {
 
 std::string collide_rows(const QueryInput& input) {
   std::vector<std::uint8_t> hits(input.size());
-  ask(input,
-      [&](const auto& about) { collide(input.set, input.table.agents(), about, hits, input.options); });
+  if (input.bodies != nullptr)
+    collide(*input.bodies, input.table.agents(), input.pairs, hits, input.options.implementation);
+  else
+    ask(input,
+        [&](const auto& about) { collide(*input.set, input.table.agents(), about, hits, input.options); });
   return hit_rows(input, hits);
 }
 
 std::string contact_rows(const QueryInput& input) {
   bch::Crowd crowd;
   const Rows<DiscPair> rows =
-      crowd.contacts(input.set, input.table.agents(), input.pairs,
+      crowd.contacts(*input.set, input.table.agents(), input.pairs,
                      {.leaves = input.options.leaves, .implementation = input.options.implementation});
   std::string out;
   for (std::size_t i = 0; i < input.pairs.size(); ++i)
@@ -72,12 +77,12 @@ std::string penetration_rows(const QueryInput& input) {
   std::vector<Penetration> ways(input.size());
   const Agents agents = input.table.agents();
   if (input.obstacles != nullptr) {
-    penetration(input.set, agents, *input.obstacles, ways, input.options);
+    penetration(*input.set, agents, *input.obstacles, ways, input.options);
   } else if (input.direction) {
     const std::vector<Vec2> along(input.pairs.size(), *input.direction);
-    penetration_along(input.set, agents, input.pairs, along, ways, input.options);
+    penetration_along(*input.set, agents, input.pairs, along, ways, input.options);
   } else {
-    penetration(input.set, agents, input.pairs, input.directions, ways, input.options);
+    penetration(*input.set, agents, input.pairs, input.directions, ways, input.options);
   }
   std::string out;
   for (std::size_t i = 0; i < ways.size(); ++i)
@@ -91,7 +96,7 @@ std::string clearance_rows(const QueryInput& input) {
   std::vector<Vec2> direction(input.size());
   std::vector<NearestPoints> points(input.points ? input.size() : 0);
   ask(input, [&](const auto& about) {
-    clearance(input.set, input.table.agents(), about,
+    clearance(*input.set, input.table.agents(), about,
               ClearanceAnswers{.distance = distance, .direction = direction, .points = points},
               input.options);
   });
@@ -112,7 +117,7 @@ std::string within_rows(const QueryInput& input) {
   std::vector<std::uint8_t> hits(input.size());
   const std::span<const double> distance(&input.options.max_distance, 1);
   ask(input, [&](const auto& about) {
-    within(input.set, input.table.agents(), about, distance, hits, input.options);
+    within(*input.set, input.table.agents(), about, distance, hits, input.options);
   });
   return hit_rows(input, hits);
 }
@@ -121,12 +126,12 @@ std::string time_of_impact_rows(const QueryInput& input) {
   const AgentTable& table = input.table;
   std::vector<float> time(input.size());
   if (input.obstacles != nullptr) {
-    time_of_impact(input.set, table.agents(), {table.dx, table.dy}, *input.obstacles, time, input.options);
+    time_of_impact(*input.set, table.agents(), {table.dx, table.dy}, *input.obstacles, time, input.options);
   } else {
     std::vector<double> x, y;
     for (const auto [first, second] : input.pairs)
       x.push_back(table.dx[first] - table.dx[second]), y.push_back(table.dy[first] - table.dy[second]);
-    time_of_impact(input.set, table.agents(), input.pairs, {x, y}, time, input.options);
+    time_of_impact(*input.set, table.agents(), input.pairs, {x, y}, time, input.options);
   }
   std::string out;
   for (std::size_t i = 0; i < time.size(); ++i) out += fmt::format("{},{}\n", ids(input, i), time[i]);
@@ -134,7 +139,7 @@ std::string time_of_impact_rows(const QueryInput& input) {
 }
 
 constexpr QueryKind kinds[] = {
-    {"collide", "hit", "1 where the agents collide, else 0", collide_rows},
+    {"collide", "hit", "1 where the agents collide, else 0", collide_rows, false, true, true},
     {"clearance", "distance,x,y",
      R"(the least gap between their discs or, with --leaves segments,
                  their outlines, in metres, and the unit vector from the first to the second; 0,0,0 where
@@ -189,15 +194,19 @@ std::string query_help() {
   return text;
 }
 
+std::vector<Pair> all_pairs(const BodySet& bodies, const AgentTable& table, const QueryOptions& options,
+                            std::size_t most) {
+  bch::Crowd crowd({.most_pairs = most});
+  return sorted(crowd.collisions(bodies, table.agents(), {.implementation = options.implementation}));
+}
+
 std::vector<Pair> all_pairs(const ShapeSet& set, const AgentTable& table, const std::string& what,
                             const QueryOptions& options, std::size_t most) {
   const Agents agents = table.agents();
   const bool of_distance = std::isfinite(options.max_distance);
   bch::Crowd crowd({.most_pairs = most});
-  const CrowdPairs found = crowd.candidates(set, agents, {.margin = of_distance ? options.max_distance : 0});
-  std::vector<Pair> pairs(found.begin(), found.end());
-  std::sort(pairs.begin(), pairs.end(),
-            [](Pair a, Pair b) { return a.first != b.first ? a.first < b.first : a.second < b.second; });
+  std::vector<Pair> pairs =
+      sorted(crowd.candidates(set, agents, {.margin = of_distance ? options.max_distance : 0}));
   std::vector<std::uint8_t> kept(pairs.size());
   if (!of_distance)
     collide(set, agents, pairs, kept, options);

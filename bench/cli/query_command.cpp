@@ -99,13 +99,20 @@ Question read_question(const QueryCommandOptions& options, std::size_t shapes, s
   return question;
 }
 
+/// What is asked: one of the two is there.
+struct AskedBodies {
+  const ShapeSet* shapes;
+  const BodySet* spheres;
+};
+
 /// Returns all pairs of neighbours that are asked about.
-std::vector<Pair> pairs_of_all(const QueryCommandOptions& options, const ShapeSet& set,
+std::vector<Pair> pairs_of_all(const QueryCommandOptions& options, const AskedBodies& bodies,
                                const AgentTable& table, const QueryOptions& how) {
   const std::size_t most =
       options.max_pairs > 0 ? options.max_pairs : detail::usual_most_pairs(table.id.size());
   try {
-    return all_pairs(set, table, options.what, how, most);
+    return bodies.spheres != nullptr ? all_pairs(*bodies.spheres, table, how, most)
+                                     : all_pairs(*bodies.shapes, table, options.what, how, most);
   } catch (const std::length_error&) {
     throw InputError(
         fmt::format("{}: more than {} pairs of agents are near each other; --max-pairs raises the limit",
@@ -116,7 +123,8 @@ std::vector<Pair> pairs_of_all(const QueryCommandOptions& options, const ShapeSe
 using Write = std::function<void(const std::string&)>;
 
 /// Writes the table of answers, piece by piece.
-void answer(const QueryCommandOptions& options, const ShapeSet& set, Question& question, const Write& write) {
+void answer(const QueryCommandOptions& options, const AskedBodies& bodies, Question& question,
+            const Write& write) {
   constexpr std::size_t at_once = 65'536;  // pairs, of which each may have many contacts
   auto& [table, pairs, obstacle_set] = question;
   const ObstacleSet* const obstacles = obstacle_set ? &*obstacle_set : nullptr;
@@ -124,7 +132,7 @@ void answer(const QueryCommandOptions& options, const ShapeSet& set, Question& q
   how.max_distance = options.max_distance;
   how.overlap = options.overlap == "zero" ? Overlap::zero : Overlap::deepest;
   how.distance_leaves = options.answer.leaves == "segments" ? Leaves::segments : Leaves::discs;
-  if (options.all_pairs) pairs = pairs_of_all(options, set, table, how);
+  if (options.all_pairs) pairs = pairs_of_all(options, bodies, table, how);
   const QueryKind& kind = query_kind(options.what);
   std::string lines =
       fmt::format("{},{}{}\n", subject_columns(obstacles), kind.columns, options.points ? point_columns : "");
@@ -132,8 +140,8 @@ void answer(const QueryCommandOptions& options, const ShapeSet& set, Question& q
   std::size_t begin = 0;
   do {
     const std::span<const Pair> some = all.subspan(begin, std::min(at_once, all.size() - begin));
-    lines += kind.rows(
-        {set, table, some, how, options.directions, options.only_direction(), options.points, obstacles});
+    lines += kind.rows({bodies.shapes, bodies.spheres, table, some, how, options.directions,
+                        options.only_direction(), options.points, obstacles});
     write(lines);
     lines.clear();
     begin += some.size();
@@ -156,8 +164,20 @@ void query_character(const QueryCommandOptions& options, const Write& write) {
   const BuiltShapes built = build_shapes({&from, 1}, used, options.shapes.threshold, plan, limits);
   const ShapeSet set(built.shapes, plan);
   guard.reset();
-  answer(options, set, question, write);
+  answer(options, {&set, nullptr}, question, write);
   std::fputs(notes_text({&from, 1}).c_str(), stderr);  // standard output is for data
+}
+
+/// Bodies of spheres are posed, not built.
+void query_spheres(const QueryCommandOptions& options, const Write& write) {
+  const std::vector<LoadedCharacter> from{load_character(options.character, options.shapes.import_options())};
+  const auto sources = list_shapes(from, options.shapes.poses);
+  Question question = read_question(options, sources.size(), 1);
+  const Threads threads(options.answer.threads);
+  const auto used = keep_used(sources, question.table);
+  const LiveBodies bodies = posed_bodies(make_models(from, options.kind.spheres), used);
+  answer(options, {nullptr, &bodies.set()}, question, write);
+  std::fputs(notes_text(from).c_str(), stderr);  // standard output is for data
 }
 
 void query_baked(const QueryCommandOptions& options, const Write& write) {
@@ -167,10 +187,11 @@ void query_baked(const QueryCommandOptions& options, const Write& write) {
     throw InputError(options.character + ": was baked without heights, which agents with a z and " +
                      "--obstacle-heights need; bake it with --heights");
   const Threads threads(options.answer.threads);
-  answer(options, baked.set, question, write);
+  answer(options, {&baked.set, nullptr}, question, write);
 }
 
 void answer_all(const CLI::App& command, const QueryCommandOptions& options, const Write& write) {
+  if (options.kind.bodies == "spheres") return query_spheres(options, write);
   if (!is_baked(options.character)) return query_character(options, write);
   require_unsettled(command, options.character);
   query_baked(options, write);
@@ -227,7 +248,18 @@ void require_fitting(const CLI::App& command, const QueryCommandOptions& options
     if (misfit.is_one) require_absent(command, misfit.options, misfit.reason);
 }
 
+void require_of_spheres(const CLI::App& command, const QueryCommandOptions& options) {
+  const char* const reason = "belongs to outlines, not to --bodies spheres";
+  require_absent(command, {"--obstacles", "--depths", "--leaves", "--threshold"}, reason);
+  if (!query_kind(options.what).of_spheres)
+    throw UsageError(fmt::format("--what: '{}' {}", options.what, reason));
+  if (is_baked(options.character))
+    throw UsageError(options.character +
+                     ": a baked file has outlines alone, which --bodies spheres does not use");
+}
+
 void run_query(const CLI::App& command, const QueryCommandOptions& options) {
+  if (options.kind.are_spheres(command)) require_of_spheres(command, options);
   const bool walls = !options.obstacles.empty();
   const int named = int{options.all_pairs} + int{!options.pairs.empty()} + int{walls};
   if (named != 1)
@@ -330,6 +362,7 @@ Example: bch query default:female agents.csv pairs.csv > answers.csv)");
       "--points", options->points,
       "For clearance: also write the nearest points, relative to the positions of their agents, metres");
   options->part.add_to(command);
+  options->kind.add_to(command);
   options->shapes.add_to(command);
   options->answer.add_to(command);
   command.get_option("--leaves")

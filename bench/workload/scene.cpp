@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "baselines/reference.hpp"
+#include "bench/characters/body_models.hpp"
 #include "layout/character/skinning.hpp"
 
 namespace bch::bench {
@@ -64,15 +65,7 @@ const std::vector<BodyModel>& Scene::models(std::uint32_t spheres) {
 }
 
 LiveBodies Scene::live_bodies(std::uint32_t spheres) {
-  std::vector<std::uint32_t> model_of_body;
-  std::vector<Pose> poses;
-  for (const ShapeSource& source : sources()) {
-    model_of_body.push_back(source.character);
-    poses.emplace_back(source.at);
-  }
-  LiveBodies bodies(models(spheres), model_of_body);
-  bodies.pose(poses);
-  return bodies;
+  return cli::posed_bodies(models(spheres), sources());
 }
 
 const ShapeSet& Scene::set() {
