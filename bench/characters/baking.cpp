@@ -93,11 +93,16 @@ ShapeOrigins origins_of(std::span<const LoadedCharacter> characters, std::span<c
 
 BakedShapes bake_file(const std::string& file, std::span<const LoadedCharacter> characters,
                       std::span<const ShapeSource> sources, double threshold, const ShapeSetPlan& plan,
-                      const CostLimits& limits, std::span<const ClipOf> animated) {
+                      const CostLimits& limits, std::span<const ClipOf> animated, std::uint32_t spheres) {
   OutputFile output(file);  // before hours of work
   BakedShapes baked{bake_shapes(characters, sources, threshold, plan, limits),
-                    origins_of(characters, sources, threshold), bake_clips(characters, animated)};
-  const detail::BakedImage image(baked.set, baked.origins, baked.clips);
+                    origins_of(characters, sources, threshold),
+                    bake_clips(characters, animated),
+                    {}};
+  if (spheres > 0)
+    for (const BodyModel& model : make_models(characters, spheres, false))
+      baked.bodies.push_back(to_bytes(model));
+  const detail::BakedImage image(baked.set, baked.origins, baked.clips, baked.bodies);
   for (const std::span<const std::byte> part : image.parts())
     output.write({reinterpret_cast<const char*>(part.data()), part.size()});
   output.commit();

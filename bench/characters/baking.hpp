@@ -70,10 +70,12 @@ std::vector<BakedClip> bake_clips(std::span<const LoadedCharacter> characters, s
 ShapeOrigins origins_of(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,
                         double threshold);
 
-/// Writes the results of bake_shapes(), origins_of() and, of clips that are to be moving discs as well, bake_clips() into a file.
+/// Writes the results of bake_shapes(), origins_of() and, of clips that are to be moving discs as well, bake_clips() into a file, and
+/// models of bodies of so many spheres, unless that is 0.
 /// Errors:  as these, BakedImage and OutputFile throw.
 BakedShapes bake_file(const std::string& file, std::span<const LoadedCharacter> characters,
                       std::span<const ShapeSource> sources, double threshold, const ShapeSetPlan& plan,
-                      const CostLimits& limits = {}, std::span<const ClipOf> animated = {});
+                      const CostLimits& limits = {}, std::span<const ClipOf> animated = {},
+                      std::uint32_t spheres = 0);
 
 }  // namespace bch::cli

@@ -5,7 +5,9 @@
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <stdexcept>
+#include <utility>
 
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/options.hpp"
@@ -44,7 +46,19 @@ LiveBodies posed_bodies(std::span<const BodyModel> models, std::span<const Shape
   return bodies;
 }
 
-std::vector<BodyModel> make_models(std::span<const LoadedCharacter> characters, std::uint32_t spheres) {
+namespace {
+
+/// Returns the model that comes with the library, where there is one.
+std::optional<BodyModel> model_of_library(const Character& character, std::uint32_t spheres) try {
+  return default_body(character, spheres);
+} catch (const std::invalid_argument&) {
+  return {};
+}
+
+}  // namespace
+
+std::vector<BodyModel> make_models(std::span<const LoadedCharacter> characters, std::uint32_t spheres,
+                                   bool draft) {
   constexpr std::size_t steps = 100;  // of a character
   std::vector<BodyModel> models;
   Progress bar("placing spheres", steps * characters.size());
@@ -54,8 +68,10 @@ std::vector<BodyModel> make_models(std::span<const LoadedCharacter> characters, 
         for (; static_cast<double>(done) < share * steps; ++done) bar.advance();
         return true;
       };
-      models.push_back(
-          make_body(loaded.character, {.spheres = spheres, .draft = true, .progress = advance_to}));
+      auto model = model_of_library(loaded.character, spheres);
+      if (!model)
+        model = make_body(loaded.character, {.spheres = spheres, .draft = draft, .progress = advance_to});
+      models.push_back(std::move(*model));
       advance_to(1);
     } catch (const std::invalid_argument& error) {
       throw InputError(loaded.source + ": " + error.what());

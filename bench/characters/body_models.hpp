@@ -32,8 +32,10 @@ void add_spheres_option(CLI::App& command, std::uint32_t& spheres);
 /// Poses a body a source, of the models of its character.
 LiveBodies posed_bodies(std::span<const BodyModel> models, std::span<const ShapeSource> sources);
 
-/// Makes models of bodies of so many spheres, one a character, as drafts, with a progress bar.
+/// Makes models of bodies of so many spheres, one a character, with a progress bar. Those that come with the library are taken from it,
+/// and others are drafts unless they are to be kept.
 /// Errors:  throws InputError naming the character that make_body() refuses.
-std::vector<BodyModel> make_models(std::span<const LoadedCharacter> characters, std::uint32_t spheres);
+std::vector<BodyModel> make_models(std::span<const LoadedCharacter> characters, std::uint32_t spheres,
+                                   bool draft = true);
 
 }  // namespace bch::cli

@@ -14,6 +14,7 @@
 #include "bench/characters/cost_guard.hpp"
 #include "bench/cli/baked_report.hpp"
 #include "bench/cli/commands.hpp"
+#include "layout/body/body_record.hpp"
 
 namespace bch::cli {
 namespace {
@@ -26,6 +27,8 @@ struct BakeOptions {
   AnswerOptions answer;
   bool heights = false;
   std::vector<std::string> animated;  ///< names of clips
+  std::uint32_t spheres = 0;          ///< of models; none: 0
+  bool shapes_too = true;             ///< beside models
 };
 
 void run_bake(const BakeOptions& options) {
@@ -38,12 +41,15 @@ void run_bake(const BakeOptions& options) {
   // Before there are threads: see import_in_child().
   const auto characters = load_characters(options.characters, options.shapes.import_options());
   const Threads threads(options.answer.threads);
-  const auto sources = options.rate > 0 ? list_shapes_at_rate(characters, options.rate)
-                                        : list_shapes(characters, options.shapes.poses);
+  const auto sources = !options.shapes_too ? std::vector<ShapeSource>()
+                       : options.rate > 0  ? list_shapes_at_rate(characters, options.rate)
+                                           : list_shapes(characters, options.shapes.poses);
   const auto animated = find_clips<LoadedCharacter>(options.animated, characters, "--animated");
-  const CostGuard guard(limits, characters, sources.size());
-  const BakedShapes baked =
-      bake_file(options.output, characters, sources, options.shapes.threshold, plan, limits, animated);
+  constexpr std::size_t as_model = 120;  // shapes have as much time together
+  const CostGuard guard(limits, characters,
+                        sources.size() + (options.spheres > 0 ? as_model * characters.size() : 0));
+  const BakedShapes baked = bake_file(options.output, characters, sources, options.shapes.threshold, plan,
+                                      limits, animated, options.spheres);
   write_standard_output(text_of(options.output, baked) + notes_text(characters));
 }
 
@@ -55,7 +61,10 @@ std::function<void()> add_bake_command(CLI::App& program) {
       "bake", "Build shapes and write them to a baked file, which the other commands load");
   command.footer(
       R"(query, crowd, inspect and check take the baked file in place of a character. It holds only what queries need.
-Example: bch bake man.glb woman.glb --rate 30 --depths 0,all -o people.bch)");
+With --spheres it holds bodies of spheres that move with their skeletons, and whole characters: for programs that pose them.
+Examples:
+  bch bake man.glb woman.glb --rate 30 --depths 0,all -o people.bch
+  bch bake man.glb --spheres 256 -o man.bch)");
   const OptionAdder add(command);
   add("FILE", options->characters, "", character_help)->required();
   add("-o,--output", options->output, "FILE", "Baked file to write, NAME.bch")->required();
@@ -67,8 +76,14 @@ Example: bch bake man.glb woman.glb --rate 30 --depths 0,all -o people.bch)");
   add("--animated", options->animated, "CLIP",
       "Also keep the clip of this name, or all, as moving discs for every time (repeatable)")
       ->allow_extra_args(false);
+  add("--spheres", options->spheres, "N",
+      "Keep bodies of N spheres, up to a minute each; shapes only with --poses or --rate",
+      whole_between(1, detail::most_spheres));
   options->answer.add_levels_to(command);
-  return [options] { run_bake(*options); };
+  return [options, &command] {
+    options->shapes_too = options->spheres == 0 || command.count("--poses") + command.count("--rate") > 0;
+    run_bake(*options);
+  };
 }
 
 }  // namespace bch::cli

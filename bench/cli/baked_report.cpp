@@ -62,9 +62,21 @@ BakedShapes open_baked(const std::string& file) {
 
 BakedShapes load_baked_for(const std::string& file, const AnswerOptions& answer) {
   BakedShapes baked = open_baked(file);
+  if (baked.set.shape_count() == 0)
+    throw InputError(file + ": has no shapes; bake it with --poses or --rate");
   if (answer.leaves == "segments" && !baked.set.exact_leaves())
     throw InputError(file + ": has no leaves of segments; bake it with --depths all");
   return baked;
+}
+
+std::vector<BodyModel> models_of(const std::string& file, const BakedShapes& baked) {
+  std::vector<BodyModel> models;
+  for (const BakedBody& body : baked.bodies) try {
+      models.push_back(body_model(body));
+    } catch (const std::invalid_argument& error) {
+      throw InputError(fmt::format("{}: body {}: {}", file, models.size(), error.what()));
+    }
+  return models;
 }
 
 std::string clip_name(const ShapeOrigins& origins, const BakedClip& clip) {
@@ -90,6 +102,11 @@ std::string text_of(const std::string& file, const BakedShapes& baked) {
   for (const BakedClip& clip : baked.clips)
     out += fact("  animated", fmt::format("{}: {} ({})", baked.origins.names[clip.character],
                                           clip_name(baked.origins, clip), text_of(facts_of(clip.discs))));
+  const std::vector<BodyModel> models = models_of(file, baked);
+  for (std::size_t i = 0; i < models.size(); ++i)
+    out += fact("  body", fmt::format("{}: {} spheres, {} clips, {:.1f} kB", models[i].character->name,
+                                      models[i].sphere_count(), models[i].character->clips.size(),
+                                      static_cast<double>(baked.bodies[i].size()) / 1e3));
   return out;
 }
 
@@ -117,7 +134,8 @@ std::string table_text(const BakedShapes& baked) {
 }
 
 Json json_of(const std::string& file, const BakedShapes& baked) {
-  const auto& [set, origins, clips, bodies] = baked;
+  const ShapeSet& set = baked.set;
+  const ShapeOrigins& origins = baked.origins;
   Json json{{"source", file}, {"shape_count", set.shape_count()}, {"bytes", set.bytes()}};
   for (const std::uint32_t depth : set.depths()) json["depths"].push_back(depth_name(depth));
   json["threshold_m"] = shortest(static_cast<float>(origins.threshold));
@@ -136,11 +154,16 @@ Json json_of(const std::string& file, const BakedShapes& baked) {
                               {"discs", set.discs(s, set.level_count() - 1).size()}});
   }
   json["animated"] = Json::array();
-  for (const BakedClip& clip : clips) {
+  for (const BakedClip& clip : baked.clips) {
     Json& row = json["animated"].emplace_back(
         Json{{"character", origins.names[clip.character]}, {"clip", clip_name(origins, clip)}});
     row.update(json_of(facts_of(clip.discs)));
   }
+  json["bodies"] = Json::array();
+  for (const BodyModel& model : models_of(file, baked))
+    json["bodies"].push_back({{"character", model.character->name},
+                              {"spheres", model.sphere_count()},
+                              {"clips", model.character->clips.size()}});
   return json;
 }
 

@@ -5,8 +5,10 @@
 
 #include <nlohmann/json_fwd.hpp>
 #include <string>
+#include <vector>
 
 #include <bch/baked.hpp>
+#include <bch/bodies.hpp>
 
 #include "bench/base/options.hpp"
 
@@ -17,10 +19,15 @@ namespace bch::cli {
 BakedShapes open_baked(const std::string& file);
 
 /// Loads a file that has to answer in a certain way.
-/// Errors:  throws InputError as well where exact leaves are asked for of a set without them.
+/// Errors:  throws InputError as well where the file has no shapes, or exact leaves are asked for of a set without them.
 BakedShapes load_baked_for(const std::string& file, const AnswerOptions& answer);
 
+/// Returns the models of bodies of a baked file.
+/// Errors:  throws InputError naming the model that body_model() refuses.
+std::vector<BodyModel> models_of(const std::string& file, const BakedShapes& baked);
+
 /// Describes a baked file for people.
+/// Errors:  as models_of() throws, here and below.
 std::string text_of(const std::string& file, const BakedShapes& baked);
 /// Describes what verify() checked, after it found no error.
 std::string verified_text(const ShapeSet& set);

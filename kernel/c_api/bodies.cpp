@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
+#include <bch/baked.hpp>
 #include <bch/bodies.hpp>
 #include <bch/collide.hpp>
 
@@ -30,6 +31,13 @@ void pose_all(bch_live_bodies& of, const PoseOf& pose_of, std::uint32_t threads)
   of.poses.clear();
   for (std::uint32_t i = 0; i < of.bodies.set().body_count(); ++i) of.poses.push_back(pose_of(i));
   on_threads(threads, [&] { of.bodies.pose(of.poses); });
+}
+
+std::vector<BodyModel> models_of(const bch_body_model* const* models, std::size_t count) {
+  std::vector<BodyModel> all;
+  for (const bch_body_model* const model : array_of(models, count, "models"))
+    all.push_back(object_of(model, "a model of models").model);
+  return all;
 }
 
 }  // namespace
@@ -87,6 +95,49 @@ bch_status bch_body_model_make(const bch_character* character, const bch_body_op
   });
 }
 
+bch_status bch_body_model_default(const bch_character* character, uint32_t spheres, bch_body_model** model) {
+  return guarded([&] {
+    const Character& of = *object_of(character, "character").character;
+    required(model, "model");
+    hand_out(std::make_unique<bch_body_model>(default_body(of, spheres)), model);
+  });
+}
+
+bch_status bch_body_models_save(const bch_body_model* const* models, size_t model_count, const char* path) {
+  return guarded([&] {
+    std::vector<BakedBody> bodies;
+    for (const BodyModel& model : models_of(models, model_count)) bodies.push_back(to_bytes(model));
+    required(path, "path");
+    save_baked(path, ShapeSet(std::span<const Shape>(), {}), {}, {}, bodies);
+  });
+}
+
+bch_status bch_body_model_load(const char* path, size_t index, size_t* count, bch_body_model** model) {
+  return guarded([&] {
+    required(path, "path");
+    required(model, "model");
+    required(count, "count");
+    require_file(path);
+    const std::vector<BakedBody> bodies = load_baked(path, FileAccess::map).bodies;
+    if (index < bodies.size())
+      hand_out(std::make_unique<bch_body_model>(body_model(bodies[index])), model);
+    else
+      *model = nullptr;
+    *count = bodies.size();
+  });
+}
+
+bch_status bch_bake_bodies(const bch_body_model* const* models, size_t model_count, uint32_t poses,
+                           const bch_work* given_work, bch_body_set** set) {
+  return guarded([&] {
+    const std::vector<BodyModel> all = models_of(models, model_count);
+    const bch_work work = sized<bch_work>(given_work, BCH_WORK_INIT, "work");
+    required(set, "set");
+    const BakeBodiesOptions how{.poses = poses, .progress = Work::function_of(work)};
+    on_threads(work.threads, [&] { hand_out(std::make_unique<bch_body_set>(bake(all, how)), set); });
+  });
+}
+
 bch_status bch_body_model_get_sphere_count(const bch_body_model* model, uint32_t* count) {
   return guarded([&] {
     const BodyModel& of = object_of(model, "model").model;
@@ -101,9 +152,7 @@ bch_status bch_body_model_free(bch_body_model* model) {
 bch_status bch_live_bodies_create(const bch_body_model* const* models, size_t model_count,
                                   const uint32_t* model_of_body, size_t count, bch_live_bodies** bodies) {
   return guarded([&] {
-    std::vector<BodyModel> all;
-    for (const bch_body_model* const model : array_of(models, model_count, "models"))
-      all.push_back(object_of(model, "a model of models").model);
+    const std::vector<BodyModel> all = models_of(models, model_count);
     const auto model_of = array_of(model_of_body, count, "model_of_body");
     required(bodies, "bodies");
     auto live = std::make_unique<bch_live_bodies>(all, model_of);

@@ -3,6 +3,7 @@
 
 """Arguments of every call arrive in the library, and its answers come back: by squares, whose answers are known."""
 
+import tempfile
 import threading
 import unittest
 
@@ -234,6 +235,33 @@ class Scenes(unittest.TestCase):
             people.pose(bch.Vertices(np.zeros((2, 3, 3), np.float32)))
         with self.assertRaisesRegex(bch.ArgumentError, "model 1 |1 models, found 1 of body 1"):
             bch.LiveBodies(model, np.array([0, 1], np.uint32))
+
+    def test_models_of_the_library(self):
+        man, woman = bch.default_body(bch.default_male(), 64), bch.default_body(bch.default_female(), 128)
+        self.assertTrue(62 <= len(man) <= 64 and 124 <= len(woman) <= 128)
+        with self.assertRaisesRegex(bch.ArgumentError, "expected 64, 128, 256 or 512 spheres, found 65"):
+            bch.default_body(bch.default_male(), 65)
+        with self.assertRaisesRegex(bch.ArgumentError, "whose model make_body.. makes"):
+            bch.default_body(bch.default_bulky_male())
+        with tempfile.TemporaryDirectory() as folder:
+            bch.save_models(f"{folder}/people.bch", [man, woman])
+            again = bch.load_models(f"{folder}/people.bch")
+            self.assertEqual([len(model) for model in again], [len(man), len(woman)])
+            self.assertEqual(len(bch.ShapeSet.load(f"{folder}/people.bch")), 0)
+            bch.ShapeSet.from_polygons([[[(0, 0), (1, 0), (0, 1)]]]).save(f"{folder}/shape.bch")
+            self.assertEqual(bch.load_models(f"{folder}/shape.bch"), [])
+        for models in ([man, woman], again):
+            baked = bch.bake(models, poses=5)
+            self.assertEqual((type(baked), len(baked)), (bch.BodySet, 10))
+            same = bch.bake(models, [m.sample_poses(5) for m in (bch.default_male(), bch.default_female())])
+            self.assertTrue(all(np.array_equal(baked.spheres(i), same.spheres(i)) for i in range(10)))
+        world = bch.Transforms(bch.default_male().transforms([(3, 0.5)], space="world"), "world")
+        self.assertTrue(np.array_equal(bch.bake(man, world).spheres(0), bch.bake(man, [(3, 0.5)]).spheres(0)))
+        for wrong in ({"plan": bch.Plan()}, {"path": "a.bch"}):
+            with self.assertRaisesRegex(bch.ArgumentError, "are for shapes"):
+                bch.bake(man, **wrong)
+        with self.assertRaisesRegex(bch.ArgumentError, "those of 1 models, and there are 2"):
+            bch.bake([man, woman], [[(0, 0.5)]])
 
     def test_plans(self):
         plan = bch.plan_scene(

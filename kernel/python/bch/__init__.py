@@ -23,7 +23,8 @@ raise an error that says what is wanted. Every query releases the interpreter's 
 from . import plot
 from ._animated import AnimatedShape
 from ._arrays import DISC, PENETRATION, POSE, SOURCE, SPHERE
-from ._bodies import BodyModel, BodySet, LiveBodies
+from ._bake import bake
+from ._bodies import BodyModel, BodySet, LiveBodies, default_body, load_models, save_models
 from ._characters import Bone, Channel, Curve, Joint, Motion, make_character
 from ._crowds import Clearances, Contacts, Crowd, Neighbours, Penetrations, Rows
 from ._library import (
@@ -80,7 +81,6 @@ from ._shapes import (
     PoseShaper,
     ShapeSet,
     ShapeSetBuilder,
-    bake,
     default_bulky_male,
     default_female,
     default_male,
@@ -154,6 +154,7 @@ __all__ = [
     "clearance",
     "collide",
     "dataframe",
+    "default_body",
     "default_bulky_male",
     "default_female",
     "default_male",
@@ -163,6 +164,7 @@ __all__ = [
     "free_until",
     "implementations",
     "import_character",
+    "load_models",
     "local_densities",
     "make_character",
     "nearest",
@@ -172,6 +174,7 @@ __all__ = [
     "plan_scene",
     "plot",
     "read_trajectory",
+    "save_models",
     "time_of_impact",
     "within",
 ]

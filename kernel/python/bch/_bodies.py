@@ -7,17 +7,17 @@ from __future__ import annotations
 
 import ctypes
 from ctypes import byref, c_size_t, c_uint32
-from typing import Any, Sequence, Union
+from typing import Any, List, Sequence, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _library
-from ._arrays import SPHERE, Records, UInt32, address, bounded, f4, given, index, instance, instances, listed, rejected, table, u4, u8
+from ._arrays import SPHERE, Records, UInt32, address, bounded, encoded, f4, given, index, instance, instances, listed, rejected, table, u4, u8
 from ._library import Exclusive, Handle, check, lib
 from ._poses import own_poses
 from ._progress import Watched
-from ._shapes import Character, _as_poses
+from ._shapes import Character, Path, _as_poses
 
 
 class BodySet:
@@ -113,6 +113,13 @@ class BodyModel:
             self._handle = Handle("body_model", "make", made, byref(how), byref(work), checked=watched.run)
         self._pointer = self._handle.pointer
 
+    @classmethod
+    def _of(cls, handle: Handle) -> BodyModel:
+        """Return a model that was made elsewhere."""
+        model = cls.__new__(cls)
+        model._handle, model._pointer = handle, handle.pointer
+        return model
+
     def __len__(self) -> int:
         count = c_uint32()
         check(lib.bch_body_model_get_sphere_count(self._pointer, byref(count)))
@@ -120,6 +127,41 @@ class BodyModel:
 
     def __repr__(self) -> str:
         return f"<bch.BodyModel of {len(self)} spheres>"
+
+
+def default_body(character: Character, spheres: int = 256) -> BodyModel:
+    """Return the model of a built-in character that comes with the library, in milliseconds.
+
+    Parameters
+    ----------
+    character : Character
+        `default_male()`, `default_female()`, or a pedestrian.
+    spheres : int
+        64, 128, 256 or 512.
+    """
+    made = instance(character, Character, "character")._pointer
+    return BodyModel._of(Handle("body_model", "default", made, bounded(spheres, "spheres", 1, 4096)))
+
+
+def _pointers(models: Sequence[BodyModel]) -> npt.NDArray[Any]:
+    return np.array([model._pointer for model in models], u8)
+
+
+def save_models(path: Path, models: Union[BodyModel, Sequence[BodyModel]]) -> None:
+    """Write models, with their characters, as a baked file, which `load_models` reads without the files that they were made from."""
+    pointers = _pointers([models] if isinstance(models, BodyModel) else instances(models, BodyModel, "models"))
+    check(lib.bch_body_models_save(address(pointers), len(pointers), encoded(path, "path")))
+
+
+def load_models(path: Path) -> List[BodyModel]:
+    """Return the models of a baked file. Files of `bch bake --spheres` have some, too."""
+    models: List[BodyModel] = []
+    count = c_size_t(1)
+    while len(models) < count.value:
+        handle = Handle("body_model", "load", encoded(path, "path"), len(models), byref(count))
+        if handle.pointer:
+            models.append(BodyModel._of(handle))
+    return models
 
 
 class LiveBodies:
@@ -145,7 +187,7 @@ class LiveBodies:
         if isinstance(model_of_body, (int, np.integer)):
             model_of_body = np.zeros(bounded(model_of_body, "model_of_body", 0, 2**32 - 2), u4)
         which = given(model_of_body, u4, (None,), "model_of_body")
-        pointers = np.array([model._pointer for model in all_models], u8)
+        pointers = _pointers(all_models)
         self._exclusive = Exclusive("LiveBodies")
         self._handle = Handle("live_bodies", "create", address(pointers), len(pointers), which, len(model_of_body))
         lent = ctypes.c_void_p()

@@ -677,7 +677,7 @@ class ShapeSetBuilder:
         return ShapeSet(handle.pointer, handle)
 
 
-def bake(
+def bake_shapes(
     characters: Union[Character, Sequence[Character]],
     poses: Any = 100,
     *,

@@ -735,10 +735,23 @@ typedef struct bch_body_options {
 /** Makes the model of a character, on the caller's thread: up to a minute. Progress is in thousandths. */
 BCH_API bch_status bch_body_model_make(const bch_character* character, const bch_body_options* options,
                                        const bch_work* work, bch_body_model** model);
+/** Makes the model that comes with the library of a built-in character, in milliseconds: 64, 128, 256 or 512 spheres of the default man or
+ * woman, or of a pedestrian. Others are BCH_INVALID_ARGUMENT. */
+BCH_API bch_status bch_body_model_default(const bch_character* character, uint32_t spheres, bch_body_model** model);
+/** Writes models, with their characters, as a baked file without shapes. */
+BCH_API bch_status bch_body_models_save(const bch_body_model* const* models, size_t model_count, const char* path);
+/** Reads model number `index` of a baked file, and writes the number of all to `count`. Where there is no such model, it writes NULL to
+ * `model`. */
+BCH_API bch_status bch_body_model_load(const char* path, size_t index, size_t* count, bch_body_model** model);
 /** Gets the number of spheres of a model, which may be a little less than was asked for. */
 BCH_API bch_status bch_body_model_get_sphere_count(const bch_body_model* model, uint32_t* count);
 /** Frees a model. */
 BCH_API bch_status bch_body_model_free(bch_body_model* model);
+
+/** Makes a set of models, each in `poses` poses that are spread evenly over its clips, one model after the other. Many threads make them.
+ * Work of NULL is the default. */
+BCH_API bch_status bch_bake_bodies(const bch_body_model* const* models, size_t model_count, uint32_t poses,
+                                   const bch_work* work, bch_body_set** set);
 
 /** Holds a body for each of many agents, who all have poses of their own in every frame. */
 typedef struct bch_live_bodies bch_live_bodies;
