@@ -82,14 +82,18 @@ void SphereQuery::improve(std::span<const LocalSegment> segments, std::uint32_t 
     return is_area && (segments.empty() || !is_clear(segment) || area.holds({x, y}));
   };
   // What is left out by bounds must not depend on their rounding.
-  const double room = 0x1p-44 * (std::abs(ground_) + double{header.reach} + nearest.gap);
+  const double room = 0x1p-44 * (std::abs(ground_) + double{header.reach} + std::abs(nearest.gap));
   const std::uint32_t stride = header.node_stride, size = header.leaf_size;
   const float* const nodes = record_ + record_nodes;
   for (std::uint32_t leaf = 0; leaf < header.leaf_count; ++leaf) {
     const float x = nodes[leaf], y = nodes[stride + leaf], radius = nodes[2 * stride + leaf];
-    if (rise(nodes[3 * stride + leaf], nodes[4 * stride + leaf], obstacle) > nearest.gap + room) continue;
+    if (rise(nodes[3 * stride + leaf], nodes[4 * stride + leaf], obstacle) >
+        std::max(nearest.gap + room, 0.0))
+      continue;
     const NearestSegment of_leaf = nearest_segment(segments, double{x}, double{y});
-    const bool is_beyond = of_leaf.distance - double{radius} > nearest.gap + room;
+    const double beyond = of_leaf.distance - double{radius} - (nearest.gap + room);
+    // All of a leaf is on one side only where it is clear of the segments, whose gap may be less than 0.
+    const bool is_beyond = beyond > 0 && (!is_area || beyond + nearest.gap > 0);
     if (is_beyond && !is_held(of_leaf, x, y)) continue;
     const float* const spheres = nodes + 5 * stride + std::size_t{4} * leaf * size;
     for (std::uint32_t i = 0; i < size; ++i) {
