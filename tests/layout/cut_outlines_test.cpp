@@ -25,6 +25,7 @@ TEST(CutSoups, HaveTheOutlinesOfTheirUnions) {
     test::Soup soup = test::random_soup(random);
     for (Vec3& p : soup.positions) p.z = all[1 + random.below(6)];
     const std::uint32_t bottom = random.below(7), top = bottom + 1 + random.below(7 - bottom);
+    if (bottom == 0 && top == 7) continue;  // nothing is cut
     test::expect_right_cut(soup.positions, soup.triangles, {all[bottom], all[top]},
                            [&](const Outline& found, const test::Soup& part) {
                              expect_arrangement(found, part);

@@ -47,6 +47,10 @@ Soup part_between(Positions positions, Triangles triangles, const Heights& heigh
 Soup rounded(Soup soup, float grid_step) {
   for (Vec3& p : soup.positions)
     p = {std::nearbyint(p.x / grid_step) * grid_step, std::nearbyint(p.y / grid_step) * grid_step, 0};
+  std::erase_if(soup.triangles, [&](const auto& corners) {
+    const auto& [a, b, c] = corners;
+    return soup.positions[a] == soup.positions[b] && soup.positions[a] == soup.positions[c];
+  });
   return soup;
 }
 
