@@ -62,7 +62,7 @@ class Caller : public Program {
   void draw(bch_pair& of) { of = {index(most), index(most)}; }
   void draw(bch_heights& of) { draw_all(of.bottom, of.top); }
   void draw(bch_pose& of) { of = {chance(8) ? index() : BCH_REST_POSE, std::abs(number<float>())}; }
-  void draw(bch_shape_source& of) { draw_all(of.character, of.at, of.whole); }
+  void draw(bch_shape_source& of) { draw_all(of.character, of.at); }
   void draw(bch_disc& of) { draw_all(of.x, of.y), of.radius = size(); }
   void draw(bch_capsule& of) { draw_all(of.a, of.b), of.radius = size(); }
   /// A radius, mostly.
