@@ -23,7 +23,7 @@ using namespace detail;
 
 namespace {
 
-constexpr double longest_edge = 0.025;   // metres: a sphere of a forearm holds a triangle of that size
+constexpr double longest_edge = 0.03;    // metres: a sphere of a forearm holds a triangle of that size
 constexpr std::uint32_t chosen_in = 12;  ///< poses
 
 /// Returns as many poses as the search for better spheres expects: a character without clips has a single one.
@@ -54,9 +54,10 @@ BodyModel make_body(const Character& character, const BodyOptions& options) {
   advance(0.2);
   const TrainingPoses poses(*own, skin, sample_poses(*own, chosen_in));
   const double chosen = options.draft ? 1 : 0.3;
-  const SphereChoice choice = choose_spheres(skin, candidates, poses, options.spheres,
-                                             [&](double share) { advance(chosen * (0.2 + 0.8 * share)); });
+  SphereChoice choice = choose_spheres(skin, candidates, poses, options.spheres,
+                                       [&](double share) { advance(chosen * (0.2 + 0.8 * share)); });
   if (options.draft) return assemble_model(std::move(own), skin, choice, poses);
+  choice.spheres.resize(options.spheres, choice.spheres.front());  // the search gives pieces to the others
   const TrainingPoses training(*own, skin, repeated(sample_poses(*own, searched_poses)));
   const SphereChoice better =
       improve_spheres(skin, training, choice, [&](double share) { advance(chosen + (1 - chosen) * share); });

@@ -76,9 +76,9 @@ bool SphereFit::holds(const Ball& ball, std::uint32_t piece) const {
   return true;
 }
 
-float SphereFit::growth(const Ball& ball, std::uint32_t piece) const {
+float SphereFit::growth(const Ball& ball, const Corners& triangle) const {
   PerPose most = ball.squared_radius;
-  for (const std::uint32_t corner : corners(piece)) {
+  for (const std::uint32_t corner : triangle) {
     PerPose squared;
     measure(ball, corner, squared);
     for (std::size_t pose = 0; pose < poses; ++pose) most[pose] = std::max(most[pose], squared[pose]);
@@ -88,8 +88,8 @@ float SphereFit::growth(const Ball& ball, std::uint32_t piece) const {
   return sum / static_cast<float>(poses);
 }
 
-void SphereFit::grow(Ball& ball, std::uint32_t piece) const {
-  for (const std::uint32_t corner : corners(piece)) {
+void SphereFit::grow(Ball& ball, const Corners& triangle) const {
+  for (const std::uint32_t corner : triangle) {
     PerPose squared;
     measure(ball, corner, squared);
     for (std::size_t pose = 0; pose < poses; ++pose) {

@@ -40,14 +40,18 @@ class SphereFit {
   void refit(Ball& ball);
   /// Says whether a sphere holds a piece in all poses without growing.
   bool holds(const Ball& ball, std::uint32_t piece) const;
-  /// Returns by how much a sphere grows when it takes a piece, metres, in the mean of all poses.
-  float growth(const Ball& ball, std::uint32_t piece) const;
-  /// Makes a sphere hold one piece more.
-  void grow(Ball& ball, std::uint32_t piece) const;
+  using Corners = std::array<std::uint32_t, 3>;
+  /// Returns by how much a sphere grows when it takes a triangle, metres, in the mean of all poses.
+  float growth(const Ball& ball, const Corners& triangle) const;
+  /// Makes a sphere hold one triangle more.
+  void grow(Ball& ball, const Corners& triangle) const;
   /// Gives a piece to another sphere, which holds it already (see grow()). The radius of the earlier owner is not refitted.
   void hand_over(std::uint32_t piece, std::uint32_t to);
   std::array<float, 3> at(std::uint32_t point, std::size_t pose) const;
-  const std::array<std::uint32_t, 3>& corners(std::uint32_t piece) const { return skin_->pieces[piece]; }
+  std::size_t point_count() const { return tracks_.size(); }
+  /// Says whether a point is made by a cut.
+  bool is_cut(std::uint32_t point) const { return point >= tracks_.size() - skin_->cuts.size(); }
+  const Corners& corners(std::uint32_t piece) const { return skin_->pieces[piece]; }
   const TrainingPoses& training() const { return *training_; }
   SphereChoice choice() const;
 

@@ -7,13 +7,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 #include <utility>
 
-#include "layout/base/random.hpp"
+#include "layout/body/model/piece_gathering.hpp"
+#include "layout/body/model/sphere_descent.hpp"
 #include "layout/body/model/sphere_fit.hpp"
-#include "layout/body/model/sphere_slide.hpp"
 
 namespace bch::detail {
 namespace {
@@ -23,42 +22,32 @@ using Space = std::array<float, 3>;
 
 static_assert(searched_poses == SphereFit::poses);
 
-constexpr std::uint64_t search_seed = 54;
-constexpr int search_rounds = 30;
-constexpr int steps_a_round = 100, slides_a_step = 100;
-constexpr double widest_lateral = 0.5;                        // metres
+constexpr int search_rounds = 40;
 constexpr float first_step = 1e-3f, last_step = 2e-4f;        // metres
 constexpr double first_deleted = 0.06, last_deleted = 0.006;  // of the spheres
 constexpr int last_rounds = search_rounds / 5;                // which neither delete nor split
-constexpr float most_leverage = 4;  // of a contact: by how much later it is where a front is 1 less far
-constexpr float kept_gradient = 0.9f, kept_square = 0.99f;
-constexpr float least_contacts = 0.05f;  // of the mean: what spheres without contact count
-constexpr float exposing_growth = 0.02f;  // metres: whoever grows by as much has the mean of contacts more
+constexpr float worth_of_corner = 3e-6f;   // metres that all slides may meet earlier, of a corner less
+constexpr float least_contacts = 0.05f;    // of the mean: what spheres without contact count
+constexpr float exposing_growth = 0.005f;  // metres: who grows by half has the mean of contacts more
 
 float dot_of(const Space& a, const Space& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// Remembers the gradients of a centre in the frame of one bone.
-struct Descent {
-  Space mean = {};
-  float square = 0;
-};
-
 class SphereSearch {
  public:
   SphereSearch(const SkinPieces& skin, const TrainingPoses& poses, const SphereChoice& choice)
-      : fit_(skin, poses, choice), random_(search_seed) {
-    reset_statistics();
-    for (const Ball& ball : fit_.balls) descents_.emplace_back(ball.influences.size());
-  }
+      : skin_(skin), fit_(skin, poses, choice), descent_(fit_) {}
 
   void round(int number) {
     const float progress = static_cast<float>(number) / (search_rounds - 1);
-    reset_statistics();
-    for (int step = 0; step < steps_a_round; ++step) move(first_step + progress * (last_step - first_step));
+    const bool is_last = number + last_rounds >= search_rounds;
+    if (number > 0) gather();
+    descent_.round(first_step + progress * (last_step - first_step));
+    mean_contacts_ = std::accumulate(descent_.contacts.begin(), descent_.contacts.end(), 1e-3f) /
+                     static_cast<float>(fit_.balls.size());
+    if (is_last) return;
     hand_over_farthest();
-    if (number + last_rounds >= search_rounds) return;
     const double share = first_deleted + double{progress} * (last_deleted - first_deleted);
     const double rounded_up_from_half = share * static_cast<double>(fit_.balls.size()) + 0.5;
     replace(static_cast<std::size_t>(rounded_up_from_half));
@@ -67,92 +56,32 @@ class SphereSearch {
   SphereChoice choice() const { return fit_.choice(); }
 
  private:
-  void reset_statistics() {
-    blame_.assign(fit_.balls.size(), 0);
-    contacts_.assign(fit_.balls.size(), 0);
+  /// Returns by how much earlier all slides together meet when a sphere takes a triangle, metres.
+  float price(std::uint32_t sphere, const SphereFit::Corners& triangle) const {
+    const float growth = fit_.growth(fit_.balls[sphere], triangle);
+    return growth *
+           (descent_.contacts[sphere] + mean_contacts_ * (least_contacts + growth / exposing_growth));
   }
 
-  /// Makes slides, and moves the spheres that met first.
-  void move(float length) {
-    std::array<std::vector<Sphere>, SphereFit::poses> bodies;
-    for (std::size_t pose = 0; pose < SphereFit::poses; ++pose)
-      for (const Ball& ball : fit_.balls)
-        bodies[pose].push_back({ball.x[pose], ball.y[pose], ball.z[pose], ball.radius[pose]});
-    gradients_.clear();
-    for (std::size_t s = 0; s < fit_.balls.size(); ++s)
-      gradients_.emplace_back(fit_.balls[s].influences.size());
-    std::vector<std::uint8_t> is_met(fit_.balls.size(), 0);
-    for (int i = 0; i < slides_a_step; ++i) {
-      const std::uint32_t a = random_.below(SphereFit::poses);
-      const std::uint32_t b = (a + 1 + random_.below(SphereFit::poses - 1)) % SphereFit::poses;
-      const Rotation turn_a = rotation(random_.between(0, 2 * std::numbers::pi));
-      const Rotation turn_b = rotation(random_.between(0, 2 * std::numbers::pi));
-      const auto lateral = static_cast<float>(random_.between(-widest_lateral, widest_lateral));
-      first_.place(bodies[a], turn_a, 0, 1);
-      second_.place(bodies[b], turn_b, lateral, -1);
-      const auto contact = first_contact(first_, second_);
-      if (!contact) continue;
-      const float leverage = std::min(most_leverage, 1 / std::max(contact->normal[0], 0.01f));
-      note(contact->first, a, turn_a, contact->normal, 1, leverage);
-      note(contact->second, b, turn_b, contact->normal, -1, leverage);
-      is_met[contact->first] = is_met[contact->second] = 1;
-    }
-    for (std::size_t s = 0; s < fit_.balls.size(); ++s)
-      if (is_met[s] != 0) descend(s, length);
+  /// Makes a sphere hold one triangle more: it has more contacts then.
+  void grow(std::uint32_t sphere, const SphereFit::Corners& triangle) {
+    const float growth = fit_.growth(fit_.balls[sphere], triangle);
+    descent_.contacts[sphere] += 2 * mean_contacts_ * growth / exposing_growth;
+    fit_.grow(fit_.balls[sphere], triangle);
   }
 
-  /// Notes the part of one of the spheres in a contact.
-  void note(std::uint32_t sphere, std::size_t pose, const Rotation& turn, const float (&normal)[3],
-            float sign, float leverage) {
-    const Ball& ball = fit_.balls[sphere];
-    const auto cosine = static_cast<float>(turn.cosine), sine = static_cast<float>(turn.sine);
-    const Space outward = {sign * (cosine * normal[0] + sine * normal[1]),
-                           sign * (cosine * normal[1] - sine * normal[0]), sign * normal[2]};
-    const Space corner = fit_.at(ball.farthest[pose], pose);
-    const float radius = std::max(ball.radius[pose], 1e-6f);
-    const Space way = {(corner[0] - ball.x[pose]) / radius, (corner[1] - ball.y[pose]) / radius,
-                       (corner[2] - ball.z[pose]) / radius};
-    contacts_[sphere] += leverage;
-    blame_[sphere] += leverage * (1 - dot_of(outward, way));
-    for (std::size_t i = 0; i < ball.influences.size(); ++i) {
-      const auto& rows = fit_.training().map(pose, ball.influences[i].bone).rows;
-      const float share = leverage * ball.influences[i].weight / scale(rows);
-      for (std::size_t k = 0; k < 3; ++k)
-        for (std::size_t row = 0; row < 3; ++row)
-          gradients_[sphere][i][k] += share * static_cast<float>(rows[row][k]) * (outward[row] - way[row]);
-    }
-  }
-
-  /// Returns how much longer a map makes lengths in the mean.
-  static float scale(const double (&rows)[3][4]) {
-    double sum = 0;
-    for (const auto& row : rows)
-      for (int k = 0; k < 3; ++k) sum += row[k] * row[k];
-    return static_cast<float>(std::sqrt(sum / 3));
-  }
-
-  void descend(std::size_t sphere, float length) {
-    Ball& ball = fit_.balls[sphere];
-    for (std::size_t i = 0; i < ball.influences.size(); ++i) {
-      const Space& gradient = gradients_[sphere][i];
-      Descent& descent = descents_[sphere][i];
-      descent.square = kept_square * descent.square + (1 - kept_square) * dot_of(gradient, gradient);
-      const float step = length / (std::sqrt(descent.square) + 1e-9f) /
-                         scale(fit_.training().map(0, ball.influences[i].bone).rows);
-      float* const centre[3] = {&ball.influences[i].centre.x, &ball.influences[i].centre.y,
-                                &ball.influences[i].centre.z};
-      for (std::size_t k = 0; k < 3; ++k) {
-        descent.mean[k] = kept_gradient * descent.mean[k] + (1 - kept_gradient) * gradient[k];
-        *centre[k] -= step * descent.mean[k];
-      }
-    }
-    fit_.place(ball);
-    fit_.refit(ball);
+  /// Gives pieces to the spheres of their neighbours, by the contacts of the last round.
+  void gather() {
+    const float slides = SphereDescent::slides_a_round;
+    gather_pieces(skin_, fit_,
+                  {[&](std::uint32_t sphere, const auto& triangle) { return price(sphere, triangle); },
+                   [&](std::uint32_t sphere, const auto& triangle) { grow(sphere, triangle); },
+                   worth_of_corner * slides});
   }
 
   /// Gives the farthest pieces of the spheres with most blame to spheres that hold them anyway.
   void hand_over_farthest() {
-    for (const std::uint32_t s : by_falling(blame_)) {
+    for (const std::uint32_t s : by_falling(descent_.blame)) {
       for (bool is_smaller = true; is_smaller && fit_.balls[s].pieces.size() > 1;) {
         is_smaller = false;
         const std::vector<std::uint32_t> pieces = fit_.balls[s].pieces;
@@ -204,10 +133,9 @@ class SphereSearch {
       const float x = at[0] - ball.x[0], y = at[1] - ball.y[0], z = at[2] - ball.z[0];
       const float reach = ball.radius[0] + 0.1f;
       if (best.sphere != none && x * x + y * y + z * z > reach * reach) continue;
-      const float growth = fit_.growth(ball, piece);
-      const float price = growth * (contacts_[q] + mean_contacts_ * (least_contacts + growth / exposing_growth));
-      if (price < best.price) best = {q, price};
-      if (price <= 0) break;
+      const float now = price(q, fit_.corners(piece));
+      if (now < best.price) best = {q, now};
+      if (now <= 0) break;
     }
     return best;
   }
@@ -232,8 +160,6 @@ class SphereSearch {
   /// Deletes the cheapest spheres and splits as many of those with most blame and size.
   void replace(std::size_t count) {
     if (fit_.balls.size() < 2) return;
-    const float all = std::accumulate(contacts_.begin(), contacts_.end(), 0.0f);
-    mean_contacts_ = all / static_cast<float>(fit_.balls.size()) + 1e-6f;
     std::vector<float> worth;
     for (std::uint32_t s = 0; s < fit_.balls.size(); ++s) worth.push_back(-price_of_deletion(s));
     std::vector<std::uint32_t> freed = by_falling(worth);
@@ -242,16 +168,25 @@ class SphereSearch {
       const std::vector<std::uint32_t> pieces = fit_.balls[s].pieces;
       for (const std::uint32_t piece : pieces) {
         const std::uint32_t to = cheapest(piece, s).sphere;
-        fit_.grow(fit_.balls[to], piece);
+        grow(to, fit_.corners(piece));
         fit_.hand_over(piece, to);
       }
     }
+    split_worst();
+  }
+
+  /// Gives half of the worst spheres, those with most blame and size, to those that have no pieces.
+  void split_worst() {
+    std::vector<std::uint32_t> free;
     std::vector<float> urgency;
-    for (std::uint32_t s = 0; s < fit_.balls.size(); ++s)
-      urgency.push_back(fit_.balls[s].pieces.size() < 2 ? -1 : blame_[s] * fit_.balls[s].radius[0]);
-    const std::vector<std::uint32_t> worst = by_falling(urgency);
-    for (std::size_t i = 0; i < freed.size(); ++i)
-      if (urgency[worst[i]] >= 0) split(worst[i], freed[i]);
+    for (std::uint32_t s = 0; s < fit_.balls.size(); ++s) {
+      if (fit_.balls[s].pieces.empty()) free.push_back(s);
+      urgency.push_back(fit_.balls[s].pieces.empty() ? -1 : descent_.blame[s] * fit_.balls[s].radius[0]);
+    }
+    for (const std::uint32_t worst : by_falling(urgency)) {
+      if (free.empty()) return;
+      if (fit_.balls[worst].pieces.size() > 1 && split(worst, free.back())) free.pop_back();
+    }
   }
 
   Space middle(std::uint32_t piece) const {
@@ -262,7 +197,8 @@ class SphereSearch {
   }
 
   /// Halves the pieces of a sphere by 2-means and gives one half to a free sphere.
-  void split(std::uint32_t sphere, std::uint32_t free) {
+  /// Returns: whether there are two halves.
+  bool split(std::uint32_t sphere, std::uint32_t free) {
     const std::vector<std::uint32_t> pieces = fit_.balls[sphere].pieces;
     std::vector<Space> at;
     at.reserve(pieces.size());
@@ -287,7 +223,7 @@ class SphereSearch {
         for (std::size_t k = 0; k < 3; ++k) sum[half[p]][k] += at[p][k];
         members[half[p]] += 1;
       }
-      if (members[0] == 0 || members[1] == 0) return;
+      if (members[0] == 0 || members[1] == 0) return false;
       for (std::size_t h = 0; h < 2; ++h)
         for (std::size_t k = 0; k < 3; ++k) ends[h][k] = sum[h][k] / members[h];
     }
@@ -299,9 +235,10 @@ class SphereSearch {
     for (const std::uint32_t s : {sphere, free}) {
       fit_.place(fit_.balls[s]);
       fit_.refit(fit_.balls[s]);
-      descents_[s].assign(fit_.balls[s].influences.size(), {});
+      descent_.restart(s);
     }
-    blame_[sphere] = blame_[free] = 0;
+    descent_.blame[sphere] = descent_.blame[free] = 0;
+    return true;
   }
 
   /// Returns the influences of a sphere whose centre went halfway to a point of the first pose.
@@ -310,7 +247,7 @@ class SphereSearch {
     const Space way = {0.5f * (to[0] - ball.x[0]), 0.5f * (to[1] - ball.y[0]), 0.5f * (to[2] - ball.z[0])};
     for (SphereInfluence& influence : influences) {
       const auto& rows = fit_.training().map(0, influence.bone).rows;
-      const float shrink = 1 / (scale(rows) * scale(rows));
+      const float shrink = 1 / (scale_of(rows) * scale_of(rows));
       float* const centre[3] = {&influence.centre.x, &influence.centre.y, &influence.centre.z};
       for (std::size_t k = 0; k < 3; ++k)
         for (std::size_t row = 0; row < 3; ++row)
@@ -321,12 +258,9 @@ class SphereSearch {
 
   static constexpr std::uint32_t none = 0xffffffff;
 
+  const SkinPieces& skin_;
   SphereFit fit_;
-  Random random_;
-  SlidingBody first_, second_;
-  std::vector<std::vector<Descent>> descents_;
-  std::vector<std::vector<Space>> gradients_;
-  std::vector<float> blame_, contacts_;
+  SphereDescent descent_;
   float mean_contacts_ = 0;
 };
 
