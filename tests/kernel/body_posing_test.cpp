@@ -247,6 +247,16 @@ TEST(BodyPosing, MeasuresTheSameBitsByAllInstructionSets) {
   }
 }
 
+TEST(BodyModels, OfTheSearchHaveAsManySpheresAsAskedAndHoldAllTriangles) {
+  const BodyModel model = make_body(default_male(), {.spheres = 24});
+  EXPECT_EQ(model.sphere_count(), 24u);
+  EXPECT_NO_THROW(validate(model));
+  for (std::size_t s = 0; s < model.sphere_count(); ++s)
+    EXPECT_GE(model.corner_begin[s + 1] - model.corner_begin[s], 3u) << s;
+  // Of 1434 vertices; those between two spheres are corners of both.
+  EXPECT_LT(model.corners.size(), 2 * model.character->vertices.size());
+}
+
 TEST(BodyPosing, RefusesWhatItCannotPose) {
   const Character man = default_male();
   BodyPoser poser(test::plain_model(man, 16));

@@ -4,6 +4,11 @@
 #define XXH_INLINE_ALL  // nothing is linked
 #include <xxhash.h>
 
+#include <array>
+#include <cstring>
+
+#include <bch/bodies.hpp>
+
 #include "tests/support/baked_bytes.hpp"
 #include "tests/support/float_state.hpp"
 #include "tests/support/scenes.hpp"
@@ -35,6 +40,25 @@ TEST(ConstructionDeterminism, OfHierarchiesAndSets) {
 TEST(ConstructionDeterminism, OfCharactersInPoses) {
   EXPECT_EQ(hash_of(default_male(), {.depths = {0, 3, all_depths}}), 0xfd065b1fc25af8ac);
   EXPECT_EQ(hash_of(default_female(), {.depths = {0, all_depths}, .heights = true}), 0x40e73e7e727e38d8);
+}
+
+std::uint64_t hash_of(const BodyModel& model) {
+  std::vector<std::uint32_t> words(model.core.begin(), model.core.end());
+  const auto add = [&](const auto& some) {
+    for (const auto& each : some) {
+      std::array<std::uint32_t, sizeof(each) / sizeof(std::uint32_t)> as_words;
+      std::memcpy(as_words.data(), &each, sizeof(each));
+      words.insert(words.end(), as_words.begin(), as_words.end());
+    }
+  };
+  add(model.influence_begin), add(model.influences), add(model.cuts), add(model.corner_begin),
+      add(model.corners);
+  return XXH3_64bits(words.data(), words.size() * sizeof(words[0]));
+}
+
+TEST(ConstructionDeterminism, OfModelsOfBodies) {
+  EXPECT_EQ(hash_of(make_body(default_male(), {.spheres = 24, .draft = true})), 0x6728c400aa7c0567u);
+  EXPECT_EQ(hash_of(make_body(default_male(), {.spheres = 24})), 0x5c851d62b312f12eu);
 }
 
 /// Hashes of all that makes shapes: of given outlines, of capsules and discs, of characters as outlines, roots and moving discs.
