@@ -41,8 +41,7 @@ class BodyClearanceKernel {
     if (!(bands_.find_reach_of_all(pair, bodies, of_a, of_b) <= bodies.margin()))
       return {bodies.gap, no_slot, no_slot};
     leaves_.begin(bodies, set, at_.shape_a[pair], at_.shape_b[pair], arguments_.enough);
-    leaves_.bound_by_cores();
-    if (leaves_.is_done()) return {leaves_.bodies().gap, 0, 0};
+    if (leaves_.bound_by_cores()) return {arguments_.enough, 0, 0};
     of_a.widen(leaves_.bodies().margin()), of_b.widen(leaves_.bodies().margin());
     return leaves_.search(of_a, of_b);
   }

@@ -26,18 +26,16 @@ class NearestLeaves {
     nearest_ = {bodies.gap, no_slot, no_slot};
   }
 
-  /// Bounds the distance by the core spheres.
-  void bound_by_cores() noexcept {
+  /// Bounds the distance by the core spheres. Returns whether that is enough.
+  bool bound_by_cores() noexcept {
     for (unsigned i = 0; i < core_spheres; i += 8)
-      for (unsigned j = 0; j < core_spheres; j += 8) {
-        const float least = least_gap<8>(core_of(bodies_.a, i), core_of(bodies_.b, j));
-        if (least < bodies_.gap) bodies_.gap = least;
-      }
+      for (unsigned j = 0; j < core_spheres; j += 8)
+        if (bound_by(core_of(bodies_.a, i), core_of(bodies_.b, j)) && enough_ >= 0) return true;
+    return false;
   }
 
-  /// Returns the bodies; their gap is the least distance so far.
+  /// Returns the bodies; their gap is a bound of the distance, and the least so far.
   const PlacedBodies& bodies() const noexcept { return bodies_; }
-  bool is_done() const noexcept { return bodies_.gap <= enough_; }
 
   /// Searches the leaves that reach the other body.
   NearestSpheres search(const Reach& reach_a, const Reach& reach_b) noexcept {
@@ -50,6 +48,23 @@ class NearestLeaves {
  private:
   using Float = typename Simd::Float;
   using Mask = typename Simd::Mask;
+
+  bool is_done() const noexcept { return bodies_.gap <= enough_; }
+
+  /// Bounds the distance by that of 8 x 8 spheres, which need not be exact. Returns whether some overlap.
+  [[gnu::noinline]] bool bound_by(Balls a, Balls b) noexcept {
+    constexpr float longer = (1 + 2 * Simd::rough) * (1 + 0x1p-20f);  // than the root, and far_centres
+    Float least(bodies_.gap);
+    Mask overlap = Float(1.0f) < Float(0.0f);
+    visit_ball_pairs<Simd, 8>(
+        bodies_.b_in_a, a, b, [&](unsigned, const SpheresOf<Float>& of_a, const SpheresOf<Float>& of_b) {
+          const Float square = square_between(of_a, of_b), radii = of_a.radius + of_b.radius;
+          overlap = overlap | (square <= radii * radii);
+          least = xsimd::min(least, rough_root<Simd>(square) * Float(longer) - radii);
+        });
+    bodies_.gap = Simd::least(least);
+    return Simd::bits(overlap) != 0;
+  }
   using Leaves = ClippedLeaves<Simd>;
 
   /// Holds how far nodes are apart on the ground and in height; below 0 where they overlap.
