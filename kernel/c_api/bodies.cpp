@@ -3,6 +3,7 @@
 
 #include <bch/baked.hpp>
 #include <bch/bodies.hpp>
+#include <bch/clearance.hpp>
 #include <bch/collide.hpp>
 
 #include "kernel/c_api/calls.hpp"
@@ -198,5 +199,31 @@ bch_status bch_collide_bodies(const bch_body_set* set, const bch_agents* agents,
     const PairCallOn<bch_body_set> call(set, agents, pairs, count, options);
     const auto to = array_of(hits, count, "hits");
     call.run([&] { collide(call.shapes, call.agents, call.pairs, to, call.options.implementation); });
+  });
+}
+
+bch_status bch_within_bodies(const bch_body_set* set, const bch_agents* agents, const bch_pair* pairs,
+                             size_t count, const double* distances, size_t distance_count,
+                             const bch_query_options* options, uint8_t* answers) {
+  return guarded([&] {
+    const PairCallOn<bch_body_set> call(set, agents, pairs, count, options);
+    const auto near = array_of(distances, distance_count, "distances");
+    const auto to = array_of(answers, count, "answers");
+    call.run([&] { within(call.shapes, call.agents, call.pairs, near, to, call.options.implementation); });
+  });
+}
+
+bch_status bch_clearance_bodies(const bch_body_set* set, const bch_agents* agents, const bch_pair* pairs,
+                                size_t count, const bch_query_options* options,
+                                const bch_body_clearance_out* given) {
+  return guarded([&] {
+    const PairCallOn<bch_body_set> call(set, agents, pairs, count, options);
+    const bch_body_clearance_out out =
+        sized(&required(given, "out"), bch_body_clearance_out BCH_BODY_CLEARANCE_OUT_INIT, "out");
+    BodyClearanceAnswers to{array_of(out.distance, count, "out->distance")};
+    if (out.direction != nullptr) to.direction = same_array<Vec3>(out.direction, count, "out->direction");
+    if (out.spheres != nullptr) to.spheres = same_array<DiscPair>(out.spheres, count, "out->spheres");
+    if (out.points != nullptr) to.points = same_array<NearestSpacePoints>(out.points, count, "out->points");
+    call.run([&] { clearance(call.shapes, call.agents, call.pairs, to, call.options); });
   });
 }

@@ -186,6 +186,27 @@ bch_status bch_crowd_clearances(bch_crowd* handle, const bch_shape_set* set, con
   });
 }
 
+bch_status bch_crowd_body_clearances(bch_crowd* handle, const bch_body_set* set, const bch_agents* agents,
+                                     double within, const bch_pair_filter* filter,
+                                     const bch_query_options* options,
+                                     bch_crowd_body_clearance_view* clearances) {
+  return guarded([&] {
+    const CrowdCallOn<bch_body_set> call(handle, set, agents, filter, options);
+    required(clearances, "clearances");
+    const CrowdBodyClearances found = call.answer([&](Crowd& crowd) {
+      return crowd.clearances(call.shapes, call.agents, within,
+                              {call.options.overlap, call.filter, call.options.implementation});
+    });
+    call.object.last = found.pairs;
+    *clearances = {found.pairs.size(),
+                   c_pairs(found.pairs.span()),
+                   found.distance.data(),
+                   reinterpret_cast<const bch_vec3*>(found.direction.data()),
+                   reinterpret_cast<const bch_disc_pair*>(found.spheres.data()),
+                   reinterpret_cast<const bch_nearest_space_points*>(found.points.data())};
+  });
+}
+
 bch_status bch_crowd_penetrations(bch_crowd* handle, const bch_shape_set* set, const bch_agents* agents,
                                   uint32_t directions, const bch_pair_filter* filter,
                                   const bch_query_options* options,

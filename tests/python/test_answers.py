@@ -200,7 +200,22 @@ class Scenes(unittest.TestCase):
         pairs = np.array([[0, 1], [0, 2], [0, 3], [1, 2]], np.uint32)
         for name in bch.implementations():
             self.assertEqual(bch.collide(bodies, agents, pairs, implementation=name).tolist(), [True, True, False, False])
+            near = bch.within(bodies, agents, pairs, 0.101, implementation=name)
+            self.assertEqual(near.tolist(), [True, True, True, False])
+            gaps = bch.clearance(bodies, agents, pairs, implementation=name)
+            np.testing.assert_allclose(gaps, [0, 0, 0.1, np.hypot(0.9, 0.65) - 0.75], atol=1e-4)
+        nearest = bch.nearest(bodies, agents, pairs, max_distance=0.2, overlap="deepest")
+        np.testing.assert_allclose(nearest.distance[:3], [-0.1, -0.1, 0.1], atol=1e-4)
+        np.testing.assert_allclose(nearest.direction[1:3], [[0, 0, 1]] * 2, atol=1e-6)
+        self.assertEqual(nearest.discs[1:].tolist(), [[2, 0], [2, 0], [2**32 - 1] * 2])
+        np.testing.assert_allclose(nearest.points[2], [[0, 0, 2], [0, 0, 0]], atol=1e-4)
         crowd = bch.Crowd()
+        apart = crowd.clearances(bodies, agents, 0.15, overlap="deepest")
+        of_pair = {tuple(pair): i for i, pair in enumerate(apart.pairs.tolist())}
+        self.assertEqual(set(of_pair), {(0, 1), (0, 2), (0, 3), (2, 3)})
+        kept = of_pair[(0, 3)]
+        for name in ("distance", "direction", "discs", "points"):
+            np.testing.assert_array_equal(getattr(apart, name)[kept], getattr(nearest, name)[2])
         found = {tuple(pair) for pair in crowd.collisions(bodies, agents).tolist()}
         self.assertEqual(found, {(0, 1), (0, 2), (2, 3)})
         self.assertEqual(crowd.by_agent()[0].tolist(), [1, 2])

@@ -104,9 +104,9 @@ class Clearances(NamedTuple):
 
     pairs: UInt32  #: (n, 2), the pairs of agents
     distance: Float32  #: (n,), metres
-    direction: Float32  #: (n, 2), unit vectors from the first agent to the second
-    discs: UInt32  #: (n, 2), the nearest disc of each agent; 0xffffffff: none
-    points: Float32  #: (n, 2, 2), the nearest point of each agent, relative to its own position, metres
+    direction: Float32  #: (n, 2), unit vectors from the first agent to the second; of bodies (n, 3)
+    discs: UInt32  #: (n, 2), the nearest disc, or sphere, of each agent; 0xffffffff: none
+    points: Float32  #: (n, 2, 2), the nearest point of each agent, relative to its own position, metres; of bodies (n, 2, 3)
 
 
 class Penetrations(NamedTuple):
@@ -244,7 +244,7 @@ class Crowd:
 
     def clearances(
         self,
-        shapes: ShapeSet,
+        shapes: Union[ShapeSet, BodySet],
         agents: Agents,
         within: float,
         *,
@@ -260,17 +260,20 @@ class Crowd:
         how, _ = options(
             overlap=overlap, threads=threads, implementation=implementation, distance_leaves=leaves
         )
-        at, found = pointers(shapes, agents), _library.CrowdClearanceView()
+        bodies = isinstance(shapes, BodySet)
+        at, axes = pointers(shapes, agents, bodies), 3 if bodies else 2
+        found = _library.CrowdBodyClearanceView() if bodies else _library.CrowdClearanceView()
+        call = lib.bch_crowd_body_clearances if bodies else lib.bch_crowd_clearances
         chosen, metres = _filter(agents, category, mask, excluded), number(within, "within")
         with self._exclusive:
-            check(lib.bch_crowd_clearances(self._handle.pointer, *at, metres, chosen, how, byref(found)))
+            check(call(self._handle.pointer, *at, metres, chosen, how, byref(found)))
             n = found.count
             return Clearances(
                 copied(found.pairs, u4, (n, 2)),
                 copied(found.distance, f4, (n,)),
-                copied(found.direction, f4, (n, 2)),
-                copied(found.discs, u4, (n, 2)),
-                copied(found.points, f4, (n, 2, 2)),
+                copied(found.direction, f4, (n, axes)),
+                copied(found.spheres if bodies else found.discs, u4, (n, 2)),
+                copied(found.points, f4, (n, 2, axes)),
             )
 
     def penetrations(

@@ -189,10 +189,10 @@ def pointers(shapes: Union[ShapeSet, BodySet], agents: Agents, bodies: bool = Fa
     return shapes._pointer, agents._pointer
 
 
-def _asked(shapes: ShapeSet, agents: Agents, pairs: Pairs) -> Tuple[int, int, int, int]:
-    """Return the addresses of the arguments of a query, and the number of its answers."""
-    set_at, agents_at = pointers(shapes, agents)
-    if isinstance(pairs, Obstacles):
+def _asked(shapes: Union[ShapeSet, BodySet], agents: Agents, pairs: Pairs, bodies: bool = False) -> Tuple[int, int, int, int]:
+    """Return the addresses of the arguments of a query, and the number of its answers. Obstacles are asked about with shapes alone."""
+    set_at, agents_at = pointers(shapes, agents, bodies)
+    if isinstance(pairs, Obstacles) and not bodies:
         return set_at, agents_at, pairs._pointer, len(agents)
     return set_at, agents_at, given(pairs, u4, (None, 2), "pairs"), len(pairs)
 
@@ -233,14 +233,12 @@ def collide(
     (n,) bool
     """
     how, _ = options(leaves, "zero", math.inf, threads, implementation)
-    if isinstance(shapes, BodySet):
-        at, where = pointers(shapes, agents, bodies=True), given(pairs, u4, (None, 2), "pairs")
-        hits = result(out, b1, (len(pairs),))
-        check(lib.bch_collide_bodies(*at, where, len(pairs), how, address(hits)))
-        return hits
-    set_at, agents_at, where, n = _asked(shapes, agents, pairs)
+    bodies = isinstance(shapes, BodySet)
+    set_at, agents_at, where, n = _asked(shapes, agents, pairs, bodies)
     hits = result(out, b1, (n,))
-    if isinstance(pairs, Obstacles):
+    if bodies:
+        check(lib.bch_collide_bodies(set_at, agents_at, where, n, how, address(hits)))
+    elif isinstance(pairs, Obstacles):
         check(lib.bch_obstacles_collide(set_at, agents_at, where, how, address(hits)))
     else:
         check(lib.bch_collide(set_at, agents_at, where, n, how, address(hits)))
@@ -248,7 +246,7 @@ def collide(
 
 
 def within(
-    shapes: ShapeSet,
+    shapes: Union[ShapeSet, BodySet],
     agents: Agents,
     pairs: Pairs,
     distance: Union[float, Float64],
@@ -264,7 +262,8 @@ def within(
 
     Parameters
     ----------
-    shapes : ShapeSet
+    shapes : ShapeSet or BodySet
+        Bodies are measured in space.
     agents : Agents
     pairs : (n, 2) uint32, or Obstacles
     distance : float, or (n,) float64
@@ -278,7 +277,8 @@ def within(
     -------
     (n,) bool
     """
-    set_at, agents_at, where, n = _asked(shapes, agents, pairs)
+    bodies = isinstance(shapes, BodySet)
+    set_at, agents_at, where, n = _asked(shapes, agents, pairs, bodies)
     if leaves != "discs" and not isinstance(pairs, Obstacles):
         raise ArgumentError("leaves are for obstacles; pairs are measured between discs")
     answers = result(out, b1, (n,))
@@ -287,7 +287,9 @@ def within(
     if not isinstance(distance, (np.ndarray, list, tuple)):
         near = np.array([number(distance, "distance")], f8)
     at = given(near, f8, (None,), "distance")
-    if isinstance(pairs, Obstacles):
+    if bodies:
+        status = lib.bch_within_bodies(set_at, agents_at, where, n, at, len(near), how, address(answers))
+    elif isinstance(pairs, Obstacles):
         status = lib.bch_obstacles_within(set_at, agents_at, where, at, len(near), how, address(answers))
     else:
         status = lib.bch_within(set_at, agents_at, where, n, at, len(near), how, address(answers))
@@ -299,13 +301,13 @@ class Nearest(NamedTuple):
     """The result of `nearest`, with one entry per pair."""
 
     distance: Float32  #: (n,), metres; infinite beyond the largest distance
-    direction: Float32  #: (n, 2), unit vectors from the first agent to the second
-    discs: UInt32  #: (n, 2), the nearest disc of each agent; with obstacles, a disc and a segment; 0xffffffff: none
-    points: Float32  #: (n, 2, 2), the nearest point of each agent, relative to its own position, metres
+    direction: Float32  #: (n, 2), unit vectors from the first agent to the second; of bodies (n, 3)
+    discs: UInt32  #: (n, 2), the nearest disc, or sphere, of each agent; with obstacles, a disc and a segment; 0xffffffff: none
+    points: Float32  #: (n, 2, 2), the nearest point of each agent, relative to its own position, metres; of bodies (n, 2, 3)
 
 
 def _measure(
-    shapes: ShapeSet,
+    shapes: Union[ShapeSet, BodySet],
     agents: Agents,
     pairs: Pairs,
     how: int,
@@ -314,22 +316,22 @@ def _measure(
     discs: Optional[UInt32] = None,
     points: Optional[Float32] = None,
 ) -> None:
-    set_at, agents_at, where, n = _asked(shapes, agents, pairs)
-    to = _library.ClearanceOut(
-        distance=address(distance),
-        direction=None if direction is None else address(direction),
-        discs=None if discs is None else address(discs),
-        points=None if points is None else address(points),
-    )
+    bodies = isinstance(shapes, BodySet)
+    set_at, agents_at, where, n = _asked(shapes, agents, pairs, bodies)
+    to = (_library.BodyClearanceOut if bodies else _library.ClearanceOut)(distance=address(distance))
+    for name, array in {"direction": direction, "spheres" if bodies else "discs": discs, "points": points}.items():
+        setattr(to, name, None if array is None else address(array))
     at = ctypes.addressof(to)
-    if isinstance(pairs, Obstacles):
+    if bodies:
+        check(lib.bch_clearance_bodies(set_at, agents_at, where, n, how, at))
+    elif isinstance(pairs, Obstacles):
         check(lib.bch_obstacles_clearance(set_at, agents_at, where, how, at))
     else:
         check(lib.bch_clearance(set_at, agents_at, where, n, how, at))
 
 
 def clearance(
-    shapes: ShapeSet,
+    shapes: Union[ShapeSet, BodySet],
     agents: Agents,
     pairs: Pairs,
     *,
@@ -346,7 +348,8 @@ def clearance(
 
     Parameters
     ----------
-    shapes : ShapeSet
+    shapes : ShapeSet or BodySet
+        Bodies are measured in space, from sphere to sphere.
     agents : Agents
     pairs : (n, 2) uint32, or Obstacles
     max_distance : float
@@ -365,7 +368,7 @@ def clearance(
     (n,) float32
         Metres.
     """
-    n = _asked(shapes, agents, pairs)[3]
+    n = _asked(shapes, agents, pairs, isinstance(shapes, BodySet))[3]
     distance = result(out, f4, (n,))
     how, _ = options("segments", overlap, max_distance, threads, implementation, leaves)
     _measure(shapes, agents, pairs, how, distance)
@@ -373,7 +376,7 @@ def clearance(
 
 
 def nearest(
-    shapes: ShapeSet,
+    shapes: Union[ShapeSet, BodySet],
     agents: Agents,
     pairs: Pairs,
     *,
@@ -399,14 +402,15 @@ def nearest(
         Where there are no nearest points, directions and points are 0 and discs 0xffffffff: beyond `max_distance`, and where
         agents overlap unless `overlap` is "deepest".
     """
-    n = _asked(shapes, agents, pairs)[3]
+    bodies = isinstance(shapes, BodySet)
+    n, axes = _asked(shapes, agents, pairs, bodies)[3], 3 if bodies else 2
     if out is not None:
         instance(out, Nearest, "out")
     found = Nearest(
         result(None if out is None else out.distance, f4, (n,), "out.distance"),
-        result(None if out is None else out.direction, f4, (n, 2), "out.direction"),
+        result(None if out is None else out.direction, f4, (n, axes), "out.direction"),
         result(None if out is None else out.discs, u4, (n, 2), "out.discs"),
-        result(None if out is None else out.points, f4, (n, 2, 2), "out.points"),
+        result(None if out is None else out.points, f4, (n, 2, axes), "out.points"),
     )
     how, _ = options("segments", overlap, max_distance, threads, implementation, leaves)
     _measure(shapes, agents, pairs, how, *found)

@@ -768,11 +768,34 @@ BCH_API bch_status bch_live_bodies_get_set(const bch_live_bodies* bodies, const 
 /** Frees bodies, and the set that they lent. */
 BCH_API bch_status bch_live_bodies_free(bch_live_bodies* bodies);
 
-/** Tests whether the bodies of each pair's agents have a point in common, and writes 1 or 0 to `hits`. Of the options, this and the next
- * two use `threads` and `implementation`, and ignore the others. */
+/** Tests whether the bodies of each pair's agents have a point in common, and writes 1 or 0 to `hits`. Of the options, queries of bodies
+ * use `threads` and `implementation`, clearances `overlap` and, of pairs, `max_distance` as well; they ignore the others. */
 BCH_API bch_status bch_collide_bodies(const bch_body_set* set, const bch_agents* agents, const bch_pair* pairs,
                                       size_t count, const bch_query_options* options, uint8_t* hits);
-/** Finds every pair of agents whose bodies, as seen from above, may collide or come within a margin. */
+/** Tests whether the bodies of each pair's agents come within a distance of each other, and writes 1 or 0 to `answers`. There is one
+ * distance for all pairs, or one each. */
+BCH_API bch_status bch_within_bodies(const bch_body_set* set, const bch_agents* agents, const bch_pair* pairs,
+                                     size_t count, const double* distances, size_t distance_count,
+                                     const bch_query_options* options, uint8_t* answers);
+/** Holds the nearest points of two bodies, each relative to its agent's position, in the world's axes. */
+typedef struct bch_nearest_space_points {
+  bch_vec3 first, second;
+} bch_nearest_space_points;
+/** Holds the output arrays of bch_clearance_bodies(), as bch_clearance_out does, in space. */
+typedef struct bch_body_clearance_out {
+  uint32_t size;                    /**< sizeof(bch_body_clearance_out) */
+  float* distance;                  /**< required, not NULL */
+  bch_vec3* direction;              /**< from the first agent's nearest point to the second's */
+  bch_disc_pair* spheres;           /**< the numbers of the nearest spheres, or BCH_NO_DISC */
+  bch_nearest_space_points* points; /**< the nearest points */
+} bch_body_clearance_out;
+#define BCH_BODY_CLEARANCE_OUT_INIT \
+  { sizeof(bch_body_clearance_out), NULL, NULL, NULL, NULL }
+/** Measures how far apart in space the bodies of each pair's agents are. */
+BCH_API bch_status bch_clearance_bodies(const bch_body_set* set, const bch_agents* agents, const bch_pair* pairs,
+                                        size_t count, const bch_query_options* options,
+                                        const bch_body_clearance_out* out);
+/** Finds every pair of agents whose bodies, by their discs as seen from above and their heights, may collide or come within a margin. */
 BCH_API bch_status bch_crowd_body_candidates(bch_crowd* crowd, const bch_body_set* set, const bch_agents* agents,
                                              double margin, const bch_pair_filter* filter,
                                              const bch_query_options* options, const bch_pair** pairs,
@@ -781,6 +804,20 @@ BCH_API bch_status bch_crowd_body_candidates(bch_crowd* crowd, const bch_body_se
 BCH_API bch_status bch_crowd_body_collisions(bch_crowd* crowd, const bch_body_set* set, const bch_agents* agents,
                                              const bch_pair_filter* filter, const bch_query_options* options,
                                              const bch_pair** pairs, size_t* count);
+/** Views the pairs of a crowd whose bodies are near each other, and arrays with one value per pair, as bch_body_clearance_out has them. */
+typedef struct bch_crowd_body_clearance_view {
+  size_t count;
+  const bch_pair* pairs;
+  const float* distance;
+  const bch_vec3* direction;
+  const bch_disc_pair* spheres;
+  const bch_nearest_space_points* points;
+} bch_crowd_body_clearance_view;
+/** Finds the pairs whose bodies have a clearance of at most `within` metres. */
+BCH_API bch_status bch_crowd_body_clearances(bch_crowd* crowd, const bch_body_set* set, const bch_agents* agents,
+                                             double within, const bch_pair_filter* filter,
+                                             const bch_query_options* options,
+                                             bch_crowd_body_clearance_view* clearances);
 
 /* Obstacles --------------------------------------------------------------------------------------------------------- */
 
