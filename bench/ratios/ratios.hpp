@@ -61,7 +61,7 @@ void add_queries(Scene& scene);
 void add_crowds(Scene& scene);
 /// bodies/<contacts|loop>: a crowd of bodies of discs.
 void add_bodies();
-/// spheres/<count>/<workload>/<instruction set>: bodies of spheres.
+/// {spheres,spheres_clearance}/<count>/<workload>/<instruction set>: collide() and clearance() of bodies of spheres.
 void add_spheres(Scene& scene);
 /// obstacles/<query>: a crowd on a floor plan.
 void add_obstacles(Scene& scene);

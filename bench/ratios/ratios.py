@@ -64,6 +64,8 @@ plans | plans/{single_cylinder,depth_3,depth_6,all,mixed,all_discs,one_frame}/{b
 spheres | spheres/128/crowd/avx2 / collide/crowd/segments/avx2 | <= 1.1
 spheres | spheres/256/crowd/avx2 / collide/crowd/segments/avx2 | <= 1.4
 spheres | spheres/512/crowd/avx2 / collide/crowd/segments/avx2 | <= 2.1
+spheres | spheres_clearance/256/crowd/avx2 / clearance/crowd/avx2 | <= 1.8
+spheres | spheres_clearance/512/crowd/avx2 / clearance/crowd/avx2 | <= 2.5
 live | live/{300,1000}/{all,6,3,0} |
 construction | construction/*/ISA/{skin,outline,hierarchy,hierarchy_welzl,levels,interior} |
 construction | construction/*/ISA/{pose,all} | <= 45000 45000 90000

@@ -4,10 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <stdexcept>
+#include <vector>
 
 #include <bch/bodies.hpp>
+#include <bch/clearance.hpp>
 #include <bch/collide.hpp>
 
 #include "baselines/body_reference.hpp"
@@ -33,6 +36,34 @@ Contender spheres_contender(const BodySet& bodies, const Workload& workload,
   return {call, hits->size(), {{"hits", count}, {"bytes", bodies_bytes}}};
 }
 
+/// Measures distances and directions; one answer in 16 is compared with brute force.
+Contender clearance_contender(const BodySet& bodies, const Workload& workload,
+                              const Implementation& implementation) {
+  constexpr std::size_t checked = 16;
+  const std::size_t pairs = workload.pairs.size();
+  const auto distance = std::make_shared<std::vector<float>>(pairs);
+  const auto direction = std::make_shared<std::vector<Vec3>>(pairs);
+  const auto call = [&bodies, &workload, &implementation, distance, direction] {
+    clearance(bodies, workload.agents(), workload.pairs, {*distance, *direction},
+              {.implementation = &implementation, .max_distance = clearance_limit});
+  };
+  call();
+  const baselines::BodyReference reference(bodies);
+  for (std::size_t i = 0; i < pairs; i += checked) {
+    const float nearest = reference.clearance(workload.agents(), workload.pairs[i]).distance;
+    const float expected = nearest <= 0 ? 0
+                           : static_cast<double>(nearest) <= clearance_limit
+                               ? nearest
+                               : std::numeric_limits<float>::infinity();
+    if ((*distance)[i] != expected)
+      throw std::runtime_error(
+          fmt::format("{}: the distance of pair {} of bodies of spheres is wrong", workload.name, i));
+  }
+  const auto near =
+      static_cast<double>(std::count_if(distance->begin(), distance->end(), [](float d) { return d < 1; }));
+  return {call, pairs, {{"near", near}}};
+}
+
 }  // namespace
 
 void add_spheres(Scene& scene) {
@@ -44,6 +75,12 @@ void add_spheres(Scene& scene) {
         add(fmt::format("spheres/{}/{}/{}", spheres, name, implementation->name),
             [&scene, bodies, name, implementation] {
               return spheres_contender(bodies().set(), scene.workload(name), *implementation);
+            });
+    for (const std::string_view name : {"crowd", "candidates"})
+      for (const Implementation* implementation : supported_implementations())
+        add(fmt::format("spheres_clearance/{}/{}/{}", spheres, name, implementation->name),
+            [&scene, bodies, name, implementation] {
+              return clearance_contender(bodies().set(), scene.workload(name), *implementation);
             });
   }
 }
