@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-// A baked file made in bad faith: it is refused, or else every query on it ends.
+// A baked file made in bad faith: it is refused, or else every query on it ends, and so do poses of the models that are not refused.
 
 #include <vector>
 
 #include <bch/baked.hpp>
+#include <bch/bodies.hpp>
 #include <bch/verify.hpp>
 
 #include "layout/baked/checksum.hpp"
@@ -68,6 +69,14 @@ void play(std::span<const BakedClip> clips) {
   }
 }
 
+/// Poses the bodies of models that are accepted.
+void pose(std::span<const BakedBody> bodies) {
+  for (const BakedBody& body : bodies) try {
+      BodyPoser(body_model(body)).spheres({});
+    } catch (const std::logic_error&) {
+    }
+}
+
 }  // namespace
 }  // namespace bch::fuzz
 
@@ -85,6 +94,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const Implementation& implementation = all[mode / 2 % all.size()];
     if (implementation.supported()) fuzz::query(baked.set, implementation);
     fuzz::play(baked.clips);
+    fuzz::pose(baked.bodies);
   } catch (const BakedFileError&) {
   }
   return 0;

@@ -42,8 +42,13 @@ std::vector<BakedClip> few_clips() {
   return {{0, 1, {{first, next}, true}}, {3, ShapeOrigin::rest_pose, {{fine}, false}}};
 }
 
-BakedBytes::BakedBytes(const ShapeSet& set, const ShapeOrigins& origins, std::span<const BakedClip> clips) {
-  const detail::BakedImage image(set, origins, clips);
+std::vector<BakedBody> few_bodies() {
+  return {{std::byte{7}, std::byte{0}, std::byte{255}}, {}, {std::byte{1}}};
+}
+
+BakedBytes::BakedBytes(const ShapeSet& set, const ShapeOrigins& origins, std::span<const BakedClip> clips,
+                       std::span<const BakedBody> bodies) {
+  const detail::BakedImage image(set, origins, clips, bodies);
   for (const auto part : image.parts()) bytes_.insert(bytes_.end(), part.begin(), part.end());
 }
 

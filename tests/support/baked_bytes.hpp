@@ -19,11 +19,14 @@ std::vector<Shape> few_shapes();
 ShapeOrigins origins_of(std::size_t shapes);
 /// Returns clips of its names: one of numbers of 16 bits, which loops, and one of other numbers and without a name.
 std::vector<BakedClip> few_clips();
+/// Returns bytes in the place of models, none of which a file reads: three, nothing, and one.
+std::vector<BakedBody> few_bodies();
 
 /// A baked file in memory, for tests that corrupt it.
 class BakedBytes {
  public:
-  BakedBytes(const ShapeSet& set, const ShapeOrigins& origins, std::span<const BakedClip> clips = {});
+  BakedBytes(const ShapeSet& set, const ShapeOrigins& origins, std::span<const BakedClip> clips = {},
+             std::span<const BakedBody> bodies = {});
 
   std::size_t size() const { return bytes_.size(); }
   std::byte& operator[](std::size_t i) { return bytes_[i]; }

@@ -21,7 +21,7 @@ constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
 BakedBytes sound_bytes() {
   return BakedBytes(ShapeSet(few_shapes(), {.depths = {0, 3, all_depths}, .outlines = true}), origins_of(3),
-                    few_clips());
+                    few_clips(), few_bodies());
 }
 
 struct Crime {
@@ -67,6 +67,8 @@ std::vector<Crime> crimes() {
        [](BakedBytes& b) { b.section<double>(Section::key_times)[1] = 0; }},
       {"of -0.125 m", step(2, -1)},
       {"clips 1: animated shape: chunk 0: disc 0 at key 1", floats(Section::disc_floats, 4, nan)},
+      {"body_ends 1: 2 does not ascend", word(Section::body_ends, 2, 2)},
+      {"body_ends: they end with 5, and there are 4 body_bytes", word(Section::body_ends, 4, 5)},
       {"name_begin 2", word(Section::name_begin, 2, 1)},
       {"name_begin 4", word(Section::name_begin, 4, 1000)},
   };

@@ -20,7 +20,7 @@ const ShapeSetPlan full_plan{.depths = {0, 3, all_depths}, .outlines = true, .cu
 
 class SpoiledFile : public testing::Test {
  protected:
-  BakedBytes bytes{ShapeSet(few_shapes(), full_plan), origins_of(3), few_clips()};
+  BakedBytes bytes{ShapeSet(few_shapes(), full_plan), origins_of(3), few_clips(), few_bodies()};
 
   void expect_error(const std::string& words) {
     EXPECT_TRUE(bytes.error().starts_with("file: ")) << bytes.error();
@@ -180,7 +180,7 @@ TEST_F(SpoiledFile, SizesBeyondAllMemory) {
   constexpr std::uint64_t huge = std::uint64_t{4} << 40;
   const auto text = folder.write("text.bch", std::string(4096, 'x')),
              longer = folder.write("longer.bch", bytes.text());
-  detail::baked::SectionEntry& last = bytes.entry(Section::disc_floats);
+  detail::baked::SectionEntry& last = bytes.entry(Section::body_bytes);
   last.count = (huge - last.offset) / last.element_size;
   bytes.preamble().header.file_size = huge;
   bytes.seal_header();

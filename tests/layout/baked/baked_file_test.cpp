@@ -156,13 +156,23 @@ TEST(SaveBaked, WritesTheBytesOfTheSetInPlaceOfAnotherFile) {
   std::ofstream(file) << "something else";
   const ShapeSet set(few_shapes(), full_plan);
   const ShapeOrigins origins = origins_of(set.shape_count());
-  save_baked(file, set, origins, few_clips());
-  EXPECT_EQ(text_of_file(file), BakedBytes(set, origins, few_clips()).text());
+  save_baked(file, set, origins, few_clips(), few_bodies());
+  EXPECT_EQ(text_of_file(file), BakedBytes(set, origins, few_clips(), few_bodies()).text());
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
   const BakedShapes loaded = load_baked(file, FileAccess::map);
   EXPECT_EQ(loaded.origins, origins);
   EXPECT_EQ(loaded.clips, few_clips());
+  EXPECT_EQ(loaded.bodies, few_bodies());
   expect_same(loaded.set.arrays(), set.arrays());
+}
+
+TEST(SaveBaked, KeepsModelsWithoutShapes) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path() / "people.bch";
+  save_baked(file, ShapeSet(std::span<const Shape>()), {}, {}, few_bodies());
+  const BakedShapes loaded = load_baked(file);
+  EXPECT_EQ(loaded.set.shape_count(), 0u);
+  EXPECT_EQ(loaded.bodies, few_bodies());
 }
 
 TEST(SaveBaked, LeavesTheFileWhereItCannotWrite) {
