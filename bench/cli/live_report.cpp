@@ -41,8 +41,8 @@ std::string text_report(const LiveRun& run) {
   for (const TimeRow& row : rows_of(run.times))
     table += fmt::format("{:<12}{:>9.2f} {:>9.2f}\n", row.name, median(row.milliseconds), row.least());
   return fact("characters", names_of(run.characters)) +
-         fact("bodies", fmt::format("{} each, bound to bones as drafts, {:.1f} kB each",
-                                    counted(run.options.spheres, "sphere"), bytes_per_body(run) / 1e3)) +
+         fact("bodies", fmt::format("{} each, {:.1f} kB each", counted(run.options.spheres, "sphere"),
+                                    bytes_per_body(run) / 1e3)) +
          fact("agents", agents_text(run.options, run.crowd.crowd())) +
          fact("frames", fmt::format("{} of 1/60 s, in which everybody is posed anew",
                                     grouped(run.times.posing.size()))) +

@@ -44,13 +44,14 @@ struct QueryKind {
   const char* help;     ///< what they are, in the words of --help
   /// Returns the answer as CSV, without the header, in the order of the pairs or agents.
   std::string (*rows)(const QueryInput& input);
-  bool moving = false;       ///< asks how agents move
-  bool of_obstacles = true;  ///< can be asked about obstacles
-  bool of_spheres = false;   ///< can be asked of bodies of spheres
+  bool moving = false;                   ///< asks how agents move
+  bool of_obstacles = true;              ///< can be asked about obstacles
+  const char* sphere_columns = nullptr;  ///< of bodies of spheres; none: they cannot be asked
 };
 
 /// More columns of a clearance.
 constexpr const char* point_columns = ",first_x,first_y,second_x,second_y";
+constexpr const char* sphere_point_columns = ",first_x,first_y,first_z,second_x,second_y,second_z";
 
 /// Returns all kinds of queries; the first is the default.
 std::span<const QueryKind> query_kinds();
@@ -68,9 +69,8 @@ std::string query_help();
 /// Errors:  throws std::length_error where there are more pairs of neighbours than `most`.
 std::vector<Pair> all_pairs(const ShapeSet& set, const AgentTable& table, const std::string& what,
                             const QueryOptions& options, std::size_t most);
-/// Returns all pairs of bodies of spheres that collide, likewise.
-std::vector<Pair> all_pairs(const BodySet& bodies, const AgentTable& table, const QueryOptions& options,
-                            std::size_t most);
+std::vector<Pair> all_pairs(const BodySet& bodies, const AgentTable& table, const std::string& what,
+                            const QueryOptions& options, std::size_t most);
 
 /// Holds what the command line of bch query says.
 struct QueryCommandOptions {

@@ -91,34 +91,57 @@ std::string penetration_rows(const QueryInput& input) {
   return out;
 }
 
-std::string clearance_rows(const QueryInput& input) {
+std::string columns(const Vec2& v) {
+  return fmt::format(",{},{}", plain(v.x), plain(v.y));
+}
+
+std::string columns(const Vec3& v) {
+  return fmt::format(",{},{},{}", plain(v.x), plain(v.y), plain(v.z));
+}
+
+/// `measure` fills the three arrays.
+template <class Vector, class Points, class Measure>
+std::string clearance_lines(const QueryInput& input, const Measure& measure) {
   std::vector<float> distance(input.size());
-  std::vector<Vec2> direction(input.size());
-  std::vector<NearestPoints> points(input.points ? input.size() : 0);
-  ask(input, [&](const auto& about) {
-    clearance(*input.set, input.table.agents(), about,
-              ClearanceAnswers{.distance = distance, .direction = direction, .points = points},
-              input.options);
-  });
+  std::vector<Vector> direction(input.size());
+  std::vector<Points> points(input.points ? input.size() : 0);
+  measure(distance, direction, points);
   std::string out;
   for (std::size_t i = 0; i < distance.size(); ++i) {
-    out += fmt::format("{},{},{},{}", ids(input, i), plain(distance[i]), plain(direction[i].x),
-                       plain(direction[i].y));
-    if (input.points) {
-      const auto& [first, second] = points[i];
-      out += fmt::format(",{},{},{},{}", plain(first.x), plain(first.y), plain(second.x), plain(second.y));
-    }
+    out += fmt::format("{},{}{}", ids(input, i), plain(distance[i]), columns(direction[i]));
+    if (input.points) out += columns(points[i].first) + columns(points[i].second);
     out += "\n";
   }
   return out;
 }
 
+std::string clearance_rows(const QueryInput& input) {
+  const Agents agents = input.table.agents();
+  if (input.bodies != nullptr)
+    return clearance_lines<Vec3, NearestSpacePoints>(
+        input, [&](auto& distance, auto& direction, auto& points) {
+          clearance(*input.bodies, agents, input.pairs,
+                    BodyClearanceAnswers{.distance = distance, .direction = direction, .points = points},
+                    input.options);
+        });
+  return clearance_lines<Vec2, NearestPoints>(input, [&](auto& distance, auto& direction, auto& points) {
+    ask(input, [&](const auto& about) {
+      clearance(*input.set, agents, about,
+                ClearanceAnswers{.distance = distance, .direction = direction, .points = points},
+                input.options);
+    });
+  });
+}
+
 std::string within_rows(const QueryInput& input) {
   std::vector<std::uint8_t> hits(input.size());
   const std::span<const double> distance(&input.options.max_distance, 1);
-  ask(input, [&](const auto& about) {
-    within(*input.set, input.table.agents(), about, distance, hits, input.options);
-  });
+  if (input.bodies != nullptr)
+    within(*input.bodies, input.table.agents(), input.pairs, distance, hits, input.options.implementation);
+  else
+    ask(input, [&](const auto& about) {
+      within(*input.set, input.table.agents(), about, distance, hits, input.options);
+    });
   return hit_rows(input, hits);
 }
 
@@ -139,14 +162,15 @@ std::string time_of_impact_rows(const QueryInput& input) {
 }
 
 constexpr QueryKind kinds[] = {
-    {"collide", "hit", "1 where the agents collide, else 0", collide_rows, false, true, true},
+    {"collide", "hit", "1 where the agents collide, else 0", collide_rows, false, true, "hit"},
     {"clearance", "distance,x,y",
      R"(the least gap between their discs or, with --leaves segments,
                  their outlines, in metres, and the unit vector from the first to the second; 0,0,0 where
                  they overlap, unless --overlap deepest is given; inf,0,0 beyond --max-distance.
                  --points adds first_x,first_y,second_x,second_y)",
-     clearance_rows},
-    {"within", "hit", "1 where the agents come within --max-distance of each other, else 0", within_rows},
+     clearance_rows, false, true, "distance,x,y,z"},
+    {"within", "hit", "1 where the agents come within --max-distance of each other, else 0", within_rows,
+     false, true, "hit"},
     {"time-of-impact", "time",
      R"(when the agents first touch while each moves by its dx,dy, from 0 at
                  the start to 1 at the end; inf where they do not touch)",
@@ -163,13 +187,46 @@ constexpr QueryKind kinds[] = {
 };
 
 /// Tells which pairs have a clearance.
-std::vector<std::uint8_t> have_clearance(const ShapeSet& set, const Agents& agents,
-                                         std::span<const Pair> pairs, const QueryOptions& options) {
+template <class Bodies>
+std::vector<std::uint8_t> have_clearance(const Bodies& set, const Agents& agents, std::span<const Pair> pairs,
+                                         const QueryOptions& options) {
   std::vector<float> distance(pairs.size());
   clearance(set, agents, pairs, {distance}, options);
   std::vector<std::uint8_t> have(pairs.size());
   std::transform(distance.begin(), distance.end(), have.begin(), [](float d) { return std::isfinite(d); });
   return have;
+}
+
+/// The options of queries that only tell hits.
+const QueryOptions& hit_options(const ShapeSet&, const QueryOptions& options) {
+  return options;
+}
+const Implementation* hit_options(const BodySet&, const QueryOptions& options) {
+  return options.implementation;
+}
+
+template <class Bodies>
+std::vector<Pair> all_pairs_of(const Bodies& set, const AgentTable& table, const std::string& what,
+                               const QueryOptions& options, std::size_t most) {
+  const Agents agents = table.agents();
+  const bool of_distance = std::isfinite(options.max_distance);
+  bch::Crowd crowd({.most_pairs = most});
+  std::vector<Pair> pairs =
+      sorted(crowd.candidates(set, agents, {.margin = of_distance ? options.max_distance : 0}));
+  std::vector<std::uint8_t> kept(pairs.size());
+  if (!of_distance)
+    collide(set, agents, pairs, kept, hit_options(set, options));
+  else if (what == "within")
+    within(set, agents, pairs, {&options.max_distance, 1}, kept, hit_options(set, options));
+  else
+    kept = have_clearance(set, agents, pairs, options);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    pairs[count] = pairs[i];
+    count += kept[i];
+  }
+  pairs.resize(count);
+  return pairs;
 }
 
 }  // namespace
@@ -194,33 +251,14 @@ std::string query_help() {
   return text;
 }
 
-std::vector<Pair> all_pairs(const BodySet& bodies, const AgentTable& table, const QueryOptions& options,
-                            std::size_t most) {
-  bch::Crowd crowd({.most_pairs = most});
-  return sorted(crowd.collisions(bodies, table.agents(), {.implementation = options.implementation}));
-}
-
 std::vector<Pair> all_pairs(const ShapeSet& set, const AgentTable& table, const std::string& what,
                             const QueryOptions& options, std::size_t most) {
-  const Agents agents = table.agents();
-  const bool of_distance = std::isfinite(options.max_distance);
-  bch::Crowd crowd({.most_pairs = most});
-  std::vector<Pair> pairs =
-      sorted(crowd.candidates(set, agents, {.margin = of_distance ? options.max_distance : 0}));
-  std::vector<std::uint8_t> kept(pairs.size());
-  if (!of_distance)
-    collide(set, agents, pairs, kept, options);
-  else if (what == "within")
-    within(set, agents, pairs, {&options.max_distance, 1}, kept, options);
-  else
-    kept = have_clearance(set, agents, pairs, options);
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    pairs[count] = pairs[i];
-    count += kept[i];
-  }
-  pairs.resize(count);
-  return pairs;
+  return all_pairs_of(set, table, what, options, most);
+}
+
+std::vector<Pair> all_pairs(const BodySet& bodies, const AgentTable& table, const std::string& what,
+                            const QueryOptions& options, std::size_t most) {
+  return all_pairs_of(bodies, table, what, options, most);
 }
 
 }  // namespace bch::cli

@@ -111,7 +111,7 @@ std::vector<Pair> pairs_of_all(const QueryCommandOptions& options, const AskedBo
   const std::size_t most =
       options.max_pairs > 0 ? options.max_pairs : detail::usual_most_pairs(table.id.size());
   try {
-    return bodies.spheres != nullptr ? all_pairs(*bodies.spheres, table, how, most)
+    return bodies.spheres != nullptr ? all_pairs(*bodies.spheres, table, options.what, how, most)
                                      : all_pairs(*bodies.shapes, table, options.what, how, most);
   } catch (const std::length_error&) {
     throw InputError(
@@ -134,8 +134,12 @@ void answer(const QueryCommandOptions& options, const AskedBodies& bodies, Quest
   how.distance_leaves = options.answer.leaves == "segments" ? Leaves::segments : Leaves::discs;
   if (options.all_pairs) pairs = pairs_of_all(options, bodies, table, how);
   const QueryKind& kind = query_kind(options.what);
+  const bool spheres = bodies.spheres != nullptr;
   std::string lines =
-      fmt::format("{},{}{}\n", subject_columns(obstacles), kind.columns, options.points ? point_columns : "");
+      fmt::format("{},{}{}\n", subject_columns(obstacles), spheres ? kind.sphere_columns : kind.columns,
+                  !options.points ? ""
+                  : spheres       ? sphere_point_columns
+                                  : point_columns);
   const std::span<const Pair> all = pairs;
   std::size_t begin = 0;
   do {
@@ -251,7 +255,7 @@ void require_fitting(const CLI::App& command, const QueryCommandOptions& options
 void require_of_spheres(const CLI::App& command, const QueryCommandOptions& options) {
   const char* const reason = "belongs to outlines, not to --bodies spheres";
   require_absent(command, {"--obstacles", "--depths", "--leaves", "--threshold"}, reason);
-  if (!query_kind(options.what).of_spheres)
+  if (query_kind(options.what).sphere_columns == nullptr)
     throw UsageError(fmt::format("--what: '{}' {}", options.what, reason));
   if (is_baked(options.character))
     throw UsageError(options.character +
@@ -319,6 +323,8 @@ Output of --what: one line per line of PAIRS.csv, in the same order, unless stat
       R"(collide and contacts test what --leaves names. within, time-of-impact and penetration use the discs of the
 cuts, and so does clearance unless --leaves segments is given. Discs cover more than outlines, so agents
 at a distance of 0 m need not collide. With --obstacles, --leaves segments applies to within, too.
+With --bodies spheres, agents have z or all one ground, and collide, clearance and within can be asked, in space:
+directions and points then have a z as well.
 With --obstacles, each line is about one agent and the obstacles: id,... instead of first,second,...;
 contacts cannot be asked. FILE.wkt may have POLYGON, MULTIPOLYGON, LINESTRING, MULTILINESTRING and
 GEOMETRYCOLLECTION; Z and M are ignored.

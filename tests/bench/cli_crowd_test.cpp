@@ -6,7 +6,7 @@
 #include "tests/support/bch_run.hpp"
 #include "tests/support/test.hpp"
 
-// `bch crowd`.
+// `bch crowd`, and pictures.
 
 namespace bch::test {
 namespace {
@@ -67,6 +67,12 @@ TEST(Cli, LiveCrowdGivesTheSameAnswersEverywhere) {
   EXPECT_NE(first, live_crowd(folder, {"--seed", "2"}));
 }
 
+std::size_t count_of(const std::string& text, const std::string& word) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++found;
+  return found;
+}
+
 void expect_crowd_picture(const std::string& svg_file) {
   const std::string svg = read_text(svg_file);
   EXPECT_TRUE(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
@@ -74,12 +80,7 @@ void expect_crowd_picture(const std::string& svg_file) {
   for (const char* id :
        {"crowd", "colliding", "cleared", "free", "overlaps", "single-cylinders", "legend", "scale"})
     EXPECT_NE(svg.find("id=\"" + std::string(id) + "\""), std::string::npos) << id;
-  const auto count = [&svg](const std::string& word) {
-    std::size_t found = 0;
-    for (std::size_t at = svg.find(word); at != std::string::npos; at = svg.find(word, at + 1)) ++found;
-    return found;
-  };
-  EXPECT_EQ(count("<g"), count("</g>"));
+  EXPECT_EQ(count_of(svg, "<g"), count_of(svg, "</g>"));
   EXPECT_EQ(svg.find("nan"), std::string::npos);
   EXPECT_EQ(svg.find("inf"), std::string::npos);
 }
@@ -101,6 +102,19 @@ TEST(Cli, LiveCrowdDrawsItsLastFrame) {
   ASSERT_EQ(run.code, 0) << run.err;
   expect_crowd_picture(svg_file);
   EXPECT_NE(read_text(svg_file).find("Bodies of 64 spheres."), std::string::npos);
+}
+
+TEST(Cli, InspectDrawsSpheresFromTwoSides) {
+  const TemporaryFolder folder;
+  const std::string svg_file = folder.file("body.svg"), json_file = folder.file("body.json");
+  const Ending run = bch({"inspect", "default:male", "--bodies", "spheres", "--spheres", "64", "--clip",
+                          "walk", "--time", "0.5", "--svg", svg_file, "--json", json_file});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(read_json(json_file)["body"]["spheres_xyz_radius_m"].size(), 64u);
+  const std::string svg = read_text(svg_file);
+  EXPECT_LT(svg.size(), 150'000u);
+  EXPECT_EQ(count_of(svg, "<circle"), 2u * 64 + 2);  // two views and the legend
+  EXPECT_EQ(count_of(svg, "<g"), count_of(svg, "</g>"));
 }
 
 }  // namespace

@@ -103,5 +103,40 @@ TEST(Cli, EveryKernelWritesTheSame) {
   }
 }
 
+/// One man, another beside him who stands in him, on a bench, and on the floor above.
+constexpr const char* floors =
+    "id,shape,x,y,heading,z\nman,0,0,0,0,0\nsame,1,0.2,0,1,0\nbench,1,0.2,0,1,0.5\nabove,1,0.2,0,1,3\n";
+
+Ending ask_spheres(const TemporaryFolder& folder, const Arguments& more) {
+  return bch({"query", "default:male", folder.write("floors.csv", floors), "--bodies", "spheres", "--spheres",
+              "64", "--poses", "3"},
+             more);
+}
+
+TEST(Cli, QueryOfSpheresKnowsHeights) {
+  const TemporaryFolder folder;
+  EXPECT_EQ(ask_spheres(folder, {"--all-pairs"}).out,
+            "first,second,hit\nman,same,1\nman,bench,1\nsame,bench,1\n");
+  const std::string pairs = folder.write("pairs.csv", "first,second\nman,above\nman,bench\n");
+  EXPECT_EQ(ask_spheres(folder, {pairs}).out, "first,second,hit\nman,above,0\nman,bench,1\n");
+  EXPECT_EQ(ask_spheres(folder, {pairs, "--what", "within", "--max-distance", "1.5"}).out,
+            "first,second,hit\nman,above,1\nman,bench,1\n");
+  const std::string gaps = ask_spheres(folder, {pairs, "--what", "clearance", "--points"}).out;
+  EXPECT_TRUE(
+      gaps.starts_with("first,second,distance,x,y,z,first_x,first_y,first_z,second_x,second_y,second_z\n"
+                       "man,above,1."))
+      << gaps;
+  EXPECT_NE(gaps.find("\nman,bench,0,0,0,0,"), std::string::npos) << gaps;
+}
+
+TEST(Cli, QueryOfSpheresRefusesWhatIsOfOutlines) {
+  const TemporaryFolder folder;
+  expect_failure(ask_spheres(folder, {"--all-pairs", "--depths", "3"}), 2, {"--depths", "--bodies spheres"});
+  expect_failure(ask_spheres(folder, {"--all-pairs", "--what", "penetration"}), 2,
+                 {"'penetration'", "--bodies spheres"});
+  expect_failure(bch({"query", "default:male", "a.csv", "--all-pairs", "--spheres", "64"}), 2,
+                 {"--spheres", "--bodies spheres"});
+}
+
 }  // namespace
 }  // namespace bch::test
