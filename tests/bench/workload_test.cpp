@@ -67,7 +67,7 @@ TEST(OutlinesInMotion, MeetBehindFirstContacts) {
 TEST(OutlinesInMotion, MeetBeforeThatOfBodiesThatAreTooSmall) {
   const std::vector<cli::LoadedCharacter> people = {cli::load_character("default:male", {})};
   std::vector<AnimatedClip> clips = animated_clips(people, "walk", 0.6);
-  const AnimatedDiscs small{{{{0, 0.5}, 1, {{0, 0, 0.1f}, {0, 0, 0.1f}}, {}}}, true};
+  const AnimatedDiscs small{{{{0, 0.5}, 1, {{0, 0, 0.1f}, {0, 0, 0.1f}}}}, true};
   clips[0].shape = AnimatedShape(small);
   const std::vector<double> delays = delays_of_outlines(MotionScene(clips, 60, 1));
   EXPECT_GT(delays.size(), 20u);

@@ -23,7 +23,7 @@ using namespace detail;
 
 namespace {
 
-constexpr double longest_edge = 0.03;    // metres: a sphere of a forearm holds a triangle of that size
+constexpr double longest_edge = 0.025;   // metres: a sphere of a forearm holds a triangle of that size
 constexpr std::uint32_t chosen_in = 12;  ///< poses
 
 /// Returns as many poses as the search for better spheres expects: a character without clips has a single one.

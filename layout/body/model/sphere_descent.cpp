@@ -17,10 +17,6 @@ constexpr double widest_lateral = 0.5;  // metres
 constexpr float most_leverage = 4;      // of a contact: by how much later it is where a front is 1 less far
 constexpr float kept_gradient = 0.9f, kept_square = 0.99f;
 
-float dot_of(const std::array<float, 3>& a, const std::array<float, 3>& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 }  // namespace
 
 float scale_of(const double (&rows)[3][4]) {

@@ -15,6 +15,10 @@
 
 namespace bch::detail {
 
+inline float dot_of(const std::array<float, 3>& a, const std::array<float, 3>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
 /// Returns how much longer a map makes lengths in the mean.
 float scale_of(const double (&rows)[3][4]);
 

@@ -22,17 +22,13 @@ using Space = std::array<float, 3>;
 
 static_assert(searched_poses == SphereFit::poses);
 
-constexpr int search_rounds = 40;
+constexpr int search_rounds = 30;
 constexpr float first_step = 1e-3f, last_step = 2e-4f;        // metres
 constexpr double first_deleted = 0.06, last_deleted = 0.006;  // of the spheres
 constexpr int last_rounds = search_rounds / 5;                // which neither delete nor split
-constexpr float worth_of_corner = 3e-6f;   // metres that all slides may meet earlier, of a corner less
+constexpr float worth_of_corner = 1e-5f;   // metres that all slides may meet earlier, of a corner less
 constexpr float least_contacts = 0.05f;    // of the mean: what spheres without contact count
 constexpr float exposing_growth = 0.005f;  // metres: who grows by half has the mean of contacts more
-
-float dot_of(const Space& a, const Space& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
 
 class SphereSearch {
  public:
@@ -42,7 +38,7 @@ class SphereSearch {
   void round(int number) {
     const float progress = static_cast<float>(number) / (search_rounds - 1);
     const bool is_last = number + last_rounds >= search_rounds;
-    if (number > 0) gather();
+    if (is_last) gather();
     descent_.round(first_step + progress * (last_step - first_step));
     mean_contacts_ = std::accumulate(descent_.contacts.begin(), descent_.contacts.end(), 1e-3f) /
                      static_cast<float>(fit_.balls.size());

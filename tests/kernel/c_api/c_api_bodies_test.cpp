@@ -5,6 +5,7 @@
 #include <bch/default_characters.hpp>
 
 #include "tests/support/c_api.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/support/test.hpp"
 
 // Models and bodies of spheres of the C interface are those of C++.
@@ -60,7 +61,7 @@ TEST(CApiBodies, AreBakedOfModelsOfTheLibrary) {
 }
 
 TEST(CApiBodies, ComeFromFilesAsTheyWere) {
-  const test::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.file("people.bch");
   {
     const Models models;

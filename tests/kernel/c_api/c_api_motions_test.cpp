@@ -71,9 +71,9 @@ TEST(CApiMotions, BodiesAreTheirArrays) {
 
 TEST(CApiMotions, ClipsAreAnimated) {
   constexpr std::uint32_t clip = 40;
-  const BodyModel model = make_body(default_pedestrian(Sex::female, 1.7), {.spheres = 64, .draft = true});
+  const BodyModel model = default_body(default_pedestrian(Sex::female, 1.7), 64);
   const auto character = made<bch_character_free>(bch_character_pedestrian, BCH_PEDESTRIAN_FEMALE, 1.7, 0);
-  const auto of = made<bch_body_model_free>(bch_body_model_create, character.get(), 64, 1, nullptr);
+  const auto of = made<bch_body_model_free>(bch_body_model_default, character.get(), 64);
   bch_animate_options options = BCH_ANIMATE_OPTIONS_INIT;
   options.error = 0.01f;
   const auto animated = [&] {
