@@ -61,7 +61,7 @@ std::function<void()> add_bake_command(CLI::App& program) {
       "bake", "Build shapes and write them to a baked file, which the other commands load");
   command.footer(
       R"(query, crowd, inspect and check take the baked file in place of a character. It holds only what queries need.
-With --spheres it holds bodies of spheres that move with their skeletons, and whole characters: for programs that pose them.
+With --spheres it holds whole characters, and bodies of spheres that move with their skeletons.
 Examples:
   bch bake man.glb woman.glb --rate 30 --depths 0,all -o people.bch
   bch bake man.glb --spheres 256 -o man.bch)");

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
+#include <bch/clearance.hpp>
 #include <bch/collide.hpp>
 
 #include "kernel/body/body_arguments.hpp"
+#include "kernel/distance/within_tasks.hpp"
 #include "kernel/runtime/kernels.hpp"
 #include "kernel/runtime/pair_validation.hpp"
 #include "kernel/runtime/task_ranges.hpp"
@@ -26,6 +28,19 @@ void collide(const BodySet& bodies, const Agents& agents, std::span<const Pair> 
   for_ranges(pairs.size(), pairs_per_task, [&](std::size_t begin, std::size_t end) {
     implementation.kernels->run_bodies(arguments, begin, end);
   });
+}
+
+void within(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs,
+            std::span<const double> distances, std::span<std::uint8_t> answers,
+            const Implementation* wanted) {
+  const FloatingPointStateGuard floats;
+  require_within(pairs, distances, answers);
+  const Implementation& implementation = chosen({.implementation = wanted}, "within");
+  const BodySetView& view = bodies.view();
+  for_within_tasks(implementation, view.ground, agents, pairs, distances, answers,
+                   [&](const Arguments& in, std::size_t size) {
+                     implementation.kernels->run_bodies({in, &view}, 0, size);
+                   });
 }
 
 }  // namespace bch

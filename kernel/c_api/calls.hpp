@@ -28,9 +28,6 @@ struct CallOn {
   QueryOptions options;
   std::uint32_t threads;
 
-  /// Returns whether bodies meet part by part, for which some queries need memory.
-  bool in_parts() const { return !agents.z.empty(); }
-
   /// Asks on the threads that the options want.
   template <class Ask>
   void run(Ask ask) const {

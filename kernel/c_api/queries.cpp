@@ -46,10 +46,7 @@ bch_status bch_clearance(const bch_shape_set* set, const bch_agents* agents, con
   return guarded([&] {
     const PairCall call(set, agents, pairs, count, options);
     const ClearanceAnswers to = clearance_answers(out, count);
-    const auto ask = [&](const ClearanceAnswers& into) {
-      call.run([&] { clearance(call.shapes, call.agents, call.pairs, into, call.options); });
-    };
-    call.in_parts() ? all_or_none(to, ask) : ask(to);
+    call.run([&] { clearance(call.shapes, call.agents, call.pairs, to, call.options); });
   });
 }
 
@@ -81,9 +78,6 @@ bch_status bch_time_of_impact(const bch_shape_set* set, const bch_agents* agents
     const PairCall call(set, agents, pairs, count, options);
     const Displacements ways{array_of(x, count, "x"), array_of(y, count, "y")};
     const auto to = array_of(times, count, "times");
-    const auto ask = [&](std::span<float> into) {
-      call.run([&] { time_of_impact(call.shapes, call.agents, call.pairs, ways, into, call.options); });
-    };
-    call.in_parts() ? all_or_none(to, ask) : ask(to);
+    call.run([&] { time_of_impact(call.shapes, call.agents, call.pairs, ways, to, call.options); });
   });
 }

@@ -23,9 +23,7 @@ class PackedClips {
   PackedClips(std::span<const BakedClip> clips, std::size_t names);
 
   /// Returns the sections, as long as this lives.
-  ClipArrays arrays() const noexcept {
-    return {clips_, chunks_, key_times_, disc_steps_, disc_floats_};
-  }
+  ClipArrays arrays() const noexcept { return {clips_, chunks_, key_times_, disc_steps_, disc_floats_}; }
 
  private:
   void add(const AnimatedChunk& chunk);

@@ -56,7 +56,7 @@ struct AnimatedTreeChunk {
   std::vector<std::uint16_t>
       child_begin;  ///< per node above the leaves: its first child; and the number of nodes
   std::vector<std::uint16_t> leaf_of_disc;  ///< per disc in the order in which they were given: its node
-  float speed = 0;  ///< the most that a node's centre moves in a second, metres
+  float speed = 0;                          ///< the most that a node's centre moves in a second, metres
 
   std::uint32_t nodes() const noexcept { return child_begin.back(); }
   std::uint32_t first_leaf() const noexcept { return static_cast<std::uint32_t>(child_begin.size() - 1); }

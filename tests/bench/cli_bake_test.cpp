@@ -91,11 +91,11 @@ TEST(Cli, BadBakedFilesGiveThreeAndOneLine) {
   std::string flipped = text;
   flipped[text.size() / 2] ^= 4;
   std::string newer = text;
-  newer[12] = 8;
+  newer[12] = 9;
   const std::pair<std::string, const char*> cases[] = {{"", "too few"},
                                                        {text.substr(0, 3000), "3000"},
                                                        {flipped, "wrong checksum"},
-                                                       {newer, "version 8"},
+                                                       {newer, "version 9"},
                                                        {std::string(5000, 'x'), "not a baked file"}};
   const std::string agents = folder.write("agents.csv", four_agents);
   for (const auto& [content, word] : cases) {
@@ -137,7 +137,7 @@ TEST(Cli, BakedFilesKeepClipsAsMovingDiscs) {
   ASSERT_EQ(bch({"inspect", "default:male"}, at).code, 0);
   EXPECT_EQ(read_json(json)["animated"], of_file);
   const std::string drawn = read_text(svg);
-  EXPECT_GT(std::count(drawn.begin(), drawn.end(), 'Z'), 5);
+  EXPECT_NE(drawn.find("<circle"), std::string::npos);
   EXPECT_NE(drawn.find("class=\"outline\""), std::string::npos);
   EXPECT_EQ(drawn.find("nan"), std::string::npos);
 }

@@ -132,7 +132,7 @@ class Errors(unittest.TestCase):
         builder, tall = bch.ShapeSetBuilder(), bch.ShapeSetBuilder(bch.Plan(heights=True))
         table = [
             (bch.Agents, {"shape": which, "x": np.zeros(1), "y": np.zeros(1), "heading": np.zeros(1)}),
-            (bch.AnimatedShape, {"times": [0, 1], "discs": discs, "loops": False}),
+            (bch.AnimatedShape, {"times": [0, 1], "discs": discs}),
             (body.discs, {"seconds": 0.5}),
             (bch.Mover, {"shape": body, "path": [(0, 0, 0, 0)], "clip_begin": 0}),
             (bch.first_contact, {"movers": [mover], "pairs": walls, "interval": (0, 1), "tolerance": 0.1, "threads": 1}),
@@ -524,7 +524,7 @@ class Sets(unittest.TestCase):
     def test_motions(self):
         # A disc of 0.2 m that swings from 0 to 0.5 m and back, and another one that stands.
         swing = bch.AnimatedShape([0, 1, 2], [[[0, 0, 0.2]], [[0.5, 0, 0.2]], [[0, 0, 0.2]]], loops=True)
-        still = bch.AnimatedShape([0, 1], [[[0, 0, 0.2], [0.1, 0, 0.2]]] * 2, [2])
+        still = bch.AnimatedShape([0, 1], [[[0, 0, 0.2], [0.1, 0, 0.2]]] * 2)
         self.assertEqual((swing.begin, swing.end, swing.loops, swing.key_count), (0, 2, True, 3))
         self.assertAlmostEqual(float(swing.discs(4.5)["x"][0]), 0.25, 6)
         self.assertEqual(len(still.discs(7)), 2)

@@ -156,7 +156,7 @@ void add_queries_of_crowds(const CScene& scene, std::vector<CQuery>& to) {
       },
       contact_bytes);
   add(
-      "clearances", !scene.crowd.z.empty(),
+      "clearances", false,
       [=](Found& found) {
         return bch_crowd_clearances(found.crowd.get(), set, &all->agents, 0.2, nullptr, &all->options,
                                     &found.near);

@@ -148,7 +148,13 @@ def _pointers(models: Sequence[BodyModel]) -> npt.NDArray[Any]:
 
 
 def save_models(path: Path, models: Union[BodyModel, Sequence[BodyModel]]) -> None:
-    """Write models, with their characters, as a baked file, which `load_models` reads without the files that they were made from."""
+    """Write models, with their characters, as a baked file, which `load_models` reads without the files that they were made from.
+
+    Parameters
+    ----------
+    path : str or path
+    models : BodyModel or sequence of BodyModel
+    """
     pointers = _pointers([models] if isinstance(models, BodyModel) else instances(models, BodyModel, "models"))
     check(lib.bch_body_models_save(address(pointers), len(pointers), encoded(path, "path")))
 

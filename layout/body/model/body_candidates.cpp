@@ -15,6 +15,7 @@
 namespace bch::detail {
 namespace {
 
+constexpr double radius_of_flat_skin = 0.025;  // metres: about a piece's middle it holds the piece
 constexpr double first_radius = 0.3, least_radius = 0.004, most_radius = 0.29;  // metres
 constexpr double grid_cell = 0.03;                                              ///< metres, of the grid
 constexpr double least_weight = 0.02;  ///< of a bone; smaller ones are dropped
@@ -204,6 +205,10 @@ std::vector<BodyCandidate> find_candidates(const Character& character, const Ski
     BodyCandidate candidate{bind(p.at - radius * p.normal, p, all[touched], posed), radius};
     if (!candidate.influences.empty()) found.push_back(std::move(candidate));
   }
+  if (!found.empty()) return found;
+  // A skin that encloses nothing.
+  for (const SkinPoint& p : all) found.push_back({bind(p.at, p, p, posed), radius_of_flat_skin});
+  std::erase_if(found, [](const BodyCandidate& candidate) { return candidate.influences.empty(); });
   return found;
 }
 

@@ -132,6 +132,7 @@ SphereChoice choose_spheres(const SkinPieces& skin, std::span<const BodyCandidat
       low = middle;
   }
   if (chosen.size() > most) chosen.resize(most);
+  if (chosen.empty()) chosen.push_back(0);
 
   SphereChoice choice;
   choice.owner.assign(skin.pieces.size(), 0xffffffff);

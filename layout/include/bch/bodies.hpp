@@ -82,7 +82,8 @@ BodyModel default_body(const Character& built_in, std::uint32_t spheres = 256);
 
 /// Holds the options of animate().
 struct AnimateOptions {
-  float error = 0.005f;  ///< metres, by how much discs may stand out of the spheres between two keys, unless these are 18 ms apart
+  float error =
+      0.005f;  ///< metres, by how much discs may stand out of the spheres between two keys, unless these are 18 ms apart
   std::optional<bool> loops =
       {};  ///< AnimatedDiscs::loops; none: whether the clip's last pose is its first one, to 0.025 mm
 };

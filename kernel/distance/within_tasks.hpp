@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+
+#include <bch/clearance.hpp>
+
+#include "kernel/distance/clearance_arguments.hpp"
+#include "kernel/distance/distance_input.hpp"
+#include "kernel/runtime/pair_validation.hpp"
+#include "kernel/runtime/task_ranges.hpp"
+#include "kernel/simd/gaps.hpp"
+
+namespace bch::detail {
+
+/// Returns the gap of leaf discs that a distance makes; see Gaps.
+inline float gap_of(double distance) noexcept {
+  return rounding::round_up(std::min(distance, static_cast<double>(largest_limit)) * (1 + gap_share));
+}
+
+/// Validates, and calls run(arguments, size) for the pairs of each task.
+template <class Run>
+void for_within_tasks(const Implementation& implementation, const ShapeSetView& view, const Agents& agents,
+                      std::span<const Pair> pairs, std::span<const double> distances,
+                      std::span<std::uint8_t> answers, const Run& run) {
+  require_valid(implementation, view, agents, pairs);
+  for_pair_ranges(pairs.size(), pairs_per_task, [&](std::size_t begin, std::size_t size) {
+    float gaps[pairs_per_task];
+    for (std::size_t i = 0; i < size; ++i) gaps[i] = gap_of(distances[distances.size() == 1 ? 0 : begin + i]);
+    Arguments arguments = arguments_for(view, agents, pairs.subspan(begin, size));
+    arguments.gaps = gaps;
+    arguments.codes = answers.data() + begin;
+    run(arguments, size);
+  });
+}
+
+/// Requires the sizes, and the distances.
+inline void require_within(std::span<const Pair> pairs, std::span<const double> distances,
+                           std::span<const std::uint8_t> answers) {
+  const Asked asked{"within", "pair", pairs.size()};
+  require_as_many(asked, answers.size(), "answers");
+  require_distances(asked, distances);
+}
+
+}  // namespace bch::detail
