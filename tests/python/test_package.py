@@ -181,7 +181,7 @@ class Errors(unittest.TestCase):
             ),
             (bch.make_character, {**mesh, "name": "a", "joints": [], "bones": [], "motions": [], "root_joint": -1}),
             (bch.make_character, {**mesh, "to_ground": np.eye(4), "weights": None, "vertex_bones": None}),
-            (bch.PoseShaper, {"character": man, "plan": bch.Plan()}),
+            (bch.PoseShaper, {"character": man}),
             (bch.PoseShaper(man).outline, {"clip": 0, "seconds": 0}),
             (bch.ShapeSetBuilder, {"plan": bch.Plan()}),
             (lambda depths: bch.ShapeSetBuilder(bch.Plan(depths=depths)), {"depths": [0]}),
