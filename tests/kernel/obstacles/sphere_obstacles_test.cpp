@@ -113,7 +113,7 @@ void expect_right(const BodySet& bodies, const BodyCrowd& crowd, const ObstacleS
     EXPECT_EQ(distance[agent] == 0, hits[agent] != 0 || deepest[agent] == 0) << deepest[agent];
     if (distance[agent] == 0) continue;
     EXPECT_EQ(distance[agent], deepest[agent]);
-    const auto [from, to] = points[agent];
+    const Vec3 from = points[agent].first, to = points[agent].second;
     const auto along = [&](float Vec3::*axis) {
       return double{from.*axis} + double{distance[agent]} * double{direction[agent].*axis} - double{to.*axis};
     };
