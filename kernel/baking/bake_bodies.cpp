@@ -21,6 +21,7 @@ BodySet bake(std::span<const BodyModel> models, const BakeBodiesOptions& options
   }
   const std::vector<PoseOfBody>& bodies = options.bodies.empty() ? sampled : options.bodies;
   std::vector<std::uint32_t> model_of_body;
+  model_of_body.reserve(bodies.size());
   for (const PoseOfBody& body : bodies) model_of_body.push_back(body.model);
 
   BodyBatch batch(models, model_of_body);
