@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 
 #include <bch/agents.hpp>
@@ -20,13 +21,10 @@ inline Vec3 rounded(const SpaceVector& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-/// Returns the sphere in a slot of a record.
-inline Sphere sphere_of(const float* record, std::uint32_t slot) noexcept {
-  const BodyHeader& header = header_of(record);
-  const std::size_t size = header.leaf_size;
-  const float* const x =
-      record + record_nodes + 5 * header.node_stride + 4 * size * (slot / size) + slot % size;
-  return {x[0], x[size], x[2 * size], x[3 * size]};
+/// Returns a vector of length 1 along another; of no length: along x.
+inline SpaceVector unit_of(const SpaceVector& way) noexcept {
+  const double length = std::sqrt((way.x * way.x + way.y * way.y) + way.z * way.z);
+  return length > 0 ? SpaceVector{way.x / length, way.y / length, way.z / length} : SpaceVector{1, 0, 0};
 }
 
 /// Represents a sphere of an agent: relative to the agent's position, in the world's axes.

@@ -39,8 +39,7 @@ class FoundSpheres {
     const SpaceVector way{agents.x[second_] - agents.x[first_] + (b_.centre.x - a_.centre.x),
                           agents.y[second_] - agents.y[first_] + (b_.centre.y - a_.centre.y),
                           rise + (b_.centre.z - a_.centre.z)};
-    const double length = std::sqrt((way.x * way.x + way.y * way.y) + way.z * way.z);
-    unit_ = length > 0 ? SpaceVector{way.x / length, way.y / length, way.z / length} : SpaceVector{1, 0, 0};
+    unit_ = unit_of(way);
   }
 
   /// Returns the unit vector from A's sphere to B's, or with a sign of -1 its opposite.

@@ -55,7 +55,7 @@ class LeafSearch {
   }
 
   static bool leaves_meet(const PlacedBodies& bodies, std::uint32_t leaf_a, std::uint32_t leaf_b) noexcept {
-    const Balls a = leaf_of(bodies.a, leaf_a), b = leaf_of(bodies.b, leaf_b);
+    const Balls a = balls_of(bodies.a, leaf_a), b = balls_of(bodies.b, leaf_b);
     return visit_blocks(a, b, [&]<unsigned count>(unsigned i, unsigned j) {
       return balls_meet<Simd, count>(bodies.b_in_a, a.from(i), b.from(j), bodies.gap);
     });

@@ -115,7 +115,7 @@ class NearestLeaves {
   }
 
   void measure(std::uint32_t leaf_a, std::uint32_t leaf_b) noexcept {
-    const Balls a = leaf_of(bodies_.a, leaf_a), b = leaf_of(bodies_.b, leaf_b);
+    const Balls a = balls_of(bodies_.a, leaf_a), b = balls_of(bodies_.b, leaf_b);
     visit_blocks(a, b, [&]<unsigned count>(unsigned i, unsigned j) {
       const float least = least_gap<count>(a.from(i), b.from(j));
       if (!(least <= bodies_.gap)) return false;

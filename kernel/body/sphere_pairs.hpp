@@ -27,10 +27,8 @@ struct Balls {
 }
 
 /// Returns the spheres of a leaf.
-[[gnu::always_inline]] inline Balls leaf_of(const float* record, std::uint32_t leaf) noexcept {
-  const BodyHeader& header = header_of(record);
-  const std::size_t size = header.leaf_size;
-  return {record + record_nodes + 5 * header.node_stride + 4 * size * leaf, size};
+[[gnu::always_inline]] inline Balls balls_of(const float* record, std::uint32_t leaf) noexcept {
+  return {leaf_of(record, leaf), header_of(record).leaf_size};
 }
 
 template <class Simd, unsigned count, class Visit>

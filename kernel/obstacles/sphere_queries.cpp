@@ -35,8 +35,7 @@ class FoundObstacle {
       at_.z = std::clamp(at_.z, bottom - ground, top - ground);
     }
     const SpaceVector way{at_.x - sphere_.centre.x, at_.y - sphere_.centre.y, at_.z - sphere_.centre.z};
-    const double length = std::sqrt((way.x * way.x + way.y * way.y) + way.z * way.z);
-    unit_ = length > 0 ? SpaceVector{way.x / length, way.y / length, way.z / length} : SpaceVector{1, 0, 0};
+    unit_ = unit_of(way);
   }
 
   Vec3 direction() const { return rounded(unit_); }

@@ -95,13 +95,13 @@ void SphereQuery::improve(std::span<const LocalSegment> segments, std::uint32_t 
     // All of a leaf is on one side only where it is clear of the segments, whose gap may be less than 0.
     const bool is_beyond = beyond > 0 && (!is_area || beyond + nearest.gap > 0);
     if (is_beyond && !is_held(of_leaf, x, y)) continue;
-    const float* const spheres = nodes + 5 * stride + std::size_t{4} * leaf * size;
+    const float* const spheres = leaf_of(record_, leaf);
     for (std::uint32_t i = 0; i < size; ++i) {
       const float sx = spheres[i], sy = spheres[size + i], sz = spheres[2 * size + i];
       const double r = spheres[3 * size + i], h = rise(sz, sz, obstacle);
       if (h - r > nearest.gap) continue;
       const NearestSegment segment = nearest_segment(segments, double{sx}, double{sy});
-      const bool is_inside = is_beyond || (h - r <= nearest.gap && is_held(segment, sx, sy));
+      const bool is_inside = is_beyond || is_held(segment, sx, sy);
       const double d = is_inside ? 0 : std::max(segment.distance, 0.0);
       const double gap = std::sqrt(d * d + h * h) - r;
       if (gap < nearest.gap || (gap == nearest.gap && !nearest.is_found))

@@ -50,6 +50,19 @@ constexpr std::uint32_t record_nodes = record_supports + body_bands * support_st
   return *reinterpret_cast<const BodyHeader*>(record);
 }
 
+/// Returns the leaf of a record: x, y, z and radii of leaf_size spheres. (Inlined for certain, as above.)
+[[gnu::always_inline]] inline const float* leaf_of(const float* record, std::uint32_t leaf) noexcept {
+  const BodyHeader& header = header_of(record);
+  return record + record_nodes + 5 * header.node_stride + std::size_t{4} * header.leaf_size * leaf;
+}
+
+/// Returns the sphere in a slot of a record.
+inline Sphere sphere_of(const float* record, std::uint32_t slot) noexcept {
+  const std::uint32_t size = header_of(record).leaf_size;
+  const float* const x = leaf_of(record, slot / size) + slot % size;
+  return {x[0], x[size], x[2 * size], x[3 * size]};
+}
+
 /// Holds the records of all bodies as plain pointers: what kernels read. Valid while the set lives.
 struct BodySetView {
   ShapeSetView ground;  ///< of roots alone: the discs of the bodies, and their heights
