@@ -7,6 +7,7 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <bch/bodies.hpp>
@@ -39,8 +40,8 @@ class ClipAnimator {
       : model_(model),
         clip_(clip),
         options_(options),
-        end_(model.character->clips.size() > clip ? model.character->clips[clip].seconds : 0),
-        samples_(model, clip) {}
+        samples_(model, clip),
+        end_(model.character->clips[clip].seconds) {}
 
   AnimatedDiscs run() {
     AnimatedDiscs result;
@@ -64,7 +65,7 @@ class ClipAnimator {
     samples_.take(from, to);
     step_ = step_of(samples_.reach());
     times_.clear(), keys_.clear();
-    add_key(0);
+    add_key(0, centres(0));
     add_keys(0, samples_.size() - 1);
     AnimatedChunk made;
     made.disc_count = static_cast<std::uint32_t>(model_.sphere_count());
@@ -75,9 +76,9 @@ class ClipAnimator {
     return made;
   }
 
-  void add_key(std::size_t sample) {
+  void add_key(std::size_t sample, Key key) {
     times_.push_back(double{samples_[sample].seconds});
-    keys_.push_back(centres(sample));
+    keys_.push_back(std::move(key));
   }
 
   /// Appends keys after that of the first sample, up to that of the last one: in the middle, too, where discs would stand out of the
@@ -92,8 +93,7 @@ class ClipAnimator {
       return add_keys(middle, last);
     }
     keys_.back() = std::move(from);
-    times_.push_back(double{samples_[last].seconds});
-    keys_.push_back(std::move(to));
+    add_key(last, std::move(to));
   }
 
   Key centres(std::size_t sample) const {
@@ -149,8 +149,8 @@ class ClipAnimator {
   const BodyModel& model_;
   std::uint32_t clip_;
   AnimateOptions options_;
+  ClipSamples samples_;  ///< before the end, because they look whether there is such a clip
   float end_;
-  ClipSamples samples_;
   // Of the chunk:
   double step_ = 0;
   std::vector<double> times_;

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "layout/base/rounding.hpp"
-#include "layout/body/model/skin_pieces.hpp"
+#include "layout/body/posing/model_layout.hpp"
 
 namespace bch::detail {
 namespace {
@@ -25,8 +25,8 @@ ClipSamples::ClipSamples(const BodyModel& model, std::uint32_t clip)
     : model_(model),
       clip_(clip),
       bounds_(*model.character, clip),
-      skinner_(*model.character),
-      poser_(model),
+      layout_(layout_of(model)),
+      poser_(model, layout_),
       heights_{std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity()} {}
 
 void ClipSamples::take(float from, float to) {
@@ -58,16 +58,16 @@ void ClipSamples::take(float from, float to) {
 void ClipSamples::add(float seconds) {
   Sample& sample = samples_.emplace_back();
   sample.seconds = seconds;
-  const std::span<const Sphere> spheres = poser_.spheres(Pose(clip_, seconds));
-  sample.spheres.assign(spheres.begin(), spheres.end());
-  const std::vector<Vec3> points = place_points(skinner_.pose({clip_, seconds}), model_.cuts);
+  const SphereSlots spheres = poser_.pose(Pose(clip_, seconds));
+  for (std::uint32_t i = 0; i < layout_.sphere_count; ++i)
+    sample.spheres.push_back({spheres.x[i], spheres.y[i], spheres.z[i], spheres.radius[i]});
   sample.bottom = std::numeric_limits<double>::infinity(), sample.top = -sample.bottom;
   const auto reach_to = [&](float x, float y) {
     reach_ = std::max({reach_, double{std::abs(x)}, double{std::abs(y)}});
   };
   for (const Sphere& sphere : sample.spheres) reach_to(sphere.x, sphere.y);
   for (const std::uint32_t corner : model_.corners) {
-    const Vec3& point = points[corner];
+    const SpaceRow& point = poser_.point(corner);
     sample.corners.push_back({double{point.x}, double{point.y}});
     reach_to(point.x, point.y);
     sample.bottom = std::min(sample.bottom, double{point.z});

@@ -10,8 +10,9 @@
 #include <bch/bodies.hpp>
 
 #include "layout/base/plane_point.hpp"
+#include "layout/body/body_layout.hpp"
+#include "layout/body/posing/sphere_poser.hpp"
 #include "layout/character/motion_bounds.hpp"
-#include "layout/character/skinning.hpp"
 
 namespace bch::detail {
 
@@ -58,8 +59,8 @@ class ClipSamples {
   const BodyModel& model_;
   std::uint32_t clip_;
   MotionBounds bounds_;
-  Skinner skinner_;
-  BodyPoser poser_;
+  const BodyLayout layout_;
+  SpherePoser poser_;
   std::vector<Sample> samples_;
   double reach_ = 0;
   Heights heights_;

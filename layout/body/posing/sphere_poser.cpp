@@ -42,17 +42,16 @@ SpherePoser::SpherePoser(const BodyModel& model, const BodyLayout& layout)
     : model_(model), layout_(layout), skinner_(*model.character), blend_(blend_of(model)) {
   const auto vertices = static_cast<std::uint32_t>(model.character->vertices.size());
   const auto spheres = static_cast<std::uint32_t>(model.sphere_count());
-  const auto point = [&](std::uint32_t i) { return i < vertices ? i : i + spheres; };
   points_.resize(vertices + spheres + model.cuts.size());
   std::vector<std::uint32_t> cuts_above(vertices, 0);  ///< by point
   for (const auto [a, b] : model.cuts) {
-    cuts_.push_back({point(a), point(b)});
+    cuts_.push_back({row_of(a), row_of(b)});
     cuts_above.push_back(1 + std::max(cuts_above[a], cuts_above[b]));
     most_cuts_ = std::max(most_cuts_, cuts_above.back());
   }
   for (std::uint32_t s = 0; s < spheres; ++s) {
     for (std::uint32_t i = model.corner_begin[s]; i < model.corner_begin[s + 1]; ++i)
-      corners_.push_back(point(model.corners[i]));
+      corners_.push_back(row_of(model.corners[i]));
     while (model.corner_begin[s] < model.corner_begin[s + 1] && corners_.size() % corner_block != 0)
       corners_.push_back(corners_.back());
     corner_end_.push_back(static_cast<std::uint32_t>(corners_.size()));

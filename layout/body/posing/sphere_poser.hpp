@@ -30,7 +30,15 @@ class SpherePoser {
   ///          1e6 m.
   SphereSlots pose(const Pose& pose);
 
+  /// Returns where a point of the model is in the last pose, by the number that BodyModel::corners have.
+  const SpaceRow& point(std::uint32_t number) const noexcept { return points_[row_of(number)]; }
+
  private:
+  /// Centres stand between vertices and cuts.
+  std::uint32_t row_of(std::uint32_t point) const noexcept {
+    const auto vertices = static_cast<std::uint32_t>(model_.character->vertices.size());
+    return point < vertices ? point : point + static_cast<std::uint32_t>(model_.sphere_count());
+  }
   void place_points(const Pose& pose);
   void fit_radii();
 
