@@ -43,7 +43,6 @@ std::span<const std::uint32_t> models_of(std::span<const std::uint32_t> model_of
 BodyBatch::BodyBatch(std::span<const BodyModel> models, std::span<const std::uint32_t> model_of_body)
     : set(layouts_of(models), models_of(model_of_body, models.size())),
       models_(models.begin(), models.end()),
-      layouts_(layouts_of(models)),
       model_of_body_(model_of_body.begin(), model_of_body.end()) {}
 
 void BodyBatch::pose_one(std::uint32_t body, const Pose& pose) {
@@ -51,8 +50,9 @@ void BodyBatch::pose_one(std::uint32_t body, const Pose& pose) {
   auto& own = posers_.local();
   if (own.empty()) own.resize(models_.size());
   try {
-    if (own[model] == nullptr) own[model] = std::make_unique<SpherePoser>(models_[model], layouts_[model]);
-    write_record(layouts_[model], own[model]->pose(pose), set.record(body));
+    const BodyLayout& layout = set.layout(body);
+    if (own[model] == nullptr) own[model] = std::make_unique<SpherePoser>(models_[model], layout);
+    write_record(layout, own[model]->pose(pose), set.record(body));
   } catch (...) {
     rethrow_for(body);
   }

@@ -47,7 +47,6 @@ class BodyBatch {
   void pose_one(std::uint32_t body, const Pose& pose);
 
   const std::vector<BodyModel> models_;
-  const std::vector<BodyLayout> layouts_;  ///< by model
   const std::vector<std::uint32_t> model_of_body_;
   tbb::enumerable_thread_specific<std::vector<std::unique_ptr<SpherePoser>>> posers_;  ///< by model
 };

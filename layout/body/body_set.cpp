@@ -163,14 +163,9 @@ std::size_t BodySet::bytes() const noexcept {
 std::vector<Sphere> BodySet::spheres(std::uint32_t body) const {
   state_->require_body(body);
   const BodyLayout& layout = *state_->layouts[body];
-  const float* const leaves = state_->view.record(body) + layout.record_leaves();
   std::vector<Sphere> spheres(layout.sphere_count);
-  for (std::uint32_t slot = 0; slot < layout.sphere_count; ++slot) {
-    const float* const leaf = leaves + std::size_t{4} * (slot / layout.leaf_size) * layout.leaf_size;
-    const std::uint32_t in_leaf = slot % layout.leaf_size, size = layout.leaf_size;
-    spheres[layout.sphere_in_slot[slot]] = {leaf[in_leaf], leaf[size + in_leaf], leaf[2 * size + in_leaf],
-                                            leaf[3 * size + in_leaf]};
-  }
+  for (std::uint32_t slot = 0; slot < layout.sphere_count; ++slot)
+    spheres[layout.sphere_in_slot[slot]] = sphere_of(state_->view.record(body), slot);
   return spheres;
 }
 
@@ -181,6 +176,10 @@ Heights BodySet::heights(std::uint32_t body) const {
 
 const BodySetView& BodySet::view() const noexcept {
   return state_->view;
+}
+
+const BodyLayout& BodySet::layout(std::uint32_t body) const noexcept {
+  return *state_->layouts[body];
 }
 
 float* BodySet::record(std::uint32_t body) noexcept {

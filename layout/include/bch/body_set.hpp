@@ -53,6 +53,7 @@ class BodySet {
   /// Makes room for bodies, of which number i has layout layout_of_body[i]. Records have to be written before they are read.
   BodySet(std::vector<detail::BodyLayout> layouts, std::span<const std::uint32_t> layout_of_body);
   const detail::BodySetView& view() const noexcept;
+  const detail::BodyLayout& layout(std::uint32_t body) const noexcept;
   /// Returns where the record of a body is written. Threads may write different bodies at once.
   float* record(std::uint32_t body) noexcept;
   /// Takes over what the broad phase reads of a record that was written.
