@@ -34,16 +34,10 @@ void add_spheres_option(CLI::App& command, std::uint32_t& spheres) {
                        whole_between(1, detail::most_spheres));
 }
 
-LiveBodies posed_bodies(std::span<const BodyModel> models, std::span<const ShapeSource> sources) {
-  std::vector<std::uint32_t> model_of_body;
-  std::vector<Pose> poses;
-  for (const ShapeSource& source : sources) {
-    model_of_body.push_back(source.character);
-    poses.emplace_back(source.at);
-  }
-  LiveBodies bodies(models, model_of_body);
-  bodies.pose(poses);
-  return bodies;
+BodySet posed_bodies(std::span<const BodyModel> models, std::span<const ShapeSource> sources) {
+  std::vector<PoseOfBody> bodies;
+  for (const ShapeSource& source : sources) bodies.push_back({source.character, source.at});
+  return bake(models, {.bodies = bodies});
 }
 
 namespace {

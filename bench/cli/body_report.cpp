@@ -19,8 +19,7 @@ std::vector<bool> BodyFacts::are_core() const {
 }
 
 BodyFacts examine(const BodyModel& model, const ShapeSource& source) {
-  const LiveBodies bodies = posed_bodies({&model, 1}, {&source, 1});
-  const BodySet& set = bodies.set();
+  const BodySet set = posed_bodies({&model, 1}, {&source, 1});
   return {source, model, set.spheres(0), set.heights(0), set.bytes()};
 }
 

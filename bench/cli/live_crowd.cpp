@@ -122,7 +122,9 @@ void run_live_crowd(const CrowdOptions& options) {
   const auto characters = load_characters(options.characters, options.shapes.import_options());
   const Threads threads(options.answer.threads);
   WalkingCrowd crowd(characters, options.agents, options.density, options.seed);
-  LiveBodies bodies = posed_bodies(make_models(characters, options.spheres), crowd.poses());
+  std::vector<std::uint32_t> model_of_agent;
+  for (const ShapeSource& pose : crowd.poses()) model_of_agent.push_back(pose.character);
+  LiveBodies bodies(make_models(characters, options.spheres), model_of_agent);
   const Implementation* const implementation = options.answer.query_options().implementation;
   LiveRun run{options, characters, crowd, bodies, {}, {}, {}, 0, implementation->name, threads.count};
   bch::Crowd finder;

@@ -100,4 +100,8 @@ struct QueryCommandOptions {
   }
 };
 
+/// Refuses options that do not go together.
+/// Errors:  throws UsageError.
+void require_fitting(const CLI::App& command, const QueryCommandOptions& options);
+
 }  // namespace bch::cli

@@ -34,15 +34,6 @@
 namespace bch::cli {
 namespace {
 
-/// Returns the numbers before and behind a comma; NaN for other text.
-std::pair<double, double> numbers_of(const std::string& text) {
-  constexpr double none = std::numeric_limits<double>::quiet_NaN();
-  const std::size_t comma = text.find(',');
-  if (comma == std::string::npos) return {none, none};
-  return {parse_number(text.substr(0, comma)).value_or(none),
-          parse_number(text.substr(comma + 1)).value_or(none)};
-}
-
 /// Renumbers the agents' shapes to those in use. Returns: where these come from; no other is built.
 std::vector<ShapeSource> keep_used(std::span<const ShapeSource> sources, AgentTable& table) {
   std::vector<ShapeSource> used;
@@ -179,8 +170,8 @@ void query_spheres(const QueryCommandOptions& options, const Write& write) {
   Question question = read_question(options, sources.size(), 1);
   const Threads threads(options.answer.threads);
   const auto used = keep_used(sources, question.table);
-  const LiveBodies bodies = posed_bodies(make_models(from, options.kind.spheres), used);
-  answer(options, {nullptr, &bodies.set()}, question, write);
+  const BodySet bodies = posed_bodies(make_models(from, options.kind.spheres), used);
+  answer(options, {nullptr, &bodies}, question, write);
   std::fputs(notes_text(from).c_str(), stderr);  // standard output is for data
 }
 
@@ -219,64 +210,8 @@ void query_part(const CLI::App& command, QueryCommandOptions options,
   write_standard_output(fmt::format("{}: {}\n", files.part().name(), files.manifest()));
 }
 
-/// Refuses options that mean nothing beside the others.
-void require_fitting(const CLI::App& command, const QueryCommandOptions& options) {
-  const bool collide = options.what == "collide", within = options.what == "within",
-             clearance = options.what == "clearance", walls = !options.obstacles.empty(),
-             tests_leaves = collide || options.what == "contacts";
-  struct Misfit {
-    bool is_one;
-    std::vector<const char*> options;
-    const char* reason;
-  };
-  const Misfit misfits[] = {
-      {!walls, {"--walkable", "--obstacle-heights"}, "belongs to --obstacles"},
-      {walls, {"--directions", "--direction"}, "obstacles have directions of their own"},
-      {options.what != "penetration", {"--directions", "--direction"}, "belongs to --what penetration"},
-      {!options.all_pairs, {"--max-pairs"}, "belongs to --all-pairs"},
-      {!clearance, {"--overlap", "--points"}, "belongs to --what clearance"},
-      {!clearance && !within, {"--max-distance"}, "belongs to --what clearance and --what within"},
-      {clearance && options.overlap != "zero",
-       {"--leaves"},
-       "cannot be combined with --overlap deepest, which always measures discs"},
-      {within && !walls,
-       {"--leaves"},
-       "cannot be combined with --what within, which measures discs unless --obstacles is given"},
-      {!clearance && !within && !tests_leaves && !options.all_pairs,
-       {"--leaves"},
-       "belongs to --what collide, --what contacts, --what clearance and --all-pairs"},
-      {query_kind(options.what).moving, {"--all-pairs"}, "agents that collide now touch at once"},
-      {!options.direction.empty(), {"--directions"}, "--direction names the only one"},
-  };
-  for (const Misfit& misfit : misfits)
-    if (misfit.is_one) require_absent(command, misfit.options, misfit.reason);
-}
-
-void require_of_spheres(const CLI::App& command, const QueryCommandOptions& options) {
-  const char* const reason = "belongs to outlines, not to --bodies spheres";
-  require_absent(command, {"--obstacles", "--depths", "--leaves", "--threshold"}, reason);
-  if (query_kind(options.what).sphere_columns == nullptr)
-    throw UsageError(fmt::format("--what: '{}' {}", options.what, reason));
-  if (is_baked(options.character))
-    throw UsageError(options.character +
-                     ": a baked file has outlines alone, which --bodies spheres does not use");
-}
-
 void run_query(const CLI::App& command, const QueryCommandOptions& options) {
-  if (options.kind.are_spheres(command)) require_of_spheres(command, options);
-  const bool walls = !options.obstacles.empty();
-  const int named = int{options.all_pairs} + int{!options.pairs.empty()} + int{walls};
-  if (named != 1)
-    throw UsageError(named > 1 ? "PAIRS.csv, --all-pairs and --obstacles: name one of them"
-                               : "PAIRS.csv, --all-pairs or --obstacles is missing");
-  if (walls && !query_kind(options.what).of_obstacles)
-    throw UsageError(fmt::format("--what: '{}' cannot be asked about --obstacles", options.what));
-  if (options.what == "within" && !std::isfinite(options.max_distance))
-    throw UsageError("--max-distance: --what within needs one");
   require_fitting(command, options);
-  if (options.directions % 2 != 0)
-    throw UsageError(fmt::format("--directions: '{}' is odd", options.directions));
-  options.only_direction(), options.heights_of_obstacles();
   const std::vector<std::string> inputs =
       options.shapes.inputs({options.character, options.agents, options.pairs, options.obstacles});
   if (options.part.are_given()) return query_part(command, options, inputs);
@@ -284,24 +219,6 @@ void run_query(const CLI::App& command, const QueryCommandOptions& options) {
 }
 
 }  // namespace
-
-std::optional<Vec2> QueryCommandOptions::only_direction() const {
-  if (direction.empty()) return std::nullopt;
-  const auto [to_x, to_y] = numbers_of(direction);
-  const auto x = static_cast<float>(to_x), y = static_cast<float>(to_y);
-  if (!std::isfinite(x) || !std::isfinite(y) || (x == 0 && y == 0))
-    throw UsageError(fmt::format("--direction: '{}' is not X,Y with a length", direction));
-  return Vec2{x, y};
-}
-
-std::pair<double, double> QueryCommandOptions::heights_of_obstacles() const {
-  if (obstacle_heights.empty()) return {-HUGE_VAL, HUGE_VAL};
-  const auto heights = numbers_of(obstacle_heights);
-  if (!(heights.first <= heights.second))
-    throw UsageError(
-        fmt::format("--obstacle-heights: '{}' is not BOTTOM,TOP, the lower first", obstacle_heights));
-  return heights;
-}
 
 std::function<void()> add_query_command(CLI::App& program) {
   const auto options = std::make_shared<QueryCommandOptions>();

@@ -68,19 +68,18 @@ Contender clearance_contender(const BodySet& bodies, const Workload& workload,
 
 void add_spheres(Scene& scene) {
   for (const std::uint32_t spheres : {128u, 256u, 512u}) {
-    const auto bodies =
-        once([&scene, spheres] { return std::make_shared<LiveBodies>(scene.live_bodies(spheres)); });
+    const auto bodies = once([&scene, spheres] { return std::make_shared<BodySet>(scene.bodies(spheres)); });
     for (const std::string_view name : {"crowd", "near_miss", "colliding"})
       for (const Implementation* implementation : supported_implementations())
         add(fmt::format("spheres/{}/{}/{}", spheres, name, implementation->name),
             [&scene, bodies, name, implementation] {
-              return spheres_contender(bodies().set(), scene.workload(name), *implementation);
+              return spheres_contender(bodies(), scene.workload(name), *implementation);
             });
     for (const std::string_view name : {"crowd", "candidates"})
       for (const Implementation* implementation : supported_implementations())
         add(fmt::format("spheres_clearance/{}/{}/{}", spheres, name, implementation->name),
             [&scene, bodies, name, implementation] {
-              return clearance_contender(bodies().set(), scene.workload(name), *implementation);
+              return clearance_contender(bodies(), scene.workload(name), *implementation);
             });
   }
 }

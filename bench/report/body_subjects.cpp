@@ -74,9 +74,9 @@ void BodySubjects::add_ragdolls_and_spheres(std::uint32_t most_spheres) {
 
 void BodySubjects::add_spheres(std::uint32_t spheres) {
   const std::vector<BodyModel>& models = scene_.models(spheres);
-  const LiveBodies& bodies = bodies_.emplace_back(scene_.live_bodies(spheres));
-  Subject subject = subject_of(fmt::format("{} spheres", spheres), bodies.set());
-  subject.bytes = static_cast<double>(bodies.set().bytes()) / bodies.set().body_count();
+  const BodySet& bodies = bodies_.emplace_back(scene_.bodies(spheres));
+  Subject subject = subject_of(fmt::format("{} spheres", spheres), bodies);
+  subject.bytes = static_cast<double>(bodies.bytes()) / bodies.body_count();
   const auto singles = std::make_shared<std::vector<LiveBodies>>();
   for (std::uint32_t model = 0; model < models.size(); ++model)
     singles->emplace_back(models, std::span(&model, 1));

@@ -49,7 +49,7 @@ class BodySubjects {
   bench::Scene& scene_;
   std::vector<std::vector<Affine3d>> joints_;  ///< one a shape, as of WorldPose
   std::deque<ShapeSet> sets_;
-  std::deque<LiveBodies> bodies_;
+  std::deque<BodySet> bodies_;
   std::deque<std::unique_ptr<baselines::Structure>> structures_;
   std::vector<BodySubject> all_;
 };

@@ -58,13 +58,11 @@ const std::vector<baselines::Body>& Scene::bodies() {
 
 const std::vector<BodyModel>& Scene::models(std::uint32_t spheres) {
   std::vector<BodyModel>& models = models_[spheres];
-  if (models.empty())
-    for (const cli::LoadedCharacter& loaded : characters())
-      models.push_back(make_body(loaded.character, {.spheres = spheres, .draft = options_.draft_models}));
+  if (models.empty()) models = cli::make_models(characters(), spheres, options_.draft_models);
   return models;
 }
 
-LiveBodies Scene::live_bodies(std::uint32_t spheres) {
+BodySet Scene::bodies(std::uint32_t spheres) {
   return cli::posed_bodies(models(spheres), sources());
 }
 

@@ -52,7 +52,7 @@ class Scene {
   /// Returns models of so many spheres, one a character.
   const std::vector<BodyModel>& models(std::uint32_t spheres);
   /// Returns the bodies of spheres of all sources.
-  LiveBodies live_bodies(std::uint32_t spheres);
+  BodySet bodies(std::uint32_t spheres);
   /// Returns a set of the finest level alone, with all that queries may ask.
   const ShapeSet& set();
   const baselines::Structure& structure(std::string_view kind);
