@@ -225,10 +225,4 @@ constexpr std::uint64_t padded(std::uint64_t size) {
 /// The offset of the first section, in bytes.
 constexpr std::uint64_t sections_offset = padded(sizeof(Preamble));
 
-/// Returns the offset of the nodes in the file of a set that has trees. It is known before the nodes are.
-constexpr std::uint64_t nodes_offset(std::size_t shapes, std::size_t levels) {
-  return sections_offset + padded(levels * sizeof(std::uint32_t)) + padded(shapes * levels * sizeof(Root)) +
-         padded(shapes * levels * sizeof(Tree));
-}
-
 }  // namespace bch::detail::baked

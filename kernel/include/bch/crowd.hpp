@@ -178,8 +178,8 @@ class Crowd {
   /// Finds the pairs for which collide() answers 1.
   CrowdPairs collisions(const ShapeSet& shapes, const Agents& agents, const CollisionOptions& options = {}) &;
 
-  // The same of bodies of spheres. Candidates are those whose discs, as seen from above, and whose heights come within the margin of each
-  // other.
+  // Queries of bodies of spheres answer as those of shapes do. Candidates are pairs whose discs, as seen from above, and whose heights come
+  // within the margin of each other.
   CrowdPairs candidates(const BodySet& bodies, const Agents& agents, const CandidateOptions& options = {}) &;
   CrowdPairs collisions(const BodySet& bodies, const Agents& agents,
                         const BodyCollisionOptions& options = {}) &;

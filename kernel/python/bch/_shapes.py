@@ -686,29 +686,7 @@ def bake_shapes(
     threads: int = 0,
     progress: bool = False,
 ) -> ShapeSet:
-    """Make a set of characters in many poses, and write it as a baked file.
-
-    Ctrl-C interrupts it and leaves no file.
-
-    Parameters
-    ----------
-    characters : Character, or a sequence of them
-    poses : int, or poses
-        The number of poses per character, spread evenly over its clips; or the poses themselves: an (n,) POSE array, a sequence of
-        (clip, seconds), Transforms or Vertices. For several characters: a sequence of these, one per character.
-    plan : Plan
-    path : path, optional
-        Where to write the set.
-    threads : int
-        Number of threads; 0: all processors. The bytes are the same for any number.
-    progress : bool
-        Show a progress bar on a terminal.
-
-    Returns
-    -------
-    ShapeSet
-        A set with the shapes of one character after the other.
-    """
+    """Make the set of shapes that `bake` returns."""
     alone = isinstance(characters, Character)
     people: List[Character] = (
         [characters] if isinstance(characters, Character) else instances(characters, Character, "characters")
