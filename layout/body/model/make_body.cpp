@@ -50,7 +50,9 @@ BodyModel make_body(const Character& character, const BodyOptions& options) {
   const SkinPieces skin = cut_skin(*own, at_rest, longest_edge);
   const auto candidates = find_candidates(*own, skin, place_points(at_rest, skin.cuts), skinner);
   if (candidates.empty())
-    throw std::invalid_argument("character '" + own->name + "': its skin holds no ball of 4 mm to 29 cm");
+    throw std::invalid_argument(
+        "character '" + own->name +
+        "': expected triangles of some area, moved by bones that have an inverse, found none");
   advance(0.2);
   const TrainingPoses poses(*own, skin, sample_poses(*own, chosen_in));
   const double chosen = options.draft ? 1 : 0.3;
