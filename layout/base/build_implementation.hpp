@@ -13,6 +13,8 @@ struct DiscSets;
 struct OutlineLoops;
 struct InteriorLoops;
 struct PosingLoops;
+struct BlendLoops;
+struct DiscRun;
 
 /// Holds the loops of construction, compiled for one instruction set. All sets give the same bits.
 struct BuildLoops {
@@ -20,6 +22,9 @@ struct BuildLoops {
   const OutlineLoops& outline;
   const InteriorLoops& interior;
   const PosingLoops& posing;
+  const BlendLoops& blend;
+  void (*heights)(const DiscRun& run, const float* cosine, const float* sine,
+                  float* height) noexcept;  ///< see CutLanes
 };
 
 /// Represents a row of the table of instruction sets that construction is compiled for.

@@ -127,6 +127,20 @@ void ClipPose::find_channels(PoseTime at) {
   for (const Channel& channel : clip.channels) channel_of_joint_[channel.joint] = &channel;
 }
 
+/// Asks for the keys about a time, which are far apart in memory, before they are read one after the other.
+void ClipPose::prefetch(float seconds) const {
+  std::size_t guess = 0;
+  const auto fetch = [&guess, seconds](const auto& keys) {
+    if (keys.size() < 2) return;
+    guess = guess == 0 ? key_after(keys, seconds, 0) : guess;
+    const std::size_t after = std::min(guess, keys.size() - 1);
+    __builtin_prefetch(&keys[after - std::min<std::size_t>(after, 1)]);
+    __builtin_prefetch(&keys[after].value);
+  };
+  for (const Channel* const channel : channel_of_joint_)
+    if (channel != nullptr) fetch(channel->rotations), fetch(channel->positions);
+}
+
 /// `guess`: where keys of this time were last.
 ClipPose::Moved ClipPose::moved(std::size_t joint, float seconds, std::size_t& guess) const {
   Moved parts;
@@ -143,6 +157,7 @@ ClipPose::Moved ClipPose::moved(std::size_t joint, float seconds, std::size_t& g
 
 void ClipPose::place(PoseTime at, std::span<Affine3d> local) {
   find_channels(at);
+  prefetch(at.seconds);
   std::size_t guess = 0;
   for (std::size_t j = 0; j < local.size(); ++j) {
     const Rest& rest = rest_[j];

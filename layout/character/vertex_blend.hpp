@@ -14,6 +14,7 @@
 #include <bch/pose_shape.hpp>
 
 #include "layout/base/aligned_vector.hpp"
+#include "layout/character/blend_loops.hpp"
 
 namespace bch::detail {
 
@@ -27,21 +28,10 @@ struct PointInfluence {
 /// Returns those of a character's vertices: as many, in the same order, as Character::influences.
 std::vector<PointInfluence> influences_of(const Character& character);
 
-/// Represents the place of a point of space, in a register.
-struct alignas(16) SpaceRow {
-  float x, y, z, unused;
-};
-
-/// Represents a mesh that its bones move: each vertex goes to the mean of where they take it, weighted. What does not depend
-/// on the pose is done once: a vertex is multiplied by its weights, so that every bone adds one product, and
-/// vertices of equally many bones stand together, so that how many is no surprise.
+/// Represents a mesh that its bones move: each vertex goes to the mean of where they take it, weighted. What does not depend on the pose is
+/// done once: a vertex is multiplied by its weights, so that every bone adds one product, and vertices stand in pairs.
 class VertexBlend {
  public:
-  /// Represents one of a map's three, or a vertex and 1.
-  struct alignas(16) Row {
-    float at[4];
-  };
-
   /// Takes the vertices of a character.
   explicit VertexBlend(const Character& character);
   /// Takes points: point i has influences begin[i] to begin[i + 1].
@@ -59,20 +49,15 @@ class VertexBlend {
   std::optional<std::uint32_t> blend(std::span<const Affine3d> maps, std::span<Vec2> positions);
 
  private:
-  /// Holds vertices that so many bones move, up to `end` of the order.
-  struct Run {
-    std::uint32_t bones, end;
-  };
-
   template <class Position>
-  std::optional<std::uint32_t> blend_all(std::span<const Affine3d> maps, std::span<Position> positions);
+  std::optional<std::uint32_t> blend_all(std::span<const Affine3d> maps, std::span<Position> positions,
+                                         bool (*loop)(const BlendPairs&, Position*) noexcept);
 
   std::vector<std::uint32_t> bones_;
-  std::vector<Run> runs_;
-  std::vector<std::uint32_t> vertex_;     ///< in the order of work
-  AlignedVector<Row> weighted_;           ///< per influence: the vertex and 1, times the weight
-  std::vector<std::uint32_t> first_row_;  ///< per influence: of its bone's three
-  AlignedVector<Row> rows_;               ///< of the maps
+  std::vector<BlendPairs::Run> runs_;
+  AlignedVector<float> maps_, weighted_;  ///< see BlendPairs
+  std::vector<std::uint32_t> first_;
+  std::vector<PointPair> pairs_;
 };
 
 }  // namespace bch::detail

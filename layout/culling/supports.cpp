@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "layout/base/build_implementation.hpp"
 #include "layout/base/heading.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/culling/cut_lanes.hpp"
@@ -34,8 +35,8 @@ static_assert(rounding::terms::support_float >= 1.5 * rounding::terms::root_2 + 
 Supports supports(const float* x, const float* y, const float* radius, std::uint32_t count, double reach) {
   static const Directions directions;
   std::array<float, support_directions> largest;
-  CutLanes<BaseLanes>::heights({x, y, radius, count}, directions.cosine.data(), directions.sine.data(),
-                               largest.data());
+  best_build_implementation().loops.heights({x, y, radius, count}, directions.cosine.data(),
+                                            directions.sine.data(), largest.data());
   Supports heights;
   for (std::uint32_t k = 0; k < support_directions; ++k) {
     const std::uint32_t at = k % 2 * support_directions + k / 2;

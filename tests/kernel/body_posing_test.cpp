@@ -13,6 +13,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <string>
@@ -27,6 +28,7 @@
 #include "layout/body/body_layout.hpp"
 #include "layout/body/posing/posing_loops.hpp"
 #include "layout/body/sphere_rounding.hpp"
+#include "layout/character/blend_loops.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/body_models.hpp"
 #include "tests/support/character_shapes.hpp"
@@ -244,6 +246,59 @@ TEST(BodyPosing, MeasuresTheSameBitsByAllInstructionSets) {
   for (const detail::BuildImplementation& by : detail::build_implementations()) {
     if (!by.supported()) continue;
     EXPECT_EQ(measured(by), expected) << by.name;
+  }
+}
+
+TEST(BodyPosing, BlendsTheSameBitsByAllInstructionSets) {
+  constexpr std::uint32_t most_bones = 6,
+                          pairs_of_each = 5;  // of 5 bones and more by the loop for any number
+  Random random(8);
+  std::vector<float> maps, weighted;
+  for (std::uint32_t row = 0; row < 3 * most_bones; ++row) {
+    for (int i = 0; i < 4; ++i) maps.push_back(static_cast<float>(random.between(-1, 1)));
+    for (int i = 0; i < 4; ++i) maps.push_back(maps[maps.size() - 4]);
+  }
+  std::vector<detail::BlendPairs::Run> runs;
+  std::vector<std::uint32_t> first;
+  std::vector<detail::PointPair> pairs;
+  for (std::uint32_t bones = 1; bones <= most_bones; ++bones) {
+    for (std::uint32_t i = 0; i < pairs_of_each; ++i) {
+      const auto number = static_cast<std::uint32_t>(2 * pairs.size());
+      pairs.push_back({{number + 1, number}});
+      for (std::uint32_t k = 0; k < bones; ++k) first.push_back(24 * random.below(most_bones));
+    }
+    runs.push_back({bones, static_cast<std::uint32_t>(pairs.size())});
+  }
+  for (std::size_t i = 0; i < 8 * first.size(); ++i)
+    weighted.push_back(static_cast<float>(random.between(-1, 1)));
+  const auto blended = [&](const detail::BuildImplementation& by) {
+    const detail::BlendPairs all{runs.data(),  runs.size(),     maps.data(),
+                                 first.data(), weighted.data(), pairs.data()};
+    std::vector<detail::SpaceRow> space(2 * pairs.size());
+    std::vector<Vec3> vertices(space.size());
+    std::vector<Vec2> ground(space.size());
+    EXPECT_TRUE(by.loops.blend.to_space(all, space.data()));
+    EXPECT_TRUE(by.loops.blend.to_vertices(all, vertices.data()));
+    EXPECT_TRUE(by.loops.blend.to_ground(all, ground.data()));
+    for (std::size_t i = 0; i < space.size(); ++i) {
+      EXPECT_EQ(vertices[i], (Vec3{space[i].x, space[i].y, space[i].z})) << i;
+      EXPECT_EQ(ground[i], (Vec2{space[i].x, space[i].y})) << i;
+    }
+    return vertices;
+  };
+  const std::vector<Vec3> expected = blended(detail::build_implementations().back());
+  for (const detail::BuildImplementation& by : detail::build_implementations()) {
+    if (!by.supported()) continue;
+    EXPECT_EQ(blended(by), expected) << by.name;
+  }
+
+  weighted[weighted.size() - 3] = std::numeric_limits<float>::infinity();
+  for (const detail::BuildImplementation& by : detail::build_implementations()) {
+    if (!by.supported()) continue;
+    const detail::BlendPairs all{runs.data(),  runs.size(),     maps.data(),
+                                 first.data(), weighted.data(), pairs.data()};
+    std::vector<Vec2> ground(2 * pairs.size());
+    EXPECT_FALSE(by.loops.blend.to_ground(all, ground.data())) << by.name;
   }
 }
 
