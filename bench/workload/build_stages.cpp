@@ -40,8 +40,11 @@ void solve_by_welzl(const detail::DiscSets& sets) noexcept {
 }
 
 const detail::BuildImplementation& by_welzl() {
-  static const detail::BuildLoops& best = detail::best_build_implementation().loops;
-  static const detail::BuildLoops loops{solve_by_welzl, best.outline, best.interior, best.posing};
+  static const detail::BuildLoops loops = [] {
+    detail::BuildLoops best = detail::best_build_implementation().loops;
+    best.solve_discs = solve_by_welzl;
+    return best;
+  }();
   static const detail::BuildImplementation row{{"welzl", detail::everywhere}, loops};
   return row;
 }
