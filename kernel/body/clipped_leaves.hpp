@@ -19,8 +19,16 @@ struct ClippedLeaves {
   using Mask = typename Simd::Mask;
   static constexpr std::uint32_t most_leaves = most_spheres / 4, padding = 16;
 
-  /// Finds the leaves. `reach_a` and `reach_b` hold, for each of `count` pairs of bands, what may take part. Returns whether both have some.
+  /// Lists the leaves, and places B's nodes. Takes and returns the same.
   bool clip(const PlacedBodies& bodies, const Reach* reach_a, const Reach* reach_b,
+            std::uint32_t count) noexcept {
+    if (!list(bodies, reach_a, reach_b, count)) return false;
+    place_columns(bodies);
+    return true;
+  }
+
+  /// Lists the leaves. `reach_a` and `reach_b` hold, for each of `count` pairs of bands, what may take part. Returns whether both have some.
+  bool list(const PlacedBodies& bodies, const Reach* reach_a, const Reach* reach_b,
             std::uint32_t count) noexcept {
     const std::uint32_t registers_a = registers(bodies.a), registers_b = registers(bodies.b);
     for (std::uint32_t i = 0; i < registers_a; ++i) kept_a_[i] = 0;
@@ -31,9 +39,21 @@ struct ClippedLeaves {
     }
     rows = list(kept_a_, registers_a, leaf_a);
     columns = list(kept_b_, registers_b, leaf_b);
-    if (rows == 0 || columns == 0) return false;
-    place_columns(bodies);
-    return true;
+    return rows != 0 && columns != 0;
+  }
+
+  /// Places the nodes of B's leaves that are listed.
+  void place_columns(const PlacedBodies& bodies) noexcept {
+    const std::uint32_t stride = header_of(bodies.b).node_stride;
+    const float rise = bodies.b_in_a.tz;
+    for (std::uint32_t i = 0; i < columns; ++i) {
+      const float* const node = bodies.b + record_nodes + leaf_b[i];
+      const auto at = bodies.b_in_a.ground.apply(node[0], node[stride]);
+      x[i] = at.x, y[i] = at.y, radius[i] = node[2 * stride];
+      bottom[i] = node[3 * stride] + rise, top[i] = node[4 * stride] + rise;
+    }
+    for (std::uint32_t i = columns; i < columns + Simd::width; ++i)
+      x[i] = __builtin_inff(), y[i] = radius[i] = bottom[i] = top[i] = 0;
   }
 
   /// Holds a node of A in all lanes.
@@ -83,19 +103,6 @@ struct ClippedLeaves {
     for (std::uint32_t i = 0; i < registers; ++i)
       size += Simd::write_set(kept[i], i * Simd::width, leaves + size);
     return size;
-  }
-
-  void place_columns(const PlacedBodies& bodies) noexcept {
-    const std::uint32_t stride = header_of(bodies.b).node_stride;
-    const float rise = bodies.b_in_a.tz;
-    for (std::uint32_t i = 0; i < columns; ++i) {
-      const float* const node = bodies.b + record_nodes + leaf_b[i];
-      const auto at = bodies.b_in_a.ground.apply(node[0], node[stride]);
-      x[i] = at.x, y[i] = at.y, radius[i] = node[2 * stride];
-      bottom[i] = node[3 * stride] + rise, top[i] = node[4 * stride] + rise;
-    }
-    for (std::uint32_t i = columns; i < columns + Simd::width; ++i)
-      x[i] = __builtin_inff(), y[i] = radius[i] = bottom[i] = top[i] = 0;
   }
 
   std::uint32_t kept_a_[most_leaves], kept_b_[most_leaves];  ///< bits of registers of nodes

@@ -39,9 +39,9 @@ class NearestLeaves {
 
   /// Searches the leaves that reach the other body.
   NearestSpheres search(const Reach& reach_a, const Reach& reach_b) noexcept {
-    if (!leaves_.clip(bodies_, &reach_a, &reach_b, 1)) return nearest_;
-    measure_nearest_nodes();
-    for (std::uint32_t row = 0; row < leaves_.rows && !is_done(); ++row) measure_row(row);
+    if (!leaves_.list(bodies_, &reach_a, &reach_b, 1) || !clip_by_extents(reach_a, reach_b)) return nearest_;
+    leaves_.place_columns(bodies_);
+    for (std::uint32_t row = 0; row < leaves_.rows && !is_done();) row = measure_rows(row);
     return nearest_;
   }
 
@@ -67,51 +67,111 @@ class NearestLeaves {
   }
   using Leaves = ClippedLeaves<Simd>;
 
-  /// Holds how far nodes are apart on the ground and in height; below 0 where they overlap.
-  struct Apart {
-    Float across, up;
-  };
-  Apart apart(const typename Leaves::Node& node, std::uint32_t k) const noexcept {
-    const Float dx = Simd::load(leaves_.x + k) - node.x, dy = Simd::load(leaves_.y + k) - node.y;
-    const Float length = rough_root<Simd>(dx * dx + dy * dy) * Float(1 - Simd::rough);
-    return {length - (Simd::load(leaves_.radius + k) + node.radius),
-            xsimd::max(node.bottom - Simd::load(leaves_.top + k), Simd::load(leaves_.bottom + k) - node.top)};
+  /// Measures leaves of rows from `begin` on whose nodes are near enough, first those whose nodes are nearest, so that the distance soon is
+  /// nearly what it will be. Returns the end of these rows.
+  std::uint32_t measure_rows(std::uint32_t begin) noexcept {
+    const auto shift =
+        static_cast<std::uint32_t>(32 - __builtin_clz((leaves_.columns - 1) | (Simd::width - 1)));
+    const std::uint32_t rows = std::uint32_t{most_bounds} >> shift, left = leaves_.rows - begin;
+    const std::uint32_t end = begin + (left < rows ? left : rows);
+    float least = 0;
+    const std::uint32_t size = list_near(begin, end, shift, least);
+    if (size == 0) return end;
+    std::uint32_t nearest = 0;
+    while (bound_[near_[nearest]] > least) ++nearest;
+    const auto measure_one = [&](std::uint32_t i) {
+      const std::uint32_t at = near_[i];
+      measure(leaves_.leaf_a[begin + (at >> shift)], leaves_.leaf_b[at & ((1u << shift) - 1)]);
+    };
+    measure_one(nearest);
+    for (std::uint32_t i = 0; i < size && !is_done(); ++i)
+      if (i != nearest && bound_[near_[i]] <= bodies_.margin()) measure_one(i);
+    return end;
   }
 
-  /// Measures the leaves whose nodes are nearest, so that the distance soon is nearly what it will be.
-  void measure_nearest_nodes() noexcept {
-    const Float infinite(__builtin_inff());
-    float least = __builtin_inff();
-    std::uint32_t least_row = 0, least_column = 0;
-    for (std::uint32_t row = 0; row < leaves_.rows; ++row) {
+  /// Finds how far leaves reach towards the other body, along the axis on which both are apart most, and drops those that do not reach
+  /// it: spheres bound the distance there better than their nodes do. Returns whether both have some. (Their errors are fewer than
+  /// those of a node and a support, which the margin has room for.)
+  bool clip_by_extents(const Reach& reach_a, const Reach& reach_b) noexcept {
+    constexpr unsigned axis = Reach::axes / 2;
+    const float x = -reach_a.x[axis], y = -reach_a.y[axis];
+    origins_apart_ = bodies_.b_in_a.ground.tx * x + bodies_.b_in_a.ground.ty * y;
+    const float most_a = find_extents(bodies_.a, leaves_.leaf_a, leaves_.rows, x, y, extent_a_);
+    const float most_b = find_extents(bodies_.b, leaves_.leaf_b, leaves_.columns, -reach_b.x[axis],
+                                      -reach_b.y[axis], extent_b_);
+    const float least = origins_apart_ - bodies_.margin();
+    leaves_.rows = drop(leaves_.leaf_a, extent_a_, leaves_.rows, least - most_b);
+    leaves_.columns = drop(leaves_.leaf_b, extent_b_, leaves_.columns, least - most_a);
+    for (std::uint32_t i = leaves_.columns; i < leaves_.columns + Simd::width; ++i) extent_b_[i] = 0;
+    return leaves_.rows != 0 && leaves_.columns != 0;
+  }
+  /// Returns the largest one.
+  static float find_extents(const float* record, const std::uint16_t* leaf, std::uint32_t size, float x,
+                            float y, float* extents) noexcept {
+    float most = -__builtin_inff();
+    for (std::uint32_t i = 0; i < size; ++i) {
+      extents[i] = extent(balls_of(record, leaf[i]), x, y);
+      most = extents[i] < most ? most : extents[i];
+    }
+    return most;
+  }
+  /// Drops leaves with less than that. Returns how many are left.
+  static std::uint32_t drop(std::uint16_t* leaf, float* extents, std::uint32_t size, float least) noexcept {
+    std::uint32_t left = 0;
+    for (std::uint32_t i = 0; i < size; ++i) {
+      leaf[left] = leaf[i], extents[left] = extents[i];
+      left += extents[i] >= least;
+    }
+    return left;
+  }
+  static float extent(const Balls& of, float x, float y) noexcept {
+    return of.stride == 8 ? extent<8>(of, x, y) : extent<4>(of, x, y);
+  }
+  template <unsigned count>
+  [[gnu::always_inline]] static float extent(const Balls& of, float x, float y) noexcept {
+    constexpr unsigned parts = Simd::width < count ? count / Simd::width : 1;
+    Float least(__builtin_inff());
+#pragma GCC unroll 8
+    for (unsigned part = 0; part < parts; ++part)
+      least = xsimd::min(least, (Float(-x) * Simd::template columns<count>(of.field(0), part) +
+                                 Float(-y) * Simd::template columns<count>(of.field(1), part)) -
+                                    Simd::template columns<count>(of.field(3), part));
+    return -Simd::least(least);
+  }
+
+  /// Bounds how far nodes are apart, and lists those that are near enough; `least` is the least of their bounds. Returns how many.
+  std::uint32_t list_near(std::uint32_t begin, std::uint32_t end, std::uint32_t shift,
+                          float& least) noexcept {
+    const Float most(bodies_.margin());
+    Float nearest(__builtin_inff());
+    std::uint32_t size = 0;
+    for (std::uint32_t row = begin; row < end; ++row) {
       const auto node = leaves_.node(bodies_.a, leaves_.leaf_a[row]);
+      const std::uint32_t first = (row - begin) << shift;
+      const Float begin_of_b(origins_apart_ - extent_a_[row]);
       for (std::uint32_t k = 0; k < leaves_.columns; k += Simd::width) {
-        const auto [across, up] = apart(node, k);
+        const Float dx = Simd::load(leaves_.x + k) - node.x, dy = Simd::load(leaves_.y + k) - node.y;
+        const Float across = rough_length(dx * dx + dy * dy) - (Simd::load(leaves_.radius + k) + node.radius);
+        const Float up =
+            xsimd::max(node.bottom - Simd::load(leaves_.top + k), Simd::load(leaves_.bottom + k) - node.top);
+        const Float less = xsimd::min(across, up), more = xsimd::max(across, up);
+        const Float bound =
+            xsimd::max(begin_of_b - Simd::load(extent_b_ + k),
+                       Simd::select(less > Float(0.0f), rough_length(less * less + more * more), more));
+        Simd::store(bound_ + first + k, bound);
         // Nodes behind the last one are infinitely far away, or NaN.
-        const Float bound = Simd::select(across < infinite, xsimd::max(across, up), infinite);
-        const std::uint32_t less = Simd::bits(bound < Float(least));
-        if (less == 0) continue;
-        least = Simd::least(bound);
-        least_row = row;
-        least_column = k + static_cast<std::uint32_t>(__builtin_ctz(Simd::bits(bound <= Float(least))));
+        const Mask near = (across <= most) & (bound <= most);
+        nearest = xsimd::min(nearest, Simd::select(near, bound, nearest));
+        size += Simd::write_set(Simd::bits(near), first + k, near_ + size);
       }
     }
-    if (least < __builtin_inff()) measure(leaves_.leaf_a[least_row], leaves_.leaf_b[least_column]);
+    least = Simd::least(nearest);
+    return size;
   }
 
-  /// Measures the leaves of a row whose nodes are near enough.
-  void measure_row(std::uint32_t row) noexcept {
-    const auto node = leaves_.node(bodies_.a, leaves_.leaf_a[row]);
-    const float margin = bodies_.margin();
-    const Float most(margin), square(margin * margin), zero(0.0f);
-    std::uint32_t size = 0;
-    for (std::uint32_t k = 0; k < leaves_.columns; k += Simd::width) {
-      const auto [across, up] = apart(node, k);
-      const Float beside = xsimd::max(across, zero), above = xsimd::max(up, zero);
-      const Mask near = (across <= most) & (up <= most) & (beside * beside + above * above <= square);
-      size += Simd::write_set(Simd::bits(near), k, near_ + size);
-    }
-    for (std::uint32_t i = 0; i < size; ++i) measure(leaves_.leaf_a[row], leaves_.leaf_b[near_[i]]);
+  /// Returns the root of a square, or a little less.
+  static Float rough_length(Float square) noexcept {
+    return rough_root<Simd>(square) * Float(1 - Simd::rough);
   }
 
   void measure(std::uint32_t leaf_a, std::uint32_t leaf_b) noexcept {
@@ -123,8 +183,12 @@ class NearestLeaves {
       const auto slot = [](const Balls& of, std::uint32_t leaf, unsigned in_leaf) {
         return leaf * static_cast<std::uint32_t>(of.stride) + in_leaf;
       };
-      for (unsigned k = 0; k < count * count; ++k)
-        if (gaps_[k] == least) offer({least, slot(a, leaf_a, i + k / count), slot(b, leaf_b, j + k % count)});
+      for (unsigned first = 0; first < count * count; first += Simd::width)
+        for (std::uint32_t left = Simd::bits(Simd::load(gaps_ + first) <= Float(least)); left != 0;
+             left &= left - 1) {
+          const unsigned k = first + static_cast<unsigned>(__builtin_ctz(left));
+          offer({least, slot(a, leaf_a, i + k / count), slot(b, leaf_b, j + k % count)});
+        }
       return false;
     });
   }
@@ -167,8 +231,12 @@ class NearestLeaves {
   float enough_;
   NearestSpheres nearest_;
   Leaves leaves_;
-  std::uint16_t near_[Leaves::most_leaves + Leaves::padding];  ///< columns of a row
-  alignas(64) float gaps_[64];                                 ///< of two blocks
+  static constexpr std::uint32_t most_bounds = 2 * Leaves::most_leaves;
+  float origins_apart_;  ///< along the axis of extents
+  float extent_a_[Leaves::most_leaves], extent_b_[Leaves::most_leaves + Leaves::padding];
+  float bound_[most_bounds + Leaves::padding];         ///< of pairs of nodes, row by row
+  std::uint16_t near_[most_bounds + Leaves::padding];  ///< indices of bounds
+  alignas(64) float gaps_[64];                         ///< of two blocks
 };
 
 }  // namespace bch::detail
