@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include <bch/character.hpp>
-#include <bch/pose_shape.hpp>
+#include <bch/characters.hpp>
+#include <bch/poses.hpp>
 
 #include "baselines/structure.hpp"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <bch/agents.hpp>
-#include <bch/shape_set.hpp>
+#include <bch/shapes.hpp>
 
 #include "baselines/cut_lists.hpp"
 #include "baselines/leaf_segments.hpp"

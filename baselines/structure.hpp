@@ -12,7 +12,7 @@
 #include <vector>
 
 #include <bch/agents.hpp>
-#include <bch/shape_set.hpp>
+#include <bch/shapes.hpp>
 
 #include "baselines/counts.hpp"
 

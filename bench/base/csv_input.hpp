@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include <bch/collide.hpp>
+#include <bch/pairs.hpp>
 
 namespace bch::cli {
 

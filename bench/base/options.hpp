@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include <bch/collide.hpp>
 #include <bch/import.hpp>
+#include <bch/pairs.hpp>
 
 #include "bench/base/command_line.hpp"
 #include "bench/base/cost_limits.hpp"

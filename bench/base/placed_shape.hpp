@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <bch/body_set.hpp>
-#include <bch/shape_set.hpp>
+#include <bch/shapes.hpp>
 
 #include "bench/base/svg.hpp"
 

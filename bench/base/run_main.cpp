@@ -14,7 +14,7 @@
 #include <stdexcept>
 #include <string>
 
-#include <bch/baked.hpp>
+#include <bch/files.hpp>
 #include <bch/import.hpp>
 
 #include "bench/base/exit_codes.hpp"

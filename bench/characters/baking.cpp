@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include <bch/shape_set_builder.hpp>
+#include <bch/shapes.hpp>
 
 #include "bench/base/output_file.hpp"
 #include "bench/base/progress.hpp"

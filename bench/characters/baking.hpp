@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include <bch/baked.hpp>
 #include <bch/bodies.hpp>
-#include <bch/pose_shape.hpp>
-#include <bch/shape_set.hpp>
+#include <bch/files.hpp>
+#include <bch/poses.hpp>
+#include <bch/shapes.hpp>
 
 #include "bench/base/exit_codes.hpp"
 #include "bench/characters/shape_table.hpp"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <bch/bodies.hpp>
-#include <bch/pose_shape.hpp>
+#include <bch/poses.hpp>
 
 #include "bench/base/command_line.hpp"
 #include "bench/characters/characters.hpp"

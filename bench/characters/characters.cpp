@@ -10,7 +10,7 @@
 #include <set>
 #include <string_view>
 
-#include <bch/default_characters.hpp>
+#include <bch/characters.hpp>
 
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/text.hpp"

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include <bch/pose_shape.hpp>
+#include <bch/poses.hpp>
 #include <bch/scene_plan.hpp>
-#include <bch/shape_set.hpp>
+#include <bch/shapes.hpp>
 
 #include "bench/base/cost_limits.hpp"
 #include "bench/characters/characters.hpp"

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include <bch/pose_shape.hpp>
+#include <bch/poses.hpp>
 
 #include "bench/characters/characters.hpp"
 #include "bench/characters/crowd.hpp"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include <bch/baked.hpp>
 #include <bch/bodies.hpp>
+#include <bch/files.hpp>
 
 #include "bench/base/options.hpp"
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include <bch/pose_shape.hpp>
+#include <bch/poses.hpp>
 
 #include "bench/base/placed_shape.hpp"
 #include "bench/base/text.hpp"

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include <bch/body_set.hpp>
-#include <bch/collide.hpp>
 #include <bch/crowd.hpp>
+#include <bch/pairs.hpp>
 
 #include "bench/base/options.hpp"
 #include "bench/characters/crowd.hpp"

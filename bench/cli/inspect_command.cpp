@@ -6,8 +6,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include <bch/verify.hpp>
-
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/options.hpp"
 #include "bench/base/output.hpp"
@@ -19,6 +17,7 @@
 #include "bench/cli/baked_report.hpp"
 #include "bench/cli/commands.hpp"
 #include "bench/cli/inspection.hpp"
+#include "layout/shape_set/verify.hpp"
 
 namespace bch::cli {
 namespace {
@@ -110,7 +109,8 @@ void inspect_table(const InspectOptions& options, const LoadedCharacter& from,
 void require_verified(const std::string& file, const ShapeSet& set) {
   constexpr std::size_t most = 20;
   std::vector<std::string> lines;
-  for (const Finding& finding : verify(set, most + 1)) lines.push_back(file + ": " + text_of(finding));
+  for (const detail::Finding& finding : detail::verify(set, most + 1))
+    lines.push_back(file + ": " + text_of(finding));
   if (lines.size() > most) lines.back() = file + ": and more";
   if (!lines.empty()) throw InputErrors(std::move(lines));
 }

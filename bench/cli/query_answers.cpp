@@ -10,9 +10,8 @@
 #include <iterator>
 #include <vector>
 
-#include <bch/clearance.hpp>
 #include <bch/crowd.hpp>
-#include <bch/time_of_impact.hpp>
+#include <bch/pairs.hpp>
 
 #include "bench/cli/crowd.hpp"
 

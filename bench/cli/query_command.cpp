@@ -15,7 +15,7 @@
 #include <string>
 #include <unordered_map>
 
-#include <bch/clearance.hpp>
+#include <bch/pairs.hpp>
 
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/number.hpp"

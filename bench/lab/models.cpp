@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include <bch/bodies.hpp>
-#include <bch/default_characters.hpp>
+#include <bch/characters.hpp>
 
 #include "bench/base/output.hpp"
 #include "layout/base/base64.hpp"

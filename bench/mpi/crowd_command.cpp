@@ -11,9 +11,9 @@
 #include <string>
 #include <vector>
 
-#include <bch/baked.hpp>
 #include <bch/crowd.hpp>
 #include <bch/distributed_crowd.hpp>
+#include <bch/files.hpp>
 
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/median.hpp"

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
+#include <bch/motion.hpp>
 #include <bch/obstacles.hpp>
-#include <bch/shape_set.hpp>
-#include <bch/time_of_impact.hpp>
+#include <bch/shapes.hpp>
 
 namespace bch::bench {
 

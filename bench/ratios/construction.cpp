@@ -7,7 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
-#include <bch/default_characters.hpp>
+#include <bch/characters.hpp>
 #include <bch/outline.hpp>
 
 #include "bench/ratios/ratios.hpp"

@@ -12,9 +12,9 @@
 #include <utility>
 
 #include <bch/crowd.hpp>
-#include <bch/pose_shape.hpp>
+#include <bch/poses.hpp>
 #include <bch/scene_plan.hpp>
-#include <bch/shape_set_builder.hpp>
+#include <bch/shapes.hpp>
 
 #include "bench/base/median.hpp"
 #include "bench/base/stopwatch.hpp"

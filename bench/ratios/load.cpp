@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include <bch/baked.hpp>
+#include <bch/files.hpp>
 
 #include "bench/characters/baking.hpp"
 #include "bench/ratios/ratios.hpp"

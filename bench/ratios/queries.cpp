@@ -9,9 +9,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include <bch/clearance.hpp>
 #include <bch/crowd.hpp>
-#include <bch/time_of_impact.hpp>
+#include <bch/pairs.hpp>
 
 #include "baselines/clearance_reference.hpp"
 #include "baselines/contact_reference.hpp"

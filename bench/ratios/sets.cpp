@@ -7,9 +7,9 @@
 #include <optional>
 #include <utility>
 
-#include <bch/pose_shape.hpp>
+#include <bch/poses.hpp>
 #include <bch/scene_plan.hpp>
-#include <bch/shape_set_builder.hpp>
+#include <bch/shapes.hpp>
 
 #include "bench/ratios/ratios.hpp"
 #include "bench/workload/answer_checks.hpp"

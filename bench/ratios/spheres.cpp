@@ -10,8 +10,7 @@
 #include <vector>
 
 #include <bch/bodies.hpp>
-#include <bch/clearance.hpp>
-#include <bch/collide.hpp>
+#include <bch/pairs.hpp>
 
 #include "baselines/body_reference.hpp"
 #include "bench/ratios/ratios.hpp"

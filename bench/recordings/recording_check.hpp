@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include <bch/baked.hpp>
+#include <bch/files.hpp>
 #include <bch/obstacles.hpp>
 
 #include "bench/base/options.hpp"

@@ -5,9 +5,9 @@
 
 #include <array>
 
-#include <bch/pose_shape.hpp>
+#include <bch/poses.hpp>
 #include <bch/scene_plan.hpp>
-#include <bch/shape_set_builder.hpp>
+#include <bch/shapes.hpp>
 
 namespace bch::report {
 namespace {

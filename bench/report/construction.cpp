@@ -3,7 +3,7 @@
 
 #include <bch/outline_builder.hpp>
 #include <bch/scene_plan.hpp>
-#include <bch/shape_set_builder.hpp>
+#include <bch/shapes.hpp>
 
 #include "bench/base/median.hpp"
 #include "bench/base/stopwatch.hpp"

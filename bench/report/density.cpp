@@ -6,9 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <bch/clearance.hpp>
-#include <bch/collide.hpp>
 #include <bch/crowd.hpp>
+#include <bch/pairs.hpp>
 #include <bch/scene_plan.hpp>
 
 #include "bench/report/subjects.hpp"

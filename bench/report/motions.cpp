@@ -10,7 +10,7 @@
 #include <cmath>
 #include <numeric>
 
-#include <bch/pose_shape.hpp>
+#include <bch/poses.hpp>
 
 #include "baselines/outline_depth.hpp"
 #include "bench/base/stopwatch.hpp"

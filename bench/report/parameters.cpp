@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <deque>
 
-#include <bch/default_characters.hpp>
+#include <bch/characters.hpp>
 
 #include "bench/base/stopwatch.hpp"
 #include "bench/report/subjects.hpp"

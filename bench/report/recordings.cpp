@@ -10,8 +10,8 @@
 #include <map>
 #include <utility>
 
-#include <bch/collide.hpp>
 #include <bch/hierarchy.hpp>
+#include <bch/pairs.hpp>
 
 #include "bench/base/stopwatch.hpp"
 #include "bench/report/report.hpp"

@@ -10,7 +10,7 @@
 #include <limits>
 #include <numbers>
 
-#include <bch/collide.hpp>
+#include <bch/pairs.hpp>
 
 namespace bch::report {
 namespace {

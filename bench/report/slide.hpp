@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include <bch/shape_set.hpp>
+#include <bch/shapes.hpp>
 
 #include "baselines/pair_distances.hpp"
 #include "bench/characters/crowd.hpp"

@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include <bch/collide.hpp>
+#include <bch/pairs.hpp>
 
 #include "baselines/pair_distances.hpp"
 #include "baselines/structure.hpp"

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <stdexcept>
 
-#include <bch/collide.hpp>
+#include <bch/pairs.hpp>
 
 namespace bch::bench {
 namespace {

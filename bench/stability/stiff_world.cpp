@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <bch/default_characters.hpp>
-#include <bch/pose_shape.hpp>
+#include <bch/characters.hpp>
+#include <bch/poses.hpp>
 
 #include "layout/base/heading.hpp"
 #include "layout/format/cut_discs.hpp"

@@ -6,9 +6,8 @@
 #include <span>
 #include <vector>
 
-#include <bch/clearance.hpp>
-#include <bch/collide.hpp>
 #include <bch/crowd.hpp>
+#include <bch/pairs.hpp>
 
 #include "bench/stability/stiff_contact.hpp"
 

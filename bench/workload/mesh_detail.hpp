@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include <bch/character.hpp>
+#include <bch/characters.hpp>
 
 namespace bch::bench {
 

@@ -13,9 +13,8 @@
 #include <optional>
 #include <stdexcept>
 
-#include <bch/clearance.hpp>
-#include <bch/collide.hpp>
-#include <bch/pose_shape.hpp>
+#include <bch/pairs.hpp>
+#include <bch/poses.hpp>
 
 #include "bench/characters/baking.hpp"
 #include "bench/characters/body_models.hpp"

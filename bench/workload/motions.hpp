@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include <bch/time_of_impact.hpp>
+#include <bch/motion.hpp>
 
 #include "bench/characters/characters.hpp"
 #include "bench/characters/crowd.hpp"

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include <bch/bodies.hpp>
-#include <bch/collide.hpp>
-#include <bch/shape_set.hpp>
+#include <bch/pairs.hpp>
+#include <bch/shapes.hpp>
 
 #include "baselines/structure.hpp"
 #include "bench/characters/characters.hpp"

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include <bch/shape_set.hpp>
+#include <bch/shapes.hpp>
 
 #include "bench/characters/crowd.hpp"
 

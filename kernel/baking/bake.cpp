@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include <bch/pose_shape.hpp>
+#include <bch/poses.hpp>
 
 #include "kernel/baking/pose_baker.hpp"
 #include "kernel/runtime/progress_report.hpp"

@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include <bch/pose_shape.hpp>
+#include <bch/poses.hpp>
 #include <bch/scene_plan.hpp>
-#include <bch/shape_set_builder.hpp>
+#include <bch/shapes.hpp>
 
 namespace bch::detail {
 

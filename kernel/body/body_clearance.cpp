@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include <bch/clearance.hpp>
+#include <bch/pairs.hpp>
 
 #include "kernel/body/agent_sphere.hpp"
 #include "kernel/body/body_clearance_arguments.hpp"

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/clearance.hpp>
-#include <bch/collide.hpp>
+#include <bch/pairs.hpp>
 
 #include "kernel/body/body_arguments.hpp"
 #include "kernel/distance/within_tasks.hpp"

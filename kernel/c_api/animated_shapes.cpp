@@ -5,8 +5,8 @@
 #include <numeric>
 #include <string>
 
-#include <bch/baked.hpp>
 #include <bch/bodies.hpp>
+#include <bch/files.hpp>
 
 #include "kernel/c_api/arguments.hpp"
 #include "kernel/c_api/objects.hpp"

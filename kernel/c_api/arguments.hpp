@@ -12,7 +12,7 @@
 #include <vector>
 
 #include <bch/query.hpp>
-#include <bch/shape_set.hpp>
+#include <bch/shapes.hpp>
 
 #include "kernel/c_api/failure.hpp"
 #include "kernel/c_api/members.hpp"

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/baked.hpp>
 #include <bch/bodies.hpp>
-#include <bch/clearance.hpp>
-#include <bch/collide.hpp>
+#include <bch/files.hpp>
+#include <bch/pairs.hpp>
 
 #include "kernel/c_api/calls.hpp"
 #include "kernel/c_api/posing.hpp"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <vector>
 
-#include <bch/clearance.hpp>
+#include <bch/pairs.hpp>
 
 #include "kernel/c_api/arguments.hpp"
 #include "kernel/c_api/objects.hpp"

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include <bch/default_characters.hpp>
+#include <bch/characters.hpp>
 
 #include "kernel/c_api/arguments.hpp"
 #include "kernel/c_api/objects.hpp"

@@ -7,7 +7,7 @@
 
 #include <list>
 
-#include <bch/shape_set_builder.hpp>
+#include <bch/shapes.hpp>
 
 #include "kernel/c_api/arguments.hpp"
 #include "kernel/c_api/objects.hpp"

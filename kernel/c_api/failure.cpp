@@ -7,7 +7,7 @@
 #include <cstring>
 #include <new>
 
-#include <bch/baked.hpp>
+#include <bch/files.hpp>
 #include <bch/version.hpp>
 
 namespace bch::c_api {

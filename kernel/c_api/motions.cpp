@@ -3,8 +3,8 @@
 
 #include <optional>
 
+#include <bch/motion.hpp>
 #include <bch/obstacles.hpp>
-#include <bch/time_of_impact.hpp>
 
 #include "kernel/c_api/arguments.hpp"
 #include "kernel/c_api/calls.hpp"

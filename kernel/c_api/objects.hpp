@@ -7,12 +7,12 @@
 #include <optional>
 #include <string>
 
-#include <bch/baked.hpp>
 #include <bch/bodies.hpp>
 #include <bch/body_set.hpp>
-#include <bch/character.hpp>
-#include <bch/pose_shape.hpp>
-#include <bch/shape_set_builder.hpp>
+#include <bch/characters.hpp>
+#include <bch/files.hpp>
+#include <bch/poses.hpp>
+#include <bch/shapes.hpp>
 
 #include "kernel/c_api/handles.hpp"
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include <bch/character.hpp>
+#include <bch/characters.hpp>
 
 #include "kernel/c_api/failure.hpp"
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <bch/pose_shape.hpp>
+#include <bch/poses.hpp>
 
 #include "kernel/c_api/arguments.hpp"
 #include "kernel/c_api/objects.hpp"

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/collide.hpp>
-#include <bch/time_of_impact.hpp>
+#include <bch/pairs.hpp>
 
 #include "kernel/c_api/calls.hpp"
 

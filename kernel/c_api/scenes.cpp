@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include <bch/collide.hpp>
+#include <bch/pairs.hpp>
 #include <bch/scene_plan.hpp>
 
 #include "kernel/c_api/arguments.hpp"

@@ -4,7 +4,7 @@
 #include <array>
 #include <optional>
 
-#include <bch/shape_set_builder.hpp>
+#include <bch/shapes.hpp>
 
 #include "kernel/baking/pose_baker.hpp"
 #include "kernel/c_api/arguments.hpp"

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/baked.hpp>
-#include <bch/verify.hpp>
+#include <bch/files.hpp>
 
 #include "kernel/c_api/arguments.hpp"
 #include "kernel/c_api/objects.hpp"
 #include "kernel/c_api/outlines.hpp"
 #include "layout/format/shape_set_view.hpp"
+#include "layout/shape_set/verify.hpp"
 
 namespace bch::c_api {
 namespace {
@@ -117,9 +117,9 @@ bch_status bch_shape_set_verify(const bch_shape_set* set, size_t most, bch_findi
                                 size_t* count) {
   return guarded([&] {
     required(count, "count");
-    const std::vector<Finding> found = verify(set_of(set), most);
+    const std::vector<detail::Finding> found = detail::verify(set_of(set), most);
     if (finding != nullptr)
-      for (const Finding& each : found) finding(user, text_of(each).c_str());
+      for (const detail::Finding& each : found) finding(user, text_of(each).c_str());
     *count = found.size();
   });
 }

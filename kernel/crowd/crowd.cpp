@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include <bch/collide.hpp>
+#include <bch/pairs.hpp>
 
 #include "kernel/broad_phase/broad_phase.hpp"
 #include "kernel/contact/disc_contacts.hpp"

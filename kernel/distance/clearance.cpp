@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/clearance.hpp>
+#include <bch/pairs.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -5,8 +5,7 @@
 
 #include <span>
 
-#include <bch/clearance.hpp>
-#include <bch/time_of_impact.hpp>
+#include <bch/pairs.hpp>
 
 #include "kernel/runtime/pair_validation.hpp"
 

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <bch/clearance.hpp>
+#include <bch/pairs.hpp>
 
 #include "kernel/distance/clearance_arguments.hpp"
 #include "layout/format/shape_set_view.hpp"

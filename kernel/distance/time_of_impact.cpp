@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/time_of_impact.hpp>
+#include <bch/pairs.hpp>
 
 #include <algorithm>
 #include <limits>

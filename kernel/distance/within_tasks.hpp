@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-#include <bch/clearance.hpp>
+#include <bch/pairs.hpp>
 
 #include "kernel/distance/clearance_arguments.hpp"
 #include "kernel/distance/distance_input.hpp"

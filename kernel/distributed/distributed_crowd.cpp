@@ -3,9 +3,8 @@
 
 #include <utility>
 
-#include <bch/clearance.hpp>
-#include <bch/collide.hpp>
 #include <bch/distributed_crowd.hpp>
+#include <bch/pairs.hpp>
 
 #include "kernel/distributed/agreement.hpp"
 #include "kernel/distributed/crowd_state.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <bch/distributed_crowd.hpp>
-#include <bch/shape_set_builder.hpp>
+#include <bch/shapes.hpp>
 
 #include "kernel/baking/pose_baker.hpp"
 

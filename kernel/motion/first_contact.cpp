@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <bch/time_of_impact.hpp>
+#include <bch/motion.hpp>
 
 #include "kernel/motion/contact_search.hpp"
 #include "kernel/motion/valid_motions.hpp"

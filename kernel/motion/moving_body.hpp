@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <limits>
 
-#include <bch/time_of_impact.hpp>
+#include <bch/motion.hpp>
 
 #include "layout/shape_set/animated_tree.hpp"
 

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include <bch/time_of_impact.hpp>
+#include <bch/motion.hpp>
 
 namespace bch::detail {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <bch/time_of_impact.hpp>
+#include <bch/motion.hpp>
 
 #include "kernel/motion/moving_body.hpp"
 

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <span>
 
-#include <bch/clearance.hpp>
+#include <bch/pairs.hpp>
 
 #include "kernel/obstacles/body_query.hpp"
 #include "layout/base/rounding.hpp"

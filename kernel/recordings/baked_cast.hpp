@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include <bch/baked.hpp>
+#include <bch/files.hpp>
 
 #include "kernel/recordings/walker_cast.hpp"
 

@@ -10,9 +10,7 @@
 #include <string>
 #include <tuple>
 
-#include <bch/clearance.hpp>
-#include <bch/collide.hpp>
-#include <bch/time_of_impact.hpp>
+#include <bch/pairs.hpp>
 
 #include "kernel/broad_phase/pair_limit.hpp"
 #include "layout/base/number_class.hpp"

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include <bch/character.hpp>
+#include <bch/characters.hpp>
 
 #include "kernel/recordings/walkers.hpp"
 

@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <bch/default_characters.hpp>
-#include <bch/pose_shape.hpp>
+#include <bch/characters.hpp>
+#include <bch/poses.hpp>
 
 #include "kernel/runtime/ordered_build.hpp"
 #include "kernel/runtime/task_ranges.hpp"

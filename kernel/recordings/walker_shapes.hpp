@@ -10,9 +10,8 @@
 #include <unordered_map>
 #include <vector>
 
-#include <bch/character.hpp>
-#include <bch/shape_set.hpp>
-#include <bch/shape_set_builder.hpp>
+#include <bch/characters.hpp>
+#include <bch/shapes.hpp>
 
 #include "kernel/recordings/walker_cast.hpp"
 #include "kernel/recordings/walkers.hpp"

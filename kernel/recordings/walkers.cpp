@@ -8,7 +8,7 @@
 #include <sstream>
 #include <utility>
 
-#include <bch/default_characters.hpp>
+#include <bch/characters.hpp>
 
 #include "layout/base/number_class.hpp"
 #include "layout/base/random.hpp"

@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <vector>
 
-#include <bch/shape_set_builder.hpp>
+#include <bch/shapes.hpp>
 
 #include "layout/base/floating_point_state.hpp"
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include <bch/baked.hpp>
+#include <bch/files.hpp>
 
 #include "layout/baked/format.hpp"
 

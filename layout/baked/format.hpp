@@ -9,7 +9,7 @@
 #include <limits>
 #include <span>
 
-#include <bch/baked.hpp>
+#include <bch/files.hpp>
 
 #include "layout/format/shape_arrays.hpp"
 

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include <bch/baked.hpp>
-#include <bch/shape_set.hpp>
+#include <bch/files.hpp>
+#include <bch/shapes.hpp>
 
 #include "layout/baked/clips.hpp"
 #include "layout/baked/format.hpp"

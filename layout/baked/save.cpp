@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/baked.hpp>
+#include <bch/files.hpp>
 
 #include <cerrno>
 #include <cstring>

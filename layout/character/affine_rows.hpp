@@ -4,7 +4,7 @@
 #pragma once
 
 #include <bch/geometry.hpp>
-#include <bch/pose_shape.hpp>
+#include <bch/poses.hpp>
 
 #include "layout/simd/lanes.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/pose_shape.hpp>
+#include <bch/poses.hpp>
 
 #include "layout/character/affine_rows.hpp"
 

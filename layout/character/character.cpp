@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/character.hpp>
+#include <bch/characters.hpp>
 
 #include <cmath>
 #include <stdexcept>

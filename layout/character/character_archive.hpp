@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include <bch/character.hpp>
+#include <bch/characters.hpp>
 
 namespace bch::detail {
 

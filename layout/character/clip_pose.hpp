@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include <bch/character.hpp>
-#include <bch/pose_shape.hpp>
+#include <bch/characters.hpp>
+#include <bch/poses.hpp>
 
 #include "layout/character/eigen.hpp"
 

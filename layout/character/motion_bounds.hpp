@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include <bch/character.hpp>
+#include <bch/characters.hpp>
 
 namespace bch::detail {
 

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include <bch/character.hpp>
+#include <bch/characters.hpp>
 #include <bch/geometry.hpp>
-#include <bch/pose_shape.hpp>
+#include <bch/poses.hpp>
 
 #include "layout/character/vertex_blend.hpp"
 

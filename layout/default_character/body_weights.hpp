@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <bch/character.hpp>
+#include <bch/characters.hpp>
 
 #include "layout/default_character/body_surface.hpp"
 

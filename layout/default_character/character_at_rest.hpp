@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include <bch/character.hpp>
+#include <bch/characters.hpp>
 
 #include "layout/default_character/body_shape.hpp"
 

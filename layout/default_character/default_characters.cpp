@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include <bch/default_characters.hpp>
+#include <bch/characters.hpp>
 
 #include "layout/base/floating_point_state.hpp"
 #include "layout/base/shortest.hpp"

@@ -6,7 +6,7 @@
 #include <functional>
 #include <string>
 
-#include <bch/character.hpp>
+#include <bch/characters.hpp>
 
 #include "layout/default_character/human_pose.hpp"
 

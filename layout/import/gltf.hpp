@@ -11,7 +11,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include <bch/character.hpp>
+#include <bch/characters.hpp>
 
 // Private to the importer: a glTF 2 file as a scene of assimp's types. assimp's own reader is not used: 5.2.5 takes
 // normalised integers for floats, reads all animations as linear and ignores what a file requires.

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <bch/outline_builder.hpp>
-#include <bch/pose_shape.hpp>
+#include <bch/poses.hpp>
 
 #include "layout/base/floating_point_state.hpp"
 #include "layout/character/skinning.hpp"

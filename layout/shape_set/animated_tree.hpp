@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <bch/shape_set.hpp>
+#include <bch/shapes.hpp>
 
 #include "layout/base/rounding.hpp"
 #include "layout/shape_set/animated_hulls.hpp"

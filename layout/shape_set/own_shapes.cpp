@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/shape_set.hpp>
+#include <bch/shapes.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <vector>
 
-#include <bch/shape_set.hpp>
+#include <bch/shapes.hpp>
 
 #include "layout/culling/interior.hpp"
 #include "layout/culling/supports.hpp"

@@ -9,8 +9,7 @@
 #include <string>
 #include <utility>
 
-#include <bch/shape_set.hpp>
-#include <bch/shape_set_builder.hpp>
+#include <bch/shapes.hpp>
 
 #include "layout/base/floating_point_state.hpp"
 #include "layout/base/rounding.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/verify.hpp>
+#include "layout/shape_set/verify.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -51,9 +51,7 @@ void verify_shape(const Look& look) {
 }  // namespace
 }  // namespace bch::detail::verification
 
-namespace bch {
-
-using namespace detail;
+namespace bch::detail {
 
 std::string text_of(const Finding& finding) {
   std::string text = "shape ";
@@ -75,4 +73,4 @@ std::vector<Finding> verify(const ShapeSet& set, std::size_t most) {
   return findings;
 }
 
-}  // namespace bch
+}  // namespace bch::detail

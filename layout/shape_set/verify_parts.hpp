@@ -10,12 +10,12 @@
 #include <vector>
 
 #include <bch/outline.hpp>
-#include <bch/shape_set.hpp>
-#include <bch/verify.hpp>
+#include <bch/shapes.hpp>
 
 #include "layout/base/shortest.hpp"
 #include "layout/format/cut_discs.hpp"
 #include "layout/format/shape_arrays.hpp"
+#include "layout/shape_set/verify.hpp"
 
 /// Contains the parts of verify(), and what they share.
 namespace bch::detail::verification {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/default_characters.hpp>
+#include <bch/characters.hpp>
 #include <bch/distributed_crowd.hpp>
-#include <bch/pose_shape.hpp>
+#include <bch/poses.hpp>
 
 #include "tests/distributed/world.hpp"
 #include "tests/support/test.hpp"

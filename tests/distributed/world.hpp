@@ -11,10 +11,9 @@
 #include <numeric>
 #include <vector>
 
-#include <bch/clearance.hpp>
-#include <bch/collide.hpp>
 #include <bch/crowd.hpp>
 #include <bch/distributed_crowd.hpp>
+#include <bch/pairs.hpp>
 
 #include "tests/support/crowd_pairs.hpp"
 #include "tests/support/scenes.hpp"

@@ -5,13 +5,13 @@
 
 #include <vector>
 
-#include <bch/baked.hpp>
 #include <bch/bodies.hpp>
-#include <bch/verify.hpp>
+#include <bch/files.hpp>
 
 #include "layout/baked/checksum.hpp"
 #include "layout/baked/format.hpp"
 #include "layout/base/aligned_vector.hpp"
+#include "layout/shape_set/verify.hpp"
 #include "tests/fuzz/target.hpp"
 #include "tests/support/all_queries.hpp"
 #include "tests/support/scenes.hpp"
@@ -53,7 +53,7 @@ void query(const ShapeSet& set, const Implementation& implementation) {
 
   test::ask_all(set, agents, pairs, implementation);
   test::ask_all_of_a_dynamic_copy(set, agents, pairs, implementation);
-  verify(set);
+  detail::verify(set);
 }
 
 /// Looks at clips that are not too long for that.

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include <bch/collide.hpp>
+#include <bch/pairs.hpp>
 
 #include "baselines/reference.hpp"
 #include "layout/base/rounding.hpp"

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include <bch/hierarchy.hpp>
-#include <bch/shape_set.hpp>
+#include <bch/shapes.hpp>
 
 #include "layout/format/contours.hpp"
 #include "layout/format/shape_validation.hpp"

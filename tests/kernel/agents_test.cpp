@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <bch/crowd.hpp>
-#include <bch/time_of_impact.hpp>
+#include <bch/pairs.hpp>
 
 #include "tests/support/implementations.hpp"
 #include "tests/support/scenes.hpp"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <bch/bodies.hpp>
-#include <bch/default_characters.hpp>
+#include <bch/characters.hpp>
 
 #include "tests/support/body_models.hpp"
 #include "tests/support/complaint.hpp"

@@ -10,8 +10,8 @@
 #include <system_error>
 #include <vector>
 
-#include <bch/default_characters.hpp>
-#include <bch/pose_shape.hpp>
+#include <bch/characters.hpp>
+#include <bch/poses.hpp>
 
 #include "tests/support/baked_bytes.hpp"
 #include "tests/support/complaint.hpp"

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/collide.hpp>
-
-#include <bch/clearance.hpp>
+#include <bch/pairs.hpp>
 
 #include <cmath>
 #include <limits>

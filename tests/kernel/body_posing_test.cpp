@@ -19,9 +19,9 @@
 #include <string>
 #include <vector>
 
-#include <bch/default_characters.hpp>
+#include <bch/characters.hpp>
 #include <bch/import.hpp>
-#include <bch/pose_shape.hpp>
+#include <bch/poses.hpp>
 
 #include "layout/base/build_implementation.hpp"
 #include "layout/base/random.hpp"

@@ -24,7 +24,7 @@ class ClearanceDifferential : public test::Differential {
   ClearanceDifferential() : Differential(2601, four_levels) {}
 };
 
-/// What clearance.hpp says of both. Cut discs that overlap are no collision where nodes above them are apart, and brute
+/// What pairs.hpp says of both. Cut discs that overlap are no collision where nodes above them are apart, and brute
 /// force knows that of every pair that is deeper than rounding goes.
 TEST_F(ClearanceDifferential, AgreesWithCollide) {
   constexpr float rounding_of_both = 32e-6f;  // shapes reach up to 4 m
@@ -57,7 +57,7 @@ TEST_F(ClearanceDifferential, AgreesWithCollide) {
   }
 }
 
-/// Never larger than the distance of the outlines, and below it by no more than clearance.hpp says.
+/// Never larger than the distance of the outlines, and below it by no more than pairs.hpp says.
 TEST_F(ClearanceDifferential, BoundsTheDistanceOfTheOutlines) {
   std::vector<Shape> whole = shapes;
   const ShapeSet finest(whole);

@@ -9,8 +9,8 @@
 #include <type_traits>
 #include <vector>
 
-#include <bch/collide.hpp>
 #include <bch/crowd.hpp>
+#include <bch/pairs.hpp>
 
 #include "tests/support/scenes.hpp"
 

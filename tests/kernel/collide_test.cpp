@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/collide.hpp>
+#include <bch/pairs.hpp>
 
 #include <gtest/gtest.h>
 

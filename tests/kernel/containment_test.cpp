@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <bch/collide.hpp>
-#include <bch/default_characters.hpp>
+#include <bch/characters.hpp>
+#include <bch/pairs.hpp>
 
 #include "layout/base/heading.hpp"
 #include "layout/format/contours.hpp"

@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include <bch/collide.hpp>
+#include <bch/pairs.hpp>
 
 #include "tests/support/crowd_pairs.hpp"
 #include "tests/support/scenes.hpp"

@@ -13,10 +13,8 @@
 #include <string>
 #include <vector>
 
-#include <bch/clearance.hpp>
-#include <bch/collide.hpp>
 #include <bch/crowd.hpp>
-#include <bch/time_of_impact.hpp>
+#include <bch/pairs.hpp>
 
 #include "layout/base/floating_point_state.hpp"
 #include "tests/support/crowd_pairs.hpp"

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 the bch authors
 
 #include <bch/crowd.hpp>
-#include <bch/shape_set_builder.hpp>
+#include <bch/shapes.hpp>
 
 #include "tests/support/crowd_pairs.hpp"
 #include "tests/support/height_scenes.hpp"

@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
+#include <bch/characters.hpp>
 #include <bch/crowd.hpp>
-#include <bch/default_characters.hpp>
 
 #include "kernel/runtime/kernels.hpp"
 #include "layout/shape_set/bvh8.hpp"

@@ -97,7 +97,7 @@ double distance_from_outline(const Shape& shape, double heading, Vec2 point) {
   return least;
 }
 
-/// Never larger than the distance of the outlines, and below it by no more than clearance.hpp says; and all outputs belong together.
+/// Never larger than the distance of the outlines, and below it by no more than pairs.hpp says; and all outputs belong together.
 void expect_distances_of_outlines(const std::vector<Shape>& shapes, const PairScene& scene,
                                   const Found& found) {
   std::size_t apart = 0;

@@ -91,7 +91,7 @@ std::string name_of(const testing::TestParamInfo<SetKind>& kind) {
 }
 INSTANTIATE_TEST_SUITE_P(Sets, Within, testing::ValuesIn(set_kinds), name_of);
 
-/// What clearance.hpp says of both, at distances around the clearances.
+/// What pairs.hpp says of both, at distances around the clearances.
 TEST_P(Within, AgreesWithClearanceButForItsMargin) {
   const PairScene scene = scene_of(40'000);
   const Agents agents = scene.crowd.agents();

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <bch/bodies.hpp>
-#include <bch/default_characters.hpp>
+#include <bch/characters.hpp>
 
 #include "layout/body/model/model_bytes.hpp"
 #include "tests/support/body_models.hpp"

@@ -8,7 +8,7 @@
 #include <system_error>
 #include <vector>
 
-#include <bch/default_characters.hpp>
+#include <bch/characters.hpp>
 #include <bch/obstacles.hpp>
 #include <bch/outline_builder.hpp>
 

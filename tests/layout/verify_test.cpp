@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
+#include "layout/shape_set/verify.hpp"
 #include "layout/format/shape_validation.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/damaged_arrays.hpp"
@@ -12,6 +13,8 @@
 namespace bch::test {
 namespace {
 
+using detail::Finding;
+using detail::verify;
 using detail::baked::Section;
 
 const ShapeSetPlan plans[] = {{},

@@ -5,12 +5,10 @@
 
 #include <vector>
 
-#include <bch/clearance.hpp>
-#include <bch/collide.hpp>
 #include <bch/crowd.hpp>
 #include <bch/obstacles.hpp>
-#include <bch/shape_set_builder.hpp>
-#include <bch/time_of_impact.hpp>
+#include <bch/pairs.hpp>
+#include <bch/shapes.hpp>
 
 #include "layout/shape_set/flat_shape.hpp"
 

@@ -7,7 +7,7 @@
 
 #include <bch/agents.hpp>
 #include <bch/query.hpp>
-#include <bch/shape_set.hpp>
+#include <bch/shapes.hpp>
 
 namespace bch::test {
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include <bch/shape_set.hpp>
+#include <bch/shapes.hpp>
 
 // What moving discs cover at a time, and what they leave out.
 

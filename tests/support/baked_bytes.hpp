@@ -7,7 +7,7 @@
 #include <span>
 #include <string>
 
-#include <bch/baked.hpp>
+#include <bch/files.hpp>
 
 #include "layout/baked/format.hpp"
 #include "layout/base/aligned_vector.hpp"

@@ -10,7 +10,7 @@
 #include <sstream>
 #include <stdexcept>
 
-#include <bch/pose_shape.hpp>
+#include <bch/poses.hpp>
 
 #include "layout/character/skinning.hpp"
 

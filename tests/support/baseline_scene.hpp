@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <bch/character.hpp>
+#include <bch/characters.hpp>
 
 #include "baselines/structure.hpp"
 #include "tests/support/scenes.hpp"

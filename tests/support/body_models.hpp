@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include <bch/bodies.hpp>
-#include <bch/character.hpp>
+#include <bch/characters.hpp>
 
 namespace bch::test {
 

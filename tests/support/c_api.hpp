@@ -11,7 +11,7 @@
 #include <type_traits>
 
 #include <bch/bch.h>
-#include <bch/baked.hpp>
+#include <bch/files.hpp>
 
 #include "tests/support/scenes.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -8,7 +8,7 @@
 
 #include <cstdlib>
 
-#include <bch/pose_shape.hpp>
+#include <bch/poses.hpp>
 
 namespace bch::test {
 

@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include <bch/character.hpp>
-#include <bch/shape_set.hpp>
+#include <bch/characters.hpp>
+#include <bch/shapes.hpp>
 
 namespace bch::test {
 

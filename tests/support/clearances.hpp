@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include <bch/clearance.hpp>
+#include <bch/pairs.hpp>
 
 #include "baselines/clearance_reference.hpp"
 #include "tests/support/scenes.hpp"

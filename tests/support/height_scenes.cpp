@@ -5,7 +5,7 @@
 
 #include <utility>
 
-#include <bch/pose_shape.hpp>
+#include <bch/poses.hpp>
 
 #include "tests/support/test_characters.hpp"
 

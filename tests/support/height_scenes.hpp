@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include <bch/shape_set.hpp>
+#include <bch/shapes.hpp>
 
 #include "tests/support/scenes.hpp"
 

@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
+#include <bch/motion.hpp>
 #include <bch/obstacles.hpp>
-#include <bch/shape_set.hpp>
-#include <bch/time_of_impact.hpp>
+#include <bch/shapes.hpp>
 
 #include "tests/support/scenes.hpp"
 

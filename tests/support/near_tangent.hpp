@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <bch/shape_set.hpp>
+#include <bch/shapes.hpp>
 
 #include "baselines/exact_discs.hpp"
 #include "layout/base/rounding.hpp"

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include <bch/clearance.hpp>
+#include <bch/pairs.hpp>
 
 #include "tests/support/scenes.hpp"
 

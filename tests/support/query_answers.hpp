@@ -9,10 +9,8 @@
 #include <string>
 #include <vector>
 
-#include <bch/clearance.hpp>
-#include <bch/collide.hpp>
 #include <bch/crowd.hpp>
-#include <bch/time_of_impact.hpp>
+#include <bch/pairs.hpp>
 
 #include "tests/support/implementations.hpp"
 #include "tests/support/scenes.hpp"

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <vector>
 
-#include <bch/default_characters.hpp>
+#include <bch/characters.hpp>
 #include <bch/import.hpp>
 
 #include "tests/support/character_shapes.hpp"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include <bch/agents.hpp>
-#include <bch/shape_set.hpp>
+#include <bch/shapes.hpp>
 
 #include "baselines/oracle.hpp"
 #include "tests/support/scenes.hpp"

@@ -10,31 +10,27 @@
 #include <bch/geometry.hpp>
 #include <bch/hierarchy.hpp>
 #include <bch/outline.hpp>
-#include <bch/shape_set.hpp>
-#include <bch/shape_set_builder.hpp>
-#include <bch/verify.hpp>
+#include <bch/shapes.hpp>
 #include <bch/version.hpp>
 
 // The component kernel.
-#include <bch/clearance.hpp>
-#include <bch/collide.hpp>
 #include <bch/crowd.hpp>
+#include <bch/motion.hpp>
 #include <bch/obstacles.hpp>
+#include <bch/pairs.hpp>
 #include <bch/query.hpp>
-#include <bch/time_of_impact.hpp>
 
 // The component baked.
-#if __has_include(<bch/baked.hpp>)
-#include <bch/baked.hpp>
+#if __has_include(<bch/files.hpp>)
+#include <bch/files.hpp>
 #endif
 
 // The component characters.
-#if __has_include(<bch/character.hpp>)
+#if __has_include(<bch/characters.hpp>)
 #include <bch/bodies.hpp>
-#include <bch/character.hpp>
-#include <bch/default_characters.hpp>
+#include <bch/characters.hpp>
 #include <bch/outline_builder.hpp>
-#include <bch/pose_shape.hpp>
+#include <bch/poses.hpp>
 #include <bch/scene_plan.hpp>
 #endif
 

@@ -10,8 +10,8 @@
 #include <span>
 
 #include <bch/body_set.hpp>
-#include <bch/clearance.hpp>
 #include <bch/obstacles.hpp>
+#include <bch/pairs.hpp>
 #include <bch/query.hpp>
 
 namespace bch::detail {

@@ -11,9 +11,9 @@
 #include <string_view>
 
 #include <bch/body_set.hpp>
-#include <bch/clearance.hpp>
+#include <bch/motion.hpp>
+#include <bch/pairs.hpp>
 #include <bch/query.hpp>
-#include <bch/time_of_impact.hpp>
 
 namespace bch::detail {
 struct ObstacleView;

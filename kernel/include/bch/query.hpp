@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include <bch/agents.hpp>
-#include <bch/shape_set.hpp>
+#include <bch/shapes.hpp>
 
 namespace bch::detail {
 struct Kernels;

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <bch/bodies.hpp>
-#include <bch/character.hpp>
+#include <bch/characters.hpp>
 
 #include "layout/body/model/skin_pieces.hpp"
 #include "layout/character/skinning.hpp"

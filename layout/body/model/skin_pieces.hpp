@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include <bch/character.hpp>
+#include <bch/characters.hpp>
 #include <bch/geometry.hpp>
 
 namespace bch::detail {

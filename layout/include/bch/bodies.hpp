@@ -13,9 +13,9 @@
 #include <vector>
 
 #include <bch/body_set.hpp>
-#include <bch/character.hpp>
-#include <bch/pose_shape.hpp>
-#include <bch/shape_set.hpp>
+#include <bch/characters.hpp>
+#include <bch/poses.hpp>
+#include <bch/shapes.hpp>
 
 namespace bch {
 

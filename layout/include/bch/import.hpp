@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include <bch/character.hpp>
+#include <bch/characters.hpp>
 
 namespace bch {
 

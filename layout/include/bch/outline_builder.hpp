@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include <bch/character.hpp>
+#include <bch/characters.hpp>
 #include <bch/outline.hpp>
 
 namespace bch::detail {

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include <bch/character.hpp>
-#include <bch/shape_set.hpp>
+#include <bch/characters.hpp>
+#include <bch/shapes.hpp>
 
 namespace bch {
 

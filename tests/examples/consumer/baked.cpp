@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <vector>
 
-#include <bch/baked.hpp>
-#include <bch/collide.hpp>
+#include <bch/files.hpp>
+#include <bch/pairs.hpp>
 
 // Shapes that were built once: a file is written, loaded without a copy, and asked.
 

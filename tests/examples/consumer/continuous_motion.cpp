@@ -10,11 +10,10 @@
 #include <set>
 #include <vector>
 
-#include <bch/collide.hpp>
+#include <bch/characters.hpp>
 #include <bch/crowd.hpp>
-#include <bch/default_characters.hpp>
-#include <bch/pose_shape.hpp>
-#include <bch/time_of_impact.hpp>
+#include <bch/pairs.hpp>
+#include <bch/poses.hpp>
 
 // Continuous motion: two groups of people walk through each other in steps of half a second. A test of
 // where a step ends misses those who passed through each other on the way; time_of_impact() stops them at the contact.

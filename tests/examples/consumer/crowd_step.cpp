@@ -8,9 +8,9 @@
 #include <random>
 #include <vector>
 
+#include <bch/characters.hpp>
 #include <bch/crowd.hpp>
-#include <bch/default_characters.hpp>
-#include <bch/pose_shape.hpp>
+#include <bch/poses.hpp>
 
 // A crowd step: people who stand in each other are pushed apart until nobody overlaps anybody. How closely they then
 // stand is what hierarchies are for: the same crowd is stepped with its single cylinders and with its outlines' discs.

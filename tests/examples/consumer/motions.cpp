@@ -7,10 +7,10 @@
 #include <vector>
 
 #include <bch/bodies.hpp>
-#include <bch/collide.hpp>
-#include <bch/default_characters.hpp>
-#include <bch/pose_shape.hpp>
-#include <bch/time_of_impact.hpp>
+#include <bch/characters.hpp>
+#include <bch/motion.hpp>
+#include <bch/pairs.hpp>
+#include <bch/poses.hpp>
 
 // Motions: a man walks towards another one, who stands there. first_contact() tells when they touch; AnimatedShape::shape() makes
 // their shapes at that time, and at any other one, for every query.

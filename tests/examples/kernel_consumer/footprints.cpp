@@ -4,10 +4,9 @@
 #include <cstdio>
 #include <vector>
 
-#include <bch/clearance.hpp>
-#include <bch/collide.hpp>
 #include <bch/outline.hpp>
-#include <bch/shape_set.hpp>
+#include <bch/pairs.hpp>
+#include <bch/shapes.hpp>
 
 // Footprints: bodies that come from no mesh. A person with a trolley, and a pillar, by their polygons on the ground.
 

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 the bch authors
 
 #include <bch/bodies.hpp>
-#include <bch/default_characters.hpp>
+#include <bch/characters.hpp>
 
 #include "tests/support/c_api.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include <bch/agents.hpp>
-#include <bch/character.hpp>
+#include <bch/characters.hpp>
 #include <bch/query.hpp>
-#include <bch/shape_set.hpp>
+#include <bch/shapes.hpp>
 
 namespace bch {
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include <bch/shape_set.hpp>
+#include <bch/shapes.hpp>
 
 namespace bch {
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include <bch/shape_set.hpp>
+#include <bch/shapes.hpp>
 
-namespace bch {
+namespace bch::detail {
 
 /// Describes a stored value that contradicts the rest of its set.
 struct Finding {
@@ -46,4 +46,4 @@ std::string text_of(const Finding& finding);
 /// Cost:    about as much as making the flat shapes from their hierarchies.
 std::vector<Finding> verify(const ShapeSet& set, std::size_t most = 100);
 
-}  // namespace bch
+}  // namespace bch::detail

@@ -16,10 +16,10 @@
 #include <variant>
 #include <vector>
 
-#include <bch/character.hpp>
+#include <bch/characters.hpp>
 #include <bch/geometry.hpp>
 #include <bch/scene_plan.hpp>
-#include <bch/shape_set.hpp>
+#include <bch/shapes.hpp>
 
 namespace bch {
 
