@@ -42,7 +42,7 @@ WOMAN = {RADIUS: (0.34, 0.31, 0.05), CYLINDER: (11.09, 9.50, 3.55), LEAVES: (4.6
 MAN = {RADIUS: (0.42, 0.40, 0.05), CYLINDER: (7.70, 6.99, 1.75), LEAVES: (3.57, 3.34, 0.51),
        MESH: (math.nan, math.nan, 0.01)}
 PAPER_VOLUMES = {"default:female": WOMAN, "default:male": MAN, "default:bulky": MAN}
-ERRORS = {"distance": "mean (cm)", "false": "false positives (%)", "excess": "excess area (%)"}  # of experiment error_time
+ERRORS = {"distance": "mean (cm)", "false": "false positives (%)"}  # of experiment error_time
 MESHES = "OBB full mesh"  # of experiment bodies
 SAME_PLACE = 2e-6  # m: places of slides are bisected to a micrometre
 PROMISED_GAP = 4  # um per metre of reach, see layout/base/rounding.hpp
@@ -203,18 +203,17 @@ def front(points, error):
             if row[time] < fastest:
                 fastest = row[time]
                 out.append({"pairs": pairs, error: row[error], "ns/pair": fastest,
-                            **key(row, "structure", "depth", "threshold (cm)", "semantics")})
+                            **key(row, "structure", "depth", "semantics")})
     return out
 
 
 def error_time(data, out):
-    table, areas = data.subjects("error_time"), data["error_time_areas"].groups("subject")
-    for i, row in enumerate(table):
+    table = data.subjects("error_time")
+    for row in table:
         wrong, found = row["near miss: hits (%)"], row["colliding: hits (%)"]
         low, high = wilson(wrong)
         row |= {"false positives (%)": wrong, "false positives (95 % low)": low, "false positives (95 % high)": high,
-                "missed collisions (%)": Share(found.whole - found.part, found.whole),
-                **data.mean(areas[i].column("excess area (%)"), "excess area (%)", "excess area")}
+                "missed collisions (%)": Share(found.whole - found.part, found.whole)}
     out["error_time"] = table
     for name, error in ERRORS.items():
         out[f"error_time_{name}"] = front(table, error)
@@ -428,11 +427,11 @@ def summarised(data):
 
 
 # Figures. Colours can be told apart by the colour-blind (M. Okabe, K. Ito, 2008) and read on white as on black; INK becomes the
-# colour of the page's text.
+# colour of the page's text, PAPER that of what is behind it.
 
-INK = "#010203"
-COLOURS = [INK, "#1f8fd6", "#e0641b", "#0aa378", "#d06fa8", "#d99a06", "#4fb3e8", "#8a8a8a"]
-MARKERS = "osD^vPX*"
+INK, PAPER = "#010203", "#fdfcfb"
+COLOURS = [INK, "#1f8fd6", "#e0641b", "#0aa378", "#d06fa8", "#d99a06", "#4fb3e8", "#8a8a8a", "#8d4fd3"]
+MARKERS = "osD^vP<>p"
 plt.rcParams.update({
     "svg.fonttype": "none", "font.family": "DejaVu Sans", "font.size": 11,
     "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True, "axes.axisbelow": True, "grid.alpha": 0.15, "grid.color": INK,
@@ -465,7 +464,7 @@ def legend(ax, columns=2):
 
 
 def style(i, **others):
-    return {"color": COLOURS[i % 8], "marker": MARKERS[i % 8], **others}
+    return {"color": COLOURS[i % 9], "marker": MARKERS[i % 9], **others}
 
 
 def series(ax, rows, x, y, label, spread_of=None, **looks):
@@ -490,55 +489,56 @@ def dots(ax, labels, values, lows, highs, shift=0, **looks):
     ax.set_ylim(len(labels) - 0.5, -0.5)
 
 
+# What figures of errors against times show: patterns of names of structures.
+FAMILIES = {
+    "exact leaves: batch kernel": EXACT, "discs, by depth: batch kernel": KERNEL, "discs, by depth: pair by pair": "BCH outline",
+    "OBB tree of outlines, by depth": "OBB outline", "OBB tree of meshes, by depth": MESHES, "single cylinder": "single cylinder",
+    "fixed cylinders": "fixed.*", "15 capsules: holding, between, thin": "15 capsules.*", "32 capsules, likewise": "32 capsules.*",
+    "bodies of 64 to 512 spheres": r"\d+ spheres"}
+
+
+def draw_families(ax, rows, x, y, missed):
+    """Draws a family as a line, hollow where a structure misses hits. Small errors have more room than large ones."""
+    for (label, pattern), i in zip(FAMILIES.items(), (2, 1, 3, 4, 5, 0, 0, 6, 7, 8)):
+        of = [row for row in rows if re.fullmatch(pattern, row["structure"]) and not is_nan(row[y])]
+        series(ax, of, x, y, label, **style(i, linestyle="none" if pattern == "fixed.*" else "-", linewidth=1.2, markerfacecolor=PAPER))
+        series(ax, [row for row in of if row[missed] == 0], x, y, None, **style(i, linestyle="none"))
+        for row in of:
+            name, share = row["structure"].replace(" spheres", ""), row[missed]
+            if name.isdigit() or share:
+                text, place, side = (name, (-5, -10), "right") if name.isdigit() else (f"misses {share:.{0 if share >= 1 else 2}f} %", (7, -4), "left")
+                ax.annotate(text, (row[x], row[y]), place, textcoords="offset points", fontsize=9, ha=side)
+    ax.set_yscale("function", functions=(lambda v: np.sign(v) * np.sqrt(np.abs(v)), lambda v: np.sign(v) * v * v))
+    least, most = (of(row[y] for row in rows if not is_nan(row[y])) for of in (min, max))
+    number_ticks(ax.yaxis, [tick for tick in (-10, 0, 1, 2, 5, 10, 20, 30, 40, 60, 80, 100) if tick >= min(0, 2 * least)])
+    ax.set_ylim(min(-0.001 * most, 2 * least), 1.1 * most)
+    legend(ax)
+
+
+@draws("error_time_distance_crowd", "Mean distance of two meshes when a collision is reported, against the time of a pair in a crowd; "
+       "hollow: misses collisions.", "distance", "crowd")
+@draws("error_time_distance_near", "The same against the time of a near miss.", "distance", "near miss")
+@draws("error_time_false_crowd", "Share of near misses taken for collisions, against the time of a pair in a crowd; hollow: misses collisions.", "false", "crowd")
+@draws("error_time_false_near", "The same against the time of a near miss.", "false", "near miss")
 def draw_error_time(data, out, name, pairs):
-    error, time = ERRORS[name], f"{pairs} (ns/pair)"
-    ax = chart(f"{pairs} pair, one thread (ns)",
-               "distance at detection (cm)" if name == "distance" else error, (6.4, 4.8), xscale="log")
-    kinds = {KERNEL: "BCH batch kernel", EXACT: "BCH exact leaves", "BCH outline": "BCH pair by pair",
-             "BCH projected": "BCH projected", "OBB outline": "OBB outline", "OBB outline in 2D": "OBB outline in 2D",
-             "OBB full mesh": "OBB full mesh", "OBB projected": "OBB projected"}
-    rows = out[f"error_time_{name}"].where(pairs=pairs)
-    ax.step(rows.column("ns/pair"), rows.column(error), where="post", color=COLOURS[7], linestyle="--", label="front")
-    for i, (kind, label) in enumerate(kinds.items()):
-        series(ax, out["error_time"].where(structure=kind), time, error, label, **style(i, linestyle="none"))
-    for begin, label, looks in ((r"\d+ spheres", "spheres: 64 to 512", {"color": "#7b3fb5", "marker": "p"}),
-                                (r"\d+ capsules", "15 and 32 capsules", {"color": "#7b3fb5", "marker": "2", "markersize": 9}),
-                                ("FCL", "FCL", {"color": COLOURS[7], "marker": "x"}),
-                                ("single", "single cylinder", {"color": INK, "marker": "+", "markersize": 9}),
-                                ("fixed", "fixed cylinders", {"color": INK, "marker": "1", "markersize": 9})):
-        series(ax, [row for row in out["error_time"] if re.match(begin, row["structure"])], time, error,
-               label, linestyle="none", **looks)
-    ax.set_ylim(-0.015 * ax.get_ylim()[1])
-    legend(ax, 3)
+    ax = chart("time of a pair in a crowd, one thread (ns)" if pairs == "crowd" else "time of a near miss, one thread (ns)",
+               "meshes still apart when reported (cm)" if name == "distance" else "near misses taken for collisions (%)", (5.8, 5.2), xscale="log")
+    # Who misses a sixth of all collisions comes near.
+    rows = [row for row in out["error_time"] if name == "false" or not row["structure"].startswith("fixed")]
+    draw_families(ax, rows, f"{pairs} (ns/pair)", ERRORS[name], "missed collisions (%)")
+    number_ticks(ax.xaxis, (10, 100, 1000, 10000))
 
 
-for error_name, error_caption in {
-        "distance": "Mean distance at detection against the time of a pair in a crowd; the line is the front of those that no other beats in both.",
-        "false": "Share of near misses taken for collisions, against the time of a pair in a crowd.",
-        "excess": "Area covered beyond the outline, against the time of a pair in a crowd."}.items():
-    draws(f"error_time_{error_name}_crowd", error_caption, error_name, "crowd")(draw_error_time)
-    draws(f"error_time_{error_name}_near", "The same against the time of a near miss.", error_name, "near miss")(draw_error_time)
-
-
-@draws("bodies_live", "The same against what an agent costs in a frame in which everybody is posed anew, from the transforms of joints to answers.", "frame (us an agent)", "an agent in a frame, one thread (us)", wide=True)
-@draws("bodies_crowd", "How much earlier than the meshes people who slide towards each other are reported, and false hits in a crowd, against the time of a pair; hollow: misses some hits of the meshes, a share of which stands beside it.", "crowd (ns/pair)", "crowd pair, one thread (ns)", wide=True)
-def draw_bodies(data, out, time, label):
-    families = {"exact outlines": EXACT, "15 capsules: thin, between, holding": "15 capsules.*",
-                "32 capsules": "32 capsules.*", "spheres": r"\d+ spheres"}
-    for ax, error in zip(chart(label, "", (13, 4.8), 2, xscale="log"), ("earlier than meshes (mm)", "false hits (% of mesh hits)")):
-        ax.set_ylabel(error)
-        for i, (family, pattern) in enumerate(families.items()):
-            rows = [row for row in out["bodies"] if re.fullmatch(pattern, row["structure"])]
-            series(ax, rows, time, error, family, **style(i, linestyle="-", fillstyle="none"))
-            series(ax, [row for row in rows if row["missed (% of mesh hits)"] == 0], time, error, None, **style(i, linestyle="none"))
-            for row in rows:
-                missed, name = row["missed (% of mesh hits)"], row["structure"].replace(" spheres", "")
-                text = f"misses {missed:.2f} %" if missed else "" if name == EXACT or "capsules" in name else name
-                shift, side = ((-6, -10), "right") if family == "spheres" else ((6, -11 if i == 2 else 4), "left")
-                ax.annotate(text, (row[time], row[error]), shift, textcoords="offset points", fontsize=8, ha=side)
-        ax.set_ylim(min(0, ax.get_ylim()[0]))
-        number_ticks(ax.xaxis, (50, 100, 200, 500) if "ns" in time else (1, 3, 10, 30, 100, 300, 1000))
-    legend(ax, 4)
+@draws("bodies_live", "False hits in a crowd against what an agent costs in a frame in which everybody is posed anew, from the transforms of joints to "
+       "answers; hollow: misses hits of the meshes.", "frame (us an agent)", "false hits (% of mesh hits)")
+@draws("bodies_live_slides", "How much earlier than the meshes people who slide towards each other are reported, likewise.", "frame (us an agent)", "earlier than meshes (mm)")
+@draws("bodies_crowd", "False hits in a crowd against the time of a pair; hollow: misses hits of the meshes.", "crowd (ns/pair)", "false hits (% of mesh hits)")
+@draws("bodies_crowd_slides", "How much earlier than the meshes people who slide towards each other are reported, likewise.", "crowd (ns/pair)", "earlier than meshes (mm)")
+def draw_bodies(data, out, time, error):
+    ax = chart("time of an agent in a frame, one thread (µs)" if "frame" in time else "time of a pair in a crowd, one thread (ns)",
+               error.replace("(% of mesh hits)", "in a crowd (% of the meshes')"), (5.8, 4.8), xscale="log")
+    draw_families(ax, out["bodies"][:-1], time, error, "missed (% of mesh hits)")  # all but the meshes
+    number_ticks(ax.xaxis, (50, 100, 200, 500) if "ns" in time else (0.5, 1, 2, 5, 10, 20, 50, 100))
 
 
 @draws("construction_stages", "The stages from keys of a clip to a flat shape with levels and inscribed discs, likewise.", "stage", {})
@@ -760,17 +760,18 @@ def depth_text(cut):
     return cut if isinstance(cut, str) else f"{cut:g}"
 
 
-def drawn(name, data, out, paper="none"):
+def drawn(name, data, out):
     """Returns a figure as SVG. Identifiers begin with its name, as several figures share a page."""
     plt.rcParams["svg.hashsalt"] = name
     FIGURES[name].draw(data, out)
     stream = io.StringIO()
-    plt.savefig(stream, format="svg", bbox_inches="tight", pad_inches=0.05, facecolor=paper, metadata={"Date": None})
+    plt.savefig(stream, format="svg", bbox_inches="tight", pad_inches=0.05, metadata={"Date": None})
     plt.close()
     svg = stream.getvalue()
     svg = re.sub(r'(id="|href="#|url\(#)', rf"\1{name}-", svg[svg.index("<svg"):])
     svg = re.sub(r"'DejaVu Sans'[^;\"]*", "Helvetica, Arial, sans-serif", svg)  # hardly narrower than what was measured
-    return re.sub(r"<metadata>.*?</metadata>", "", svg, flags=re.DOTALL)
+    svg = re.sub(r"<metadata>.*?</metadata>", "", svg, flags=re.DOTALL)
+    return svg.replace(INK, "currentColor").replace(PAPER, "var(--paper)")
 
 
 # The page.
@@ -843,7 +844,7 @@ def verdicts(out):
 def page(data, out, judged):
     def figure(name):
         _, caption, wide = FIGURES[name]
-        svg = re.sub(r' (width|height)="[^"]*pt"', "", drawn(name, data, out), count=2).replace(INK, "currentColor")
+        svg = re.sub(r' (width|height)="[^"]*pt"', "", drawn(name, data, out), count=2)
         return jinja2.utils.markupsafe.Markup(
             f'<figure id="figure-{name}"{" class=wide" * wide}><div>{svg}</div><figcaption>{caption}</figcaption></figure>')
 
@@ -888,7 +889,9 @@ def main():
     try:
         out = summarised(data)
         if options.figure:
-            svg = drawn(options.figure, data, out, paper="white").replace(INK, "#1a1a1a")
+            colours = "<style>svg { color: #1a1a1a; background: #fff; --paper: #fff }\n@media (prefers-color-scheme: dark) " \
+                "{ svg { color: #e6e6e6; background: #15171a; --paper: #15171a } }</style>"
+            svg = drawn(options.figure, data, out).replace(">", f">{colours}", 1)
             options.output.write_text('<?xml version="1.0" encoding="utf-8"?>\n' + svg, encoding="utf-8")
             return
         judged = verdicts(out)

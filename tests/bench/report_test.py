@@ -290,7 +290,7 @@ class Parts(unittest.TestCase):
     def test_front_has_what_nothing_beats(self):
         nan = math.nan
         points = [dict(zip(("structure", "error", "missed collisions (%)", "crowd (ns/pair)", "near miss (ns/pair)"), row),
-                       depth="all", **{"threshold (cm)": nan}, semantics="boundary") for row in (
+                       depth="all", semantics="boundary") for row in (
             ("exact and slow", 0, 0, 90, 100), ("beaten", 5, 0, 91, 101), ("fast", 20, 0, 2, 3), ("fast and missing", 1, 2, 1, 1),
             ("as good and slower", 20, 0, 3, 4), ("good", 6, 0, 10, 101), ("not known", nan, 0, 1, 1))]
         self.assertEqual([f"{row['pairs']} {row['structure']}" for row in report.front(points, "error")],
