@@ -40,7 +40,36 @@ std::vector<BodyModel> models_of(const bch_body_model* const* models, std::size_
   return all;
 }
 
+/// Writes as many spheres as there is room for.
+void deliver(const std::vector<Sphere>& all, bch_sphere* spheres, size_t capacity, size_t* count) {
+  std::copy_n(all.begin(), std::min(all.size(), capacity),
+              same_array<Sphere>(spheres, capacity, "spheres").begin());
+  *count = all.size();
+}
+
 }  // namespace
+
+bch_status bch_spheres_from_capsules(const bch_space_capsule* capsules, size_t capsule_count, float error,
+                                     bch_sphere* spheres, size_t capacity, size_t* count) {
+  return guarded([&] {
+    same_array<Sphere>(spheres, capacity, "spheres");
+    required(count, "count");
+    const auto all = same_array<SpaceCapsule>(capsules, capsule_count, "capsules");
+    deliver(spheres_from_capsules(all, error), spheres, capacity, count);
+  });
+}
+
+bch_status bch_spheres_from_polygons(const bch_vec2* corners, const uint64_t* offsets, size_t polygons,
+                                     const bch_heights* heights, float error, bch_sphere* spheres,
+                                     size_t capacity, size_t* count) {
+  return guarded([&] {
+    same_array<Sphere>(spheres, capacity, "spheres");
+    required(count, "count");
+    const auto all = parts_of<Vec2>(corners, offsets, polygons, "corners");
+    const auto [bottom, top] = required(heights, "heights");
+    deliver(spheres_from_polygons(all, {bottom, top}, error), spheres, capacity, count);
+  });
+}
 
 bch_status bch_body_set_create(const bch_sphere* spheres, const uint64_t* offsets, size_t count,
                                bch_body_set** set) {
@@ -66,11 +95,9 @@ bch_status bch_body_set_get_spheres(const bch_body_set* set, uint32_t body, bch_
   return guarded([&] {
     const BodySet& of = object_of(set, "set").set;
     check_index(body, of.body_count(), "body");
-    const auto to = same_array<Sphere>(spheres, capacity, "spheres");
+    same_array<Sphere>(spheres, capacity, "spheres");
     required(count, "count");
-    const std::vector<Sphere> all = of.spheres(body);
-    std::copy_n(all.begin(), std::min(all.size(), capacity), to.begin());
-    *count = all.size();
+    deliver(of.spheres(body), spheres, capacity, count);
   });
 }
 
@@ -100,6 +127,14 @@ bch_status bch_body_model_default(const bch_character* character, uint32_t spher
     const Character& of = *object_of(character, "character").character;
     required(model, "model");
     hand_out(std::make_unique<bch_body_model>(default_body(of, spheres)), model);
+  });
+}
+
+bch_status bch_body_model_from_spheres(const bch_sphere* spheres, size_t count, bch_body_model** model) {
+  return guarded([&] {
+    const auto all = same_array<Sphere>(spheres, count, "spheres");
+    required(model, "model");
+    hand_out(std::make_unique<bch_body_model>(make_body(all)), model);
   });
 }
 

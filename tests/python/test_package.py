@@ -364,6 +364,18 @@ class Sets(unittest.TestCase):
         self.assertEqual([own.origin(i).character for i in range(4)], ["discs", "cylinder", "capsules", "mesh"])
         self.assertEqual(len(builder.finish()), 0)
 
+    def test_own_spheres(self):
+        cart = bch.spheres_from_polygons([[(-0.3, -0.2), (0.3, -0.2), (0.3, 0.2), (-0.3, 0.2)]], (0, 1))
+        arm = bch.spheres_from_capsules([(0, -0.4, 1.3, 0, 0.4, 1.3, 0.05)])
+        self.assertEqual((cart.shape[1], arm.shape[1], cart.dtype), (4, 4, np.float32))
+        bodies = bch.BodySet([cart, arm])
+        agents = bch.Agents(np.array([0, 1], np.uint32), np.zeros(2), np.zeros(2), np.zeros(2), z=np.array([0.0, 0.0]))
+        self.assertEqual(len(bch.Crowd().collisions(bodies, agents)), 0)
+        below = bch.Agents(agents.shape, agents.x, agents.y, agents.heading, z=np.array([0.0, -0.4]))
+        self.assertEqual(len(bch.Crowd().collisions(bodies, below)), 1)
+        live = bch.LiveBodies([bch.BodyModel.from_spheres(cart)], 1)
+        self.assertEqual(len(live.bodies.spheres(0)), len(cart))
+
     def test_heights(self):
         shapes, agents = squares()
         pairs = np.array([[0, 1]], np.uint32)

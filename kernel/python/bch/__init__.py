@@ -24,7 +24,7 @@ from . import plot
 from ._animated import AnimatedShape
 from ._arrays import DISC, PENETRATION, POSE, SOURCE, SPHERE
 from ._bake import bake
-from ._bodies import BodyModel, BodySet, LiveBodies, default_body, load_models, save_models
+from ._bodies import BodyModel, BodySet, LiveBodies, default_body, load_models, save_models, spheres_from_capsules, spheres_from_polygons
 from ._characters import Bone, Channel, Curve, Joint, Motion, make_character
 from ._crowds import Clearances, Contacts, Crowd, Neighbours, Penetrations, Rows
 from ._library import (
@@ -175,6 +175,8 @@ __all__ = [
     "plot",
     "read_trajectory",
     "save_models",
+    "spheres_from_capsules",
+    "spheres_from_polygons",
     "time_of_impact",
     "within",
 ]

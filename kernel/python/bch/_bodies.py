@@ -7,13 +7,13 @@ from __future__ import annotations
 
 import ctypes
 from ctypes import byref, c_size_t, c_uint32
-from typing import Any, List, Sequence, Union
+from typing import Any, List, Sequence, Tuple, Union
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _library
-from ._arrays import SPHERE, Records, UInt32, address, bounded, encoded, f4, given, index, instance, instances, listed, rejected, table, u4, u8
+from ._arrays import SPHERE, Records, UInt32, address, bounded, encoded, f4, given, index, instance, instances, listed, number, pair, rejected, table, u4, u8
 from ._library import Exclusive, Handle, check, lib
 from ._poses import own_poses
 from ._progress import Watched
@@ -79,14 +79,69 @@ class BodySet:
         (n,) SPHERE
             Records of x, y, z and radius, metres.
         """
-        number, count = index(body, "body", len(self)), c_size_t()
-        check(lib.bch_body_set_get_spheres(self._pointer, number, None, 0, byref(count)))
+        which, count = index(body, "body", len(self)), c_size_t()
+        check(lib.bch_body_set_get_spheres(self._pointer, which, None, 0, byref(count)))
         spheres = np.empty(count.value, SPHERE)
-        check(lib.bch_body_set_get_spheres(self._pointer, number, address(spheres), len(spheres), byref(count)))
+        check(lib.bch_body_set_get_spheres(self._pointer, which, address(spheres), len(spheres), byref(count)))
         return spheres
 
     def __repr__(self) -> str:
         return f"<bch.BodySet of {len(self)}>"
+
+
+def _spheres_of(call: Any, *arguments: Any) -> npt.NDArray[np.float32]:
+    """Return what a call writes of spheres."""
+    spheres, count = np.empty((4096, 4), f4), c_size_t()
+    check(call(*arguments, address(spheres), len(spheres), byref(count)))
+    return spheres[: count.value].copy()
+
+
+def spheres_from_capsules(capsules: npt.ArrayLike, *, error: float = 0.005) -> npt.NDArray[np.float32]:
+    """Return spheres that together hold capsules, such as those of a ragdoll.
+
+    Parameters
+    ----------
+    capsules : (k, 7) array
+        x, y and z of one end, those of the other, and the radius, metres.
+    error : float
+        By how much spheres may reach out of the capsules, metres.
+
+    Returns
+    -------
+    (n, 4) float32
+        x, y, z and radius of each sphere, as `BodySet` and `BodyModel.from_spheres` take them.
+    """
+    array = table(capsules, f4, 7, "capsules")
+    return _spheres_of(lib.bch_spheres_from_capsules, address(array), len(array), number(error, "error"))
+
+
+def spheres_from_polygons(
+    polygons: Sequence[npt.ArrayLike], heights: Tuple[float, float], *, error: float = 0.05
+) -> npt.NDArray[np.float32]:
+    """Return spheres that together hold all that stands on polygons, a cart for instance.
+
+    Parameters
+    ----------
+    polygons : sequence of (k, 2) arrays
+        Corners in metres, relative to the agent's position, in either orientation.
+    heights : (bottom, top)
+        Above the agent's ground, metres.
+    error : float
+        By how much spheres may reach out, metres.
+
+    Returns
+    -------
+    (n, 4) float32
+        x, y, z and radius of each sphere, as `BodySet` and `BodyModel.from_spheres` take them.
+    """
+    corners = [table(each, f4, 2, f"polygons[{i}]") for i, each in enumerate(listed(polygons, "polygons", "polygons"))]
+    offsets = np.zeros(len(corners) + 1, u8)
+    np.cumsum([len(each) for each in corners], out=offsets[1:])
+    points = np.concatenate(corners) if corners else np.empty((0, 2), f4)
+    bottom, top = pair(heights, "heights")
+    between = _library.Heights(bottom=bottom, top=top)
+    arguments = address(points), address(offsets), len(corners), byref(between), number(error, "error")
+    return _spheres_of(lib.bch_spheres_from_polygons, *arguments)
 
 
 class BodyModel:
@@ -119,6 +174,15 @@ class BodyModel:
         model = cls.__new__(cls)
         model._handle, model._pointer = handle, handle.pointer
         return model
+
+    @classmethod
+    def from_spheres(cls, spheres: npt.ArrayLike) -> BodyModel:
+        """Return the model of a rigid body, for things that move among people: (n, 4) numbers, x, y, z and radius, metres.
+
+        Its poses are the rest pose, and transforms of one joint.
+        """
+        array = table(spheres, f4, 4, "spheres")
+        return cls._of(Handle("body_model", "from_spheres", address(array), len(array)))
 
     def __len__(self) -> int:
         count = c_uint32()

@@ -74,6 +74,12 @@ struct BodyOptions {
 ///          std::system_error of std::errc::operation_canceled where it is cancelled.
 BodyModel make_body(const Character& character, const BodyOptions& options = {});
 
+/// Makes the model of a rigid body of given spheres, for things that move among people and share their sets: its poses are rest(), and a
+/// transform of its one joint, by which it may lie or tilt. Radii are the same in every pose. Queries number spheres in the model's order:
+/// those that are near each other follow each other.
+/// Errors:  throws std::invalid_argument on no spheres or more than 4096, and on one that is not finite or has a negative radius.
+BodyModel make_body(std::span<const Sphere> spheres);
+
 /// Returns the model that comes with the library of a built-in character: what make_body() makes of default_male() or default_female(),
 /// with 64, 128, 256 or 512 spheres. Pedestrians (default_pedestrian()), who have the same skins, take the same models.
 /// Cost:    milliseconds.

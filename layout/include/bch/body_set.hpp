@@ -27,6 +27,28 @@ struct Sphere {
   friend bool operator==(const Sphere&, const Sphere&) = default;
 };
 
+/// Represents the points within a radius of a segment in space, metres.
+struct SpaceCapsule {
+  Vec3 a, b;
+  float radius = 0;
+};
+
+/// Returns spheres that together hold capsules, such as those of a ragdoll, and reach out of them by at most an error: rows of spheres
+/// from end to end.
+/// Units:   metres, all; the error is more than 1e-6 of a capsule's reach.
+/// Errors:  throws std::invalid_argument on no capsules; naming the capsule, on a negative radius, on a reach outside 1e-6 to 1e6 m, and on
+///          an error that is too small, or takes more than 4096 spheres.
+std::vector<Sphere> spheres_from_capsules(std::span<const SpaceCapsule> capsules, float error = 0.005f);
+
+/// Returns spheres that together hold all that stands on polygons (see outline_from_polygons()) from the bottom to the top, and reach out of
+/// it by at most an error: the footprint of a cart or a box beside people.
+/// Units:   metres, all.
+/// Cost:    milliseconds. A box of 0.6 x 0.4 x 1 m takes 104 spheres, and 556 at an error of 2 cm.
+/// Errors:  throws std::invalid_argument as outline_from_polygons() does, on a bottom that is not below the top, on heights that are not
+///          within +-1e6 m, and, naming the polygon, on an error that is not above 0 or takes more than 4096 spheres.
+std::vector<Sphere> spheres_from_polygons(std::span<const std::vector<Vec2>> polygons, const Heights& heights,
+                                          float error = 0.05f);
+
 /// The number of spheres of a body that queries test first.
 inline constexpr std::uint32_t core_spheres = 16;
 

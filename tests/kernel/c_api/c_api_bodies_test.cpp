@@ -82,6 +82,36 @@ TEST(CApiBodies, ComeFromFilesAsTheyWere) {
   EXPECT_EQ(count, 2u);
 }
 
+TEST(CApiBodies, OfCapsulesAndPolygonsAreThoseOfTheLibrary) {
+  const bch_space_capsule capsule{{0, 0, 0.1f}, {0, 0.3f, 1}, 0.1f};
+  const SpaceCapsule same{{0, 0, 0.1f}, {0, 0.3f, 1}, 0.1f};
+  const bch_vec2 corners[] = {{0, 0}, {1, 0}, {0, 1}};
+  const std::vector<Vec2> triangle = {{0, 0}, {1, 0}, {0, 1}};
+  const std::uint64_t offsets[] = {0, 3};
+  const bch_heights heights{0, 0.5f};
+  std::vector<bch_sphere> found(4096);
+  std::size_t count = 0;
+  const auto expect = [&](const std::vector<Sphere>& expected) {
+    ASSERT_EQ(count, expected.size());
+    EXPECT_EQ(std::memcmp(found.data(), expected.data(), count * sizeof(Sphere)), 0);
+  };
+  expect_ok(bch_spheres_from_capsules(&capsule, 1, 0.01f, found.data(), found.size(), &count));
+  expect(spheres_from_capsules({&same, 1}, 0.01f));
+  expect_ok(
+      bch_spheres_from_polygons(corners, offsets, 1, &heights, 0.1f, found.data(), found.size(), &count));
+  expect(spheres_from_polygons({&triangle, 1}, {0, 0.5f}, 0.1f));
+  const auto model = made<bch_body_model_free>(bch_body_model_from_spheres, found.data(), count);
+  EXPECT_EQ(sphere_count(model.get()), count);
+
+  std::size_t untouched = 7;
+  EXPECT_EQ(
+      bch_spheres_from_polygons(corners, offsets, 1, nullptr, 0.1f, found.data(), found.size(), &untouched),
+      BCH_INVALID_ARGUMENT);
+  EXPECT_EQ(bch_spheres_from_capsules(&capsule, 1, -1, found.data(), found.size(), &untouched),
+            BCH_INVALID_ARGUMENT);
+  EXPECT_EQ(untouched, 7u);
+}
+
 TEST(CApiBodies, AreRefusedWithAReason) {
   bch_body_model* model = nullptr;
   const auto man = made<bch_character_free>(bch_character_default, BCH_MALE);

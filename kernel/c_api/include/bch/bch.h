@@ -706,6 +706,20 @@ typedef struct bch_body_set bch_body_set;
 /** Makes bodies of given spheres, in the frames of their agents: body i has spheres [i] to [i + 1] of the offsets. */
 BCH_API bch_status bch_body_set_create(const bch_sphere* spheres, const uint64_t* offsets, size_t count,
                                        bch_body_set** set);
+/** Represents the points within a radius of a segment in space. */
+typedef struct bch_space_capsule {
+  bch_vec3 a, b;
+  float radius;
+} bch_space_capsule;
+/** Gets spheres that together hold capsules, and reach out of them by at most an error, metres. Writes at most `capacity` spheres, at most 4096, and
+ * the number of all to `count`. */
+BCH_API bch_status bch_spheres_from_capsules(const bch_space_capsule* capsules, size_t capsule_count, float error,
+                                             bch_sphere* spheres, size_t capacity, size_t* count);
+/** Gets spheres that together hold all that stands on polygons from a bottom to a top, likewise. Polygon i has corners offsets[i] to
+ * offsets[i + 1]. */
+BCH_API bch_status bch_spheres_from_polygons(const bch_vec2* corners, const uint64_t* offsets, size_t polygons,
+                                             const bch_heights* heights, float error, bch_sphere* spheres,
+                                             size_t capacity, size_t* count);
 /** Holds the size of a set of bodies. */
 typedef struct bch_body_set_info {
   uint32_t size; /**< sizeof(bch_body_set_info) */
@@ -738,6 +752,8 @@ BCH_API bch_status bch_body_model_make(const bch_character* character, const bch
 /** Makes the model that comes with the library of a built-in character, in milliseconds: 64, 128, 256 or 512 spheres of the default man or
  * woman, or of a pedestrian. Others are BCH_INVALID_ARGUMENT. */
 BCH_API bch_status bch_body_model_default(const bch_character* character, uint32_t spheres, bch_body_model** model);
+/** Makes the model of a rigid body of given spheres: its poses are the rest pose, and transforms of one joint. */
+BCH_API bch_status bch_body_model_from_spheres(const bch_sphere* spheres, size_t count, bch_body_model** model);
 /** Writes models, with their characters, as a baked file without shapes. */
 BCH_API bch_status bch_body_models_save(const bch_body_model* const* models, size_t model_count, const char* path);
 /** Reads model number `index` of a baked file, and writes the number of all to `count`. Where there is no such model, it writes NULL to

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include <bch/body_set.hpp>
+
+#include "layout/base/floating_point_state.hpp"
+#include "layout/base/rounding.hpp"
+#include "layout/base/shortest.hpp"
+#include "layout/body/body_record.hpp"
+#include "layout/body/cover_rounding.hpp"
+
+namespace bch {
+
+using namespace detail;
+
+namespace {
+
+[[noreturn]] void refuse_capsule(std::size_t capsule, const std::string& what) {
+  throw std::invalid_argument("spheres of capsules: capsule " + std::to_string(capsule) + ": " + what);
+}
+
+/// Appends spheres in a row from one end of a capsule to the other. A point of the capsule is at most half the spacing away from the nearest
+/// centre along the axis, or beyond an end, and at most the radius away from the axis: spheres of the radius
+///
+///     sqrt(radius^2 + (spacing / 2)^2)
+///
+/// hold it, and reach out of the capsule by the excess of that over the radius.
+void add_row(const SpaceCapsule& capsule, std::size_t number, float error, std::vector<Sphere>& spheres) {
+  const double x = double{capsule.b.x} - double{capsule.a.x}, y = double{capsule.b.y} - double{capsule.a.y},
+               z = double{capsule.b.z} - double{capsule.a.z}, radius = capsule.radius,
+               length = std::sqrt(x * x + y * y + z * z);
+  const auto distance = [](const Vec3& p) {
+    return std::sqrt(double{p.x} * double{p.x} + double{p.y} * double{p.y} + double{p.z} * double{p.z});
+  };
+  const double reach = std::max(distance(capsule.a), distance(capsule.b)) + radius;
+  if (!(radius >= 0 && reach >= rounding::smallest_reach && reach <= rounding::largest_reach))
+    refuse_capsule(number,
+                   "expected a radius of at least 0 and a reach of 1e-6 to 1e6 m, found a radius of " +
+                       shortest(capsule.radius) + " and a reach of " + shortest(reach));
+  const double spare = cover_rounding * (reach + double{error}), room = double{error} - 2 * spare;
+  if (!(room > 0))
+    refuse_capsule(number, "expected an error above " + shortest(2 * cover_rounding * reach) + " m, found " +
+                               shortest(error));
+  const double parts = std::max(1.0, std::ceil(length / (2 * std::sqrt(room * (2 * radius + room)))));
+  if (parts + 1 + static_cast<double>(spheres.size()) > most_spheres)
+    refuse_capsule(number, "expected an error that " + std::to_string(most_spheres) +
+                               " spheres keep, found " + shortest(error) + " m");
+  const double half = length / parts / 2;
+  const float held_by = static_cast<float>(std::sqrt(radius * radius + half * half) + spare);
+  for (double i = 0; i <= parts; ++i) {
+    const double share = i / parts;
+    const auto at = [&](float from, double way) { return static_cast<float>(double{from} + share * way); };
+    spheres.push_back({at(capsule.a.x, x), at(capsule.a.y, y), at(capsule.a.z, z), held_by});
+    if (length == 0) return;
+  }
+}
+
+}  // namespace
+
+std::vector<Sphere> spheres_from_capsules(std::span<const SpaceCapsule> capsules, float error) {
+  const FloatingPointStateGuard floats;
+  if (capsules.empty()) throw std::invalid_argument("spheres of capsules: expected at least one, found none");
+  std::vector<Sphere> spheres;
+  for (std::size_t i = 0; i < capsules.size(); ++i) add_row(capsules[i], i, error, spheres);
+  return spheres;
+}
+
+}  // namespace bch
