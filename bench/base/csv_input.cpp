@@ -12,7 +12,7 @@
 #include <string_view>
 
 #include "bench/base/exit_codes.hpp"
-#include "bench/base/number.hpp"
+#include "bench/base/text.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/recordings/fields.hpp"
 #include "layout/recordings/line_reader.hpp"

@@ -48,30 +48,13 @@ bool add_hidden_arcs(const Circle& a, const Circle& b, bool a_first, std::vector
   return true;
 }
 
-/// Whether a point is inside one of the contours, which neither nest nor cross.
-bool holds(const Outline& outline, double x, double y) {
-  bool inside = false;
-  for (std::size_t c = 0; c < outline.contours(); ++c) {
-    const std::span<const Vec2> points = outline.contour(c);
-    for (std::size_t i = 0, before = points.size() - 1; i < points.size(); before = i++) {
-      const double ax = static_cast<double>(points[before].x), ay = static_cast<double>(points[before].y);
-      const double bx = static_cast<double>(points[i].x), by = static_cast<double>(points[i].y);
-      if ((ay > y) != (by > y)) inside ^= x < ax + (y - ay) / (by - ay) * (bx - ax);
-    }
-  }
-  return inside;
-}
-
-/// An arc that no disc hides bounds what is covered, unless it lies inside the outline, all of it as no contour is visible.
-double visible_area(const Circle& circle, std::vector<Arc>& hidden, const Outline& outline) {
+/// An arc that no disc hides bounds what is covered.
+double visible_area(const Circle& circle, std::vector<Arc>& hidden) {
   std::sort(hidden.begin(), hidden.end());
   hidden.push_back({turn, turn});
   double sum = 0, seen_to = 0;
   for (const auto& [begin, end] : hidden) {
-    const double middle = (seen_to + begin) / 2;
-    if (begin > seen_to && !holds(outline, circle.x + circle.radius * std::cos(middle),
-                                  circle.y + circle.radius * std::sin(middle)))
-      sum += swept_area(circle, seen_to, begin);
+    if (begin > seen_to) sum += swept_area(circle, seen_to, begin);
     seen_to = std::max(seen_to, end);
   }
   return sum;
@@ -120,10 +103,6 @@ class CircleGrid {
 }  // namespace
 
 double union_area(std::span<const Disc> discs) {
-  return covered_area({}, discs);
-}
-
-double covered_area(const Outline& outline, std::span<const Disc> discs) {
   std::vector<Circle> circles;
   for (const Disc& d : discs)
     circles.push_back({static_cast<double>(d.x), static_cast<double>(d.y), static_cast<double>(d.radius)});
@@ -136,7 +115,7 @@ double covered_area(const Outline& outline, std::span<const Disc> discs) {
     grid.visit(circles[i], [&](std::size_t j) {
       return visible = j == i || add_hidden_arcs(circles[i], circles[j], i < j, hidden);
     });
-    if (visible) area += visible_area(circles[i], hidden, outline);
+    if (visible) area += visible_area(circles[i], hidden);
   }
   return area;
 }

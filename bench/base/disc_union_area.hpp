@@ -9,7 +9,6 @@
 
 #include <bch/geometry.hpp>
 #include <bch/hierarchy.hpp>
-#include <bch/outline.hpp>
 
 namespace bch::cli {
 
@@ -17,10 +16,6 @@ namespace bch::cli {
 /// theorem it is an integral over the arcs of each circle that lie in no other disc. Takes O(n^2 log n) time
 /// for n discs.
 double union_area(std::span<const Disc> discs);
-
-/// Returns the area that an outline and discs cover together, likewise.
-/// Precondition: the discs cover all contours of the outline, as those of a cut do; then circles alone bound what is covered.
-double covered_area(const Outline& outline, std::span<const Disc> discs);
 
 /// Returns the discs of a cut.
 std::vector<Disc> discs_of(const Hierarchy& hierarchy, std::uint32_t depth);

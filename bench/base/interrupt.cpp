@@ -14,7 +14,7 @@
 #include <string_view>
 
 #include "bench/base/exit_codes.hpp"
-#include "bench/base/printable.hpp"
+#include "bench/base/text.hpp"
 
 namespace bch::cli {
 namespace {

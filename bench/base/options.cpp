@@ -12,7 +12,7 @@
 #include <stdexcept>
 
 #include "bench/base/exit_codes.hpp"
-#include "bench/base/number.hpp"
+#include "bench/base/text.hpp"
 
 namespace bch::cli {
 CLI::Validator one_of(std::vector<std::string> words, std::map<std::string, std::string> renamed) {

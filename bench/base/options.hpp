@@ -3,6 +3,9 @@
 
 #pragma once
 
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <map>
@@ -81,5 +84,18 @@ CLI::Validator number_between(double low, double high);
 
 /// Rejects what is not a whole number in [low, high], in decimal digits.
 CLI::Validator whole_between(std::uint64_t low, std::uint64_t high);
+
+/// Sets how many threads work during this object's lifetime; 0: all.
+class Threads {
+ public:
+  explicit Threads(std::uint32_t wanted)
+      : count(wanted == 0 ? static_cast<unsigned>(tbb::info::default_concurrency()) : wanted),
+        control_(tbb::global_control::max_allowed_parallelism, count) {}
+
+  const unsigned count;
+
+ private:
+  tbb::global_control control_;
+};
 
 }  // namespace bch::cli

@@ -13,7 +13,7 @@
 
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/output_file.hpp"
-#include "bench/base/printable.hpp"
+#include "bench/base/text.hpp"
 
 namespace bch::cli {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "bench/base/printable.hpp"
+#include "bench/base/text.hpp"
 
 #include <fmt/format.h>
 

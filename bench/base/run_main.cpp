@@ -18,7 +18,7 @@
 #include <bch/import.hpp>
 
 #include "bench/base/exit_codes.hpp"
-#include "bench/base/printable.hpp"
+#include "bench/base/text.hpp"
 #include "layout/recordings/trajectory.hpp"
 
 namespace bch::cli {

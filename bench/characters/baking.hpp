@@ -23,7 +23,7 @@ namespace bch::cli {
 
 /// Builds a set of all sources' shapes in parallel, with a progress bar. No more than some dozens of shapes a
 /// thread are in memory beside the set. The bytes are the same for any number of threads.
-/// Errors:  as ShapeMaker throws.
+/// Errors:  as build_shapes() throws.
 ShapeSet bake_shapes(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,
                      double threshold, const ShapeSetPlan& plan, const CostLimits& limits = {});
 

@@ -9,6 +9,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
 #include "bench/base/exit_codes.hpp"
@@ -103,36 +104,47 @@ void require_contours(const LoadedCharacter& from, PoseTime at, const Shape& sha
            "its outline has " + beyond_limit(contours, "contours", limits.contours, "--max-contours"));
 }
 
-ShapeMaker::ShapeMaker(std::span<const LoadedCharacter> characters, double threshold,
-                       const ShapeSetPlan& plan, const CostLimits& limits)
-    : characters_(characters),
-      threshold_(threshold),
-      plan_(plan),
-      limits_(limits),
-      shapers_(characters.size()) {}
+namespace {
 
-const Shape& ShapeMaker::make(const ShapeSource& source) {
-  const LoadedCharacter& from = characters_[source.character];
-  auto& shaper = shapers_[source.character];
-  try {
-    if (!shaper) {
-      shaper.emplace(from.character, plan_, static_cast<float>(threshold_));
-      shaper->limit_nodes(limits_.nodes);
+struct ShapeTiming {
+  double outline = 0;    ///< seconds: skinning and outline
+  double hierarchy = 0;  ///< seconds
+};
+
+/// Makes shapes one after the other; prepares a character's mesh when it is first asked for it.
+struct ShapeMaker {
+  std::span<const LoadedCharacter> characters;
+  double threshold;
+  const ShapeSetPlan& plan;
+  const CostLimits& limits;
+  std::vector<std::optional<PoseShaper>> shapers{characters.size()};
+
+  ShapeTiming make(const ShapeSource& source, Shape& made) {
+    const LoadedCharacter& from = characters[source.character];
+    auto& shaper = shapers[source.character];
+    try {
+      if (!shaper) {
+        shaper.emplace(from.character, plan, static_cast<float>(threshold));
+        shaper->limit_nodes(limits.nodes);
+      }
+      const auto begin = Clock::now();
+      const Shape& shape = shaper->make_outline(source.at);
+      require_contours(from, source.at, shape, limits);
+      const auto middle = Clock::now();
+      shaper->make_hierarchy();
+      const ShapeTiming timing{seconds_between(begin, middle), seconds_between(middle, Clock::now())};
+      made = shape;
+      return timing;
+    } catch (const std::length_error& error) {
+      reject(from, source.at, std::string(error.what()) + "; --max-nodes raises the limit");
+    } catch (const std::logic_error& error) {
+      // Out of the domain: a pose kilometres wide, say. domain_error and invalid_argument are both logic errors.
+      reject(from, source.at, error.what());
     }
-    const auto begin = Clock::now();
-    const Shape& shape = shaper->make_outline(source.at);
-    require_contours(from, source.at, shape, limits_);
-    const auto middle = Clock::now();
-    shaper->make_hierarchy();
-    timing_ = {seconds_between(begin, middle), seconds_between(middle, Clock::now())};
-    return shape;
-  } catch (const std::length_error& error) {
-    reject(from, source.at, std::string(error.what()) + "; --max-nodes raises the limit");
-  } catch (const std::logic_error& error) {
-    // Out of the domain: a pose kilometres wide, say. domain_error and invalid_argument are both logic errors.
-    reject(from, source.at, error.what());
   }
-}
+};
+
+}  // namespace
 
 BuiltShapes build_shapes(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,
                          double threshold, const ShapeSetPlan& plan, const CostLimits& limits) {
@@ -142,12 +154,11 @@ BuiltShapes build_shapes(std::span<const LoadedCharacter> characters, std::span<
   Progress progress("building shapes", sources.size());
 
   // Learning a mesh takes as long as tens of shapes, so that a thread keeps what it learned.
-  tbb::enumerable_thread_specific<ShapeMaker> makers(
-      [&] { return ShapeMaker(characters, threshold, plan, limits); });
+  tbb::enumerable_thread_specific<ShapeMaker> makers([&] {
+    return ShapeMaker{characters, threshold, plan, limits};
+  });
   tbb::parallel_for(std::size_t{0}, sources.size(), [&](std::size_t i) {
-    ShapeMaker& maker = makers.local();
-    built.shapes[i] = maker.make(sources[i]);
-    timings[i] = maker.timing();
+    timings[i] = makers.local().make(sources[i], built.shapes[i]);
     progress.advance();
   });
 

@@ -43,36 +43,6 @@ std::string clip_name(const LoadedCharacter& character, PoseTime at);
 /// Errors:  throws InputError naming the character, clip and time, beyond the limit.
 void require_contours(const LoadedCharacter& from, PoseTime at, const Shape& shape, const CostLimits& limits);
 
-struct ShapeTiming {
-  double outline = 0;    ///< seconds: skinning and outline
-  double hierarchy = 0;  ///< seconds; all, where no outline is made
-};
-
-/// Makes shapes of the characters, contour hierarchies, one after the other; prepares a character's mesh when
-/// it is first asked for it. Not for two threads at a time. The characters must outlive it.
-class ShapeMaker {
- public:
-  /// Takes the characters. `plan` is as of PoseShaper.
-  ShapeMaker(std::span<const LoadedCharacter> characters, double threshold, const ShapeSetPlan& plan = {},
-             const CostLimits& limits = {});
-
-  /// Makes a shape.
-  /// Returns: the shape, until the next call.
-  /// Errors:  throws InputError naming the character, clip and time of a pose that has no outline, or one of more
-  ///          contours, or a hierarchy of more nodes, than the limits.
-  const Shape& make(const ShapeSource& source);
-  /// Returns the time that the last shape took.
-  const ShapeTiming& timing() const { return timing_; }
-
- private:
-  std::span<const LoadedCharacter> characters_;
-  double threshold_;
-  ShapeSetPlan plan_;
-  CostLimits limits_;
-  std::vector<std::optional<PoseShaper>> shapers_;
-  ShapeTiming timing_;
-};
-
 struct BuiltShapes {
   std::vector<Shape> shapes;     ///< one a source
   double outline_seconds = 0;    ///< the mean of a shape, one thread: skinning and outline
@@ -80,7 +50,8 @@ struct BuiltShapes {
 };
 
 /// Builds contour hierarchies, in parallel, with a progress bar.
-/// Errors:  as ShapeMaker throws.
+/// Errors:  throws InputError naming the character, clip and time of a pose that has no outline, or one of more contours, or a
+///          hierarchy of more nodes, than the limits.
 BuiltShapes build_shapes(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,
                          double threshold, const ShapeSetPlan& plan = {}, const CostLimits& limits = {});
 

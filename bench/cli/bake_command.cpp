@@ -8,12 +8,11 @@
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/options.hpp"
 #include "bench/base/output.hpp"
-#include "bench/base/threads.hpp"
 #include "bench/characters/baking.hpp"
 #include "bench/characters/characters.hpp"
 #include "bench/characters/cost_guard.hpp"
-#include "bench/cli/baked_report.hpp"
 #include "bench/cli/commands.hpp"
+#include "bench/cli/inspection.hpp"
 #include "layout/body/body_record.hpp"
 
 namespace bch::cli {

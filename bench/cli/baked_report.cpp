@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "bench/cli/baked_report.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>

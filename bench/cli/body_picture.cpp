@@ -8,7 +8,7 @@
 
 #include <bch/poses.hpp>
 
-#include "bench/base/placed_shape.hpp"
+#include "bench/base/svg.hpp"
 #include "bench/base/text.hpp"
 #include "bench/cli/inspection.hpp"
 

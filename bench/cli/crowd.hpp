@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <bch/bodies.hpp>
 #include <bch/body_set.hpp>
 #include <bch/crowd.hpp>
 #include <bch/pairs.hpp>
@@ -111,5 +112,32 @@ CrowdPicture picture_of(std::span<const Shape> shapes, const Crowd& crowd, const
 /// agent collides, only its cylinder does, or neither. They differ in lightness as much as in hue, so
 /// that they can be told apart with colour blindness and in grey print.
 std::string draw_crowd(const CrowdPicture& picture);
+
+/// Holds the milliseconds that frames took.
+struct FrameTimes {
+  std::vector<double> posing, queries;
+
+  std::vector<double> whole() const;
+};
+
+/// Holds everything that a run of `bch crowd --live` knows in the end. Pairs are those of the last frame, sorted.
+struct LiveRun {
+  const CrowdOptions& options;
+  std::span<const LoadedCharacter> characters;
+  const WalkingCrowd& crowd;
+  const LiveBodies& bodies;
+  FrameTimes times;
+  std::vector<Pair> candidates, collisions;
+  std::size_t checked;  ///< candidates that were compared with brute force
+  const char* implementation;
+  unsigned threads;
+};
+
+/// Poses all agents anew and finds who collides, frame after frame; the first one is not timed. Writes and prints what is asked for.
+/// Errors:  throws std::logic_error where answers differ from those of brute force.
+void run_live_crowd(const CrowdOptions& options);
+
+std::string text_report(const LiveRun& run);
+nlohmann::ordered_json json_report(const LiveRun& run);
 
 }  // namespace bch::cli

@@ -9,15 +9,14 @@
 #include <optional>
 
 #include "bench/base/exit_codes.hpp"
+#include "bench/base/options.hpp"
 #include "bench/base/output.hpp"
 #include "bench/base/text.hpp"
-#include "bench/base/threads.hpp"
 #include "bench/characters/body_models.hpp"
 #include "bench/characters/cost_guard.hpp"
-#include "bench/cli/baked_report.hpp"
 #include "bench/cli/commands.hpp"
 #include "bench/cli/crowd.hpp"
-#include "bench/cli/live.hpp"
+#include "bench/cli/inspection.hpp"
 
 namespace bch::cli {
 namespace {

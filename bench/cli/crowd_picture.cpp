@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "bench/base/disc_union_area.hpp"
-#include "bench/base/placed_shape.hpp"
+#include "bench/base/svg.hpp"
 #include "bench/base/text.hpp"
 
 namespace bch::cli {

@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
+#include <vector>
 
-#include "bench/base/placed_shape.hpp"
+#include "bench/base/svg.hpp"
+#include "bench/base/text.hpp"
 #include "bench/cli/inspection.hpp"
 
 namespace bch::cli {
@@ -84,6 +87,85 @@ std::string draw_shape(const LoadedCharacter& character, const ShapeFacts& facts
                   facts.outline_area));
   draw_scale(svg, width - panel_border, layout.bounds.scale(panel));
   for (std::size_t i = 0; i < panels; ++i) draw_panel(svg, layout, facts, i);
+  return std::move(svg).finish();
+}
+
+namespace {
+
+constexpr double border = 20, gap = 16, head = 80, large = 452;
+constexpr double width = 2 * border + 2 * large + gap;
+constexpr double label = 30;
+
+constexpr const char* css =
+    R"(.label { font-size: 13px; text-anchor: middle }
+.panel { fill: #f7f9fa; stroke: #d3dae0 }
+.outline { fill: #a9bccb; stroke: #3f566b; stroke-width: 1.1; stroke-linejoin: round }
+.discs { fill: #d55e00; fill-opacity: .13; stroke: #a84300; stroke-width: .8 }
+.ways { fill: none; stroke: #1c2733; stroke-opacity: .55; stroke-width: .8 }
+)";
+
+/// What is drawn.
+struct Drawing {
+  const AnimatedView& view;
+  Svg& svg;
+  const AnimatedShape shape;
+  const AnimatedChunk& chunk;  ///< that of the time
+  Bounds at_time;
+
+  Drawing(const AnimatedView& what, Svg& on)
+      : view(what), svg(on), shape(what.discs), chunk(chunk_at(what.discs, what.seconds)) {
+    for (const Disc& disc : chunk.keys) at_time.add(disc);
+  }
+};
+
+void draw_discs_at(Svg& svg, const AnimatedShape& shape, const Placement& placement, double seconds) {
+  std::vector<PixelDisc> discs;
+  for (const Disc& disc : shape.discs(seconds)) discs.push_back(placed(placement, disc));
+  draw_discs(svg, discs);
+}
+
+void draw_moment(const Drawing& drawing, Pixel corner) {
+  Svg& svg = drawing.svg;
+  const double seconds = drawing.view.seconds;
+  const Placement placement = drawing.at_time.placement(corner, large);
+  svg.rectangle(corner, large, large, "panel");
+  if (drawing.view.outline != nullptr)
+    svg.group({}, "outline", [&] { draw_outline(svg, placement, *drawing.view.outline); });
+  svg.group({}, "discs", [&] { draw_discs_at(svg, drawing.shape, placement, seconds); });
+  svg.text({corner.x + large / 2, corner.y + large + 20}, "label",
+           fmt::format("{:.3f} s: {}{}", seconds, counted(drawing.chunk.disc_count, "disc"),
+                       drawing.view.outline != nullptr ? " on the body" : ""));
+}
+
+/// The way of each centre from key to key of the chunk.
+void draw_ways(const Drawing& drawing, Pixel corner) {
+  Svg& svg = drawing.svg;
+  const AnimatedChunk& chunk = drawing.chunk;
+  const Placement placement = drawing.at_time.placement(corner, large);
+  svg.rectangle(corner, large, large, "panel");
+  svg.open_group({}, "ways");
+  const auto centre = [&](std::size_t key, std::size_t disc) {
+    const Disc& at = chunk.keys[key * chunk.disc_count + disc];
+    return placement(Vec2{at.x, at.y});
+  };
+  for (std::size_t key = 1; key < chunk.times.size(); ++key)
+    for (std::size_t disc = 0; disc < chunk.disc_count; ++disc)
+      svg.line(centre(key - 1, disc), centre(key, disc));
+  svg.close_group();
+  svg.text({corner.x + large / 2, corner.y + large + 20}, "label",
+           fmt::format("keys at {:.3f} s: the ways of the discs", fmt::join(chunk.times, ", ")));
+}
+
+}  // namespace
+
+std::string draw_animated(const AnimatedView& view) {
+  const std::string title = fmt::format("{}, {} as moving discs", view.character, view.clip);
+  Svg svg(width, head + large + label + border, title, css);
+  const Drawing drawing(view, svg);
+  svg.text({border, 38}, "title", title);
+  svg.text({border, 62}, "caption", text_of(facts_of(view.discs)) + ".");
+  draw_moment(drawing, {border, head});
+  draw_ways(drawing, {border + large + gap, head});
   return std::move(svg).finish();
 }
 

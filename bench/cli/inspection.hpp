@@ -11,7 +11,9 @@
 #include <vector>
 
 #include <bch/bodies.hpp>
+#include <bch/files.hpp>
 
+#include "bench/base/options.hpp"
 #include "bench/characters/shape_table.hpp"
 
 namespace bch::cli {
@@ -106,8 +108,32 @@ const AnimatedChunk& chunk_at(const AnimatedDiscs& discs, double seconds);
 std::string text_of(const AnimatedView& view);
 nlohmann::ordered_json json_of(const AnimatedView& view);
 
-/// Draws the discs at the time on the body's outline and, from key to key, the ways of the discs; what they
-/// cover at times all over the clip; and the keys and discs of its chunks along the time.
+/// Draws the discs at the time on the body's outline and, from key to key, the ways of the discs.
 std::string draw_animated(const AnimatedView& view);
+
+/// Loads a file that a user named.
+/// Errors:  throws BakedFileError; InputError where memory does not suffice.
+BakedShapes open_baked(const std::string& file);
+
+/// Loads a file that has to answer in a certain way.
+/// Errors:  throws InputError as well where the file has no shapes, or exact leaves are asked for of a set without them.
+BakedShapes load_baked_for(const std::string& file, const AnswerOptions& answer);
+
+/// Returns the models of bodies of a baked file.
+/// Errors:  throws InputError naming the model that body_model() refuses.
+std::vector<BodyModel> models_of(const std::string& file, const BakedShapes& baked);
+
+/// Describes a baked file for people.
+/// Errors:  as models_of() throws, here and below.
+std::string text_of(const std::string& file, const BakedShapes& baked);
+/// Describes what verify() checked, after it found no error.
+std::string verified_text(const ShapeSet& set);
+/// Lists the shapes of a baked file, one a line.
+std::string table_text(const BakedShapes& baked);
+/// Describes a baked file and its shapes as JSON.
+nlohmann::ordered_json json_of(const std::string& file, const BakedShapes& baked);
+
+/// Returns the name of a clip of a baked file; empty where it has none.
+std::string clip_name(const ShapeOrigins& origins, const BakedClip& clip);
 
 }  // namespace bch::cli

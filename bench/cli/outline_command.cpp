@@ -9,9 +9,9 @@
 #include <bch/outline_builder.hpp>
 
 #include "bench/base/exit_codes.hpp"
-#include "bench/base/number.hpp"
 #include "bench/base/options.hpp"
 #include "bench/base/output.hpp"
+#include "bench/base/text.hpp"
 #include "bench/characters/shape_table.hpp"
 #include "bench/cli/commands.hpp"
 

@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <array>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
@@ -26,29 +25,20 @@ struct PlaceOptions {
   std::string paths;      ///< a recording; empty: arcs
 };
 
-/// The ways to keep people apart that are compared, in the order of rows.
-inline constexpr std::array spacings{bench::Spacing::bodies, bench::Spacing::cylinders,
-                                     bench::Spacing::paths};
-
-/// Holds a filled area, and what it took.
-struct TimedPlacement {
-  bench::Placement placement;
-  double seconds;
-};
-
 /// Holds everything that a run of `bch place` knows in the end.
 struct PlaceRun {
   const PlaceOptions& options;
   bench::PlacingOptions area;            ///< what is filled
   std::vector<std::string> assumptions;  ///< of what the file of paths does not say
   std::vector<bench::PlacedClip> clips;
-  double build_seconds;                    ///< of the moving bodies
-  std::vector<TimedPlacement> placements;  ///< as `spacings`
+  double build_seconds;  ///< of the moving bodies
+  bench::Placement placement;
+  double search_seconds;
 };
 
 std::string text_report(const PlaceRun& run);
 nlohmann::ordered_json json_report(const PlaceRun& run);
-/// Writes the people whose bodies are kept apart as a recording: id, time, x, y, stature, heading, character, clip,
+/// Writes the people as a recording: id, time, x, y, stature, heading, character, clip,
 /// clip_time.
 std::string csv_report(const PlaceRun& run);
 

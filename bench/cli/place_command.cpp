@@ -57,8 +57,7 @@ bench::PlacedClip placed_clip(const PlaceOptions& options, const detail::CastMem
           options.speed.value_or(speed_of(member, clip)),
           static_cast<double>(played.seconds),
           member.height,
-          AnimatedShape(discs),
-          AnimatedShape(bench::cylinder_of(discs))};
+          AnimatedShape(discs)};
 }
 
 /// Builds the bodies of all clips, each by a task of its own. Adds the notes of imports to a text.
@@ -93,7 +92,7 @@ void run_place(const PlaceOptions& options) {
   for (const std::string& file : {options.obstacles, options.paths})
     if (!file.empty()) inputs.push_back(file);
   require_outputs({{"--csv", options.csv}, {"--json", options.json}}, inputs);
-  PlaceRun run{options, options.placing, {}, {}, 0, {}};
+  PlaceRun run{options, options.placing, {}, {}, 0, {}, 0};
   bench::PlacingOptions& placing = run.area;
   GivenPaths given;
   if (!options.paths.empty()) {
@@ -110,17 +109,13 @@ void run_place(const PlaceOptions& options) {
   std::string notes;
   run.clips = clips_of(options, notes);
   run.build_seconds = watch.nanoseconds() * 1e-9;
-  Progress progress("placing people", std::size(spacings));
-  for (const bench::Spacing spacing : spacings) {
-    const bench::Stopwatch search(2);
-    try {
-      run.placements.push_back({bench::place(run.clips, spacing, placing), 0});
-    } catch (const std::invalid_argument& error) {
-      throw InputError(error.what());
-    }
-    run.placements.back().seconds = search.nanoseconds() * 1e-9;
-    progress.advance();
+  const bench::Stopwatch search(2);
+  try {
+    run.placement = bench::place(run.clips, placing);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(error.what());
   }
+  run.search_seconds = search.nanoseconds() * 1e-9;
   if (!options.csv.empty()) write_file(options.csv, csv_report(run));
   write_json(options.json, json_report(run));
   write_standard_output(text_report(run) + notes);
@@ -136,8 +131,6 @@ std::function<void()> add_place_command(CLI::App& program) {
       R"(People walk along arcs inside the area, from random positions and at random times of their clips.
 If a clip does not walk, they stand. A clip that is shorter than --seconds is played over and over,
 its end followed by its beginning. A candidate who would touch anybody at any time is left out.
-The table compares this with the cylinders of poses, and with discs of 0.25 m along whole paths, as
-people are often placed.
 With --paths each person of a recording is a candidate once, in random order, on his way from time 0
 on. A person whose way ends before --seconds stands there. The area is the rectangle of these ways.
 The file has to tell its times, or its frame rate, and columns that are named or those of a known format.

@@ -15,13 +15,8 @@
 namespace bch::cli {
 namespace {
 
-constexpr std::array names{"bodies", "cylinders", "paths"};
-constexpr std::array texts{"bodies, at every time", "cylinders of poses, at every time",
-                           "discs of 0.25 m along whole paths"};
-
-double per_square_metre(const PlaceRun& run, const TimedPlacement& timed) {
-  const bench::PlacingOptions& area = run.area;
-  return static_cast<double>(timed.placement.people.size()) / (area.width * area.depth);
+double per_square_metre(const PlaceRun& run) {
+  return static_cast<double>(run.placement.people.size()) / (run.area.width * run.area.depth);
 }
 
 nlohmann::ordered_json json_of(const PlaceRun& run, const bench::PlacedPerson& person) {
@@ -54,14 +49,9 @@ std::string text_report(const PlaceRun& run) {
     out += fact("clip", fmt::format("{}, {}: {:.2f} m/s, {:.0f} kB", clip.character, clip.name, clip.speed,
                                     static_cast<double>(clip.body.bytes()) / 1e3));
   out += fact("build", fmt::format("{:.1f} s for {}", run.build_seconds, counted(run.clips.size(), "clip"))) +
-         "\n";
-  out += fmt::format("{:<36} {:>6} {:>8} {:>10} {:>8}\n", "kept apart", "people", "per m2", "candidates",
-                     "seconds");
-  for (std::size_t k = 0; k < run.placements.size(); ++k) {
-    const TimedPlacement& timed = run.placements[k];
-    out += fmt::format("{:<36} {:>6} {:>8.2f} {:>10} {:>8.2f}\n", texts[k], timed.placement.people.size(),
-                       per_square_metre(run, timed), timed.placement.candidates, timed.seconds);
-  }
+         fact("people", fmt::format("{}, {:.2f} per m2, of {} in {:.2f} s", run.placement.people.size(),
+                                    per_square_metre(run), counted(run.placement.candidates, "candidate"),
+                                    run.search_seconds));
   return out;
 }
 
@@ -70,23 +60,19 @@ nlohmann::ordered_json json_report(const PlaceRun& run) {
   nlohmann::ordered_json json{{"width", area.width},     {"depth", area.depth},
                               {"seconds", area.seconds}, {"seed", area.seed},
                               {"tries", area.tries},     {"build_seconds", run.build_seconds}};
-  for (std::size_t k = 0; k < run.placements.size(); ++k) {
-    const TimedPlacement& timed = run.placements[k];
-    auto people = nlohmann::ordered_json::array();
-    for (const bench::PlacedPerson& person : timed.placement.people) people.push_back(json_of(run, person));
-    json["placements"].push_back({{"kept_apart", names[k]},
-                                  {"people", timed.placement.people.size()},
-                                  {"people_per_square_metre", per_square_metre(run, timed)},
-                                  {"candidates", timed.placement.candidates},
-                                  {"search_seconds", timed.seconds},
-                                  {"placed", people}});
-  }
+  json["people"] = run.placement.people.size();
+  json["people_per_square_metre"] = per_square_metre(run);
+  json["candidates"] = run.placement.candidates;
+  json["search_seconds"] = run.search_seconds;
+  json["placed"] = nlohmann::ordered_json::array();
+  for (const bench::PlacedPerson& person : run.placement.people)
+    json["placed"].push_back(json_of(run, person));
   return json;
 }
 
 std::string csv_report(const PlaceRun& run) {
   std::string out = "id,time,x,y,stature,heading,character,clip,clip_time\n";
-  const auto& people = run.placements.front().placement.people;
+  const auto& people = run.placement.people;
   const auto time_of = [&](std::uint64_t frame) { return static_cast<double>(frame) / run.options.fps; };
   for (std::uint64_t frame = 0; time_of(frame) <= run.area.seconds; ++frame) {
     const double time = time_of(frame);

@@ -18,14 +18,14 @@
 #include <bch/pairs.hpp>
 
 #include "bench/base/exit_codes.hpp"
-#include "bench/base/number.hpp"
+#include "bench/base/options.hpp"
 #include "bench/base/output.hpp"
-#include "bench/base/threads.hpp"
+#include "bench/base/text.hpp"
 #include "bench/base/wkt_input.hpp"
 #include "bench/characters/cost_guard.hpp"
 #include "bench/characters/shape_table.hpp"
-#include "bench/cli/baked_report.hpp"
 #include "bench/cli/commands.hpp"
+#include "bench/cli/inspection.hpp"
 #include "bench/cli/query.hpp"
 #include "kernel/broad_phase/pair_limit.hpp"
 #include "layout/base/mixed_hash.hpp"

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "bench/base/exit_codes.hpp"
-#include "bench/base/number.hpp"
+#include "bench/base/text.hpp"
 #include "bench/characters/shape_table.hpp"
 #include "bench/cli/query.hpp"
 

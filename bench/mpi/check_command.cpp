@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "bench/base/exit_codes.hpp"
+#include "bench/base/options.hpp"
 #include "bench/base/output.hpp"
-#include "bench/base/threads.hpp"
 #include "bench/mpi/crowd.hpp"
 #include "bench/recordings/recording_check.hpp"
 #include "kernel/distributed/agreement.hpp"

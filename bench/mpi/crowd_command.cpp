@@ -19,7 +19,6 @@
 #include "bench/base/median.hpp"
 #include "bench/base/options.hpp"
 #include "bench/base/output.hpp"
-#include "bench/base/threads.hpp"
 #include "bench/mpi/crowd.hpp"
 #include "kernel/distributed/agreement.hpp"
 #include "layout/base/random.hpp"

@@ -12,43 +12,16 @@
 #include <utility>
 
 #include "kernel/motion/path.hpp"
-#include "layout/base/plane_point.hpp"
 #include "layout/base/random.hpp"
 
 namespace bch::bench {
 namespace {
 
-using detail::PlanePoint;
-
 constexpr double key_step = 0.25;   // seconds between two keys of a path
 constexpr double fastest_turn = 1;  // radians a second
 constexpr int most_arcs = 10'000;   // drawn for a candidate until one stays inside
 
-double side_of(const PlanePoint& p, const PlanePoint& a, const PlanePoint& b) {
-  return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
-}
-
-bool cross(const PlanePoint& a, const PlanePoint& b, const PlanePoint& c, const PlanePoint& d) {
-  return side_of(c, a, b) * side_of(d, a, b) < 0 && side_of(a, c, d) * side_of(b, c, d) < 0;
-}
-
-/// Returns whether discs along two paths are apart.
-bool paths_are_apart(std::span<const PathKey> first, std::span<const PathKey> second) {
-  const auto point = [](const PathKey& key) { return PlanePoint{key.x, key.y}; };
-  constexpr double least = 4 * path_radius * path_radius;
-  for (std::size_t i = 1; i < first.size(); ++i) {
-    const PlanePoint a = point(first[i - 1]), b = point(first[i]);
-    for (std::size_t k = 1; k < second.size(); ++k) {
-      const PlanePoint c = point(second[k - 1]), d = point(second[k]);
-      if (cross(a, b, c, d) || squared_distance(a, c, d) < least || squared_distance(b, c, d) < least ||
-          squared_distance(c, a, b) < least || squared_distance(d, a, b) < least)
-        return false;
-    }
-  }
-  return true;
-}
-
-/// Draws candidates, the same ones for every spacing.
+/// Draws candidates.
 class Candidates {
  public:
   Candidates(std::span<const PlacedClip> clips, const PlacingOptions& options)
@@ -111,19 +84,12 @@ class Candidates {
 /// The people who have room by now.
 class Crowd {
  public:
-  Crowd(std::span<const PlacedClip> clips, Spacing spacing, const PlacingOptions& options)
-      : clips_(clips),
-        spacing_(spacing),
-        interval_{0, options.seconds},
-        obstacles_(options.obstacles),
-        path_disc_({{{{0, 1}, 1, {path_disc, path_disc}}}}) {}
+  Crowd(std::span<const PlacedClip> clips, const PlacingOptions& options)
+      : clips_(clips), interval_{0, options.seconds}, obstacles_(options.obstacles) {}
 
   bool has_room(const PlacedPerson& person) const {
     if (obstacles_ != nullptr && !is_clear(person)) return false;
-    if (spacing_ != Spacing::paths)
-      return free_until(motion_of(person), motions_, interval_) == std::numeric_limits<double>::infinity();
-    return std::ranges::all_of(
-        people_, [&](const PlacedPerson& other) { return paths_are_apart(person.path, other.path); });
+    return free_until(motion_of(person), motions_, interval_) == std::numeric_limits<double>::infinity();
   }
 
   void add(PlacedPerson person) {
@@ -135,14 +101,8 @@ class Crowd {
   std::vector<PlacedPerson> people() && { return std::move(people_); }
 
  private:
-  static constexpr Disc path_disc{0, 0, static_cast<float>(path_radius)};
-
   Motion motion_of(const PlacedPerson& person) const {
-    const PlacedClip& clip = clips_[person.clip];
-    const AnimatedShape& shape = spacing_ == Spacing::paths       ? path_disc_
-                                 : spacing_ == Spacing::cylinders ? clip.cylinder
-                                                                  : clip.body;
-    return {&shape, person.path, person.clip_begin};
+    return {&clips_[person.clip].body, person.path, person.clip_begin};
   }
 
   bool is_clear(const PlacedPerson& person) const {
@@ -153,10 +113,8 @@ class Crowd {
   }
 
   std::span<const PlacedClip> clips_;
-  Spacing spacing_;
   TimeInterval interval_;
   const ObstacleSet* obstacles_;
-  AnimatedShape path_disc_;
   std::vector<PlacedPerson> people_;
   std::vector<Motion> motions_;
 };
@@ -176,30 +134,9 @@ std::vector<PathKey> arc(const PathKey& begin, double speed, double turn, double
   return path;
 }
 
-AnimatedDiscs cylinder_of(const AnimatedDiscs& discs) {
-  AnimatedDiscs cylinder{{}, discs.loops, discs.heights};
-  for (const AnimatedChunk& chunk : discs.chunks) {
-    AnimatedChunk& one = cylinder.chunks.emplace_back();
-    one.times = chunk.times;
-    if (chunk.disc_count == 0) continue;
-    one.disc_count = 1;
-    for (std::size_t key = 0; key < chunk.times.size(); ++key) {
-      double radius = 0;
-      for (std::size_t i = 0; i < chunk.disc_count; ++i) {
-        const Disc& disc = chunk.keys[key * chunk.disc_count + i];
-        const double x = double{disc.x}, y = double{disc.y};
-        radius = std::max(radius, std::sqrt(x * x + y * y) + double{disc.radius});
-      }
-      one.keys.push_back(
-          {0, 0, std::nextafter(static_cast<float>(radius), std::numeric_limits<float>::infinity())});
-    }
-  }
-  return cylinder;
-}
-
-Placement place(std::span<const PlacedClip> clips, Spacing spacing, const PlacingOptions& options) {
+Placement place(std::span<const PlacedClip> clips, const PlacingOptions& options) {
   Candidates candidates(clips, options);
-  Crowd crowd(clips, spacing, options);
+  Crowd crowd(clips, options);
   Placement placement;
   for (std::uint32_t refused = 0; refused < options.tries; ++placement.candidates) {
     std::optional<PlacedPerson> person = candidates.next();

@@ -14,28 +14,14 @@
 
 namespace bch::bench {
 
-/// Represents a clip that people play on their way: the body as it moves, seen from above, and its pose's
-/// cylinder.
+/// Represents a clip that people play on their way: the body as it moves, seen from above.
 struct PlacedClip {
   std::string character, name;
   double speed;    ///< metres a second along +x; 0 where the clip does not walk straight on
   double seconds;  ///< of the clip
   double stature;  ///< metres, as the character walks; 0 where it does not
   AnimatedShape body;
-  AnimatedShape cylinder;  ///< about the agent's position, as large as the pose at each time asks
 };
-
-/// Returns the cylinder about the agent's position that holds moving discs at each time.
-AnimatedDiscs cylinder_of(const AnimatedDiscs& discs);
-
-/// Selects what two people must keep apart.
-enum class Spacing {
-  bodies,     ///< moving bodies, at every time
-  cylinders,  ///< the cylinders of their poses, at every time
-  paths,      ///< discs of `path_radius` along their whole paths, whenever they are there
-};
-/// The radius, in metres, of the discs that are put along whole paths for comparison.
-constexpr double path_radius = 0.25;
 
 /// Holds the keys of a path that is given, at least two; they begin at time 0.
 struct GivenPath {
@@ -67,10 +53,10 @@ struct Placement {
   std::uint64_t candidates = 0;  ///< who were tried
 };
 
-/// Fills an area by rejection sampling: candidates of random clips, phases and paths come in, the same ones for every spacing, and who
+/// Fills an area by rejection sampling: candidates of random clips, phases and paths come in, and who
 /// has contact with nobody and no obstacle stays.
 /// Errors:  throws std::invalid_argument where no arc of a clip fits into the area.
-Placement place(std::span<const PlacedClip> clips, Spacing spacing, const PlacingOptions& options);
+Placement place(std::span<const PlacedClip> clips, const PlacingOptions& options);
 
 /// Returns the keys, from time 0 on, of somebody who goes on at even speed and turns evenly, in metres and radians a second.
 std::vector<PathKey> arc(const PathKey& begin, double speed, double turn, double seconds);

@@ -7,12 +7,10 @@
 #include <cmath>
 #include <stdexcept>
 
-#include <bch/characters.hpp>
 #include <bch/outline.hpp>
 
 #include "bench/ratios/ratios.hpp"
 #include "bench/workload/build_stages.hpp"
-#include "bench/workload/mesh_detail.hpp"
 
 #ifdef BCH_HAS_CLIPPER
 #include <polyclipping/clipper.hpp>
@@ -20,9 +18,6 @@
 
 namespace bch::bench {
 namespace {
-
-constexpr std::size_t coarse_triangles = 1'000, triangles_in_memory = 1'000'000;
-constexpr int most_cuts = 3;
 
 /// A character, and the stages of its construction.
 struct Built {
@@ -94,25 +89,6 @@ Contender by_clipper(const Built& built) {
 
 #endif
 
-/// Adds the built-in man and a coarser one, both cut finer and finer: from 1 000 triangles to beyond 100 000.
-void add_growth(std::uint32_t most_poses) {
-  const Character man = default_male(), coarse = coarser(man, coarse_triangles);
-  for (int times = 0; times <= most_cuts; ++times)
-    for (const Character& base : {coarse, man}) {
-      const std::size_t triangles = base.triangles.size() << 2 * times;
-      // So that the memory of all poses stays below a gigabyte.
-      const auto poses =
-          static_cast<std::uint32_t>(std::clamp<std::size_t>(triangles_in_memory / triangles, 10, 100));
-      const auto n = static_cast<double>(triangles);
-      add_stages(fmt::format("growth/{}", triangles),
-                 [base, times, poses = std::min(poses, most_poses)] {
-                   return std::make_shared<Built>(finer(base, times), poses,
-                                                  detail::best_build_implementation());
-                 },
-                 {{"n_log_n", n * std::log(n)}});
-    }
-}
-
 }  // namespace
 
 void add_construction(Scene& scene) {
@@ -128,7 +104,6 @@ void add_construction(Scene& scene) {
         add(fmt::format("construction/{}/clipper", i), [built] { return by_clipper(built()); });
 #endif
     }
-  add_growth(scene.poses());
 }
 
 }  // namespace bch::bench

@@ -2,15 +2,17 @@
 // Copyright (c) 2026 the bch authors
 
 #include <fmt/format.h>
+#include <malloc.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <stdexcept>
+#include <string>
 
 #include <bch/crowd.hpp>
 
-#include "bench/base/peak_memory.hpp"
 #include "bench/ratios/ratios.hpp"
 #include "bench/workload/answer_checks.hpp"
 #include "layout/base/random.hpp"
@@ -21,6 +23,26 @@ namespace {
 
 constexpr std::uint32_t agents_at_once = 50'000;
 constexpr std::size_t pairs_at_once = 100'000;
+/// Returns a line of /proc/self/status that counts kilobytes, in bytes; see proc(5).
+std::size_t status_bytes(const std::string& name) {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with(name + ":")) return std::stoul(line.substr(name.size() + 1)) * 1024;
+  throw std::runtime_error("/proc/self/status has no " + name);
+}
+
+/// Returns how much more memory the process occupies at most while it makes a call than it did before. Where the
+/// system cannot reset the earlier peak, that peak counts: too much rather than too little.
+template <class Call>
+std::size_t peak_bytes(Call call) {
+  malloc_trim(0);  // or memory that was given back would be taken again unseen
+  std::ofstream("/proc/self/clear_refs") << "5\n";
+  const std::size_t begin = status_bytes("VmRSS");
+  call();
+  const std::size_t peak = status_bytes("VmHWM");
+  return peak > begin ? peak - begin : 0;
+}
+
 constexpr std::uint32_t few_agents = 10'000, many_agents = 1'000'000, small_crowds = 20;
 
 /// All pairs of a large crowd in one call, by so many threads.
@@ -84,11 +106,13 @@ struct Steps {
 
 /// Several small crowds, or a large one, checked after the first step, whose memory is told.
 Contender step_contender(Scene& scene, std::uint32_t agents, std::uint32_t crowds) {
-  const PeakMemory memory;
-  const auto steps = std::make_shared<Steps>(scene.set(), agents, crowds);
+  std::shared_ptr<Steps> steps;
   tbb::task_arena arena(2);
-  arena.execute([&] { steps->find_and_answer(); });
-  const double mebibytes = static_cast<double>(memory.bytes()) / (1024 * 1024);
+  const std::size_t bytes = peak_bytes([&] {
+    steps = std::make_shared<Steps>(scene.set(), agents, crowds);
+    arena.execute([&] { steps->find_and_answer(); });
+  });
+  const double mebibytes = static_cast<double>(bytes) / (1024 * 1024);
   arena.execute([&] { steps->check(scene.shapes()); });
   return {[steps] { steps->find_and_answer(); }, std::size_t{agents} * crowds, {{"MiB", mebibytes}}};
 }

@@ -70,10 +70,7 @@ int run(int argc, char** argv) {
   add_spheres(scene);
   add_obstacles(scene);
   add_sets(scene);
-  add_live(scene);
   add_construction(scene);
-  add_load(scene);
-  add_checks(scene);
   benchmark::RunSpecifiedBenchmarks();
   benchmark::ClearRegisteredBenchmarks();
   return any_wrong() ? cli::exit_internal : cli::exit_success;

@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "bench/workload/contender.hpp"
+#include "bench/workload/answer_checks.hpp"
 #include "bench/workload/scene.hpp"
 
 namespace bch::bench {
@@ -65,16 +65,8 @@ void add_bodies();
 void add_spheres(Scene& scene);
 /// obstacles/<query>: a crowd on a floor plan.
 void add_obstacles(Scene& scene);
-/// plans/<plan>/<bake|query>: sets by different plans.
+/// plans/<plan>/<bake|query>: sets by different plans; load/<map|read>: a baked file of the scene's poses.
 void add_sets(Scene& scene);
-/// live/<agents>/<depth>: frames of a crowd whose characters are all posed anew, on all threads.
-void add_live(Scene& scene);
-/// construction/<character>/<instruction set>/<stage>, construction/<character>/clipper; growth/<triangles>/<stage>:
-/// the built-in man with fewer and with more triangles.
+/// construction/<character>/<instruction set>/<stage>, construction/<character>/clipper.
 void add_construction(Scene& scene);
-/// load/<part>: a baked file of the scene's poses, in the file cache.
-void add_load(Scene& scene);
-/// check/<crowd>/<frames>/threads:2: whole recordings, in memory; an item is a person in a frame.
-void add_checks(Scene& scene);
-
 }  // namespace bch::bench

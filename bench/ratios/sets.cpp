@@ -1,16 +1,21 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
+#include <benchmark/benchmark.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <filesystem>
 #include <optional>
 #include <utility>
 
+#include <bch/files.hpp>
 #include <bch/poses.hpp>
 #include <bch/scene_plan.hpp>
 #include <bch/shapes.hpp>
 
+#include "bench/characters/baking.hpp"
 #include "bench/ratios/ratios.hpp"
 #include "bench/workload/answer_checks.hpp"
 
@@ -102,9 +107,27 @@ void add_plan(Scene& scene, const std::string& name, const SceneUse& use) {
   add(name + "/query", [planned, &scene] { return planned().query(scene); });
 }
 
+/// A file in the file cache, by either way.
+Contender load_contender(Scene& scene, FileAccess access) {
+  const auto file = std::filesystem::temp_directory_path() / fmt::format("bch_ratios_{}.bch", getpid());
+  cli::bake_file(file, scene.characters(), scene.sources(), double{leaf_threshold}, {});
+  const std::shared_ptr<const std::filesystem::path> kept(new std::filesystem::path(file),
+                                                          [](const std::filesystem::path* path) {
+                                                            std::error_code ignored;
+                                                            std::filesystem::remove(*path, ignored);
+                                                            delete path;
+                                                          });
+  return {[kept, access] { benchmark::DoNotOptimize(load_baked(*kept, access)); },
+          1,
+          {{"shapes", static_cast<double>(scene.sources().size())},
+           {"bytes", static_cast<double>(std::filesystem::file_size(file))}}};
+}
+
 }  // namespace
 
 void add_sets(Scene& scene) {
+  add("load/map", [&scene] { return load_contender(scene, FileAccess::map); });
+  add("load/read", [&scene] { return load_contender(scene, FileAccess::read); });
   add_plan(scene, "plans/single_cylinder", {.depth = always(0)});
   add_plan(scene, "plans/depth_3", {.depth = always(3)});
   add_plan(scene, "plans/depth_6", {.depth = always(6)});

@@ -9,7 +9,7 @@
 #include <numbers>
 
 #include "bench/base/exit_codes.hpp"
-#include "bench/base/number.hpp"
+#include "bench/base/text.hpp"
 #include "bench/base/wkt_input.hpp"
 #include "bench/characters/characters.hpp"
 #include "kernel/recordings/baked_cast.hpp"

@@ -12,7 +12,6 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "bench/base/printable.hpp"
 #include "bench/base/text.hpp"
 #include "bench/recordings/embedding.hpp"
 #include "layout/base/base64.hpp"

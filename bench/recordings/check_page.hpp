@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "bench/recordings/kept_frames.hpp"
-#include "bench/recordings/overlap_series.hpp"
 #include "bench/recordings/page_shapes.hpp"
 #include "kernel/recordings/check.hpp"
 

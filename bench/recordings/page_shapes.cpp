@@ -7,7 +7,7 @@
 #include <cmath>
 #include <span>
 
-#include "bench/base/printable.hpp"
+#include "bench/base/text.hpp"
 #include "bench/recordings/embedding.hpp"
 #include "layout/base/base64.hpp"
 

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "bench/base/streamed_file.hpp"
+#include "bench/base/output_file.hpp"
 
 namespace bch::cli {
 

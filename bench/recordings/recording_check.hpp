@@ -16,7 +16,7 @@
 
 #include "bench/base/options.hpp"
 #include "bench/base/output.hpp"
-#include "bench/base/streamed_file.hpp"
+#include "bench/base/output_file.hpp"
 #include "bench/recordings/parts.hpp"
 #include "kernel/recordings/check.hpp"
 

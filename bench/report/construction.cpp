@@ -8,10 +8,11 @@
 #include "bench/base/median.hpp"
 #include "bench/base/stopwatch.hpp"
 #include "bench/report/subjects.hpp"
+#include "bench/workload/answer_checks.hpp"
 #include "bench/workload/build_stages.hpp"
 #include "layout/enclosing_disc/enclosing_disc.hpp"
 
-// Construction time: figure 3, left, of the paper.
+// Construction time and query time: figure 3 of the paper.
 
 namespace bch::report {
 namespace {
@@ -74,36 +75,6 @@ std::string_view made_from(const Contestant& contestant) {
   return outlined ? "outline" : "triangles";
 }
 
-/// Makes flat shapes of a character's posed vertices: all that a set stores of a pose.
-class FlatShapes {
- public:
-  explicit FlatShapes(const Character& character)
-      : outline_builder_(character.triangles, character.vertices.size(), character.vertices) {}
-
-  void build(std::span<const Vec3> positions) {
-    outline_builder_.build(positions, shape_.outline);
-    hierarchy_builder_.contour(shape_.outline, 0.01f, SplitRule::centroid, shape_.hierarchy);
-    hierarchy_builder_.add_primitives(shape_.hierarchy);
-    prepared_.prepare(shape_, 0);
-  }
-
- private:
-  OutlineBuilder outline_builder_;
-  detail::HierarchyBuilder hierarchy_builder_;
-  Shape shape_;
-  PreparedShape prepared_{ShapeSetPlan{}};
-};
-
-/// Adds bodies, all the way from vertices to a flat shape.
-void add_flat_shapes(bench::Scene& scene, std::string_view name, Builds& builds) {
-  std::vector<FlatShapes> characters;
-  for (const auto& loaded : scene.characters()) characters.emplace_back(loaded.character);
-  time_each(builds.times, name, scene.bodies().size(), [&](std::size_t i) {
-    characters[scene.sources()[i].character].build(scene.bodies()[i].positions);
-  });
-  builds.add(name, "vertices", tree_size(scene.shapes()));
-}
-
 /// The stages of construction, over all characters.
 Table time_stages(Run& run) {
   std::vector<bench::BuildStages> characters;
@@ -111,7 +82,6 @@ Table time_stages(Run& run) {
     characters.emplace_back(loaded.character, run.sizes().poses, bch::detail::best_build_implementation());
   Table stages({"stage", "pose", "build (us)"});
   for (const bench::BuildStage& stage : bench::build_stages) {
-    if (stage.build == &bench::BuildStages::hierarchy_welzl) continue;  // a peer, not a stage of ours
     for (bench::BuildStages& build : characters)
       time_each(stages, stage.name, build.poses(), [&](std::size_t i) { (build.*stage.build)(i); });
   }
@@ -127,10 +97,47 @@ void run_construction(Run& run) {
     time_structure(builds.times, contestant, run.scene.bodies());
     builds.add(contestant.name, made_from(contestant), tree_size(contestant, run.scene.bodies()));
   }
-  add_flat_shapes(run.scene, "BCH whole body", builds);
   run.write("construction", builds.sizes);
   run.write("construction_times", builds.times);
   run.write("construction_stages", time_stages(run));
+}
+
+namespace {
+
+constexpr std::string_view paper_workloads[] = {"paper500", "paper500_cached", "colliding", "near_miss"};
+
+/// Against brute force, disc by disc.
+void require_right(Run& run, const Subject& kernel, const QueryOptions& query,
+                   const bench::Workload& workload) {
+  bench::require_right(kernel_name, workload,
+                       bench::wrong_kernel(run.scene, workload, query.leaves, answers(kernel, workload)));
+}
+
+}  // namespace
+
+void run_query_time(Run& run) {
+  const auto& bodies = run.scene.bodies();
+  const auto leaf_discs = baselines::kind("bch_projected").build(bodies, {.projected_triangles = false});
+  std::vector<Subject> subjects = {subject_of(kernel_name, run.scene.set()),
+                                   subject_of(exact_leaves_name, run.scene.set(), {})};
+  Structures structures(run.scene);
+  for (const Contestant& contestant : contestants()) {
+    subjects.push_back(subject_of(contestant.name, structures.of(contestant)));
+    const TreeSize size = subjects.back().size = tree_size(contestant, bodies);
+    if (contestant.kind != "bch_projected") continue;
+    subjects.push_back(subject_of("BCH projected leaf discs", *leaf_discs));
+    subjects.back().size = size;
+  }
+  SubjectTables tables(run);
+  tables.add(subjects);
+  for (const std::string_view name : paper_workloads) {
+    const bench::Workload& workload = run.scene.workload(name);
+    require_right(run, subjects[0], bench::disc_query, workload);
+    require_right(run, subjects[1], {}, workload);
+    for (const Contestant& contestant : contestants()) structures.require_right(contestant, workload);
+    tables.time_pairs(workload);
+  }
+  tables.write("query_time");
 }
 
 }  // namespace bch::report

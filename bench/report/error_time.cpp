@@ -5,7 +5,6 @@
 
 #include "bench/report/body_subjects.hpp"
 #include "bench/workload/answer_checks.hpp"
-#include "bench/workload/contender.hpp"
 
 // What does each microsecond buy? Every structure and depth as a point.
 

@@ -9,38 +9,21 @@
 #include "bench/base/stopwatch.hpp"
 #include "bench/report/subjects.hpp"
 #include "bench/workload/answer_checks.hpp"
-#include "bench/workload/contender.hpp"
 #include "bench/workload/mesh_detail.hpp"
 #include "layout/character/skinning.hpp"
-#include "layout/hierarchy/builder.hpp"
 
-// What a limit of the depth (figure 6, right, of the paper), the size of leaves and the detail of a mesh cost and give.
+// What a limit of the depth (figure 6, right, of the paper) and the detail of a mesh cost and give.
 
 namespace bch::report {
 namespace {
 
 constexpr std::uint32_t deepest = 12;
-constexpr double thresholds[] = {0.0025, 0.005, 0.01, 0.02, 0.04, 0.08};  // metres
-constexpr std::size_t few_triangles = 716;                                // a quarter of the man's
 
 /// Nodes of a shape down to a depth, on average.
 double nodes_to_depth(std::span<const Shape> shapes, std::uint32_t depth) {
   double sum = 0;  // a binary tree of so many leaves
   for (const Shape& shape : shapes) sum += 2 * static_cast<double>(cut(shape.hierarchy, depth).size()) - 1;
   return sum / static_cast<double>(shapes.size());
-}
-
-/// Returns the outlines with hierarchies of other leaves; adds what it took to build them.
-std::vector<Shape> with_threshold(std::vector<Shape> shapes, double threshold, Table& builds) {
-  detail::HierarchyBuilder builder;
-  for (const bool timed : {false, true})  // memory is there the second time
-    for (std::size_t i = 0; i < shapes.size(); ++i) {
-      const bench::Stopwatch watch(1);
-      builder.contour(shapes[i].outline, static_cast<float>(threshold), SplitRule::centroid,
-                      shapes[i].hierarchy);
-      if (timed) builds.add({100 * threshold, i, watch.nanoseconds() / 1000});
-    }
-  return shapes;
 }
 
 /// Builds trees over poses of a man, and asks them for pairs of these; the meshes decide which collide.
@@ -109,38 +92,11 @@ void run_depth(Run& run) {
   tables.write("depth");
 }
 
-void run_threshold(Run& run) {
-  Table builds({"threshold (cm)", "shape", "build (us)"});
-  std::deque<ShapeSet> sets;
-  std::deque<std::unique_ptr<baselines::Structure>> references;
-  std::vector<Subject> subjects;
-  for (const double threshold : thresholds) {
-    const std::vector<Shape> shapes = with_threshold(run.scene.shapes(), threshold, builds);
-    const ShapeSet& set = sets.emplace_back(shapes);
-    std::vector<baselines::Body> bodies(shapes.size());
-    for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i].shape = shapes[i];
-    const auto& plain = *references.emplace_back(baselines::kind("reference").build(bodies, {}));
-    Subject& subject = subjects.emplace_back(subject_of(kernel_name, set));
-    subject.tests = subject_of("BCH outline", plain).tests;  // the kernel counts none
-    subject.threshold = threshold, subject.size = tree_size(shapes);
-    subject.bytes = static_cast<double>(set.bytes()) / set.shape_count();
-  }
-  SubjectTables tables(run);
-  tables.add(subjects);
-  tables.time_pairs(run.scene.workload("colliding"));
-  tables.time_pairs(run.scene.workload("near_miss"));
-  tables.slide(SlideCases(run.scene.shapes(), run.sizes().cases, run.seed()),
-               *baselines::fcl_mesh_distances(run.scene.bodies()));
-  tables.write("threshold");
-  run.write("threshold_builds", builds);
-}
-
 void run_mesh_detail(Run& run) {
   Table builds({"triangles", "structure", "pose", "build (us)"});
   SubjectTables tables(run);
   const Character man = default_male();
-  const Character characters[] = {bench::coarser(man, few_triangles), man, bench::with_relief(man, 1),
-                                  bench::with_relief(man, 2)};
+  const Character characters[] = {man, bench::with_relief(man, 1), bench::with_relief(man, 2)};
   for (const Character& character : characters) {
     measure_detail(run, character, tables, builds);
   }

@@ -14,8 +14,7 @@
 #include "bch_commit.hpp"
 #include "bench/base/output.hpp"
 #include "bench/base/progress.hpp"
-#include "bench/stability/tables.hpp"
-#include "bench/workload/contender.hpp"
+#include "bench/workload/answer_checks.hpp"
 
 namespace bch::report {
 namespace {
@@ -26,16 +25,12 @@ constexpr Experiment all_experiments[] = {
     {"construction", run_construction},
     {"query_time", run_query_time},
     {"distance", run_distance, true},
-    {"real", run_real, true},
     {"depth", run_depth, true},
     {"volume", run_volume},
-    {"threshold", run_threshold, true},
     {"mesh_detail", run_mesh_detail},
     {"density", run_density},
     {"detail", run_detail},
-    {"motions", run_motions, true},
-    {"recordings", run_recordings},
-    {"simulated", run_simulated},
+    {"motions", run_motions},
     {"stability", run_stability},
 };
 
@@ -80,8 +75,6 @@ Table facts_of(const Options& options) {
       {"time", fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr)))},
       {"command", options.command},
       {"characters", fmt::format("{}", fmt::join(options.characters, ", "))},
-      {"real characters", options.real_characters.string()},
-      {"recordings", options.recordings.string()},
       {"seed", options.seed},
       {"poses of a character", sizes.poses},
       {"pairs of a workload", sizes.pairs},
@@ -89,41 +82,10 @@ Table facts_of(const Options& options) {
       {"cases of people who slide", sizes.cases},
       {"runs of what is timed", sizes.runs},
       {"people who are packed", sizes.people},
-      {"packings", sizes.packings},
-      {"radius of discs of simulators (m)", sizes.disc_radius}};
+      {"packings", sizes.packings}};
   Table table({"what", "value"});
   for (const auto& [what, value] : facts) table.add({what, value});
   return table;
-}
-
-std::vector<std::string> files_in(const std::filesystem::path& folder, std::string_view ending) {
-  std::vector<std::string> files;
-  std::error_code none;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, none))
-    if (entry.path().extension() == ending) files.push_back(entry.path().string());
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
-/// Files that are characters, in the order of their names: glTF files, and FBX files of the folder `native`, which its clips
-/// follow where they fit.
-std::vector<cli::LoadedCharacter> load_real_characters(const std::filesystem::path& folder) {
-  std::vector<cli::LoadedCharacter> loaded;
-  std::vector<std::string> native = files_in(folder / "native", ".fbx");
-  const auto clips = std::stable_partition(native.begin(), native.end(), [](const std::string& file) {
-    return !std::filesystem::path(file).filename().string().starts_with("clip_");
-  });
-  ImportOptions with_clips;
-  with_clips.clip_files.assign(clips, native.end());
-  for (const auto& file : files_in(folder, ".glb")) loaded.push_back(cli::load_character(file, {}));
-  for (auto file = native.begin(); file != clips; ++file) {
-    try {
-      loaded.push_back(cli::load_character(*file, with_clips));
-    } catch (const ImportError&) {  // another skeleton
-      loaded.push_back(cli::load_character(*file, {}));
-    }
-  }
-  return loaded;
 }
 
 }  // namespace
@@ -136,15 +98,6 @@ void Run::write(const std::string& name, const Table& table) const {
   cli::write_file(options.folder / (name + ".csv"), table.csv());
 }
 
-void run_stability(Run& run) {
-  run.write("stability", table_of(bench::stability_rows(run.sizes().contacts, run.seed())));
-  const std::uint32_t each = std::max(2u, run.sizes().cases / 5);
-  const bench::StiffReport stiff =
-      bench::stiff_contact({run.sizes().pressed, std::min(200u, run.sizes().people), each, each});
-  run.write("stiff_press", press_table(stiff));
-  run.write("stiff_touch", touch_table(stiff));
-}
-
 void run_report(const Options& options) {
   bench::Scene scene({.characters = options.characters,
                       .poses = options.sizes.poses,
@@ -153,10 +106,6 @@ void run_report(const Options& options) {
                       .draft_models = options.sizes.drafts});
   // First, as a bad file should neither cost minutes nor leave files, and an import wants a process without threads.
   scene.characters();
-  const bool has_real =
-      !options.real_characters.empty() && (wants(options, "real") || wants(options, "motions"));
-  const auto real =
-      has_real ? load_real_characters(options.real_characters) : std::vector<cli::LoadedCharacter>();
   cli::make_folder(options.folder);
   cli::write_file(options.folder / "run.csv", facts_of(options).csv());
 
@@ -168,7 +117,7 @@ void run_report(const Options& options) {
   cli::Progress progress("report", wanted.size());
   progress.show();
   for (const Experiment& experiment : wanted) {
-    Run run{options, scene, real};
+    Run run{options, scene};
     experiment.run(run);
     progress.advance();
   }

@@ -21,7 +21,7 @@ using bench::Cell;
 using bench::Table;
 using bench::unknown;
 
-/// Holds how much is measured, and of discs of which radius.
+/// Holds how much is measured.
 struct Sizes {
   std::uint32_t poses = 100;      ///< of a character
   std::uint32_t pairs = 20'000;   ///< of a workload
@@ -31,15 +31,12 @@ struct Sizes {
   std::uint32_t people = 1'000;   ///< that are packed
   std::uint32_t packings = 3;
   std::uint32_t contacts = 400;      ///< that are near, of a row of the stability tables
-  double pressed = 4;                ///< seconds of penalty forces
-  std::uint64_t rows = 1'000'000;    ///< of a recording; longer ones are left out
-  double disc_radius = 0.2;          ///< metres, of the discs that simulators move
   std::uint32_t most_spheres = 512;  ///< of a body
   bool drafts = false;               ///< models of spheres that nobody improved
 };
 constexpr Sizes full_sizes;
-constexpr Sizes quick_sizes{20, 2'000, 2'000, 100, 3, 200, 2, 40, 1, 20'000, 0.2, 256, true};
-constexpr Sizes smallest_sizes{2, 60, 80, 6, 1, 10, 1, 4, 0.1, 3'000, 0.2, 64, true};
+constexpr Sizes quick_sizes{20, 2'000, 2'000, 100, 3, 200, 2, 40, 256, true};
+constexpr Sizes smallest_sizes{2, 60, 80, 6, 1, 10, 1, 4, 64, true};
 
 /// Limits the poses of a character in experiments that take up to a hundred megabytes, or long, for these.
 constexpr std::uint32_t most_costly_poses = 40;
@@ -47,9 +44,7 @@ constexpr std::uint32_t most_costly_poses = 40;
 struct Options {
   std::filesystem::path folder;
   std::vector<std::string> characters = {"default:male", "default:female"};
-  std::filesystem::path real_characters;  ///< a folder of them; empty: none
-  std::filesystem::path recordings;       ///< a folder of those of the test data; empty: none
-  std::vector<std::string> experiments;   ///< none: all
+  std::vector<std::string> experiments;  ///< none: all
   Sizes sizes = full_sizes;
   std::uint64_t seed = 1;
   std::string command;  ///< that does all this again
@@ -59,7 +54,6 @@ struct Options {
 struct Run {
   const Options& options;
   bench::Scene& scene;
-  std::span<const cli::LoadedCharacter> real_characters;  ///< none where there is no folder of them
 
   const Sizes& sizes() const { return options.sizes; }
   std::uint64_t seed() const { return options.seed; }
@@ -81,16 +75,12 @@ void run_bodies(Run& run);
 void run_construction(Run& run);
 void run_query_time(Run& run);
 void run_distance(Run& run);
-void run_real(Run& run);
 void run_depth(Run& run);
 void run_volume(Run& run);
-void run_threshold(Run& run);
 void run_mesh_detail(Run& run);
 void run_density(Run& run);
 void run_detail(Run& run);
 void run_motions(Run& run);
-void run_recordings(Run& run);
-void run_simulated(Run& run);
 void run_stability(Run& run);
 
 /// Runs experiments, in the order of the page, and writes the tables of each, NAME*.csv, into the folder; and run.csv with machine,

@@ -27,9 +27,9 @@ import numpy as np
 KERNEL, EXACT = "BCH outline in the batch kernel", "BCH outline with exact leaves"
 TITLES = {  # of the experiments, in the order of the page
     "error_time": "Error against run time", "bodies": "Bodies in space", "construction": "Construction time", "query_time": "Query time",
-    "distance": "Distance at detection", "real": "Real characters", "depth": "Depth", "volume": "Represented volume",
-    "threshold": "Threshold", "mesh_detail": "Mesh detail", "density": "Crowd density", "detail": "Detail by density",
-    "motions": "Motions", "recordings": "Recorded people", "simulated": "Simulated people", "stability": "Stability"}
+    "distance": "Distance at detection", "depth": "Depth", "volume": "Represented volume",
+    "mesh_detail": "Mesh detail", "density": "Crowd density", "detail": "Detail by density",
+    "motions": "Motions", "stability": "Stability"}
 # What the paper reports: times of a pair (ns), distances at detection (cm), the critical depth, and table 1 with what the text says of the
 # meshes (mean, median, deviation), of its woman and its man.
 PAPER_TIMES = {"BCH outline": 2660, "OBB outline": 4630, "OBB projected": 20660}
@@ -257,22 +257,8 @@ def query_time(data, out):
 
 def distance(data, out):
     out["distance"] = data.subjects("distance")
-    slides, groups = data["distance_slides"].groups("subject"), Table()
-    for i, row in enumerate(out["distance"]):
+    for row in out["distance"]:
         row["the paper (cm)"] = PAPER_DISTANCES.get(row["structure"], math.nan)
-        apart = slides[i].column("distance (cm)")
-        for by in ("clips", "people") if row["structure"] in ("single cylinder", "BCH outline", "OBB outline") else ():
-            parts = collections.defaultdict(list)
-            for group, one in zip(data["distance_cases"].column(by), apart):
-                parts[group] += known([one])
-            groups += ({"structure": row["structure"], "by": by, "group": group, **data.mean(parts[group]),
-                        "median (cm)": quartiles(parts[group])[1], "cases": len(parts[group])} for group in sorted(parts))
-    out["distance_groups"] = groups
-
-
-def real(data, out):
-    facts = {row["character"]: row for row in data["real_characters"]}
-    out["real"] = Table({**facts[row["of"]], **row} for row in data.subjects("real"))
 
 
 def depth(data, out):
@@ -287,7 +273,7 @@ def depth(data, out):
 
 def volume(data, out):
     quantities = out["volume_paper"] = Table()
-    for character, rows in data["volume_paper"].groups("character").items():
+    for character, rows in data["volume"].groups("character").items():
         mesh = rows.column("mesh volume (m3)")
         by_mesh = rows[0]["height (m)"] / estimate(mesh, data.seed)[0]
         for quantity, values in {RADIUS: rows.column("radius (m)"),
@@ -299,20 +285,6 @@ def volume(data, out):
                 "character": character, "quantity": quantity, "paper (mean)": paper[0], "mean": mean,
                 "paper (median)": paper[1], "median": quartiles(values)[1], "paper (deviation)": paper[2],
                 "standard deviation": deviation, "mean (95 % low)": low, "mean (95 % high)": high, "poses": len(values)})
-    out["volume"] = Table()
-    for character, shapes in data["volume"].groups("character").items():
-        for structure, rows in shapes.groups("structure").items():
-            mean, deviation, low, high = estimate(rows.column("normalised volume"), data.seed)
-            alone, alone_deviation, *_ = estimate(rows.column("discs alone"), data.seed)
-            out["volume"].append({
-                "character": character, "structure": structure, "normalised volume": mean, "95 % low": low, "95 % high": high,
-                "median": quartiles(rows.column("normalised volume"))[1], "standard deviation": deviation,
-                "discs alone": alone, "deviation of that": alone_deviation})
-
-
-def threshold(data, out):
-    builds = data["threshold_builds"].groups("threshold (cm)")
-    out["threshold"] = Table({**row, **build_times(builds[row["threshold (cm)"]])} for row in data.subjects("threshold"))
 
 
 def mesh_detail(data, out):
@@ -325,9 +297,9 @@ def mesh_detail(data, out):
 
 def density(data, out):
     table = out["density"] = Table()
-    for (structure, free, people), rows in data["density"].groups("structure", "free", "people").items():
+    for (structure, people), rows in data["density"].groups("structure", "people").items():
         mean, _, low, high = estimate(rows.column("densest (people/m2)"), data.seed)
-        table.append({"structure": structure, "free": free, "densest (people/m2)": mean, "95 % low": low,
+        table.append({"structure": structure, "densest (people/m2)": mean, "95 % low": low,
                       "95 % high": high, "times the single cylinder's": mean / (table[0]["densest (people/m2)"]
                                                                                 if table else mean),
                       "people": people, "packings": len(rows)})
@@ -348,9 +320,8 @@ def detail(data, out):
 
 
 def motions(data, out):
-    out["motions_storage"], out["motions_late"] = data["motions_storage"], data["motions_late"]
     costs, table = data["motions_costs"], Table()
-    for rate, rows in data["motions_contacts"].groups("samples a second").items():
+    for rate, rows in data["motions"].groups("samples a second").items():
         touching = [row for row in rows if row["first contact (s)"] < math.inf]
         late = [1000 * (row["first sample that collides (s)"] - row["first contact (s)"]) for row in touching
                 if row["first sample that collides (s)"] < math.inf]
@@ -362,41 +333,6 @@ def motions(data, out):
                          for how, each in (("sampled", f"{rate:g} samples a second"), ("first contact", "first contact"))
                          for pairs in ("touching", "free")}})
     out["motions_contacts"] = table
-    out["motions_slide"] = data.subjects("motions")
-
-
-def overlaps(rows):
-    people, pairs = sum(rows.column("person-frames")), sum(rows.column("neighbours"))
-    return {"person-frames": people,
-            "in overlap (% of person-frames)": Share(sum(rows.column("in overlap (person-frames)")), people),
-            "neighbours": pairs, "in overlap (% of neighbours)": Share(sum(rows.column("in overlap (neighbours)")), pairs)}
-
-
-def recordings(data, out):
-    rows, taken = data["recordings"], data["recordings_times"].groups("recording", "structure")
-    out["recordings"] = Table(
-        {"recording": recording, "made by": by, "structure": structure, **overlaps(of),
-         "ns/pair": quartiles(taken[recording, structure].column("ns/pair"))[1]}
-        for (recording, by, structure), of in rows.groups("recording", "made by", "structure").items())
-    everybody = [{**row, "recording": "all of people"} for row in rows if row["made by"] == "people"]
-    columns = "recording", "structure", "from people per m2"
-    out["recordings_density"] = Table(
-        {**dict(zip(columns, of)), **overlaps(parts)} for of, parts in Table(rows + everybody).groups(*columns).items()
-        if sum(parts.column("person-frames")))
-
-
-def simulated(data, out):
-    table = out["simulated"] = Table()
-    columns = "recording", "made by", "structure", "radius of discs (m)"
-    for of, rows in data["simulated"].groups(*columns).items():
-        near, people, two = (rows.where(counted=name)[0] for name in ("neighbours", "person-frames", "encounters"))
-        table.append({**dict(zip(columns, of)), "neighbours": near["all"],
-                      **{f"{what} (% of neighbours)": Share(near[what], near["all"])
-                         for what in ("both overlap", "bodies alone", "discs alone")},
-                      **{f"{what} (% of person-frames)": Share(people[what], people["all"])
-                         for what in ("bodies alone", "discs alone")},
-                      "people of whom two meet": two["all"], "bodies alone (of these)": two["bodies alone"],
-                      "discs alone (of these)": two["discs alone"], **key(near, "deepest while discs are clear (cm)")})
 
 
 def stability(data, out):
@@ -414,7 +350,6 @@ def stability(data, out):
             "outlines that meet": row["outlines meeting"], "outlines missed by bch": row["outline misses"]})
     out["stability_refused"] = Table({"case": f"{row['title']}: {row['value']}", "exception": row["refused"]}
                                      for row in data["stability"] if isinstance(row["refused"], str))
-    out["stiff_press"], out["stiff_touch"] = data["stiff_press"], data["stiff_touch"]
 
 
 def summarised(data):
@@ -621,42 +556,9 @@ def draw_volume_paper(data, out):
     legend(ax, 3)
 
 
-@draws("volume", "Our own addition: volume as a share of the pose's single cylinder, mean and standard deviation over poses.")
-def draw_volume(data, out):
-    ax = chart("", "share of the single cylinder's volume")
-    characters = out["volume"].groups("character")
-    for i, (character, rows) in enumerate(characters.items()):
-        places = [x + 0.2 * (i - (len(characters) - 1) / 2) for x in range(len(rows))]
-        ax.errorbar(places, rows.column("normalised volume"), rows.column("standard deviation"), label=character, elinewidth=1,
-                    **style(i + 1, linestyle="none"))
-    ax.set_xticks(range(len(rows)), rows.column("structure"), rotation=30, ha="right")
-    ax.set_ylim(0)
-    legend(ax)
-
-
 def number_ticks(axis, values):
     axis.set_ticks(values, [brief(value) for value in values], minor=False)
     axis.set_minor_locator(matplotlib.ticker.NullLocator())
-
-
-@draws("threshold_cost", "Times of a pair and of building a hierarchy, and size of a shape, each as a multiple of that at 1 cm.", True)
-@draws("threshold_distance", "Mean distance at detection, with its 95 % interval, against the threshold.")
-def draw_threshold(data, out, cost=False):
-    rows = out["threshold"]
-    ax = chart("threshold (cm)", "times the value at 1 cm" if cost else "mean distance at detection (cm)", xscale="log",
-               yscale="log" if cost else "linear")
-    at1 = rows.where(**{"threshold (cm)": 1})[0]
-    for i, (column, label) in enumerate({"nodes a shape": "nodes", "bytes a shape": "bytes", "build (us)": "building",
-                                         "colliding (ns/pair)": "colliding pair", "near miss (ns/pair)": "near miss"}.items()):
-        if cost:
-            ax.plot(rows.column("threshold (cm)"), [row[column] / at1[column] for row in rows], label=label, **style(i))
-    if cost:
-        number_ticks(ax.yaxis, (0.1, 0.2, 0.5, 1, 2, 5))
-    else:
-        series(ax, rows, "threshold (cm)", "mean (cm)", None, "mean", **style(1))
-        ax.set_ylim(0)
-    number_ticks(ax.xaxis, rows.column("threshold (cm)"))
-    legend(ax, 3)
 
 
 @draws("mesh_detail_build", "Time to build a pose's structure; the outline's hierarchy with the outline.", True)
@@ -676,9 +578,9 @@ def draw_mesh_detail(data, out, build=False):
 
 @draws("density", "Highest density without overlap: mean, and 95 % interval over packings.", wide=True)
 def draw_density(data, out):
-    rows, free = out["density"], {"places": "", "headings": ", turning", "headings and poses": ", posing, too"}
+    rows = out["density"]
     dots(chart("people per square metre", "", (13, 4.8), xlim=(0, 1.08 * max(rows.column("95 % high")))),
-         [row["structure"] + free[row["free"]] for row in rows],
+         rows.column("structure"),
          *(rows.column(name) for name in ("densest (people/m2)", "95 % low", "95 % high")))
 
 
@@ -688,20 +590,6 @@ def draw_detail(data, out, column, label, spread_of):
     ax = chart("people per square metre", label, yscale="linear" if spread_of else "log")
     for i, (kind, rows) in enumerate(out["detail"].groups("detail").items()):
         series(ax, [row for row in rows if row[column] > 0], "people per m2", column, kind, spread_of, **style(i))
-    legend(ax, 3)
-
-
-@draws("recordings_density", "The same against the density around them, all recordings of people together.", "from people per m2", "people per square metre, from", "-")
-@draws("recordings", "Neighbours who are called overlapping, and are not, against the time of a pair; a point for each recording of people.", "ns/pair", "pair of neighbours, one thread (ns)", "none")
-def draw_recordings(data, out, x, label, line):
-    ax = chart(label, "neighbours in overlap (%), who were not", xscale="log" if line == "none" else "linear")
-    rows = out["recordings"].where(**{"made by": "people"}) if line == "none" else \
-        out["recordings_density"].where(recording="all of people")
-    for i, (structure, of) in enumerate(rows.groups("structure").items()):
-        series(ax, of, x, "in overlap (% of neighbours)", structure, **style(i, linestyle=line))
-    if line == "none":
-        number_ticks(ax.xaxis, (5, 10, 20, 50, 100, 200))
-    ax.set_ylim(0)
     legend(ax, 3)
 
 
@@ -729,35 +617,6 @@ def draw_stability(data, out):
             ax.set_xlim(left=0 if min(places) == 0 else None)
         panels[0].set_ylabel(rows[0]["title"])
     legend(ax, 4)
-
-
-@draws("stiff_steps", "The largest time step up to which a simulation is stable, by the cut and the measure of depths.", wide=True)
-def draw_stiff_steps(data, out):
-    scenes = out["stiff_press"].groups("scene")
-    for ax, (scene, rows) in zip(chart("depth of the cut", "largest stable step (ms)", (13, 4.2), len(scenes)), scenes.items()):
-        ax.set_title(scene)
-        for i, (measure, of) in enumerate(rows.groups("depth from").items()):
-            ax.plot([depth_text(row["cut"]) for row in of], of.column("largest stable step (ms)"), label=measure, **style(i))
-        ax.axhline(rows[0]["2/omega (ms)"], color=COLOURS[7], linestyle="--", label="2 / omega of the springs")
-        ax.set_ylim(0)
-    legend(ax, 4)
-
-
-@draws("stiff_errors", "What a depth adds that is not there, by the cut and the measure of depths.", wide=True)
-def draw_stiff_errors(data, out):
-    panels = (("stiff_touch", "largest of these (mm)", "largest depth at the first touch (mm)"),
-              ("stiff_touch", "energy created (%)", "energy created by a bounce, mean (%)"),
-              ("stiff_press", "jitter (m/s)", "jitter of two agents at rest (m/s)"))
-    for ax, (table, column, title) in zip(chart("depth of the cut", "", (13, 4.2), 3, yscale="log"), panels):
-        ax.set_title(title)
-        rows = out[table].where(scene="two agents") if table == "stiff_press" else out[table]
-        for i, (measure, of) in enumerate(rows.groups("depth from").items()):
-            ax.plot([depth_text(row["cut"]) for row in of], of.column(column), label=measure, **style(i))
-    legend(ax, 3)
-
-
-def depth_text(cut):
-    return cut if isinstance(cut, str) else f"{cut:g}"
 
 
 def drawn(name, data, out):
@@ -858,14 +717,11 @@ def page(data, out, judged):
     def pick_most(table):
         return lambda column: max((row[column] for row in out[table] if not is_nan(row[column])), default=math.nan)
 
-    def of_experiment(name):
-        return (name, "stiff") if name == "stability" else name
-
     def tables(experiment):
-        return {name: rows for name, rows in out.items() if rows and name.startswith(of_experiment(experiment))}
+        return {name: rows for name, rows in out.items() if rows and name.startswith(experiment)}
 
     def figures(experiment):
-        return [name for name in FIGURES if name.startswith(of_experiment(experiment))] if tables(experiment) else []
+        return [name for name in FIGURES if name.startswith(experiment)] if tables(experiment) else []
 
     environment = jinja2.Environment(autoescape=True, finalize=shown, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined,
                                      loader=jinja2.FileSystemLoader(pathlib.Path(__file__).parent))

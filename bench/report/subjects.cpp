@@ -12,7 +12,6 @@
 #include "bench/base/stopwatch.hpp"
 #include "bench/base/text.hpp"
 #include "bench/workload/answer_checks.hpp"
-#include "bench/workload/contender.hpp"
 
 namespace bch::report {
 namespace {
@@ -152,8 +151,8 @@ bench::Hits answers(const Subject& subject, const bench::Workload& workload) {
 void SubjectTables::add(std::span<const Subject> subjects, const std::string& of) {
   subjects_ = subjects, first_ = count_;
   for (const Subject& s : subjects)
-    subjects_table_.add({count_++, of, s.structure, cli::depth_name(s.depth), 100 * s.threshold, s.semantics,
-                         s.arithmetic, s.size.nodes, s.size.height, s.bytes});
+    subjects_table_.add({count_++, of, s.structure, cli::depth_name(s.depth), s.semantics, s.arithmetic,
+                         s.size.nodes, s.size.height, s.bytes});
 }
 
 void SubjectTables::count_pairs(const bench::Workload& workload) {

@@ -50,7 +50,6 @@ struct Subject {
   Answer answer;
   std::function<MeanTests(const bench::Workload&)> tests;  ///< over its first pairs
   std::string semantics = "boundary", arithmetic = "single";
-  double threshold = unknown;  ///< of leaves, metres
   TreeSize size = {};
   double bytes = unknown;  ///< of a shape
 };
@@ -89,8 +88,8 @@ class SubjectTables {
   std::span<const Subject> subjects_;
   std::size_t first_ = 0, count_ = 0;
   bool has_pairs_ = false, has_slides_ = false;
-  Table subjects_table_{{"subject", "of", "structure", "depth", "threshold (cm)", "semantics", "arithmetic",
-                         "nodes a shape", "height", "bytes a shape"}};
+  Table subjects_table_{{"subject", "of", "structure", "depth", "semantics", "arithmetic", "nodes a shape",
+                         "height", "bytes a shape"}};
   Table pairs_{{"subject", "pairs", "asked", "hits", "node tests a pair", "leaf tests a pair"}};
   Table times_{{"subject", "pairs", "run", "ns/pair"}};
   Table slides_{{"subject", "case", "place (m)", "distance (cm)"}};

@@ -17,13 +17,11 @@
 #include "layout/character/skinning.hpp"
 #include "layout/enclosing_disc/enclosing_disc.hpp"
 
-// Represented volume: figure 7 and table 1 of the paper, in its own terms; and what cuts over the outline
-// cover. All shapes are cylinders over the ground, so that their volumes are to each other as their areas are.
+// Represented volume: figure 7 and table 1 of the paper, in its own terms. All shapes are cylinders over the ground, so that their volumes are to each other as their areas are.
 
 namespace bch::report {
 namespace {
 
-constexpr std::uint32_t volume_depths[] = {0, 3, 6, 9, all_depths};
 /// The page takes the built-in man and woman for the paper's two, and the bulky man for its man once more.
 constexpr const char *man = "default:male", *bulky_man = "default:bulky";
 
@@ -53,16 +51,6 @@ double enclosed_volume(std::span<const Vec3> positions,
   return volume / 6;
 }
 
-/// The area of a pose's single cylinder.
-double cylinder_of(const Shape& shape) {
-  const double radius = static_cast<double>(shape.hierarchy.nodes[0].disc.radius);
-  return std::numbers::pi * radius * radius;
-}
-
-std::string name_of_character(Run& run, std::size_t shape) {
-  return cli::file_name(run.scene.characters()[run.scene.sources()[shape].character]);
-}
-
 /// Adds, of each pose, the single cylinder, the area of the leaf discs over all projected triangles, and the volume of the mesh.
 void add_paper_volumes(const cli::LoadedCharacter& loaded, std::span<const ShapeSource> poses, Table& table) {
   const Character& character = loaded.character;
@@ -86,7 +74,9 @@ void add_paper_volumes(const cli::LoadedCharacter& loaded, std::span<const Shape
                volumes[i]});
 }
 
-void measure_paper_volumes(Run& run) {
+}  // namespace
+
+void run_volume(Run& run) {
   Table table({"character", "pose", "height (m)", "radius (m)", "leaf discs (m2)", "mesh volume (m3)"});
   const auto& characters = run.scene.characters();
   for (std::uint32_t c = 0; c < characters.size(); ++c) {
@@ -102,46 +92,6 @@ void measure_paper_volumes(Run& run) {
     const std::vector<cli::LoadedCharacter> bulky = {cli::load_character(bulky_man, {})};
     add_paper_volumes(bulky[0], cli::list_random_shapes(bulky, run.sizes().poses, run.seed()), table);
   }
-  run.write("volume_paper", table);
-}
-
-/// What is covered with the inside of the outline, and by discs alone.
-struct Areas {
-  double covered, discs;
-};
-
-/// Adds the areas of every shape as shares of the pose's single cylinder.
-template <class AreasOf>
-void add_areas(Run& run, const std::string& structure, AreasOf areas_of, Table& table) {
-  const std::vector<Shape>& shapes = run.scene.shapes();
-  std::vector<Areas> areas(shapes.size());
-  tbb::parallel_for(std::size_t{0}, shapes.size(), [&](std::size_t i) { areas[i] = areas_of(shapes[i]); });
-  for (std::size_t i = 0; i < shapes.size(); ++i) {
-    const double cylinder = cylinder_of(shapes[i]);
-    table.add(
-        {name_of_character(run, i), structure, i, areas[i].covered / cylinder, areas[i].discs / cylinder});
-  }
-}
-
-Areas areas_of_cut(const Shape& shape, std::uint32_t depth) {
-  const std::vector<Disc> discs = cli::discs_of(shape.hierarchy, depth);
-  return {cli::covered_area(shape.outline, discs), cli::union_area(discs)};
-}
-
-}  // namespace
-
-void run_volume(Run& run) {
-  measure_paper_volumes(run);
-  Table table({"character", "structure", "shape", "normalised volume", "discs alone"});
-  for (const std::uint32_t depth : volume_depths)
-    add_areas(
-        run, cut_name(depth), [depth](const Shape& shape) { return areas_of_cut(shape, depth); }, table);
-  add_areas(
-      run, "outline",
-      [](const Shape& shape) {
-        return Areas{area(shape.outline), unknown};
-      },
-      table);
   run.write("volume", table);
 }
 

@@ -233,10 +233,6 @@ std::vector<StabilityRow> stability_rows(std::uint32_t pairs, std::uint64_t seed
   return rows;
 }
 
-double largest_error(const Errors& errors) {
-  return std::max(errors.gap_per_reach, errors.miss_per_reach);
-}
-
 std::string broken_promise(const StabilityRow& row) {
   const std::string where = row.family + " " + row.value + ": ";
   if (row.outside) return row.refused.empty() ? where + "outside the domain, and answered" : "";

@@ -56,9 +56,6 @@ std::span<const StabilityFamily> stability_families();
 /// `pairs`: for every row, half of which go to outlines. Runs in the caller's TBB arena.
 std::vector<StabilityRow> stability_rows(std::uint32_t pairs, std::uint64_t seed = 1);
 
-/// Returns the larger of the two errors by reach: metres per metre of reach.
-double largest_error(const Errors& errors);
-
 /// Describes what is wrong with a row: a miss, a false positive beyond the documented gap, an answer outside
 /// the domain, none inside. Empty: nothing.
 std::string broken_promise(const StabilityRow& row);

@@ -8,8 +8,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "bench/workload/contender.hpp"
-
 namespace bch::bench {
 namespace {
 

@@ -3,8 +3,11 @@
 
 #pragma once
 
+#include <functional>
+#include <map>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "baselines/reference.hpp"
 #include "baselines/structure.hpp"
@@ -30,5 +33,18 @@ std::string wrong_answers(const baselines::Reference& reference, const Agents& a
 /// An exact structure that went down to max_depth only must not miss anything that it sees at all depths.
 std::string wrong_structure(Scene& scene, const Workload& workload, const baselines::Kind& kind,
                             const Hits& hits, std::uint32_t max_depth = all_depths);
+
+/// Represents something to be timed, whose answers were compared.
+struct Contender {
+  std::function<void()> call;
+  std::size_t items = 1;                        ///< of a call: pairs, agents or poses
+  std::map<std::string, double> counters = {};  ///< what else is worth telling
+};
+
+/// Checks that nothing is wrong: throws std::runtime_error if `wrong` is not empty.
+void require_right(std::string_view name, const Workload& workload, const std::string& wrong);
+
+/// Returns whether this build has the kind.
+bool has_kind(std::string_view kind);
 
 }  // namespace bch::bench

@@ -21,16 +21,10 @@
 namespace bch::bench {
 
 /// Runs the way of a character from poses to all that a set stores of shapes, stage by stage: each is made from
-/// what the one before it made of the same pose, with memory that is used again. What is made first is compared:
-///   outline, hierarchy, interior   by another instruction set, where the processor has two: the same bits
-///   hierarchy_welzl                its nodes are hierarchy's, and its discs within 1 um
-///   levels                         the discs of the deepest one are those of cut(); what is above them is not compared
-///   pose, all                      what the stages made one by one
-/// Skinning, profiles and supports are not compared: tests look at them.
+/// what the one before it made of the same pose, with memory that is used again.
 class BuildStages {
  public:
   /// Takes a character, which must outlive this.
-  /// Errors: throws std::runtime_error where a stage makes something else than what it is compared with.
   BuildStages(const Character& character, std::uint32_t poses,
               const detail::BuildImplementation& implementation);
 
@@ -41,8 +35,6 @@ class BuildStages {
   void skin(std::size_t pose);
   void outline(std::size_t pose);
   void hierarchy(std::size_t pose);
-  /// Builds the hierarchy with every disc by Welzl's algorithm as textbooks have it.
-  void hierarchy_welzl(std::size_t pose);
   /// Builds wide trees of four levels, how far they extend from the last profile's centre, and supports of
   /// the deepest.
   void levels(std::size_t pose);
@@ -55,10 +47,6 @@ class BuildStages {
   void all(std::size_t pose);
 
  private:
-  struct Unchecked {};
-  BuildStages(Unchecked, const Character& character, std::uint32_t poses,
-              const detail::BuildImplementation& implementation);
-  void check(std::size_t pose, const BuildStages& other);
   void look_inside(const Outline& outline, double reach);
   void make_hierarchy(std::size_t pose);
   void flatten(const Hierarchy& hierarchy, bool culling);
@@ -67,11 +55,10 @@ class BuildStages {
   std::vector<std::vector<Vec2>> positions_;
   std::vector<Outline> outlines_;
   std::vector<Hierarchy> hierarchies_;
-  std::vector<detail::Interior> interiors_;
 
   detail::Skinner skinner_;
   OutlineBuilder outline_builder_;
-  detail::HierarchyBuilder hierarchy_builder_, welzl_builder_;
+  detail::HierarchyBuilder hierarchy_builder_;
   detail::Flattener flattener_;
   detail::InteriorBuilder interior_builder_;
 
@@ -90,10 +77,13 @@ struct BuildStage {
   void (BuildStages::*build)(std::size_t pose);
 };
 constexpr BuildStage build_stages[] = {
-    {"skin", &BuildStages::skin},           {"outline", &BuildStages::outline},
-    {"hierarchy", &BuildStages::hierarchy}, {"hierarchy_welzl", &BuildStages::hierarchy_welzl},
-    {"levels", &BuildStages::levels},       {"interior", &BuildStages::interior},
-    {"pose", &BuildStages::pose},           {"all", &BuildStages::all},
+    {"skin", &BuildStages::skin},
+    {"outline", &BuildStages::outline},
+    {"hierarchy", &BuildStages::hierarchy},
+    {"levels", &BuildStages::levels},
+    {"interior", &BuildStages::interior},
+    {"pose", &BuildStages::pose},
+    {"all", &BuildStages::all},
 };
 
 }  // namespace bch::bench

@@ -76,46 +76,6 @@ Character cut_times(Character character, int times, double relief) {
   return character;
 }
 
-Triangles merged(const Character& character, float cell) {
-  std::map<std::array<float, 3>, std::uint32_t> first_in;
-  std::vector<std::uint32_t> merged_into;
-  for (std::uint32_t v = 0; v < character.vertices.size(); ++v) {
-    const Vec3& at = character.vertices[v];
-    const std::array<float, 3> place{std::floor(at.x / cell), std::floor(at.y / cell),
-                                     std::floor(at.z / cell)};
-    merged_into.push_back(first_in.insert({place, v}).first->second);
-  }
-  Triangles left;
-  for (const auto [a, b, c] : character.triangles) {
-    const std::array<std::uint32_t, 3> t{merged_into[a], merged_into[b], merged_into[c]};
-    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) left.push_back(t);
-  }
-  return left;
-}
-
-/// Keeps the vertices that triangles use.
-void drop_vertices(Character& character) {
-  constexpr std::uint32_t dropped = 0xffffffff;
-  std::vector<std::uint32_t> number(character.vertices.size(), dropped);
-  for (const auto& triangle : character.triangles)
-    for (const std::uint32_t v : triangle) number[v] = 0;
-  Character kept;
-  kept.influence_begin = {0};
-  for (std::uint32_t v = 0; v < number.size(); ++v) {
-    if (number[v] == dropped) continue;
-    number[v] = static_cast<std::uint32_t>(kept.vertices.size());
-    kept.vertices.push_back(character.vertices[v]);
-    kept.influences.insert(kept.influences.end(), character.influences.begin() + character.influence_begin[v],
-                           character.influences.begin() + character.influence_begin[v + 1]);
-    kept.influence_begin.push_back(static_cast<std::uint32_t>(kept.influences.size()));
-  }
-  for (auto& triangle : character.triangles)
-    for (std::uint32_t& v : triangle) v = number[v];
-  character.vertices = std::move(kept.vertices);
-  character.influences = std::move(kept.influences);
-  character.influence_begin = std::move(kept.influence_begin);
-}
-
 }  // namespace
 
 Character finer(const Character& character, int times) {
@@ -124,14 +84,6 @@ Character finer(const Character& character, int times) {
 
 Character with_relief(const Character& character, int times) {
   return cut_times(character, times, 0.125);
-}
-
-Character coarser(const Character& character, std::size_t most) {
-  Character result = character;
-  for (float cell = 0.001f; result.triangles.size() > most; cell *= 1.03f)
-    result.triangles = merged(character, cell);
-  drop_vertices(result);
-  return result;
 }
 
 }  // namespace bch::bench

@@ -18,8 +18,4 @@ Character finer(const Character& character, int times);
 /// normal. The result is the same for a character everywhere.
 Character with_relief(const Character& character, int times);
 
-/// Returns the character with its vertices merged by the cells of a grid, and without the triangles that this
-/// closes. The grid is the finest one that leaves no more triangles than `most`.
-Character coarser(const Character& character, std::size_t most);
-
 }  // namespace bch::bench

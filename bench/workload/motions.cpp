@@ -100,14 +100,6 @@ std::vector<AnimatedClip> animated_clips(std::span<const cli::LoadedCharacter> c
   return clips;
 }
 
-ShapeSet baked_poses(const AnimatedClip& clip, double per_second) {
-  PoseShaper shaper(*clip.character);
-  std::vector<Shape> poses;
-  for (double k = 0; k < std::floor(clip.seconds * per_second); ++k)
-    poses.push_back(shaper.shape({clip.clip, static_cast<float>(k / per_second)}));
-  return ShapeSet(poses, {.outlines = false, .culling = false});
-}
-
 MotionScene::MotionScene(std::span<const AnimatedClip> clips, std::uint32_t pairs, std::uint64_t seed)
     : clips_(clips) {
   detail::Random random(seed);

@@ -34,9 +34,6 @@ struct AnimatedClip {
 std::vector<AnimatedClip> animated_clips(std::span<const cli::LoadedCharacter> characters,
                                          std::string_view name, double most_seconds);
 
-/// Builds poses of a clip, so many a second, as sets hold them that answer by discs and without culling data.
-ShapeSet baked_poses(const AnimatedClip& clip, double per_second);
-
 /// Represents ten seconds of people who walk along arcs and play clips, and the pairs of them that come within a metre, having
 /// begun farther apart.
 class MotionScene {

@@ -4,7 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "bench/recordings/embedding.hpp"
-#include "bench/recordings/overlap_series.hpp"
+#include "bench/recordings/kept_frames.hpp"
 #include "bench/recordings/page_shapes.hpp"
 #include "layout/base/base64.hpp"
 #include "layout/base/random.hpp"

@@ -9,8 +9,7 @@
 #include <regex>
 
 #include "bench/base/csv_input.hpp"
-#include "bench/base/number.hpp"
-#include "bench/base/printable.hpp"
+#include "bench/base/text.hpp"
 #include "tests/support/bch_run.hpp"
 #include "tests/support/gltf_file.hpp"
 #include "tests/support/test.hpp"

@@ -9,7 +9,7 @@
 
 #include "bench/base/csv_input.hpp"
 #include "bench/base/exit_codes.hpp"
-#include "bench/base/printable.hpp"
+#include "bench/base/text.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/recordings/trajectory.hpp"
 #include "tests/fuzz/memory_file.hpp"

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "bench/stability/stability.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "bench/report/report.hpp"
+
+// Where tests of discs fail: hard cases, by exact arithmetic.
+
+namespace bch::report {
+namespace {
+
+using bench::Errors;
+using bench::StabilityRow;
+
+struct Test {
+  const char* key;
+  Errors StabilityRow::*errors;
+};
+constexpr Test tests[] = {{"float", &StabilityRow::plain_float},
+                          {"double", &StabilityRow::plain_double},
+                          {"bch", &StabilityRow::ours}};
+
+/// Returns a row for each value, with columns for all that was measured.
+Table table_of(std::span<const StabilityRow> rows) {
+  std::vector<Cell> columns = {"family", "title", "axis", "value", "conditioning", "pairs", "meeting"};
+  for (const Test& test : tests)
+    for (const char* column : {"misses", "false hits", "deepest miss (m)", "largest gap (m)",
+                               "deepest miss (m/m of reach)", "largest gap (m/m of reach)"})
+      columns.push_back(fmt::format("{}: {}", test.key, column));
+  columns.insert(columns.end(), {"outlines", "outlines meeting", "outline misses", "refused"});
+  Table table(columns);
+  for (const StabilityRow& row : rows) {
+    const auto family =
+        std::ranges::find(bench::stability_families(), row.family, &bench::StabilityFamily::name);
+    std::vector<Cell> cells = {row.family, family->title,    family->axis ? family->axis : "",
+                               row.value,  row.conditioning, row.pairs,
+                               row.meeting};
+    for (const Test& test : tests) {
+      const Errors& e = row.*test.errors;
+      cells.insert(cells.end(), {e.misses, e.false_positives, e.deepest_miss, e.largest_gap, e.miss_per_reach,
+                                 e.gap_per_reach});
+    }
+    cells.insert(cells.end(), {row.outlines, row.outlines_meeting, row.outline_misses, row.refused});
+    table.add(cells);
+  }
+  return table;
+}
+
+}  // namespace
+
+void run_stability(Run& run) {
+  const auto rows = bench::stability_rows(run.sizes().contacts, run.seed());
+  run.write("stability", table_of(rows));
+  for (const StabilityRow& row : rows)
+    if (const std::string broken = broken_promise(row); !broken.empty())
+      throw std::runtime_error("a promise is broken: " + broken);
+}
+
+}  // namespace bch::report
