@@ -450,11 +450,11 @@ def draw_families(ax, rows, x, y, missed):
     legend(ax)
 
 
+@draws("error_time_false_near", "The same against the time of a near miss.", "false", "near miss")
+@draws("error_time_false_crowd", "Share of near misses taken for collisions, against the time of a pair in a crowd; hollow: misses collisions.", "false", "crowd")
+@draws("error_time_distance_near", "The same against the time of a near miss.", "distance", "near miss")
 @draws("error_time_distance_crowd", "Mean distance of two meshes when a collision is reported, against the time of a pair in a crowd; "
        "hollow: misses collisions.", "distance", "crowd")
-@draws("error_time_distance_near", "The same against the time of a near miss.", "distance", "near miss")
-@draws("error_time_false_crowd", "Share of near misses taken for collisions, against the time of a pair in a crowd; hollow: misses collisions.", "false", "crowd")
-@draws("error_time_false_near", "The same against the time of a near miss.", "false", "near miss")
 def draw_error_time(data, out, name, pairs):
     ax = chart("time of a pair in a crowd, one thread (ns)" if pairs == "crowd" else "time of a near miss, one thread (ns)",
                "meshes still apart when reported (cm)" if name == "distance" else "near misses taken for collisions (%)", (5.8, 5.2), xscale="log")
@@ -464,11 +464,11 @@ def draw_error_time(data, out, name, pairs):
     number_ticks(ax.xaxis, (10, 100, 1000, 10000))
 
 
+@draws("bodies_live_slides", "How much earlier than the meshes people who slide towards each other are reported, likewise.", "frame (us an agent)", "earlier than meshes (mm)")
 @draws("bodies_live", "False hits in a crowd against what an agent costs in a frame in which everybody is posed anew, from the transforms of joints to "
        "answers; hollow: misses hits of the meshes.", "frame (us an agent)", "false hits (% of mesh hits)")
-@draws("bodies_live_slides", "How much earlier than the meshes people who slide towards each other are reported, likewise.", "frame (us an agent)", "earlier than meshes (mm)")
-@draws("bodies_crowd", "False hits in a crowd against the time of a pair; hollow: misses hits of the meshes.", "crowd (ns/pair)", "false hits (% of mesh hits)")
 @draws("bodies_crowd_slides", "How much earlier than the meshes people who slide towards each other are reported, likewise.", "crowd (ns/pair)", "earlier than meshes (mm)")
+@draws("bodies_crowd", "False hits in a crowd against the time of a pair; hollow: misses hits of the meshes.", "crowd (ns/pair)", "false hits (% of mesh hits)")
 def draw_bodies(data, out, time, error):
     ax = chart("time of an agent in a frame, one thread (µs)" if "frame" in time else "time of a pair in a crowd, one thread (ns)",
                error.replace("(% of mesh hits)", "in a crowd (% of the meshes')"), (5.8, 4.8), xscale="log")
