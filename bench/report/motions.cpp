@@ -10,7 +10,7 @@
 #include "bench/base/stopwatch.hpp"
 #include "bench/report/report.hpp"
 
-// Clips as moving discs, whose first contact is found at every real time, against samples of the nearest pose.
+// Clips as moving spheres, whose first contact is found at every real time, against samples of the nearest pose.
 
 namespace bch::report {
 namespace {

@@ -44,18 +44,18 @@ bool come_near(std::span<const PathKey> a, std::span<const PathKey> b) {
   return false;
 }
 
-/// Returns how far two bodies are from each other at a time, by clearance() of shapes made for that time.
+/// Returns how far two bodies are from each other at a time, by clearance() of their spheres at that time.
 double gap_at(const Motion& a, const Motion& b, double time) {
-  std::vector<Shape> shapes;
+  std::vector<std::vector<Sphere>> bodies;
   cli::Crowd crowd;
   for (const Motion* const each : {&a, &b}) {
     const PathKey key = at(each->path, time);
-    add_agent(crowd, static_cast<std::uint32_t>(shapes.size()), key.x, key.y, key.heading);
-    shapes.push_back(each->shape->shape(time - each->clip_begin));
+    add_agent(crowd, static_cast<std::uint32_t>(bodies.size()), key.x, key.y, key.heading);
+    bodies.push_back(each->shape->spheres(time - each->clip_begin));
   }
   constexpr Pair both{0, 1};
   float gap = 0;
-  clearance(ShapeSet(shapes), crowd.agents(), {&both, 1}, {.distance = {&gap, 1}});
+  clearance(BodySet(bodies), crowd.agents(), {&both, 1}, {.distance = {&gap, 1}});
   return double{gap};
 }
 
@@ -143,20 +143,14 @@ void MotionScene::check(std::uint32_t pairs) const {
   });
 }
 
-SampledMotions::SampledMotions(const MotionScene& scene, double samples_per_second, double poses_per_second,
-                               SampledAs as)
+SampledMotions::SampledMotions(const MotionScene& scene, double samples_per_second, double poses_per_second)
     : samples_per_second_(samples_per_second),
-      query_(as == SampledAs::bodies ? disc_query : QueryOptions()),
       samples_(static_cast<std::uint32_t>(MotionScene::seconds * samples_per_second) + 1) {
-  std::vector<Shape> poses;  // all of all clips
+  std::vector<std::vector<Sphere>> poses;  // all of all clips
   std::vector<std::uint32_t> first_pose{0};
   for (const AnimatedClip& clip : scene.clips()) {
-    PoseShaper shaper(*clip.character);
-    for (double k = 0; k <= std::floor(clip.seconds * poses_per_second); ++k) {
-      const double time = k / poses_per_second;
-      poses.push_back(as == SampledAs::bodies ? clip.shape.shape(time)
-                                              : shaper.shape({clip.clip, static_cast<float>(time)}));
-    }
+    for (double k = 0; k <= std::floor(clip.seconds * poses_per_second); ++k)
+      poses.push_back(clip.shape.spheres(k / poses_per_second));
     first_pose.push_back(static_cast<std::uint32_t>(poses.size()));
   }
   poses_.emplace(poses);
@@ -190,7 +184,7 @@ double SampledMotions::first_contact(const Pair& pair) const {
     };
     const cli::Crowd crowd{0, together(all_.shape), together(all_.x), together(all_.y),
                            together(all_.heading)};
-    collide(*poses_, crowd.agents(), std::span(pairs).first(count), std::span(hits).first(count), query_);
+    collide(*poses_, crowd.agents(), std::span(pairs).first(count), std::span(hits).first(count));
     const auto hit = std::find(hits.begin(), hits.begin() + count, 1);
     if (hit != hits.begin() + count)
       return (from + static_cast<double>(hit - hits.begin())) / samples_per_second_;

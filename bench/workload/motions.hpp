@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include <bch/body_set.hpp>
 #include <bch/motion.hpp>
 
 #include "bench/characters/characters.hpp"
@@ -41,7 +42,7 @@ class MotionScene {
   static constexpr double seconds = 10;
   static constexpr TimeInterval interval{0, seconds};
 
-  /// Takes clips, which must outlive this.
+  /// Takes clips of spheres, which must outlive this.
   MotionScene(std::span<const AnimatedClip> clips, std::uint32_t pairs, std::uint64_t seed);
 
   std::span<const AnimatedClip> clips() const { return clips_; }
@@ -67,25 +68,20 @@ class MotionScene {
   std::vector<double> contacts_;
 };
 
-/// Selects what is shown at a sample: the bodies that clips are, by their discs, or exact outlines of poses made for that time.
-enum class SampledAs { bodies, outlines };
-
-/// Samples the motions of a scene at even times, by the nearest of poses that are built beforehand: what is
+/// Samples the motions of a scene at even times, by the nearest of poses of their spheres that are built beforehand: what is
 /// asked without first_contact().
 class SampledMotions {
  public:
   /// Takes a scene, which must outlive this.
-  SampledMotions(const MotionScene& scene, double samples_per_second, double poses_per_second,
-                 SampledAs as = SampledAs::bodies);
+  SampledMotions(const MotionScene& scene, double samples_per_second, double poses_per_second);
 
   /// Returns the first sample at which two motions collide, or infinity. It asks collide() in batches of a tenth of a second.
   double first_contact(const Pair& pair) const;
 
  private:
   double samples_per_second_;
-  QueryOptions query_;
   std::uint32_t samples_;  ///< of a motion
-  std::optional<ShapeSet> poses_;
+  std::optional<BodySet> poses_;
   cli::Crowd all_;  ///< an agent a sample, motion by motion
 };
 

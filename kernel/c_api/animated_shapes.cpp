@@ -45,6 +45,8 @@ AnimatedDiscs discs_of(const bch_animated_arrays* given) {
   for (std::size_t i = 0; i < chunks; ++i) disc_keys += std::size_t{keys[i]} * discs[i];
   Cursor times(array_of(arrays.times, sum_of(keys), "arrays->times"));
   Cursor all(std::span<const Disc>(same_array<Disc>(arrays.discs, disc_keys, "arrays->discs")));
+  const std::size_t heights = arrays.z == nullptr ? 0 : disc_keys;
+  Cursor z(array_of(arrays.z, heights, "arrays->z"));
   AnimatedDiscs made;
   made.loops = arrays.loops != 0;
   made.chunks.resize(chunks);
@@ -55,6 +57,8 @@ AnimatedDiscs discs_of(const bch_animated_arrays* given) {
     chunk.times.assign(at.begin(), at.end());
     chunk.disc_count = discs[i];
     chunk.keys.assign(of.begin(), of.end());
+    const auto at_heights = z.take(heights == 0 ? 0 : of.size());
+    chunk.z.assign(at_heights.begin(), at_heights.end());
   }
   return made;
 }
@@ -64,6 +68,14 @@ BakedShapes& owned_by(const bch_shape_set* set) {
   const bch_shape_set& of = object_of(set, "set");
   if (!of.own) throw Failure(BCH_INVALID_ARGUMENT, "set is lent, and has no clips");
   return *of.own;
+}
+
+/// Returns a body that is asked for a time.
+const AnimatedShape& shape_at(const bch_animated_shape* shape, double seconds) {
+  const AnimatedShape& of = object_of(shape, "shape").shape;
+  if (!detail::is_finite(seconds))
+    throw Failure(BCH_INVALID_ARGUMENT, "seconds is " + detail::shortest(seconds));
+  return of;
 }
 
 /// Adds a name.
@@ -119,11 +131,18 @@ bch_status bch_animated_shape_get_info(const bch_animated_shape* handle, bch_ani
 bch_status bch_animated_shape_get_discs(const bch_animated_shape* shape, double seconds, bch_disc* discs,
                                         size_t capacity, size_t* count) {
   return guarded([&] {
-    const AnimatedShape& of = object_of(shape, "shape").shape;
-    if (!detail::is_finite(seconds))
-      throw Failure(BCH_INVALID_ARGUMENT, "seconds is " + detail::shortest(seconds));
-    const std::vector<Disc> all = of.discs(seconds);
+    const std::vector<Disc> all = shape_at(shape, seconds).discs(seconds);
     const auto to = same_array<Disc>(discs, capacity, "discs");
+    required(count, "count") = all.size();
+    std::copy_n(all.begin(), std::min(to.size(), all.size()), to.begin());
+  });
+}
+
+bch_status bch_animated_shape_get_spheres(const bch_animated_shape* shape, double seconds,
+                                          bch_sphere* spheres, size_t capacity, size_t* count) {
+  return guarded([&] {
+    const std::vector<Sphere> all = shape_at(shape, seconds).spheres(seconds);
+    const auto to = same_array<Sphere>(spheres, capacity, "spheres");
     required(count, "count") = all.size();
     std::copy_n(all.begin(), std::min(to.size(), all.size()), to.begin());
   });

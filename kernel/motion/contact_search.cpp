@@ -17,14 +17,37 @@ namespace {
 
 /// The way of one body relative to another between two times.
 struct RelativeWay {
-  double x, y, way_x, way_y;
+  double x, y, z, way_x, way_y, way_z;
 
   RelativeWay(const PathKey& a, const PathKey& b, const PathKey& a_end, const PathKey& b_end)
-      : x(a.x - b.x), y(a.y - b.y), way_x(a_end.x - b_end.x - x), way_y(a_end.y - b_end.y - y) {}
+      : x(a.x - b.x),
+        y(a.y - b.y),
+        z(a.z - b.z),
+        way_x(a_end.x - b_end.x - x),
+        way_y(a_end.y - b_end.y - y),
+        way_z(a_end.z - b_end.z - z) {}
 
   double distance() const noexcept { return std::sqrt(x * x + y * y); }
 
-  /// Returns between which times, of 0 to 1, the distance is at most a radius; never, where there is none.
+  /// Returns between which times, of 0 to 1, the distance is at most a radius as seen from above, and the heights differ by at most a
+  /// height; never, where there is none.
+  std::pair<double, double> times_within(double radius, double height) const noexcept {
+    const auto [enter, leave] = times_within(radius);
+    const auto [from, to] = times_level(height);
+    const double first = std::max(enter, from), last = std::min(leave, to);
+    return first <= last ? std::pair(first, last) : std::pair(never, never);
+  }
+
+  /// Returns between which times, of 0 to 1, the heights differ by at most a height; never, where there is none.
+  std::pair<double, double> times_level(double height) const noexcept {
+    if (std::abs(z) <= height && std::abs(z + way_z) <= height) return {0, 1};
+    if (way_z == 0) return {never, never};
+    const double one = (-height - z) / way_z, other = (height - z) / way_z;
+    const double from = std::max(std::min(one, other), 0.0), to = std::min(std::max(one, other), 1.0);
+    return from <= to ? std::pair(from, to) : std::pair(never, never);
+  }
+
+  /// Returns between which times, of 0 to 1, the distance is at most a radius as seen from above; never, where there is none.
   std::pair<double, double> times_within(double radius) const noexcept {
     const double a = way_x * way_x + way_y * way_y, b = x * way_x + y * way_y,
                  c = x * x + y * y - radius * radius, across = x * way_y - y * way_x;
@@ -42,14 +65,17 @@ double ContactSearch::first(const MotionFacts& a, const MotionFacts& b, double f
   MovingBody body_a(a), body_b(b);
   a_ = &body_a, b_ = &body_b;
   limit_.begin();
-  const double reaches = a.tree->reach + b.tree->reach;
-  const double slack_of_places = position_rounding * (a.farthest + b.farthest) + root_rounding * reaches;
+  in_space_ = a.tree->in_space && b.tree->in_space;
+  const double reaches = a.tree->reach + b.tree->reach,
+               heights = in_space_ ? a.tree->height + b.tree->height : never;
+  const double slack_of_places =
+      position_rounding * (a.farthest + b.farthest) + root_rounding * (reaches + (in_space_ ? heights : 0));
   for (double time = from; time <= to;) {
     const double end = std::min(a_->path_end(time), b_->path_end(time));
     const double until = is_finite(end) ? end : to + 1;
     slack_ = slack_of_places + (a_->time_slack(time) + b_->time_slack(time));
     const RelativeWay way(a_->pose(time), b_->pose(time), a_->pose(until), b_->pose(until));
-    const auto [enter, leave] = way.times_within(reaches + slack_);
+    const auto [enter, leave] = way.times_within(reaches + slack_, heights + slack_);
     limit_.count(1);
     if (enter <= 1) {
       const double length = until - time,
@@ -123,9 +149,9 @@ double ContactSearch::first_between(double from, double end) {
 
 void ContactSearch::place(double from, double end) {
   const PathKey a = a_->pose(from), b = b_->pose(from), a_end = a_->pose(end), b_end = b_->pose(end);
-  nodes_a_.place(*a_, {from, a.x - b.x, a.y - b.y, a.heading},
-                 {end, a_end.x - b_end.x, a_end.y - b_end.y, a_end.heading});
-  nodes_b_.place(*b_, {from, 0, 0, b.heading}, {end, 0, 0, b_end.heading});
+  nodes_a_.place(*a_, {from, a.x - b.x, a.y - b.y, a.heading, a.z - b.z},
+                 {end, a_end.x - b_end.x, a_end.y - b_end.y, a_end.heading, a_end.z - b_end.z}, in_space_);
+  nodes_b_.place(*b_, {from, 0, 0, b.heading}, {end, 0, 0, b_end.heading}, in_space_);
 }
 
 /// What may touch sooner is looked at first.

@@ -22,7 +22,7 @@ double share_between(double from, double to, double time) noexcept {
 MotionFacts::MotionFacts(const Motion& motion)
     : tree(&motion.shape->tree()), path(motion.path), clip_begin(motion.clip_begin) {
   for (std::size_t k = 0; k < path.size(); ++k) {
-    farthest = std::max({farthest, std::abs(path[k].x), std::abs(path[k].y)});
+    farthest = std::max({farthest, std::abs(path[k].x), std::abs(path[k].y), std::abs(path[k].z)});
     if (k == 0) continue;
     const PathKey &from = path[k - 1], &to = path[k];
     const double x = to.x - from.x, y = to.y - from.y, seconds = to.time - from.time;
@@ -44,17 +44,18 @@ double MovingBody::time_slack(double time) const noexcept {
                latest = std::max(std::abs(goes ? path[next_on_path_ - 1].time : time), std::abs(end)),
                of_clip = std::max(std::abs(tree().begin()), std::abs(tree().end()));
   const double rounding = time_rounding * (latest + 2 * std::abs(facts_->clip_begin) + 3 * of_clip),
-               of_discs = std::min(2 * tree().reach, rounding * tree().speed);
+               of_discs = std::min(2 * (tree().reach + tree().height), rounding * tree().speed);
   if (!goes) return of_discs;
   const PathKey &from = path[next_on_path_ - 1], &to = path[next_on_path_];
-  const double x = to.x - from.x, y = to.y - from.y, turn = std::abs(to.heading - from.heading);
+  const double x = to.x - from.x, y = to.y - from.y, z = to.z - from.z,
+               turn = std::abs(to.heading - from.heading);
   const double share = std::min(1.0, rounding / (to.time - from.time));
-  return of_discs + share * (std::sqrt(x * x + y * y) + turn * tree().reach);
+  return of_discs + share * (std::sqrt(x * x + y * y + z * z) + turn * tree().reach);
 }
 
 PathKey MovingBody::pose(double time) const noexcept {
   const auto& path = facts_->path;
-  const auto standing = [time](const PathKey& key) { return PathKey{time, key.x, key.y, key.heading}; };
+  const auto standing = [time](PathKey key) { return key.time = time, key; };
   if (next_on_path_ == 0) return standing(path.front());
   if (next_on_path_ == path.size()) return standing(path.back());
   return between_keys(path[next_on_path_ - 1], path[next_on_path_], time);

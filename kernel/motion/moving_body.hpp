@@ -21,7 +21,7 @@ struct MotionFacts {
   const AnimatedTree* tree;
   std::span<const PathKey> path;
   double clip_begin;
-  double path_speed = 0;  ///< the most in a second, metres
+  double path_speed = 0;  ///< the most in a second, as seen from above, metres
   double farthest = 0;    ///< the largest coordinate of a key
 
   /// Takes a motion that is valid.

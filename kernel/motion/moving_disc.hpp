@@ -8,10 +8,12 @@
 
 namespace bch::detail {
 
-/// Represents a disc that moves straight on for a time from 0 to 1: where it begins, and how far it comes.
+/// Represents a disc that moves straight on for a time from 0 to 1: where it begins, and how far it comes. Spheres have heights, which are
+/// the same of all discs.
 struct MovingDisc {
   double x, y, radius;
   double way_x, way_y, growth;
+  double z = 0, way_z = 0;
 };
 
 constexpr double never = std::numeric_limits<double>::infinity();
@@ -24,9 +26,10 @@ inline double first_overlap(const MovingDisc& one, const MovingDisc& other, doub
   const double x = one.x - other.x, y = one.y - other.y, r = one.radius + other.radius + room;
   const double way_x = one.way_x - other.way_x, way_y = one.way_y - other.way_y,
                growth = one.growth + other.growth;
-  const double c = x * x + y * y - r * r;
-  const double a = way_x * way_x + way_y * way_y - growth * growth;
-  const double b = x * way_x + y * way_y - r * growth;
+  const double z = one.z - other.z, way_z = one.way_z - other.way_z;
+  const double c = x * x + y * y + z * z - r * r;
+  const double a = way_x * way_x + way_y * way_y + way_z * way_z - growth * growth;
+  const double b = x * way_x + y * way_y + z * way_z - r * growth;
   const double square = b * b - a * c;
   const double divisor = std::sqrt(square > 0 ? square : 0) - b;
   // Choices of numbers alone, so that loops over discs are vectorised.

@@ -83,7 +83,7 @@ double ObstacleSearch::first_between(double from, double end) {
 
 void ObstacleSearch::place(double from, double end) {
   const PathKey a = body_->pose(from), b = body_->pose(end);
-  nodes_.place(*body_, {from, 0, 0, a.heading}, {end, b.x - a.x, b.y - a.y, b.heading});
+  nodes_.place(*body_, {from, 0, 0, a.heading}, {end, b.x - a.x, b.y - a.y, b.heading}, false);
   segments_.clear();
   for (const WorldSegment& s : found_) {
     const double x = s.ax - a.x, y = s.ay - a.y;

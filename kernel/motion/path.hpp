@@ -13,12 +13,13 @@ namespace bch::detail {
 inline PathKey between_keys(const PathKey& from, const PathKey& to, double time) noexcept {
   const double share = std::min((time - from.time) / (to.time - from.time), 1.0);
   const auto blend = [=](double a, double b) { return a + (b - a) * share; };
-  return {time, blend(from.x, to.x), blend(from.y, to.y), blend(from.heading, to.heading)};
+  return {time, blend(from.x, to.x), blend(from.y, to.y), blend(from.heading, to.heading),
+          blend(from.z, to.z)};
 }
 
 /// Returns whether two keys are one place.
 inline bool is_one_place(const PathKey& a, const PathKey& b) noexcept {
-  return a.x == b.x && a.y == b.y && a.heading == b.heading;
+  return a.x == b.x && a.y == b.y && a.z == b.z && a.heading == b.heading;
 }
 
 }  // namespace bch::detail

@@ -10,12 +10,13 @@
 
 namespace bch::detail {
 
-void PlacedNodes::place(const MovingBody& body, const PathKey& from, const PathKey& to) {
+void PlacedNodes::place(const MovingBody& body, const PathKey& from, const PathKey& to, bool in_space) {
   const std::size_t key = body.key();
   chunk_ = &body.chunk(), first_ = chunk_->key(key), last_ = chunk_->key(key + 1);
   share_ = body.share(from.time), share_at_end_ = body.share(to.time);
   turn_ = rotation(from.heading), turn_at_end_ = rotation(to.heading);
   x_ = from.x, y_ = from.y, x_at_end_ = to.x, y_at_end_ = to.y;
+  z_ = from.z, z_at_end_ = to.z, in_space_ = in_space;
   const double turn = std::abs(to.heading - from.heading), reach = body.tree().reach,
                seconds = chunk_->times[key + 1] - chunk_->times[key],
                way = std::min(2 * reach, double{chunk_->speed} * seconds * (share_at_end_ - share_));
@@ -32,10 +33,12 @@ void PlacedNodes::first_overlaps(std::uint32_t from, const MovingDisc& other, do
                                  std::array<double, animated_width>& times) const noexcept {
   const double *const x = discs_[0].data() + from, *const y = discs_[1].data() + from,
                       *const radius = discs_[2].data() + from, *const way_x = discs_[3].data() + from,
-                      *const way_y = discs_[4].data() + from, *const growth = discs_[5].data() + from;
+                      *const way_y = discs_[4].data() + from, *const growth = discs_[5].data() + from,
+                      *const z = discs_[6].data() + from, *const way_z = discs_[7].data() + from;
   for (std::uint32_t lane = 0; lane < animated_width; ++lane)
-    times[lane] = first_overlap({x[lane], y[lane], radius[lane], way_x[lane], way_y[lane], growth[lane]},
-                                other, room, last);
+    times[lane] = first_overlap(
+        {x[lane], y[lane], radius[lane], way_x[lane], way_y[lane], growth[lane], z[lane], way_z[lane]}, other,
+        room, last);
 }
 
 void PlacedNodes::place_eight(std::uint32_t from) noexcept {
@@ -55,8 +58,8 @@ void PlacedNodes::place_eight(std::uint32_t from) noexcept {
   auto first_x = in_metres(first_.x + from), first_y = in_metres(first_.y + from),
        first_radius = in_metres(first_.radius + from), last_x = in_metres(last_.x + from),
        last_y = in_metres(last_.y + from), last_radius = in_metres(last_.radius + from);
-  std::array<std::array<double, animated_width>, 6> placed;
-  auto& [x, y, radius, way_x, way_y, growth] = placed;
+  std::array<std::array<double, animated_width>, 8> placed;
+  auto& [x, y, radius, way_x, way_y, growth, z, way_z] = placed;
   for (std::uint32_t lane = 0; lane < animated_width; ++lane) {
     const double dx = last_x[lane] - first_x[lane], dy = last_y[lane] - first_y[lane],
                  growing = last_radius[lane] - first_radius[lane];
@@ -68,6 +71,17 @@ void PlacedNodes::place_eight(std::uint32_t from) noexcept {
     way_x[lane] = body_x_at_end + (cosine_at_end * to_x - sine_at_end * to_y) - x[lane];
     way_y[lane] = body_y_at_end + (sine_at_end * to_x + cosine_at_end * to_y) - y[lane];
     growth[lane] = growing * (share_at_end - share);
+  }
+  if (in_space_) {
+    const auto first_z = in_metres(first_.z + from), last_z = in_metres(last_.z + from);
+    const double body_z = z_, body_z_at_end = z_at_end_;
+    for (std::uint32_t lane = 0; lane < animated_width; ++lane) {
+      const double dz = last_z[lane] - first_z[lane];
+      z[lane] = body_z + (first_z[lane] + dz * share);
+      way_z[lane] = body_z_at_end + (first_z[lane] + dz * share_at_end) - z[lane];
+    }
+  } else {
+    z.fill(0), way_z.fill(0);
   }
   for (std::size_t part = 0; part < placed.size(); ++part)
     std::copy(placed[part].begin(), placed[part].end(), discs_[part].begin() + from);

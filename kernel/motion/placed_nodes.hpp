@@ -23,16 +23,17 @@ namespace bch::detail {
 /// A curve is at most an eighth of that away from the straight line between its ends, at equal s.
 class PlacedNodes {
  public:
-  /// Places the root of a body, relative to a point that moves straight on, in an interval before the ends of its path and of its keys.
-  void place(const MovingBody& body, const PathKey& from, const PathKey& to);
+  /// Places the root of a body, relative to a point that moves straight on, in an interval before the ends of its path and of its keys:
+  /// as spheres, which it has then, or as discs seen from above.
+  void place(const MovingBody& body, const PathKey& from, const PathKey& to, bool in_space);
 
   double bend() const noexcept { return bend_; }
   const AnimatedTreeChunk& chunk() const noexcept { return *chunk_; }
 
   /// Returns a node whose parent was divided, or the root.
   MovingDisc operator[](std::uint32_t node) const noexcept {
-    return {discs_[0][node], discs_[1][node], discs_[2][node],
-            discs_[3][node], discs_[4][node], discs_[5][node]};
+    return {discs_[0][node], discs_[1][node], discs_[2][node], discs_[3][node],
+            discs_[4][node], discs_[5][node], discs_[6][node], discs_[7][node]};
   }
   double radius(std::uint32_t node) const noexcept { return discs_[2][node]; }
 
@@ -55,8 +56,10 @@ class PlacedNodes {
   double share_ = 0, share_at_end_ = 0;
   Rotation turn_, turn_at_end_;
   double x_ = 0, y_ = 0, x_at_end_ = 0, y_at_end_ = 0;
+  double z_ = 0, z_at_end_ = 0;
+  bool in_space_ = false;
   double bend_ = 0;
-  std::array<std::vector<double>, 6> discs_;  ///< per node: the members of its MovingDisc
+  std::array<std::vector<double>, 8> discs_;  ///< per node: the members of its MovingDisc
   std::vector<std::uint32_t> placed_in_;      ///< per node with children: the interval that these are of
   std::uint32_t interval_ = 0;
 };

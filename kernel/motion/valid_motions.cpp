@@ -29,12 +29,12 @@ void require_valid(const char* query, const Motion& motion, std::size_t index) {
     reject("its clip begins at " + shortest(motion.clip_begin) + " s, not within +-1e6");
   if (motion.path.empty()) reject("a path without keys");
   for (std::size_t k = 0; k < motion.path.size(); ++k) {
-    const auto& [time, x, y, heading] = motion.path[k];
+    const auto& [time, x, y, heading, z] = motion.path[k];
     const auto reject_key = [&](const std::string& why) {
       reject("key " + std::to_string(k) + " of its path" + why);
     };
     if (!is_time(time)) reject_key(" at " + shortest(time) + " s, not within +-1e6");
-    if (const std::string why = misplacement(x, y, heading); !why.empty()) reject_key(": " + why);
+    if (const std::string why = misplacement(x, y, heading, z); !why.empty()) reject_key(": " + why);
     if (k == 0) continue;
     if (!(motion.path[k - 1].time < time))
       reject_key(" at " + shortest(time) + " s after one at " + shortest(motion.path[k - 1].time) + " s");

@@ -23,7 +23,7 @@ namespace detail {
 namespace {
 
 constexpr float longest_chunk = 0.1334f;     ///< seconds
-constexpr double shortest_interval = 0.009;  ///< seconds, of two keys
+constexpr double shortest_interval = 0.0045;  ///< seconds, of two keys
 constexpr float same_place = 2.5e-5f;        ///< metres, of the ends of a loop
 
 /// Returns the power of two that coordinates up to a reach are rounded to: each is it times a number of 16 bits.
@@ -33,7 +33,7 @@ double step_of(double reach) {
   return std::ldexp(1.0, exponent - 15);
 }
 
-/// Makes the moving discs of one clip: chunk after chunk, whose keys are among the samples of the chunk.
+/// Makes the moving spheres of one clip: chunk after chunk, whose keys are among the samples of the chunk.
 class ClipAnimator {
  public:
   ClipAnimator(const BodyModel& model, std::uint32_t clip, const AnimateOptions& options)
@@ -58,8 +58,8 @@ class ClipAnimator {
   }
 
  private:
-  /// Holds the discs of a key.
-  using Key = std::vector<Disc>;
+  /// Holds the spheres of a key.
+  using Key = std::vector<Sphere>;
 
   AnimatedChunk chunk(float from, float to) {
     samples_.take(from, to);
@@ -70,9 +70,11 @@ class ClipAnimator {
     AnimatedChunk made;
     made.disc_count = static_cast<std::uint32_t>(model_.sphere_count());
     made.times = times_;
-    for (const Key& key : keys_) made.keys.insert(made.keys.end(), key.begin(), key.end());
-    for (Disc& disc : made.keys)
-      disc.radius = static_cast<float>(std::ceil(double{disc.radius} / step_) * step_);
+    for (const Key& key : keys_)
+      for (const Sphere& s : key) {
+        made.keys.push_back({s.x, s.y, static_cast<float>(std::ceil(double{s.radius} / step_) * step_)});
+        made.z.push_back(s.z);
+      }
     return made;
   }
 
@@ -81,8 +83,8 @@ class ClipAnimator {
     keys_.push_back(std::move(key));
   }
 
-  /// Appends keys after that of the first sample, up to that of the last one: in the middle, too, where discs would stand out of the
-  /// spheres by more than the error.
+  /// Appends keys after that of the first sample, up to that of the last one: in the middle, too, where spheres would stand out of the
+  /// posed ones by more than the error.
   void add_keys(std::size_t first, std::size_t last) {
     Key from = keys_.back(), to = centres(last);
     const double most = hold(first, last, from, to);
@@ -102,17 +104,17 @@ class ClipAnimator {
       const auto rounded = [&](float value) {
         return static_cast<float>(std::nearbyint(double{value} / step_) * step_);
       };
-      key.push_back({rounded(sphere.x), rounded(sphere.y), 0});
+      key.push_back({rounded(sphere.x), rounded(sphere.y), rounded(sphere.z), 0});
     }
     return key;
   }
 
-  /// Enlarges the discs of two keys until they hold all corners at all times between.
+  /// Enlarges the spheres of two keys until they hold all corners at all times between.
   /// Returns: by how much they stand out of the spheres of a sample between, at most.
   double hold(std::size_t first, std::size_t last, Key& from, Key& to) const {
     double most = 0;
     for (std::size_t i = 0; i < from.size(); ++i) {
-      const PlanePoint begin = centre(from[i]), way = centre(to[i]) - begin;
+      const SpacePoint begin = centre(from[i]), way = centre(to[i]) - begin;
       const double r_from = samples_.radius(first, i, begin), r_to = samples_.radius(last, i, begin + way);
       const auto even_radius = [&](double share) { return r_from + share * (r_to - r_from); };
       double excess = 0;
@@ -123,7 +125,7 @@ class ClipAnimator {
       for (std::size_t k = first + 1; k < last; ++k) {
         const Sphere& sphere = samples_[k].spheres[i];
         const double share = samples_.share(k, first, last);
-        const double aside = length(begin + share * way - PlanePoint{double{sphere.x}, double{sphere.y}});
+        const double aside = std::sqrt(squared_distance(begin + share * way, centre(sphere)));
         most = std::max(most, aside + even_radius(share) + excess - double{sphere.radius});
       }
       from[i].radius = std::max(from[i].radius, rounding::round_up(r_from + excess));
@@ -132,17 +134,18 @@ class ClipAnimator {
     return most;
   }
 
-  static PlanePoint centre(const Disc& disc) { return {double{disc.x}, double{disc.y}}; }
+  static SpacePoint centre(const Sphere& s) { return {double{s.x}, double{s.y}, double{s.z}}; }
 
   /// Returns whether every vertex is at the clip's end where it was at its beginning. A clip that is shorter than a loop may be is none.
   bool loops() const {
     if (double{end_} < shortest_interval) return false;
     Skinner skinner(*model_.character);
-    const std::span<const Vec2> first = skinner.ground_pose({clip_, 0});
-    const std::vector<Vec2> begin(first.begin(), first.end());
-    const std::span<const Vec2> end = skinner.ground_pose({clip_, end_});
+    const auto first = skinner.pose(Pose(clip_, 0));
+    const std::vector<Vec3> begin(first.begin(), first.end());
+    const auto end = skinner.pose(Pose(clip_, end_));
     for (std::size_t v = 0; v < begin.size(); ++v)
-      if (length(plane_point(begin[v]) - plane_point(end[v])) > double{same_place}) return false;
+      if (std::sqrt(squared_distance(space_point(begin[v]), space_point(end[v]))) > double{same_place})
+        return false;
     return true;
   }
 

@@ -36,7 +36,7 @@ void ClipSamples::take(float from, float to) {
   const std::vector<float>& keys = bounds_.key_times();
   while (from < to) {
     const auto key = std::upper_bound(keys.begin(), keys.end(), from);
-    const double acceleration = bounds_.acceleration(from);
+    const double acceleration = bounds_.acceleration_in_space(from);
     const float limit = key == keys.end() ? to : std::min(to, *key);
     const double left = double{limit} - double{from};
     const double even = std::sqrt(8 * wanted_bend / std::max(acceleration, 1e-9));
@@ -45,10 +45,9 @@ void ClipSamples::take(float from, float to) {
     if (!(from < after)) throw std::invalid_argument("animate: vertices move too fast");
     const double seconds = double{after} - double{from}, bend = acceleration * seconds * seconds / 8;
     add(after);
-    const double rise = bounds_.height_acceleration(from) * seconds * seconds / 8;
     for (std::size_t i = samples_.size() - 2; i < samples_.size(); ++i) {
       samples_[i].room = std::max(samples_[i].room, bend);
-      take_in(samples_[i], rise);
+      take_in(samples_[i], bend);
     }
     from = after;
   }
@@ -62,21 +61,21 @@ void ClipSamples::add(float seconds) {
   for (std::uint32_t i = 0; i < layout_.sphere_count; ++i)
     sample.spheres.push_back({spheres.x[i], spheres.y[i], spheres.z[i], spheres.radius[i]});
   sample.bottom = std::numeric_limits<double>::infinity(), sample.top = -sample.bottom;
-  const auto reach_to = [&](float x, float y) {
-    reach_ = std::max({reach_, double{std::abs(x)}, double{std::abs(y)}});
+  const auto reach_to = [&](float x, float y, float z) {
+    reach_ = std::max({reach_, double{std::abs(x)}, double{std::abs(y)}, double{std::abs(z)}});
   };
-  for (const Sphere& sphere : sample.spheres) reach_to(sphere.x, sphere.y);
+  for (const Sphere& sphere : sample.spheres) reach_to(sphere.x, sphere.y, sphere.z);
   for (const std::uint32_t corner : model_.corners) {
     const SpaceRow& point = poser_.point(corner);
-    sample.corners.push_back({double{point.x}, double{point.y}});
-    reach_to(point.x, point.y);
+    sample.corners.push_back({double{point.x}, double{point.y}, double{point.z}});
+    reach_to(point.x, point.y, point.z);
     sample.bottom = std::min(sample.bottom, double{point.z});
     sample.top = std::max(sample.top, double{point.z});
   }
 }
 
-void ClipSamples::take_in(const Sample& sample, double rise) {
-  const double room = rise + rounding_share * std::max(-sample.bottom, sample.top);
+void ClipSamples::take_in(const Sample& sample, double bend) {
+  const double room = bend + rounding_share * std::max(-sample.bottom, sample.top);
   heights_ = {std::min(heights_.bottom, rounding::round_down(sample.bottom - room)),
               std::max(heights_.top, -rounding::round_down(-sample.top - room))};
 }
@@ -86,11 +85,11 @@ double ClipSamples::share(std::size_t i, std::size_t first, std::size_t last) co
   return (double{samples_[i].seconds} - from) / (to - from);
 }
 
-double ClipSamples::radius(std::size_t i, std::size_t sphere, const PlanePoint& centre) const noexcept {
+double ClipSamples::radius(std::size_t i, std::size_t sphere, const SpacePoint& centre) const noexcept {
   const Sample& sample = samples_[i];
   double square = 0;
   for (std::uint32_t c = model_.corner_begin[sphere]; c < model_.corner_begin[sphere + 1]; ++c)
-    square = std::max(square, squared_length(sample.corners[c] - centre));
+    square = std::max(square, squared_distance(sample.corners[c], centre));
   const double least = model_.least_radius.empty() ? 0 : double{model_.least_radius[sphere]};
   return std::max(std::sqrt(square) + sample.room, least);
 }

@@ -9,8 +9,8 @@
 
 #include <bch/bodies.hpp>
 
-#include "layout/base/plane_point.hpp"
 #include "layout/body/body_layout.hpp"
+#include "layout/body/model/space_point.hpp"
 #include "layout/body/posing/sphere_poser.hpp"
 #include "layout/character/motion_bounds.hpp"
 
@@ -19,7 +19,7 @@ namespace bch::detail {
 /// Holds a body at times of a clip that are so close that its corners move all but straight between them.
 ///
 /// Between two samples no channel passes a key, so that a vertex with an acceleration of at most A leaves the chord of its places at both
-/// by at most A h^2 / 8, with h the time between them (see MotionBounds); so does the middle of an edge, a mean of vertices. A disc whose
+/// by at most A h^2 / 8, with h the time between them (see MotionBounds); so does the middle of an edge, a mean of vertices. A sphere whose
 /// centre and radius are linear in time holds a corner all the time between if at both samples it holds the corner with that much room:
 /// the distance of two points that move straight on is convex in time.
 class ClipSamples {
@@ -28,7 +28,7 @@ class ClipSamples {
   struct Sample {
     float seconds;
     std::vector<Sphere> spheres;
-    std::vector<PlanePoint> corners;  ///< as BodyModel::corners
+    std::vector<SpacePoint> corners;  ///< as BodyModel::corners
     double bottom, top;               ///< of corners
     double room = 0;  ///< by which corners may leave their chords on either side, and are rounded
   };
@@ -49,12 +49,12 @@ class ClipSamples {
   const Heights& heights() const noexcept { return heights_; }
   /// Returns the share of the time between two other samples that has gone by at one.
   double share(std::size_t i, std::size_t first, std::size_t last) const noexcept;
-  /// Returns the radius of a sphere, as seen from above, that holds its corners about a centre from the sample before to the one after.
-  double radius(std::size_t i, std::size_t sphere, const PlanePoint& centre) const noexcept;
+  /// Returns the radius of a sphere that holds its corners about a centre from the sample before to the one after.
+  double radius(std::size_t i, std::size_t sphere, const SpacePoint& centre) const noexcept;
 
  private:
   void add(float seconds);
-  void take_in(const Sample& sample, double rise);
+  void take_in(const Sample& sample, double bend);
 
   const BodyModel& model_;
   std::uint32_t clip_;

@@ -15,8 +15,6 @@
 namespace bch::detail::baked {
 namespace {
 
-constexpr std::size_t numbers_of_disc = 3;
-
 /// Checks a clip, by its index.
 void require_clip(std::size_t index, const BakedClip& clip, std::size_t names) {
   if (clip.character >= names) reject("clips", index, "character has name " + std::to_string(clip.character));
@@ -36,17 +34,21 @@ int last_bit(float number) {
   return exponent - 24 + std::countr_zero(digits);
 }
 
-/// Calls visit(number) for the numbers of discs, in the order of the file.
+/// Calls visit(number) for the numbers of a chunk's discs, in the order of the file.
 template <class Visit>
-void for_each_number(std::span<const Disc> discs, const Visit& visit) {
-  for (const Disc& disc : discs) visit(disc.x), visit(disc.y), visit(disc.radius);
+void for_each_number(const AnimatedChunk& chunk, const Visit& visit) {
+  for (std::size_t i = 0; i < chunk.keys.size(); ++i) {
+    const Disc& disc = chunk.keys[i];
+    visit(disc.x), visit(disc.y), visit(disc.radius);
+    if (!chunk.z.empty()) visit(chunk.z[i]);
+  }
 }
 
 /// Returns the exponent of the largest power of two that all numbers are multiples of, by less than 2^15; or float_step.
-std::int32_t step_of(std::span<const Disc> discs) {
+std::int32_t step_of(const AnimatedChunk& chunk) {
   std::int32_t step = largest_step;
   float largest = 0;
-  for_each_number(discs, [&](float number) {
+  for_each_number(chunk, [&](float number) {
     if (number != 0) step = std::min(step, last_bit(number));
     largest = std::max(largest, std::abs(number));
   });
@@ -93,7 +95,8 @@ class Unpacking {
         floats_("disc_floats", arrays.disc_floats) {}
 
   AnimatedDiscs take_discs(const ClipRecord& record, std::size_t clip) {
-    return {take_chunks(record.chunks, clip), record.loops == 1, record.heights};
+    in_space_ = (record.kind & clip_in_space) != 0;
+    return {take_chunks(record.chunks, clip), (record.kind & clip_loops) != 0, record.heights};
   }
 
   void require_all_taken() const {
@@ -113,8 +116,9 @@ class Unpacking {
     const auto times = times_.take(record.keys, "chunks", next_);
     chunk.times.assign(times.begin(), times.end());
     chunk.disc_count = record.discs;
-    // No product of two numbers of 32 bits is too large for 64, but three times it may be.
-    const std::uint64_t discs = std::uint64_t{record.keys} * record.discs;
+    // No product of two numbers of 32 bits is too large for 64, but a few times it may be.
+    const std::uint64_t discs = std::uint64_t{record.keys} * record.discs,
+                        numbers_of_disc = in_space_ ? 4 : 3;
     if (discs > std::numeric_limits<std::uint64_t>::max() / numbers_of_disc)
       reject("chunks", next_, std::to_string(record.discs) + " discs");
     if (record.step == float_step) {
@@ -128,17 +132,21 @@ class Unpacking {
 
   /// The numbers come out as they were, because each is a float.
   template <class Number>
-  static void read(std::span<const Number> numbers, double step, AnimatedChunk& chunk) {
-    chunk.keys.reserve(numbers.size() / numbers_of_disc);
+  void read(std::span<const Number> numbers, double step, AnimatedChunk& chunk) const {
+    const std::size_t of_disc = in_space_ ? 4 : 3;
+    chunk.keys.reserve(numbers.size() / of_disc);
     const auto number = [&](std::size_t i) {
       return static_cast<float>(static_cast<double>(numbers[i]) * step);
     };
-    for (std::size_t i = 0; i < numbers.size(); i += numbers_of_disc)
+    for (std::size_t i = 0; i < numbers.size(); i += of_disc) {
       chunk.keys.push_back({number(i), number(i + 1), number(i + 2)});
+      if (in_space_) chunk.z.push_back(number(i + 3));
+    }
   }
 
   Elements<ChunkRecord> chunks_;
-  std::size_t next_ = 0;  ///< chunk
+  std::size_t next_ = 0;   ///< chunk
+  bool in_space_ = false;  ///< the clip
   Elements<double> times_;
   Elements<std::int16_t> steps_;
   Elements<float> floats_;
@@ -150,16 +158,17 @@ PackedClips::PackedClips(std::span<const BakedClip> clips, std::size_t names) {
   for (std::size_t i = 0; i < clips.size(); ++i) {
     require_clip(i, clips[i], names);
     const auto& [chunks, loops, heights] = clips[i].discs;
-    clips_.push_back({clips[i].character, clips[i].clip, loops ? 1u : 0u, count_of(chunks.size()), heights});
+    const std::uint32_t kind = (loops ? clip_loops : 0) + (chunks.front().z.empty() ? 0 : clip_in_space);
+    clips_.push_back({clips[i].character, clips[i].clip, kind, count_of(chunks.size()), heights});
     for (const AnimatedChunk& chunk : chunks) add(chunk);
   }
 }
 
 void PackedClips::add(const AnimatedChunk& chunk) {
-  const std::int32_t step = step_of(chunk.keys);
+  const std::int32_t step = step_of(chunk);
   chunks_.push_back({count_of(chunk.times.size()), chunk.disc_count, step});
   key_times_.insert(key_times_.end(), chunk.times.begin(), chunk.times.end());
-  for_each_number(chunk.keys, [&](float number) {
+  for_each_number(chunk, [&](float number) {
     if (step == float_step)
       disc_floats_.push_back(number);
     else
@@ -172,7 +181,8 @@ std::vector<BakedClip> unpack(const ClipArrays& arrays, std::size_t names) {
   std::vector<BakedClip> clips;
   for (std::size_t i = 0; i < arrays.clips.size(); ++i) {
     const ClipRecord& record = arrays.clips[i];
-    if (record.loops > 1) reject("clips", i, "it loops " + std::to_string(record.loops) + " times");
+    if (record.kind > clip_loops + clip_in_space)
+      reject("clips", i, "it is of kind " + std::to_string(record.kind));
     clips.push_back({record.character, record.clip, unpacking.take_discs(record, i)});
     require_clip(i, clips.back(), names);
   }

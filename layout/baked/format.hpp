@@ -154,10 +154,13 @@ static_assert(sizeof(Preamble) == sizeof(FileHeader) + section_count * sizeof(Se
 /// Represents a clip; names by their index, that of the clip 2^32 - 1 where it has none.
 struct ClipRecord {
   std::uint32_t character, clip;
-  std::uint32_t loops;  ///< 0 or 1
+  std::uint32_t kind;  ///< clip_loops and clip_in_space, added
   std::uint32_t chunks;
   Heights heights;
 };
+
+constexpr std::uint32_t clip_loops = 1,
+                        clip_in_space = 2;  ///< discs are spheres, whose fourth numbers are heights
 
 /// Represents a chunk of a clip.
 struct ChunkRecord {

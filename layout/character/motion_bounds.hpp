@@ -33,8 +33,8 @@ class MotionBounds {
 
   /// Returns the largest acceleration of a vertex between `from` and the next key time, metres per second squared.
   double acceleration(float from);
-  /// Returns that of a vertex's height, which the frame does not move with.
-  double height_acceleration(float from) { return acceleration(from) + root_acceleration_; }
+  /// Returns that of a vertex in space: the frame does not move with the root's height.
+  double acceleration_in_space(float from) { return acceleration(from) + root_acceleration_; }
 
  private:
   struct JointMotion {

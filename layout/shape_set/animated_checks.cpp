@@ -10,6 +10,7 @@
 
 #include "layout/base/floating_point_state.hpp"
 #include "layout/base/number_class.hpp"
+#include "layout/base/rounding.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/hierarchy/builder.hpp"
 #include "layout/hierarchy/disc_box.hpp"
@@ -34,6 +35,7 @@ class ChunkCheck {
     check_times();
     check_counts();
     for (std::size_t key = 0; key < chunk_.times.size(); ++key) check_key(key);
+    check_heights();
   }
 
  private:
@@ -73,6 +75,15 @@ class ChunkCheck {
           discs[i].radius < 0)
         reject(name(i) + ", of " + shortest(discs[i].radius) + " m at (" + shortest(discs[i].x) + ", " +
                shortest(discs[i].y) + ") m");
+  }
+
+  void check_heights() const {
+    const std::size_t heights = all_.front().z.empty() ? 0 : chunk_.keys.size();
+    if (chunk_.z.size() != heights)
+      reject(std::to_string(chunk_.z.size()) + " heights, not " + std::to_string(heights));
+    for (std::size_t i = 0; i < heights; ++i)
+      if (!(std::abs(chunk_.z[i]) + chunk_.keys[i].radius <= static_cast<float>(rounding::largest_reach)))
+        reject("a height of " + shortest(chunk_.z[i]) + " m, which is not within +-1e6");
   }
 
   const std::vector<AnimatedChunk>& all_;

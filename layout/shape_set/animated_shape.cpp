@@ -84,9 +84,12 @@ void measure(const AnimatedTreeChunk& chunk, AnimatedTree& tree) {
       const Disc disc = chunk.disc(key, leaf);
       const double x = disc.x, y = disc.y, radius = disc.radius;
       tree.reach = std::max(tree.reach, (std::sqrt(x * x + y * y) + radius) * (1 + 0x1p-48));
+      const double z = chunk.z(key, leaf);
+      if (chunk.in_space) tree.height = std::max(tree.height, (std::abs(z) + radius) * (1 + 0x1p-48));
       if (key == 0) continue;
       const Disc before = chunk.disc(key - 1, leaf);
       const double way = std::abs(x - double{before.x}) + std::abs(y - double{before.y}) +
+                         std::abs(z - double{chunk.z(key - 1, leaf)}) +
                          std::abs(radius - double{before.radius});
       tree.speed = std::max(tree.speed, way / (chunk.times[key] - chunk.times[key - 1]));
     }
@@ -100,6 +103,7 @@ std::unique_ptr<AnimatedTree> tree_of(std::span<const AnimatedChunk> chunks, boo
     tree->chunks.push_back(animated_tree_chunk(chunk));
     measure(tree->chunks.back(), *tree);
   }
+  tree->in_space = tree->chunks.front().in_space;
   require_reach(tree->reach);
   tree->hulls = animated_hulls(tree->chunks, tree->reach);
   return tree;
@@ -137,6 +141,10 @@ bool AnimatedShape::loops() const noexcept {
   return tree_->loops;
 }
 
+bool AnimatedShape::in_space() const noexcept {
+  return tree_->in_space;
+}
+
 double AnimatedShape::reach() const noexcept {
   return tree_->reach;
 }
@@ -158,6 +166,18 @@ std::vector<Disc> AnimatedShape::discs(double seconds) const {
   const ChunkAt at(*tree_, seconds);
   for (const std::uint32_t leaf : at.chunk.leaf_of_disc) discs.push_back(at.node(leaf));
   return discs;
+}
+
+std::vector<Sphere> AnimatedShape::spheres(double seconds) const {
+  const FloatingPointStateGuard floats;
+  std::vector<Sphere> spheres;
+  if (!in_space()) return spheres;
+  const ChunkAt at(*tree_, seconds);
+  for (const std::uint32_t leaf : at.chunk.leaf_of_disc) {
+    const Disc disc = at.node(leaf);
+    spheres.push_back({disc.x, disc.y, at.chunk.z(at.place, leaf), disc.radius});
+  }
+  return spheres;
 }
 
 Shape AnimatedShape::shape(double seconds) const {

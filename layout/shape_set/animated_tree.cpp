@@ -14,30 +14,60 @@
 namespace bch::detail {
 namespace {
 
-double distance(const Disc& a, const Disc& b) noexcept {
-  return length(double{a.x} - double{b.x}, double{a.y} - double{b.y});
+double length(double x, double y, double z) noexcept {
+  return std::sqrt(x * x + y * y + z * z);
+}
+
+double distance(const Sphere& a, const Sphere& b) noexcept {
+  return length(double{a.x} - double{b.x}, double{a.y} - double{b.y}, double{a.z} - double{b.z});
+}
+
+/// Returns a disc as a sphere: without a height, its centre is at 0 like all others.
+Sphere sphere_of(const AnimatedChunk& chunk, std::size_t i) {
+  const Disc& disc = chunk.keys[i];
+  return {disc.x, disc.y, chunk.z.empty() ? 0 : chunk.z[i], disc.radius};
 }
 
 /// Returns the least power of two in which a tree over the discs of a chunk has numbers of 16 bits: the box of all discs is at most 92000
-/// steps wide, so that the disc about it has a radius below 65100 of them.
+/// steps wide, so that the disc about it has a radius below 65100 of them; that of spheres 75600, so that it is below 65500.
 double step_for(const AnimatedChunk& chunk) {
   double centre = 0, edge = 0;
-  for (const Disc& disc : chunk.keys) {
-    const double largest = double{std::max(std::abs(disc.x), std::abs(disc.y))};
-    centre = std::max(centre, largest), edge = std::max(edge, largest + double{disc.radius});
+  for (std::size_t i = 0; i < chunk.keys.size(); ++i) {
+    const Sphere s = sphere_of(chunk, i);
+    const double largest = double{std::max({std::abs(s.x), std::abs(s.y), std::abs(s.z)})};
+    centre = std::max(centre, largest), edge = std::max(edge, largest + double{s.radius});
   }
   int exponent = 0;
-  const bool is_power = std::frexp(std::max({centre / 32767, edge / 46000, 0x1p-60}), &exponent) == 0.5;
+  const double half = chunk.z.empty() ? 46000 : 37800;
+  const bool is_power = std::frexp(std::max({centre / 32767, edge / half, 0x1p-60}), &exponent) == 0.5;
   return std::ldexp(1.0, is_power ? exponent - 1 : exponent);
 }
 
-/// Returns a disc in steps, each number an integer, that holds a disc.
-Disc rounded(const Disc& disc, double step) {
-  const double x = std::round(double{disc.x} / step), y = std::round(double{disc.y} / step);
-  const double away = length(double{disc.x} / step - x, double{disc.y} / step - y);
-  return {static_cast<float>(x), static_cast<float>(y),
-          static_cast<float>(std::ceil((double{disc.radius} / step + away) * (away > 0 ? 1 + 0x1p-48 : 1)))};
+/// Returns a sphere in steps, each number an integer, that holds a sphere.
+Sphere rounded(const Sphere& s, double step) {
+  const double x = std::round(double{s.x} / step), y = std::round(double{s.y} / step),
+               z = std::round(double{s.z} / step);
+  const double away = length(double{s.x} / step - x, double{s.y} / step - y, double{s.z} / step - z);
+  return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z),
+          static_cast<float>(std::ceil((double{s.radius} / step + away) * (away > 0 ? 1 + 0x1p-48 : 1)))};
 }
+
+/// Holds the smallest box with sides along the axes that holds discs, or spheres.
+struct SphereBox {
+  bool in_space;
+  double low[3] = {HUGE_VAL, HUGE_VAL, 0}, high[3] = {-HUGE_VAL, -HUGE_VAL, 0};
+
+  explicit SphereBox(bool of_spheres) noexcept : in_space(of_spheres) {
+    if (in_space) low[2] = HUGE_VAL, high[2] = -HUGE_VAL;
+  }
+  void add(const Sphere& s) noexcept {
+    const double at[] = {s.x, s.y, s.z}, r = s.radius;
+    for (int axis = 0; axis < (in_space ? 3 : 2); ++axis)
+      low[axis] = std::min(low[axis], at[axis] - r), high[axis] = std::max(high[axis], at[axis] + r);
+  }
+  double middle(int axis) const noexcept { return (low[axis] + high[axis]) / 2; }
+  double size() const noexcept { return length(high[0] - low[0], high[1] - low[1], high[2] - low[2]); }
+};
 
 /// Where a range of discs falls into two, and what that costs: the sizes of both parts, times their discs.
 struct Split {
@@ -56,9 +86,11 @@ class Builder {
   explicit Builder(const AnimatedChunk& chunk) : chunk_(chunk) {
     tree_.times = chunk.times;
     tree_.step = step_for(chunk);
+    tree_.in_space = !chunk.z.empty();
     tree_.leaf_of_disc.resize(chunk.disc_count);
     discs_.reserve(chunk.keys.size());
-    for (const Disc& disc : chunk.keys) discs_.push_back(rounded(disc, tree_.step));
+    for (std::size_t i = 0; i < chunk.keys.size(); ++i)
+      discs_.push_back(rounded(sphere_of(chunk, i), tree_.step));
     const std::size_t keys = chunk.times.size(), looked_at = std::min<std::size_t>(keys, most_keys);
     for (std::size_t i = 0; i < looked_at; ++i) sampled_keys_.push_back(i * (keys - 1) / (looked_at - 1));
   }
@@ -83,7 +115,7 @@ class Builder {
  private:
   static constexpr std::size_t most_keys = 8;  ///< that a split looks at
 
-  const Disc& disc(std::size_t key, std::uint32_t i) const { return discs_[key * chunk_.disc_count + i]; }
+  const Sphere& disc(std::size_t key, std::uint32_t i) const { return discs_[key * chunk_.disc_count + i]; }
 
   /// Keeps what the nodes of a level hold, and returns those of the next one, each of which holds so many discs at most.
   std::vector<std::vector<std::uint32_t>> divide(std::vector<std::vector<std::uint32_t>> level,
@@ -125,18 +157,19 @@ class Builder {
 
   /// Returns a small disc that holds discs: its centre goes from the middle of their box towards the farthest one, by less and less
   /// (Badoiu, Clarkson 2003).
-  Disc disc_about(std::size_t key, std::span<const std::uint32_t> discs) const {
+  Sphere disc_about(std::size_t key, std::span<const std::uint32_t> discs) const {
     if (discs.size() == 1) return disc(key, discs[0]);
-    DiscBox box;
+    SphereBox box(tree_.in_space);
     for (const std::uint32_t i : discs) box.add(disc(key, i));
-    double x = (box.low_x + box.high_x) / 2, y = (box.low_y + box.high_y) / 2, least = HUGE_VAL;
-    Disc best;
+    double x = box.middle(0), y = box.middle(1), z = box.middle(2), least = HUGE_VAL;
+    Sphere best;
     for (int step = 4; step < 16; ++step) {
-      const Disc centre{static_cast<float>(std::round(x)), static_cast<float>(std::round(y)), 0};
+      const Sphere centre{static_cast<float>(std::round(x)), static_cast<float>(std::round(y)),
+                          static_cast<float>(std::round(z)), 0};
       double radius = 0, away = 0;
-      const Disc* farthest = nullptr;
+      const Sphere* farthest = nullptr;
       for (const std::uint32_t i : discs) {
-        const Disc& each = disc(key, i);
+        const Sphere& each = disc(key, i);
         const double to_centre = distance(each, centre), to_edge = to_centre + double{each.radius};
         if (to_edge <= radius && farthest != nullptr) continue;
         radius = to_edge, away = to_centre, farthest = &each;
@@ -146,6 +179,7 @@ class Builder {
       // As far as the farthest point of that disc draws it, towards which its centre lies.
       const double share = radius / away / step;
       x += (double{farthest->x} - x) * share, y += (double{farthest->y} - y) * share;
+      z += (double{farthest->z} - z) * share;
     }
     best.radius = static_cast<float>(std::ceil(least * (1 + 0x1p-48)));
     return best;
@@ -155,7 +189,8 @@ class Builder {
   Split best_split(std::span<const std::uint32_t> discs, std::size_t parts, std::size_t most) const {
     Split best;
     try_order({discs.begin(), discs.end()}, parts, most, best);
-    for (float Disc::*const axis : {&Disc::x, &Disc::y}) {
+    for (float Sphere::*const axis : {&Sphere::x, &Sphere::y, &Sphere::z}) {
+      if (axis == &Sphere::z && !tree_.in_space) continue;
       std::vector<std::uint32_t> order(discs.begin(), discs.end());
       std::vector<double> along(chunk_.disc_count, 0.0);
       for (const std::uint32_t i : discs)
@@ -173,7 +208,7 @@ class Builder {
     const std::size_t count = order.size();
     std::vector<double> cost(count, 0.0);  // of a split before each
     for (const std::size_t key : sampled_keys_) {
-      DiscBox first, rest;
+      SphereBox first(tree_.in_space), rest = first;
       for (std::size_t i = 1; i < count; ++i) {
         first.add(disc(key, order[i - 1])), rest.add(disc(key, order[count - i]));
         cost[i] += first.size() * static_cast<double>(i);
@@ -189,22 +224,26 @@ class Builder {
   }
 
   void place_discs() {
-    const std::size_t keys = chunk_.times.size(), nodes = held_.size();
-    tree_.numbers.resize(3 * keys * nodes + animated_width);
+    const std::size_t keys = chunk_.times.size(), nodes = held_.size(), fields = tree_.in_space ? 4 : 3;
+    tree_.numbers.resize(fields * keys * nodes + animated_width);
     for (std::size_t key = 0; key < keys; ++key)
       for (std::size_t i = 0; i < nodes; ++i) {
-        const Disc disc = disc_about(key, held_[i]);
-        std::uint16_t* const x = tree_.numbers.data() + 3 * key * nodes + i;
-        x[0] = static_cast<std::uint16_t>(static_cast<std::int16_t>(disc.x));
-        x[nodes] = static_cast<std::uint16_t>(static_cast<std::int16_t>(disc.y));
+        const Sphere disc = disc_about(key, held_[i]);
+        std::uint16_t* const x = tree_.numbers.data() + fields * key * nodes + i;
+        const auto as_bits = [](float steps) {
+          return static_cast<std::uint16_t>(static_cast<std::int16_t>(steps));
+        };
+        x[0] = as_bits(disc.x), x[nodes] = as_bits(disc.y);
         x[2 * nodes] = static_cast<std::uint16_t>(disc.radius);
+        if (tree_.in_space) x[3 * nodes] = as_bits(disc.z);
       }
   }
 
   void find_speed() {
     for (std::size_t key = 1; key < chunk_.times.size(); ++key)
       for (std::uint32_t i = 0; i < tree_.nodes(); ++i) {
-        const double way = distance(tree_.disc(key - 1, i), tree_.disc(key, i));
+        const Disc from = tree_.disc(key - 1, i), to = tree_.disc(key, i);
+        const double way = detail::length(double{to.x} - double{from.x}, double{to.y} - double{from.y});
         tree_.speed = std::max(
             tree_.speed, rounding::round_up(way * (1 + 0x1p-40) / (tree_.times[key] - tree_.times[key - 1])));
       }
@@ -212,7 +251,7 @@ class Builder {
 
   const AnimatedChunk& chunk_;
   AnimatedTreeChunk tree_;
-  std::vector<Disc> discs_;  ///< those of the keys
+  std::vector<Sphere> discs_;  ///< those of the keys
   std::vector<std::size_t> sampled_keys_;
   std::vector<std::vector<std::uint32_t>> held_;  ///< per node: its discs
 };

@@ -30,6 +30,7 @@ constexpr double room_of_leaves = rounding::query_margin,
 struct NodesAtKey {
   const std::int16_t *x, *y;
   const std::uint16_t* radius;
+  const std::int16_t* z;  ///< of spheres
 };
 
 /// Holds nodes that follow each other, from one to before another.
@@ -41,9 +42,13 @@ struct NodeRange {
 struct KeyPlace {
   std::size_t chunk, key;
   double share;  ///< from 0 to 1
+
+  float blend(float from, float to) const noexcept {
+    return static_cast<float>(double{from} + (double{to} - double{from}) * share);
+  }
 };
 
-/// Holds the tree over the moving discs of a chunk, whose nodes are moving discs with the same keys. A node holds its discs at every key,
+/// Holds the tree over the moving discs of a chunk, whose nodes are moving discs with the same keys; spheres alike. A node holds its discs at every key,
 /// and so at all times between: the distance of two centres that move straight on is convex, and so is that and the radius
 /// of the disc within, while the radius of the disc around is linear.
 ///
@@ -51,12 +56,14 @@ struct KeyPlace {
 /// leaves are on the last level, behind all other nodes. Their numbers are of 16 bits, times a step.
 struct AnimatedTreeChunk {
   std::vector<double> times;
-  double step = 0;                     ///< a power of two, metres
-  std::vector<std::uint16_t> numbers;  ///< at each key all x, all y and all radii, then `animated_width` more
+  double step = 0;  ///< a power of two, metres
+  std::vector<std::uint16_t>
+      numbers;  ///< at each key all x, all y, all radii and of spheres all z, then `animated_width` more
+  bool in_space = false;  ///< whether discs are spheres
   std::vector<std::uint16_t>
       child_begin;  ///< per node above the leaves: its first child; and the number of nodes
   std::vector<std::uint16_t> leaf_of_disc;  ///< per disc in the order in which they were given: its node
-  float speed = 0;                          ///< the most that a node's centre moves in a second, metres
+  float speed = 0;  ///< the most that a node's centre moves in a second, as seen from above, metres
 
   std::uint32_t nodes() const noexcept { return child_begin.back(); }
   std::uint32_t first_leaf() const noexcept { return static_cast<std::uint32_t>(child_begin.size() - 1); }
@@ -65,9 +72,10 @@ struct AnimatedTreeChunk {
   NodeRange children(std::uint32_t node) const noexcept { return {child_begin[node], child_begin[node + 1]}; }
 
   NodesAtKey key(std::size_t k) const noexcept {
-    const std::uint16_t* const x = numbers.data() + k * 3 * nodes();
+    const std::uint16_t* const x = numbers.data() + k * (in_space ? 4 : 3) * nodes();
     const auto as_signed = [](const std::uint16_t* at) { return reinterpret_cast<const std::int16_t*>(at); };
-    return {as_signed(x), as_signed(x + nodes()), x + 2 * nodes()};
+    return {as_signed(x), as_signed(x + nodes()), x + 2 * nodes(),
+            in_space ? as_signed(x + 3 * nodes()) : nullptr};
   }
   /// Returns a node at a key, exactly.
   Disc disc(std::size_t k, std::uint32_t node) const noexcept {
@@ -75,13 +83,18 @@ struct AnimatedTreeChunk {
     const auto metres = [this](int number) { return static_cast<float>(number * step); };
     return {metres(at.x[node]), metres(at.y[node]), metres(at.radius[node])};
   }
+  /// Returns the height of a node's centre at a key, exactly; 0 of discs.
+  float z(std::size_t k, std::uint32_t node) const noexcept {
+    return in_space ? static_cast<float>(key(k).z[node] * step) : 0;
+  }
   /// Returns a node at a time.
   Disc disc(const KeyPlace& at, std::uint32_t node) const noexcept {
     const Disc from = disc(at.key, node), to = disc(at.key + 1, node);
-    const auto blend = [&](float a, float b) {
-      return static_cast<float>(double{a} + (double{b} - double{a}) * at.share);
-    };
-    return {blend(from.x, to.x), blend(from.y, to.y), blend(from.radius, to.radius)};
+    return {at.blend(from.x, to.x), at.blend(from.y, to.y), at.blend(from.radius, to.radius)};
+  }
+  /// Returns the height of a node's centre at a time.
+  float z(const KeyPlace& at, std::uint32_t node) const noexcept {
+    return at.blend(z(at.key, node), z(at.key + 1, node));
   }
 };
 
@@ -90,8 +103,10 @@ struct AnimatedTree {
   std::vector<AnimatedTreeChunk> chunks;
   AnimatedHulls hulls;
   bool loops = false;
-  double reach = 0;  ///< metres
-  double speed = 0;  ///< the most that a centre moves in a second, and a radius grows, metres
+  bool in_space = false;  ///< whether discs are spheres
+  double reach = 0;       ///< as seen from above, metres
+  double height = 0;      ///< the most that a sphere reaches above or below its agent's ground, metres
+  double speed = 0;       ///< the most that a centre moves in a second, and a radius grows, metres
 
   double begin() const noexcept { return chunks.front().times.front(); }
   double end() const noexcept { return chunks.back().times.back(); }
@@ -109,7 +124,7 @@ double time_in_clip(const AnimatedTree& tree, double seconds) noexcept;
 ///
 /// Derivation: a centre goes to the nearest multiple, at most sqrt(1/2) steps away, and the radius up to the next multiple of itself and
 /// that way, so that the new disc holds the old one, and reaches out of it by less than 2 sqrt(1/2) + 1 < 2.42 steps. A step is 2^-14 of the
-/// reach at most.
+/// reach at most. Of spheres sqrt(3/4) stands for sqrt(1/2), a sixth for two fifths, and the reach in space for that on the ground.
 AnimatedTreeChunk animated_tree_chunk(const AnimatedChunk& chunk);
 
 }  // namespace bch::detail

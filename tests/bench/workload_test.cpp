@@ -32,24 +32,25 @@ TEST(RandomPairs, HasAsManyAsAreWanted) {
   EXPECT_EQ(asked, 30u);
 }
 
-/// How much later than the first contact of a pair its outlines meet, seconds, where they do.
-std::vector<double> delays_of_outlines(const MotionScene& scene) {
-  const SampledMotions outlines(scene, 1000, 1000, SampledAs::outlines);
+/// How much later than its first contact a pair collides at a sample, seconds.
+std::vector<double> delays_of_samples(const MotionScene& scene, const MotionScene& shown) {
+  const SampledMotions samples(shown, 1000, 1000);
   std::vector<double> delays;
   for (std::size_t i = 0; i < scene.pairs().size(); ++i)
-    if (const double met = outlines.first_contact(scene.pairs()[i]); std::isfinite(met))
+    if (const double met = samples.first_contact(scene.pairs()[i]); std::isfinite(met))
       delays.push_back(met - scene.contacts()[i]);
   return delays;
 }
 
-/// Outlines lie within moving discs, so that they meet no sooner, and mostly soon after.
-TEST(OutlinesInMotion, MeetBehindFirstContacts) {
+/// Spheres at a millisecond do not meet before the first contact, and mostly soon after.
+TEST(BodiesInMotion, MeetBehindFirstContacts) {
   const std::vector<cli::LoadedCharacter> people = {cli::load_character("default:male", {})};
   const std::vector<AnimatedClip> clips = animated_clips(people, "walk", 0.6);
   ASSERT_EQ(clips.size(), 1u);
   EXPECT_EQ(clips[0].seconds, 0.5);
   const MotionScene scene(clips, 60, 1);
-  const std::vector<double> delays = delays_of_outlines(scene);
+  EXPECT_NO_THROW(scene.check(20));
+  const std::vector<double> delays = delays_of_samples(scene, scene);
   const std::size_t contacts = scene.pairs(true).size();
   EXPECT_GT(contacts, 20u);
   EXPECT_LE(delays.size(), contacts);
@@ -63,13 +64,13 @@ TEST(OutlinesInMotion, MeetBehindFirstContacts) {
   EXPECT_LT(sum, 0.1 * static_cast<double>(delays.size()));
 }
 
-/// The discs of these bodies are much smaller than their outlines.
-TEST(OutlinesInMotion, MeetBeforeThatOfBodiesThatAreTooSmall) {
+/// Bodies of which only a small sphere is left have their first contacts later than people meet.
+TEST(BodiesInMotion, MeetBeforeThoseOfBodiesThatAreTooSmall) {
   const std::vector<cli::LoadedCharacter> people = {cli::load_character("default:male", {})};
-  std::vector<AnimatedClip> clips = animated_clips(people, "walk", 0.6);
-  const AnimatedDiscs small{{{{0, 0.5}, 1, {{0, 0, 0.1f}, {0, 0, 0.1f}}}}, true};
-  clips[0].shape = AnimatedShape(small);
-  const std::vector<double> delays = delays_of_outlines(MotionScene(clips, 60, 1));
+  const std::vector<AnimatedClip> clips = animated_clips(people, "walk", 0.6);
+  std::vector<AnimatedClip> small = animated_clips(people, "walk", 0.6);
+  small[0].shape = AnimatedShape({{{{0, 0.5}, 1, {{0, 0, 0.1f}, {0, 0, 0.1f}}, {1, 1}}}, true});
+  const std::vector<double> delays = delays_of_samples(MotionScene(small, 60, 1), MotionScene(clips, 60, 1));
   EXPECT_GT(delays.size(), 20u);
   for (const double delay : delays) EXPECT_LT(delay, 0);
 }

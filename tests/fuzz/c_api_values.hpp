@@ -297,7 +297,7 @@ class Caller : public Program {
     for (std::uint32_t i = 0; i < most; ++i) times[i] = chance(64) ? number<double>() : i;
     of.key_counts = parts, of.disc_counts = parts + 1;
     of.times = times, of.chunk_count = chance(32) ? 0 : 1;
-    draw_all(of.loops, of.discs);
+    draw_all(of.loops, of.discs, of.z);
   }
   void draw(bch_scene_agents& of) {
     draw_all(of.poses, of.count);

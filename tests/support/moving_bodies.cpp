@@ -22,7 +22,8 @@ PathKey pose_at(const std::vector<PathKey>& path, double time) {
     if (time <= path[k].time) {
       const double share = (time - path[k - 1].time) / (path[k].time - path[k - 1].time);
       return {time, std::lerp(path[k - 1].x, path[k].x, share), std::lerp(path[k - 1].y, path[k].y, share),
-              std::lerp(path[k - 1].heading, path[k].heading, share)};
+              std::lerp(path[k - 1].heading, path[k].heading, share),
+              std::lerp(path[k - 1].z, path[k].z, share)};
     }
   return path.back();
 }
@@ -51,6 +52,10 @@ std::vector<WorldDisc> placed_at(const MotionCase& motion, double time) {
                  y = std::lerp(double{from.y}, double{to.y}, share);
     placed.push_back({pose.x + c * x - s * y, pose.y + s * x + c * y,
                       std::lerp(double{from.radius}, double{to.radius}, share)});
+    if (chunk.z.empty()) continue;
+    const double z_from = chunk.z[key * chunk.disc_count + i],
+                 z_to = chunk.z[(key + 1) * chunk.disc_count + i];
+    placed.back().z = pose.z + std::lerp(z_from, z_to, share);
   }
   return placed;
 }
@@ -96,6 +101,12 @@ AnimatedDiscs loose_discs(Random& random, std::uint32_t discs) {
   return body;
 }
 
+AnimatedDiscs in_space(Random& random, AnimatedDiscs body, double top) {
+  for (AnimatedChunk& chunk : body.chunks)
+    for (std::size_t i = 0; i < chunk.keys.size(); ++i) chunk.z.push_back(even(random.uniform(0, top)));
+  return body;
+}
+
 AnimatedDiscs still_disc(float radius, float x, float y) {
   return {{{{0, 1}, 1, {{x, y, radius}, {x, y, radius}}}}, false};
 }
@@ -126,12 +137,14 @@ double gap_at(const MotionCase& a, const MotionCase& b, double seconds) {
   const PathKey at_a = pose_at(a.path, seconds), at_b = pose_at(b.path, seconds);
   const double apart = std::hypot(at_a.x - at_b.x, at_a.y - at_b.y) - a.shape.reach() - b.shape.reach();
   if (apart > 0.1) return apart;
+  const bool both_in_space = a.shape.in_space() && b.shape.in_space();
   double gap = std::numeric_limits<double>::infinity();
   const std::vector<WorldDisc> discs = placed_at(b, seconds);
   for (const WorldDisc& i : placed_at(a, seconds))
     for (const WorldDisc& j : discs) {
-      const double x = i.x - j.x, y = i.y - j.y, far = gap + i.radius + j.radius;
-      if (x * x + y * y < far * std::abs(far)) gap = std::sqrt(x * x + y * y) - i.radius - j.radius;
+      const double x = i.x - j.x, y = i.y - j.y, z = both_in_space ? i.z - j.z : 0,
+                   square = x * x + y * y + z * z, far = gap + i.radius + j.radius;
+      if (square < far * std::abs(far)) gap = std::sqrt(square) - i.radius - j.radius;
     }
   return gap;
 }

@@ -25,6 +25,9 @@ AnimatedDiscs swinging_body(Random& random, std::uint32_t chunks = 2, std::uint3
 /// Returns discs that move each for itself.
 AnimatedDiscs loose_discs(Random& random, std::uint32_t discs = 5);
 
+/// Returns a body whose discs are spheres at heights from 0 to a top, which change from key to key.
+AnimatedDiscs in_space(Random& random, AnimatedDiscs body, double top);
+
 /// Returns one disc that stands still for a second.
 AnimatedDiscs still_disc(float radius, float x = 0, float y = 0);
 
@@ -63,11 +66,12 @@ inline double contact_of(const MotionCase& motion, const ObstacleSet& obstacles,
 
 struct WorldDisc {
   double x, y, radius;
+  double z = 0;  ///< of spheres
 };
 /// Returns where the discs of a motion are at a time.
 std::vector<WorldDisc> placed_at(const MotionCase& motion, double time);
 
-/// Returns the gap of the nearest discs of two motions at a time, by all pairs of them.
+/// Returns the gap of the nearest discs of two motions at a time, by all pairs of them; in space if both are of spheres.
 double gap_at(const MotionCase& a, const MotionCase& b, double seconds);
 
 }  // namespace bch::test

@@ -16,6 +16,7 @@ namespace bch {
 /// headings, even if that is the long way round.
 struct PathKey {
   double time, x, y, heading;  ///< seconds; metres in the world; radians
+  double z = 0;                ///< metres: the height of the agent's ground, which counts between bodies of spheres
 };
 
 /// Describes an agent who goes along a path and plays a clip. Before the first key of the path, and after the last one, the agent stands
@@ -33,8 +34,8 @@ struct TimeInterval {
 };
 
 /// Finds when the two motions of each pair first touch: the earliest time of an interval at which their solids overlap (see
-/// AnimatedShape), or infinity if there is none. Paths, turning and discs are taken at every real time, not sampled. Motions have no z:
-/// all are on one ground. For people on different floors, ask about those of each floor.
+/// AnimatedShape), or infinity if there is none. Paths, turning and discs are taken at every real time, not sampled. Two bodies of spheres
+/// meet in space, and stand at the heights of their paths; where one is of discs, both count as seen from above.
 ///
 /// The time is never later than the first contact. At that time the solids are apart by at most the tolerance, 2 um for each metre of
 /// both reaches, and the rounding of positions and times in double, below 1e-14 of these. That of times counts at the speed of the path

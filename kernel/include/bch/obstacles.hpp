@@ -186,7 +186,7 @@ void time_of_impact(const ShapeSet& shapes, const Agents& agents, const Displace
                     const ObstacleSet& obstacles, std::span<float> times, const QueryOptions& options = {});
 
 /// Finds when each motion first touches an obstacle: the earliest time of an interval at which its solid has a point in common with one,
-/// or infinity if there is none. Motions have no z: obstacles count at all heights.
+/// or infinity if there is none. Bodies count as seen from above, and obstacles at all heights.
 ///
 /// The time is never later than the first contact. At that time the solid is away from the obstacle by at most the tolerance, 4 um for each
 /// metre of its reach, 2e-14 of the distances to the two ends of a segment together, and the rounding in double, as between two motions.

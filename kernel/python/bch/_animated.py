@@ -12,12 +12,12 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _library
-from ._arrays import DISC, Records, address, converted, f4, f8, number, u4
+from ._arrays import DISC, SPHERE, Records, address, converted, f4, f8, number, u4
 from ._library import ArrayError, Handle, check, lib
 
 
 class AnimatedShape:
-    """A body that moves by itself: discs whose centres and radii are linear in time between keys. `animate` makes one of a clip.
+    """A body that moves by itself: discs or spheres whose centres and radii are linear in time between keys. `animate` makes one of a clip.
 
     Times before its beginning and after its end are clamped to these; if it loops, they wrap around instead: its end is followed by its beginning at once.
 
@@ -25,8 +25,8 @@ class AnimatedShape:
     ----------
     times : (k,) numbers
         Times of the keys, seconds, ascending; at least two.
-    discs : (k, n, 3) numbers
-        x, y and radius of each disc at each key, metres, relative to the agent's position.
+    discs : (k, n, 3) or (k, n, 4) numbers
+        x, y and radius of each disc at each key, or x, y, z and radius of each sphere, metres, relative to the agent's position.
     loops : bool
         Whether the body moves so over and over. A loop takes 1 ms or more.
     """
@@ -35,8 +35,12 @@ class AnimatedShape:
 
     def __init__(self, times: npt.ArrayLike, discs: npt.ArrayLike, *, loops: bool = False) -> None:
         keys, all_discs = converted(times, f8, "times"), converted(discs, f4, "discs")
-        if keys.ndim != 1 or all_discs.ndim != 3 or all_discs.shape[::2] != (len(keys), 3):
-            raise ArrayError(f"discs have shape {all_discs.shape} at times of shape {keys.shape}; wanted are (k, n, 3) at (k,)")
+        if keys.ndim != 1 or all_discs.ndim != 3 or len(all_discs) != len(keys) or all_discs.shape[2] not in (3, 4):
+            raise ArrayError(f"discs have shape {all_discs.shape} at times of shape {keys.shape}; wanted are (k, n, 3) or (k, n, 4) at (k,)")
+        heights = None
+        if all_discs.shape[2] == 4:
+            heights = np.ascontiguousarray(all_discs[:, :, 2])
+            all_discs = np.ascontiguousarray(all_discs[:, :, [0, 1, 3]])
         counts = np.array([len(keys), all_discs.shape[1]], u4)
         arrays = _library.AnimatedArrays(
             loops=bool(loops),
@@ -45,6 +49,7 @@ class AnimatedShape:
             chunk_count=1,
             times=address(keys),
             discs=address(all_discs),
+            z=None if heights is None else address(heights),
         )
         self._take(Handle("animated_shape", "create", ctypes.addressof(arrays)))
 
@@ -64,7 +69,7 @@ class AnimatedShape:
         self.nbytes, self.chunk_count, self.key_count = int(info.bytes), int(info.chunks), int(info.keys)
 
     def discs(self, seconds: float) -> Records:
-        """Return the discs at a time of the clip, in seconds.
+        """Return the discs at a time of the clip, in seconds; spheres as seen from above.
 
         Returns
         -------
@@ -76,6 +81,20 @@ class AnimatedShape:
         discs = np.empty(count.value, DISC)
         check(lib.bch_animated_shape_get_discs(self._pointer, time, address(discs), len(discs), byref(count)))
         return discs
+
+    def spheres(self, seconds: float) -> Records:
+        """Return the spheres at a time of the clip, in seconds: none of a body of discs.
+
+        Returns
+        -------
+        (n,) SPHERE
+            Records of x, y, z and radius, metres.
+        """
+        count, time = c_size_t(), number(seconds, "seconds")
+        check(lib.bch_animated_shape_get_spheres(self._pointer, time, None, 0, byref(count)))
+        spheres = np.empty(count.value, SPHERE)
+        check(lib.bch_animated_shape_get_spheres(self._pointer, time, address(spheres), len(spheres), byref(count)))
+        return spheres
 
     def __repr__(self) -> str:
         return f"<bch.AnimatedShape from {self.begin:g} to {self.end:g} s{', loops' if self.loops else ''}: {self.key_count} keys>"

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 the bch authors
 
-"""Clips as moving discs, and the first contact of agents in motion."""
+"""Clips as moving spheres, and the first contact of agents in motion."""
 
 from __future__ import annotations
 
 from ctypes import byref, c_double
 from typing import Any, Optional, Sequence, Tuple, Union
 
+import numpy as np
 import numpy.typing as npt
 
 from . import _library
@@ -16,6 +17,7 @@ from ._arrays import (
     Float64,
     UInt32,
     address,
+    as_array,
     bounded,
     f8,
     given,
@@ -33,7 +35,7 @@ from ._obstacles import Obstacles
 
 
 def animate(model: BodyModel, clip: int, *, error: float = 0.005, loops: Optional[bool] = None) -> AnimatedShape:
-    """Make moving discs that cover a body at every real time of a clip, one for each sphere of the model.
+    """Make moving spheres that hold a body at every real time of a clip, one for each sphere of the model.
 
     Parameters
     ----------
@@ -41,7 +43,7 @@ def animate(model: BodyModel, clip: int, *, error: float = 0.005, loops: Optiona
     clip : int
         Index in `Character.clips` of the model's character.
     error : float
-        How much more discs may protrude between two keys than at the keys, metres.
+        How much more spheres may protrude between two keys than in a pose, metres.
     loops : bool, optional
         Whether the clip is played over and over, its end followed by its beginning at once. None: if its last pose is its first one.
     """
@@ -57,9 +59,10 @@ class Mover:
     Parameters
     ----------
     shape : AnimatedShape
-    path : (k, 4) numbers
-        Keys of time, x, y and heading, in seconds, metres and radians, with ascending times. Between two keys the agent moves straight
-        and turns evenly. Before the first key and after the last one it stands there.
+    path : (k, 4) or (k, 5) numbers
+        Keys of time, x, y, heading and z, in seconds, metres and radians, with ascending times. Between two keys the agent moves straight
+        and turns evenly. Before the first key and after the last one it stands there. z, by default 0, is the height of its ground, which
+        counts between bodies of spheres.
     clip_begin : float
         The time at which the clip begins, seconds.
     """
@@ -69,7 +72,9 @@ class Mover:
     def __init__(self, shape: AnimatedShape, path: npt.ArrayLike, clip_begin: float = 0.0) -> None:
         self.shape = instance(shape, AnimatedShape, "shape")
         self.clip_begin = number(clip_begin, "clip_begin")
-        self.path = table(path, f8, 4, "path")
+        keys = as_array(path, "path")
+        flat = keys.ndim != 2 or keys.shape[1] != 5
+        self.path = np.pad(table(keys, f8, 4, "path"), ((0, 0), (0, 1))) if flat else table(keys, f8, 5, "path")
 
     def _struct(self) -> _library.Motion:
         return _library.Motion(
@@ -98,6 +103,8 @@ def first_contact(
     threads: int = 0,
 ) -> Float64:
     """Find when the two movers of each pair first touch, or each mover an obstacle.
+
+    Bodies of spheres meet each other in space; beside discs and obstacles they count as seen from above.
 
     Parameters
     ----------

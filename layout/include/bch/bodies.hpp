@@ -89,12 +89,12 @@ BodyModel default_body(const Character& built_in, std::uint32_t spheres = 256);
 /// Holds the options of animate().
 struct AnimateOptions {
   float error =
-      0.005f;  ///< metres, by how much discs may stand out of the spheres between two keys, unless these are 18 ms apart
+      0.005f;  ///< metres, by how much more spheres may stand out between two keys than in a pose, unless these are 9 ms apart
   std::optional<bool> loops =
       {};  ///< AnimatedDiscs::loops; none: whether the clip's last pose is its first one, to 0.025 mm
 };
 
-/// Makes moving discs of a clip, one for each sphere as seen from above, that hold all triangles at every real time of the clip. The proof is in
+/// Makes moving spheres of a clip, one for each of the model's, that hold all triangles at every real time of the clip. The proof is in
 /// layout/animation/clip_samples.hpp. Each number of a chunk is one of 16 bits times a power of two. The heights bound those that
 /// triangles take at every real time of the clip.
 /// Errors:  throws std::invalid_argument as validate() does, on a clip that does not exist or takes no time, on one with channels that

@@ -18,15 +18,6 @@ struct BodySetView;
 
 namespace bch {
 
-/// Represents a ball, in metres.
-struct Sphere {
-  float x = 0;
-  float y = 0;
-  float z = 0;
-  float radius = 0;
-  friend bool operator==(const Sphere&, const Sphere&) = default;
-};
-
 /// Represents the points within a radius of a segment in space, metres.
 struct SpaceCapsule {
   Vec3 a, b;

@@ -46,6 +46,15 @@ struct Disc {
   friend bool operator==(const Disc&, const Disc&) = default;
 };
 
+/// Represents a ball, in metres.
+struct Sphere {
+  float x = 0;
+  float y = 0;
+  float z = 0;
+  float radius = 0;
+  friend bool operator==(const Sphere&, const Sphere&) = default;
+};
+
 /// Holds the range of heights of a body or of a part of one, metres above the ground that its agent stands on; all heights by default.
 struct Heights {
   float bottom = -std::numeric_limits<float>::infinity();

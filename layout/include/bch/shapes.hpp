@@ -60,11 +60,13 @@ Shape shape_from_capsules(std::span<const Capsule> capsules, float tolerance = 0
                           float threshold = 0.01f);
 
 /// Describes discs that move through a part of a clip. Each disc goes straight on from key to key: its centre and its radius are linear in
-/// time.
+/// time. With heights they are spheres.
 struct AnimatedChunk {
   std::vector<double> times;     ///< of the keys, at least two, ascending; seconds of the clip
   std::uint32_t disc_count = 0;  ///< the number of discs at each key
   std::vector<Disc> keys;        ///< times.size() * disc_count, key by key; in the shape's frame, metres
+  /// Heights of the centres of spheres, as many as keys; of all chunks or none. Discs without heights are cylinders of infinite height.
+  std::vector<float> z = {};
   friend bool operator==(const AnimatedChunk&, const AnimatedChunk&) = default;
 };
 
@@ -80,11 +82,12 @@ struct AnimatedDiscs {
 /// Errors:  throws std::invalid_argument on heights of which the bottom is above the top or NaN; naming the chunk, on no chunks,
 ///          on fewer than two keys, on times that are not finite, not within +-1e6 s, do not ascend or leave a gap; on no discs or
 ///          more than 4096, or another number of them than in the keys; naming the disc and key, on one that is not finite or of a
-///          radius below 0; on a loop of less than 1 ms, and on a reach outside 1e-6 to 1e6 m.
+///          radius below 0; on heights that are not finite, not within +-1e6 m, fewer than discs, or not of all chunks; on a loop of
+///          less than 1 ms, and on a reach outside 1e-6 to 1e6 m.
 void validate(const AnimatedDiscs& discs);
 
-/// Represents a body that moves by itself, seen from above: a clip of a character, or other moving discs. Its solid at a time is its
-/// discs.
+/// Represents a body that moves by itself: a clip of a character, or other moving discs or spheres. Its solid at a time is its discs, which
+/// are spheres where they have heights.
 ///
 /// The discs are in a tree whose nodes are discs that move as these do, and hold them at every time. Where a chunk ends and the next one
 /// begins, the discs of the next one count alone; first_contact() of who comes from before also compares those of the one that ends. Times before the beginning and after the end are clamped to these; if the clip loops, they wrap around
@@ -107,11 +110,15 @@ class AnimatedShape {
   bool loops() const noexcept;
   /// Returns the heights of the body at all times.
   const Heights& heights() const noexcept { return heights_; }
-  /// Returns the radius about the agent's position that holds all discs at every time, metres.
+  /// Returns whether its discs are spheres.
+  bool in_space() const noexcept;
+  /// Returns the radius about the agent's position that holds all discs at every time, as seen from above, metres.
   double reach() const noexcept;
   std::size_t bytes() const noexcept;
-  /// Returns the discs at a time, as they are kept, in the order in which they were given.
+  /// Returns the discs at a time, as they are kept, in the order in which they were given; spheres as seen from above.
   std::vector<Disc> discs(double seconds) const;
+  /// Returns the spheres at a time, likewise; none of a body that is not in space.
+  std::vector<Sphere> spheres(double seconds) const;
   /// Returns the body at a time as a shape without outline, whose leaves are its discs, numbered as leaves of the tree. A set takes the
   /// shape, and so does a PreparedShape for a DynamicShapeSet.
   /// Cost:    a few us for 200 discs, less than making it flat.

@@ -22,6 +22,7 @@ struct Arrays {
   std::vector<std::uint32_t> keys, discs;
   std::vector<double> times;
   std::vector<Disc> all;
+  std::vector<float> z;
   bch_animated_arrays arrays = BCH_ANIMATED_ARRAYS_INIT;
 
   explicit Arrays(const AnimatedDiscs& of) {
@@ -30,11 +31,13 @@ struct Arrays {
       discs.push_back(chunk.disc_count);
       times.insert(times.end(), chunk.times.begin(), chunk.times.end());
       all.insert(all.end(), chunk.keys.begin(), chunk.keys.end());
+      z.insert(z.end(), chunk.z.begin(), chunk.z.end());
     }
     arrays.loops = of.loops;
     arrays.key_counts = keys.data(), arrays.disc_counts = discs.data();
     arrays.chunk_count = keys.size();
     arrays.times = times.data(), arrays.discs = reinterpret_cast<const bch_disc*>(all.data());
+    arrays.z = z.empty() ? nullptr : z.data();
   }
   OwnedAnimated shape() const { return made<bch_animated_shape_free>(bch_animated_shape_create, &arrays); }
 };
@@ -48,6 +51,15 @@ std::vector<Disc> discs_of(const bch_animated_shape* shape, double seconds) {
   return discs;
 }
 
+std::vector<Sphere> spheres_of(const bch_animated_shape* shape, double seconds) {
+  std::size_t count = 0;
+  expect_ok(bch_animated_shape_get_spheres(shape, seconds, nullptr, 0, &count));
+  std::vector<Sphere> spheres(count);
+  expect_ok(bch_animated_shape_get_spheres(shape, seconds, reinterpret_cast<bch_sphere*>(spheres.data()),
+                                           count, &count));
+  return spheres;
+}
+
 void expect_body(const bch_animated_shape* shape, const AnimatedShape& expected) {
   bch_animated_shape_info info = BCH_ANIMATED_SHAPE_INFO_INIT;
   expect_ok(bch_animated_shape_get_info(shape, &info));
@@ -58,14 +70,17 @@ void expect_body(const bch_animated_shape* shape, const AnimatedShape& expected)
   EXPECT_EQ(info.bytes, expected.bytes());
   EXPECT_GE(info.chunks, 1u);
   EXPECT_GE(info.keys, 2 * info.chunks);
-  for (const double seconds : {-1.0, 0.2, expected.end(), 7.0})
+  for (const double seconds : {-1.0, 0.2, expected.end(), 7.0}) {
     EXPECT_EQ(discs_of(shape, seconds), expected.discs(seconds));
+    EXPECT_EQ(spheres_of(shape, seconds), expected.spheres(seconds));
+  }
 }
 
 TEST(CApiMotions, BodiesAreTheirArrays) {
   test::Random random(3141);
   for (const AnimatedDiscs& discs :
-       {test::loose_discs(random), test::swinging_body(random, 1), test::swinging_body(random, 2)})
+       {test::loose_discs(random), test::swinging_body(random, 1), test::swinging_body(random, 2),
+        test::in_space(random, test::swinging_body(random, 2), 1.5)})
     expect_body(Arrays(discs).shape().get(), AnimatedShape(discs));
 }
 
@@ -191,7 +206,7 @@ TEST(CApiMotions, NameWhatIsWrong) {
   bad.arrays.times = nullptr;
   EXPECT_EQ(said(bch_animated_shape_create(&bad.arrays, &none)), "arrays->times is NULL");
   EXPECT_EQ(none, nullptr);
-  const bch_path_key key = {0, 0, 0, 0};
+  const bch_path_key key = {0, 0, 0, 0, 0};
   bch_motion motions[] = {{shape.get(), &key, 1, 0}, {shape.get(), &key, 0, 0}};
   const bch_pair pair = {0, 1};
   double time = 77;

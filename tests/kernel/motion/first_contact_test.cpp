@@ -44,6 +44,70 @@ TEST(FirstContact, IsNeverLaterThanAnySampleAndEarlyByTheToleranceAtMost) {
   EXPECT_GT(passes, static_cast<int>(test::samples(250)));
 }
 
+/// Returns a random motion of spheres of about the height of a person, whose path goes up and down.
+MotionCase random_motion_in_space(Random& random) {
+  MotionCase flat = test::random_motion(random);
+  for (PathKey& key : flat.path) key.z = random.uniform(-0.5, 0.5);
+  return {test::in_space(random, std::move(flat.discs), random.uniform(0.1, 1)), std::move(flat.path),
+          flat.clip_begin};
+}
+
+/// Two bodies of spheres, or one of them and one of discs.
+TEST(FirstContact, InSpaceIsNeverLaterThanAnySampleAndEarlyByTheToleranceAtMost) {
+  Random random(3105);
+  int contacts = 0, passes = 0, fewer = 0;
+  for (std::uint32_t i = 0; i < test::samples(2100); ++i) {
+    const MotionCase a = random_motion_in_space(random),
+                     b = i % 4 == 0 ? test::random_motion(random) : random_motion_in_space(random);
+    const double tolerance = std::exp(random.uniform(-9, -3)), from = -2, to = 3;
+    const double found = contact_of(a, b, {from, to}, tolerance);
+    for (double time = from; time < std::min(found, to); time += 0.001)
+      ASSERT_FALSE(test::gap_at(a, b, time) <= 0) << i << ": at " << time << ", found " << found;
+    ++(found < never ? contacts : passes);
+    AnimatedDiscs flat = a.discs;
+    for (AnimatedChunk& chunk : flat.chunks) chunk.z.clear();
+    const double from_above = contact_of({std::move(flat), a.path, a.clip_begin}, b, {from, to}, tolerance);
+    fewer += from_above < never && found == never;
+    if (found == never) continue;
+    for (int k = 1; k <= 100 && found - 1e-5 * k >= from; ++k)
+      ASSERT_FALSE(test::gap_at(a, b, found - 1e-5 * k) <= 0) << i << ": " << k << " before " << found;
+    // Just behind, too: a chunk may begin there.
+    const double gap = test::gap_at(a, b, found), behind = test::gap_at(a, b, found + 1e-9);
+    EXPECT_LE(std::min(gap, behind), tolerance + 2e-5)
+        << i << ": gaps of " << gap << " and " << behind << " at " << found;
+  }
+  EXPECT_GT(contacts, static_cast<int>(test::samples(500)));
+  EXPECT_GT(passes, static_cast<int>(test::samples(250)));
+  EXPECT_GT(fewer, static_cast<int>(test::samples(100)));
+}
+
+/// A sphere that comes over one that stands, or falls onto it from far above.
+TEST(FirstContact, OfTwoSpheresIsThatOfTheFormula) {
+  const auto sphere = [](float radius, float z) {
+    AnimatedDiscs body = still_disc(radius);
+    body.chunks[0].z = {z, z};
+    return body;
+  };
+  const MotionCase stands{sphere(0.1875f, 1), {{0, 0, 0, 1}}};
+  for (const double above : {0.0, 0.3, 0.49, 0.499999}) {
+    const MotionCase comes{sphere(0.3125f, 0.5f), {{0, -10, 0, 0, 0.5 + above}, {10, 10, 0, 0, 0.5 + above}}};
+    const double expected = 5 - std::sqrt(0.25 - above * above) / 2;
+    EXPECT_NEAR(contact_of(stands, comes, {0, 10}), expected, above < 0.49 ? 4e-6 : 2e-3) << above;
+    EXPECT_LE(contact_of(stands, comes, {0, 10}), expected) << above;
+  }
+  EXPECT_EQ(contact_of(stands, {sphere(0.3125f, 0.5f), {{0, -10, 0, 0, 1.1}, {10, 10, 0, 0, 1.1}}}, {0, 10}),
+            never);
+  for (const double height : {2.0, 1000.0, 1e6}) {
+    const MotionCase falls{sphere(0.3125f, 1), {{0, 0, 0, 0, height}, {height, 0, 0, 0, 0}}};
+    const double found = contact_of(falls, stands, {0, height});
+    EXPECT_LE(found, height - 0.5) << height;
+    EXPECT_NEAR(found, height - 0.5, 1e-5 + 1e-14 * height) << height;
+  }
+  // Beside a body of discs heights do not count.
+  const MotionCase disc = disc_on(0.1875f, {{0, 0, 0, 0}});
+  EXPECT_EQ(contact_of(disc, {sphere(0.3125f, 1), {{0, 0, 0, 0, 100}}}, {0, 1}), 0);
+}
+
 /// Discs of 3/16 m and 5/16 m that come together at 2 m a second from 10 m apart, and pass at a distance aside.
 TEST(FirstContact, OfTwoDiscsIsThatOfTheFormula) {
   const MotionCase stands = disc_on(0.1875f, {{0, 0, 0, 1}});
@@ -242,6 +306,8 @@ TEST(FirstContact, RefusesWhatIsNoMotion) {
             "first_contact: motion 1: key 0 of its path at nan s, not within +-1e6");
   EXPECT_EQ(with_path({{0, 2e9, 0, 0}}),
             "first_contact: motion 1: key 0 of its path: position (2e+09, 0) m is not within +-1e9");
+  EXPECT_EQ(with_path({{0, 0, 0, 0, 2e9}}),
+            "first_contact: motion 1: key 0 of its path: z 2e+09 m is not within +-1e9");
   EXPECT_EQ(with_path({{0, 0, 0, nan}}),
             "first_contact: motion 1: key 0 of its path: heading nan rad is not within +-1e9");
   EXPECT_EQ(with_path({{0, 0, 0, 0}, {1, 0, 0, 1001}}),

@@ -39,11 +39,39 @@ void expect_as_said(const AnimatedDiscs& animated, float seconds) {
     ASSERT_EQ(chunk.keys.size(), chunk.times.size() * chunk.disc_count);
     float reach = 0;
     for (const Disc& disc : chunk.keys) reach = std::max({reach, std::abs(disc.x), std::abs(disc.y)});
+    for (const float z : chunk.z) reach = std::max(reach, std::abs(z));
+    ASSERT_EQ(chunk.z.size(), chunk.keys.size());
     const double step = std::exp2(std::ceil(std::log2(double{reach})) - 15);
     for (const Disc& disc : chunk.keys)
       for (const float number : {disc.x, disc.y, disc.radius})
         EXPECT_EQ(std::remainder(double{number}, step), 0.0) << number;
+    for (const float z : chunk.z) EXPECT_EQ(std::remainder(double{z}, step), 0.0) << z;
   }
+}
+
+/// Returns the points of a model where vertices are.
+std::vector<Vec3> points_of(const BodyModel& model, std::span<const Vec3> vertices) {
+  std::vector<Vec3> points(vertices.begin(), vertices.end());
+  for (const auto& [from, to] : model.cuts) {
+    const Vec3 a = points[from], b = points[to];
+    points.push_back({(a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2});
+  }
+  return points;
+}
+
+/// Returns how many corners of a model are outside of their spheres.
+std::size_t corners_left_out(const BodyModel& model, std::span<const Vec3> vertices,
+                             std::span<const Sphere> spheres) {
+  const std::vector<Vec3> points = points_of(model, vertices);
+  std::size_t count = 0;
+  for (std::size_t s = 0; s < spheres.size(); ++s)
+    for (std::uint32_t i = model.corner_begin[s]; i < model.corner_begin[s + 1]; ++i) {
+      const Vec3& p = points[model.corners[i]];
+      const Sphere& of = spheres[s];
+      count += std::hypot(double{p.x} - double{of.x}, double{p.y} - double{of.y},
+                          double{p.z} - double{of.z}) > double{of.radius};
+    }
+  return count;
 }
 
 /// Looks at random times. Half of them are in the first 16th of a clip, where they are close to each other. Discs stand out farther than
@@ -58,12 +86,17 @@ void expect_held(const BodyModel& model, std::uint32_t times) {
   detail::Skinner skinner(character);
   OutlineBuilder builder(character.triangles, character.vertices.size());
   BodyPoser poser(model);
+  const AnimatedShape shape(animated);
+  EXPECT_TRUE(shape.in_space());
   Outline outline;
   Random random(31);
   for (std::uint32_t i = 0; i < times; ++i) {
     const auto seconds = static_cast<float>(random.uniform(0, double{end} / (i % 2 == 0 ? 1 : 16)));
     const std::span<const Vec2> vertices = skinner.ground_pose({0, seconds});
     builder.build(vertices, outline);
+    const std::vector<Vec3> in_space = pose_vertices(character, Pose(0, seconds));
+    ASSERT_EQ(corners_left_out(model, in_space, shape.spheres(double{seconds})), 0u)
+        << character.name << " at " << seconds << " s";
     const std::vector<Disc> cover = cover_at(animated, double{seconds});
     ASSERT_EQ(left_out(cover, vertices, outline), 0u) << character.name << " at " << seconds << " s";
     std::vector<Disc> posed;

@@ -76,8 +76,10 @@ void expect_tree(const detail::AnimatedTreeChunk& chunk) {
 TEST(AnimatedShape, NodesHoldTheirDiscsAtEveryTime) {
   Random random(3111);
   for (std::uint32_t i = 0; i < test::samples(80); ++i) {
-    const AnimatedShape shape(i % 4 == 0 ? test::loose_discs(random, i % 8 == 0 ? 1 + 13 * i : 1 + i)
-                                         : test::swinging_body(random, 2, 8 + i));
+    AnimatedDiscs body = i % 4 == 0 ? test::loose_discs(random, i % 8 == 0 ? 1 + 13 * i : 1 + i)
+                                    : test::swinging_body(random, 2, 8 + i);
+    const AnimatedShape shape(i % 2 == 0 ? std::move(body) : test::in_space(random, std::move(body), 2));
+    EXPECT_EQ(shape.in_space(), i % 2 != 0);
     for (const detail::AnimatedTreeChunk& chunk : shape.tree().chunks) {
       expect_tree(chunk);
       for (int k = 0; k < 30; ++k) {
@@ -88,8 +90,12 @@ TEST(AnimatedShape, NodesHoldTheirDiscsAtEveryTime) {
                            share);
         };
         for_each_held(chunk, [&](std::uint32_t node, std::uint32_t disc) {
+          const auto height = [&](std::uint32_t of) {
+            return std::lerp(double{chunk.z(key, of)}, double{chunk.z(key + 1, of)}, share);
+          };
           const double away =
-              std::hypot(at(node, &Disc::x) - at(disc, &Disc::x), at(node, &Disc::y) - at(disc, &Disc::y));
+              std::hypot(at(node, &Disc::x) - at(disc, &Disc::x), at(node, &Disc::y) - at(disc, &Disc::y),
+                         height(node) - height(disc));
           EXPECT_LE(away + at(disc, &Disc::radius), at(node, &Disc::radius) + 1e-14);
         });
       }
@@ -143,6 +149,39 @@ TEST(AnimatedShape, RoundsDiscsOutward) {
   }
   EXPECT_GT(kept, static_cast<int>(test::samples(100)));
   EXPECT_GT(moved, static_cast<int>(test::samples(1000)));
+}
+
+/// Spheres alike, by less than 2e-4 of the reach in space.
+TEST(AnimatedShape, RoundsSpheresOutward) {
+  Random random(3117);
+  for (std::uint32_t i = 0; i < test::samples(2000); ++i) {
+    const double size = std::exp(random.uniform(-12, 12)), tall = size * std::exp(random.uniform(-3, 1));
+    AnimatedChunk chunk{{0, 1}, 1 + random.below(4), {}};
+    double reach = 0;
+    for (std::uint32_t k = 0; k < 2 * chunk.disc_count; ++k) {
+      chunk.keys.push_back(
+          {static_cast<float>(random.uniform(-size, size)), static_cast<float>(random.uniform(-size, size)),
+           static_cast<float>(random.uniform(0, random.below(3) == 0 ? 2 * size : 0.1 * size))});
+      chunk.z.push_back(static_cast<float>(random.uniform(-tall, tall)));
+      const Disc& disc = chunk.keys.back();
+      reach = std::max(
+          reach, std::hypot(double{disc.x}, double{disc.y}, double{chunk.z.back()}) + double{disc.radius});
+    }
+    const AnimatedShape shape(moving({chunk}));
+    std::vector<Sphere> rounded = shape.spheres(0);
+    const std::vector<Sphere> last = shape.spheres(1);
+    rounded.insert(rounded.end(), last.begin(), last.end());
+    ASSERT_EQ(rounded.size(), chunk.keys.size());
+    for (std::size_t k = 0; k < rounded.size(); ++k) {
+      const Disc& disc = chunk.keys[k];
+      const double away =
+          std::hypot(double{rounded[k].x} - double{disc.x}, double{rounded[k].y} - double{disc.y},
+                     double{rounded[k].z} - double{chunk.z[k]});
+      const double room = double{rounded[k].radius} - double{disc.radius};
+      EXPECT_LE(away, room * (1 + 1e-12)) << i;
+      EXPECT_LT(away + room, 2e-4 * reach) << i;
+    }
+  }
 }
 
 /// A hull's extents, in any direction and at any time of its window, are those of the discs at least, and in the mean hardly more.
@@ -254,6 +293,15 @@ TEST(AnimatedShape, RefusesWhatDoesNotMove) {
        {[](Body& b) { b.chunks[0].keys.pop_back(); }, "chunk 0: 1 discs at 2 keys, not 1 at each"},
        {[=](Body& b) { b.chunks[0].keys[1].y = nan; }, "chunk 0: disc 0 at key 1, of 2 m at (2, nan) m"},
        {[](Body& b) { b.chunks[0].keys[0].radius = -1; }, "chunk 0: disc 0 at key 0, of -1 m at (0, 0) m"},
+       {[](Body& b) {
+          b.chunks[1].z = {1, 1, 1, 1};
+        },
+        "chunk 1: 4 heights, not 0"},
+       {[](Body& b) { b.chunks[0].z = {1}; }, "chunk 0: 1 heights, not 2"},
+       {[=](Body& b) {
+          b.chunks[0].z = {1, nan};
+        },
+        "chunk 0: a height of nan m, which is not within +-1e6"},
        {[](Body& b) { b.heights.bottom = 1, b.heights.top = 0; }, "heights from 1 to 0 m"}});
   Body large = moving(two_chunks());
   large.chunks[0].keys[0].radius = 2e6f;

@@ -53,7 +53,7 @@ std::vector<Crime> crimes() {
       {"origins 0: time", origin(0, &ShapeOrigin::seconds, nan)},
       {"clips 1: character has name 5", word(Section::clips, 6, 5)},
       {"clips 0: clip has name 4", word(Section::clips, 1, 4)},
-      {"clips 1: it loops 2 times", word(Section::clips, 8, 2)},
+      {"clips 1: it is of kind 4", word(Section::clips, 8, 4)},
       {"clips 0: 4 of chunks, which has 3 left", word(Section::clips, 3, 4)},
       {"clips 1: 4294967295 of chunks, which has 1 left", word(Section::clips, 9, ~0u)},
       {"clips 1: animated shape: no chunks", word(Section::clips, 9, 0)},

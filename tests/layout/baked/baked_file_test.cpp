@@ -135,12 +135,25 @@ TEST(BakedFile, ClipsAreStoredExactly) {
     }
 }
 
+TEST(BakedFile, HasSpheresOfClips) {
+  const ShapeSet set(few_shapes(), full_plan);
+  for (const float z : {1.5f, 0.1f}) {  // in 16 bits, and not
+    const AnimatedChunk chunk{{0, 1}, 1, {{0, 0, 1}, {0.5f, 0, 1}}, {-1, z}};
+    BakedBytes bytes(set, origins_of(3), std::vector<BakedClip>{{0, 1, {{chunk}, true}}});
+    EXPECT_EQ(bytes.load().clips[0].discs, (AnimatedDiscs{{chunk}, true}));
+    EXPECT_EQ(bytes.entry(Section::disc_floats).count, z == 0.1f ? 8u : 0u);
+    bytes.section<detail::baked::ClipRecord>(Section::clips)[0].kind = detail::baked::clip_loops;
+    bytes.seal();
+    EXPECT_NE(bytes.error(), "");  // two numbers belong to no clip
+  }
+}
+
 TEST(BakedFile, HasNoLoopsOfNextToNoTime) {
   const ShapeSet set(few_shapes(), full_plan);
   const AnimatedChunk chunk{{0, 1e-12}, 1, {{0, 0, 1}, {0, 0, 1}}};
   BakedBytes bytes(set, origins_of(3), std::vector<BakedClip>{{0, 1, {{chunk}, false}}});
   EXPECT_EQ(bytes.load().clips[0].discs.chunks[0], chunk);
-  bytes.section<detail::baked::ClipRecord>(Section::clips)[0].loops = 1;
+  bytes.section<detail::baked::ClipRecord>(Section::clips)[0].kind = detail::baked::clip_loops;
   bytes.seal();
   EXPECT_EQ(bytes.error(), "file: clips 0: animated shape: a loop of 1e-12 s, which is shorter than 0.001 s");
 }

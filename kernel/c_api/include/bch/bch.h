@@ -893,7 +893,7 @@ BCH_API bch_status bch_obstacles_time_of_impact(const bch_shape_set* set, const 
 
 /* Motions ----------------------------------------------------------------------------------------------------------- */
 
-/** Represents a body that moves by itself: discs whose centres and radii are linear in time from key to key.
+/** Represents a body that moves by itself: discs whose centres and radii are linear in time from key to key, or spheres, which have heights.
  * It has a shape at every time. Times before the beginning and after the end are clamped to these; if the clip loops, they wrap around
  * instead: its end is followed by its beginning at once. */
 typedef struct bch_animated_shape bch_animated_shape;
@@ -906,7 +906,7 @@ typedef struct bch_animate_options {
 } bch_animate_options;
 #define BCH_ANIMATE_OPTIONS_INIT \
   { sizeof(bch_animate_options), 0.005f, -1 }
-/** Makes moving discs of a clip that hold the character of a model at every real time of it, one for each sphere. */
+/** Makes moving spheres of a clip that hold the character of a model at every real time of it. */
 BCH_API bch_status bch_animated_shape_animate(const bch_body_model* model, uint32_t clip,
                                               const bch_animate_options* options, bch_animated_shape** shape);
 
@@ -919,9 +919,10 @@ typedef struct bch_animated_arrays {
   size_t chunk_count;
   const double* times;       /**< of the keys of all chunks, seconds; a chunk begins when the one before it ends */
   const bch_disc* discs;     /**< of the chunks, key by key */
+  const float* z;            /**< the heights of the centres of spheres, as many as discs, or NULL */
 } bch_animated_arrays;
 #define BCH_ANIMATED_ARRAYS_INIT \
-  { sizeof(bch_animated_arrays), 0, NULL, NULL, 0, NULL, NULL }
+  { sizeof(bch_animated_arrays), 0, NULL, NULL, 0, NULL, NULL, NULL }
 /** Makes a body from moving discs. */
 BCH_API bch_status bch_animated_shape_create(const bch_animated_arrays* arrays, bch_animated_shape** shape);
 
@@ -939,9 +940,12 @@ typedef struct bch_animated_shape_info {
   { sizeof(bch_animated_shape_info), 0, 0, 0, 0, 0, 0, 0 }
 /** Gets the times and sizes of a body. */
 BCH_API bch_status bch_animated_shape_get_info(const bch_animated_shape* shape, bch_animated_shape_info* info);
-/** Gets the discs at a time. Writes at most `capacity` discs, and the number of all to `count`. */
+/** Gets the discs at a time, spheres as seen from above. Writes at most `capacity` discs, and the number of all to `count`. */
 BCH_API bch_status bch_animated_shape_get_discs(const bch_animated_shape* shape, double seconds, bch_disc* discs,
                                                 size_t capacity, size_t* count);
+/** Gets the spheres at a time, likewise: none of a body of discs. */
+BCH_API bch_status bch_animated_shape_get_spheres(const bch_animated_shape* shape, double seconds, bch_sphere* spheres,
+                                                  size_t capacity, size_t* count);
 /** Frees a body. */
 BCH_API bch_status bch_animated_shape_free(bch_animated_shape* shape);
 /** Adds the shape of a body at a time to a set. */
@@ -960,6 +964,7 @@ BCH_API bch_status bch_shape_set_get_clip(const bch_shape_set* set, size_t i, co
 /** Places a motion at a time: a key of its path. To the next key the motion goes straight on and turns evenly. */
 typedef struct bch_path_key {
   double time, x, y, heading; /**< seconds, metres, radians */
+  double z; /**< the height of the agent's ground, metres; it counts between bodies of spheres */
 } bch_path_key;
 /** Describes an agent who goes along a path and plays a clip. Before the first key and after the last one the agent stands at that key. */
 typedef struct bch_motion {
@@ -968,14 +973,14 @@ typedef struct bch_motion {
   size_t path_count;
   double clip_begin; /**< the time at which the clip begins, seconds */
 } bch_motion;
-/** Finds when the two motions of each pair first touch, from `from` to `to` seconds, both included, or infinity. The time is never late,
+/** Finds when the two motions of each pair first touch, in space where both bodies are of spheres, from `from` to `to` seconds, both included, or infinity. The time is never late,
  * and early by no more than it takes the motions to come closer by `tolerance` metres, 0.005 for instance. `threads` 0: one for each
  * processor. */
 BCH_API bch_status bch_first_contact(const bch_motion* motions, size_t motion_count, const bch_pair* pairs,
                                      size_t count, double from, double to, double tolerance, uint32_t threads,
                                      double* times);
-/** Finds when each motion first touches an obstacle, as bch_first_contact() does for pairs. Motions have no z: obstacles count at all
- * heights. */
+/** Finds when each motion first touches an obstacle, as bch_first_contact() does for pairs. Bodies count as seen from above, and
+ * obstacles at all heights. */
 BCH_API bch_status bch_obstacles_first_contact(const bch_motion* motions, size_t motion_count,
                                                const bch_obstacles* obstacles, double from, double to, double tolerance,
                                                uint32_t threads, double* times);
