@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <optional>
 #include <utility>
 
 #include "kernel/motion/hull_separation.hpp"
@@ -14,6 +16,11 @@
 
 namespace bch::detail {
 namespace {
+
+constexpr double most_slack_of_bands = hull_overlap / 4;  ///< metres
+
+/// Slopes of the lines along which bands are looked at: tangents of eighths of half a round.
+constexpr double asides[] = {0, 0.4142, -0.4142, 1, -1, 2.4142, -2.4142};
 
 /// The way of one body relative to another between two times.
 struct RelativeWay {
@@ -123,7 +130,8 @@ double ContactSearch::first_near(double from, double end, double to, unsigned le
   return never;
 }
 
-/// Looks along the line between the positions where they are nearest to each other. Along it their distance is linear in time.
+/// Looks along the line between the positions where they are nearest to each other. Along it their distance is linear in time. Bodies of
+/// spheres may be apart in each band of height, along a line of its own: one of some about that line.
 bool ContactSearch::hulls_are_apart(double from, double end, unsigned level) const {
   const PathKey a = a_->pose(from), b = b_->pose(from), a_end = a_->pose(end), b_end = b_->pose(end);
   const PlanePoint between{b.x - a.x, b.y - a.y}, at_end{b_end.x - a_end.x, b_end.y - a_end.y},
@@ -132,9 +140,32 @@ bool ContactSearch::hulls_are_apart(double from, double end, unsigned level) con
   const double nearest = square > 0 ? std::clamp(-dot(between, way) / square, 0.0, 1.0) : 0;
   const PlanePoint line = between + nearest * way;
   if (squared_length(line) == 0) return false;
-  const ReachAlong of_a(*a_, level, a, a_end, line), of_b(*b_, level, b, b_end, -1 * line);
-  const double more = of_a.more + of_b.more + slack_ * length(line);
-  return dot(between, line) > of_a.from + of_b.from + more && dot(at_end, line) > of_a.to + of_b.to + more;
+  const auto along = [&](double aside) {
+    const PlanePoint direction = line + aside * PlanePoint{-line.y, line.x};
+    return LineBetween{{*a_, level, a, a_end, direction},
+                       {*b_, level, b, b_end, -1 * direction},
+                       dot(between, direction) - slack_ * length(direction),
+                       dot(at_end, direction) - slack_ * length(direction)};
+  };
+  std::array<std::optional<LineBetween>, std::size(asides)> lines;
+  lines[0].emplace(along(asides[0]));
+  if (lines[0]->separates(a_->hull(level).extents, b_->hull(level).extents)) return true;
+  if (!in_space_ || slack_ > most_slack_of_bands) return false;
+  const auto are_apart = [&](const HullWindow::Extents& of_a, const HullWindow::Extents& of_b) {
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      if (!lines[i]) lines[i].emplace(along(asides[i]));
+      if (lines[i]->separates(of_a, of_b)) return true;
+    }
+    return false;
+  };
+  const auto [low, high] = std::minmax({a.z - b.z, a_end.z - b_end.z});
+  const HullBands &bands_a = a_->bands(level), &bands_b = b_->bands(level);
+  for (std::uint32_t i = 0; i < hull_bands; ++i)
+    for (std::uint32_t j = 0; j < hull_bands; ++j)
+      if ((bands_a.some >> i & 1) != 0 && (bands_b.some >> j & 1) != 0 && bands_meet(i, j, low, high) &&
+          !are_apart(bands_a.extents[i], bands_b.extents[j]))
+        return false;
+  return true;
 }
 
 double ContactSearch::first_between(double from, double end) {

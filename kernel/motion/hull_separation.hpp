@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "kernel/motion/moving_body.hpp"
+#include "kernel/motion/moving_disc.hpp"
 #include "layout/base/heading.hpp"
 
 namespace bch::detail {
@@ -19,31 +20,70 @@ namespace bch::detail {
 /// what by R1. So it reaches (1 - s) E(d0, s) + s E(d1, s) + turn^2 / 8 reach, where d0 and d1 are the direction as the body sees it at
 /// both ends. The first two are s (1 - s) (E(d0, 1) - E(d0, 0) - E(d1, 1) + E(d1, 0)) more than what lies evenly between E(d0, 0) and
 /// E(d1, 1).
-struct ReachAlong {
-  double from, to, more;
+class ReachAlong {
+ public:
+  /// How far it reaches at both ends, and by how much more between.
+  struct Reach {
+    double from, to, more;
+  };
 
   /// Takes a body in a window of chunks in which the interval lies, and the direction.
   ReachAlong(const MovingBody& body, unsigned level, const PathKey& begin, const PathKey& end,
-             const PlanePoint& direction) noexcept {
-    const HullWindow& hull = body.hull(level);
-    const double step = body.tree().hulls.step, share = body.hull_share(begin.time, level),
-                 share_at_end = body.hull_share(end.time, level), turn = end.heading - begin.heading;
-    const auto seen = [&](double heading) {
-      const Rotation r = rotation(heading);
-      return HullDirection(
-          {r.cosine * direction.x + r.sine * direction.y, r.cosine * direction.y - r.sine * direction.x});
-    };
-    const HullDirection::Extent first = seen(begin.heading).extent(hull);
-    const double growth = first.to - first.from;
-    from = step * (first.from + growth * share);
-    to = step * (first.from + growth * share_at_end), more = 0;
-    if (turn == 0) return;
-    const HullDirection::Extent last = seen(end.heading).extent(hull);
+             const PlanePoint& direction) noexcept
+      : step_(body.tree().hulls.step),
+        share_(body.hull_share(begin.time, level)),
+        share_at_end_(body.hull_share(end.time, level)),
+        turns_(begin.heading != end.heading),
+        first_(seen(direction, begin.heading)),
+        last_(turns_ ? seen(direction, end.heading) : first_) {
+    const double turn = end.heading - begin.heading;
+    bend_ = turn * turn / 8 * body.tree().reach * length(direction);
+  }
+
+  /// Says that of the whole body, or of one of its bands, in the window.
+  Reach of(const HullWindow::Extents& extents) const noexcept {
+    const HullDirection::Extent first = first_.extent(extents);
+    const double growth = first.to - first.from, from = step_ * (first.from + growth * share_);
+    if (!turns_) return {from, step_ * (first.from + growth * share_at_end_), 0};
+    const HullDirection::Extent last = last_.extent(extents);
     const double growth_of_last = last.to - last.from;
-    to = step * (last.from + growth_of_last * share_at_end);
-    more = std::max(0.0, step * (growth - growth_of_last) * (share_at_end - share)) / 4 +
-           turn * turn / 8 * body.tree().reach * length(direction);
+    return {from, step_ * (last.from + growth_of_last * share_at_end_),
+            std::max(0.0, step_ * (growth - growth_of_last) * (share_at_end_ - share_)) / 4 + bend_};
+  }
+
+ private:
+  static HullDirection seen(const PlanePoint& direction, double heading) noexcept {
+    const Rotation r = rotation(heading);
+    return HullDirection(
+        {r.cosine * direction.x + r.sine * direction.y, r.cosine * direction.y - r.sine * direction.x});
+  }
+
+  double step_, share_, share_at_end_;
+  bool turns_;
+  HullDirection first_, last_;  ///< as the body sees the direction at both ends
+  double bend_ = 0;
+};
+
+/// Represents a line along which two bodies are looked at, and how far their positions are apart along it at both ends of the interval.
+struct LineBetween {
+  ReachAlong a, b;
+  double away, away_at_end;
+
+  /// Returns whether parts of both are apart all the time.
+  bool separates(const HullWindow::Extents& of_a, const HullWindow::Extents& of_b) const noexcept {
+    const ReachAlong::Reach first = a.of(of_a), second = b.of(of_b);
+    const double more = first.more + second.more;
+    return away > first.from + second.from + more && away_at_end > first.to + second.to + more;
   }
 };
+
+/// Returns whether bands of two bodies have more height in common than the overlap, within an interval in which the first one's ground is
+/// from `low` to `high` above the second one's.
+inline bool bands_meet(std::uint32_t a, std::uint32_t b, double low, double high) noexcept {
+  const auto bottom = [](std::uint32_t band) { return band == 0 ? -never : band * hull_band; };
+  const auto top = [](std::uint32_t band) { return band + 1 == hull_bands ? never : (band + 1) * hull_band; };
+  constexpr double enough = hull_overlap / 2;  // the other half is for rounding
+  return std::min(top(a) + high, top(b)) - std::max(bottom(a) + low, bottom(b)) > enough;
+}
 
 }  // namespace bch::detail

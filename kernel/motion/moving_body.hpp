@@ -52,6 +52,8 @@ class MovingBody {
   const HullWindow& hull(unsigned level) const noexcept {
     return tree().hulls.levels[level][chunk_ >> level];
   }
+  /// Likewise, of a body of spheres: the hulls of its bands.
+  const HullBands& bands(unsigned level) const noexcept { return tree().hulls.bands[level][chunk_ >> level]; }
   double hull_end(unsigned level) const noexcept;
   double hull_share(double time, unsigned level) const noexcept;
   const AnimatedTree& tree() const noexcept { return *facts_->tree; }

@@ -4,6 +4,8 @@
 #include "layout/shape_set/animated_hulls.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <numeric>
 #include <span>
 
 #include "layout/shape_set/animated_tree.hpp"
@@ -19,16 +21,37 @@ struct HullKey {
   Extents extents;
 };
 
-HullKey hull_key(const AnimatedTreeChunk& chunk, std::size_t key) {
+/// Says for each sphere of a chunk into which bands it comes: a bit each. Between two keys its lowest and highest points move evenly.
+std::vector<std::uint32_t> bands_of(const AnimatedTreeChunk& chunk) {
+  std::vector<std::uint32_t> bands;
+  for (const std::uint32_t leaf : chunk.leaf_of_disc) {
+    double bottom = HUGE_VAL, top = -HUGE_VAL;
+    for (std::size_t key = 0; key < chunk.times.size(); ++key) {
+      const double z = chunk.z(key, leaf), radius = chunk.disc(key, leaf).radius;
+      bottom = std::min(bottom, z - radius), top = std::max(top, z + radius);
+    }
+    bands.push_back(0);
+    for (std::uint32_t band = 0; band < hull_bands; ++band) {
+      const bool is_above = band > 0 && top < band * hull_band - hull_overlap,
+                 is_below = band + 1 < hull_bands && bottom > (band + 1) * hull_band + hull_overlap;
+      if (!is_above && !is_below) bands.back() |= 1u << band;
+    }
+  }
+  return bands;
+}
+
+/// Finds how far the discs at a key reach for which use(i); without any, less far than discs do.
+template <class Use>
+HullKey hull_key(const AnimatedTreeChunk& chunk, std::size_t key, double reach, const Use& use) {
   HullKey hull{chunk.times[key], {}};
-  hull.extents.fill(chunk.nodes() > 0 ? -HUGE_VAL : 0);  // any number bounds how far nothing reaches
-  for (std::uint32_t k = 0; k < hull_directions; ++k) {
-    const PlanePoint d = hull_direction(k);
-    const double size = length(d);
-    for (const std::uint32_t leaf : chunk.leaf_of_disc) {
-      const Disc disc = chunk.disc(key, leaf);
-      hull.extents[k] =
-          std::max(hull.extents[k], d.x * double{disc.x} + d.y * double{disc.y} + size * double{disc.radius});
+  hull.extents.fill(-1.4143 * reach);
+  for (std::size_t i = 0; i < chunk.leaf_of_disc.size(); ++i) {
+    if (!use(i)) continue;
+    const Disc disc = chunk.disc(key, chunk.leaf_of_disc[i]);
+    for (std::uint32_t k = 0; k < hull_directions; ++k) {
+      const PlanePoint d = hull_direction(k);
+      hull.extents[k] = std::max(
+          hull.extents[k], d.x * double{disc.x} + d.y * double{disc.y} + length(d) * double{disc.radius});
     }
   }
   return hull;
@@ -62,19 +85,37 @@ double step_of_hulls(double reach) {
 }  // namespace
 
 AnimatedHulls animated_hulls(const std::vector<AnimatedTreeChunk>& chunks, double reach) {
+  const bool in_space = chunks.front().in_space;
   std::vector<HullKey> keys;
+  std::array<std::vector<HullKey>, hull_bands> of_bands;  ///< likewise
   std::vector<std::size_t> begin;
+  std::vector<std::uint32_t> some;  ///< per chunk: the bands that have spheres
   for (const AnimatedTreeChunk& chunk : chunks) {
     begin.push_back(keys.size());
-    for (std::size_t key = 0; key < chunk.times.size(); ++key) keys.push_back(hull_key(chunk, key));
+    const std::vector<std::uint32_t> bands =
+        in_space ? bands_of(chunk) : std::vector<std::uint32_t>(chunk.leaf_of_disc.size());
+    some.push_back(std::accumulate(bands.begin(), bands.end(), 0u, std::bit_or<>()));
+    for (std::size_t key = 0; key < chunk.times.size(); ++key) {
+      keys.push_back(hull_key(chunk, key, reach, [](std::size_t) { return true; }));
+      for (std::uint32_t band = 0; in_space && band < hull_bands; ++band)
+        of_bands[band].push_back(
+            hull_key(chunk, key, reach, [&](std::size_t i) { return (bands[i] >> band & 1) != 0; }));
+    }
   }
   begin.push_back(keys.size());
-  AnimatedHulls hulls{step_of_hulls(reach), {}};
+  AnimatedHulls hulls{step_of_hulls(reach), {}, {}};
   for (unsigned level = 0; level < AnimatedHulls::level_count; ++level)
     for (std::size_t first = 0; first < chunks.size(); first += std::size_t{1} << level) {
       const std::size_t last = std::min(first + (std::size_t{1} << level), chunks.size());
-      hulls.levels[level].push_back(
-          window_of(std::span(keys).subspan(begin[first], begin[last] - begin[first]), hulls.step));
+      const auto window = [&](const std::vector<HullKey>& all) {
+        return window_of(std::span(all).subspan(begin[first], begin[last] - begin[first]), hulls.step);
+      };
+      hulls.levels[level].push_back(window(keys));
+      if (!in_space) continue;
+      HullBands& bands = hulls.bands[level].emplace_back();
+      for (std::size_t chunk = first; chunk < last; ++chunk) bands.some |= some[chunk];
+      for (std::uint32_t band = 0; band < hull_bands; ++band)
+        bands.extents[band] = window(of_bands[band]).extents;
     }
   return hulls;
 }

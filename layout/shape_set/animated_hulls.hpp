@@ -17,6 +17,16 @@ struct AnimatedTreeChunk;
 
 constexpr std::uint32_t hull_directions = 32;
 
+/// Bodies of spheres have hulls for bands of height as well, so many, between planes that are so far apart above the agent's ground: the
+/// first one reaches from below, the last one to above all. A band's hull holds the spheres that come into it or within an overlap of it.
+///
+/// So two bodies need be compared in bands alone that have more height in common than the overlap: a point of both is in a band of each.
+/// Where these two have less in common, the point is within the overlap of the next band of that body whose band ends there. That one has
+/// more in common with the other body's.
+constexpr std::uint32_t hull_bands = 8;
+constexpr double hull_band = 0.25, hull_overlap = 0.01;
+static_assert(hull_band > 2 * hull_overlap);
+
 /// Says how far a body reaches through a window of time in each of the directions, in steps: at every time of it by no more than what lies
 /// evenly between both ends.
 struct HullWindow {
@@ -24,7 +34,14 @@ struct HullWindow {
     std::int16_t from, to;
   };
   double begin, end;  ///< seconds of the clip
-  std::array<Extent, hull_directions> extents;
+  using Extents = std::array<Extent, hull_directions>;
+  Extents extents;
+};
+
+/// Holds the hulls of the bands through a window, of those that have a bit in `some`; there is nothing in the others.
+struct HullBands {
+  std::array<HullWindow::Extents, hull_bands> extents;
+  std::uint32_t some = 0;
 };
 
 /// Holds the hulls of a body through windows of time, of one chunk each at level 0, and of two windows of the level below at the next ones.
@@ -33,6 +50,7 @@ struct AnimatedHulls {
 
   double step = 0;  ///< metres
   std::array<std::vector<HullWindow>, level_count> levels;
+  std::array<std::vector<HullBands>, level_count> bands;  ///< of spheres, by window
 };
 
 /// Returns a direction by its number. Their ends lie evenly on the border of the square from -1 to 1, so that those of others lie
@@ -75,8 +93,8 @@ struct HullDirection {
     double from, to;
   };
   /// Returns that at most: a body reaches no farther in the sum of two directions than the sum of how far it does in each.
-  Extent extent(const HullWindow& hull) const noexcept {
-    const HullWindow::Extent a = hull.extents[first], b = hull.extents[second];
+  Extent extent(const HullWindow::Extents& extents) const noexcept {
+    const HullWindow::Extent a = extents[first], b = extents[second];
     return {size * (a.from + (b.from - a.from) * share), size * (a.to + (b.to - a.to) * share)};
   }
 };

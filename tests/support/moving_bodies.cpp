@@ -12,8 +12,8 @@ namespace bch::test {
 namespace {
 
 /// Returns numbers that an AnimatedShape of such bodies keeps as they are.
-float even(double value) {
-  return static_cast<float>(std::ceil(value * 0x1p16) * 0x1p-16);
+float even(double value, double step = 0x1p-16) {
+  return static_cast<float>(std::ceil(value / step) * step);
 }
 
 PathKey pose_at(const std::vector<PathKey>& path, double time) {
@@ -102,8 +102,16 @@ AnimatedDiscs loose_discs(Random& random, std::uint32_t discs) {
 }
 
 AnimatedDiscs in_space(Random& random, AnimatedDiscs body, double top) {
-  for (AnimatedChunk& chunk : body.chunks)
-    for (std::size_t i = 0; i < chunk.keys.size(); ++i) chunk.z.push_back(even(random.uniform(0, top)));
+  for (AnimatedChunk& chunk : body.chunks) {
+    std::vector<double> height(chunk.disc_count);
+    for (double& each : height) each = random.uniform(0, top);
+    for (std::size_t i = 0; i < chunk.keys.size(); ++i) {
+      constexpr double step = 0x1p-14;  // of numbers below 2 m
+      Disc& disc = chunk.keys[i];
+      disc = {even(double{disc.x}, step), even(double{disc.y}, step), even(double{disc.radius}, step)};
+      chunk.z.push_back(even(height[i % chunk.disc_count] + random.uniform(-0.05, 0.05), step));
+    }
+  }
   return body;
 }
 

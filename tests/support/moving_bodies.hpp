@@ -25,7 +25,7 @@ AnimatedDiscs swinging_body(Random& random, std::uint32_t chunks = 2, std::uint3
 /// Returns discs that move each for itself.
 AnimatedDiscs loose_discs(Random& random, std::uint32_t discs = 5);
 
-/// Returns a body whose discs are spheres at heights from 0 to a top, which change from key to key.
+/// Returns a body whose discs are spheres at heights from 0 to a top below 1.9 m, which change by centimetres from key to key.
 AnimatedDiscs in_space(Random& random, AnimatedDiscs body, double top);
 
 /// Returns one disc that stands still for a second.

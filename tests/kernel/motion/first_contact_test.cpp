@@ -48,7 +48,7 @@ TEST(FirstContact, IsNeverLaterThanAnySampleAndEarlyByTheToleranceAtMost) {
 MotionCase random_motion_in_space(Random& random) {
   MotionCase flat = test::random_motion(random);
   for (PathKey& key : flat.path) key.z = random.uniform(-0.5, 0.5);
-  return {test::in_space(random, std::move(flat.discs), random.uniform(0.1, 1)), std::move(flat.path),
+  return {test::in_space(random, std::move(flat.discs), random.uniform(0.1, 1.8)), std::move(flat.path),
           flat.clip_begin};
 }
 

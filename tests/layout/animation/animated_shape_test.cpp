@@ -78,7 +78,7 @@ TEST(AnimatedShape, NodesHoldTheirDiscsAtEveryTime) {
   for (std::uint32_t i = 0; i < test::samples(80); ++i) {
     AnimatedDiscs body = i % 4 == 0 ? test::loose_discs(random, i % 8 == 0 ? 1 + 13 * i : 1 + i)
                                     : test::swinging_body(random, 2, 8 + i);
-    const AnimatedShape shape(i % 2 == 0 ? std::move(body) : test::in_space(random, std::move(body), 2));
+    const AnimatedShape shape(i % 2 == 0 ? std::move(body) : test::in_space(random, std::move(body), 1.8));
     EXPECT_EQ(shape.in_space(), i % 2 != 0);
     for (const detail::AnimatedTreeChunk& chunk : shape.tree().chunks) {
       expect_tree(chunk);
@@ -190,8 +190,8 @@ TEST(AnimatedShape, HullsHoldDiscsThroughTheirWindows) {
   double more = 0;
   const std::uint32_t bodies = test::samples(100);
   for (std::uint32_t i = 0; i < bodies; ++i) {
-    const AnimatedShape shape(i % 4 == 0 ? test::loose_discs(random)
-                                         : test::swinging_body(random, 1 + i % 11));
+    AnimatedDiscs body = i % 4 == 0 ? test::loose_discs(random) : test::swinging_body(random, 1 + i % 11);
+    const AnimatedShape shape(i % 2 == 0 ? std::move(body) : test::in_space(random, std::move(body), 1.8));
     const detail::AnimatedTree& tree = shape.tree();
     for (unsigned level = 0; level < detail::AnimatedHulls::level_count; ++level) {
       const std::size_t width = std::size_t{1} << level, chunks = tree.chunks.size();
@@ -202,12 +202,25 @@ TEST(AnimatedShape, HullsHoldDiscsThroughTheirWindows) {
         EXPECT_EQ(hull.end, tree.chunks[std::min((window + 1) * width, chunks) - 1].times.back());
         const double share = random.uniform(0, 1), angle = random.uniform(-4, 4);
         const detail::PlanePoint d{std::cos(angle), std::sin(angle)};
-        const auto [from, to] = detail::HullDirection(d).extent(hull);
+        const auto [from, to] = detail::HullDirection(d).extent(hull.extents);
         const double reached = tree.hulls.step * std::lerp(from, to, share);
         double of_discs = -1;
         for (const Disc& disc : shape.discs(std::lerp(hull.begin, hull.end, share)))
           of_discs = std::max(of_discs, d.x * double{disc.x} + d.y * double{disc.y} + double{disc.radius});
         EXPECT_GE(reached, of_discs - 1e-7);
+        for (const Sphere& s : shape.spheres(std::lerp(hull.begin, hull.end, share)))
+          for (std::uint32_t band = 0; band < detail::hull_bands; ++band) {
+            const double low = band == 0 ? -1e9 : band * detail::hull_band - detail::hull_overlap,
+                         high = band + 1 == detail::hull_bands
+                                    ? 1e9
+                                    : (band + 1) * detail::hull_band + detail::hull_overlap;
+            if (double{s.z} + double{s.radius} < low || double{s.z} - double{s.radius} > high) continue;
+            const detail::HullBands& bands = tree.hulls.bands[level][window];
+            EXPECT_TRUE(bands.some >> band & 1);
+            const auto [begin, end] = detail::HullDirection(d).extent(bands.extents[band]);
+            EXPECT_GE(tree.hulls.step * std::lerp(begin, end, share),
+                      d.x * double{s.x} + d.y * double{s.y} + double{s.radius} - 1e-7);
+          }
         if (level == 0) more += (reached - of_discs) / static_cast<double>(bodies * chunks);
       }
     }
