@@ -551,6 +551,15 @@ class Sets(unittest.TestCase):
         wall = bch.Obstacles.from_wkt("LINESTRING(0.6 -1, 0.6 1)")  # reached when 0.5 t + 0.2 = 0.6, and when 3 - t - 0.2 = 0.6
         touched = bch.first_contact(movers, wall, (0, 10), tolerance=1e-4)
         np.testing.assert_allclose(touched, [0.8, 2.2], atol=1e-3)
+        # Spheres meet in space: one comes over another one, whose ground is 1 m below, and one comes lower.
+        ball = bch.AnimatedShape([0, 1], [[[0, 0, 0.5, 0.2]]] * 2)
+        self.assertEqual(ball.spheres(0.5).tolist(), [(0.0, 0.0, 0.5, 0.20001220703125)])
+        self.assertEqual(len(still.spheres(0)), 0)
+        comes = lambda z: bch.Mover(ball, [(0, 3, 0, 0, z), (3, 0, 0, 0, z)])  # noqa: E731
+        stands = bch.Mover(ball, [(0, 0, 0, 0)])
+        in_space = bch.first_contact([stands, comes(1), comes(0.3)], np.array([[0, 1], [0, 2]], np.uint32), (0, 10), tolerance=1e-4)
+        self.assertEqual(in_space[0], np.inf)
+        self.assertAlmostEqual(float(in_space[1]), 3 - (0.4**2 - 0.3**2) ** 0.5, 3)
         out = np.empty(2)
         self.assertIs(bch.first_contact(movers, pairs, (0, 1), out=out), out)
         self.assertTrue(np.isinf(out).all())
