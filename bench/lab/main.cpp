@@ -36,7 +36,7 @@ void add_report_options(CLI::App& command, ReportOptions& options) {
       "Writes what was measured into DIR, as CSV. bench/report/report.py DIR then writes DIR/index.html, "
       "with figures\n"
       "and verdicts.\n"
-      "All experiments take 5 to 10 minutes on two cores, or 1 to 2 minutes with --quick.\n"
+      "All experiments take some ten minutes on two cores, or one minute with --quick.\n"
       "Example: bch_lab report --out report --experiment density");
   command.add_option("--out", options.report.folder, "Folder for the tables")->type_name("DIR")->required();
   add_repeatable_option(command, "--experiment", options.report.experiments,
