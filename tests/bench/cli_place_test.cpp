@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "baselines/exact_tests.hpp"
 #include "kernel/recordings/walker_cast.hpp"
 #include "tests/support/bch_run.hpp"
 #include "tests/support/crowd_pairs.hpp"
@@ -44,35 +45,75 @@ std::map<std::string, Moment> moments_of(const std::string& csv) {
   return moments;
 }
 
+/// Triangles of a skin where it stands, and the box that holds them.
+struct Skin {
+  std::vector<baselines::Triangle3> triangles;
+  std::array<double, 3> low{1e9, 1e9, 1e9}, high{-1e9, -1e9, -1e9};
+
+  void add(const baselines::Triangle3& triangle) {
+    triangles.push_back(triangle);
+    for (const auto& [x, y, z] : triangle) {
+      const double at[] = {x, y, z};
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        low[axis] = std::min(low[axis], at[axis]), high[axis] = std::max(high[axis], at[axis]);
+    }
+  }
+
+  /// Returns what may meet another skin.
+  Skin near(const Skin& other) const {
+    Skin some;
+    for (const baselines::Triangle3& triangle : triangles) {
+      Skin one;
+      one.add(triangle);
+      bool is_near = true;
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        is_near = is_near && one.low[axis] <= other.high[axis] && other.low[axis] <= one.high[axis];
+      if (is_near) some.add(triangle);
+    }
+    return some;
+  }
+
+  bool meets(const Skin& other) const {
+    const Skin some = near(other), others = other.near(some);
+    return std::ranges::any_of(some.triangles, [&](const baselines::Triangle3& s) {
+      return std::ranges::any_of(
+          others.triangles, [&](const baselines::Triangle3& t) { return baselines::triangles_meet(s, t); });
+    });
+  }
+};
+
 /// The characters, as people have them.
 struct Bodies {
   std::map<std::string, Character> characters{
       {"default:male", detail::cast_member(default_male(), "").character},
       {"default:female", detail::cast_member(default_female(), "").character}};
-  std::map<std::string, PoseShaper> shapers;
 
-  Bodies() {
-    for (const auto& [name, character] : characters) shapers.emplace(name, PoseShaper(character));
+  Skin skin_of(const Moment& moment, std::size_t i) const {
+    const Character& character = characters.at(moment.character[i]);
+    const auto clip = std::ranges::find(character.clips, "idle think", &Clip::name) - character.clips.begin();
+    const std::vector<Vec3> posed =
+        pose_vertices(character, Pose(static_cast<std::uint32_t>(clip), moment.clip_time[i]));
+    const double c = std::cos(moment.heading[i]), s = std::sin(moment.heading[i]);
+    const auto placed = [&](std::uint32_t vertex) {
+      const double x = double{posed[vertex].x}, y = double{posed[vertex].y};
+      return baselines::Point3{moment.x[i] + c * x - s * y, moment.y[i] + s * x + c * y,
+                               double{posed[vertex].z}};
+    };
+    Skin skin;
+    for (const auto& [a, b, d] : character.triangles) skin.add({placed(a), placed(b), placed(d)});
+    return skin;
   }
 
-  /// Counts who collides with whom by the outlines of poses that are made for this very time.
-  std::size_t collisions(const Moment& moment) {
-    std::vector<Shape> shapes;
-    std::vector<std::uint32_t> shape;
-    for (std::size_t i = 0; i < moment.x.size(); ++i) {
-      const Character& character = characters.at(moment.character[i]);
-      const auto clip =
-          std::ranges::find(character.clips, "idle think", &Clip::name) - character.clips.begin();
-      shapes.push_back(
-          shapers.at(moment.character[i]).shape({static_cast<std::uint32_t>(clip), moment.clip_time[i]}));
-      shape.push_back(static_cast<std::uint32_t>(i));
-    }
-    const ShapeSet set(shapes);
-    const Agents agents{shape, moment.x, moment.y, moment.heading};
-    const std::vector<Pair> pairs = candidate_pairs(set, agents);
-    std::vector<std::uint8_t> hits(pairs.size());
-    collide(set, agents, pairs, hits, {.leaves = Leaves::segments});
-    return static_cast<std::size_t>(std::ranges::count(hits, 1));
+  /// Counts who collides with whom by the skins of poses that are made for this very time.
+  std::size_t collisions(const Moment& moment) const {
+    std::vector<Skin> skins;
+    for (std::size_t i = 0; i < moment.x.size(); ++i) skins.push_back(skin_of(moment, i));
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < skins.size(); ++i)
+      for (std::size_t k = 0; k < i; ++k)
+        if (std::hypot(moment.x[i] - moment.x[k], moment.y[i] - moment.y[k]) < 2.5)
+          count += skins[i].meets(skins[k]);
+    return count;
   }
 };
 
