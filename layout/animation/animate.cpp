@@ -22,9 +22,9 @@ namespace bch {
 namespace detail {
 namespace {
 
-constexpr float longest_chunk = 0.1334f;     ///< seconds
+constexpr float longest_chunk = 0.1334f;      ///< seconds
 constexpr double shortest_interval = 0.0045;  ///< seconds, of two keys
-constexpr float same_place = 2.5e-5f;        ///< metres, of the ends of a loop
+constexpr float same_place = 2.5e-5f;         ///< metres, of the ends of a loop
 
 /// Returns the power of two that coordinates up to a reach are rounded to: each is it times a number of 16 bits.
 double step_of(double reach) {

@@ -16,7 +16,7 @@ namespace bch {
 /// headings, even if that is the long way round.
 struct PathKey {
   double time, x, y, heading;  ///< seconds; metres in the world; radians
-  double z = 0;                ///< metres: the height of the agent's ground, which counts between bodies of spheres
+  double z = 0;  ///< metres: the height of the agent's ground, which counts between bodies of spheres
 };
 
 /// Describes an agent who goes along a path and plays a clip. Before the first key of the path, and after the last one, the agent stands
