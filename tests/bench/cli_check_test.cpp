@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <fmt/format.h>
-
 #include <nlohmann/json.hpp>
 
 #include "tests/support/bch_run.hpp"
@@ -13,21 +11,6 @@
 
 namespace bch::test {
 namespace {
-
-/// As many as a small file may have, so that memory is wanted for their pairs.
-TEST(Cli, CheckLimitsThePairs) {
-  const TemporaryFolder folder;
-  std::string rows = "id,frame,x,y\n";
-  for (int i = 0; i < 20'000; ++i) rows += fmt::format("{},7,0,0\n", i);
-  const std::string file = folder.write("spot.csv", rows), events = folder.file("events.csv");
-  const Ending run = bch({"check", file, "--unit", "m", "--fps", "1", "--events", events});
-  EXPECT_EQ(run.code, 3);
-  EXPECT_EQ(run.err, fmt::format("bch: {}: frame 7: more than 6000000 pairs of people are near each other; "
-                                 "--max-pairs raises the limit\n",
-                                 file));
-  EXPECT_EQ(run.out, "");
-  EXPECT_FALSE(std::filesystem::exists(events));
-}
 
 TEST(Cli, CheckWritesTheSameForAnyNumberOfThreads) {
   const TemporaryFolder folder;

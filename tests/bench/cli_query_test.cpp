@@ -47,17 +47,6 @@ std::string spot(int count) {
   return csv.str();
 }
 
-TEST(Cli, QueryLimitsAllPairs) {
-  const TemporaryFolder folder;
-  const std::string shapes = folder.write("box.obj", box), agents = folder.write("agents.csv", spot(20'000));
-  const Ending run = bch({"query", shapes, agents, "--all-pairs"}, as_metres);
-  EXPECT_EQ(run.code, 3);
-  EXPECT_EQ(run.out, "");
-  EXPECT_EQ(run.err,
-            "bch: " + agents +
-                ": more than 6000000 pairs of agents are near each other; --max-pairs raises the limit\n");
-}
-
 /// Of so many pairs that they are answered and written piece by piece.
 TEST(Cli, QueryAnswersMillionsOfPairs) {
   const TemporaryFolder folder;
@@ -85,22 +74,6 @@ TEST(Cli, AllPairsWithinADistanceHoldThoseThatNest) {
   for (const std::string& pairs : {one, std::string("--all-pairs")})
     EXPECT_EQ(bch({"query", nest, inside, pairs, "--what", "within", "--max-distance", "0.3"}).out,
               header + "a,b,1\n");
-}
-
-TEST(Cli, EveryKernelWritesTheSame) {
-  const TemporaryFolder folder;
-  const std::string agents = folder.write(
-      "agents.csv", "id,shape,x,y,heading,dx,dy\na,0,0,0,0,0,0.15\nb,0,0.4,0,0,1,0\nc,0,0,0.35,0,0,-0.05\n");
-  const Arguments query{"query", folder.write("box.obj", box), agents,
-                        folder.write("pairs.csv", "first,second\nb,a\na,c\n"), "--what"};
-  for (const char* what : {"collide", "clearance", "time-of-impact", "contacts", "penetration"}) {
-    const std::string expected = bch(query, {what}).out;
-    EXPECT_GT(lines(expected), 2u) << what;
-    for (const Implementation& each : implementations())
-      if (each.supported()) {
-        EXPECT_EQ(bch(query, {what, "--isa", each.name}).out, expected) << what;
-      }
-  }
 }
 
 /// One man, another beside him who stands in him, on a bench, and on the floor above.

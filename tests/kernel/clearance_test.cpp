@@ -10,7 +10,6 @@
 namespace bch {
 namespace {
 
-using baselines::Method;
 using test::answers;
 using test::Answers;
 using test::four_levels;
@@ -23,39 +22,6 @@ class ClearanceDifferential : public test::Differential {
  protected:
   ClearanceDifferential() : Differential(2601, four_levels) {}
 };
-
-/// What pairs.hpp says of both. Cut discs that overlap are no collision where nodes above them are apart, and brute
-/// force knows that of every pair that is deeper than rounding goes.
-TEST_F(ClearanceDifferential, AgreesWithCollide) {
-  constexpr float rounding_of_both = 32e-6f;  // shapes reach up to 4 m
-  // At random none is within the margins of an overlap; at the edge of one, a sixth of the pairs are.
-  const std::pair<PairScene, double> scenes[] = {{random_scene(random, set, 50'000), 1e-4},
-                                                 {tangent_scene(50'000), 0.2}};
-  for (const auto& [scene, most] : scenes) {
-    const Agents agents = scene.crowd.agents();
-    std::vector<std::uint8_t> hits(scene.pairs.size());
-    collide(set, agents, scene.pairs, hits);
-    const Answers all = answers(set, agents, scene.pairs, 0),
-                  zero = answers(set, agents, scene.pairs, 0, nullptr, Overlap::zero);
-    std::size_t disputed = 0, parted_above = 0;
-    for (std::size_t i = 0; i < hits.size(); ++i) {
-      if (hits[i]) {
-        ASSERT_EQ(zero.distance[i], 0) << i;
-        ASSERT_TRUE(all.distance[i] <= 0 || !discs.boundary(agents, scene.pairs[i], Method::depth_first))
-            << i;
-        continue;
-      }
-      if (!std::isfinite(all.distance[i])) continue;
-      const bool deep = all.distance[i] < -rounding_of_both;
-      ++(deep ? parted_above : disputed);
-      if (deep) {
-        EXPECT_FALSE(discs.boundary(agents, scene.pairs[i], Method::brute_force)) << i;
-      }
-    }
-    EXPECT_LE(static_cast<double>(disputed), most * static_cast<double>(hits.size()));
-    EXPECT_GT(parted_above, hits.size() / 1000);
-  }
-}
 
 /// Never larger than the distance of the outlines, and below it by no more than pairs.hpp says.
 TEST_F(ClearanceDifferential, BoundsTheDistanceOfTheOutlines) {
@@ -149,29 +115,6 @@ TEST_F(ClearanceDifferential, PointsAreThoseOfTheNearestFeatures) {
     const auto [way_x, way_y] = test::way_between(points[i], crowd, scene.pairs[i]);
     EXPECT_NEAR(way_x * x + way_y * y, all.distance[i], 32e-6) << i;
     EXPECT_NEAR(way_x * y - way_y * x, 0, 32e-6) << i;
-  }
-}
-
-/// Moving the second agent along the direction widens the gap of the nearest discs by as much.
-TEST_F(ClearanceDifferential, DirectionsAreUnitVectorsAlongWhichDiscsPart) {
-  const PairScene scene = random_scene(random, set, 5'000);
-  const Answers all = answers(set, scene.crowd.agents(), scene.pairs, infinity);
-  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
-    const double x = all.direction[i].x, y = all.direction[i].y;
-    EXPECT_NEAR(std::hypot(x, y), 1, 1e-6);
-    test::Crowd moved;
-    for (const std::uint32_t agent : {scene.pairs[i].first, scene.pairs[i].second}) {
-      const test::Crowd& crowd = scene.crowd;
-      moved.add(
-          {crowd.shape[agent], crowd.x[agent], crowd.y[agent], crowd.heading[agent], crowd.level[agent]});
-    }
-    moved.x[1] += 0.001 * x, moved.y[1] += 0.001 * y;
-    const std::vector<Pair> pair = {{0, 1}};
-    const Answers after = answers(set, moved.agents(), pair, infinity);
-    EXPECT_LE(after.distance[0], all.distance[i] + 0.00101f) << i;
-    if (after.discs[0] == all.discs[i]) {
-      EXPECT_NEAR(after.distance[0] - all.distance[i], 0.001, 1e-5) << i;
-    }
   }
 }
 

@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "baselines/oracle.hpp"
 #include "baselines/reference.hpp"
 #include "kernel/runtime/kernels.hpp"
 #include "layout/base/processor.hpp"
@@ -63,28 +62,6 @@ TEST_F(Differential, ManyPairs) {
     PairScene scene = i % 2 == 0 ? random_scene(random, set, 25'000) : tangent_scene(25'000);
     if (i % 4 >= 2) test::move_away(scene, 1e7, -8e8);
     expect_equal_to_brute_force(set, discs, scene, "scene " + std::to_string(i));
-  }
-}
-
-/// Outlines that meet are found at every level, by every implementation.
-TEST_F(Differential, NoOutlineCrossingIsMissed) {
-  const auto crosses = [&](const Agents& agents, Pair pair) {
-    return baselines::Oracle(shapes[agents.shape[pair.first]].outline,
-                             shapes[agents.shape[pair.second]].outline,
-                             baselines::exact_placement(agents, pair.first, pair.second))
-        .cross();
-  };
-  PairScene scene = random_scene(random, set, 1'500);
-  make_tangent(random, scene, crosses);
-  const Agents agents = scene.crowd.agents();
-  std::vector<std::uint8_t> meet;
-  for (const Pair pair : scene.pairs) meet.push_back(crosses(agents, pair));
-  EXPECT_GT(std::count(meet.begin(), meet.end(), 1), std::ssize(meet) / 3);
-  for (const auto& implementation : implementations()) {
-    if (!implementation.supported()) continue;
-    const auto hits = answers(set, agents, scene.pairs, implementation);
-    for (std::size_t i = 0; i < hits.size(); ++i)
-      EXPECT_TRUE(hits[i] == 1 || meet[i] == 0) << implementation.name << ", pair " << i;
   }
 }
 

@@ -14,11 +14,7 @@ namespace {
 
 /// Two outlines in a relative placement bisected to where they begin to cross: no kernel may miss the
 /// crossing.
-void expect_no_crossing_missed(const std::vector<Character>& characters, std::uint32_t poses,
-                               std::uint32_t pairs) {
-  std::vector<Shape> shapes;
-  for (const Character& character : characters)
-    for (Shape& shape : test::pose_shapes(character, poses)) shapes.push_back(std::move(shape));
+void expect_no_crossing_missed(const std::vector<Shape>& shapes, std::uint32_t pairs) {
   const ShapeSetPlan plan{{0, 3, 6, all_depths}, true};
   const ShapeSet set(shapes, plan);
   const baselines::Reference reference(shapes, plan);
@@ -51,14 +47,25 @@ void expect_no_crossing_missed(const std::vector<Character>& characters, std::ui
   }
 }
 
+std::vector<Shape> poses_of(const std::vector<Character>& characters, std::uint32_t poses) {
+  std::vector<Shape> shapes;
+  for (const Character& character : characters)
+    for (Shape& shape : test::pose_shapes(character, poses)) shapes.push_back(std::move(shape));
+  return shapes;
+}
+
+TEST(SyntheticShapes, NoOutlineCrossingIsMissed) {
+  expect_no_crossing_missed(test::synthetic_shapes(20141, 40), 1500);
+}
+
 TEST(DefaultPoses, NoOutlineCrossingIsMissed) {
-  expect_no_crossing_missed(test::default_characters(), 100, 2000);
+  expect_no_crossing_missed(poses_of(test::default_characters(), 100), 2000);
 }
 
 TEST(RealPoses, NoOutlineCrossingIsMissed) {
   const auto data = test::test_data();
   if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set: no real characters to test with";
-  expect_no_crossing_missed(test::real_characters(*data), 50, 2000);
+  expect_no_crossing_missed(poses_of(test::real_characters(*data), 50), 2000);
 }
 
 }  // namespace

@@ -40,37 +40,7 @@ Found find(const ShapeSet& set, const PairScene& scene, QueryOptions options = {
 class SegmentClearance : public test::Differential {
  protected:
   SegmentClearance() : Differential(2701, test::four_levels) {}
-
-  /// Brings three of four agents to the level of all depths, which has segments.
-  void refine(PairScene& scene) {
-    for (std::uint8_t& level : scene.crowd.level)
-      if (random.below(4) != 0) level = 3;
-  }
 };
-
-/// The same question in the same words: what collides has no distance, and what has one does not collide.
-TEST_F(SegmentClearance, AgreesWithCollide) {
-  for (PairScene scene : {random_scene(random, set, 50'000), tangent_scene(50'000)}) {
-    refine(scene);
-    std::vector<std::uint8_t> hits(scene.pairs.size());
-    collide(set, scene.crowd.agents(), scene.pairs, hits);
-    const Found found = find(set, scene);
-    const auto has_segments = [&](std::uint32_t agent) {
-      return scene.crowd.level[agent] == 3 && shapes[scene.crowd.shape[agent]].hierarchy.nodes.size() > 1;
-    };
-    std::size_t of_segments = 0, touching = 0;
-    for (std::size_t i = 0; i < hits.size(); ++i) {
-      if (hits[i]) {
-        ASSERT_EQ(found.distance[i], 0) << i;
-      } else if (has_segments(scene.pairs[i].first) && has_segments(scene.pairs[i].second)) {
-        ++of_segments;
-        touching += found.distance[i] == 0;
-      }
-    }
-    EXPECT_GT(of_segments, hits.size() / 8);
-    EXPECT_LT(10'000 * touching, of_segments);
-  }
-}
 
 TEST_F(SegmentClearance, DeepestOverlapsAreThoseOfDiscs) {
   const PairScene scene = tangent_scene(5'000);

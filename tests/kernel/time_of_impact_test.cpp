@@ -228,33 +228,6 @@ TEST(TimeOfImpact, OfTipsIsThatOfTheOutlinesLessTheMargin) {
   EXPECT_GT(contacts, test::samples(1'000));
 }
 
-TEST_F(TimeOfImpactDifferential, IsWhenDiscsTouch) {
-  Motion motion = approaching(5'000, 1);
-  const std::vector<float> all = times(set, motion);
-  const auto clearance_at = [&](std::size_t i, double t) {
-    test::Crowd crowd = {};
-    const auto [first, second] = motion.pairs[i];
-    for (const std::uint32_t agent : {first, second})
-      crowd.add({motion.crowd.shape[agent], motion.crowd.x[agent], motion.crowd.y[agent],
-                 motion.crowd.heading[agent], motion.crowd.level[agent]});
-    crowd.x[0] += t * motion.x[i], crowd.y[0] += t * motion.y[i];
-    const std::vector<Pair> pair = {{0, 1}};
-    std::vector<float> distance(1);
-    clearance(set, crowd.agents(), pair, {distance, {}, {}});
-    return distance[0];
-  };
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    const double end = std::min(all[i], 1.0f);
-    for (const double part : {0.0, 0.3, 0.7, 0.9, 0.99})
-      if (all[i] > 0) {
-        ASSERT_GE(clearance_at(i, part * end), -3e-5f) << i;
-      }
-    if (all[i] <= 1) {
-      ASSERT_LE(clearance_at(i, end), 3e-5f) << i;
-    }
-  }
-}
-
 TEST(TimeOfImpact, OfSingleDiscs) {
   const std::vector<Shape> shapes = {{{}, fixed_cylinder(0.25f)}};
   for (const ShapeSetPlan& levels : {ShapeSetPlan{{0}}, ShapeSetPlan{}}) {

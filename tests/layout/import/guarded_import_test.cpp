@@ -168,10 +168,5 @@ TEST(GuardedImport, CharactersThatAreNone) {
   EXPECT_THROW(imported_from(std::string(8, '\xff') + bytes), std::invalid_argument);
 }
 
-TEST(GuardedImport, TheNextFileIsReadAfterABadOne) {
-  expect_rejected([]() -> ImportedCharacter { std::abort(); }, "crashes");
-  EXPECT_EQ(guarded_import("b.glb", good).character.triangles, good().character.triangles);
-}
-
 }  // namespace
 }  // namespace bch::detail

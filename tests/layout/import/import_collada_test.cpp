@@ -99,14 +99,6 @@ TEST_F(ImportCollada, StepKeysHoldTheirValue) {
                  steps);
 }
 
-TEST_F(ImportCollada, ASteppedValueJumps) {
-  const Character character = read(turning({{"n/z.ANGLE", "0 1 2", "0 60 90", "STEP STEP STEP"}})).character;
-  const auto& keys = character.clips.at(0).channels.at(0).rotations;
-  EXPECT_TRUE(std::adjacent_find(keys.begin(), keys.end(), [](const auto& a, const auto& b) {
-                return a.time == b.time;
-              }) != keys.end());
-}
-
 TEST_F(ImportCollada, BezierCurvesOfOneNumber) {
   // Tangents a third of the way along, so that time passes evenly: 60 (3 u^2 - 2 u^3), then a line.
   expect_degrees({{"n/z.ANGLE", "0 1 2", "0 60 90", "BEZIER LINEAR LINEAR", "0 0 0.666667 60 1.666667 90",

@@ -177,13 +177,6 @@ void expect_refused(const std::filesystem::path& file, const std::string& reason
       << file;
 }
 
-TEST_F(ImportData, MotionCaptureOfAnotherSkeletonIsRefused) {
-  ImportOptions options;
-  options.clip_files = {data / "mocap/07_01-walk.bvh"};
-  for (const char* name : {"native/generic_man.fbx", "native/Male_Adult_01.fbx"})
-    expect_refused(character(name), "07_01-walk.bvh: clip", options);
-}
-
 /// Files that bring assimp itself down, or make it read past the end of what it has: for a child process.
 bool breaks_assimp(const std::filesystem::path& file) {
   const std::string name = file.filename().string();
@@ -229,24 +222,6 @@ TEST_F(ImportData, NastyFilesAreRefusedForTheRightReason) {
       {"nosurfaces.ac", "no known format"},
       {"IncorrectVertexArrays/Cube.bin", "no known format"}};
   for (const auto& [name, reason] : files) expect_refused(data / "nasty" / name, reason);
-}
-
-TEST_F(ImportData, CornersOfGltf) {
-  const auto read = [&](const char* name) { return import_character(data / "gltf" / name); };
-  const auto farthest_apart = [](const Character& a, const Character& b) {
-    return test::farthest_in_clips(a, 0, b, 0);
-  };
-  const Character floats = read("skin_f32.gltf").character;
-  // Weights are told to 1/510 and 1/131070.
-  EXPECT_LT(farthest_apart(floats, read("skin_u8.gltf").character), 0.02f);
-  EXPECT_LT(farthest_apart(floats, read("skin_u16.gltf").character), 1e-4f);
-  const Character linear = read("linear.gltf").character;
-  EXPECT_LT(farthest_apart(linear, read("rot_i16.gltf").character), 1e-3f);
-  EXPECT_GT(farthest_apart(linear, read("step.gltf").character), 0.1f);
-  EXPECT_GT(farthest_apart(linear, read("cubic.gltf").character), 0.1f);
-  for (const char* name : {"skin_noibm.gltf", "skin_w8.gltf", "quant.gltf"})
-    EXPECT_EQ(read(name).report.triangles, 12u) << name;
-  EXPECT_NEAR(read("quant.gltf").report.height, 1.6f, 1e-4f);
 }
 
 TEST_F(ImportData, OddFilesKeepWhatIsGood) {
