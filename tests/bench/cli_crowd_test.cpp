@@ -47,7 +47,7 @@ TEST(Cli, CrowdGivesTheSameAnswersEverywhere) {
 /// The collisions of the last frame of a small crowd whose bodies are posed anew, and their pairs.
 CrowdAnswer live_crowd(const TemporaryFolder& folder, const Arguments& more) {
   const std::string json_file = folder.file("live.json"), csv_file = folder.file("live.csv");
-  const Ending run = bch({"crowd", "--live", "--agents", "60", "--spheres", "32", "--frames", "2", "--json",
+  const Ending run = bch({"crowd", "--live", "--agents", "60", "--spheres", "64", "--frames", "2", "--json",
                           json_file, "--csv", csv_file},
                          more);
   EXPECT_EQ(run.code, 0) << run.err;

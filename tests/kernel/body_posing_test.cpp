@@ -178,7 +178,7 @@ void expect_held_in_poses(const BodyModel& model, std::uint32_t poses) {
 TEST(BodyPosing, HoldsEveryTriangleInEveryPose) {
   expect_held_in_poses(test::plain_model(default_male(), 96), test::samples(40));
   expect_held_in_poses(test::plain_model(default_female(), 500, 0.02f), test::samples(20));
-  expect_held_in_poses(make_body(default_male(), {.spheres = 64, .draft = true}), test::samples(40));
+  expect_held_in_poses(default_body(default_male(), 64), test::samples(40));
 }
 
 /// A character far from its origin loses bits: margins have to grow with the reach.

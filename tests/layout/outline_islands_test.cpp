@@ -79,7 +79,7 @@ TEST(OutlineIslands, AnIslandInsideALongContourIsLeftOut) {
 }
 
 TEST(OutlineIslands, CountsManySeparateTriangles) {
-  constexpr std::uint32_t count = 360'000;
+  constexpr std::uint32_t count = test::samples(360'000);
   const Outline outline = build(test::separate_triangles(count));
   ASSERT_EQ(outline.contours(), count);
   EXPECT_EQ(outline.points.size(), 3 * count);
@@ -96,7 +96,7 @@ TEST(OutlineIslands, CountsManyNests) {
 }
 
 TEST(OutlineIslands, CountsIslandsBetweenManyTeeth) {
-  constexpr std::uint32_t teeth = 50'000;
+  constexpr std::uint32_t teeth = test::samples(50'000);
   for (const bool before : {false, true})
     EXPECT_EQ(build(test::comb(teeth, before)).contours(), teeth + 1 + (before ? 1 : 0));
 }

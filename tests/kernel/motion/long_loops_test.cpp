@@ -60,6 +60,9 @@ TEST(LongLoops, TouchInTheirFirstRound) {
   }
 }
 
+// Sanitizers take a minute for 1e8 steps.
+#ifndef BCH_SANITIZED
+
 void expect_too_long(const std::string& said, const std::string& who) {
   EXPECT_EQ(said.find(who + ": more than 1e8 steps, "), 0u) << said;
 }
@@ -79,9 +82,6 @@ TEST(LongLoops, AlongAFenceAreRefused) {
   contact(0.5);
   EXPECT_EQ(time, never);
 }
-
-// A sanitizer takes a minute for each of what follows.
-#ifndef BCH_SANITIZED
 
 /// So is one who walks a million kilometres along walls, in steps of a body's size.
 TEST(LongLoops, AlongWallsWithoutEndAreRefused) {

@@ -109,7 +109,8 @@ void expect_held(const BodyModel& model, std::uint32_t times) {
 }
 
 TEST(Animate, HoldsCharactersAtEveryTime) {
-  for (const Character& character : test::default_characters())
+  const std::vector<Character> both = test::default_characters();  // one of them with sanitizers
+  for (const Character& character : std::span(both).first(test::samples(2)))
     expect_held(make_body(with_short_clip(character, 0.8f), {.spheres = 96, .draft = true}),
                 test::samples(800));
 }
