@@ -12,7 +12,7 @@ namespace {
 /// Appends what a hierarchy has below a node, down to a depth.
 void add(const Hierarchy& hierarchy, const std::vector<float>& bounds, std::uint32_t node,
          std::uint32_t depth, CutTrees::Tree& tree) {
-  const HierarchyNode& at = hierarchy.nodes[node];
+  const Hierarchy::Node& at = hierarchy.nodes[node];
   if (depth == 0 || at.is_leaf()) {
     const auto index = static_cast<std::uint32_t>(tree.discs.size());
     tree.nodes.push_back({at.disc.x, at.disc.y, at.disc.radius, CutTrees::Node::is_leaf + index});

@@ -9,6 +9,7 @@
 #include "baselines/disc_tree.hpp"
 #include "baselines/exact_tests.hpp"
 #include "baselines/kind_rows.hpp"
+#include "layout/hierarchy/paper_hierarchies.hpp"
 
 // Structures of discs but for the contour hierarchy: one cylinder, and the hierarchy over projected triangles.
 
@@ -17,15 +18,16 @@ namespace {
 
 /// Discs over all triangles seen from above, which leaves test exactly, or leave at their discs.
 struct ProjectedHierarchy {
-  std::vector<HierarchyNode> nodes;
-  std::vector<Primitive> triangles;              ///< in the order of the leaves; empty: discs alone
-  std::vector<PrimitiveRange> primitive_ranges;  ///< per node: of them
+  std::vector<Hierarchy::Node> nodes;
+  std::vector<Hierarchy::Primitive> triangles;     ///< in the order of the leaves; empty: discs alone
+  std::vector<Hierarchy::Range> primitive_ranges;  ///< per node: of them
   std::uint32_t height;
 
   std::size_t bytes() const {
-    return nodes.size() * sizeof(HierarchyNode) +
-           (triangles.empty() ? 0
-                              : nodes.size() * sizeof(PrimitiveRange) + triangles.size() * sizeof(Primitive));
+    return nodes.size() * sizeof(Hierarchy::Node) +
+           (triangles.empty()
+                ? 0
+                : nodes.size() * sizeof(Hierarchy::Range) + triangles.size() * sizeof(Hierarchy::Primitive));
   }
 
   template <class Counts>
@@ -39,8 +41,8 @@ struct ProjectedHierarchy {
         return is_verified(float_place, tree_a, tree_b, at, counts);
       // Triangles that meet have a point in common, which lies in all discs above them.
       counts.leaf();
-      const Primitive &s = a.triangles[a.primitive_ranges[at.a].begin],
-                      &t = b.triangles[b.primitive_ranges[at.b].begin];
+      const Hierarchy::Primitive &s = a.triangles[a.primitive_ranges[at.a].begin],
+                                 &t = b.triangles[b.primitive_ranges[at.b].begin];
       return triangles_meet(Triangle2{exact(s.a), exact(s.b), exact(s.c)},
                             Triangle2{place.place(t.a), place.place(t.b), place.place(t.c)});
     };
@@ -81,8 +83,8 @@ std::unique_ptr<Structure> build_bch_projected(std::span<const Body> bodies, con
         throw std::invalid_argument("vertex " + std::to_string(vertices.size()) + " is not finite");
       vertices.push_back({p.x, p.y});
     }
-    Hierarchy hierarchy = projected_hierarchy(vertices, body.triangles);
-    const std::uint32_t levels = height(hierarchy);
+    Hierarchy hierarchy = detail::projected_hierarchy(vertices, body.triangles);
+    const std::uint32_t levels = detail::height(hierarchy);
     if (!options.projected_triangles) hierarchy.primitives.clear();
     return {std::move(hierarchy.nodes), std::move(hierarchy.primitives),
             std::move(hierarchy.primitive_ranges), levels};
@@ -90,7 +92,7 @@ std::unique_ptr<Structure> build_bch_projected(std::span<const Body> bodies, con
 }
 
 std::unique_ptr<Structure> build_fixed(std::span<const Body> bodies, const BuildOptions& options) {
-  const Disc disc = fixed_cylinder(options.fixed_radius).nodes[0].disc;
+  const Disc disc = detail::fixed_cylinder(options.fixed_radius).nodes[0].disc;
   return build_models<Cylinder>(bodies, [&](const Body&) -> Cylinder { return {disc}; });
 }
 

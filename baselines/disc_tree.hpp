@@ -43,7 +43,7 @@ std::uint32_t towards(const Node* nodes, std::uint32_t from, std::uint32_t below
 }
 
 /// Returns the discs on the way from a node up to the root, both included.
-inline std::vector<Disc> path_to(const HierarchyNode* nodes, std::uint32_t node) {
+inline std::vector<Disc> path_to(const Hierarchy::Node* nodes, std::uint32_t node) {
   std::vector<Disc> path;
   for (std::uint32_t at = 0; at != node; at = towards(nodes, at, node)) path.push_back(nodes[at].disc);
   path.push_back(nodes[node].disc);
@@ -53,7 +53,7 @@ inline std::vector<Disc> path_to(const HierarchyNode* nodes, std::uint32_t node)
 
 /// Represents the cut of a hierarchy at a depth, as a traversal sees it.
 struct DiscTree {
-  const HierarchyNode* nodes;
+  const Hierarchy::Node* nodes;
   std::uint32_t depth;   ///< nodes at this depth count as leaves
   std::uint32_t height;  ///< edges on the longest way down
 
@@ -87,7 +87,7 @@ bool any_ends_overlap(const FloatPlacement& place, const DiscTree& a, const Disc
   open.push({0, 0, 0, 0});
   while (!open.empty()) {
     const NodePair at = open.pop();
-    const HierarchyNode &node_a = a.nodes[at.a], &node_b = b.nodes[at.b];
+    const Hierarchy::Node &node_a = a.nodes[at.a], &node_b = b.nodes[at.b];
     counts.node();
     if (!discs_overlap(place, node_a.disc, node_b.disc)) continue;
     const bool end_a = a.ends_at(at.a, at.depth_a), end_b = b.ends_at(at.b, at.depth_b);

@@ -14,7 +14,7 @@ template <class Visit>
 void visit_held(const Hierarchy& hierarchy, std::uint32_t node, Visit visit) {
   const auto [begin, end] = hierarchy.primitive_ranges.at(node);
   for (std::uint32_t i = begin; i < end; ++i) {
-    const Primitive& primitive = hierarchy.primitives[i];
+    const Hierarchy::Primitive& primitive = hierarchy.primitives[i];
     for (const Vec2 p : {primitive.a, primitive.b, primitive.c}) visit(p);
   }
 }
@@ -65,7 +65,7 @@ ExactCut exact_cut(const Hierarchy& hierarchy, std::uint32_t depth) {
     const auto number = static_cast<std::uint32_t>(result.discs.size());
     result.discs.push_back(tight_disc(hierarchy, at.node));
     result.above.push_back(at.above);
-    const HierarchyNode& node = hierarchy.nodes[at.node];
+    const Hierarchy::Node& node = hierarchy.nodes[at.node];
     if (node.is_leaf() || at.depth == depth) {
       result.cut.push_back(number);
       continue;

@@ -21,7 +21,12 @@ bool any_segment(const Contours& contours, Visit visit) {
 }  // namespace
 
 ExactPlacement exact_placement(const Agents& agents, std::uint32_t a, std::uint32_t b) {
-  const long double to = agents.heading[a], turn = static_cast<long double>(agents.heading[b]) - to;
+  const auto angle = [&](std::uint32_t agent) {
+    const auto [x, y, is_direction] = agents.heading[agent];
+    return is_direction ? std::atan2(static_cast<long double>(y), static_cast<long double>(x))
+                        : static_cast<long double>(x);
+  };
+  const long double to = angle(a), turn = angle(b) - to;
   const long double dx = static_cast<long double>(agents.x[b]) - static_cast<long double>(agents.x[a]);
   const long double dy = static_cast<long double>(agents.y[b]) - static_cast<long double>(agents.y[a]);
   const long double c = std::cos(to), s = std::sin(to);

@@ -7,6 +7,7 @@
 
 #include "baselines/disc_tree.hpp"
 #include "baselines/oracle.hpp"
+#include "layout/hierarchy/paper_hierarchies.hpp"
 
 namespace bch::baselines {
 
@@ -16,7 +17,7 @@ Reference::Reference(std::span<const Shape> shapes, const ShapeSetPlan& plan, Le
       has_outlines_(plan.outlines),
       cuts_(shapes, plan),
       segments_(shapes, plan, leaves) {
-  for (const Shape& shape : shapes) heights_.push_back(height(shape.hierarchy));
+  for (const Shape& shape : shapes) heights_.push_back(detail::height(shape.hierarchy));
 }
 
 bool Reference::compare_all(const Agents& agents, Pair pair) const {

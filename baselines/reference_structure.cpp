@@ -12,6 +12,7 @@
 #include "baselines/kind_rows.hpp"
 #include "baselines/placement.hpp"
 #include "baselines/traversal_stack.hpp"
+#include "layout/hierarchy/paper_hierarchies.hpp"
 
 // The kinds "reference" and "paper_descent": the paper's descent of two binary trees by their smallest discs,
 // one pair at a time, into the larger disc first. "reference" is what the batch kernel's speed is measured
@@ -130,7 +131,7 @@ class ContourHierarchies final : public Structure {
       nodes_.push_back({disc.x, disc.y, disc.radius, second == 0 ? 0 : root + second});
     roots_.push_back(root);
     sizes_.push_back(hierarchy.nodes.size());
-    highest_ = std::max(highest_, std::size_t{height(hierarchy)});
+    highest_ = std::max(highest_, std::size_t{detail::height(hierarchy)});
   }
 
   bool query(const Agents& agents, Pair pair, std::uint32_t max_depth) const override {

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "baselines/kind_rows.hpp"
+#include "layout/base/heading.hpp"
 #include "layout/base/rounding.hpp"
 
 namespace bch::baselines {
@@ -48,8 +49,9 @@ void validate_agent(const Agents& agents, std::uint32_t agent, std::uint32_t sha
   if (!in_range(agents.x[agent], detail::rounding::largest_position) ||
       !in_range(agents.y[agent], detail::rounding::largest_position))
     reject("pair ", pair, ": agent ", agent, ": position (", agents.x[agent], ", ", agents.y[agent], ")");
-  if (!in_range(agents.heading[agent], detail::rounding::largest_heading))
-    reject("pair ", pair, ": agent ", agent, ": heading ", agents.heading[agent]);
+  const auto [x, y, is_direction] = agents.heading[agent];
+  if (is_direction ? !detail::is_unit(x, y) : !in_range(x, detail::rounding::largest_heading))
+    reject("pair ", pair, ": agent ", agent, ": heading ", x);
   if (!agents.z.empty() && !in_range(agents.z[agent], detail::rounding::largest_position))
     reject("pair ", pair, ": agent ", agent, ": height ", agents.z[agent]);
 }

@@ -127,7 +127,7 @@ void ShapeOptions::add_limits_to(CLI::App& command) {
 
 ImportOptions ShapeOptions::import_options() const {
   ImportOptions options;
-  if (!up.empty()) options.up = static_cast<UpAxis>(up[0] - 'x');
+  if (!up.empty()) options.up = static_cast<ImportOptions::UpAxis>(up[0] - 'x');
   if (scale > 0) options.scale = static_cast<float>(scale);
   options.clip_files.assign(clips.begin(), clips.end());
   options.force_clips = force_clips;
@@ -179,7 +179,7 @@ std::vector<std::uint32_t> AnswerOptions::cut_depths() const {
   return list;
 }
 
-QueryOptions AnswerOptions::query_options() const {
+detail::AllOptions AnswerOptions::query_options() const {
   try {
     return {isa.empty() ? &best_implementation() : &implementation(isa),
             leaves == "discs" ? Leaves::discs : Leaves::segments};

@@ -17,6 +17,7 @@
 
 #include "bench/base/command_line.hpp"
 #include "bench/base/cost_limits.hpp"
+#include "kernel/runtime/all_options.hpp"
 
 namespace bch::cli {
 
@@ -54,7 +55,7 @@ struct AnswerOptions {
   void add_levels_to(CLI::App& command);
   /// Errors of all: throw UsageError naming the option and the value.
   std::vector<std::uint32_t> cut_depths() const;
-  QueryOptions query_options() const;
+  detail::AllOptions query_options() const;
 };
 
 /// Parses a depth: a number, or "all".

@@ -18,6 +18,7 @@
 #include "bench/base/options.hpp"
 #include "bench/characters/crowd.hpp"
 #include "bench/characters/shape_table.hpp"
+#include "kernel/runtime/all_options.hpp"
 
 namespace bch::cli {
 
@@ -41,7 +42,7 @@ struct CrowdAnswers {
 
 /// Answers all candidates at every level, one batch call a level, and takes the time of it.
 /// Precondition: level 0 of the set is depth 0.
-CrowdAnswers answer_crowd(const ShapeSet& set, const Crowd& crowd, const QueryOptions& options);
+CrowdAnswers answer_crowd(const ShapeSet& set, const Crowd& crowd, const detail::AllOptions& options);
 
 struct CrowdOptions {
   std::vector<std::string> characters{"default:male", "default:female"};
@@ -78,7 +79,7 @@ std::vector<Pair> hits_of(const CrowdAnswers& answers);
 std::string csv_of(std::span<const Pair> pairs);
 /// Orders pairs by their first, then their second agents.
 bool before(Pair a, Pair b);
-std::vector<Pair> sorted(const CrowdPairs& found);
+std::vector<Pair> sorted(const bch::Crowd::Pairs& found);
 /// Names characters, with their numbers of triangles.
 std::string names_of(std::span<const LoadedCharacter> characters);
 /// Says how many agents stand where.

@@ -53,7 +53,7 @@ void write_files(const CrowdRun& run, std::uint32_t level) {
 void run_crowd(const CrowdOptions& options, std::span<const LoadedCharacter> characters,
                const BuiltShapes& built, double threshold, const ShapeSet& set, std::uint32_t level,
                unsigned threads) {
-  const QueryOptions query = options.answer.query_options();
+  const detail::AllOptions query = options.answer.query_options();
   const Crowd crowd = place_crowd(options.agents, options.density, set.shape_count(), options.seed);
   const CrowdAnswers answers = answer_crowd(set, crowd, query);
   const CrowdRun run{options, characters, threshold, built, set, crowd, answers, query.implementation->name,

@@ -16,6 +16,7 @@
 #include "bench/base/progress.hpp"
 #include "bench/base/text.hpp"
 #include "bench/cli/inspection.hpp"
+#include "kernel/runtime/all_options.hpp"
 
 namespace bch::cli {
 namespace {
@@ -26,7 +27,7 @@ constexpr double enough_seconds = 0.5;  ///< for one level, once there were leas
 
 /// Runs the batch until the time is known, the first time unmeasured.
 void answer_level(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs,
-                  const QueryOptions& options, LevelAnswers& level) {
+                  const detail::AllOptions& options, LevelAnswers& level) {
   using Clock = std::chrono::steady_clock;
   collide(set, agents, pairs, level.hits, options);
   std::vector<double> seconds;
@@ -68,7 +69,7 @@ bool before(Pair a, Pair b) {
   return std::tie(a.first, a.second) < std::tie(b.first, b.second);
 }
 
-std::vector<Pair> sorted(const CrowdPairs& found) {
+std::vector<Pair> sorted(const bch::Crowd::Pairs& found) {
   std::vector<Pair> pairs(found.begin(), found.end());
   std::sort(pairs.begin(), pairs.end(), before);
   return pairs;
@@ -81,7 +82,7 @@ std::vector<Pair> hits_of(const CrowdAnswers& answers) {
   return hits;
 }
 
-CrowdAnswers answer_crowd(const ShapeSet& set, const Crowd& crowd, const QueryOptions& options) {
+CrowdAnswers answer_crowd(const ShapeSet& set, const Crowd& crowd, const detail::AllOptions& options) {
   CrowdAnswers answers;
   answers.pairs = candidates_of_all_levels(set, crowd);
   answers.levels.resize(set.level_count());

@@ -40,7 +40,7 @@ std::size_t columns_for(std::size_t panels) {
 /// Deeper discs stick out of the root's, so the frame is that of all of them.
 Layout lay_out(const ShapeFacts& facts) {
   Layout layout{columns_for(facts.depths.size()), {}};
-  for (const HierarchyNode& node : facts.shape.hierarchy.nodes) layout.bounds.add(node.disc);
+  for (const Hierarchy::Node& node : facts.shape.hierarchy.nodes) layout.bounds.add(node.disc);
   return layout;
 }
 

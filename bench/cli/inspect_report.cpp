@@ -11,6 +11,7 @@
 #include "bench/base/text.hpp"
 #include "bench/characters/body_models.hpp"
 #include "bench/cli/inspection.hpp"
+#include "layout/hierarchy/paper_hierarchies.hpp"
 
 namespace bch::cli {
 namespace {
@@ -27,7 +28,7 @@ float root_radius(const Shape& shape) {
 
 double clip_seconds(const ImportReport& report) {
   double seconds = 0;
-  for (const ClipReport& clip : report.clips) seconds += static_cast<double>(clip.seconds);
+  for (const ImportReport::Clip& clip : report.clips) seconds += static_cast<double>(clip.seconds);
   return seconds;
 }
 
@@ -60,7 +61,7 @@ Json contours_json(const Outline& outline) {
 
 ShapeFacts examine(const Shape& shape, const ShapeSource& source, std::optional<std::uint32_t> index) {
   ShapeFacts facts{index, source, shape, area(shape.outline), {}};
-  const std::uint32_t deepest = height(shape.hierarchy);
+  const std::uint32_t deepest = detail::height(shape.hierarchy);
   for (std::uint32_t depth = 0; depth <= deepest; ++depth) {
     const std::vector<Disc> discs = discs_of(shape.hierarchy, depth);
     double radii = 0;
@@ -98,7 +99,7 @@ std::string text_of(const LoadedCharacter& character) {
   out += fact("  clips", report.clips.empty() ? std::string("none")
                                               : fmt::format("{}, {:.2f} s together", report.clips.size(),
                                                             clip_seconds(report)));
-  for (const ClipReport& clip : report.clips)
+  for (const ImportReport::Clip& clip : report.clips)
     out +=
         fmt::format("  {:<10}{:>8.2f} s  {}{}\n", "", clip.seconds, printable_line(clip.name),
                     clip.channels == clip.channels_in_file
@@ -145,7 +146,7 @@ std::string text_of(const LoadedCharacter& character, const ShapeFacts& facts) {
 Json json_of(const LoadedCharacter& character) {
   const ImportReport& report = character.report;
   Json clips = Json::array();
-  for (const ClipReport& clip : report.clips)
+  for (const ImportReport::Clip& clip : report.clips)
     clips.push_back({{"name", clip.name},
                      {"seconds", shortest(clip.seconds)},
                      {"channels", clip.channels},

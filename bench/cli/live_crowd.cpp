@@ -136,8 +136,7 @@ void run_live_crowd(const CrowdOptions& options) {
     const bench::Stopwatch watch(0);
     pose(bodies, crowd.poses(), poses);
     const double posed = watch.nanoseconds();
-    const CrowdPairs hits =
-        finder.collisions(bodies.set(), crowd.crowd().agents(), {.implementation = implementation});
+    const bch::Crowd::Pairs hits = finder.collisions(bodies.set(), crowd.crowd().agents(), implementation);
     const double answered = watch.nanoseconds();
     if (frame > 0)
       run.times.posing.push_back(posed / 1e6), run.times.queries.push_back((answered - posed) / 1e6);

@@ -19,6 +19,7 @@
 #include "bench/base/options.hpp"
 #include "bench/characters/body_models.hpp"
 #include "bench/recordings/parts.hpp"
+#include "kernel/runtime/all_options.hpp"
 
 namespace bch::cli {
 
@@ -28,7 +29,7 @@ struct QueryInput {
   const BodySet* bodies;  ///< those of spheres; one of the two is there
   const AgentTable& table;
   std::span<const Pair> pairs;
-  QueryOptions options;
+  detail::AllOptions options;
   std::uint32_t directions;                ///< of a penetration
   std::optional<Vec2> direction;           ///< of a penetration: the only one
   bool points;                             ///< of a clearance: with point_columns
@@ -68,9 +69,9 @@ std::string query_help();
 /// as that query does, also who stands inside whom; else distances count alone.
 /// Errors:  throws std::length_error where there are more pairs of neighbours than `most`.
 std::vector<Pair> all_pairs(const ShapeSet& set, const AgentTable& table, const std::string& what,
-                            const QueryOptions& options, std::size_t most);
+                            const detail::AllOptions& options, std::size_t most);
 std::vector<Pair> all_pairs(const BodySet& bodies, const AgentTable& table, const std::string& what,
-                            const QueryOptions& options, std::size_t most);
+                            const detail::AllOptions& options, std::size_t most);
 
 /// Holds what the command line of bch query says.
 struct QueryCommandOptions {

@@ -8,12 +8,14 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <type_traits>
 #include <vector>
 
 #include <bch/crowd.hpp>
 #include <bch/pairs.hpp>
 
 #include "bench/cli/crowd.hpp"
+#include "kernel/runtime/all_options.hpp"
 
 namespace bch::cli {
 namespace {
@@ -139,7 +141,11 @@ std::string within_rows(const QueryInput& input) {
     within(*input.bodies, input.table.agents(), input.pairs, distance, hits, input.options.implementation);
   else
     ask(input, [&](const auto& about) {
-      within(*input.set, input.table.agents(), about, distance, hits, input.options);
+      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(about)>, ObstacleSet>)
+        within(*input.set, input.table.agents(), about, distance, hits, input.options.distance_leaves,
+               input.options.implementation);
+      else
+        within(*input.set, input.table.agents(), about, distance, hits, input.options.implementation);
     });
   return hit_rows(input, hits);
 }
@@ -188,7 +194,7 @@ constexpr QueryKind kinds[] = {
 /// Tells which pairs have a clearance.
 template <class Bodies>
 std::vector<std::uint8_t> have_clearance(const Bodies& set, const Agents& agents, std::span<const Pair> pairs,
-                                         const QueryOptions& options) {
+                                         const detail::AllOptions& options) {
   std::vector<float> distance(pairs.size());
   clearance(set, agents, pairs, {distance}, options);
   std::vector<std::uint8_t> have(pairs.size());
@@ -196,27 +202,18 @@ std::vector<std::uint8_t> have_clearance(const Bodies& set, const Agents& agents
   return have;
 }
 
-/// The options of queries that only tell hits.
-const QueryOptions& hit_options(const ShapeSet&, const QueryOptions& options) {
-  return options;
-}
-const Implementation* hit_options(const BodySet&, const QueryOptions& options) {
-  return options.implementation;
-}
-
 template <class Bodies>
 std::vector<Pair> all_pairs_of(const Bodies& set, const AgentTable& table, const std::string& what,
-                               const QueryOptions& options, std::size_t most) {
+                               const detail::AllOptions& options, std::size_t most) {
   const Agents agents = table.agents();
   const bool of_distance = std::isfinite(options.max_distance);
   bch::Crowd crowd({.most_pairs = most});
-  std::vector<Pair> pairs =
-      sorted(crowd.candidates(set, agents, {.margin = of_distance ? options.max_distance : 0}));
+  std::vector<Pair> pairs = sorted(crowd.candidates(set, agents, of_distance ? options.max_distance : 0));
   std::vector<std::uint8_t> kept(pairs.size());
   if (!of_distance)
-    collide(set, agents, pairs, kept, hit_options(set, options));
+    collide(set, agents, pairs, kept, options);
   else if (what == "within")
-    within(set, agents, pairs, {&options.max_distance, 1}, kept, hit_options(set, options));
+    within(set, agents, pairs, {&options.max_distance, 1}, kept, options);
   else
     kept = have_clearance(set, agents, pairs, options);
   std::size_t count = 0;
@@ -251,12 +248,12 @@ std::string query_help() {
 }
 
 std::vector<Pair> all_pairs(const ShapeSet& set, const AgentTable& table, const std::string& what,
-                            const QueryOptions& options, std::size_t most) {
+                            const detail::AllOptions& options, std::size_t most) {
   return all_pairs_of(set, table, what, options, most);
 }
 
 std::vector<Pair> all_pairs(const BodySet& bodies, const AgentTable& table, const std::string& what,
-                            const QueryOptions& options, std::size_t most) {
+                            const detail::AllOptions& options, std::size_t most) {
   return all_pairs_of(bodies, table, what, options, most);
 }
 

@@ -28,6 +28,7 @@
 #include "bench/cli/inspection.hpp"
 #include "bench/cli/query.hpp"
 #include "kernel/broad_phase/pair_limit.hpp"
+#include "kernel/runtime/all_options.hpp"
 #include "layout/base/mixed_hash.hpp"
 #include "layout/base/rounding.hpp"
 
@@ -98,7 +99,7 @@ struct AskedBodies {
 
 /// Returns all pairs of neighbours that are asked about.
 std::vector<Pair> pairs_of_all(const QueryCommandOptions& options, const AskedBodies& bodies,
-                               const AgentTable& table, const QueryOptions& how) {
+                               const AgentTable& table, const detail::AllOptions& how) {
   const std::size_t most =
       options.max_pairs > 0 ? options.max_pairs : detail::usual_most_pairs(table.id.size());
   try {
@@ -119,7 +120,7 @@ void answer(const QueryCommandOptions& options, const AskedBodies& bodies, Quest
   constexpr std::size_t at_once = 65'536;  // pairs, of which each may have many contacts
   auto& [table, pairs, obstacle_set] = question;
   const ObstacleSet* const obstacles = obstacle_set ? &*obstacle_set : nullptr;
-  QueryOptions how = options.answer.query_options();
+  detail::AllOptions how = options.answer.query_options();
   how.max_distance = options.max_distance;
   how.overlap = options.overlap == "zero" ? Overlap::zero : Overlap::deepest;
   how.distance_leaves = options.answer.leaves == "segments" ? Leaves::segments : Leaves::discs;
@@ -272,7 +273,7 @@ Example: bch query default:female agents.csv pairs.csv > answers.csv)");
       one_of(names, {{"separation", "penetration"}, {"contact-time", "time-of-impact"}}));
   add("--directions", options->directions, "N",
       "For penetration: try N evenly spread directions, N even, and take the best [16]",
-      whole_between(2, most_directions));
+      whole_between(2, 256));
   add("--direction", options->direction, "X,Y",
       "For penetration: move along this vector, of any length, instead");
   add("--max-distance", options->max_distance, "M",

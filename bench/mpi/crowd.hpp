@@ -35,7 +35,7 @@ class Scenery {
   Scenery(const std::string& kind, std::uint64_t agents, double density);
 
   /// Returns an agent, with a shape of so many; its level is 0.
-  CrowdAgent agent(std::uint64_t number, std::uint32_t shapes) const;
+  DistributedCrowd::Agent agent(std::uint64_t number, std::uint32_t shapes) const;
 
  private:
   /// Represents a part of the crowd that is equally dense in an area.
@@ -57,7 +57,7 @@ struct RankReport {
   double memory_bytes = 0;  ///< the most that the process had, beyond what it had before the crowd
 
   /// Adds a step of so many.
-  void add(const CrowdCounters& step, double steps);
+  void add(const DistributedCrowd::Counters& step, double steps);
 };
 
 /// Holds what the crowd did in these steps.

@@ -47,9 +47,10 @@ std::uint64_t hash(std::uint32_t first, std::uint32_t second) {
 }
 
 /// The numbers of the agents that a rank draws: every so many-th, from everywhere.
-std::vector<CrowdAgent> draw_agents(const WalkOptions& options, std::uint32_t shapes, int rank, int size) {
+std::vector<DistributedCrowd::Agent> draw_agents(const WalkOptions& options, std::uint32_t shapes, int rank,
+                                                 int size) {
   const Scenery scenery(options.kind, options.agents, options.density);
-  std::vector<CrowdAgent> agents;
+  std::vector<DistributedCrowd::Agent> agents;
   agents.reserve(options.agents / static_cast<std::uint32_t>(size) + 1);
   for (std::uint64_t i = static_cast<std::uint64_t>(rank); i < options.agents;
        i += static_cast<std::uint64_t>(size))
@@ -57,20 +58,21 @@ std::vector<CrowdAgent> draw_agents(const WalkOptions& options, std::uint32_t sh
   return agents;
 }
 
-void walk_on(std::vector<CrowdAgent>& agents) {
-  for (CrowdAgent& agent : agents)
+void walk_on(std::vector<DistributedCrowd::Agent>& agents) {
+  for (DistributedCrowd::Agent& agent : agents)
     agent.x += stride * std::cos(agent.heading), agent.y += stride * std::sin(agent.heading);
 }
 
 /// The crowd of all ranks.
 class RankWalk {
  public:
-  RankWalk(MPI_Comm comm, const ShapeSet& shapes, std::vector<CrowdAgent> agents, const WalkOptions& options)
+  RankWalk(MPI_Comm comm, const ShapeSet& shapes, std::vector<DistributedCrowd::Agent> agents,
+           const WalkOptions& options)
       : crowd_(comm, shapes, std::move(agents),
                {.imbalance = options.imbalance, .agent_pairs = options.agent_pairs}) {}
   void step() { crowd_.update(), pairs_ = crowd_.collide_all(); }
   void move() { walk_on(crowd_.agents()); }
-  CrowdCounters counters() const { return crowd_.counters(); }
+  DistributedCrowd::Counters counters() const { return crowd_.counters(); }
   void count(double& collisions, std::uint64_t& digest) const {
     collisions += static_cast<double>(pairs_.size());
     for (const Pair& pair : pairs_) digest += hash(pair.first, pair.second);
@@ -84,9 +86,9 @@ class RankWalk {
 /// The same crowd in one process, asked by Crowd: what the above is compared with.
 class PlainWalk {
  public:
-  PlainWalk(const ShapeSet& shapes, std::vector<CrowdAgent> agents)
+  PlainWalk(const ShapeSet& shapes, std::vector<DistributedCrowd::Agent> agents)
       : shapes_(shapes), agents_(std::move(agents)) {
-    for (const CrowdAgent& agent : agents_) {
+    for (const DistributedCrowd::Agent& agent : agents_) {
       shape_.push_back(agent.shape), level_.push_back(agent.level);
       heading_.push_back(agent.heading);
     }
@@ -95,7 +97,7 @@ class PlainWalk {
   }
   void step() { pairs_ = finder_.collisions(shapes_, {shape_, x_, y_, heading_, level_}); }
   void move() { walk_on(agents_), place(); }
-  CrowdCounters counters() const { return {.agents = agents_.size()}; }
+  DistributedCrowd::Counters counters() const { return {.agents = agents_.size()}; }
   void count(double& collisions, std::uint64_t& digest) const {
     for (const auto [i, j] : pairs_) ++collisions, digest += hash(i, j);
   }
@@ -106,12 +108,12 @@ class PlainWalk {
   }
 
   const ShapeSet& shapes_;
-  std::vector<CrowdAgent> agents_;
+  std::vector<DistributedCrowd::Agent> agents_;
   std::vector<std::uint32_t> shape_;
   std::vector<double> x_, y_, heading_;
   std::vector<std::uint8_t> level_;
   bch::Crowd finder_;
-  CrowdPairs pairs_;
+  bch::Crowd::Pairs pairs_;
 };
 
 /// Walks, and reports of the steps after those to settle; `before`: what the process occupied already.
@@ -143,13 +145,14 @@ CrowdReport report_of(Walk& walk, MPI_Comm comm, std::uint32_t steps, double bef
 
 CrowdReport walk_crowd(const WalkOptions& options, MPI_Comm comm, int rank, int size) {
   std::optional<BakedShapes> baked;
-  std::vector<CrowdAgent> agents;
+  std::vector<DistributedCrowd::Agent> agents;
   double before = 0;
   detail::agree(comm, [&] {
     baked.emplace(load_baked(options.file, FileAccess::map));
     before = occupied_bytes();
     agents = draw_agents(options, baked->set.shape_count(), rank, size);
-    for (CrowdAgent& agent : agents) agent.level = static_cast<std::uint8_t>(baked->set.level_count() - 1);
+    for (DistributedCrowd::Agent& agent : agents)
+      agent.level = static_cast<std::uint8_t>(baked->set.level_count() - 1);
   });
   if (options.is_plain) {
     PlainWalk walk(baked->set, std::move(agents));

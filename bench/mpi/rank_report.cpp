@@ -36,7 +36,7 @@ std::string row(std::size_t rank, const RankReport& one) {
 
 }  // namespace
 
-void RankReport::add(const CrowdCounters& step, double steps) {
+void RankReport::add(const DistributedCrowd::Counters& step, double steps) {
   const auto mean = [steps](std::uint64_t count) { return static_cast<double>(count) / steps; };
   agents += mean(step.agents), halo += mean(step.halo), pairs += mean(step.pairs);
   arrived += mean(step.arrived), sent_bytes += mean(step.migration_bytes + step.halo_bytes);

@@ -57,11 +57,11 @@ bool Scenery::Layer::holds(double px, double py) const {
          (!columns || in_street(px));
 }
 
-CrowdAgent Scenery::agent(std::uint64_t number, std::uint32_t shapes) const {
+DistributedCrowd::Agent Scenery::agent(std::uint64_t number, std::uint32_t shapes) const {
   detail::Random random(number);
   const double chosen = random.uniform(1);
   const Layer& layer = chosen < layers_[0].share ? layers_[0] : layers_.back();
-  CrowdAgent agent;
+  DistributedCrowd::Agent agent;
   agent.heading = 2 * pi * random.uniform(1);
   agent.id = static_cast<std::uint32_t>(number);
   agent.shape = static_cast<std::uint32_t>(random.uniform(1) * shapes);

@@ -33,7 +33,7 @@ struct Bodies {
   std::vector<Vec2> centres;
   std::vector<Touch> touches;
 
-  CrowdContacts find() { return finder.contacts(set, crowd.agents()); }
+  bch::Crowd::Contacts find() { return finder.contacts(set, crowd.agents()); }
 
   /// What a model without a library does: places all discs, then compares those of all pairs of bodies.
   void loop() {
@@ -62,7 +62,7 @@ struct Bodies {
   void require_same() {
     loop();
     std::vector<Touch> found, missing;
-    const CrowdContacts all = find();
+    const bch::Crowd::Contacts all = find();
     for (std::size_t k = 0; k < all.pairs.size(); ++k)
       for (const auto& [first, second] : all.contacts[k])
         found.emplace_back(all.pairs[k].first, all.pairs[k].second, first, second);

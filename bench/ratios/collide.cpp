@@ -8,6 +8,7 @@
 
 #include "bench/ratios/ratios.hpp"
 #include "bench/workload/answer_checks.hpp"
+#include "kernel/runtime/all_options.hpp"
 
 namespace bch::bench {
 namespace {
@@ -27,7 +28,7 @@ Contender structure_contender(Scene& scene, const Workload& workload, const base
   return contender_of(call, *hits, wrong_structure(scene, workload, kind, *hits));
 }
 
-void add_kernel(Scene& scene, std::string_view name, const QueryOptions& query) {
+void add_kernel(Scene& scene, std::string_view name, const detail::AllOptions& query) {
   add_for_threads(fmt::format("collide/{}/{}/{}", name, name_of(query.leaves), query.implementation->name),
                   [&scene, name, query] {
                     const Workload& workload = scene.workload(name);
@@ -40,7 +41,8 @@ void add_kernel(Scene& scene, std::string_view name, const QueryOptions& query) 
 }  // namespace
 
 Contender collide_contender(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs,
-                            const QueryOptions& query, const std::function<std::string(const Hits&)>& wrong) {
+                            const detail::AllOptions& query,
+                            const std::function<std::string(const Hits&)>& wrong) {
   const auto hits = std::make_shared<Hits>(pairs.size());
   const auto call = [&set, agents, pairs, query, hits] { collide(set, agents, pairs, *hits, query); };
   call();

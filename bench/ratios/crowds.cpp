@@ -17,6 +17,7 @@
 #include "bench/workload/answer_checks.hpp"
 #include "layout/base/random.hpp"
 #include "layout/hierarchy/builder.hpp"
+#include "layout/hierarchy/paper_hierarchies.hpp"
 
 namespace bch::bench {
 namespace {
@@ -135,7 +136,7 @@ std::vector<Shape> stretched(std::span<const Shape> shapes, std::uint32_t count)
     for (Vec2& p : outline.points)
       p = {static_cast<float>(std::round(x * static_cast<double>(p.x) / step) * step),
            static_cast<float>(std::round(y * static_cast<double>(p.y) / step) * step)};
-    builder.contour(outline, leaf_threshold, SplitRule::centroid, copies[i].hierarchy);
+    builder.contour(outline, leaf_threshold, detail::SplitRule::centroid, copies[i].hierarchy);
   }
   return copies;
 }

@@ -134,7 +134,7 @@ Contender by_clearance(const Floor& floor, double limit, Leaves leaves = Leaves:
   const auto direction = std::make_shared<std::vector<Vec2>>(floor.crowd.size());
   const auto call = [&floor, distance, direction, limit, leaves] {
     clearance(floor.scene.set(), floor.agents, floor.obstacles, {*distance, *direction},
-              {.max_distance = limit, .distance_leaves = leaves});
+              {.max_distance = limit, .leaves = leaves});
   };
   call();
   for (std::uint32_t i = 0; i < floor.checked(); ++i)

@@ -20,6 +20,7 @@
 #include "baselines/segment_clearance.hpp"
 #include "baselines/time_of_impact_reference.hpp"
 #include "bench/ratios/ratios.hpp"
+#include "kernel/runtime/all_options.hpp"
 #include "layout/base/heading.hpp"
 
 // Each query beside collide() is a struct with the same members:
@@ -60,7 +61,7 @@ struct ClearanceQuery : Question {
   std::vector<Vec2> direction = std::vector<Vec2>(pairs.size());
   baselines::ClearanceReference reference{scene.shapes(), {}};
 
-  void ask(QueryOptions options) {
+  void ask(detail::AllOptions options) {
     options.max_distance = clearance_limit;
     clearance(scene.set(), agents, pairs, {distance, direction}, options);
   }
@@ -85,7 +86,7 @@ struct ExactClearanceQuery : ClearanceQuery {
     clearance(scene.set(), agents, pairs, {all, direction});
     return all;
   }
-  void ask(QueryOptions options) {
+  void ask(detail::AllOptions options) {
     options.distance_leaves = Leaves::segments;
     ClearanceQuery::ask(options);
   }
@@ -104,7 +105,7 @@ struct WithinQuery : Question {
   Hits hits = Hits(pairs.size());
   baselines::ClearanceReference reference{scene.shapes(), {}};
 
-  void ask(const QueryOptions& options) {
+  void ask(const detail::AllOptions& options) {
     within(scene.set(), agents, pairs, {&personal_space, 1}, hits, options);
   }
   bool search(std::size_t i, Method method) {
@@ -127,7 +128,7 @@ struct TimeOfImpactQuery : Question {
       y.push_back(walking_speed * walking_time * (a.sine - b.sine));
     }
   }
-  void ask(const QueryOptions& options) {
+  void ask(const detail::AllOptions& options) {
     time_of_impact(scene.set(), agents, pairs, {x, y}, times, options);
   }
   float search(std::size_t i, Method method) { return reference.query(agents, pairs[i], x[i], y[i], method); }
@@ -140,7 +141,7 @@ struct ContactsQuery : Question {
   Rows<DiscPair> rows;
   baselines::CutLists cuts{scene.shapes(), {}};
 
-  void ask(const QueryOptions& options) {
+  void ask(const detail::AllOptions& options) {
     rows = finder.contacts(scene.set(), agents, pairs,
                            {.leaves = Leaves::discs, .implementation = options.implementation});
   }
@@ -157,7 +158,7 @@ struct PenetrationQuery : Question {
   std::vector<Penetration> ways = std::vector<Penetration>(pairs.size());
   baselines::CutLists cuts{scene.shapes(), {}};
 
-  void ask(const QueryOptions& options) {
+  void ask(const detail::AllOptions& options) {
     penetration(scene.set(), agents, pairs, penetration_directions, ways, options);
   }
   auto search(std::size_t i, Method) {
@@ -173,18 +174,18 @@ struct PenetrationQuery : Question {
 struct CollisionsQuery : Question {
   using Question::Question;
   bch::Crowd finder;
-  Rows<Neighbour> rows;
+  Rows<bch::Crowd::Neighbour> rows;
   const Hits& hits = scene.expected(Leaves::discs, workload);
   std::size_t neighbours = 2 * static_cast<std::size_t>(std::ranges::count(hits, 1));
 
-  void ask(const QueryOptions& options) {
+  void ask(const detail::AllOptions& options) {
     rows = finder
                .collisions(scene.set(), agents,
                            {.leaves = Leaves::discs, .implementation = options.implementation})
                .by_agent();
   }
-  static bool has(std::span<const Neighbour> row, std::uint32_t agent) {
-    return std::ranges::binary_search(row, agent, {}, &Neighbour::agent);
+  static bool has(std::span<const bch::Crowd::Neighbour> row, std::uint32_t agent) {
+    return std::ranges::binary_search(row, agent, {}, &bch::Crowd::Neighbour::agent);
   }
   bool is_right(std::size_t i, Method) {
     const auto [first, second] = pairs[i];
@@ -205,7 +206,7 @@ void require_right(Query& query, Method method) {
 template <class Query>
 Contender by_kernel(Scene& scene, const Workload& workload, const Implementation& implementation) {
   const auto query = std::make_shared<Query>(scene, workload);
-  const auto call = [query, options = QueryOptions{.implementation = &implementation}] {
+  const auto call = [query, options = detail::AllOptions{.implementation = &implementation}] {
     query->ask(options);
   };
   call();

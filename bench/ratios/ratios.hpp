@@ -11,6 +11,7 @@
 
 #include "bench/workload/answer_checks.hpp"
 #include "bench/workload/scene.hpp"
+#include "kernel/runtime/all_options.hpp"
 
 namespace bch::bench {
 
@@ -41,7 +42,8 @@ auto once(Make make) {
 /// wrong with the answers; empty: nothing.
 /// Errors:  throws std::runtime_error on wrong answers.
 Contender collide_contender(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs,
-                            const QueryOptions& query, const std::function<std::string(const Hits&)>& wrong);
+                            const detail::AllOptions& query,
+                            const std::function<std::string(const Hits&)>& wrong);
 /// Makes one of a workload of shapes that are not the scene's, for discs as leaves.
 Contender collide_contender(const ShapeSet& set, std::span<const Shape> shapes, const Workload& workload);
 

@@ -18,6 +18,7 @@
 #include "bench/characters/baking.hpp"
 #include "bench/ratios/ratios.hpp"
 #include "bench/workload/answer_checks.hpp"
+#include "kernel/runtime/all_options.hpp"
 
 namespace bch::bench {
 namespace {
@@ -81,7 +82,7 @@ struct Planned {
 
   ScenePlan plan_of(Scene& scene) const {
     const cli::Crowd& crowd = workload.crowd;
-    std::vector<SceneAgent> agents;
+    std::vector<ScenePlan::Agent> agents;
     for (std::size_t i = 0; i < crowd.size(); ++i)
       agents.push_back({scene.sources()[crowd.shape[i]],
                         std::hypot(crowd.x[i] - 0.5 * crowd.side, crowd.y[i] - 0.5 * crowd.side)});
@@ -91,7 +92,7 @@ struct Planned {
   /// Answers are compared with the reference's over the scene's own shapes.
   Contender query(Scene& scene) const {
     const cli::Crowd& crowd = workload.crowd;
-    const QueryOptions query{.leaves = use.outlines ? Leaves::segments : Leaves::discs};
+    const detail::AllOptions query{.leaves = use.outlines ? Leaves::segments : Leaves::discs};
     return collide_contender(baked.set(),
                              {plan.agent_shape, crowd.x, crowd.y, crowd.heading, plan.agent_level},
                              workload.pairs, query, [&](const Hits& hits) {

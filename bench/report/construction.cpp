@@ -10,7 +10,9 @@
 #include "bench/report/subjects.hpp"
 #include "bench/workload/answer_checks.hpp"
 #include "bench/workload/build_stages.hpp"
+#include "kernel/runtime/all_options.hpp"
 #include "layout/enclosing_disc/enclosing_disc.hpp"
+#include "layout/hierarchy/paper_hierarchies.hpp"
 
 // Construction time and query time: figure 3 of the paper.
 
@@ -58,7 +60,7 @@ void time_structure(Table& table, const Contestant& contestant, const std::vecto
   if (contestant.kind == "single") return time_single(table, contestant.name, bodies);
   detail::HierarchyBuilder builder;
   Hierarchy hierarchy;
-  const SplitRule rule = contestant.centre ? SplitRule::centre : SplitRule::centroid;
+  const detail::SplitRule rule = contestant.centre ? detail::SplitRule::centre : detail::SplitRule::centroid;
   const baselines::Kind& kind = baselines::kind(contestant.kind);
   time_each(table, contestant.name, bodies.size(), [&](std::size_t i) {
     if (contestant.kind == "reference")
@@ -107,7 +109,7 @@ namespace {
 constexpr std::string_view paper_workloads[] = {"paper500", "paper500_cached", "colliding", "near_miss"};
 
 /// Against brute force, disc by disc.
-void require_right(Run& run, const Subject& kernel, const QueryOptions& query,
+void require_right(Run& run, const Subject& kernel, const detail::AllOptions& query,
                    const bench::Workload& workload) {
   bench::require_right(kernel_name, workload,
                        bench::wrong_kernel(run.scene, workload, query.leaves, answers(kernel, workload)));

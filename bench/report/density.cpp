@@ -71,7 +71,7 @@ class Packing {
 
   /// Who collides, each pair once; of a pair across a side, both ways, and each moves the one that is no image.
   void find_pairs() {
-    const CrowdPairs found = finder_.collisions(set_, crowd_.agents());
+    const bch::Crowd::Pairs found = finder_.collisions(set_, crowd_.agents());
     pairs_.clear();
     for (const Pair& pair : found)
       if (pair.first < people_) pairs_.push_back(pair);

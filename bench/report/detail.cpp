@@ -88,7 +88,7 @@ std::vector<StopCounts> walk_and_test(Run& run, const baselines::Structure& mesh
   bch::Crowd finder;
   for (int frame = 0; frame < frames; ++frame, walk(workload.crowd)) {
     const Levels roots = same_level<0>(workload.crowd);
-    const CrowdPairs pairs = finder.candidates(details[0].set, workload.crowd.at_level(roots));
+    const bch::Crowd::Pairs pairs = finder.candidates(details[0].set, workload.crowd.at_level(roots));
     workload.pairs.assign(pairs.begin(), pairs.end());
     truth.resize(workload.pairs.size()), hits.resize(workload.pairs.size());
     meshes.query(workload.agents(), workload.pairs, truth);

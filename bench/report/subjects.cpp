@@ -73,13 +73,13 @@ TreeSize mean_size(const Items& items, Size size) {
 }
 
 TreeSize size_of(const Hierarchy& hierarchy) {
-  return {static_cast<double>(hierarchy.nodes.size()), static_cast<double>(height(hierarchy))};
+  return {static_cast<double>(hierarchy.nodes.size()), static_cast<double>(detail::height(hierarchy))};
 }
 
 TreeSize size_of_projected(const baselines::Body& body) {
   std::vector<Vec2> vertices;
   for (const Vec3& p : body.positions) vertices.push_back({p.x, p.y});
-  return size_of(projected_hierarchy(vertices, body.triangles));
+  return size_of(detail::projected_hierarchy(vertices, body.triangles));
 }
 
 TreeSize size_of_boxes(std::string_view kind, const baselines::Body& body) {
@@ -107,7 +107,7 @@ TreeSize tree_size(const Contestant& contestant, std::span<const baselines::Body
   if (kind.starts_with("obb_"))
     return mean_size(bodies, [&](const baselines::Body& body) { return size_of_boxes(kind, body); });
   if (kind != "reference") return {};
-  return tree_size(shapes_of(contestant.centre ? with_hierarchies(bodies, 0.01f, SplitRule::centre)
+  return tree_size(shapes_of(contestant.centre ? with_hierarchies(bodies, 0.01f, detail::SplitRule::centre)
                                                : std::vector<baselines::Body>(bodies.begin(), bodies.end())));
 }
 
@@ -122,7 +122,7 @@ Subject subject_of(std::string_view name, const baselines::Structure& structure,
           }};
 }
 
-Subject subject_of(std::string_view name, const ShapeSet& set, const QueryOptions& query,
+Subject subject_of(std::string_view name, const ShapeSet& set, const detail::AllOptions& query,
                    std::uint32_t depth) {
   return {std::string(name),
           depth,
@@ -204,7 +204,7 @@ const baselines::Structure& Structures::of(const Contestant& contestant) {
   const auto found = made_.find(contestant.name);
   if (found != made_.end()) return *found->second;
   if (contestant.centre && centre_bodies_.empty())
-    centre_bodies_ = with_hierarchies(scene_.bodies(), 0.01f, SplitRule::centre);
+    centre_bodies_ = with_hierarchies(scene_.bodies(), 0.01f, detail::SplitRule::centre);
   const std::span<const baselines::Body> bodies = contestant.centre ? centre_bodies_ : scene_.bodies();
   auto made = baselines::kind(contestant.kind).build(bodies, {.fixed_radius = contestant.fixed_radius});
   return *made_.emplace(contestant.name, std::move(made)).first->second;
@@ -232,7 +232,7 @@ void Structures::require_right(const Contestant& contestant, const bench::Worklo
 }
 
 std::vector<baselines::Body> with_hierarchies(std::span<const baselines::Body> bodies, float threshold,
-                                              SplitRule rule) {
+                                              detail::SplitRule rule) {
   std::vector<baselines::Body> others(bodies.begin(), bodies.end());
   for (baselines::Body& body : others)
     body.shape.hierarchy = contour_hierarchy(body.shape.outline, threshold, rule);
@@ -247,7 +247,7 @@ std::vector<Shape> shapes_of(std::span<const baselines::Body> bodies) {
 
 std::vector<Shape> with_fixed_cylinders(std::span<const Shape> shapes, float radius) {
   std::vector<Shape> fixed(shapes.begin(), shapes.end());
-  for (Shape& shape : fixed) shape.hierarchy = fixed_cylinder(radius);
+  for (Shape& shape : fixed) shape.hierarchy = detail::fixed_cylinder(radius);
   return fixed;
 }
 

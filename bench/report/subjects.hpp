@@ -18,6 +18,8 @@
 #include "baselines/structure.hpp"
 #include "bench/report/report.hpp"
 #include "bench/report/slide.hpp"
+#include "kernel/runtime/all_options.hpp"
+#include "layout/hierarchy/paper_hierarchies.hpp"
 
 // What experiments compare: structures, cuts and sets that answer the same pairs.
 
@@ -57,8 +59,8 @@ struct Subject {
 /// Makes a subject, which refers to the structure or set: it must outlive it.
 Subject subject_of(std::string_view name, const baselines::Structure& structure,
                    std::uint32_t max_depth = all_depths);
-Subject subject_of(std::string_view name, const ShapeSet& set, const QueryOptions& query = bench::disc_query,
-                   std::uint32_t depth = all_depths);
+Subject subject_of(std::string_view name, const ShapeSet& set,
+                   const detail::AllOptions& query = bench::disc_query, std::uint32_t depth = all_depths);
 
 Subject subject_of(std::string_view name, const BodySet& set);
 
@@ -134,7 +136,7 @@ class Structures {
 
 /// Returns the bodies with hierarchies of another kind.
 std::vector<baselines::Body> with_hierarchies(std::span<const baselines::Body> bodies, float threshold,
-                                              SplitRule rule);
+                                              detail::SplitRule rule);
 /// Returns the shapes of bodies.
 std::vector<Shape> shapes_of(std::span<const baselines::Body> bodies);
 /// Returns shapes as they are, but with one cylinder around the origin for each.

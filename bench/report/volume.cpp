@@ -16,6 +16,7 @@
 #include "layout/character/eigen.hpp"
 #include "layout/character/skinning.hpp"
 #include "layout/enclosing_disc/enclosing_disc.hpp"
+#include "layout/hierarchy/paper_hierarchies.hpp"
 
 // Represented volume: figure 7 and table 1 of the paper, in its own terms. All shapes are cylinders over the ground, so that their volumes are to each other as their areas are.
 
@@ -65,7 +66,7 @@ void add_paper_volumes(const cli::LoadedCharacter& loaded, std::span<const Shape
     volumes.push_back(closed ? enclosed_volume(positions, character.triangles) : unknown);
   }
   tbb::parallel_for(std::size_t{0}, poses.size(), [&](std::size_t i) {
-    const Hierarchy hierarchy = projected_hierarchy(from_above[i], character.triangles);
+    const Hierarchy hierarchy = detail::projected_hierarchy(from_above[i], character.triangles);
     leaves[i] = cli::union_area(cli::discs_of(hierarchy, all_depths));
   });
   for (std::size_t i = 0; i < poses.size(); ++i)

@@ -43,7 +43,7 @@ void BuildStages::outline(std::size_t pose) {
 }
 
 void BuildStages::hierarchy(std::size_t pose) {
-  hierarchy_builder_.contour(outlines_[pose], threshold, SplitRule::centroid, hierarchy_);
+  hierarchy_builder_.contour(outlines_[pose], threshold, detail::SplitRule::centroid, hierarchy_);
 }
 
 void BuildStages::levels(std::size_t pose) {
@@ -67,7 +67,7 @@ void BuildStages::all(std::size_t pose) {
 
 void BuildStages::make_hierarchy(std::size_t pose) {
   outline_builder_.build(skinner_.ground_pose(times_[pose]), outline_);
-  hierarchy_builder_.contour(outline_, threshold, SplitRule::centroid, hierarchy_);
+  hierarchy_builder_.contour(outline_, threshold, detail::SplitRule::centroid, hierarchy_);
 }
 
 void BuildStages::look_inside(const Outline& outline, double reach) {

@@ -20,6 +20,7 @@
 #include "bench/characters/body_models.hpp"
 #include "bench/placing/placing.hpp"
 #include "bench/workload/scene.hpp"
+#include "kernel/runtime/all_options.hpp"
 #include "layout/base/random.hpp"
 #include "layout/shape_set/animated_tree.hpp"
 

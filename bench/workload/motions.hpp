@@ -15,6 +15,7 @@
 
 #include "bench/characters/characters.hpp"
 #include "bench/characters/crowd.hpp"
+#include "kernel/runtime/all_options.hpp"
 
 namespace bch::bench {
 

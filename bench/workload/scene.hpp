@@ -18,11 +18,12 @@
 #include "bench/characters/characters.hpp"
 #include "bench/characters/shape_table.hpp"
 #include "bench/workload/workload.hpp"
+#include "kernel/runtime/all_options.hpp"
 
 namespace bch::bench {
 
 /// A query that the scalar reference, which knows discs alone, answers as well.
-constexpr QueryOptions disc_query{.leaves = Leaves::discs};
+constexpr detail::AllOptions disc_query{.leaves = Leaves::discs};
 
 /// Returns "discs" or "segments".
 std::string_view name_of(Leaves leaves);

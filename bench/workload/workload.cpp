@@ -92,7 +92,7 @@ Workload crowd_pairs(const ShapeSet& set, std::uint32_t agents, double margin) {
                     cli::place_crowd(agents, agents_per_square_metre, set.shape_count(), crowd_seed),
                     {}};
   bch::Crowd finder;
-  const CrowdPairs pairs = finder.candidates(set, workload.agents(), {.margin = margin});
+  const bch::Crowd::Pairs pairs = finder.candidates(set, workload.agents(), margin);
   workload.pairs.assign(pairs.begin(), pairs.end());
   return workload;
 }

@@ -90,10 +90,10 @@ constexpr std::size_t pairs_at_once = 1024;
 }  // namespace
 
 void clearance(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs,
-               const BodyClearanceAnswers& answers, const QueryOptions& options) {
+               const BodyClearanceAnswers& answers, const BodyClearanceOptions& options) {
   const FloatingPointStateGuard floats;
   require_valid({"clearance", "pair", pairs.size()}, answers, options);
-  const Implementation& implementation = chosen(options, "clearance");
+  const Implementation& implementation = chosen(options.implementation, "clearance");
   const BodySetView& view = bodies.view();
   require_valid(implementation, view.ground, agents, pairs);
   const float enough = options.overlap == Overlap::zero ? 0 : -std::numeric_limits<float>::infinity();

@@ -19,7 +19,7 @@ void collide(const BodySet& bodies, const Agents& agents, std::span<const Pair> 
              std::span<std::uint8_t> hits, const Implementation* wanted) {
   const FloatingPointStateGuard floats;
   require_as_many({"collide", "pair", pairs.size()}, hits.size(), "hits");
-  const Implementation& implementation = chosen({.implementation = wanted}, "collide");
+  const Implementation& implementation = chosen(wanted, "collide");
   const BodySetView& view = bodies.view();
   require_valid(implementation, view.ground, agents, pairs);
   BodyArguments arguments{arguments_for(view.ground, agents, pairs), &view};
@@ -34,7 +34,7 @@ void within(const BodySet& bodies, const Agents& agents, std::span<const Pair> p
             const Implementation* wanted) {
   const FloatingPointStateGuard floats;
   require_within(pairs, distances, answers);
-  const Implementation& implementation = chosen({.implementation = wanted}, "within");
+  const Implementation& implementation = chosen(wanted, "within");
   const BodySetView& view = bodies.view();
   for_within_tasks(implementation, view.ground, agents, pairs, distances, answers,
                    [&](const Arguments& in, std::size_t size) {

@@ -60,6 +60,9 @@ Agents agents_of(const bch_agents* given) {
   Agents all{of(agents.shape, agents.shape_stride, "agents->shape"),
              numbers(agents.x, agents.x_stride, "agents->x"), numbers(agents.y, agents.y_stride, "agents->y"),
              numbers(agents.heading, agents.heading_stride, "agents->heading")};
+  if (agents.heading_y != nullptr)
+    all.heading =
+        Headings(all.heading.x(), numbers(agents.heading_y, agents.heading_y_stride, "agents->heading_y"));
   if (agents.level != nullptr) all.level = of(agents.level, agents.level_stride, "agents->level");
   if (agents.z != nullptr) all.z = numbers(agents.z, agents.z_stride, "agents->z");
   return all;
@@ -84,7 +87,7 @@ float threshold_of(const bch_plan* given) {
 
 CallOptions options_of(const bch_query_options* given) {
   const bch_query_options options = sized<bch_query_options>(given, BCH_QUERY_OPTIONS_INIT, "options");
-  QueryOptions query{
+  const detail::AllOptions query{
       .implementation = options.implementation == nullptr ? nullptr : &implementation(options.implementation),
       .leaves = one_of(options.leaves, Leaves::segments, "options->leaves"),
       .max_distance = options.max_distance,

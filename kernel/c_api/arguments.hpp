@@ -16,6 +16,7 @@
 
 #include "kernel/c_api/failure.hpp"
 #include "kernel/c_api/members.hpp"
+#include "kernel/runtime/all_options.hpp"
 
 namespace bch::c_api {
 
@@ -126,7 +127,7 @@ float threshold_of(const bch_plan* plan);
 
 /// Holds the options of a call, and how many threads it asks for.
 struct CallOptions {
-  QueryOptions query;
+  detail::AllOptions query;
   std::uint32_t threads;
 };
 CallOptions options_of(const bch_query_options* options);

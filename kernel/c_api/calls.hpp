@@ -25,7 +25,7 @@ struct CallOn {
 
   decltype(Handle::set) shapes;
   const Agents agents;
-  QueryOptions options;
+  detail::AllOptions options;
   std::uint32_t threads;
 
   /// Asks on the threads that the options want.

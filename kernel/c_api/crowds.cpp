@@ -10,7 +10,7 @@ struct bch_crowd {
   explicit bch_crowd(const bch::CrowdOptions& options) : crowd(options) {}
 
   bch::Crowd crowd;
-  bch::CrowdPairs last;  ///< what bch_crowd_by_agent() is about
+  bch::Crowd::Pairs last;  ///< what bch_crowd_by_agent() is about
 };
 
 using namespace bch;
@@ -60,18 +60,11 @@ struct CrowdCallOn : CallOn<Handle> {
 };
 using CrowdCall = CrowdCallOn<bch_shape_set>;
 
-CollisionOptions collision_options(const CrowdCall& call) {
-  return {call.options.leaves, call.filter, call.options.implementation};
-}
-BodyCollisionOptions collision_options(const CrowdCallOn<bch_body_set>& call) {
-  return {call.filter, call.options.implementation};
-}
-
 template <class Ask, class Handle>
 void hand_out_pairs(const CrowdCallOn<Handle>& call, Ask ask, const bch_pair** pairs, size_t* count) {
   required(pairs, "pairs");
   required(count, "count");
-  const CrowdPairs found = call.answer(ask);
+  const Crowd::Pairs found = call.answer(ask);
   call.object.last = found;
   *pairs = c_pairs(found.span());
   *count = found.size();
@@ -81,7 +74,7 @@ template <class Handle>
 void hand_out_candidates(const CrowdCallOn<Handle>& call, double margin, const bch_pair** pairs,
                          size_t* count) {
   const auto ask = [&](Crowd& crowd) {
-    return crowd.candidates(call.shapes, call.agents, {margin, call.filter});
+    return crowd.candidates(call.shapes, call.agents, margin, call.filter);
   };
   hand_out_pairs(call, ask, pairs, count);
 }
@@ -89,7 +82,7 @@ void hand_out_candidates(const CrowdCallOn<Handle>& call, double margin, const b
 template <class Handle>
 void hand_out_collisions(const CrowdCallOn<Handle>& call, const bch_pair** pairs, size_t* count) {
   const auto ask = [&](Crowd& crowd) {
-    return crowd.collisions(call.shapes, call.agents, collision_options(call));
+    return crowd.collisions(call.shapes, call.agents, call.options, call.filter);
   };
   hand_out_pairs(call, ask, pairs, count);
 }
@@ -145,8 +138,8 @@ bch_status bch_crowd_contacts(bch_crowd* handle, const bch_shape_set* set, const
   return guarded([&] {
     const CrowdCall call(handle, set, agents, filter, options);
     required(contacts, "contacts");
-    const CrowdContacts found = call.answer(
-        [&](Crowd& crowd) { return crowd.contacts(call.shapes, call.agents, collision_options(call)); });
+    const Crowd::Contacts found = call.answer(
+        [&](Crowd& crowd) { return crowd.contacts(call.shapes, call.agents, call.options, call.filter); });
     call.object.last = found.pairs;
     *contacts = contact_rows(found.pairs.span(), found.contacts);
   });
@@ -159,8 +152,8 @@ bch_status bch_crowd_contacts_of(bch_crowd* handle, const bch_shape_set* set, co
     const CrowdCall call(handle, set, agents, nullptr, options);
     const std::span<const Pair> of = same_array<Pair>(pairs, count, "pairs");
     required(contacts, "contacts");
-    const Rows<DiscPair> found = call.answer(
-        [&](Crowd& crowd) { return crowd.contacts(call.shapes, call.agents, of, collision_options(call)); });
+    const Rows<DiscPair> found =
+        call.answer([&](Crowd& crowd) { return crowd.contacts(call.shapes, call.agents, of, call.options); });
     *contacts = contact_rows(of, found);
   });
 }
@@ -171,10 +164,11 @@ bch_status bch_crowd_clearances(bch_crowd* handle, const bch_shape_set* set, con
   return guarded([&] {
     const CrowdCall call(handle, set, agents, filter, options);
     required(clearances, "clearances");
-    const CrowdClearances found = call.answer([&](Crowd& crowd) {
-      return crowd.clearances(
-          call.shapes, call.agents, within,
-          {call.options.distance_leaves, call.options.overlap, call.filter, call.options.implementation});
+    const Crowd::Clearances found = call.answer([&](Crowd& crowd) {
+      return crowd.clearances(call.shapes, call.agents,
+                              ClearanceOptions{call.options.implementation, within, call.options.overlap,
+                                               call.options.distance_leaves},
+                              call.filter);
     });
     call.object.last = found.pairs;
     *clearances = {found.pairs.size(),
@@ -193,9 +187,10 @@ bch_status bch_crowd_body_clearances(bch_crowd* handle, const bch_body_set* set,
   return guarded([&] {
     const CrowdCallOn<bch_body_set> call(handle, set, agents, filter, options);
     required(clearances, "clearances");
-    const CrowdBodyClearances found = call.answer([&](Crowd& crowd) {
-      return crowd.clearances(call.shapes, call.agents, within,
-                              {call.options.overlap, call.filter, call.options.implementation});
+    const Crowd::BodyClearances found = call.answer([&](Crowd& crowd) {
+      return crowd.clearances(call.shapes, call.agents,
+                              BodyClearanceOptions{call.options.implementation, within, call.options.overlap},
+                              call.filter);
     });
     call.object.last = found.pairs;
     *clearances = {found.pairs.size(),
@@ -214,9 +209,8 @@ bch_status bch_crowd_penetrations(bch_crowd* handle, const bch_shape_set* set, c
   return guarded([&] {
     const CrowdCall call(handle, set, agents, filter, options);
     required(penetrations, "penetrations");
-    const CrowdPenetrations found = call.answer([&](Crowd& crowd) {
-      return crowd.penetrations(call.shapes, call.agents,
-                                {directions, call.options.leaves, call.filter, call.options.implementation});
+    const Crowd::Penetrations found = call.answer([&](Crowd& crowd) {
+      return crowd.penetrations(call.shapes, call.agents, directions, call.options, call.filter);
     });
     call.object.last = found.pairs;
     *penetrations = {found.pairs.size(), c_pairs(found.pairs.span()),
@@ -228,7 +222,7 @@ bch_status bch_crowd_by_agent(bch_crowd* handle, bch_neighbour_rows* neighbours)
   return guarded([&] {
     const bch_crowd& crowd = object_of(handle, "crowd");
     required(neighbours, "neighbours");
-    const Rows<Neighbour> rows = crowd.last.by_agent();
+    const Rows<Crowd::Neighbour> rows = crowd.last.by_agent();
     *neighbours = {rows.size(), rows.offsets.data(),
                    reinterpret_cast<const bch_neighbour*>(rows.values.data())};
   });
@@ -243,11 +237,7 @@ bch_status bch_crowd_obstacles(bch_crowd* handle, const bch_shape_set* set, cons
     const ObstacleSet& walls = object_of(obstacles, "obstacles").set;
     required(touched, "touched");
     Rows<std::uint32_t> rows;
-    call.run([&] {
-      rows = object.crowd.obstacles(
-          call.shapes, call.agents, walls,
-          {.leaves = call.options.leaves, .implementation = call.options.implementation});
-    });
+    call.run([&] { rows = object.crowd.obstacles(call.shapes, call.agents, walls, call.options); });
     *touched = {rows.size(), rows.offsets.data(), rows.values.data()};
   });
 }

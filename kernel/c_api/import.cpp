@@ -17,7 +17,7 @@ namespace {
 
 ImportOptions import_options_of(const bch_import_options& given) {
   ImportOptions options;
-  if (given.up != -1) options.up = one_of(given.up, UpAxis::z, "options->up");
+  if (given.up != -1) options.up = one_of(given.up, ImportOptions::UpAxis::z, "options->up");
   if (given.scale != 0) options.scale = given.scale;
   for (const char* file : array_of(given.clip_files, given.clip_file_count, "options->clip_files"))
     options.clip_files.emplace_back(&required(file, "a path of options->clip_files"));

@@ -111,8 +111,10 @@ bch_status bch_obstacles_within(const bch_shape_set* set, const bch_agents* agen
     const ObstacleCall call(set, agents, obstacles, options);
     const auto near = array_of(distances, distance_count, "distances");
     const auto to = array_of(answers, call.agents.size(), "answers");
-    call.ask(to,
-             [&](auto into) { within(call.shapes, call.agents, call.obstacles, near, into, call.options); });
+    call.ask(to, [&](auto into) {
+      within(call.shapes, call.agents, call.obstacles, near, into, call.options.distance_leaves,
+             call.options.implementation);
+    });
   });
 }
 

@@ -19,9 +19,9 @@ namespace bch::c_api {
 namespace {
 
 /// The agents of a scene. Each has its number in place of a density, by which its depth is asked for.
-std::vector<SceneAgent> scene_agents_of(const bch_scene_agents& given) {
+std::vector<ScenePlan::Agent> scene_agents_of(const bch_scene_agents& given) {
   const auto poses = array_of(given.poses, given.count, "agents->poses");
-  std::vector<SceneAgent> agents(given.count);
+  std::vector<ScenePlan::Agent> agents(given.count);
   for (std::size_t i = 0; i < agents.size(); ++i) {
     agents[i].shows.at = {poses[i].clip, poses[i].seconds};
     if (given.character != nullptr) agents[i].shows.character = given.character[i];

@@ -14,6 +14,7 @@
 #include "kernel/c_api/work.hpp"
 #include "layout/base/number_class.hpp"
 #include "layout/base/shortest.hpp"
+#include "layout/hierarchy/paper_hierarchies.hpp"
 #include "layout/shape_set/builder_end.hpp"
 
 struct bch_shape_set_builder {
@@ -273,7 +274,7 @@ bch_status bch_shape_set_builder_add_cylinder(bch_shape_set_builder* builder, fl
   return guarded([&] {
     add_own(builder, "cylinder", heights, [&](const bch_shape_set_builder&) {
       Shape shape;  // made first: GCC 12 would destroy a braced one twice where the next line throws
-      shape.hierarchy = fixed_cylinder(radius);
+      shape.hierarchy = detail::fixed_cylinder(radius);
       return shape;
     });
   });

@@ -14,11 +14,11 @@ namespace bch {
 using namespace detail;
 
 void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
-             std::span<std::uint8_t> hits, const QueryOptions& options) {
+             std::span<std::uint8_t> hits, const CollideOptions& options) {
   const FloatingPointStateGuard floats;
   require_as_many({"collide", "pair", pairs.size()}, hits.size(), "hits");
   const bool exact = exact_leaves(shapes, options.leaves, "collide");
-  const Implementation& implementation = chosen(options, "collide");
+  const Implementation& implementation = chosen(options.implementation, "collide");
   const ShapeSetView& view = shapes.view();
   require_sizes(agents);
   Arguments arguments = arguments_for(view, agents, pairs);

@@ -20,8 +20,13 @@ using Placement = TransformOf<double>;
 /// Returns the map from the frame of one agent into that of another.
 Placement placement(const Arguments& in, std::uint32_t of, std::uint32_t to_agent) {
   const auto number = AgentColumns<void>::number;
-  const Rotation to = rotation(number(in.agent_heading, to_agent)),
-                 from = rotation(number(in.agent_heading, of));
+  const auto turn = [&](std::uint32_t agent) {
+    const double x = number(in.agent_heading, agent);
+    return in.agent_heading_y.first == nullptr
+               ? rotation(x)
+               : rotation(Headings::Value{x, number(in.agent_heading_y, agent), true});
+  };
+  const Rotation to = turn(to_agent), from = turn(of);
   const double dx = number(in.agent_x, of) - number(in.agent_x, to_agent),
                dy = number(in.agent_y, of) - number(in.agent_y, to_agent);
   return {to.cosine * from.cosine + to.sine * from.sine, to.cosine * from.sine - to.sine * from.cosine,

@@ -71,7 +71,7 @@ Rows<DiscPair> DiscContacts::find_valid(const ShapeSet& shapes, const Agents& ag
                                         std::span<const Pair> pairs, Leaves leaves,
                                         const Implementation* wanted) {
   const FloatingPointStateGuard floats;
-  const Implementation& implementation = chosen({.implementation = wanted}, "contacts");
+  const Implementation& implementation = chosen(wanted, "contacts");
   const ShapeSetView& view = shapes.view();
   Arguments arguments = arguments_for(view, agents, pairs);
   arguments.exact_leaves = exact_leaves(shapes, leaves, "contacts");
@@ -98,7 +98,7 @@ Rows<DiscPair> DiscContacts::find_valid(const ShapeSet& shapes, const Agents& ag
 
 Rows<DiscPair> DiscContacts::find(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                                   Leaves leaves, const Implementation* wanted) {
-  require_valid(chosen({.implementation = wanted}, "contacts"), shapes.view(), agents, pairs);
+  require_valid(chosen(wanted, "contacts"), shapes.view(), agents, pairs);
   return find_valid(shapes, agents, pairs, leaves, wanted);
 }
 

@@ -37,11 +37,6 @@ void require_period(double length, const char* axis) {
                               " from 0 to 5e8 m, found " + shortest(length));
 }
 
-void require_no_filter(const PairFilter& filter, const char* query) {
-  if (filter.category.empty() && filter.mask.empty() && filter.excluded.empty()) return;
-  throw std::invalid_argument(std::string(query) + ": expected no filter, found one");
-}
-
 /// Holds a value of each candidate that clearance() gave, and of those that are kept.
 template <class Value>
 struct Answers {
@@ -88,7 +83,7 @@ struct CrowdMemory {
   }
   /// Asks ask() for the distances of the candidates and what goes with them, and keeps those that are near.
   template <class Ask, class... Value>
-  CrowdPairs keep_near(std::span<const Pair> candidates, const Ask& ask, Answers<Value>&... beside) {
+  Crowd::Pairs keep_near(std::span<const Pair> candidates, const Ask& ask, Answers<Value>&... beside) {
     distance.of_candidates.resize(candidates.size());
     (beside.of_candidates.resize(candidates.size()), ...);
     ask();
@@ -98,7 +93,7 @@ struct CrowdMemory {
     (beside.keep(kept), ...);
     return {pairs, *this};
   }
-  Rows<Neighbour> by_agent(std::span<const Pair> pairs);
+  Rows<Crowd::Neighbour> by_agent(std::span<const Pair> pairs);
 
   CrowdOptions options;
   PairTest test;
@@ -122,7 +117,7 @@ struct CrowdMemory {
 
   std::size_t agents = 0;  ///< of the answer
   std::vector<std::uint64_t> begin;
-  std::vector<Neighbour> neighbours;
+  std::vector<Crowd::Neighbour> neighbours;
 };
 
 CrowdMemory::Candidates CrowdMemory::find(const ShapeSetView& shapes, const Agents& given, double margin,
@@ -163,7 +158,7 @@ std::span<const Pair> CrowdMemory::collide(const ShapeSet& shapes, const Candida
   return keep_hits(candidates.pairs);
 }
 
-Rows<Neighbour> CrowdMemory::by_agent(std::span<const Pair> of) {
+Rows<Crowd::Neighbour> CrowdMemory::by_agent(std::span<const Pair> of) {
   if (of.size() > std::numeric_limits<std::uint32_t>::max())
     throw std::length_error("by_agent: expected fewer than 2^32 pairs, found " + std::to_string(of.size()));
   begin.assign(agents + 1, 0);
@@ -186,7 +181,7 @@ namespace bch {
 
 using namespace detail;
 
-Rows<Neighbour> CrowdPairs::by_agent() const {
+Rows<Crowd::Neighbour> Crowd::Pairs::by_agent() const {
   if (memory_ == nullptr) return {};
   return without_tasks_from_outside([&] { return memory_->by_agent(pairs_); });
 }
@@ -201,46 +196,47 @@ Crowd::Crowd(Crowd&&) noexcept = default;
 Crowd& Crowd::operator=(Crowd&&) noexcept = default;
 Crowd::~Crowd() = default;
 
-CrowdPairs Crowd::candidates(const ShapeSet& shapes, const Agents& agents,
-                             const CandidateOptions& options) & {
-  return without_tasks_from_outside([&]() -> CrowdPairs {
+Crowd::Pairs Crowd::candidates(const ShapeSet& shapes, const Agents& agents, double margin,
+                               const PairFilter& filter) & {
+  return without_tasks_from_outside([&]() -> Crowd::Pairs {
     CrowdMemory& of = *memory_;
-    return {of.named(of.find(shapes.view(), agents, options.margin, options.filter).pairs), of};
+    return {of.named(of.find(shapes.view(), agents, margin, filter).pairs), of};
   });
 }
 
-CrowdPairs Crowd::collisions(const ShapeSet& shapes, const Agents& agents,
-                             const CollisionOptions& options) & {
-  return without_tasks_from_outside([&]() -> CrowdPairs {
+Crowd::Pairs Crowd::collisions(const ShapeSet& shapes, const Agents& agents, const CollideOptions& options,
+                               const PairFilter& filter) & {
+  return without_tasks_from_outside([&]() -> Crowd::Pairs {
     CrowdMemory& of = *memory_;
-    const CrowdMemory::Candidates candidates = of.find(shapes.view(), agents, 0, options.filter);
+    const CrowdMemory::Candidates candidates = of.find(shapes.view(), agents, 0, filter);
     return {of.collide(shapes, candidates, options.leaves, options.implementation), of};
   });
 }
 
-CrowdPairs Crowd::candidates(const BodySet& bodies, const Agents& agents, const CandidateOptions& options) & {
-  return without_tasks_from_outside([&]() -> CrowdPairs {
+Crowd::Pairs Crowd::candidates(const BodySet& bodies, const Agents& agents, double margin,
+                               const PairFilter& filter) & {
+  return without_tasks_from_outside([&]() -> Crowd::Pairs {
     CrowdMemory& of = *memory_;
-    return {of.named(of.find(bodies, agents, options.margin, options.filter).pairs), of};
+    return {of.named(of.find(bodies, agents, margin, filter).pairs), of};
   });
 }
 
-CrowdPairs Crowd::collisions(const BodySet& bodies, const Agents& agents,
-                             const BodyCollisionOptions& options) & {
-  return without_tasks_from_outside([&]() -> CrowdPairs {
+Crowd::Pairs Crowd::collisions(const BodySet& bodies, const Agents& agents,
+                               const Implementation* implementation, const PairFilter& filter) & {
+  return without_tasks_from_outside([&]() -> Crowd::Pairs {
     CrowdMemory& of = *memory_;
-    const CrowdMemory::Candidates candidates = of.find(bodies, agents, 0, options.filter);
+    const CrowdMemory::Candidates candidates = of.find(bodies, agents, 0, filter);
     of.hits.resize(candidates.pairs.size());
-    collide(bodies, candidates.agents, candidates.pairs, of.hits, options.implementation);
+    collide(bodies, candidates.agents, candidates.pairs, of.hits, implementation);
     return {of.keep_hits(candidates.pairs), of};
   });
 }
 
-CrowdContacts Crowd::contacts(const ShapeSet& shapes, const Agents& agents,
-                              const CollisionOptions& options) & {
-  return without_tasks_from_outside([&]() -> CrowdContacts {
+Crowd::Contacts Crowd::contacts(const ShapeSet& shapes, const Agents& agents, const CollideOptions& options,
+                                const PairFilter& filter) & {
+  return without_tasks_from_outside([&]() -> Crowd::Contacts {
     CrowdMemory& of = *memory_;
-    const CrowdMemory::Candidates candidates = of.find(shapes.view(), agents, 0, options.filter);
+    const CrowdMemory::Candidates candidates = of.find(shapes.view(), agents, 0, filter);
     const Rows<DiscPair> rows = of.disc_contacts.find_valid(shapes, candidates.agents, candidates.pairs,
                                                             options.leaves, options.implementation);
     of.keep(candidates.pairs, [&](std::size_t i) { return !rows[i].empty(); });
@@ -252,8 +248,7 @@ CrowdContacts Crowd::contacts(const ShapeSet& shapes, const Agents& agents,
 }
 
 Rows<DiscPair> Crowd::contacts(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
-                               const CollisionOptions& options) & {
-  require_no_filter(options.filter, "contacts");
+                               const CollideOptions& options) & {
   if (memory_->is_periodic())
     throw std::invalid_argument(
         "contacts: expected a crowd without a period for given pairs, found one with");
@@ -262,75 +257,67 @@ Rows<DiscPair> Crowd::contacts(const ShapeSet& shapes, const Agents& agents, std
   });
 }
 
-CrowdClearances Crowd::clearances(const ShapeSet& shapes, const Agents& agents, double within,
-                                  const CrowdClearanceOptions& options) & {
-  return without_tasks_from_outside([&]() -> CrowdClearances {
+Crowd::Clearances Crowd::clearances(const ShapeSet& shapes, const Agents& agents,
+                                    const ClearanceOptions& options, const PairFilter& filter) & {
+  return without_tasks_from_outside([&]() -> Crowd::Clearances {
     CrowdMemory& of = *memory_;
     // With any margin, root discs hold all discs of their cuts, which distances are measured between.
     constexpr double least_margin = 1e-9;
-    const double margin = within >= 0 ? std::max(within, least_margin) : within;
-    const CrowdMemory::Candidates candidates = of.find(shapes.view(), agents, margin, options.filter);
+    const double margin =
+        options.max_distance >= 0 ? std::max(options.max_distance, least_margin) : options.max_distance;
+    const CrowdMemory::Candidates candidates = of.find(shapes.view(), agents, margin, filter);
     const auto ask = [&] {
       clearance(shapes, candidates.agents, candidates.pairs,
                 {of.distance.of_candidates, of.direction.of_candidates, of.discs.of_candidates,
                  of.points.of_candidates},
-                {.implementation = options.implementation,
-                 .max_distance = within,
-                 .overlap = options.overlap,
-                 .distance_leaves = options.leaves});
+                options);
     };
-    const CrowdPairs near = of.keep_near(candidates.pairs, ask, of.direction, of.discs, of.points);
+    const Crowd::Pairs near = of.keep_near(candidates.pairs, ask, of.direction, of.discs, of.points);
     return {near, of.distance.kept, of.direction.kept, of.discs.kept, of.points.kept};
   });
 }
 
-CrowdBodyClearances Crowd::clearances(const BodySet& bodies, const Agents& agents, double within,
-                                      const BodyClearanceOptions& options) & {
-  return without_tasks_from_outside([&]() -> CrowdBodyClearances {
+Crowd::BodyClearances Crowd::clearances(const BodySet& bodies, const Agents& agents,
+                                        const BodyClearanceOptions& options, const PairFilter& filter) & {
+  return without_tasks_from_outside([&]() -> Crowd::BodyClearances {
     CrowdMemory& of = *memory_;
-    const CrowdMemory::Candidates candidates = of.find(bodies, agents, within, options.filter);
+    const CrowdMemory::Candidates candidates = of.find(bodies, agents, options.max_distance, filter);
     const auto ask = [&] {
-      clearance(
-          bodies, candidates.agents, candidates.pairs,
-          {of.distance.of_candidates, of.space_direction.of_candidates, of.discs.of_candidates,
-           of.space_points.of_candidates},
-          {.implementation = options.implementation, .max_distance = within, .overlap = options.overlap});
+      clearance(bodies, candidates.agents, candidates.pairs,
+                {of.distance.of_candidates, of.space_direction.of_candidates, of.discs.of_candidates,
+                 of.space_points.of_candidates},
+                options);
     };
-    const CrowdPairs near =
+    const Crowd::Pairs near =
         of.keep_near(candidates.pairs, ask, of.space_direction, of.discs, of.space_points);
     return {near, of.distance.kept, of.space_direction.kept, of.discs.kept, of.space_points.kept};
   });
 }
 
-CrowdPenetrations Crowd::penetrations(const ShapeSet& shapes, const Agents& agents,
-                                      const CrowdPenetrationOptions& options) & {
-  return without_tasks_from_outside([&]() -> CrowdPenetrations {
+Crowd::Penetrations Crowd::penetrations(const ShapeSet& shapes, const Agents& agents,
+                                        std::uint32_t directions, const CollideOptions& options,
+                                        const PairFilter& filter) & {
+  return without_tasks_from_outside([&]() -> Crowd::Penetrations {
     CrowdMemory& of = *memory_;
-    const CrowdMemory::Candidates candidates = of.find(shapes.view(), agents, 0, options.filter);
+    const CrowdMemory::Candidates candidates = of.find(shapes.view(), agents, 0, filter);
     of.collide(shapes, candidates, options.leaves, options.implementation);
     of.kept.gather(of.to_part, [&](std::size_t i) { return candidates.pairs[i]; });
     of.penetrations.resize(of.to_part.size());
-    penetration(shapes, candidates.agents, of.to_part, options.directions, of.penetrations,
-                {.implementation = options.implementation});
+    penetration(shapes, candidates.agents, of.to_part, directions, of.penetrations, options.implementation);
     return {{of.pairs, of}, of.penetrations};
   });
 }
 
 Rows<std::uint32_t> Crowd::obstacles(const ShapeSet& shapes, const Agents& agents,
-                                     const ObstacleSet& obstacles, const CollisionOptions& options) & {
-  require_no_filter(options.filter, "obstacles");
-  return without_tasks_from_outside([&] {
-    return memory_->obstacle_rows.find(shapes, agents, obstacles,
-                                       {.implementation = options.implementation, .leaves = options.leaves});
-  });
+                                     const ObstacleSet& obstacles, const CollideOptions& options) & {
+  return without_tasks_from_outside(
+      [&] { return memory_->obstacle_rows.find(shapes, agents, obstacles, options); });
 }
 
 Rows<std::uint32_t> Crowd::obstacles(const BodySet& bodies, const Agents& agents,
-                                     const ObstacleSet& obstacles, const CollisionOptions& options) & {
-  require_no_filter(options.filter, "obstacles");
-  return without_tasks_from_outside([&] {
-    return memory_->obstacle_rows.find(bodies, agents, obstacles, {.implementation = options.implementation});
-  });
+                                     const ObstacleSet& obstacles, const Implementation* implementation) & {
+  return without_tasks_from_outside(
+      [&] { return memory_->obstacle_rows.find(bodies, agents, obstacles, implementation); });
 }
 
 }  // namespace bch

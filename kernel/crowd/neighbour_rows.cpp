@@ -41,7 +41,7 @@ void NeighbourRows::sort(std::size_t first, std::size_t last) const noexcept {
   for (std::size_t i = first; i < last; ++i)
     std::sort(neighbours.begin() + static_cast<std::ptrdiff_t>(begin[i]),
               neighbours.begin() + static_cast<std::ptrdiff_t>(begin[i + 1]),
-              [](Neighbour a, Neighbour b) { return a.agent < b.agent; });
+              [](Crowd::Neighbour a, Crowd::Neighbour b) { return a.agent < b.agent; });
 }
 
 }  // namespace bch::detail

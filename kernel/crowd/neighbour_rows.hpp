@@ -15,8 +15,8 @@ namespace bch::detail {
 /// time on different ranges. In which order rows are filled depends on threads; sorting removes that.
 struct NeighbourRows {
   std::span<const Pair> pairs;
-  std::span<std::uint64_t> begin;   ///< per agent, and the end of all
-  std::span<Neighbour> neighbours;  ///< row after row
+  std::span<std::uint64_t> begin;          ///< per agent, and the end of all
+  std::span<Crowd::Neighbour> neighbours;  ///< row after row
 
   /// Adds the number of each agent's neighbours in pairs first .. last to `begin`.
   void count(std::size_t first, std::size_t last) const noexcept;

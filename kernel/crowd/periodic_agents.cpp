@@ -57,21 +57,24 @@ void PeriodicAgents::add_image(std::uint32_t agent, double x, double y) {
   shape_.push_back(shape_[agent]);
   x_.push_back(x), y_.push_back(y);
   heading_.push_back(heading_[agent]);
+  if (!heading_y_.empty()) heading_y_.push_back(heading_y_[agent]);
   if (!z_.empty()) z_.push_back(z_[agent]);
   if (!level_.empty()) level_.push_back(level_[agent]);
 }
 
-void PeriodicAgents::set(const ShapeSetView& shapes, const Agents& agents, Period period, double margin) {
+void PeriodicAgents::set(const ShapeSetView& shapes, const Agents& agents, CrowdOptions::Period period,
+                         double margin) {
   const double reach = agents.size() == 0 ? 0 : farthest_reach(shapes, agents, margin);
   require_longer(period.x, reach, "x");
   require_longer(period.y, reach, "y");
   agents_ = agents.size();
   origin_.clear();
-  shape_.clear(), x_.clear(), y_.clear(), heading_.clear(), level_.clear(), z_.clear();
+  shape_.clear(), x_.clear(), y_.clear(), heading_.clear(), heading_y_.clear(), level_.clear(), z_.clear();
   for (std::size_t i = 0; i < agents_; ++i) {
     shape_.push_back(agents.shape[i]);
     x_.push_back(wrapped(agents.x[i], period.x)), y_.push_back(wrapped(agents.y[i], period.y));
-    heading_.push_back(agents.heading[i]);
+    heading_.push_back(agents.heading.x()[i]);
+    if (agents.heading.are_directions()) heading_y_.push_back(agents.heading.y()[i]);
     if (!agents.level.empty()) level_.push_back(agents.level[i]);
     if (!agents.z.empty()) z_.push_back(agents.z[i]);
   }
@@ -85,7 +88,8 @@ void PeriodicAgents::set(const ShapeSetView& shapes, const Agents& agents, Perio
 }
 
 Agents PeriodicAgents::agents() const noexcept {
-  return {shape_, x_, y_, heading_, level_, z_};
+  const Headings heading = heading_y_.empty() ? Headings(heading_) : Headings(heading_, heading_y_);
+  return {shape_, x_, y_, heading, level_, z_};
 }
 
 }  // namespace bch::detail

@@ -21,7 +21,7 @@ class PeriodicAgents {
  public:
   /// Takes agents that are valid. `margin`: as for BroadPhase::find().
   /// Errors:  throws std::invalid_argument on a period of at most four times the farthest reach of an agent.
-  void set(const ShapeSetView& shapes, const Agents& agents, Period period, double margin);
+  void set(const ShapeSetView& shapes, const Agents& agents, CrowdOptions::Period period, double margin);
 
   Agents agents() const noexcept;
   std::span<const std::uint32_t> origin_of_image() const noexcept { return origin_; }
@@ -31,7 +31,7 @@ class PeriodicAgents {
 
   std::size_t agents_ = 0;
   std::vector<std::uint32_t> shape_, origin_;
-  std::vector<double> x_, y_, heading_, z_;
+  std::vector<double> x_, y_, heading_, heading_y_, z_;
   std::vector<std::uint8_t> level_;
 };
 

@@ -98,17 +98,17 @@ class RangeAnswers {
 }  // namespace
 
 void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
-               const ClearanceAnswers& answers, const QueryOptions& options) {
+               const ClearanceAnswers& answers, const ClearanceOptions& options) {
   const FloatingPointStateGuard floats;
   require_valid({"clearance", "pair", pairs.size()}, answers, options);
-  const Implementation& implementation = chosen(options, "clearance");
+  const Implementation& implementation = chosen(options.implementation, "clearance");
   const ShapeSetView& view = shapes.view();
   require_valid(implementation, view, agents, pairs);
 
   const float enough = options.overlap == Overlap::zero ? 0 : -std::numeric_limits<float>::infinity();
   // How deep discs overlap is asked of discs.
   const bool of_segments =
-      exact_leaves(shapes, options.distance_leaves, "clearance") && options.overlap == Overlap::zero;
+      exact_leaves(shapes, options.leaves, "clearance") && options.overlap == Overlap::zero;
   ClearanceArguments arguments{arguments_for(view, agents, {}),
                                rounding::round_down(std::min(options.max_distance, double{largest_limit})),
                                enough, nullptr};

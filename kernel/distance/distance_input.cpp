@@ -23,8 +23,8 @@ void require_none_or_as_many(const Asked& asked, std::size_t size, const char* w
 }
 
 /// Requires the sizes of all answers but the discs or spheres, and the options.
-template <class Answers>
-void require_valid_answers(const Asked& asked, const Answers& answers, const QueryOptions& options) {
+template <class Answers, class Options>
+void require_valid_answers(const Asked& asked, const Answers& answers, const Options& options) {
   require_as_many(asked, answers.distance.size(), "distances");
   require_none_or_as_many(asked, answers.direction.size(), "directions");
   require_none_or_as_many(asked, answers.points.size(), "points");
@@ -43,12 +43,13 @@ void put_distance(const Answers& answers, std::size_t i, float distance) noexcep
 
 }  // namespace
 
-void require_valid(const Asked& asked, const ClearanceAnswers& answers, const QueryOptions& options) {
+void require_valid(const Asked& asked, const ClearanceAnswers& answers, const ClearanceOptions& options) {
   require_none_or_as_many(asked, answers.discs.size(), "discs");
   require_valid_answers(asked, answers, options);
 }
 
-void require_valid(const Asked& asked, const BodyClearanceAnswers& answers, const QueryOptions& options) {
+void require_valid(const Asked& asked, const BodyClearanceAnswers& answers,
+                   const BodyClearanceOptions& options) {
   require_none_or_as_many(asked, answers.spheres.size(), "spheres");
   require_valid_answers(asked, answers, options);
 }
@@ -75,12 +76,12 @@ void require_valid(const Asked& asked, const Displacements& displacements, std::
 
 void put_alone(const ClearanceAnswers& answers, std::size_t i, float distance) noexcept {
   put_distance(answers, i, distance);
-  if (!answers.discs.empty()) answers.discs[i] = no_discs;
+  if (!answers.discs.empty()) answers.discs[i] = DiscPair::none;
 }
 
 void put_alone(const BodyClearanceAnswers& answers, std::size_t i, float distance) noexcept {
   put_distance(answers, i, distance);
-  if (!answers.spheres.empty()) answers.spheres[i] = no_discs;
+  if (!answers.spheres.empty()) answers.spheres[i] = DiscPair::none;
 }
 
 }  // namespace bch::detail

@@ -15,8 +15,9 @@ namespace bch::detail {
 // Errors: each throws std::invalid_argument naming the query, the pair or agent where each has a value, and the value.
 
 /// Requires of clearance() the sizes of its answers, and its options.
-void require_valid(const Asked& asked, const ClearanceAnswers& answers, const QueryOptions& options);
-void require_valid(const Asked& asked, const BodyClearanceAnswers& answers, const QueryOptions& options);
+void require_valid(const Asked& asked, const ClearanceAnswers& answers, const ClearanceOptions& options);
+void require_valid(const Asked& asked, const BodyClearanceAnswers& answers,
+                   const BodyClearanceOptions& options);
 /// Requires of within() one distance, or as many as it answers, none of them negative or NaN.
 void require_distances(const Asked& asked, std::span<const double> distances);
 /// Requires of time_of_impact() the sizes of displacements and times, and displacements within the limits.

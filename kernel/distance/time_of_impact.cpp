@@ -44,10 +44,11 @@ void answer(const Implementation& implementation, TimeOfImpactArguments argument
 }  // namespace
 
 void time_of_impact(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
-                    const Displacements& displacements, std::span<float> times, const QueryOptions& options) {
+                    const Displacements& displacements, std::span<float> times,
+                    const Implementation* wanted) {
   const FloatingPointStateGuard floats;
   require_valid({"time_of_impact", "pair", pairs.size()}, displacements, times.size());
-  const Implementation& implementation = chosen(options, "time_of_impact");
+  const Implementation& implementation = chosen(wanted, "time_of_impact");
   const ShapeSetView& view = shapes.view();
   require_valid(implementation, view, agents, pairs);
 

@@ -12,10 +12,11 @@ namespace bch {
 using namespace detail;
 
 void within(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
-            std::span<const double> distances, std::span<std::uint8_t> answers, const QueryOptions& options) {
+            std::span<const double> distances, std::span<std::uint8_t> answers,
+            const Implementation* wanted) {
   const FloatingPointStateGuard floats;
   require_within(pairs, distances, answers);
-  const Implementation& implementation = chosen(options, "within");
+  const Implementation& implementation = chosen(wanted, "within");
   for_within_tasks(implementation, shapes.view(), agents, pairs, distances, answers,
                    [&](const Arguments& in, std::size_t size) { answer(implementation, in, 0, size); });
 }

@@ -12,7 +12,8 @@
 namespace bch::detail {
 namespace {
 
-[[noreturn]] void reject(const CrowdAgent& agent, const char* field, double value, const char* limits) {
+[[noreturn]] void reject(const DistributedCrowd::Agent& agent, const char* field, double value,
+                         const char* limits) {
   std::ostringstream message;
   message << "agent " << agent.id << ": " << field << " is " << value << ", not " << limits;
   throw std::invalid_argument(message.str());
@@ -20,17 +21,17 @@ namespace {
 
 }  // namespace
 
-void require_valid(const CrowdAgent& agent, bool heights) {
-  const std::string why = misplacement(agent.x, agent.y, agent.heading, heights ? agent.z : 0);
+void require_valid(const DistributedCrowd::Agent& agent, bool heights) {
+  const std::string why = misplacement(agent.x, agent.y, {agent.heading}, heights ? agent.z : 0);
   if (!why.empty()) throw std::invalid_argument("agent " + std::to_string(agent.id) + ": " + why);
 }
 
-void require_valid(const CrowdAgent& agent, const ShapeSet& shapes) {
+void require_valid(const DistributedCrowd::Agent& agent, const ShapeSet& shapes) {
   if (agent.shape >= shapes.shape_count()) reject(agent, "shape", agent.shape, "one of the set");
   if (agent.level >= shapes.level_count()) reject(agent, "level", agent.level, "one of the set");
 }
 
-void require_valid(const CrowdAgent& agent, const PosedShapes& shapes) {
+void require_valid(const DistributedCrowd::Agent& agent, const PosedShapes& shapes) {
   if (agent.shape >= shapes.characters().size()) reject(agent, "shape", agent.shape, "one of the characters");
   if (agent.level >= shapes.plan().depths.size()) reject(agent, "level", agent.level, "one of the plan");
   if (agent.pose.clip == PoseTime::rest) return;

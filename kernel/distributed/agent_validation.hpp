@@ -12,10 +12,10 @@ namespace bch::detail {
 // What would lead an agent astray before a query looks at it. Each throws std::invalid_argument that names the agent and the value.
 
 /// Requires that an agent is somewhere. `heights`: whether z counts.
-void require_valid(const CrowdAgent& agent, bool heights);
+void require_valid(const DistributedCrowd::Agent& agent, bool heights);
 /// Requires that its shape and level are of a set.
-void require_valid(const CrowdAgent& agent, const ShapeSet& shapes);
+void require_valid(const DistributedCrowd::Agent& agent, const ShapeSet& shapes);
 /// Requires that its character, level and pose are there.
-void require_valid(const CrowdAgent& agent, const PosedShapes& shapes);
+void require_valid(const DistributedCrowd::Agent& agent, const PosedShapes& shapes);
 
 }  // namespace bch::detail

@@ -48,7 +48,7 @@ MPI_Comm with_threads(MPI_Comm comm) {
 
 }  // namespace
 
-CrowdState::CrowdState(MPI_Comm of, const ShapeSet& set, std::vector<CrowdAgent> mine,
+CrowdState::CrowdState(MPI_Comm of, const ShapeSet& set, std::vector<DistributedCrowd::Agent> mine,
                        const DistributedCrowdOptions& how)
     : CrowdState(of, false, std::move(mine), how) {
   baked = &set;
@@ -59,19 +59,19 @@ CrowdState::CrowdState(MPI_Comm of, const ShapeSet& set, std::vector<CrowdAgent>
 }
 
 CrowdState::CrowdState(MPI_Comm of, std::span<const Character> characters, const ShapeSetPlan& plan,
-                       std::vector<CrowdAgent> mine, const DistributedCrowdOptions& how)
+                       std::vector<DistributedCrowd::Agent> mine, const DistributedCrowdOptions& how)
     : CrowdState(of, true, std::move(mine), how) {
   agree(comm.get(), [&] {
     for (const Character& character : characters) validate(character);
     posed.emplace(characters, plan);
-    const std::vector<CrowdAgent> samples = sampled_agents(characters);
+    const std::vector<DistributedCrowd::Agent> samples = sampled_agents(characters);
     posed->add(samples);
     radii = posed->radii(samples);
     prepare(plan.heights);
   });
 }
 
-CrowdState::CrowdState(MPI_Comm of, bool poses, std::vector<CrowdAgent> mine,
+CrowdState::CrowdState(MPI_Comm of, bool poses, std::vector<DistributedCrowd::Agent> mine,
                        const DistributedCrowdOptions& how)
     : comm(with_threads(of)),
       whole(true, poses),
@@ -107,7 +107,7 @@ void CrowdState::require_margin(double wanted) const {
 }
 
 void CrowdState::look_at_agents() const {
-  for (const CrowdAgent& agent : agents) {
+  for (const DistributedCrowd::Agent& agent : agents) {
     require_valid(agent, options.heights);
     if (posed)
       require_valid(agent, *posed);
@@ -117,7 +117,8 @@ void CrowdState::look_at_agents() const {
 }
 
 void CrowdState::sort_agents() {
-  if (!std::ranges::is_sorted(agents, {}, &CrowdAgent::id)) std::ranges::sort(agents, {}, &CrowdAgent::id);
+  if (!std::ranges::is_sorted(agents, {}, &DistributedCrowd::Agent::id))
+    std::ranges::sort(agents, {}, &DistributedCrowd::Agent::id);
 }
 
 void CrowdState::update(double apart) {
@@ -174,7 +175,8 @@ std::vector<Weight> CrowdState::weights() const {
   std::vector<Weight> all;
   all.reserve(std::max(agents.size(), columns.id.size()));
   if (counters.cuts == 0) {
-    for (const CrowdAgent& agent : agents) all.push_back({curve_key(cell_at(agent.x, agent.y, side)), 1});
+    for (const DistributedCrowd::Agent& agent : agents)
+      all.push_back({curve_key(cell_at(agent.x, agent.y, side)), 1});
     return all;
   }
   for (std::size_t i = 0; i < columns.id.size(); ++i)
@@ -230,8 +232,8 @@ void CrowdState::migrate() {
   exchange_with_all(comm, whole, out, agents);
   agree(comm.get(), [&] {
     const auto arrived = agents.begin() + stayed;
-    std::ranges::sort(arrived, agents.end(), {}, &CrowdAgent::id);
-    std::ranges::inplace_merge(agents, arrived, {}, &CrowdAgent::id);
+    std::ranges::sort(arrived, agents.end(), {}, &DistributedCrowd::Agent::id);
+    std::ranges::inplace_merge(agents, arrived, {}, &DistributedCrowd::Agent::id);
   });
   counters.arrived = agents.size() - static_cast<std::size_t>(stayed);
   counters.migration_bytes = out.agents.size() * whole.bytes();
@@ -265,7 +267,7 @@ void CrowdState::exchange_halo() {
   for (const int rank : graph.ranks()) counts.push_back(out.counts[index(rank)]);
   out.counts = counts;
   graph.exchange(comm, copied, out, halo);
-  std::ranges::sort(halo, {}, &CrowdAgent::id);
+  std::ranges::sort(halo, {}, &DistributedCrowd::Agent::id);
   counters.halo_bytes = out.agents.size() * copied.bytes();
   counters.neighbours = static_cast<std::uint32_t>(graph.ranks().size());
 }

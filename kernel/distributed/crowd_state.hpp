@@ -34,11 +34,12 @@ class Stopwatch {
 
 /// Holds what a rank knows of a distributed crowd, and the steps of update() and of queries, which all ranks take together.
 struct CrowdState {
-  CrowdState(MPI_Comm of, const ShapeSet& set, std::vector<CrowdAgent> mine,
+  CrowdState(MPI_Comm of, const ShapeSet& set, std::vector<DistributedCrowd::Agent> mine,
              const DistributedCrowdOptions& how);
   CrowdState(MPI_Comm of, std::span<const Character> characters, const ShapeSetPlan& plan,
-             std::vector<CrowdAgent> mine, const DistributedCrowdOptions& how);
-  CrowdState(MPI_Comm of, bool poses, std::vector<CrowdAgent> mine, const DistributedCrowdOptions& how);
+             std::vector<DistributedCrowd::Agent> mine, const DistributedCrowdOptions& how);
+  CrowdState(MPI_Comm of, bool poses, std::vector<DistributedCrowd::Agent> mine,
+             const DistributedCrowdOptions& how);
 
   void prepare(bool has_heights);
   const ShapeSet& shapes() const { return posed ? posed->set() : *baked; }
@@ -68,7 +69,7 @@ struct CrowdState {
   DistributedCrowdOptions options;
   std::vector<double> radii, reach;
   double side = 1, margin = 0;
-  std::vector<CrowdAgent> agents, halo;
+  std::vector<DistributedCrowd::Agent> agents, halo;
   Cut cut;
   double promised = 1;  ///< the imbalance that the last cut could not avoid
   CellOwners owners;
@@ -78,8 +79,8 @@ struct CrowdState {
   std::vector<Pair> pairs, colliding;
   std::vector<std::uint8_t> hits;
   std::vector<float> metres;
-  std::vector<CrowdDistance> near;
-  CrowdCounters counters;
+  std::vector<DistributedCrowd::Distance> near;
+  DistributedCrowd::Counters counters;
 };
 
 }  // namespace bch::detail

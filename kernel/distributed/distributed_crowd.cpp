@@ -19,22 +19,23 @@ struct DistributedCrowd::State : CrowdState {
   using CrowdState::CrowdState;
 };
 
-DistributedCrowd::DistributedCrowd(MPI_Comm comm, const ShapeSet& shapes, std::vector<CrowdAgent> agents,
+DistributedCrowd::DistributedCrowd(MPI_Comm comm, const ShapeSet& shapes,
+                                   std::vector<DistributedCrowd::Agent> agents,
                                    const DistributedCrowdOptions& options)
     : state_(std::make_unique<State>(comm, shapes, std::move(agents), options)) {}
 DistributedCrowd::DistributedCrowd(MPI_Comm comm, std::span<const Character> characters,
-                                   const ShapeSetPlan& plan, std::vector<CrowdAgent> agents,
+                                   const ShapeSetPlan& plan, std::vector<DistributedCrowd::Agent> agents,
                                    const DistributedCrowdOptions& options)
     : state_(std::make_unique<State>(comm, characters, plan, std::move(agents), options)) {}
 DistributedCrowd::DistributedCrowd(DistributedCrowd&&) noexcept = default;
 DistributedCrowd& DistributedCrowd::operator=(DistributedCrowd&&) noexcept = default;
 DistributedCrowd::~DistributedCrowd() = default;
 
-std::vector<CrowdAgent>& DistributedCrowd::agents() noexcept {
+std::vector<DistributedCrowd::Agent>& DistributedCrowd::agents() noexcept {
   return state_->agents;
 }
 
-std::span<const CrowdAgent> DistributedCrowd::halo() const noexcept {
+std::span<const DistributedCrowd::Agent> DistributedCrowd::halo() const noexcept {
   return state_->halo;
 }
 
@@ -42,7 +43,7 @@ void DistributedCrowd::update(double margin) {
   state_->update(margin);
 }
 
-std::span<const Pair> DistributedCrowd::collide_all(const QueryOptions& options) {
+std::span<const Pair> DistributedCrowd::collide_all(const CollideOptions& options) {
   State& state = *state_;
   agree(state.comm.get(), [&] {
     without_tasks_from_outside([&] {
@@ -56,7 +57,7 @@ std::span<const Pair> DistributedCrowd::collide_all(const QueryOptions& options)
   return state.colliding;
 }
 
-std::span<const CrowdDistance> DistributedCrowd::clearances(const QueryOptions& options) {
+std::span<const DistributedCrowd::Distance> DistributedCrowd::clearances(const ClearanceOptions& options) {
   State& state = *state_;
   agree(state.comm.get(), [&] {
     if (!(options.max_distance <= state.margin))
@@ -72,7 +73,7 @@ std::span<const CrowdDistance> DistributedCrowd::clearances(const QueryOptions& 
   return state.near;
 }
 
-const CrowdCounters& DistributedCrowd::counters() const noexcept {
+const DistributedCrowd::Counters& DistributedCrowd::counters() const noexcept {
   return state_->counters;
 }
 

@@ -26,15 +26,16 @@ int sum_of(std::span<const int> counts) {
 }  // namespace
 
 AgentType::AgentType(bool heights, bool poses) {
-  constexpr std::size_t pose = offsetof(CrowdAgent, pose);
+  constexpr std::size_t pose = offsetof(DistributedCrowd::Agent, pose);
   const MPI_Datatype types[] = {MPI_DOUBLE, MPI_DOUBLE, MPI_UINT32_T, MPI_UINT8_T, MPI_UINT32_T, MPI_FLOAT};
   const int lengths[] = {heights ? 3 : 2, 1, 2, 1, poses, poses};  // x, y, z; heading; id, shape; level; pose
-  const MPI_Aint places[] = {offsetof(CrowdAgent, x),         offsetof(CrowdAgent, heading),
-                             offsetof(CrowdAgent, id),        offsetof(CrowdAgent, level),
-                             pose + offsetof(PoseTime, clip), pose + offsetof(PoseTime, seconds)};
+  const MPI_Aint places[] = {
+      offsetof(DistributedCrowd::Agent, x),  offsetof(DistributedCrowd::Agent, heading),
+      offsetof(DistributedCrowd::Agent, id), offsetof(DistributedCrowd::Agent, level),
+      pose + offsetof(PoseTime, clip),       pose + offsetof(PoseTime, seconds)};
   MPI_Datatype fields;
   MPI_Type_create_struct(6, lengths, places, types, &fields);
-  MPI_Type_create_resized(fields, 0, sizeof(CrowdAgent), &type_);
+  MPI_Type_create_resized(fields, 0, sizeof(DistributedCrowd::Agent), &type_);
   MPI_Type_free(&fields);
   MPI_Type_commit(&type_);
 }
@@ -62,7 +63,7 @@ int OwnComm::size() const {
 }
 
 void exchange_with_all(const OwnComm& comm, const AgentType& type, const Outbox& out,
-                       std::vector<CrowdAgent>& in) {
+                       std::vector<DistributedCrowd::Agent>& in) {
   const std::size_t before = in.size();
   std::vector<int> counts, from, to;
   agree(comm.get(), [&] { counts.resize(out.counts.size()), to = offsets_of(out.counts); });
@@ -103,7 +104,7 @@ void NeighbourGraph::include(const OwnComm& comm, std::span<const char> receiver
 }
 
 void NeighbourGraph::exchange(const OwnComm& comm, const AgentType& type, const Outbox& out,
-                              std::vector<CrowdAgent>& in) const {
+                              std::vector<DistributedCrowd::Agent>& in) const {
   std::vector<int> counts, from, to;
   agree(comm.get(), [&] { counts.resize(ranks_.size() + 1), to = offsets_of(out.counts); });
   MPI_Neighbor_alltoall(out.counts.data(), 1, MPI_INT, counts.data(), 1, MPI_INT, graph_);

@@ -48,13 +48,13 @@ class OwnComm {
 
 /// Records in the order in which they are sent, and how many to each receiver.
 struct Outbox {
-  std::vector<CrowdAgent> agents;
+  std::vector<DistributedCrowd::Agent> agents;
   std::vector<int> counts;
 };
 
 /// Sends to every rank what is for it, and appends what comes.
 void exchange_with_all(const OwnComm& comm, const AgentType& type, const Outbox& out,
-                       std::vector<CrowdAgent>& in);
+                       std::vector<DistributedCrowd::Agent>& in);
 
 /// Holds the ranks that a rank exchanges halos with: where one sends to another, it gets from it, too, be it nothing.
 class NeighbourGraph {
@@ -71,7 +71,7 @@ class NeighbourGraph {
   std::span<const int> ranks() const { return ranks_; }
   /// Sends to each neighbour, in the order of ranks(), what is for it; `in` is what comes.
   void exchange(const OwnComm& comm, const AgentType& type, const Outbox& out,
-                std::vector<CrowdAgent>& in) const;
+                std::vector<DistributedCrowd::Agent>& in) const;
 
  private:
   std::vector<int> ranks_;

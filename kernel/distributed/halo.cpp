@@ -37,10 +37,10 @@ bool CellOwners::is_inner(Cell cell, int rank) const {
   return true;
 }
 
-void find_copies(std::span<const CrowdAgent> agents, const HaloReach& reach, CellOwners& owners,
+void find_copies(std::span<const DistributedCrowd::Agent> agents, const HaloReach& reach, CellOwners& owners,
                  std::vector<Copy>& copies) {
   for (std::uint32_t i = 0; i < agents.size(); ++i) {
-    const CrowdAgent& agent = agents[i];
+    const DistributedCrowd::Agent& agent = agents[i];
     if (owners[cell_at(agent.x, agent.y, reach.side)].is_inner) continue;
     const double metres = reach.of_shape[agent.shape];
     const Cell low = cell_at(agent.x - metres, agent.y - metres, reach.side);

@@ -50,7 +50,7 @@ struct HaloReach {
 };
 
 /// Appends, for each agent, the ranks that own squares within its reach.
-void find_copies(std::span<const CrowdAgent> agents, const HaloReach& reach, CellOwners& owners,
+void find_copies(std::span<const DistributedCrowd::Agent> agents, const HaloReach& reach, CellOwners& owners,
                  std::vector<Copy>& copies);
 
 }  // namespace bch::detail

@@ -42,19 +42,20 @@ void CrowdColumns::resize(std::size_t size, bool heights) {
   resize_with_room(z, heights ? size : 0);
 }
 
-void CrowdColumns::set(std::size_t i, const CrowdAgent& agent, bool own) {
+void CrowdColumns::set(std::size_t i, const DistributedCrowd::Agent& agent, bool own) {
   id[i] = agent.id, shape[i] = agent.shape, level[i] = agent.level, is_own[i] = own;
   x[i] = agent.x, y[i] = agent.y, heading[i] = agent.heading;
   if (!z.empty()) z[i] = agent.z;
 }
 
-void CrowdColumns::assign(std::span<const CrowdAgent> own, std::span<const CrowdAgent> copies, bool heights) {
+void CrowdColumns::assign(std::span<const DistributedCrowd::Agent> own,
+                          std::span<const DistributedCrowd::Agent> copies, bool heights) {
   resize(own.size() + copies.size(), heights);
   const auto copies_before = [&](std::size_t i) {  // those that go before one of our own
     if (i == 0) return std::size_t{0};
     if (i == own.size()) return copies.size();
-    return static_cast<std::size_t>(std::ranges::lower_bound(copies, own[i].id, {}, &CrowdAgent::id) -
-                                    copies.begin());
+    return static_cast<std::size_t>(
+        std::ranges::lower_bound(copies, own[i].id, {}, &DistributedCrowd::Agent::id) - copies.begin());
   };
   if (own.empty()) {
     for (std::size_t i = 0; i < copies.size(); ++i) set(i, copies[i], false);
@@ -92,12 +93,13 @@ void keep_hits(const CrowdColumns& columns, std::span<const Pair> pairs, std::sp
 }
 
 void keep_near(const CrowdColumns& columns, std::span<const Pair> pairs, std::span<const float> distances,
-               std::vector<CrowdDistance>& near) {
+               std::vector<DistributedCrowd::Distance>& near) {
   compact(
       pairs.size(), near,
       [&](std::size_t i) { return distances[i] < std::numeric_limits<float>::infinity(); },
       [&](std::size_t i) {
-        return CrowdDistance{columns.id[pairs[i].first], columns.id[pairs[i].second], distances[i]};
+        return DistributedCrowd::Distance{columns.id[pairs[i].first], columns.id[pairs[i].second],
+                                          distances[i]};
       });
 }
 

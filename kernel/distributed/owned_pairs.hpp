@@ -20,14 +20,15 @@ struct CrowdColumns {
   std::vector<std::uint8_t> level, is_own;
 
   /// Takes a rank's agents and the copies of others, both in the order of their ids.
-  void assign(std::span<const CrowdAgent> own, std::span<const CrowdAgent> copies, bool heights);
+  void assign(std::span<const DistributedCrowd::Agent> own, std::span<const DistributedCrowd::Agent> copies,
+              bool heights);
   /// Gives each agent a shape of its own: first those of the rank's agents, then those of the copies, in the order of their ids.
   void number_shapes(std::size_t own);
   Agents agents() const { return {shape, x, y, heading, level, z}; }
 
  private:
   void resize(std::size_t size, bool heights);
-  void set(std::size_t i, const CrowdAgent& agent, bool own);
+  void set(std::size_t i, const DistributedCrowd::Agent& agent, bool own);
 };
 
 /// Finds the pairs that a rank answers among candidates: those whose first agent, which has the lower id, is its own.
@@ -39,6 +40,6 @@ void keep_hits(const CrowdColumns& columns, std::span<const Pair> pairs, std::sp
 
 /// Writes the ids and distances of pairs with a finite one.
 void keep_near(const CrowdColumns& columns, std::span<const Pair> pairs, std::span<const float> distances,
-               std::vector<CrowdDistance>& near);
+               std::vector<DistributedCrowd::Distance>& near);
 
 }  // namespace bch::detail

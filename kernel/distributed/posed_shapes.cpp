@@ -34,14 +34,14 @@ void PosedShapes::clear() {
   set_ = &builder_.set();
 }
 
-void PosedShapes::add(std::span<const CrowdAgent> agents) {
+void PosedShapes::add(std::span<const DistributedCrowd::Agent> agents) {
   std::vector<ShapeSource> sources;
-  for (const CrowdAgent& agent : agents) sources.push_back({agent.shape, agent.pose});
+  for (const DistributedCrowd::Agent& agent : agents) sources.push_back({agent.shape, agent.pose});
   baker_.add(builder_, sources);
   set_ = &builder_.set();
 }
 
-std::vector<double> PosedShapes::radii(std::span<const CrowdAgent> agents) const {
+std::vector<double> PosedShapes::radii(std::span<const DistributedCrowd::Agent> agents) const {
   std::vector<double> of_agent(agents.size()), of_character(characters_.size(), 0);
   for_ranges(agents.size(), shapes_a_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
@@ -54,8 +54,8 @@ std::vector<double> PosedShapes::radii(std::span<const CrowdAgent> agents) const
   return of_character;
 }
 
-std::vector<CrowdAgent> sampled_agents(std::span<const Character> characters) {
-  std::vector<CrowdAgent> agents;
+std::vector<DistributedCrowd::Agent> sampled_agents(std::span<const Character> characters) {
+  std::vector<DistributedCrowd::Agent> agents;
   for (std::uint32_t i = 0; i < characters.size(); ++i)
     for (const PoseTime& pose : sample_poses(characters[i], samples))
       agents.push_back({.shape = i, .pose = pose});

@@ -25,10 +25,10 @@ class PosedShapes {
   void clear();
   /// Adds the shapes of agents, in their order.
   /// Precondition: their characters and poses are there.
-  void add(std::span<const CrowdAgent> agents);
+  void add(std::span<const DistributedCrowd::Agent> agents);
   /// Returns, for each character, the radius about an agent that holds all of its shapes; 0 where it has none. `agents`: those that
   /// were added first.
-  std::vector<double> radii(std::span<const CrowdAgent> agents) const;
+  std::vector<double> radii(std::span<const DistributedCrowd::Agent> agents) const;
   const ShapeSet& set() const { return *set_; }
   const ShapeSetPlan& plan() const { return plan_; }
   std::span<const Character> characters() const { return characters_; }
@@ -42,6 +42,6 @@ class PosedShapes {
 };
 
 /// Returns agents of every character in poses from all of its clips, which say how far its poses reach.
-std::vector<CrowdAgent> sampled_agents(std::span<const Character> characters);
+std::vector<DistributedCrowd::Agent> sampled_agents(std::span<const Character> characters);
 
 }  // namespace bch::detail

@@ -25,7 +25,7 @@ void first_contact(std::span<const Motion> motions, const ObstacleSet& obstacles
   require_as_many({query, "motion", motions.size()}, times.size(), "times");
   require_valid(query, interval, tolerance);
   const std::vector<MotionFacts> facts = valid_motions(query, motions);
-  const Implementation& implementation = chosen({}, query);
+  const Implementation& implementation = chosen(nullptr, query);
   std::vector<double> found(motions.size());
   for_ranges(motions.size(), grain, [&](std::size_t begin, std::size_t end) {
     ObstacleSearch search(implementation, obstacles.view(), tolerance);

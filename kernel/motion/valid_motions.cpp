@@ -34,7 +34,7 @@ void require_valid(const char* query, const Motion& motion, std::size_t index) {
       reject("key " + std::to_string(k) + " of its path" + why);
     };
     if (!is_time(time)) reject_key(" at " + shortest(time) + " s, not within +-1e6");
-    if (const std::string why = misplacement(x, y, heading, z); !why.empty()) reject_key(": " + why);
+    if (const std::string why = misplacement(x, y, {heading}, z); !why.empty()) reject_key(": " + why);
     if (k == 0) continue;
     if (!(motion.path[k - 1].time < time))
       reject_key(" at " + shortest(time) + " s after one at " + shortest(motion.path[k - 1].time) + " s");

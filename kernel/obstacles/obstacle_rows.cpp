@@ -38,10 +38,10 @@ Rows<std::uint32_t> ObstacleRows::find_all(std::size_t agents, const MakeQuery& 
 }
 
 Rows<std::uint32_t> ObstacleRows::find(const ShapeSet& shapes, const Agents& agents,
-                                       const ObstacleSet& obstacles, const QueryOptions& options) {
+                                       const ObstacleSet& obstacles, const CollideOptions& options) {
   const FloatingPointStateGuard floats;
   const bool exact = exact_leaves(shapes, options.leaves, "collide");
-  const Implementation& implementation = chosen(options, "collide");
+  const Implementation& implementation = chosen(options.implementation, "collide");
   validate(shapes, agents);
   return find_all(
       agents.size(), [&] { return BodyQuery(implementation, shapes.view(), agents, obstacles.view()); },
@@ -51,9 +51,9 @@ Rows<std::uint32_t> ObstacleRows::find(const ShapeSet& shapes, const Agents& age
 }
 
 Rows<std::uint32_t> ObstacleRows::find(const BodySet& bodies, const Agents& agents,
-                                       const ObstacleSet& obstacles, const QueryOptions& options) {
+                                       const ObstacleSet& obstacles, const Implementation* wanted) {
   const FloatingPointStateGuard floats;
-  const Implementation& implementation = chosen(options, "collide");
+  const Implementation& implementation = chosen(wanted, "collide");
   const BodySetView& view = bodies.view();
   require_valid_agents(view.ground, agents);
   return find_all(

@@ -16,9 +16,9 @@ class ObstacleRows {
  public:
   /// Returns a row an agent, ascending, valid until the next call. Errors: as collide() with obstacles.
   Rows<std::uint32_t> find(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
-                           const QueryOptions& options);
+                           const CollideOptions& options);
   Rows<std::uint32_t> find(const BodySet& bodies, const Agents& agents, const ObstacleSet& obstacles,
-                           const QueryOptions& options);
+                           const Implementation* wanted);
 
  private:
   template <class MakeQuery, class Visit>

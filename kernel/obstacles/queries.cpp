@@ -15,11 +15,11 @@ namespace bch {
 using namespace detail;
 
 void collide(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
-             std::span<std::uint8_t> hits, const QueryOptions& options) {
+             std::span<std::uint8_t> hits, const CollideOptions& options) {
   const FloatingPointStateGuard floats;
   require_as_many({"collide", "agent", agents.size()}, hits.size(), "hits");
   const bool exact = exact_leaves(shapes, options.leaves, "collide");
-  const Implementation& implementation = chosen(options, "collide");
+  const Implementation& implementation = chosen(options.implementation, "collide");
   validate(shapes, agents);
   for_agents(implementation, shapes, agents, obstacles, 0, Look::touching,
              [&](BodyQuery& query, std::uint32_t agent) {
@@ -31,13 +31,14 @@ void collide(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& ob
 }
 
 void within(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
-            std::span<const double> distances, std::span<std::uint8_t> answers, const QueryOptions& options) {
+            std::span<const double> distances, std::span<std::uint8_t> answers, Leaves leaves,
+            const Implementation* wanted) {
   const FloatingPointStateGuard floats;
   const Asked asked{"within", "agent", agents.size()};
   require_as_many(asked, answers.size(), "answers");
   require_distances(asked, distances);
-  const bool exact = exact_leaves(shapes, options.distance_leaves, "within");
-  const Implementation& implementation = chosen(options, "within");
+  const bool exact = exact_leaves(shapes, leaves, "within");
+  const Implementation& implementation = chosen(wanted, "within");
   validate(shapes, agents);
   const GapQuery query(implementation, shapes.view(), exact);
   const double most = distances.empty() ? 0 : *std::max_element(distances.begin(), distances.end());
@@ -50,13 +51,13 @@ void within(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obs
 }
 
 void clearance(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
-               const ClearanceAnswers& answers, const QueryOptions& options) {
+               const ClearanceAnswers& answers, const ClearanceOptions& options) {
   const FloatingPointStateGuard floats;
   require_valid({"clearance", "agent", agents.size()}, answers, options);
-  const Implementation& implementation = chosen(options, "clearance");
+  const Implementation& implementation = chosen(options.implementation, "clearance");
   validate(shapes, agents);
   const bool zero = options.overlap == Overlap::zero;
-  const bool exact = exact_leaves(shapes, options.distance_leaves, "clearance");
+  const bool exact = exact_leaves(shapes, options.leaves, "clearance");
   const double enough = zero ? 0 : -std::numeric_limits<double>::infinity();
   // How deep discs overlap is asked of discs.
   const GapQuery query(implementation, shapes.view(), exact && zero);

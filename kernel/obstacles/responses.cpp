@@ -95,10 +95,10 @@ double impact(BodyQuery& query, const PlacedBody& body, Vector way_in_world) {
 }  // namespace
 
 void penetration(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
-                 std::span<Penetration> out, const QueryOptions& options) {
+                 std::span<Penetration> out, const Implementation* wanted) {
   const FloatingPointStateGuard floats;
   require_as_many({"penetration", "agent", agents.size()}, out.size(), "answers");
-  const Implementation& implementation = chosen(options, "penetration");
+  const Implementation& implementation = chosen(wanted, "penetration");
   validate(shapes, agents);
   for_agents(implementation, shapes, agents, obstacles, 0, Look::touching,
              [&](BodyQuery& query, std::uint32_t agent) {
@@ -111,10 +111,10 @@ void penetration(const ShapeSet& shapes, const Agents& agents, const ObstacleSet
 }
 
 void time_of_impact(const ShapeSet& shapes, const Agents& agents, const Displacements& displacements,
-                    const ObstacleSet& obstacles, std::span<float> times, const QueryOptions& options) {
+                    const ObstacleSet& obstacles, std::span<float> times, const Implementation* wanted) {
   const FloatingPointStateGuard floats;
   require_valid({"time_of_impact", "agent", agents.size()}, displacements, times.size());
-  const Implementation& implementation = chosen(options, "time_of_impact");
+  const Implementation& implementation = chosen(wanted, "time_of_impact");
   validate(shapes, agents);
   double farthest = 0;
   for (std::size_t i = 0; i < agents.size(); ++i)

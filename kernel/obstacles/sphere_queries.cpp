@@ -54,7 +54,7 @@ void put(const BodySetView& bodies, const Agents& agents, std::uint32_t agent, c
   if (!answers.direction.empty()) answers.direction[agent] = found.direction();
   if (!answers.spheres.empty())
     answers.spheres[agent] = {bodies.number(agents.shape[agent], nearest.slot),
-                              nearest.is_inside ? no_discs.second : nearest.segment.number};
+                              nearest.is_inside ? DiscPair::none.second : nearest.segment.number};
   if (!answers.points.empty()) answers.points[agent] = found.points();
 }
 
@@ -64,7 +64,7 @@ void collide(const BodySet& bodies, const Agents& agents, const ObstacleSet& obs
              std::span<std::uint8_t> hits, const Implementation* wanted) {
   const FloatingPointStateGuard floats;
   require_as_many({"collide", "agent", agents.size()}, hits.size(), "hits");
-  const Implementation& implementation = chosen({.implementation = wanted}, "collide");
+  const Implementation& implementation = chosen(wanted, "collide");
   require_valid_agents(bodies.view().ground, agents);
   for_agents(implementation, bodies.view(), agents, obstacles, 0, Look::touching,
              [&](SphereQuery& query, std::uint32_t agent) {
@@ -81,7 +81,7 @@ void within(const BodySet& bodies, const Agents& agents, const ObstacleSet& obst
   const Asked asked{"within", "agent", agents.size()};
   require_as_many(asked, answers.size(), "answers");
   require_distances(asked, distances);
-  const Implementation& implementation = chosen({.implementation = wanted}, "within");
+  const Implementation& implementation = chosen(wanted, "within");
   require_valid_agents(bodies.view().ground, agents);
   const double most = distances.empty() ? 0 : *std::max_element(distances.begin(), distances.end());
   for_agents(implementation, bodies.view(), agents, obstacles, most, Look::nearest,
@@ -91,10 +91,10 @@ void within(const BodySet& bodies, const Agents& agents, const ObstacleSet& obst
 }
 
 void clearance(const BodySet& bodies, const Agents& agents, const ObstacleSet& obstacles,
-               const BodyClearanceAnswers& answers, const QueryOptions& options) {
+               const BodyClearanceAnswers& answers, const BodyClearanceOptions& options) {
   const FloatingPointStateGuard floats;
   require_valid({"clearance", "agent", agents.size()}, answers, options);
-  const Implementation& implementation = chosen(options, "clearance");
+  const Implementation& implementation = chosen(options.implementation, "clearance");
   const BodySetView& view = bodies.view();
   require_valid_agents(view.ground, agents);
   const bool zero = options.overlap == Overlap::zero;

@@ -26,6 +26,7 @@ using namespace detail;
 
 namespace {
 
+constexpr std::uint32_t most_directions = 256;
 constexpr std::uint32_t most_axes = most_directions / 2;
 constexpr std::size_t penetration_grain = 128;  ///< pairs a task, up to 10 us each
 
@@ -123,11 +124,11 @@ Penetration answer_of(Pair pair, const Axes& axes, bool both_ways, const Depths&
 }
 
 Query checked_query(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
-                    std::span<Penetration> out, const QueryOptions& options) {
+                    std::span<Penetration> out, const Implementation* wanted) {
   if (out.size() != pairs.size())
     throw std::invalid_argument("penetration: " + std::to_string(pairs.size()) + " pairs but room for " +
                                 std::to_string(out.size()) + " answers");
-  const Implementation& implementation = chosen(options, "penetration");
+  const Implementation& implementation = chosen(wanted, "penetration");
   const ShapeSetView& view = shapes.view();
   require_valid(implementation, view, agents, pairs);
   return {view, agents, implementation, arguments_for(view, agents, {})};
@@ -163,9 +164,9 @@ Axes spread_axes(std::uint32_t directions) {
 
 void penetration_along(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                        std::span<const Vec2> directions, std::span<Penetration> out,
-                       const QueryOptions& options) {
+                       const Implementation* wanted) {
   const FloatingPointStateGuard floats;
-  const Query query = checked_query(shapes, agents, pairs, out, options);
+  const Query query = checked_query(shapes, agents, pairs, out, wanted);
   require_directions(directions, pairs.size());
   for_pair_ranges(pairs.size(), penetration_grain, [&](std::size_t begin, std::size_t size) {
     Axes axis;
@@ -188,9 +189,9 @@ void penetration_along(const ShapeSet& shapes, const Agents& agents, std::span<c
 }
 
 void penetration(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
-                 std::uint32_t directions, std::span<Penetration> out, const QueryOptions& options) {
+                 std::uint32_t directions, std::span<Penetration> out, const Implementation* wanted) {
   const FloatingPointStateGuard floats;
-  const Query query = checked_query(shapes, agents, pairs, out, options);
+  const Query query = checked_query(shapes, agents, pairs, out, wanted);
   const Axes axes = spread_axes(directions);
   for_pair_ranges(pairs.size(), penetration_grain, [&](std::size_t begin, std::size_t size) {
     Extents a, b;

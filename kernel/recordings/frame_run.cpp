@@ -138,7 +138,7 @@ void FrameRun::ask_pairs(const ShapeSet& set, const Agents& all) {
 std::vector<float> FrameRun::gaps_of(const ShapeSet& set, const Agents& all, std::span<const Pair> pairs,
                                      double max_distance) const {
   std::vector<float> gaps(pairs.size());
-  clearance(set, all, pairs, {gaps}, {.max_distance = max_distance, .distance_leaves = options_.leaves});
+  clearance(set, all, pairs, {gaps}, {.max_distance = max_distance, .leaves = options_.leaves});
   return gaps;
 }
 
@@ -217,7 +217,7 @@ void FrameRun::ask_walls(const ShapeSet& set, const Agents& all) {
   for (std::uint32_t i = 0; i < size(); ++i)
     if (in_wall_[i] != 0) {
       who.push_back(i), shape.push_back(all.shape[i]);
-      x.push_back(all.x[i]), y.push_back(all.y[i]), heading.push_back(all.heading[i]);
+      x.push_back(all.x[i]), y.push_back(all.y[i]), heading.push_back(all.heading.x()[i]);
     }
   std::vector<Penetration> depths(who.size());
   std::vector<float> gaps(who.size());
@@ -228,7 +228,7 @@ void FrameRun::ask_walls(const ShapeSet& set, const Agents& all) {
   for (std::size_t k = 0; k < who.size(); ++k) {
     const std::uint32_t segment = nearest[k].second;
     CheckedPair& pair = checked_.emplace_back(checked({who[k], who[k]}));
-    pair.second = segment == no_discs.second ? 0 : options_.walls->obstacle_of(segment);
+    pair.second = segment == DiscPair::none.second ? 0 : options_.walls->obstacle_of(segment);
     pair.is_wall = pair.overlap = true;
     pair.depth = depths[k].depth;
     pair.x = static_cast<float>(depths[k].x), pair.y = static_cast<float>(depths[k].y);

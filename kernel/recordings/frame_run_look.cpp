@@ -10,6 +10,7 @@
 #include <bch/hierarchy.hpp>
 
 #include "kernel/recordings/frame_run.hpp"
+#include "layout/hierarchy/paper_hierarchies.hpp"
 
 namespace bch::detail {
 namespace {
@@ -22,7 +23,7 @@ using std::numbers::pi;
 const ShapeSet& near_discs() {
   static const ShapeSet discs = [] {
     Shape disc;
-    disc.hierarchy = fixed_cylinder(static_cast<float>(FrameRun::near_distance / 2));
+    disc.hierarchy = detail::fixed_cylinder(static_cast<float>(FrameRun::near_distance / 2));
     return ShapeSet({&disc, 1});
   }();
   return discs;

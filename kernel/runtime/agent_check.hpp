@@ -11,6 +11,7 @@
 #include "kernel/runtime/kernels.hpp"
 #include "kernel/simd/agent_columns.hpp"
 #include "kernel/simd/arguments.hpp"
+#include "layout/base/heading.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/format/shape_set_view.hpp"
 
@@ -26,6 +27,7 @@ class AgentCheck {
     return all_below<std::uint32_t>(in.agent_shape, begin, end, in.shapes->shape_count) &
            all_within(in.agent_x, begin, end) & all_within(in.agent_y, begin, end) &
            all_within(in.agent_heading, begin, end) &
+           (in.agent_heading_y.first == nullptr || all_unit(in, begin, end)) &
            (in.agent_z.first == nullptr || all_within(in.agent_z, begin, end)) &
            (in.agent_level.first == nullptr ||
             all_below<std::uint8_t>(in.agent_level, begin, end, in.shapes->level_count));
@@ -67,6 +69,16 @@ class AgentCheck {
     else
       for_all<double>(numbers, begin, end, count);
     return beyond == 0;
+  }
+
+  static bool all_unit(const Arguments& in, std::size_t begin, std::size_t end) noexcept {
+    std::uint64_t other = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const double x = AgentColumns<Simd>::number(in.agent_heading, i),
+                   y = AgentColumns<Simd>::number(in.agent_heading_y, i), square = x * x + y * y;
+      other += !(heading_constants::least_square <= square && square <= heading_constants::largest_square);
+    }
+    return other == 0;
   }
 
   template <class Index>

@@ -81,8 +81,7 @@ std::size_t first_bad_agent(const Implementation& implementation, const Argument
 
 }  // namespace
 
-const Implementation& chosen(const QueryOptions& options, const char* query) {
-  const Implementation* const wanted = options.implementation;
+const Implementation& chosen(const Implementation* wanted, const char* query) {
   if (wanted == nullptr) return best_implementation();
   if (!wanted->supported())
     throw std::invalid_argument(std::string(query) + ": this processor does not run '" + wanted->name + "'");
@@ -112,7 +111,8 @@ Arguments arguments_for(const ShapeSetView& view, const Agents& agents, std::spa
           .agent_shape = column_of(agents.shape),
           .agent_x = column_of(agents.x),
           .agent_y = column_of(agents.y),
-          .agent_heading = column_of(agents.heading),
+          .agent_heading = column_of(agents.heading.x()),
+          .agent_heading_y = column_of(agents.heading.y()),
           .agent_level = column_of(agents.level),
           .agent_z = column_of(agents.z),
           .pairs = pairs.data(),

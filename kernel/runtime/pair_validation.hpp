@@ -18,9 +18,9 @@ namespace bch::detail {
 /// cores over a small crowd.
 constexpr std::size_t pairs_per_task = 2048;
 
-/// Returns the implementation that the options name, or the best one.
+/// Returns the implementation that is wanted, or for null the best one.
 /// Errors:  throws std::invalid_argument naming the query where this processor does not run it.
-const Implementation& chosen(const QueryOptions& options, const char* query);
+const Implementation& chosen(const Implementation* wanted, const char* query);
 
 /// Holds what a query answers, and how many of them.
 struct Asked {

@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "layout/base/heading.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/base/shortest.hpp"
 
@@ -37,11 +38,15 @@ void require_sizes(const Agents& agents) {
   require(agents.x.size(), "x", false);
   require(agents.y.size(), "y", false);
   require(agents.heading.size(), "heading", false);
+  if (agents.heading.are_directions()) require(agents.heading.y().size(), "heading's y", false);
   require(agents.level.size(), "level", true);
   require(agents.z.size(), "z", true);
   require_alignment(agents.shape, alignof(std::uint32_t), "shape");
-  for (const auto& [numbers, name] :
-       {std::pair{agents.x, "x"}, {agents.y, "y"}, {agents.heading, "heading"}, {agents.z, "z"}})
+  for (const auto& [numbers, name] : {std::pair{agents.x, "x"},
+                                      {agents.y, "y"},
+                                      {agents.heading.x(), "heading"},
+                                      {agents.heading.y(), "heading"},
+                                      {agents.z, "z"}})
     require_alignment(numbers, numbers.is_float() ? alignof(float) : alignof(double), name);
   if (size > std::numeric_limits<std::uint32_t>::max())
     throw std::invalid_argument("agents: more than 2^32 - 1");
@@ -52,10 +57,13 @@ void require_heights(const ShapeSetView& shapes, const Agents& agents) {
     throw std::invalid_argument("agents: they have a z, and the set was planned without heights");
 }
 
-std::string misplacement(double x, double y, double heading, double z) {
+std::string misplacement(double x, double y, const Headings::Value& heading, double z) {
   const auto is_near = [](double metres) { return std::abs(metres) <= rounding::largest_position; };
-  if (!(std::abs(heading) <= rounding::largest_heading))
-    return "heading " + shortest(heading) + " rad is not within +-1e9";
+  if (heading.is_direction && !is_unit(heading.x, heading.y))
+    return "heading (" + shortest(heading.x) + ", " + shortest(heading.y) +
+           ") is no direction, expected a length from 0.999 to 1.001";
+  if (!(std::abs(heading.x) <= rounding::largest_heading))
+    return "heading " + shortest(heading.x) + " rad is not within +-1e9";
   if (!is_near(z)) return "z " + shortest(z) + " m is not within +-1e9";
   if (is_near(x) && is_near(y)) return {};
   return "position (" + shortest(x) + ", " + shortest(y) + ") m is not within +-1e9";

@@ -19,7 +19,7 @@ void require_sizes(const Agents& agents);
 void require_heights(const ShapeSetView& shapes, const Agents& agents);
 
 /// Returns what is wrong with where something is, in metres and radians; empty where AgentCheck passes it.
-std::string misplacement(double x, double y, double heading, double z = 0);
+std::string misplacement(double x, double y, const Headings::Value& heading, double z = 0);
 
 /// Throws std::invalid_argument saying what is wrong with an agent that AgentCheck does not pass.
 [[noreturn]] void reject(const ShapeSetView& shapes, const Agents& agents, std::size_t i);

@@ -32,9 +32,10 @@ struct Arguments {
   AgentColumn agent_shape;
   AgentColumn agent_x;
   AgentColumn agent_y;
-  AgentColumn agent_heading;
-  AgentColumn agent_level;  ///< none: the last level
-  AgentColumn agent_z;      ///< none: all stand on the same ground
+  AgentColumn agent_heading;    ///< angles, or the directions' x
+  AgentColumn agent_heading_y;  ///< none: angles
+  AgentColumn agent_level;      ///< none: the last level
+  AgentColumn agent_z;          ///< none: all stand on the same ground
   const Pair* pairs;
   const float* gaps;  ///< per pair, the leaf's of Gaps; null: which pairs collide is asked
   std::uint8_t* codes;

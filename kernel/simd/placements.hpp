@@ -37,7 +37,7 @@ class Placements {
   /// with the fewest operations.
   bool place_if_valid(const Arguments& in, std::uint32_t count) noexcept {
     size = count;
-    if (!name_agents<true>(in, 0)) return false;
+    if (in.agent_heading_y.first != nullptr || !name_agents<true>(in, 0)) return false;
     return (in.prefetch_agents ? find_roots<true, true>(in) : find_roots<false, true>(in)) && turn<true>(in);
   }
 
@@ -127,6 +127,7 @@ class Placements {
             Columns::prefetch(in.agent_x, agent);
             Columns::prefetch(in.agent_y, agent);
             Columns::prefetch(in.agent_heading, agent);
+            if (in.agent_heading_y.first != nullptr) Columns::prefetch(in.agent_heading_y, agent);
             if (level.first != nullptr) Columns::prefetch(level, agent);
           }
         }
@@ -205,6 +206,30 @@ class Placements {
     return {c * turn_c - s * turn_s, s * turn_c + c * turn_s};
   }
 
+  /// Does the same with directions.
+  static UnitVectors unit_vectors(const AgentColumn& x, const AgentColumn& y,
+                                  const std::uint32_t* agent) noexcept {
+    namespace h = heading_constants;
+    Double sines[parts], cosines[parts];
+    for (std::uint32_t part = 0; part < parts; ++part) {
+      Double c = Columns::numbers(x, agent + part * doubles), s = Columns::numbers(y, agent + part * doubles);
+      for (int i = 0; i < 2; ++i) {
+        const Double by = Double(h::newton[0]) - Double(h::newton[1]) * (c * c + s * s);
+        c = c * by, s = s * by;
+      }
+      cosines[part] = c, sines[part] = s;
+    }
+    return {Simd::rounded(cosines), Simd::rounded(sines)};
+  }
+
+  template <bool check>
+  [[gnu::always_inline]] static UnitVectors unit_vectors(const Arguments& in, const std::uint32_t* agent,
+                                                         Magnitudes<check>& magnitudes) noexcept {
+    if (in.agent_heading_y.first == nullptr) [[likely]]
+      return unit_vectors(in.agent_heading, agent, magnitudes);
+    return unit_vectors(in.agent_heading, in.agent_heading_y, agent);
+  }
+
   /// Returns the distance from A to B in one coordinate.
   template <bool check>
   static Float distance(const AgentColumn& x, const std::uint32_t* a, const std::uint32_t* b,
@@ -227,8 +252,8 @@ class Placements {
     std::uint32_t within = all;
     for (std::uint32_t k = 0; k < whole_registers(); k += Simd::width) {
       Magnitudes<check> magnitudes;
-      const auto [ca, sa] = unit_vectors(in.agent_heading, a_ + k, magnitudes);
-      const auto [cb, sb] = unit_vectors(in.agent_heading, b_ + k, magnitudes);
+      const auto [ca, sa] = unit_vectors(in, a_ + k, magnitudes);
+      const auto [cb, sb] = unit_vectors(in, b_ + k, magnitudes);
       const Float dx = distance(in.agent_x, a_ + k, b_ + k, magnitudes),
                   dy = distance(in.agent_y, a_ + k, b_ + k, magnitudes);
       if constexpr (check) within &= magnitudes.within();

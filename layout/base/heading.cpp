@@ -12,7 +12,16 @@ double round_to_integer(double x) {
   return (x + heading_constants::round_to_integer) - heading_constants::round_to_integer;
 }
 
+double square_of(double x, double y) {
+  return x * x + y * y;
+}
+
 }  // namespace
+
+bool is_unit(double x, double y) noexcept {
+  const double square = square_of(x, y);
+  return heading_constants::least_square <= square && square <= heading_constants::largest_square;
+}
 
 Rotation rotation(double heading) noexcept {
   namespace k = heading_constants;
@@ -37,7 +46,22 @@ Rotation rotation(double heading) noexcept {
   return {c * turn_cosine - s * turn_sine, s * turn_cosine + c * turn_sine};
 }
 
+Rotation rotation(const Headings::Value& heading) noexcept {
+  if (!heading.is_direction) return rotation(heading.x);
+  Rotation unit{heading.x, heading.y};
+  for (int i = 0; i < 2; ++i) {
+    const double by =
+        heading_constants::newton[0] - heading_constants::newton[1] * square_of(unit.cosine, unit.sine);
+    unit = {unit.cosine * by, unit.sine * by};
+  }
+  return unit;
+}
+
 UnitVector unit_vector(double heading) noexcept {
+  return unit_vector(Headings::Value{heading});
+}
+
+UnitVector unit_vector(const Headings::Value& heading) noexcept {
   const Rotation r = rotation(heading);
   return {static_cast<float>(r.cosine), static_cast<float>(r.sine)};
 }

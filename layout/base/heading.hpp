@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <bch/agents.hpp>
+
 #include "layout/base/plain_arithmetic.hpp"
 
 namespace bch::detail {
@@ -24,8 +26,16 @@ struct UnitVector {
 /// where libm picks a variant by processor.
 Rotation rotation(double heading) noexcept;
 
+/// Returns the rotation by a heading as it was given. Of a direction it is the unit vector along it, of the same bits everywhere: each part
+/// is within 4e-12 of the exact one, where is_unit(). So what is derived of angles holds for directions, too.
+Rotation rotation(const Headings::Value& heading) noexcept;
+
+/// Returns whether a direction is as long as rotation() wants it: from 0.999 to 1.001.
+bool is_unit(double x, double y) noexcept;
+
 /// Returns the rotation rounded to float: each part is within 2^-25 (1 + 2^-7) of the exact one.
 UnitVector unit_vector(double heading) noexcept;
+UnitVector unit_vector(const Headings::Value& heading) noexcept;
 
 /// Holds the constants and the order of operations that rotation() and the SIMD kernels share. Reduction to
 /// [-pi/4, pi/4] after Cody and Waite: pi/2 in parts of 23 bits, whose products with a quadrant number below
@@ -39,6 +49,11 @@ constexpr double half_pi[] = {0x1.921fb4p+0, 0x1.4442dp-24, 0x1.846988p-48, 0x1.
 constexpr double round_to_integer = 0x1.8p52;
 constexpr double sine[] = {-1.0 / 39916800, 1.0 / 362880, -1.0 / 5040, 1.0 / 120, -1.0 / 6};
 constexpr double cosine[] = {-1.0 / 3628800, 1.0 / 40320, -1.0 / 720, 1.0 / 24, -1.0 / 2};
+
+// Twice, a direction (x, y) is multiplied by newton[0] - newton[1] (x^2 + y^2): steps of Newton's method for 1 / sqrt, of plain operations
+// alone. A step takes a length of 1 + e to 1 - 3/2 e^2 - e^3 / 2: from 1e-3 to 1.5e-6, and that to 3.4e-12.
+constexpr double newton[] = {1.5, 0.5};
+constexpr double least_square = 0.998001, largest_square = 1.002001;  ///< x^2 + y^2 of a direction
 
 }  // namespace heading_constants
 

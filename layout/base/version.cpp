@@ -6,7 +6,7 @@
 namespace bch {
 
 Version library_version() noexcept {
-  return header_version;
+  return {BCH_VERSION_MAJOR, BCH_VERSION_MINOR, BCH_VERSION_PATCH};
 }
 
 }  // namespace bch

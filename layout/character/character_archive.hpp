@@ -105,10 +105,8 @@ class Passage {
   void one(Joint& joint) { all(joint.name, joint.parent, joint.rest); }
   void one(Bone& bone) { all(bone.joint, bone.inverse_bind); }
   void one(Interpolation& interpolation) { archive_.bytes(&interpolation, sizeof interpolation); }
-  template <class Value>
-  void one(Tangents<Value>& tangents) {
-    all(tangents.in, tangents.out);
-  }
+  void one(Curve<Vec3>::Tangents& tangents) { all(tangents.in, tangents.out); }
+  void one(Curve<Quaternion>::Tangents& tangents) { all(tangents.in, tangents.out); }
   template <class Value>
   void one(Curve<Value>& curve) {
     all(curve.interpolation, curve.tangents);

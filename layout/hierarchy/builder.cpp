@@ -16,6 +16,7 @@
 #include "layout/base/shortest.hpp"
 #include "layout/enclosing_disc/enclosing_disc.hpp"
 #include "layout/format/contours.hpp"
+#include "layout/hierarchy/paper_hierarchies.hpp"
 
 namespace bch::detail {
 namespace {
@@ -47,11 +48,11 @@ Vec2 middle_of(Vec2 a, Vec2 b) {
           static_cast<float>(0.5 * (widened(a.y) + widened(b.y)))};
 }
 
-Vec2 centre(const HierarchyNode& node) {
+Vec2 centre(const Hierarchy::Node& node) {
   return {node.disc.x, node.disc.y};
 }
 
-void set_centre(HierarchyNode& node, Vec2 centre) {
+void set_centre(Hierarchy::Node& node, Vec2 centre) {
   node.disc.x = centre.x, node.disc.y = centre.y;
 }
 
@@ -278,7 +279,7 @@ void HierarchyBuilder::gather_points(ItemList items) {
   last_point_.resize(std::max(last_point_.size(), count));
   Vec2* const points = points_.data();
   std::uint32_t *const first = first_point_.data(), *const last = last_point_.data();
-  const Primitive* const primitives = items_.primitives.data();
+  const Hierarchy::Primitive* const primitives = items_.primitives.data();
   std::uint32_t at = 0;
   const Vec2* next = &primitives[items[0]].a;
   for (std::size_t k = 0; k < count; ++k) {
@@ -309,7 +310,7 @@ void HierarchyBuilder::solve(std::span<const Vec2> points) {
   solver_.solve(points, sets_, discs_);
   const OutwardRadii radii(margin_);
   for (std::size_t i = 0; i < discs_.size(); ++i) {
-    HierarchyNode& node = nodes_[unsolved_[i].node];
+    Hierarchy::Node& node = nodes_[unsolved_[i].node];
     set_centre(node, discs_[i].centre);
     radii.write(discs_[i].square_radius, node);
   }

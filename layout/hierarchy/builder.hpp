@@ -13,6 +13,7 @@
 
 #include "layout/enclosing_disc/enclosing_discs.hpp"
 #include "layout/hierarchy/halves.hpp"
+#include "layout/hierarchy/paper_hierarchies.hpp"
 #include "layout/hierarchy/split.hpp"
 
 namespace bch::detail {
@@ -83,7 +84,7 @@ class HierarchyBuilder {
   void solve_discs();
   void solve(std::span<const Vec2> points);
   void publish(Hierarchy& hierarchy);
-  void add_pieces(const Primitive& piece, std::uint32_t source, std::uint32_t node,
+  void add_pieces(const Hierarchy::Primitive& piece, std::uint32_t source, std::uint32_t node,
                   Hierarchy& hierarchy) const;
 
   double margin_ = 0, threshold_ = 0;
@@ -98,7 +99,7 @@ class HierarchyBuilder {
 
   std::uint32_t node_count_ = 0;
   std::size_t most_nodes_ = std::size_t{1} << 22;
-  std::vector<HierarchyNode> nodes_;
+  std::vector<Hierarchy::Node> nodes_;
   std::vector<std::uint32_t>
       first_node_;  ///< per item of the order: a leaf that holds it, or of its pieces' nodes
   std::vector<Unsolved> unsolved_;

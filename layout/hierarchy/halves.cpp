@@ -28,7 +28,7 @@ double larger_square(Point a, Point b) {
 
 /// Writes the nodes of a piece, by its ends, that is still to be halved so often; the first one is `number` of all.
 template <int halvings>
-void write_piece(Point a, Point b, const OutwardRadii& radii, HierarchyNode* node, std::uint32_t number) {
+void write_piece(Point a, Point b, const OutwardRadii& radii, Hierarchy::Node* node, std::uint32_t number) {
   const Point exact = Point(0.5) * (a + b);
   const Simd::Float rounded = Simd::rounded({exact, exact});
   Point middle[2];
@@ -82,8 +82,8 @@ void EvenHalves::write_halvings(const float* lengths, std::uint8_t* halvings) co
   for (std::size_t i = 0; i < 4; ++i) halvings[i] = static_cast<std::uint8_t>(times[i]);
 }
 
-void EvenHalves::write(const std::vector<Primitive>& segments, const OutwardRadii& radii,
-                       std::vector<HierarchyNode>& nodes) const {
+void EvenHalves::write(const std::vector<Hierarchy::Primitive>& segments, const OutwardRadii& radii,
+                       std::vector<Hierarchy::Node>& nodes) const {
   const auto write_all = [&]<int halvings>() {
     for (const auto [node, source] : segments_[halvings])
       write_piece<halvings>(widened(segments[source].a), widened(segments[source].b), radii, &nodes[node],

@@ -34,8 +34,8 @@ class EvenHalves {
     segments_[static_cast<std::size_t>(halvings)].push_back({node, source});
   }
   /// Writes the nodes of all segments into the room that add() left.
-  void write(const std::vector<Primitive>& segments, const OutwardRadii& radii,
-             std::vector<HierarchyNode>& nodes) const;
+  void write(const std::vector<Hierarchy::Primitive>& segments, const OutwardRadii& radii,
+             std::vector<Hierarchy::Node>& nodes) const;
 
  private:
   struct Segment {

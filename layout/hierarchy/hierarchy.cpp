@@ -14,6 +14,7 @@
 #include "layout/base/rounding.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/hierarchy/builder.hpp"
+#include "layout/hierarchy/paper_hierarchies.hpp"
 
 namespace bch {
 
@@ -38,13 +39,38 @@ void validate(const Hierarchy& hierarchy) {
   const auto farthest = static_cast<float>(hierarchy.reach * (1 + 0x1p-20));
   const std::size_t count = hierarchy.nodes.size();
   for (std::size_t i = 0; i < count; ++i) {
-    const HierarchyNode& node = hierarchy.nodes[i];
+    const Hierarchy::Node& node = hierarchy.nodes[i];
     const bool is_near = (std::abs(node.disc.x) <= farthest) & (std::abs(node.disc.y) <= farthest);
     const bool has_radius = (node.disc.radius > 0) & (node.disc.radius <= std::numeric_limits<float>::max());
     const bool has_children = node.is_leaf() | ((node.second_child > i + 1) & (node.second_child < count));
     if (!(is_near & has_radius & has_children)) reject(hierarchy, i);
   }
 }
+
+Hierarchy contour_hierarchy(const Outline& outline, float threshold) {
+  return detail::contour_hierarchy(outline, threshold, SplitRule::centroid);
+}
+
+std::vector<std::uint32_t> cut(const Hierarchy& hierarchy, std::uint32_t depth) {
+  std::vector<std::uint32_t> nodes;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> open = {{0, 0}};  // node, depth
+  while (!open.empty()) {
+    const auto [index, level] = open.back();
+    open.pop_back();
+    const Hierarchy::Node& node = hierarchy.nodes[index];
+    if (node.is_leaf() || level == depth) {
+      nodes.push_back(index);
+      continue;
+    }
+    open.push_back({node.second_child, level + 1});
+    open.push_back({index + 1, level + 1});
+  }
+  return nodes;
+}
+
+}  // namespace bch
+
+namespace bch::detail {
 
 Hierarchy contour_hierarchy(const Outline& outline, float threshold, SplitRule rule) {
   const FloatingPointStateGuard floats;
@@ -71,27 +97,10 @@ Hierarchy fixed_cylinder(float radius) {
   require_reach(size);
   Hierarchy hierarchy;
   hierarchy.reach = size;
-  HierarchyNode root;
+  Hierarchy::Node root;
   root.disc = {0, 0, rounding::round_up(size * (1 + rounding::query_margin))};
   hierarchy.nodes.push_back(root);
   return hierarchy;
-}
-
-std::vector<std::uint32_t> cut(const Hierarchy& hierarchy, std::uint32_t depth) {
-  std::vector<std::uint32_t> nodes;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> open = {{0, 0}};  // node, depth
-  while (!open.empty()) {
-    const auto [index, level] = open.back();
-    open.pop_back();
-    const HierarchyNode& node = hierarchy.nodes[index];
-    if (node.is_leaf() || level == depth) {
-      nodes.push_back(index);
-      continue;
-    }
-    open.push_back({node.second_child, level + 1});
-    open.push_back({index + 1, level + 1});
-  }
-  return nodes;
 }
 
 std::uint32_t height(const Hierarchy& hierarchy) {
@@ -105,4 +114,4 @@ std::uint32_t height(const Hierarchy& hierarchy) {
   return deepest;
 }
 
-}  // namespace bch
+}  // namespace bch::detail

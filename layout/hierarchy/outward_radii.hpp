@@ -17,7 +17,7 @@ class OutwardRadii {
   /// Takes the margin that is added to radii, in metres.
   explicit OutwardRadii(double margin) : margin_(margin) {}
 
-  void write(double square, HierarchyNode& node) const {
+  void write(double square, Hierarchy::Node& node) const {
     node.disc.radius = rounding::round_up(std::sqrt(square) * (1 + 0x1p-50) + margin_);
   }
 

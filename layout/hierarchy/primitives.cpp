@@ -20,13 +20,13 @@ void HierarchyBuilder::add_primitives(Hierarchy& hierarchy) const {
     hierarchy.primitive_ranges[node].begin = begin;
   }
   for (std::size_t i = hierarchy.nodes.size(); i-- > 0;)
-    if (const HierarchyNode& node = hierarchy.nodes[i]; !node.is_leaf())
+    if (const Hierarchy::Node& node = hierarchy.nodes[i]; !node.is_leaf())
       hierarchy.primitive_ranges[i] = {hierarchy.primitive_ranges[i + 1].begin,
                                        hierarchy.primitive_ranges[node.second_child].end};
 }
 
 /// A piece's midpoint is its disc's centre.
-void HierarchyBuilder::add_pieces(const Primitive& piece, std::uint32_t source, std::uint32_t node,
+void HierarchyBuilder::add_pieces(const Hierarchy::Primitive& piece, std::uint32_t source, std::uint32_t node,
                                   Hierarchy& hierarchy) const {
   if (const std::uint32_t second = hierarchy.nodes[node].second_child; second != 0) {
     const Disc& disc = hierarchy.nodes[node].disc;

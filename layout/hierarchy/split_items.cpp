@@ -63,7 +63,7 @@ void SplitItems::add_contour(std::span<const Vec2> points, const EvenHalves& hal
   count += points.size();
 }
 
-void SplitItems::add_triangle(const Primitive& triangle) {
+void SplitItems::add_triangle(const Hierarchy::Primitive& triangle) {
   const auto& [a, b, c] = triangle;
   SplitItem& item = items[count];
   item.sums[2] = 3, item.sums[3] = 0;

@@ -27,14 +27,14 @@ struct SplitItems {
   std::size_t count = 0;
   std::vector<SplitItem> items;
   std::array<std::vector<float>, 2> middle;  ///< per axis: the point that decides a primitive's side
-  std::vector<Primitive> primitives;
+  std::vector<Hierarchy::Primitive> primitives;
   std::vector<std::uint8_t> halvings;  ///< of segments, as EvenHalves has them
 
   /// Starts anew, with room for so many.
   void begin(std::size_t most);
   /// Adds a closed contour's segments, four at a time.
   void add_contour(std::span<const Vec2> points, const EvenHalves& halves);
-  void add_triangle(const Primitive& triangle);
+  void add_triangle(const Hierarchy::Primitive& triangle);
 
  private:
   std::vector<Vec2> ring_;  ///< a contour's points and its first ones again

@@ -28,7 +28,7 @@ std::vector<float> bounding_radii(const Hierarchy& hierarchy) {
   return bounds;
 }
 
-std::vector<std::uint32_t> subtree_ends(std::span<const HierarchyNode> nodes) {
+std::vector<std::uint32_t> subtree_ends(std::span<const Hierarchy::Node> nodes) {
   std::vector<std::uint32_t> end(nodes.size());
   for (std::size_t i = nodes.size(); i-- > 0;)
     end[i] = nodes[i].is_leaf() ? static_cast<std::uint32_t>(i + 1) : end[nodes[i].second_child];

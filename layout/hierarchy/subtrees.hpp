@@ -16,6 +16,6 @@ namespace bch::detail {
 std::vector<float> bounding_radii(const Hierarchy& hierarchy);
 
 /// Returns one past the last node of the subtree under each node.
-std::vector<std::uint32_t> subtree_ends(std::span<const HierarchyNode> nodes);
+std::vector<std::uint32_t> subtree_ends(std::span<const Hierarchy::Node> nodes);
 
 }  // namespace bch::detail

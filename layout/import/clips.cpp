@@ -33,13 +33,13 @@ Quaternion quotient(const Quaternion& q, float divisor) {
 
 /// Puts keys and their tangents in order of time.
 template <class Value>
-void sort_keys(std::vector<Key<Value>>& keys, std::vector<Tangents<Value>>& tangents) {
+void sort_keys(std::vector<Key<Value>>& keys, std::vector<typename Curve<Value>::Tangents>& tangents) {
   std::vector<std::size_t> order(keys.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
                    [&](std::size_t a, std::size_t b) { return keys[a].time < keys[b].time; });
   const std::vector<Key<Value>> unsorted = keys;
-  const std::vector<Tangents<Value>> unsorted_tangents = tangents;
+  const std::vector<typename Curve<Value>::Tangents> unsorted_tangents = tangents;
   for (std::size_t k = 0; k < keys.size(); ++k) keys[k] = unsorted[order[k]];
   for (std::size_t k = 0; k < tangents.size(); ++k) tangents[k] = unsorted_tangents[order[k]];
 }
@@ -48,7 +48,7 @@ template <class Value>
 bool is_constant(const std::vector<Key<Value>>& keys, const Curve<Value>& curve) {
   const bool equal = std::all_of(keys.begin(), keys.end(),
                                  [&](const Key<Value>& key) { return key.value == keys.front().value; });
-  return equal && std::all_of(curve.tangents.begin(), curve.tangents.end(), [](const Tangents<Value>& t) {
+  return equal && std::all_of(curve.tangents.begin(), curve.tangents.end(), [](const auto& t) {
            return coefficients(t.in).isZero(0) && coefficients(t.out).isZero(0);
          });
 }

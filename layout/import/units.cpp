@@ -39,20 +39,20 @@ constexpr Format formats[] = {
 
 DeclaredFrame declared_by_fbx(const SceneFile& file) {
   DeclaredFrame frame;
-  frame.up = Direction{UpAxis::y, false};
+  frame.up = Direction{ImportOptions::UpAxis::y, false};
   const aiMetadata* metadata = file.scene->mMetaData;
   std::int32_t axis = 1;
   std::int32_t sign = 1;
   float factor = 1;
   if (metadata != nullptr) {
-    metadata->Get("UpAxis", axis);
+    metadata->Get("ImportOptions::UpAxis", axis);
     metadata->Get("UpAxisSign", sign);
     metadata->Get("UnitScaleFactor", factor);
   }
   if (axis < 0 || axis > 2) file.reject("FBX up axis " + std::to_string(axis) + " is none of 0, 1, 2");
   if (!is_finite(factor) || factor <= 0)
     file.reject("FBX unit scale factor " + shortest(factor) + " is not a positive number");
-  frame.up = Direction{static_cast<UpAxis>(axis), sign < 0};
+  frame.up = Direction{static_cast<ImportOptions::UpAxis>(axis), sign < 0};
   frame.scale = factor * 0.01f;
   char text[64];
   std::snprintf(text, sizeof text, "FBX unit scale factor %g", static_cast<double>(factor));
@@ -64,7 +64,8 @@ DeclaredFrame declared_by_fbx(const SceneFile& file) {
 std::optional<Direction> up_before_reader(const aiMatrix4x4& root) {
   const Eigen::Vector3f row = Eigen::Vector3f(root.b1, root.b2, root.b3).normalized();
   for (int axis = 0; axis < 3; ++axis)
-    if (std::abs(row[axis]) > 0.999f) return Direction{static_cast<UpAxis>(axis), row[axis] < 0};
+    if (std::abs(row[axis]) > 0.999f)
+      return Direction{static_cast<ImportOptions::UpAxis>(axis), row[axis] < 0};
   return std::nullopt;
 }
 
@@ -125,7 +126,7 @@ Direction choose_up(const DeclaredFrame& declared, const ImportOptions& options,
     up = *declared.up;
   } else {
     // A standing person is less deep than tall; the width says nothing, as arms may be stretched out.
-    up.axis = rest.sizes().y() >= rest.sizes().z() ? UpAxis::y : UpAxis::z;
+    up.axis = rest.sizes().y() >= rest.sizes().z() ? ImportOptions::UpAxis::y : ImportOptions::UpAxis::z;
     source = ", guessed from the rest pose (set the up axis to override)";
   }
   const bool reader_turned = !options.up && declared.told_up;
@@ -191,7 +192,7 @@ DeclaredFrame declared_frame(const SceneFile& file) {
   DeclaredFrame frame;
   for (const Format& format : formats) {
     if (file.format != format.name) continue;
-    if (format.y_up) frame.up = Direction{UpAxis::y, false};
+    if (format.y_up) frame.up = Direction{ImportOptions::UpAxis::y, false};
     frame.scale = format.scale;
     frame.scale_source = format.scale_source;
   }
@@ -203,13 +204,13 @@ DeclaredFrame declared_frame(const SceneFile& file) {
 Eigen::Matrix3f upright(Direction up) {
   Eigen::Matrix3f rotation;
   switch (up.axis) {
-    case UpAxis::x:
+    case ImportOptions::UpAxis::x:
       rotation << 0, 0, -1, 0, 1, 0, 1, 0, 0;
       break;
-    case UpAxis::y:
+    case ImportOptions::UpAxis::y:
       rotation << 1, 0, 0, 0, 0, -1, 0, 1, 0;
       break;
-    case UpAxis::z:
+    case ImportOptions::UpAxis::z:
       rotation.setIdentity();
       break;
   }

@@ -15,7 +15,7 @@ namespace bch::detail::importing {
 
 /// Represents an axis of the file's frame, or its opposite.
 struct Direction {
-  UpAxis axis = UpAxis::y;
+  ImportOptions::UpAxis axis = ImportOptions::UpAxis::y;
   bool opposite = false;
 };
 

@@ -11,6 +11,7 @@
 #include "layout/base/floating_point_state.hpp"
 #include "layout/character/skinning.hpp"
 #include "layout/hierarchy/builder.hpp"
+#include "layout/hierarchy/paper_hierarchies.hpp"
 #include "layout/outline/extreme_vertices.hpp"
 
 namespace bch {
@@ -41,7 +42,7 @@ void PoseShaper::State::make_hierarchy() {
     require_threshold(threshold);
     return hierarchy_builder.root(extremes->points(), extremes->grid_step(), shape.hierarchy);
   }
-  hierarchy_builder.contour(shape.outline, threshold, SplitRule::centroid, shape.hierarchy,
+  hierarchy_builder.contour(shape.outline, threshold, detail::SplitRule::centroid, shape.hierarchy,
                             plan.depths.back());
   if (plan.depths.back() == all_depths) hierarchy_builder.add_primitives(shape.hierarchy);
 }

@@ -20,6 +20,10 @@ using namespace detail;
 
 namespace {
 
+/// The number of pairs per shape from which culling data pays: the time to build it over the time that it saves per pair
+/// of a crowd, measured by `ratios.py --table plans`.
+constexpr double pairs_for_culling = 500;
+
 constexpr std::size_t most_levels = 255;
 
 [[noreturn]] void reject(std::size_t agent, const std::string& what) {
@@ -60,9 +64,9 @@ class Shapes {
   std::map<std::tuple<std::uint32_t, std::uint32_t, float>, std::size_t> numbers_;
 };
 
-std::vector<std::uint32_t> depths_of(std::span<const SceneAgent> agents, const SceneUse& use) {
+std::vector<std::uint32_t> depths_of(std::span<const ScenePlan::Agent> agents, const SceneUse& use) {
   std::vector<std::uint32_t> depths;
-  for (const SceneAgent& agent : agents)
+  for (const ScenePlan::Agent& agent : agents)
     depths.push_back(std::min(use.depth ? use.depth(agent.distance) : all_depths,
                               use.density_depth ? use.density_depth(agent.density) : all_depths));
   return depths;
@@ -86,7 +90,7 @@ std::uint32_t depth_at_density(double people_per_square_metre) {
   return people_per_square_metre < 3.0 ? 6 : all_depths;
 }
 
-ScenePlan plan_scene(std::span<const SceneAgent> agents, const SceneUse& use) {
+ScenePlan plan_scene(std::span<const ScenePlan::Agent> agents, const SceneUse& use) {
   const FloatingPointStateGuard floats;
   require(use);
   for (std::size_t i = 0; i < agents.size(); ++i) {

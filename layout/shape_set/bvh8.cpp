@@ -34,7 +34,7 @@ void Flattener::begin(const Hierarchy& hierarchy) {
 
 void Flattener::cut(std::uint32_t depth) {
   // Local variables, because a member's last store would have to be waited for at every node.
-  const HierarchyNode* const nodes = hierarchy_->nodes.data();
+  const Hierarchy::Node* const nodes = hierarchy_->nodes.data();
   std::uint32_t *const position = position_.data(), *const parent = parent_.data();
   float *const x = x_.data(), *const y = y_.data(), *const radius = radius_.data();
   std::uint32_t count = 0;
@@ -86,7 +86,7 @@ std::uint32_t Flattener::place(std::uint32_t node) const {
 }
 
 void Flattener::take_inner(Bvh8& tree) const {
-  const HierarchyNode* const nodes = hierarchy_->nodes.data();
+  const Hierarchy::Node* const nodes = hierarchy_->nodes.data();
   tree.inner.resize(count_);
   const Disc& root = nodes[0].disc;
   tree.inner.back() = tree.is_single() ? InnerNode{root.x, root.y, root.radius, above_cut_disc} : InnerNode{};

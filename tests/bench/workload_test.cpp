@@ -4,6 +4,7 @@
 #include "bench/workload/workload.hpp"
 
 #include "bench/workload/motions.hpp"
+#include "layout/hierarchy/paper_hierarchies.hpp"
 #include "tests/support/test.hpp"
 
 namespace bch::bench {
@@ -11,7 +12,7 @@ namespace {
 
 /// Where all of a shape is its root disc, no pair's root discs overlap while its hierarchies do not.
 TEST(RandomPairs, GivesUpWhereNoneIsWanted) {
-  const std::vector<Shape> shapes = {{{}, fixed_cylinder(0.25f)}};
+  const std::vector<Shape> shapes = {{{}, detail::fixed_cylinder(0.25f)}};
   std::uint32_t asked = 0;
   try {
     random_pairs("no_hit", 1, shapes, 10, [&](const Agents&, Pair) { return ++asked <= 3; });
@@ -23,7 +24,7 @@ TEST(RandomPairs, GivesUpWhereNoneIsWanted) {
 }
 
 TEST(RandomPairs, HasAsManyAsAreWanted) {
-  const std::vector<Shape> shapes = {{{}, fixed_cylinder(0.25f)}};
+  const std::vector<Shape> shapes = {{{}, detail::fixed_cylinder(0.25f)}};
   std::uint32_t asked = 0;
   const Workload workload =
       random_pairs("every third", 1, shapes, 10, [&](const Agents&, Pair) { return ++asked % 3 == 0; });

@@ -11,6 +11,7 @@
 
 #include "kernel/distributed/agreement.hpp"
 #include "kernel/distributed/session.hpp"
+#include "kernel/runtime/all_options.hpp"
 #include "tests/distributed/world.hpp"
 #include "tests/support/crowd_pairs.hpp"
 #include "tests/support/test.hpp"
@@ -32,7 +33,7 @@ using test::ranks;
 using test::World;
 
 /// Random numbers of an agent's own.
-Random random_of(const CrowdAgent& agent, std::uint64_t seed) {
+Random random_of(const DistributedCrowd::Agent& agent, std::uint64_t seed) {
   return Random(seed << 32 | agent.id);
 }
 
@@ -46,13 +47,13 @@ class Distributed : public testing::Test {
     Random random(seed);
     World world;
     for (std::uint32_t i = 0; i < agents; ++i) {
-      CrowdAgent agent{.heading = random.uniform(-4, 4), .id = (i * 7919u) % 65521u};
+      DistributedCrowd::Agent agent{.heading = random.uniform(-4, 4), .id = (i * 7919u) % 65521u};
       agent.x = random.uniform(-side / 2, side / 2), agent.y = random.uniform(-side / 2, side / 2);
       agent.shape = random.below(set.shape_count());
       agent.level = static_cast<std::uint8_t>(random.below(set.level_count()));
       world.agents.push_back(agent);
     }
-    std::ranges::sort(world.agents, {}, &CrowdAgent::id);
+    std::ranges::sort(world.agents, {}, &DistributedCrowd::Agent::id);
     return world;
   }
 
@@ -61,11 +62,11 @@ class Distributed : public testing::Test {
     crowd.update(margin);
     EXPECT_EQ(collisions(crowd), world.collisions(set));
     EXPECT_EQ(collisions(crowd, {.leaves = Leaves::discs}), world.collisions(set, {.leaves = Leaves::discs}));
-    const QueryOptions near{.max_distance = margin};
+    const detail::AllOptions near{.max_distance = margin};
     EXPECT_EQ(clearances(crowd, near), world.clearances(set, near));
     std::vector<std::uint32_t> ids, expected;
-    for (const CrowdAgent& agent : crowd.agents()) ids.push_back(agent.id);
-    for (const CrowdAgent& agent : world.agents) expected.push_back(agent.id);
+    for (const DistributedCrowd::Agent& agent : crowd.agents()) ids.push_back(agent.id);
+    for (const DistributedCrowd::Agent& agent : world.agents) expected.push_back(agent.id);
     ids = of_all_ranks(ids);
     std::ranges::sort(ids), std::ranges::sort(expected);
     EXPECT_EQ(ids, expected);
@@ -78,7 +79,7 @@ TEST_F(Distributed, AnswersLikeOneProcessWhileAgentsWalk) {
   DistributedCrowd crowd(MPI_COMM_WORLD, set, all.dealt(), {.cell = 4, .agent_pairs = 1.3});
   for (std::uint64_t step = 0; step < 6; ++step) {
     expect_same(all, crowd, step % 2 == 0 ? 0.5 : 1.5);
-    move_all(all, crowd, [](CrowdAgent& agent) {
+    move_all(all, crowd, [](DistributedCrowd::Agent& agent) {
       agent.x += 0.7 * std::cos(agent.heading), agent.y += 0.7 * std::sin(agent.heading);
     });
   }
@@ -86,10 +87,10 @@ TEST_F(Distributed, AnswersLikeOneProcessWhileAgentsWalk) {
 
 TEST_F(Distributed, AnswersLikeOneProcessFarFromTheOrigin) {
   World all = world(60);
-  for (CrowdAgent& agent : all.agents) agent.x = std::floor(agent.x * 0x1p20) * 0x1p-20;
-  for (CrowdAgent& agent : all.agents) agent.y = std::floor(agent.y * 0x1p20) * 0x1p-20;
+  for (DistributedCrowd::Agent& agent : all.agents) agent.x = std::floor(agent.x * 0x1p20) * 0x1p-20;
+  for (DistributedCrowd::Agent& agent : all.agents) agent.y = std::floor(agent.y * 0x1p20) * 0x1p-20;
   const Answers here = all.collisions(set);
-  for (CrowdAgent& agent : all.agents) agent.x += 1e8, agent.y -= 1e8;
+  for (DistributedCrowd::Agent& agent : all.agents) agent.x += 1e8, agent.y -= 1e8;
   DistributedCrowd crowd(MPI_COMM_WORLD, set, all.dealt());
   expect_same(all, crowd);
   EXPECT_EQ(collisions(crowd), here);
@@ -98,7 +99,7 @@ TEST_F(Distributed, AnswersLikeOneProcessFarFromTheOrigin) {
 TEST_F(Distributed, AgentsStandOnBordersOfSquares) {
   for (const double origin : {0.0, 4096.0}) {
     World all = world(60);
-    for (CrowdAgent& agent : all.agents) {
+    for (DistributedCrowd::Agent& agent : all.agents) {
       Random random = random_of(agent, 7);
       for (double* const place : {&agent.x, &agent.y}) {
         *place = 2 * std::floor(*place / 2) + origin;
@@ -116,7 +117,7 @@ TEST_F(Distributed, AgentsJumpAcrossTheWorld) {
   DistributedCrowd crowd(MPI_COMM_WORLD, set, all.dealt());
   for (std::uint64_t step = 0; step < 5; ++step) {
     expect_same(all, crowd);
-    move_all(all, crowd, [step](CrowdAgent& agent) {
+    move_all(all, crowd, [step](DistributedCrowd::Agent& agent) {
       Random random = random_of(agent, 100 + step);
       const double far = random.below(4) == 0 ? 1e9 - 40 : 0;  // to the corner of all that is allowed
       agent.x = far + random.uniform(-20, 20), agent.y = random.uniform(-20, 20) - far;
@@ -128,14 +129,14 @@ TEST_F(Distributed, RanksMayBeEmpty) {
   for (const std::uint32_t agents : {0u, 1u, 5u}) {
     World all = world(3, agents);
     DistributedCrowd crowd(MPI_COMM_WORLD, set,
-                           rank() == ranks() - 1 ? all.agents : std::vector<CrowdAgent>{});
+                           rank() == ranks() - 1 ? all.agents : std::vector<DistributedCrowd::Agent>{});
     for (int step = 0; step < 2; ++step) expect_same(all, crowd);
   }
 }
 
 TEST_F(Distributed, AllMayStandInOnePlace) {
   World all = world(60, 60);
-  for (CrowdAgent& agent : all.agents) agent.x = agent.y = 3;
+  for (DistributedCrowd::Agent& agent : all.agents) agent.x = agent.y = 3;
   DistributedCrowd crowd(MPI_COMM_WORLD, set, all.dealt());
   for (int step = 0; step < 3; ++step) expect_same(all, crowd);
   EXPECT_LE(crowd.counters().cuts, 2u);  // a square cannot be cut: that does not help a second time
@@ -144,13 +145,13 @@ TEST_F(Distributed, AllMayStandInOnePlace) {
 TEST_F(Distributed, CutsAnewWhereTheCrowdIsDense) {
   const ShapeSet points(test::synthetic_shapes(91, 24), {{0}, false});
   World all = world(200, 3000);
-  for (CrowdAgent& agent : all.agents) agent.level = 0;
+  for (DistributedCrowd::Agent& agent : all.agents) agent.level = 0;
   DistributedCrowd crowd(MPI_COMM_WORLD, points, all.dealt(), {.cell = 2});
   for (std::uint32_t step = 0; step < 8; ++step) {
     crowd.update();
     EXPECT_EQ(collisions(crowd), all.collisions(points));
     if (step == 2)  // a third of all meet in a corner
-      move_all(all, crowd, [](CrowdAgent& agent) {
+      move_all(all, crowd, [](DistributedCrowd::Agent& agent) {
         if (agent.id % 3 == 0) agent.x = 70 + agent.x / 8, agent.y = 70 + agent.y / 8;
       });
   }
@@ -164,10 +165,10 @@ TEST_F(Distributed, AgentsComeAndGo) {
   World all = world(40, 800);
   DistributedCrowd crowd(MPI_COMM_WORLD, set, all.dealt());
   crowd.update();
-  const auto leaves = [](const CrowdAgent& agent) { return agent.id % 5 == 0; };
+  const auto leaves = [](const DistributedCrowd::Agent& agent) { return agent.id % 5 == 0; };
   std::erase_if(all.agents, leaves);
   std::erase_if(crowd.agents(), leaves);
-  CrowdAgent comes = all.agents.front();
+  DistributedCrowd::Agent comes = all.agents.front();
   comes.id = 70'000, comes.x += 0.1;
   all.agents.push_back(comes);
   if (rank() == ranks() / 2) crowd.agents().push_back(comes);
@@ -180,7 +181,8 @@ TEST_F(Distributed, AgentsStandAtDifferentHeights) {
   const ShapeSet bodies(shapes, {.heights = true});
   World all = world(40, 800);
   all.has_heights = true;
-  for (CrowdAgent& agent : all.agents) agent.z = 0.5 * random_of(agent, 3).below(8), agent.level = 0;
+  for (DistributedCrowd::Agent& agent : all.agents)
+    agent.z = 0.5 * random_of(agent, 3).below(8), agent.level = 0;
   DistributedCrowd crowd(MPI_COMM_WORLD, bodies, all.dealt(), {.heights = true});
   crowd.update();
   const Answers answers = collisions(crowd);
@@ -194,7 +196,7 @@ TEST_F(Distributed, CountsWhatIsSent) {
   DistributedCrowd crowd(MPI_COMM_WORLD, set, all.dealt());
   crowd.update();
   crowd.collide_all();
-  const CrowdCounters& counters = crowd.counters();
+  const DistributedCrowd::Counters& counters = crowd.counters();
   EXPECT_EQ(counters.agents, crowd.agents().size());
   EXPECT_EQ(counters.halo, crowd.halo().size());
   std::uint64_t sums[] = {counters.agents,          counters.halo_bytes,   counters.halo * 33,
@@ -216,7 +218,8 @@ std::string complaint_of_ranks(const Call& call) {
 TEST_F(Distributed, WhatIsWrongOnOneRankIsAnErrorOnAll) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const std::string last = "rank " + std::to_string(ranks() - 1) + ": agent 17: ";
-  const auto complaint_about = [&](CrowdAgent agent, const DistributedCrowdOptions& options = {}) {
+  const auto complaint_about = [&](DistributedCrowd::Agent agent,
+                                   const DistributedCrowdOptions& options = {}) {
     DistributedCrowd crowd(MPI_COMM_WORLD, set, world(20, 100).dealt(), options);
     crowd.update();
     if (rank() == ranks() - 1) crowd.agents().push_back(agent);

@@ -5,6 +5,7 @@
 #include <bch/distributed_crowd.hpp>
 #include <bch/poses.hpp>
 
+#include "kernel/runtime/all_options.hpp"
 #include "tests/distributed/world.hpp"
 #include "tests/support/test.hpp"
 
@@ -25,9 +26,9 @@ class PosedCrowd : public testing::Test {
   }
   const std::vector<Character>& characters = people();
 
-  CrowdAgent walker(std::uint32_t id, double side, std::size_t levels) const {
+  DistributedCrowd::Agent walker(std::uint32_t id, double side, std::size_t levels) const {
     Random random(900 + id);
-    CrowdAgent agent{.heading = random.uniform(-4, 4), .id = id};
+    DistributedCrowd::Agent agent{.heading = random.uniform(-4, 4), .id = id};
     agent.x = random.uniform(0, side), agent.y = random.uniform(0, side), agent.z = 0.4 * random.below(5);
     agent.shape = random.below(8) == 0;  // one in eight is tall
     agent.level = static_cast<std::uint8_t>(random.below(static_cast<std::uint32_t>(levels)));
@@ -47,7 +48,7 @@ class PosedCrowd : public testing::Test {
     std::vector<PoseShaper> shapers;
     for (const Character& character : characters) shapers.emplace_back(character, plan);
     std::vector<Shape> shapes;
-    for (CrowdAgent& agent : world.agents) {
+    for (DistributedCrowd::Agent& agent : world.agents) {
       shapes.push_back(shapers[agent.shape].shape(agent.pose));
       agent.shape = static_cast<std::uint32_t>(shapes.size() - 1);
     }
@@ -55,7 +56,7 @@ class PosedCrowd : public testing::Test {
   }
 
   void expect_same(World world, const ShapeSetPlan& plan, DistributedCrowd& crowd) const {
-    constexpr QueryOptions by_discs{.leaves = Leaves::discs}, near{.max_distance = 0.4};
+    constexpr detail::AllOptions by_discs{.leaves = Leaves::discs}, near{.max_distance = 0.4};
     crowd.update(0.4);
     const Answers found = collisions(crowd, by_discs), found_near = clearances(crowd, near);
     if (rank() != 0) return;  // one knows what is right: poses take long
@@ -72,7 +73,7 @@ TEST_F(PosedCrowd, AnswersLikeOneProcessWhilePeopleWalk) {
   DistributedCrowd crowd(MPI_COMM_WORLD, characters, plan, all.dealt(), {.cell = 1});
   for (int step = 0; step < 3; ++step) {
     expect_same(all, plan, crowd);
-    move_all(all, crowd, [](CrowdAgent& agent) {
+    move_all(all, crowd, [](DistributedCrowd::Agent& agent) {
       agent.x += 0.5 * std::cos(agent.heading), agent.y += 0.5 * std::sin(agent.heading);
       agent.pose.seconds += 0.1f;
     });
@@ -91,7 +92,7 @@ TEST_F(PosedCrowd, PosesTravelAsTwelveBytes) {
   World all = world(6, 1);
   DistributedCrowd crowd(MPI_COMM_WORLD, characters, {.depths = {3}}, all.dealt(), {.cell = 1});
   crowd.update();
-  const CrowdCounters& counters = crowd.counters();
+  const DistributedCrowd::Counters& counters = crowd.counters();
   EXPECT_EQ(counters.poses, crowd.agents().size() + crowd.halo().size());
   std::uint64_t sums[] = {counters.agents, counters.halo_bytes, counters.halo * (33 + 8),
                           counters.migration_bytes, counters.arrived * (41 + 8)};
@@ -106,7 +107,7 @@ TEST_F(PosedCrowd, PosesTravelAsTwelveBytes) {
 
 TEST_F(PosedCrowd, WhatIsWrongOnOneRankIsAnErrorOnAll) {
   const std::string last = "rank " + std::to_string(ranks() - 1) + ": ";
-  const auto complaint_about = [&](const CrowdAgent& agent) {
+  const auto complaint_about = [&](const DistributedCrowd::Agent& agent) {
     DistributedCrowd crowd(MPI_COMM_WORLD, characters, {.depths = {0}}, {});
     if (rank() == ranks() - 1) crowd.agents().push_back(agent);
     return complaint<RankError>([&] { crowd.update(); });

@@ -15,6 +15,7 @@
 #include <bch/distributed_crowd.hpp>
 #include <bch/pairs.hpp>
 
+#include "kernel/runtime/all_options.hpp"
 #include "tests/support/crowd_pairs.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -59,27 +60,27 @@ inline Answers sorted(Answers answers) {
   return answers;
 }
 
-inline Answers collisions(DistributedCrowd& crowd, const QueryOptions& options = {}) {
+inline Answers collisions(DistributedCrowd& crowd, const detail::AllOptions& options = {}) {
   Answers mine;
   for (const Pair& pair : crowd.collide_all(options)) mine.push_back({pair.first, pair.second, 0});
   return sorted(of_all_ranks(mine));
 }
 
-inline Answers clearances(DistributedCrowd& crowd, const QueryOptions& options) {
+inline Answers clearances(DistributedCrowd& crowd, const detail::AllOptions& options) {
   Answers mine;
-  for (const CrowdDistance& one : crowd.clearances(options))
+  for (const DistributedCrowd::Distance& one : crowd.clearances(options))
     mine.push_back({one.first, one.second, one.metres});
   return sorted(of_all_ranks(mine));
 }
 
 /// The whole crowd, as one process has it: in the order of ids.
 struct World {
-  std::vector<CrowdAgent> agents;
+  std::vector<DistributedCrowd::Agent> agents;
   bool has_heights = false;
 
   /// The agents that a rank begins with: one here, one there, in no order.
-  std::vector<CrowdAgent> dealt() const {
-    std::vector<CrowdAgent> mine;
+  std::vector<DistributedCrowd::Agent> dealt() const {
+    std::vector<DistributedCrowd::Agent> mine;
     for (std::size_t i = 0; i < agents.size(); ++i)
       if (i % static_cast<std::size_t>(ranks()) == static_cast<std::size_t>(rank()))
         mine.push_back(agents[i]);
@@ -89,7 +90,7 @@ struct World {
 
   Crowd columns() const {
     Crowd crowd;
-    for (const CrowdAgent& agent : agents) {
+    for (const DistributedCrowd::Agent& agent : agents) {
       crowd.add({agent.shape, agent.x, agent.y, agent.heading, agent.level});
       if (has_heights) crowd.z.push_back(agent.z);
     }
@@ -100,7 +101,7 @@ struct World {
     return {agents[pair.first].id, agents[pair.second].id, metres};
   }
 
-  Answers collisions(const ShapeSet& set, const QueryOptions& options = {}) const {
+  Answers collisions(const ShapeSet& set, const detail::AllOptions& options = {}) const {
     const Crowd crowd = columns();
     const std::vector<Pair> pairs = candidate_pairs(set, crowd.agents());
     std::vector<std::uint8_t> hits(pairs.size());
@@ -111,7 +112,7 @@ struct World {
     return sorted(answers);
   }
 
-  Answers clearances(const ShapeSet& set, const QueryOptions& options) const {
+  Answers clearances(const ShapeSet& set, const detail::AllOptions& options) const {
     const Crowd crowd = columns();
     const std::vector<Pair> pairs = candidate_pairs(set, crowd.agents(), options.max_distance);
     std::vector<float> metres(pairs.size());
@@ -126,8 +127,8 @@ struct World {
 /// Moves each agent in the world, and on whichever rank owns it, by the same.
 template <class Move>
 void move_all(World& world, DistributedCrowd& crowd, const Move& move) {
-  for (CrowdAgent& agent : world.agents) move(agent);
-  for (CrowdAgent& agent : crowd.agents()) move(agent);
+  for (DistributedCrowd::Agent& agent : world.agents) move(agent);
+  for (DistributedCrowd::Agent& agent : crowd.agents()) move(agent);
 }
 
 }  // namespace bch::test

@@ -12,6 +12,7 @@
 
 #include "layout/format/contours.hpp"
 #include "layout/format/shape_validation.hpp"
+#include "layout/hierarchy/paper_hierarchies.hpp"
 #include "tests/fuzz/target.hpp"
 #include "tests/support/hierarchy_checks.hpp"
 #include "tests/support/scenes.hpp"
@@ -45,7 +46,7 @@ void check_contours(Bytes& bytes) {
   validate(outline);
   // A small threshold would halve segments by the million.
   const auto threshold = static_cast<float>(detail::reach(outline.points) / (1 + bytes.below(64)));
-  for (const SplitRule rule : {SplitRule::centroid, SplitRule::centre}) {
+  for (const detail::SplitRule rule : {detail::SplitRule::centroid, detail::SplitRule::centre}) {
     const Shape shape{outline, contour_hierarchy(outline, threshold, rule)};
     test::expect_covers_outline(shape.hierarchy, outline);
     // The check knows outlines on fine grids alone.
@@ -62,7 +63,7 @@ void check_triangles(Bytes& bytes) {
     triangle = {bytes.below(corners), bytes.below(corners), bytes.below(corners)};
   // Not in one expression: GCC 12 frees the empty outline twice where the hierarchy throws.
   Shape shape;
-  shape.hierarchy = projected_hierarchy(vertices, triangles);
+  shape.hierarchy = detail::projected_hierarchy(vertices, triangles);
   check(shape, false);
 }
 

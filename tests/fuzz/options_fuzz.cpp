@@ -24,7 +24,7 @@ void check(const Line& line) {
   require(line.answer.threads <= 1024, "the threads are in range");
   const ImportOptions import = line.shapes.import_options();
   require(!import.scale || (std::isfinite(*import.scale) && *import.scale > 0), "the scale is positive");
-  require(!import.up || *import.up <= UpAxis::z, "there are three axes");
+  require(!import.up || *import.up <= ImportOptions::UpAxis::z, "there are three axes");
   const std::vector<std::uint32_t> depths = line.answer.cut_depths();
   validate(ShapeSetPlan{depths});
   require(line.answer.query_options().implementation != nullptr, "there is a kernel");

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -12,6 +14,8 @@
 #include <bch/crowd.hpp>
 #include <bch/pairs.hpp>
 
+#include "layout/base/heading.hpp"
+#include "tests/support/crowd_pairs.hpp"
 #include "tests/support/implementations.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/test.hpp"
@@ -46,16 +50,18 @@ struct Answers {
 
   Answers(const ShapeSet& set, const Agents& agents, const Implementation& implementation) {
     Crowd crowd;
-    const CrowdPairs found = crowd.collisions(set, agents, {.implementation = &implementation});
+    const bch::Crowd::Pairs found = crowd.collisions(set, agents, {.implementation = &implementation});
     pairs.assign(found.begin(), found.end());
-    const CrowdClearances near = crowd.clearances(set, agents, 0.2, {.implementation = &implementation});
+    const bch::Crowd::Clearances near =
+        crowd.clearances(set, agents, {.implementation = &implementation, .max_distance = 0.2});
     distances.assign(near.distance.begin(), near.distance.end());
-    const CrowdPenetrations apart = crowd.penetrations(set, agents, {.implementation = &implementation});
+    const bch::Crowd::Penetrations apart =
+        crowd.penetrations(set, agents, 16, {.implementation = &implementation});
     ways.assign(apart.penetrations.begin(), apart.penetrations.end());
-    const CrowdPairs may = crowd.candidates(set, agents);
+    const bch::Crowd::Pairs may = crowd.candidates(set, agents);
     const std::vector<double> way(may.size(), 0.5);
     times.resize(may.size());
-    time_of_impact(set, agents, may.span(), {way, way}, times, {.implementation = &implementation});
+    time_of_impact(set, agents, may.span(), {way, way}, times, &implementation);
   }
 };
 
@@ -95,6 +101,66 @@ TEST(Agents, MayBeStructsOfDoubles) {
 TEST(Agents, MayBeStructsOfFloats) {
   expect_the_answers_of_arrays<float>(false);
   expect_the_answers_of_arrays<float>(true);
+}
+
+/// All answers with headings as directions are those with the angles: at the origin, far from it, and where the ground repeats.
+TEST(Agents, MayHaveDirections) {
+  const std::vector<Shape> shapes = test::synthetic_shapes(783, 10);
+  const ShapeSet set(shapes, {.depths = {0, 3, all_depths}});
+  test::Random random(784);
+  test::Crowd angles;
+  std::vector<double> x, y;
+  for (int i = 0; i < 500; ++i) {
+    const auto place = [&] { return std::round(random.uniform(0, 18) * 1024) / 1024; };
+    angles.add({random.below(10), place(), place(), random.uniform(-4, 4),
+                static_cast<std::uint8_t>(random.below(3))});
+    const detail::Rotation at = detail::rotation(angles.heading.back());
+    x.push_back(at.cosine), y.push_back(at.sine);
+  }
+  Agents directions = angles.agents();
+  directions.heading = {x, y};
+  Crowd repeats({.period = {18, 18}});
+  const auto sorted = [](const bch::Crowd::Pairs& pairs) { return test::sorted(pairs.span()); };
+  EXPECT_EQ(sorted(repeats.collisions(set, directions)), sorted(repeats.collisions(set, angles.agents())));
+
+  const Answers expected(set, directions, best_implementation()),
+      of_angles(set, angles.agents(), best_implementation());
+  EXPECT_GT(expected.pairs.size(), 100u);
+  EXPECT_EQ(expected.pairs, of_angles.pairs);
+  for (std::size_t i = 0; i < expected.distances.size(); ++i)
+    EXPECT_NEAR(expected.distances[i], of_angles.distances[i], 1e-6);
+  test::Crowd far = angles;
+  for (double& value : far.x) value += 0x1p24;
+  Agents far_directions = far.agents();
+  far_directions.heading = {x, y};
+  for (const Implementation& implementation : test::supported()) {
+    EXPECT_TRUE(Answers(set, directions, implementation) == expected) << implementation.name;
+    Crowd crowd;
+    EXPECT_EQ(sorted(crowd.collisions(set, far_directions, {.implementation = &implementation})),
+              sorted(crowd.collisions(set, directions, {.implementation = &implementation})));
+  }
+}
+
+TEST(Agents, AreRefusedWhereDirectionsAreNone) {
+  const std::vector<Shape> shapes = test::synthetic_shapes(783, 1);
+  const ShapeSet set(shapes);
+  const std::vector<std::uint32_t> shape(2);
+  const std::vector<double> at(2), x = {1, 0.9}, y = {0, 0.3}, one = {0};
+  const auto refused = [&](const Headings& heading) {
+    return test::complaint([&] { validate(set, {shape, at, at, heading}); });
+  };
+  EXPECT_EQ(refused({x, y}),
+            "agent 1: heading (0.9, 0.3) is no direction, expected a length from 0.999 to 1.001");
+  EXPECT_EQ(refused({x, one}), "agents: 2 shapes but 1 values of heading's y");
+  const std::vector<double> nan = {0, std::numeric_limits<double>::quiet_NaN()};
+  EXPECT_EQ(refused({x, nan}),
+            "agent 1: heading (0.9, nan) is no direction, expected a length from 0.999 to 1.001");
+  std::vector<std::uint8_t> hit(1);
+  const Pair pair{0, 1};
+  EXPECT_EQ(test::complaint([&] {
+              collide(set, {shape, at, at, {x, y}}, {&pair, 1}, hit);
+            }),
+            "pair 0: agent 1: heading (0.9, 0.3) is no direction, expected a length from 0.999 to 1.001");
 }
 
 TEST(Agents, AreRefusedWhereTheirNumbersAreNotAligned) {

@@ -84,8 +84,8 @@ TEST(Bodies, ACrowdFindsThoseThatAreNear) {
     if (distance[i] <= static_cast<float>(limit))
       expected[std::minmax(crowd.pairs[i].first, crowd.pairs[i].second)] = distance[i];
   Crowd finder;
-  const CrowdBodyClearances near =
-      finder.clearances(bodies, crowd.agents(), limit, {.overlap = Overlap::deepest});
+  const bch::Crowd::BodyClearances near =
+      finder.clearances(bodies, crowd.agents(), {.max_distance = limit, .overlap = Overlap::deepest});
   for (std::size_t i = 0; i < near.pairs.size(); ++i)
     found[{near.pairs[i].first, near.pairs[i].second}] = near.distance[i];
   EXPECT_EQ(found, expected);

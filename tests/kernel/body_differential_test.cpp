@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "baselines/body_reference.hpp"
+#include "kernel/runtime/all_options.hpp"
 #include "tests/support/body_scenes.hpp"
 #include "tests/support/implementations.hpp"
 #include "tests/support/test.hpp"
@@ -30,7 +31,7 @@ struct Distances {
 
   explicit Distances(std::size_t pairs) : distance(pairs), direction(pairs), spheres(pairs), points(pairs) {}
   Distances(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs,
-            const QueryOptions& options)
+            const detail::AllOptions& options)
       : Distances(pairs.size()) {
     clearance(bodies, agents, pairs, {distance, direction, spheres, points}, options);
   }
@@ -79,11 +80,11 @@ void expect_distances(const BodySet& bodies, const Agents& agents, std::span<con
     const bool overlap = distance <= 0, is_near = distance <= limit;
     ASSERT_EQ(overlap, expected.hits[i] == 1) << "pair " << i;
     ASSERT_EQ(apart.distance[i], overlap ? 0 : distance) << "pair " << i;
-    ASSERT_EQ(apart.spheres[i], overlap ? no_discs : spheres) << "pair " << i;
+    ASSERT_EQ(apart.spheres[i], overlap ? DiscPair::none : spheres) << "pair " << i;
     ASSERT_EQ(apart.points[i], overlap ? NearestSpacePoints{} : deepest.points[i]) << "pair " << i;
     ASSERT_EQ(apart.direction[i], overlap ? Vec3{} : deepest.direction[i]) << "pair " << i;
     ASSERT_EQ(limited.distance[i], is_near ? apart.distance[i] : infinity) << "pair " << i;
-    ASSERT_EQ(limited.spheres[i], is_near ? apart.spheres[i] : no_discs) << "pair " << i;
+    ASSERT_EQ(limited.spheres[i], is_near ? apart.spheres[i] : DiscPair::none) << "pair " << i;
   }
   Hits near(pairs.size());
   within(bodies, agents, pairs, expected.distances, near, &implementation);

@@ -32,7 +32,7 @@ test::Crowd crowd_in(double width, double height, std::uint32_t agents, std::uin
 void append(test::Crowd& crowd, const test::Crowd& more) {
   const Agents agents = more.agents();
   for (std::size_t i = 0; i < agents.size(); ++i)
-    crowd.add({agents.shape[i], agents.x[i], agents.y[i], agents.heading[i], agents.level[i]});
+    crowd.add({agents.shape[i], agents.x[i], agents.y[i], agents.heading.x()[i], agents.level[i]});
 }
 
 /// An agent's root disc, its centre relative to the agent; with a margin the disc that holds its cut.
@@ -45,7 +45,7 @@ std::vector<Root> roots(const ShapeSet& of, const Agents& agents, bool outer) {
   std::vector<Root> all;
   for (std::size_t i = 0; i < agents.size(); ++i) {
     const std::size_t root = std::size_t{agents.shape[i]} * of.level_count() + agents.level[i];
-    const detail::Rotation r = detail::rotation(agents.heading[i]);
+    const detail::Rotation r = detail::rotation(agents.heading.x()[i]);
     const double x = view.roots[root].x, y = view.roots[root].y;
     const double radius = outer && view.trees != nullptr ? view.trees[root].outer : view.roots[root].radius;
     all.push_back({r.cosine * x - r.sine * y, r.sine * x + r.cosine * y,
@@ -276,7 +276,7 @@ TEST(BroadPhase, OneObjectServesManyCrowds) {
   Crowd one;
   for (const std::uint32_t agents : {3000u, 10u, 0u, 5000u, 1u, 2999u}) {
     const test::Crowd crowd = crowd_in(50, 50, agents, agents);
-    const CrowdPairs found = one.candidates(set, crowd.agents());
+    const bch::Crowd::Pairs found = one.candidates(set, crowd.agents());
     EXPECT_EQ(std::vector<Pair>(found.begin(), found.end()), test::candidate_pairs(set, crowd.agents()))
         << agents;
   }

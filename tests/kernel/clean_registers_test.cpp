@@ -6,6 +6,7 @@
 #include "layout/base/build_implementation.hpp"
 #include "layout/culling/interior.hpp"
 #include "layout/hierarchy/builder.hpp"
+#include "layout/hierarchy/paper_hierarchies.hpp"
 #include "tests/support/test.hpp"
 
 // Whoever leaves something in the upper halves of the registers makes all SSE code after him slow, up to five times.
@@ -62,12 +63,9 @@ TEST_F(CleanRegisters, AfterQueries) {
           clearance(shapes, agents, pairs, {values, directions},
                     {.implementation = &isa, .max_distance = limit});
         });
-      expect_clean("within", [&] { within(shapes, agents, pairs, x, hits, {.implementation = &isa}); });
-      expect_clean("time_of_impact", [&] {
-        time_of_impact(shapes, agents, pairs, {x, y}, values, {.implementation = &isa});
-      });
-      expect_clean("penetration",
-                   [&] { penetration(shapes, agents, pairs, 16, ways, {.implementation = &isa}); });
+      expect_clean("within", [&] { within(shapes, agents, pairs, x, hits, &isa); });
+      expect_clean("time_of_impact", [&] { time_of_impact(shapes, agents, pairs, {x, y}, values, &isa); });
+      expect_clean("penetration", [&] { penetration(shapes, agents, pairs, 16, ways, &isa); });
       expect_clean("contacts", [&] { finder.contacts(shapes, agents, pairs, {.implementation = &isa}); });
     }
   }
@@ -83,7 +81,7 @@ TEST_F(CleanRegisters, AfterConstruction) {
     detail::HierarchyBuilder hierarchy_builder(row);
     Hierarchy hierarchy;
     expect_clean(std::string("discs, ") + row.name,
-                 [&] { hierarchy_builder.contour(outline, 0.01f, SplitRule::centroid, hierarchy); });
+                 [&] { hierarchy_builder.contour(outline, 0.01f, detail::SplitRule::centroid, hierarchy); });
     detail::InteriorBuilder interior_builder(row);
     expect_clean(std::string("interior, ") + row.name, [&] { interior_builder.build(outline, 1.0); });
   }

@@ -3,6 +3,7 @@
 
 #include "baselines/clearance_reference.hpp"
 #include "baselines/oracle.hpp"
+#include "layout/hierarchy/paper_hierarchies.hpp"
 #include "tests/support/clearances.hpp"
 #include "tests/support/differential.hpp"
 #include "tests/support/test.hpp"
@@ -119,7 +120,7 @@ TEST_F(ClearanceDifferential, PointsAreThoseOfTheNearestFeatures) {
 }
 
 TEST(Clearance, OfSingleDiscs) {
-  const std::vector<Shape> shapes = {{{}, fixed_cylinder(0.25f)}, {{}, fixed_cylinder(0.5f)}};
+  const std::vector<Shape> shapes = {{{}, detail::fixed_cylinder(0.25f)}, {{}, detail::fixed_cylinder(0.5f)}};
   for (const ShapeSetPlan& levels : {ShapeSetPlan{{0}}, ShapeSetPlan{}}) {
     const ShapeSet set(shapes, levels);
     test::Crowd crowd;
@@ -141,7 +142,7 @@ TEST(Clearance, OfSingleDiscs) {
     const auto limited = answers(set, crowd.agents(), pairs, 4);
     EXPECT_EQ(limited.distance[0], std::numeric_limits<float>::infinity());
     EXPECT_EQ(limited.direction[0], (Vec2{0, 0}));
-    EXPECT_EQ(limited.discs[0], no_discs);
+    EXPECT_EQ(limited.discs[0], DiscPair::none);
     std::vector<float> distance(pairs.size());
     std::vector<NearestPoints> points(pairs.size(), {{1, 1}, {1, 1}});
     clearance(set, crowd.agents(), pairs, {.distance = distance, .points = points}, {.max_distance = 4.5});

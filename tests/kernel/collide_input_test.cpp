@@ -12,6 +12,7 @@
 #include <bch/crowd.hpp>
 #include <bch/pairs.hpp>
 
+#include "kernel/runtime/all_options.hpp"
 #include "tests/support/scenes.hpp"
 
 // What collide() refuses, and that it does nothing then.
@@ -31,7 +32,7 @@ class BadInput : public testing::Test {
     crowd.add({1, 1, 0, 0, 0});
   }
 
-  void expect_rejected(const std::string& message, const QueryOptions& options = {}) {
+  void expect_rejected(const std::string& message, const detail::AllOptions& options = {}) {
     std::vector<std::uint8_t> hits(pairs.size(), 42);
     try {
       collide(set, crowd.agents(), pairs, hits, options);
@@ -81,7 +82,7 @@ TEST_F(BadInput, AFewOfManyAgents) {
   crowd.shape[39] = crowd.shape[42] = crowd.shape[44] = 2;
   for (const Implementation& implementation : implementations()) {
     if (!implementation.supported()) continue;
-    QueryOptions options{.implementation = &implementation};
+    detail::AllOptions options{.implementation = &implementation};
     std::vector<std::uint8_t> hits(pairs.size());
     EXPECT_NO_THROW(collide(set, crowd.agents(), pairs, hits, options)) << implementation.name;
     for (const std::uint32_t agent : {40u, 41u, 43u}) {
@@ -102,7 +103,7 @@ TEST_F(BadInput, AnyValueInAnyPlaceOfABatch) {
                    infinity = std::numeric_limits<double>::infinity();
   for (const Implementation& implementation : implementations()) {
     if (!implementation.supported()) continue;
-    const QueryOptions options{.implementation = &implementation};
+    const detail::AllOptions options{.implementation = &implementation};
     for (const std::uint32_t size : {1, 2, 5, 15, 16, 17, 33, 255, 256, 257}) {
       crowd = {};
       pairs.clear();

@@ -11,8 +11,10 @@
 
 #include "baselines/reference.hpp"
 #include "kernel/runtime/kernels.hpp"
+#include "layout/base/heading.hpp"
 #include "layout/base/processor.hpp"
 #include "layout/format/shape_set_view.hpp"
+#include "layout/hierarchy/paper_hierarchies.hpp"
 #include "tests/support/differential.hpp"
 
 namespace bch {
@@ -34,8 +36,7 @@ std::vector<std::uint8_t> answers(const ShapeSet& set, const Agents& agents, std
 
 /// Every implementation against brute force; says which pair differs and where it stands.
 void expect_equal_to_brute_force(const ShapeSet& set, const Reference& reference, const PairScene& scene,
-                                 const std::string& what) {
-  const Agents agents = scene.crowd.agents();
+                                 const Agents& agents, const std::string& what) {
   std::vector<std::uint8_t> expected;
   for (const Pair& pair : scene.pairs) expected.push_back(reference.solid(agents, pair, Method::brute_force));
   const auto hits = std::count(expected.begin(), expected.end(), 1);
@@ -49,6 +50,11 @@ void expect_equal_to_brute_force(const ShapeSet& set, const Reference& reference
           << what << ", " << implementation.name << ", pair " << i << ": shapes " << agents.shape[2 * i]
           << " and " << agents.shape[2 * i + 1];
   }
+}
+
+void expect_equal_to_brute_force(const ShapeSet& set, const Reference& reference, const PairScene& scene,
+                                 const std::string& what) {
+  expect_equal_to_brute_force(set, reference, scene, scene.crowd.agents(), what);
 }
 
 class Differential : public test::Differential {
@@ -94,7 +100,7 @@ TEST(Levels, TheSingleCylinderNeedsNoBlocks) {
 }
 
 TEST(Collide, TouchingCountsAndAnAgentMeetsItself) {
-  const std::vector<Shape> shapes = {{{}, fixed_cylinder(0.25f)}};
+  const std::vector<Shape> shapes = {{{}, detail::fixed_cylinder(0.25f)}};
   const ShapeSet set(shapes);
   const float radius = set.view().roots[0].radius;
   test::Crowd crowd;

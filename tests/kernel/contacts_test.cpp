@@ -106,7 +106,7 @@ TEST_F(Contacts, OfACrowdAreThoseOfItsCandidates) {
       if (of.has_heights())
         for (std::uint32_t i = 0; i < count; ++i) crowd.z.push_back(random.below(2));
       const std::vector<Pair> pairs = test::candidate_pairs(of, crowd.agents());
-      const CrowdContacts found = finder.contacts(of, crowd.agents());
+      const bch::Crowd::Contacts found = finder.contacts(of, crowd.agents());
       const Table expected = table_of(of, crowd.agents(), pairs);
       std::vector<Pair> touching;
       for (std::size_t i = 0; i < pairs.size(); ++i)

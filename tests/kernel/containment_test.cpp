@@ -11,6 +11,7 @@
 
 #include "layout/base/heading.hpp"
 #include "layout/format/contours.hpp"
+#include "layout/hierarchy/paper_hierarchies.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/outline_checks.hpp"
 #include "tests/support/scenes.hpp"
@@ -142,7 +143,7 @@ TEST(Containment, ABodyWithoutAnOutlineIsItsDiscsAlone) {
   const auto square = [](float half) {
     return test::contour_shape(test::polygon({{-half, -half}, {half, -half}, {half, half}, {-half, half}}));
   };
-  const std::vector<Shape> shapes = {square(1), square(0.1f), {{}, fixed_cylinder(0.1f)}};
+  const std::vector<Shape> shapes = {square(1), square(0.1f), {{}, detail::fixed_cylinder(0.1f)}};
   test::Crowd crowd;
   for (const double x : {0.0, 0.95})
     for (std::uint32_t shape = 0; shape < 3; ++shape) crowd.add({shape, shape == 0 ? 0 : x, 0, 0.3, 0});

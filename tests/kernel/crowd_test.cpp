@@ -71,16 +71,16 @@ TEST(Crowd, FindsThePairsThatCollide) {
   for (const std::uint32_t count : {0u, 1u, 300u, 20u, 900u}) {
     const test::Crowd in = people(count, 12, 12, count);
     const std::vector<Pair> expected = colliding(in.agents(), all_pairs(count));
-    const CrowdPairs found = crowd.collisions(set, in.agents());
+    const bch::Crowd::Pairs found = crowd.collisions(set, in.agents());
     EXPECT_EQ(sorted(found.span()), expected);
     EXPECT_EQ(expected.empty(), count < 2);
     std::vector<std::vector<std::uint32_t>> neighbours(count);
     for (const auto [a, b] : expected) neighbours[a].push_back(b), neighbours[b].push_back(a);
     for (auto& row : neighbours) std::sort(row.begin(), row.end());
     EXPECT_EQ(test::neighbours(found), neighbours);
-    const Rows<Neighbour> rows = found.by_agent();
+    const Rows<bch::Crowd::Neighbour> rows = found.by_agent();
     for (std::uint32_t i = 0; i < rows.size(); ++i)
-      for (const Neighbour& other : rows[i])
+      for (const bch::Crowd::Neighbour& other : rows[i])
         EXPECT_EQ(found[other.pair], (Pair{std::min(i, other.agent), std::max(i, other.agent)}));
   }
 }
@@ -99,7 +99,8 @@ TEST(Crowd, MeasuresThePairsThatItFinds) {
     std::vector<std::size_t> near;
     for (std::size_t i = 0; i < all.size(); ++i)
       if (double{distance[i]} <= within) near.push_back(i);
-    const CrowdClearances found = crowd.clearances(set, in.agents(), within, {.overlap = Overlap::deepest});
+    const bch::Crowd::Clearances found =
+        crowd.clearances(set, in.agents(), {.max_distance = within, .overlap = Overlap::deepest});
     ASSERT_EQ(found.pairs.size(), near.size());
     EXPECT_GT(near.size(), 100u);
     for (std::size_t k = 0; k < near.size(); ++k) {
@@ -113,7 +114,7 @@ TEST(Crowd, MeasuresThePairsThatItFinds) {
       EXPECT_EQ(found.points[k], points[i]);
     }
   }
-  const CrowdPenetrations apart = crowd.penetrations(set, in.agents(), {.directions = 8});
+  const bch::Crowd::Penetrations apart = crowd.penetrations(set, in.agents(), 8);
   EXPECT_EQ(sorted(apart.pairs.span()), colliding(in.agents(), all));
   std::vector<Penetration> expected(apart.pairs.size());
   penetration(set, in.agents(), apart.pairs.span(), 8, expected);
@@ -137,26 +138,23 @@ TEST(Crowd, FiltersAsPhysicsEnginesDo) {
   ASSERT_GT(expected.size(), 20u);
   Crowd crowd;
   const PairFilter filter{category, mask, excluded};
-  EXPECT_EQ(sorted(crowd.collisions(set, in.agents(), {.filter = filter}).span()), expected);
-  EXPECT_EQ(colliding(in.agents(), sorted(crowd.candidates(set, in.agents(), {.filter = filter}).span())),
-            expected);
-  EXPECT_EQ(sorted(crowd.penetrations(set, in.agents(), {.filter = filter}).pairs.span()), expected);
+  EXPECT_EQ(sorted(crowd.collisions(set, in.agents(), {}, filter).span()), expected);
+  EXPECT_EQ(colliding(in.agents(), sorted(crowd.candidates(set, in.agents(), 0, filter).span())), expected);
+  EXPECT_EQ(sorted(crowd.penetrations(set, in.agents(), 16, {}, filter).pairs.span()), expected);
 
   EXPECT_EQ(sorted(crowd.collisions(set, in.agents()).span()), unfiltered);
   category.pop_back();
   expect_refused("filter: expected 400 values of category, one per agent, or none, found 399",
-                 [&] { crowd.collisions(set, in.agents(), {.filter = {.category = category}}); });
+                 [&] { crowd.collisions(set, in.agents(), {}, {.category = category}); });
   const Pair beyond{3, 400};
   expect_refused("filter: excluded pair 0 names agent 400 of 400", [&] {
-    crowd.candidates(set, in.agents(), {.filter = {.excluded = {&beyond, 1}}});
+    crowd.candidates(set, in.agents(), 0, {.excluded = {&beyond, 1}});
   });
-  expect_refused("contacts: expected no filter",
-                 [&] { crowd.contacts(set, in.agents(), unfiltered, {.filter = {.mask = mask}}); });
 }
 
 /// A crowd on a ground that repeats, by brute force: each pair with each of the nine shifts of its second agent.
 struct Periodic {
-  Period period;
+  CrowdOptions::Period period;
   test::Crowd in;
 
   struct Answer {
@@ -203,7 +201,8 @@ TEST(Crowd, MeetsItselfAcrossTheBordersOfAPeriod) {
   }();
   ASSERT_GT(least, 1);
   const double side = std::ceil(least + 6);
-  for (const Period period : {Period{side, side}, Period{side, 0}, Period{0, side}}) {
+  for (const CrowdOptions::Period period :
+       {CrowdOptions::Period{side, side}, CrowdOptions::Period{side, 0}, CrowdOptions::Period{0, side}}) {
     Periodic expected{period, people(250, side, side, 31)};
     test::Crowd moved = expected.in;
     for (std::size_t i = 0; i < moved.x.size(); ++i) {
@@ -228,7 +227,7 @@ TEST(Crowd, MeetsItselfAcrossTheBordersOfAPeriod) {
       EXPECT_EQ(std::adjacent_find(candidates.begin(), candidates.end()), candidates.end());
       EXPECT_LE(sorted(crowd.contacts(set, in->agents()).pairs.span()).size(), hits.size());
 
-      const CrowdClearances found = crowd.clearances(set, in->agents(), 0.25);
+      const bch::Crowd::Clearances found = crowd.clearances(set, in->agents(), {.max_distance = 0.25});
       ASSERT_EQ(found.pairs.size(), near.size());
       for (std::size_t k = 0; k < near.size(); ++k) {
         const auto at =
@@ -236,7 +235,7 @@ TEST(Crowd, MeetsItselfAcrossTheBordersOfAPeriod) {
         ASSERT_TRUE(at != near.end() && at->first == found.pairs[k]);
         EXPECT_EQ(found.distance[k], at->second);
       }
-      const CrowdPenetrations apart = crowd.penetrations(set, in->agents());
+      const bch::Crowd::Penetrations apart = crowd.penetrations(set, in->agents());
       ASSERT_EQ(apart.pairs.size(), ways.size());
       for (std::size_t k = 0; k < ways.size(); ++k) {
         const auto at =
@@ -260,7 +259,7 @@ TEST(Crowd, RefusesPeriodsAndPairsThatDoNotFit) {
   });
   for (const double bad : {-0.1, 3e9, std::numeric_limits<double>::quiet_NaN()})
     expect_refused("candidates: expected a margin from 0 to 2e9 m",
-                   [&] { crowd.candidates(set, in.agents(), {.margin = bad}); });
+                   [&] { crowd.candidates(set, in.agents(), bad); });
 }
 
 /// Answers may not outlive the crowd that holds them.

@@ -110,11 +110,11 @@ class Determinism : public testing::TestWithParam<Grounds> {
     for (std::size_t i = 0; i < pairs.size(); i += batch)
       answer(isa, i, std::min(batch, pairs.size() - i), bytes);
     bch::Crowd collider;
-    const CrowdPairs colliding =
-        collider.collisions(set, crowd.agents(), {.leaves = Leaves::discs, .implementation = isa});
-    const Rows<Neighbour> all = colliding.by_agent();
+    const bch::Crowd::Pairs colliding =
+        collider.collisions(set, crowd.agents(), {.implementation = isa, .leaves = Leaves::discs});
+    const Rows<bch::Crowd::Neighbour> all = colliding.by_agent();
     std::vector<std::uint32_t> neighbours;
-    for (const Neighbour& neighbour : all.values) neighbours.push_back(neighbour.agent);
+    for (const bch::Crowd::Neighbour& neighbour : all.values) neighbours.push_back(neighbour.agent);
     bytes.add(AnswerBytes::neighbours, all.offsets);
     bytes.add(AnswerBytes::neighbours, neighbours);
     return bytes.hashes();
@@ -166,22 +166,22 @@ class Determinism : public testing::TestWithParam<Grounds> {
     bytes.add(AnswerBytes::nearest_points, points);
     bytes.add(AnswerBytes::distances_or_zero, values);
     clearance(set, agents, of, {values, directions, nodes, points},
-              {.implementation = isa, .max_distance = 1.5, .distance_leaves = Leaves::segments});
+              {.implementation = isa, .max_distance = 1.5, .leaves = Leaves::segments});
     bytes.add(AnswerBytes::exact_distances, values);
     bytes.add(AnswerBytes::exact_directions, directions);
     bytes.add(AnswerBytes::exact_nodes, nodes);
     bytes.add(AnswerBytes::exact_points, points);
     constexpr double personal_space = 0.1;
-    within(set, agents, of, {&personal_space, 1}, hits, {.implementation = isa});
+    within(set, agents, of, {&personal_space, 1}, hits, isa);
     bytes.add(AnswerBytes::within, hits);
     time_of_impact(set, agents, of, {std::span(x).subspan(begin, size), std::span(y).subspan(begin, size)},
-                   values, {.implementation = isa});
+                   values, isa);
     bytes.add(AnswerBytes::times, values);
     std::vector<Penetration> ways(size);
-    penetration(set, agents, of, 16, ways, {.implementation = isa});
+    penetration(set, agents, of, 16, ways, isa);
     add_depths(ways, bytes);
     bch::Crowd finder;
-    Rows<DiscPair> table = finder.contacts(set, agents, of, {.leaves = Leaves::discs, .implementation = isa});
+    Rows<DiscPair> table = finder.contacts(set, agents, of, {.implementation = isa, .leaves = Leaves::discs});
     for (std::size_t i = 0; i < size; ++i)
       bytes.add(AnswerBytes::contact_counts, std::vector{table.offsets[i + 1] - table.offsets[i]});
     bytes.add(AnswerBytes::contact_discs, table.values);

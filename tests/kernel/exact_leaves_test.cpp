@@ -5,6 +5,7 @@
 
 #include "baselines/oracle.hpp"
 #include "baselines/reference.hpp"
+#include "kernel/runtime/all_options.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/format/shape_arrays.hpp"
 #include "layout/format/shape_set_view.hpp"
@@ -25,7 +26,7 @@ using test::Random;
 using Scene = test::TouchingScene;
 
 std::vector<std::uint8_t> answers(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs,
-                                  QueryOptions options = {}) {
+                                  detail::AllOptions options = {}) {
   std::vector<std::uint8_t> hits(pairs.size(), 77);
   collide(set, agents, pairs, hits, options);
   return hits;

@@ -25,7 +25,7 @@ constexpr float never = std::numeric_limits<float>::infinity();
 /// Says how queries answer a pair whose heights do not meet.
 PairAnswers answers_apart(const Questions& of, std::size_t pair) {
   PairAnswers all{};
-  all.deepest = all.nearest = all.exact = {never, {0, 0}, no_discs, {}};
+  all.deepest = all.nearest = all.exact = {never, {0, 0}, DiscPair::none, {}};
   all.time = never;
   all.best = {0, of.pairs[pair].first <= of.pairs[pair].second ? 1.0 : -1.0, 0};
   const double x = of.directions[pair].x, y = of.directions[pair].y, length = std::sqrt(x * x + y * y);
@@ -128,7 +128,8 @@ TEST_F(AgentsWithHeights, AreFoundByACrowd) {
   EXPECT_EQ(test::sorted(finder.contacts(set, agents).pairs.span()), all_pairs([&](Pair pair) {
               return !finder.contacts(set, agents, {&pair, 1})[0].empty();
             }));
-  EXPECT_EQ(test::sorted(finder.clearances(set, agents, 0.25).pairs.span()), all_pairs([&](Pair pair) {
+  EXPECT_EQ(test::sorted(finder.clearances(set, agents, {.max_distance = 0.25}).pairs.span()),
+            all_pairs([&](Pair pair) {
               float distance = 0;
               clearance(set, agents, {&pair, 1}, {{&distance, 1}});
               return distance <= 0.25f;

@@ -4,6 +4,7 @@
 #include "baselines/oracle.hpp"
 #include "baselines/penetration_reference.hpp"
 #include "layout/base/heading.hpp"
+#include "layout/hierarchy/paper_hierarchies.hpp"
 #include "tests/support/differential.hpp"
 #include "tests/support/penetrations.hpp"
 #include "tests/support/test.hpp"
@@ -206,7 +207,7 @@ class TwoDiscs : public testing::Test {
     scene.pairs = {{0, 1}};
   }
 
-  const std::vector<Shape> shapes = {{{}, fixed_cylinder(0.25f)}};
+  const std::vector<Shape> shapes = {{{}, detail::fixed_cylinder(0.25f)}};
   const ShapeSet set{shapes};
   PairScene scene;
 

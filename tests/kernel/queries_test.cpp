@@ -17,6 +17,7 @@
 #include <bch/crowd.hpp>
 
 #include "kernel/runtime/kernels.hpp"
+#include "layout/hierarchy/paper_hierarchies.hpp"
 #include "layout/shape_set/bvh8.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/crowd_pairs.hpp"
@@ -81,7 +82,7 @@ std::vector<Shape> of_unequal_sizes(Random& random) {
 /// which is far above most leaves.
 Shape comb(Random& random, std::uint32_t leaves) {
   Shape shape;
-  std::vector<HierarchyNode>& nodes = shape.hierarchy.nodes;
+  std::vector<Hierarchy::Node>& nodes = shape.hierarchy.nodes;
   shape.hierarchy.reach = 2;
   double x = 0, y = 0, turn = random.uniform(-3, 3);
   for (std::uint32_t i = 0; i < leaves; ++i) {
@@ -137,7 +138,7 @@ std::vector<Shape> beside_their_origin(Random& random) {
                             static_cast<float>(y + random.uniform(-0.1, 0.1))});
       triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
     }
-    shapes.push_back({{}, projected_hierarchy(vertices, triangles)});
+    shapes.push_back({{}, detail::projected_hierarchy(vertices, triangles)});
   }
   return shapes;
 }

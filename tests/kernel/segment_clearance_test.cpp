@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the bch authors
 
 #include "baselines/segment_clearance.hpp"
+#include "kernel/runtime/all_options.hpp"
 #include "layout/base/rounding.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/clearances.hpp"
@@ -29,7 +30,7 @@ struct Found : test::Answers {
   }
 };
 
-Found find(const ShapeSet& set, const PairScene& scene, QueryOptions options = {}) {
+Found find(const ShapeSet& set, const PairScene& scene, detail::AllOptions options = {}) {
   options.distance_leaves = Leaves::segments;
   Found found(scene.pairs.size());
   clearance(set, scene.crowd.agents(), scene.pairs,
@@ -84,7 +85,7 @@ void expect_distances_of_outlines(const std::vector<Shape>& shapes, const PairSc
                       most = 1.4e-6L * reach + detail::rounding::outline_grid_steps * steps + 0.9e-6L * exact;
     ASSERT_LE(exact - found.distance[i], most) << i;
     if (found.distance[i] == 0) {
-      EXPECT_EQ(found.discs[i], no_discs);
+      EXPECT_EQ(found.discs[i], DiscPair::none);
       EXPECT_EQ(found.direction[i], (Vec2{0, 0}));
       EXPECT_EQ(found.points[i], NearestPoints{});
       continue;

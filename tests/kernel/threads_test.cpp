@@ -68,7 +68,7 @@ struct Everything {
   std::vector<test::PairAnswers> of_pairs;
   std::vector<Pair> candidates;
   std::vector<std::uint64_t> begin;
-  std::vector<Neighbour> neighbours;
+  std::vector<bch::Crowd::Neighbour> neighbours;
   std::vector<std::uint32_t> obstacles;
   std::vector<float> from_walls;
 
@@ -77,7 +77,7 @@ struct Everything {
     const Agents agents = questions.crowd.agents();
     candidates = test::candidate_pairs(set, agents);
     bch::Crowd collider;
-    const Rows<Neighbour> all = collider.collisions(set, agents).by_agent();
+    const Rows<bch::Crowd::Neighbour> all = collider.collisions(set, agents).by_agent();
     begin.assign(all.offsets.begin(), all.offsets.end());
     neighbours.assign(all.values.begin(), all.values.end());
     static const ObstacleSet walls =
@@ -134,7 +134,7 @@ TEST_F(Threads, RowsOfNeighboursAreFilledAtTheSameTime) {
   for (std::uint32_t i = 0; i < 200; ++i)
     for (std::uint32_t j = i + 1; j < 200; ++j) pairs.push_back({i, j});
   std::vector<std::uint64_t> begin(201);
-  std::vector<Neighbour> neighbours(200 * 199);
+  std::vector<bch::Crowd::Neighbour> neighbours(200 * 199);
   const detail::NeighbourRows rows{pairs, begin, neighbours};
   const auto in_parts = [](std::size_t count, auto work) {
     std::vector<std::thread> running;
@@ -148,7 +148,7 @@ TEST_F(Threads, RowsOfNeighboursAreFilledAtTheSameTime) {
   in_parts(200, [&](std::size_t first, std::size_t last) { rows.sort(first, last); });
   for (std::uint32_t i = 0; i < 200; ++i)
     for (std::uint32_t k = 0; k < 199; ++k) {
-      const Neighbour& neighbour = neighbours[begin[i] + k];
+      const bch::Crowd::Neighbour& neighbour = neighbours[begin[i] + k];
       const Pair pair = pairs[neighbour.pair];
       ASSERT_EQ(neighbour.agent, k + (k >= i)) << i;
       ASSERT_TRUE(pair.first == std::min(i, neighbour.agent) && pair.second == std::max(i, neighbour.agent));

@@ -3,6 +3,7 @@
 
 #include "baselines/oracle.hpp"
 #include "baselines/time_of_impact_reference.hpp"
+#include "layout/hierarchy/paper_hierarchies.hpp"
 #include "tests/support/differential.hpp"
 #include "tests/support/test.hpp"
 
@@ -26,8 +27,7 @@ struct Motion : PairScene {
 std::vector<float> times(const ShapeSet& set, const Motion& motion,
                          const Implementation* implementation = nullptr) {
   std::vector<float> all(motion.pairs.size(), -1);
-  time_of_impact(set, motion.crowd.agents(), motion.pairs, motion.displacements(), all,
-                 {.implementation = implementation});
+  time_of_impact(set, motion.crowd.agents(), motion.pairs, motion.displacements(), all, implementation);
   return all;
 }
 
@@ -182,8 +182,8 @@ TEST_F(TimeOfImpactDifferential, IsNotLaterThanTheContactOfTheOutlines) {
       const auto [a, b] = motion.pairs[i];
       const baselines::Oracle oracle(shapes[agents.shape[a]].outline, shapes[agents.shape[b]].outline,
                                      baselines::exact_placement(agents, a, b));
-      const long double c = std::cos(static_cast<long double>(agents.heading[a])),
-                        s = std::sin(static_cast<long double>(agents.heading[a]));
+      const long double c = std::cos(static_cast<long double>(agents.heading.x()[a])),
+                        s = std::sin(static_cast<long double>(agents.heading.x()[a]));
       const long double x = motion.x[i], y = motion.y[i];
       const long double exact = oracle.time_of_impact(c * x + s * y, c * y - s * x);
       contacts += exact > 0 && exact <= 1;
@@ -229,7 +229,7 @@ TEST(TimeOfImpact, OfTipsIsThatOfTheOutlinesLessTheMargin) {
 }
 
 TEST(TimeOfImpact, OfSingleDiscs) {
-  const std::vector<Shape> shapes = {{{}, fixed_cylinder(0.25f)}};
+  const std::vector<Shape> shapes = {{{}, detail::fixed_cylinder(0.25f)}};
   for (const ShapeSetPlan& levels : {ShapeSetPlan{{0}}, ShapeSetPlan{}}) {
     const ShapeSet set(shapes, levels);
     Motion motion;

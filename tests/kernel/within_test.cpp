@@ -4,6 +4,7 @@
 #include <ostream>
 
 #include "baselines/oracle.hpp"
+#include "kernel/runtime/all_options.hpp"
 #include "kernel/simd/gaps.hpp"
 #include "tests/support/clearances.hpp"
 #include "tests/support/differential.hpp"
@@ -20,7 +21,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 using Hits = std::vector<std::uint8_t>;
 
 Hits hits_within(const ShapeSet& set, const PairScene& scene, std::span<const double> distances,
-                 const QueryOptions& options = {}) {
+                 const detail::AllOptions& options = {}) {
   Hits hits(scene.pairs.size());
   within(set, scene.crowd.agents(), scene.pairs, distances, hits, options);
   return hits;

@@ -21,11 +21,11 @@ struct Manual {
 };
 
 const Manual manuals[] = {
-    {"Unity", unity_axes, {0, 0, 1}, {-1, 0, 0}, {0, 1, 0}, 1, -90},
-    {"Unreal", unreal_axes, {1, 0, 0}, {0, -1, 0}, {0, 0, 1}, 0.01, -90},
-    {"glTF", gltf_axes, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, 1, std::numbers::pi / 2},
-    {"Godot", godot_axes, {0, 0, -1}, {-1, 0, 0}, {0, 1, 0}, 1, std::numbers::pi / 2},
-    {"ROS", ros_axes, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 1, std::numbers::pi / 2},
+    {"Unity", AxisSystem::unity, {0, 0, 1}, {-1, 0, 0}, {0, 1, 0}, 1, -90},
+    {"Unreal", AxisSystem::unreal, {1, 0, 0}, {0, -1, 0}, {0, 0, 1}, 0.01, -90},
+    {"glTF", AxisSystem::gltf, {0, 0, 1}, {1, 0, 0}, {0, 1, 0}, 1, std::numbers::pi / 2},
+    {"Godot", AxisSystem::godot, {0, 0, -1}, {-1, 0, 0}, {0, 1, 0}, 1, std::numbers::pi / 2},
+    {"ROS", AxisSystem::ros, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, 1, std::numbers::pi / 2},
 };
 
 /// The way from our axes to a program's.

@@ -4,6 +4,7 @@
 #include <ostream>
 
 #include "layout/format/shape_validation.hpp"
+#include "layout/hierarchy/paper_hierarchies.hpp"
 #include "layout/shape_set/shape_storage.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/crowd_pairs.hpp"
@@ -209,7 +210,7 @@ TEST(DynamicShapeSet, RejectsOtherPlansAndShapesThatAreNotThere) {
   EXPECT_THROW(dynamic.replace(0, flat(shapes[0], {{all_depths}, true})), std::invalid_argument);
   EXPECT_THROW(dynamic.try_replace(0, flat(shapes[0], {{0, all_depths}, true, false})),
                std::invalid_argument);
-  DynamicShapeSet discs(ShapeSet(std::vector<Shape>{{{}, fixed_cylinder(1)}}));
+  DynamicShapeSet discs(ShapeSet(std::vector<Shape>{{{}, detail::fixed_cylinder(1)}}));
   EXPECT_THROW(discs.replace(0, flat(shapes[0], {})), std::invalid_argument);
 }
 

@@ -26,6 +26,32 @@ TEST(Heading, IsWithinItsBoundsEverywhere) {
   }
 }
 
+/// Directions of any length that queries take become unit vectors.
+TEST(Heading, DirectionsAreWithinTheirBounds) {
+  test::Random random(8);
+  double most = 0;
+  for (int i = 0; i < 300'000; ++i) {
+    const double angle = random.uniform(-4, 4), length = i % 3 == 0   ? 0.999 + 1e-15
+                                                         : i % 3 == 1 ? 1.001 - 1e-15
+                                                                      : random.uniform(0.999, 1.001);
+    const double x = length * std::cos(angle), y = length * std::sin(angle);
+    if (!detail::is_unit(x, y)) continue;
+    const auto wide_x = static_cast<long double>(x), wide_y = static_cast<long double>(y);
+    const long double exact_length = std::sqrt(wide_x * wide_x + wide_y * wide_y);
+    const detail::Rotation unit = detail::rotation(Headings::Value{x, y, true});
+    const auto off = [&](double part, long double exact) {
+      return static_cast<double>(std::abs(static_cast<long double>(part) - exact));
+    };
+    most = std::max({most, off(unit.cosine, wide_x / exact_length), off(unit.sine, wide_y / exact_length)});
+  }
+  EXPECT_LE(most, 4e-12);
+  EXPECT_GE(most, 3e-12);
+  EXPECT_FALSE(detail::is_unit(0.9989, 0));
+  EXPECT_FALSE(detail::is_unit(0, 1.0011));
+  EXPECT_FALSE(detail::is_unit(0, 0));
+  EXPECT_FALSE(detail::is_unit(std::numeric_limits<double>::quiet_NaN(), 1));
+}
+
 /// Where nothing is reduced: what the polynomials leave out, and the rounding of doubles.
 TEST(Heading, PolynomialsAreWithinTheTermsTheyLeaveOut) {
   for (int i = -1000; i <= 1000; ++i) {

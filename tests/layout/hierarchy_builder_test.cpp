@@ -5,6 +5,7 @@
 
 #include "layout/base/rounding.hpp"
 #include "layout/culling/supports.hpp"
+#include "layout/hierarchy/paper_hierarchies.hpp"
 #include "layout/shape_set/bvh8.hpp"
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/character_shapes.hpp"
@@ -19,7 +20,7 @@ namespace {
 void expect_as_reference(const Outline& outline, float threshold) {
   detail::HierarchyBuilder builder;
   Hierarchy hierarchy;
-  for (const SplitRule rule : {SplitRule::centroid, SplitRule::centre}) {
+  for (const detail::SplitRule rule : {detail::SplitRule::centroid, detail::SplitRule::centre}) {
     builder.contour(outline, threshold, rule, hierarchy);
     builder.add_primitives(hierarchy);
     test::expect_same_tree(hierarchy, test::reference_hierarchy(outline, threshold, rule));
@@ -95,13 +96,13 @@ TEST(HierarchyBuilder, EndsAtTheDeepestDepth) {
   };
   for (const Shape& shape : test::synthetic_shapes(36, 60))
     for (const float threshold : {0.0005f, 0.01f}) {
-      builder.contour(shape.outline, threshold, SplitRule::centroid, whole);
-      for (std::uint32_t deepest = 0; deepest < height(whole) + 2; ++deepest) {
-        builder.contour(shape.outline, threshold, SplitRule::centroid, limited, deepest);
+      builder.contour(shape.outline, threshold, detail::SplitRule::centroid, whole);
+      for (std::uint32_t deepest = 0; deepest < detail::height(whole) + 2; ++deepest) {
+        builder.contour(shape.outline, threshold, detail::SplitRule::centroid, limited, deepest);
         EXPECT_TRUE(limited.primitives.empty());
         builder.add_primitives(limited);
         test::expect_sound(limited);
-        EXPECT_EQ(height(limited), std::min(deepest, height(whole)));
+        EXPECT_EQ(detail::height(limited), std::min(deepest, detail::height(whole)));
         EXPECT_EQ(limited.reach, whole.reach);
         for (std::uint32_t depth = 0; depth <= deepest; ++depth)
           ASSERT_EQ(discs(limited, depth), discs(whole, depth)) << depth << " of " << deepest;
@@ -113,17 +114,17 @@ TEST(HierarchyBuilder, LeavesNothingHalfDone) {
   detail::HierarchyBuilder builder;
   Hierarchy hierarchy;
   const Outline outline = test::synthetic_shapes(33, 1)[0].outline;
-  builder.contour(outline, 0.01f, SplitRule::centroid, hierarchy);
+  builder.contour(outline, 0.01f, detail::SplitRule::centroid, hierarchy);
   builder.add_primitives(hierarchy);
-  EXPECT_THROW(builder.contour(outline, 1e-8f, SplitRule::centroid, hierarchy), std::length_error);
+  EXPECT_THROW(builder.contour(outline, 1e-8f, detail::SplitRule::centroid, hierarchy), std::length_error);
   EXPECT_TRUE(hierarchy.nodes.empty());
   EXPECT_TRUE(hierarchy.primitives.empty());
-  builder.contour(outline, 0.01f, SplitRule::centroid, hierarchy);
+  builder.contour(outline, 0.01f, detail::SplitRule::centroid, hierarchy);
   builder.add_primitives(hierarchy);
-  test::expect_same_tree(hierarchy, test::reference_hierarchy(outline, 0.01f, SplitRule::centroid));
-  EXPECT_THROW(
-      builder.contour(outline, std::numeric_limits<float>::quiet_NaN(), SplitRule::centroid, hierarchy),
-      std::invalid_argument);
+  test::expect_same_tree(hierarchy, test::reference_hierarchy(outline, 0.01f, detail::SplitRule::centroid));
+  EXPECT_THROW(builder.contour(outline, std::numeric_limits<float>::quiet_NaN(), detail::SplitRule::centroid,
+                               hierarchy),
+               std::invalid_argument);
   EXPECT_TRUE(hierarchy.nodes.empty());
 }
 
@@ -138,7 +139,7 @@ TEST(HierarchyBuilder, ReusesItsMemory) {
   for (int round = 0; round < 2; ++round) {
     before = test::allocation_count();
     for (const Shape& shape : shapes) {
-      builder.contour(shape.outline, 0.01f, SplitRule::centroid, hierarchy);
+      builder.contour(shape.outline, 0.01f, detail::SplitRule::centroid, hierarchy);
       flattener.begin(hierarchy);
       for (const std::uint32_t depth : {0u, 3u, 6u, all_depths}) {
         flattener.flatten(depth, tree);

@@ -4,6 +4,7 @@
 #include "layout/base/rounding.hpp"
 #include "layout/enclosing_disc/enclosing_disc.hpp"
 #include "layout/hierarchy/builder.hpp"
+#include "layout/hierarchy/paper_hierarchies.hpp"
 #include "tests/support/hierarchy_checks.hpp"
 #include "tests/support/test.hpp"
 
@@ -14,7 +15,7 @@ using test::polygon;
 
 TEST(ContourHierarchy, KeepsItsPromisesOnManyShapes) {
   for (const Shape& shape : test::synthetic_shapes(11, 80))
-    for (const SplitRule rule : {SplitRule::centroid, SplitRule::centre}) {
+    for (const detail::SplitRule rule : {detail::SplitRule::centroid, detail::SplitRule::centre}) {
       const Hierarchy hierarchy = contour_hierarchy(shape.outline, 0.02f, rule);
       test::expect_sound(hierarchy);
       test::expect_covers_outline(hierarchy, shape.outline);
@@ -41,8 +42,8 @@ TEST(ContourHierarchy, SplitRulesDivideWhereTheySay) {
       polygon({{0, 0}, {4, 0}, {4, 0.25f}, {3.75f, 0.25f}, {3.5f, 0.25f}, {3.25f, 0.25f}});
   // Midpoints: 2, 4, 3.875, 3.625, 3.375, 1.625; lengths 4, .25, .25, .25, .25, 3.26. Centroid 2.04, middle
   // of the extent 2.
-  const Hierarchy centroid = contour_hierarchy(outline, 0.1f, SplitRule::centroid);
-  const Hierarchy centre = contour_hierarchy(outline, 0.1f, SplitRule::centre);
+  const Hierarchy centroid = contour_hierarchy(outline, 0.1f, detail::SplitRule::centroid);
+  const Hierarchy centre = contour_hierarchy(outline, 0.1f, detail::SplitRule::centre);
   const auto left_sources = [](const Hierarchy& h) {
     std::vector<std::uint32_t> sources(h.source.begin() + h.primitive_ranges[1].begin,
                                        h.source.begin() + h.primitive_ranges[1].end);
@@ -77,7 +78,7 @@ TEST(ContourHierarchy, DividesSegmentsWithOneMidpoint) {
 
 TEST(ContourHierarchy, CutsGrowDownToTheLeaves) {
   const Shape shape = test::synthetic_shapes(13, 8).back();
-  const std::uint32_t deepest = height(shape.hierarchy);
+  const std::uint32_t deepest = detail::height(shape.hierarchy);
   EXPECT_EQ(cut(shape.hierarchy, 0), std::vector<std::uint32_t>{0});
   EXPECT_EQ(cut(shape.hierarchy, 1).size(), 2u);
   std::size_t before = 1;
@@ -99,7 +100,7 @@ TEST(ContourHierarchy, RejectsBadInput) {
   EXPECT_THROW(contour_hierarchy(polygon({{0, 0}, {nan, 0}, {0, 1}}), 0.01f), std::invalid_argument);
   EXPECT_THROW(contour_hierarchy(polygon({{0, 0}, {1e-8f, 0}, {0, 0}}), 0.01f), std::invalid_argument);
   EXPECT_THROW(contour_hierarchy(polygon({{0, 0}, {2e6f, 0}, {0, 1}}), 1e3f), std::invalid_argument);
-  EXPECT_THROW(contour_hierarchy(good, 0.01f, static_cast<SplitRule>(2)), std::invalid_argument);
+  EXPECT_THROW(contour_hierarchy(good, 0.01f, static_cast<detail::SplitRule>(2)), std::invalid_argument);
 }
 
 /// Coordinates are multiples of it, so none is larger than the shape.
@@ -127,7 +128,7 @@ TEST(ProjectedHierarchy, HasOneLeafATriangle) {
     triangles.push_back({random.below(120), random.below(120), random.below(120)});
   triangles.push_back(triangles[0]);
   triangles.push_back({5, 5, 5});
-  const Hierarchy hierarchy = projected_hierarchy(vertices, triangles);
+  const Hierarchy hierarchy = detail::projected_hierarchy(vertices, triangles);
   test::expect_sound(hierarchy);
   EXPECT_EQ(cut(hierarchy, all_depths).size(), triangles.size());
   std::vector<std::uint32_t> sources = hierarchy.source;
@@ -136,21 +137,21 @@ TEST(ProjectedHierarchy, HasOneLeafATriangle) {
   for (std::size_t i = 0; i < hierarchy.primitives.size(); ++i)
     EXPECT_EQ(hierarchy.primitives[i].b, vertices[triangles[hierarchy.source[i]][1]]);
 
-  EXPECT_THROW(projected_hierarchy(vertices, {}), std::invalid_argument);
+  EXPECT_THROW(detail::projected_hierarchy(vertices, {}), std::invalid_argument);
   triangles[3][1] = 120;
-  EXPECT_THROW(projected_hierarchy(vertices, triangles), std::invalid_argument);
+  EXPECT_THROW(detail::projected_hierarchy(vertices, triangles), std::invalid_argument);
   triangles[3][1] = 0;
   vertices[60].y = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_THROW(projected_hierarchy(vertices, triangles), std::invalid_argument);
+  EXPECT_THROW(detail::projected_hierarchy(vertices, triangles), std::invalid_argument);
 }
 
 TEST(ProjectedHierarchy, CountsVerticesOfTrianglesAlone) {
   std::vector<Vec2> vertices = {{0.5f, 0}, {0, 1}, {-1, 0}};
   const std::vector<std::array<std::uint32_t, 3>> triangles = {{0, 1, 2}};
-  const Hierarchy expected = projected_hierarchy(vertices, triangles);
+  const Hierarchy expected = detail::projected_hierarchy(vertices, triangles);
   vertices.push_back({1e5f, 3e8f});
   vertices.push_back({std::numeric_limits<float>::infinity(), 0});
-  const Hierarchy hierarchy = projected_hierarchy(vertices, triangles);
+  const Hierarchy hierarchy = detail::projected_hierarchy(vertices, triangles);
   EXPECT_EQ(hierarchy.reach, expected.reach);
   EXPECT_EQ(hierarchy.nodes[0].disc, expected.nodes[0].disc);
 }
@@ -158,7 +159,7 @@ TEST(ProjectedHierarchy, CountsVerticesOfTrianglesAlone) {
 TEST(Hierarchy, IsCheckedNodeByNode) {
   const Hierarchy good = contour_hierarchy(test::polygon({{-0.3f, 0}, {0.3f, 0}, {0, 0.4f}}), 0.01f);
   EXPECT_NO_THROW(validate(good));
-  EXPECT_NO_THROW(validate(fixed_cylinder(0.3f)));
+  EXPECT_NO_THROW(validate(detail::fixed_cylinder(0.3f)));
   const auto expect_rejected = [&](const char* what, auto change) {
     Hierarchy bad = good;
     change(bad);
@@ -178,13 +179,13 @@ TEST(Hierarchy, IsCheckedNodeByNode) {
 }
 
 TEST(FixedCylinder, IsOneDiscAboutTheAgent) {
-  const Hierarchy cylinder = fixed_cylinder(0.4f);
+  const Hierarchy cylinder = detail::fixed_cylinder(0.4f);
   ASSERT_EQ(cylinder.nodes.size(), 1u);
   EXPECT_EQ(cylinder.nodes[0].disc.x, 0);
   EXPECT_GE(cylinder.nodes[0].disc.radius, 0.4f);
   EXPECT_NEAR(cylinder.nodes[0].disc.radius, 0.4f, 1e-6);
   for (const float radius : {0.0f, -0.1f, std::numeric_limits<float>::quiet_NaN(), 1e7f})
-    EXPECT_THROW(fixed_cylinder(radius), std::invalid_argument);
+    EXPECT_THROW(detail::fixed_cylinder(radius), std::invalid_argument);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the bch authors
 
 #include "layout/hierarchy/builder.hpp"
+#include "layout/hierarchy/paper_hierarchies.hpp"
 #include "layout/outline/extreme_vertices.hpp"
 #include "tests/support/outline_checks.hpp"
 #include "tests/support/test.hpp"
@@ -202,7 +203,7 @@ TEST(ExtremeVertices, DecideTheDiscAroundTheOutline) {
     OutlineBuilder outlines(soup.triangles, soup.positions.size());
     outlines.build(soup.positions, outline);
     EXPECT_EQ(extremes.grid_step(), outline.grid_step);
-    builder.contour(outline, 0.01f, SplitRule::centroid, expected, 0);
+    builder.contour(outline, 0.01f, detail::SplitRule::centroid, expected, 0);
     builder.root(extremes.points(), extremes.grid_step(), root);
     ASSERT_EQ(root.nodes.size(), 1u);
     EXPECT_EQ(root.reach, expected.reach);

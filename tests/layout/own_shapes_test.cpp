@@ -3,6 +3,7 @@
 
 #include "layout/base/rounding.hpp"
 #include "layout/hierarchy/discs.hpp"
+#include "layout/hierarchy/paper_hierarchies.hpp"
 #include "tests/support/plane_geometry.hpp"
 #include "tests/support/test.hpp"
 
@@ -45,7 +46,7 @@ TEST(ShapeFromDiscs, KeepsDiscsInTheirOrderAndEnlargesThemByRoundingAlone) {
       EXPECT_GT(leaf.radius, discs[i].radius);
       EXPECT_LT(leaf.radius, double{discs[i].radius} + 1.8e-6 * hierarchy.reach);
     }
-    EXPECT_LE(height(hierarchy), count == 1 ? 0 : count - 1);
+    EXPECT_LE(detail::height(hierarchy), count == 1 ? 0 : count - 1);
     EXPECT_EQ(ShapeSet({{shape_from_discs(discs)}}).discs(0, 0).size(), discs.size());
   }
 }
@@ -102,7 +103,7 @@ TEST(ShapeFromDiscs, QueriesAreThoseOfAllPairsOfDiscs) {
   for (std::size_t k = 0; k < scene.pairs.size(); ++k) {
     const auto [a, b] = scene.pairs[k];
     const auto centre = [&](std::uint32_t agent, const Disc& disc) {
-      const double c = std::cos(agents.heading[agent]), s = std::sin(agents.heading[agent]);
+      const double c = std::cos(agents.heading.x()[agent]), s = std::sin(agents.heading.x()[agent]);
       const double x = disc.x, y = disc.y;
       return std::pair(agents.x[agent] + c * x - s * y, agents.y[agent] + s * x + c * y);
     };
@@ -230,7 +231,7 @@ TEST(ShapeFromCapsules, CollideAsTheyDo) {
   for (std::size_t k = 0; k < scene.pairs.size(); ++k) {
     const std::uint32_t a = scene.pairs[k].first, b = scene.pairs[k].second;
     const auto placed = [&](std::uint32_t agent, const Vec2& point) {
-      const double c = std::cos(agents.heading[agent]), s = std::sin(agents.heading[agent]);
+      const double c = std::cos(agents.heading.x()[agent]), s = std::sin(agents.heading.x()[agent]);
       const double x = point.x, y = point.y;
       // About the first agent, so that float holds it.
       return Vec2{static_cast<float>(agents.x[agent] - agents.x[a] + c * x - s * y),

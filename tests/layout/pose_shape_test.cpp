@@ -16,7 +16,7 @@ void expect_equal(const Shape& shape, const Shape& expected) {
   EXPECT_EQ(shape.outline.grid_step, expected.outline.grid_step);
   ASSERT_EQ(shape.hierarchy.nodes.size(), expected.hierarchy.nodes.size());
   for (std::size_t i = 0; i < expected.hierarchy.nodes.size(); ++i) {
-    const HierarchyNode &node = shape.hierarchy.nodes[i], &other = expected.hierarchy.nodes[i];
+    const Hierarchy::Node &node = shape.hierarchy.nodes[i], &other = expected.hierarchy.nodes[i];
     ASSERT_EQ(node.disc, other.disc) << i;
     ASSERT_EQ(node.second_child, other.second_child) << i;
   }

@@ -16,8 +16,8 @@ std::uint32_t depth_at(double metres) {
 }
 
 /// Agents in a few poses of a clip, up to 30 m away.
-std::vector<SceneAgent> walkers(std::uint32_t count, test::Random& random) {
-  std::vector<SceneAgent> agents;
+std::vector<ScenePlan::Agent> walkers(std::uint32_t count, test::Random& random) {
+  std::vector<ScenePlan::Agent> agents;
   for (std::uint32_t i = 0; i < count; ++i)
     agents.push_back(
         {{random.below(2), {0, 0.125f * static_cast<float>(random.below(6))}}, random.uniform(0, 30)});
@@ -26,7 +26,7 @@ std::vector<SceneAgent> walkers(std::uint32_t count, test::Random& random) {
 
 TEST(ScenePlan, NamesEveryShapeOnce) {
   test::Random random(91);
-  const std::vector<SceneAgent> agents = walkers(300, random);
+  const std::vector<ScenePlan::Agent> agents = walkers(300, random);
   const ScenePlan plan = plan_scene(agents);
   EXPECT_EQ(plan.shapes.size(), 12u);
   ASSERT_EQ(plan.agent_shape.size(), 300u);
@@ -39,7 +39,7 @@ TEST(ScenePlan, NamesEveryShapeOnce) {
 }
 
 TEST(ScenePlan, SharesShapesWithinThePoseStep) {
-  std::vector<SceneAgent> agents;
+  std::vector<ScenePlan::Agent> agents;
   for (int i = 0; i < 1000; ++i) agents.push_back({{0, {0, 0.01f * static_cast<float>(i)}}, 0});
   EXPECT_EQ(plan_scene(agents).shapes.size(), 1000u);
   const ScenePlan plan = plan_scene(agents, {.pose_step = 0.5f});
@@ -52,7 +52,7 @@ TEST(ScenePlan, SharesShapesWithinThePoseStep) {
 }
 
 TEST(ScenePlan, DepthFollowsTheDensity) {
-  std::vector<SceneAgent> agents;
+  std::vector<ScenePlan::Agent> agents;
   for (const double density : {0.5, 1.2, 2.7, 5.0}) agents.push_back({{0, {}}, 7, density});
   const ScenePlan plan = plan_scene(agents, {.density_depth = depth_at_density});
   EXPECT_EQ(plan.set.depths, (std::vector<std::uint32_t>{0, 3, 6, all_depths}));
@@ -94,7 +94,8 @@ TEST(ScenePlan, NamesTimesThatClipsHave) {
     for (std::uint32_t clip = 0; clip < character.clips.size(); ++clip) {
       const float end = character.clips[clip].seconds;
       for (const float at : {end, std::nextafter(end, 0.0f), end - 0.01f}) {
-        const ScenePlan plan = plan_scene(std::vector<SceneAgent>{{{0, {clip, at}}, 0}}, {.pose_step = step});
+        const ScenePlan plan =
+            plan_scene(std::vector<ScenePlan::Agent>{{{0, {clip, at}}, 0}}, {.pose_step = step});
         EXPECT_NO_THROW(skinner.pose(plan.shapes[0].at)) << character.clips[clip].name << ' ' << at;
       }
     }
@@ -102,14 +103,14 @@ TEST(ScenePlan, NamesTimesThatClipsHave) {
 
 /// The rest pose has no time.
 TEST(ScenePlan, SharesTheRestPose) {
-  std::vector<SceneAgent> agents;
+  std::vector<ScenePlan::Agent> agents;
   for (int i = 0; i < 100; ++i) agents.push_back({{0, {PoseTime::rest, 0.1f * static_cast<float>(i)}}, 0});
   EXPECT_EQ(plan_scene(agents).shapes.size(), 1u);
 }
 
 TEST(ScenePlan, HasTheDepthsThatAgentsAskFor) {
   test::Random random(92);
-  const std::vector<SceneAgent> agents = walkers(300, random);
+  const std::vector<ScenePlan::Agent> agents = walkers(300, random);
   const ScenePlan plan = plan_scene(agents, {.depth = depth_at});
   EXPECT_EQ(plan.set.depths, (std::vector<std::uint32_t>{0, 3, 6, all_depths}));
   for (std::size_t i = 0; i < agents.size(); ++i)
@@ -131,7 +132,7 @@ TEST(ScenePlan, HasTheShortcutsThatPay) {
 /// A set by the plan answers like one with everything.
 TEST(ScenePlan, ChangesNoAnswer) {
   test::Random random(93);
-  const std::vector<SceneAgent> agents = walkers(400, random);
+  const std::vector<ScenePlan::Agent> agents = walkers(400, random);
   const std::vector<Character> characters = test::default_characters();
   std::vector<PoseShaper> shapers(characters.begin(), characters.end());
   std::vector<double> x, y, heading;
@@ -160,14 +161,16 @@ TEST(ScenePlan, ChangesNoAnswer) {
 }
 
 TEST(ScenePlan, RejectsWhatIsNoNumber) {
-  const auto plan = [](const SceneAgent& agent) { return plan_scene(std::vector<SceneAgent>{{}, agent}); };
+  const auto plan = [](const ScenePlan::Agent& agent) {
+    return plan_scene(std::vector<ScenePlan::Agent>{{}, agent});
+  };
   EXPECT_THROW(plan({{}, -1}), std::invalid_argument);
   EXPECT_THROW(plan({{}, std::numeric_limits<double>::infinity()}), std::invalid_argument);
   EXPECT_THROW(plan({{0, {0, nan}}, 0}), std::invalid_argument);
   EXPECT_THROW(plan_scene({}, {.pose_step = -1}), std::invalid_argument);
   EXPECT_THROW(plan_scene({}, {.pose_step = nan}), std::invalid_argument);
   EXPECT_THROW(plan_scene({}, {.pairs_per_shape = static_cast<double>(nan)}), std::invalid_argument);
-  const std::vector<SceneAgent> many(300);
+  const std::vector<ScenePlan::Agent> many(300);
   std::uint32_t next = 0;
   EXPECT_THROW(plan_scene(many, {.depth = [&](double) { return next++; }}), std::invalid_argument);
 }

@@ -3,6 +3,7 @@
 
 #include "layout/format/cut_discs.hpp"
 #include "layout/format/leaf_segments.hpp"
+#include "layout/hierarchy/paper_hierarchies.hpp"
 #include "layout/hierarchy/subtrees.hpp"
 #include "layout/shape_set/bvh8.hpp"
 #include "tests/support/baked_bytes.hpp"
@@ -82,7 +83,7 @@ void expect_same_discs(std::vector<Disc> reached, const Hierarchy& hierarchy, st
 
 TEST(Bvh8, HoldsTheCutAndNothingElse) {
   for (const Shape& shape : test::synthetic_shapes(21, 32))
-    for (std::uint32_t depth = 0; depth <= height(shape.hierarchy) + 1; ++depth) {
+    for (std::uint32_t depth = 0; depth <= detail::height(shape.hierarchy) + 1; ++depth) {
       const detail::Bvh8 tree = detail::bvh8(shape.hierarchy, depth);
       const Walk walk(tree);
       EXPECT_EQ(tree.is_single(), walk.discs.size() == 1);
@@ -94,9 +95,9 @@ TEST(Bvh8, HoldsTheCutAndNothingElse) {
 /// Every way up from a disc of the cut is that of the hierarchy.
 TEST(Bvh8, LinksLeadToTheRoot) {
   for (const Shape& shape : test::synthetic_shapes(22, 32))
-    for (std::uint32_t depth = 0; depth <= height(shape.hierarchy) + 1; ++depth) {
+    for (std::uint32_t depth = 0; depth <= detail::height(shape.hierarchy) + 1; ++depth) {
       const detail::Bvh8 tree = detail::bvh8(shape.hierarchy, depth);
-      const std::vector<HierarchyNode>& nodes = shape.hierarchy.nodes;
+      const std::vector<Hierarchy::Node>& nodes = shape.hierarchy.nodes;
       const std::vector<std::uint32_t> discs = cut(shape.hierarchy, depth),
                                        ends = detail::subtree_ends(nodes);
       ASSERT_EQ(tree.inner.size(), discs.size());
@@ -119,14 +120,14 @@ Hierarchy comb(std::uint32_t leaves) {
   hierarchy.reach = leaves * 0.01;
   for (std::uint32_t i = 0; i + 1 < leaves; ++i) {
     const float x = 0.01f * static_cast<float>(i);
-    HierarchyNode inner, leaf;
+    Hierarchy::Node inner, leaf;
     inner.disc = {x, 0, 1 + 0.01f * static_cast<float>(leaves)};
     inner.second_child = static_cast<std::uint32_t>(hierarchy.nodes.size()) + 2;
     leaf.disc = {x, 0, 0.02f};
     hierarchy.nodes.push_back(inner);
     hierarchy.nodes.push_back(leaf);
   }
-  HierarchyNode last;
+  Hierarchy::Node last;
   last.disc = {0.01f * static_cast<float>(leaves), 0, 0.02f};
   hierarchy.nodes.push_back(last);
   return hierarchy;
@@ -168,7 +169,7 @@ TEST(ShapeSet, BuildsOnlyWhatThePlanNames) {
   EXPECT_LT(bytes({3}, false), bytes({6}, false));
   EXPECT_LT(bytes({6}, false), bytes({all_depths}, false));
   EXPECT_LT(bytes({all_depths}, false), bytes({all_depths}, true));
-  EXPECT_TRUE(ShapeSet(std::vector<Shape>{{{}, fixed_cylinder(1)}}).roots_only());
+  EXPECT_TRUE(ShapeSet(std::vector<Shape>{{{}, detail::fixed_cylinder(1)}}).roots_only());
 }
 
 TEST(ShapeSet, IsTheSameHoweverManyShapesWereExpected) {
@@ -276,7 +277,7 @@ TEST(ShapeSetDiscs, RejectIndicesOutOfRange) {
 
 /// A single disc reaches as far as it is large, about wherever it is.
 TEST(ShapeSetDiscs, ReachHoldsTheShape) {
-  const float radius = ShapeSet(std::vector<Shape>{{{}, fixed_cylinder(0.5f)}}).bounding_radius(0);
+  const float radius = ShapeSet(std::vector<Shape>{{{}, detail::fixed_cylinder(0.5f)}}).bounding_radius(0);
   EXPECT_GE(radius, 0.5f);
   EXPECT_LT(radius, 0.50001f);
 }

@@ -3,6 +3,7 @@
 
 #include "layout/shape_set/verify.hpp"
 #include "layout/format/shape_validation.hpp"
+#include "layout/hierarchy/paper_hierarchies.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/damaged_arrays.hpp"
 #include "tests/support/test.hpp"
@@ -44,7 +45,7 @@ TEST(Verify, FindsNothingInCharacters) {
 TEST(Verify, FindsNothingInShapesWithoutOutlines) {
   std::vector<Shape> shapes = synthetic_shapes(92, 40);
   for (Shape& shape : shapes) shape.outline = {};
-  shapes.push_back({{}, fixed_cylinder(0.25f)});
+  shapes.push_back({{}, detail::fixed_cylinder(0.25f)});
   for (const ShapeSetPlan& plan : plans)
     if (!plan.outlines) expect_nothing(ShapeSet(shapes, plan));
 }
@@ -158,7 +159,7 @@ TEST(Verify, SaysNoMoreThanItIsAskedFor) {
 }
 
 TEST(Verify, LooksAtRootsWithoutTrees) {
-  const std::vector<Shape> shapes = {{{}, fixed_cylinder(0.25f)}};
+  const std::vector<Shape> shapes = {{{}, detail::fixed_cylinder(0.25f)}};
   BakedBytes bytes(ShapeSet(shapes, {.depths = {0, 2}}), origins_of(1));
   bytes.section<detail::Root>(Section::roots)[1].radius = 0.3f;
   bytes.seal();

@@ -60,6 +60,15 @@ class Pairs(unittest.TestCase):
         self.near(found.points[1:, :, 0], [(0.5, -0.5)] * 2)
         self.assertTrue((found.discs[1:] < 2**32 - 1).all())
 
+    def test_directions(self):
+        directions = np.stack([np.cos(LINE.heading), np.sin(LINE.heading)], 1)
+        agents = bch.Agents(LINE.shape, LINE.x, LINE.y, directions)
+        self.assertEqual(bch.collide(SHAPES, agents, PAIRS).tolist(), [True, False, False])
+        self.near(bch.clearance(SHAPES, agents, PAIRS), [0, 1.1, 2], 0.03)
+        directions *= 1.1
+        with self.assertRaisesRegex(ValueError, "agent 0: heading .* is no direction"):
+            bch.collide(SHAPES, agents, PAIRS)
+
     def test_penetration(self):
         depths = bch.penetration(SHAPES, LINE, PAIRS, 16)
         self.near([depths[part][0] for part in ("depth", "x", "y")], [0.1, -1, 0], 0.03)

@@ -10,13 +10,14 @@
 #include <bch/pairs.hpp>
 #include <bch/shapes.hpp>
 
+#include "kernel/runtime/all_options.hpp"
 #include "layout/shape_set/flat_shape.hpp"
 
 namespace bch::test {
 namespace {
 
 /// A wall, and a pillar on it.
-void ask_all_of_obstacles(const ShapeSet& set, const Agents& agents, const QueryOptions& options) {
+void ask_all_of_obstacles(const ShapeSet& set, const Agents& agents, const detail::AllOptions& options) {
   const ObstacleSet obstacles =
       obstacles_from_wkt("LINESTRING(-9 0.1, 9 0.2) POLYGON((-1 -1, 1 -1, 1 1, -1 1))");
   std::vector<std::uint8_t> hits(agents.size());
@@ -26,16 +27,15 @@ void ask_all_of_obstacles(const ShapeSet& set, const Agents& agents, const Query
   std::vector<DiscPair> discs(agents.size());
   const std::vector<double> way(agents.size(), 0.5);
   collide(set, agents, obstacles, hits, options);
-  within(set, agents, obstacles, way, hits, options);
+  within(set, agents, obstacles, way, hits, options.distance_leaves, options.implementation);
   clearance(set, agents, obstacles, {values, directions, discs}, options);
-  QueryOptions of_outlines = options;
+  detail::AllOptions of_outlines = options;
   of_outlines.distance_leaves = Leaves::segments;
   clearance(set, agents, obstacles, {values, directions, discs}, of_outlines);
   penetration(set, agents, obstacles, ways, options);
   time_of_impact(set, agents, {way, way}, obstacles, values, options);
   bch::Crowd crowd;
-  crowd.obstacles(set, agents, obstacles,
-                  {.leaves = options.leaves, .implementation = options.implementation});
+  crowd.obstacles(set, agents, obstacles, options);
 }
 
 }  // namespace
@@ -48,20 +48,20 @@ void ask_all(const ShapeSet& set, const Agents& agents, std::span<const Pair> pa
   crowd.collisions(set, agents, {.implementation = &implementation}).by_agent();
   crowd.contacts(set, agents, {.implementation = &implementation});
   crowd.contacts(set, agents, pairs, {.implementation = &implementation});
-  crowd.clearances(set, agents, 0.5, {.implementation = &implementation});
-  crowd.penetrations(set, agents, {.implementation = &implementation});
+  crowd.clearances(set, agents, {.implementation = &implementation, .max_distance = 0.5});
+  crowd.penetrations(set, agents, 16, {.implementation = &implementation});
   std::vector<Penetration> ways(pairs.size());
-  penetration(set, agents, pairs, 4, ways, {.implementation = &implementation});
+  penetration(set, agents, pairs, 4, ways, &implementation);
   std::vector<float> values(pairs.size());
   std::vector<Vec2> directions(pairs.size());
   std::vector<DiscPair> nodes(pairs.size());
   clearance(set, agents, pairs, {values, directions, nodes}, {.implementation = &implementation});
   std::vector<NearestPoints> points(pairs.size());
   clearance(set, agents, pairs, {values, directions, nodes, points},
-            {.implementation = &implementation, .distance_leaves = Leaves::segments});
+            {.implementation = &implementation, .leaves = Leaves::segments});
   const std::vector<double> way(pairs.size(), 0.5);
-  within(set, agents, pairs, way, hits, {.implementation = &implementation});
-  time_of_impact(set, agents, pairs, {way, way}, values, {.implementation = &implementation});
+  within(set, agents, pairs, way, hits, &implementation);
+  time_of_impact(set, agents, pairs, {way, way}, values, &implementation);
   ask_all_of_obstacles(set, agents, {.implementation = &implementation});
 }
 

@@ -27,16 +27,16 @@ inline std::vector<Pair> sorted(std::span<const Pair> pairs) {
 /// Returns the pairs of Crowd::candidates() in a vector of their own.
 inline std::vector<Pair> candidate_pairs(const ShapeSet& set, const Agents& agents, double margin = 0) {
   bch::Crowd crowd;
-  const CrowdPairs found = crowd.candidates(set, agents, {.margin = margin});
+  const bch::Crowd::Pairs found = crowd.candidates(set, agents, margin);
   return {found.begin(), found.end()};
 }
 
 /// Returns the neighbours of each agent in pairs that a Crowd found.
-inline std::vector<std::vector<std::uint32_t>> neighbours(const CrowdPairs& pairs) {
-  const Rows<Neighbour> rows = pairs.by_agent();
+inline std::vector<std::vector<std::uint32_t>> neighbours(const bch::Crowd::Pairs& pairs) {
+  const Rows<bch::Crowd::Neighbour> rows = pairs.by_agent();
   std::vector<std::vector<std::uint32_t>> all(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i)
-    for (const Neighbour& other : rows[i]) all[i].push_back(other.agent);
+    for (const bch::Crowd::Neighbour& other : rows[i]) all[i].push_back(other.agent);
   return all;
 }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "layout/base/rounding.hpp"
+#include "layout/hierarchy/paper_hierarchies.hpp"
 #include "layout/hierarchy/subtrees.hpp"
 
 namespace bch::test {
@@ -40,7 +41,7 @@ void expect_sound(const Hierarchy& hierarchy) {
   const std::vector<std::uint32_t> ends = detail::subtree_ends(nodes);
   EXPECT_EQ(ends[0], nodes.size());
   for (std::uint32_t i = 0; i < nodes.size(); ++i) {
-    const HierarchyNode& node = nodes[i];
+    const Hierarchy::Node& node = nodes[i];
     ASSERT_LT(held[i].begin, held[i].end) << "node " << i;
     expect_holds_elements(hierarchy, i);
     double needed = node.disc.radius;
@@ -60,21 +61,21 @@ void expect_sound(const Hierarchy& hierarchy) {
 void expect_covers_outline(const Hierarchy& hierarchy, const Outline& outline) {
   // Where each segment's pieces start, in the order of their halving.
   std::vector<Vec2> reached(outline.points);
-  std::vector<std::vector<Primitive>> pieces(outline.points.size());
+  std::vector<std::vector<Hierarchy::Primitive>> pieces(outline.points.size());
   for (std::size_t e = 0; e < hierarchy.primitives.size(); ++e)
     pieces[hierarchy.source[e]].push_back(hierarchy.primitives[e]);
   for (std::size_t c = 0; c < outline.contours(); ++c) {
     const auto contour = outline.contour(c);
     for (std::size_t i = 0; i < contour.size(); ++i) {
       Vec2 at = contour[i];
-      for (const Primitive& piece : pieces[outline.contour_begin[c] + i]) {
+      for (const Hierarchy::Primitive& piece : pieces[outline.contour_begin[c] + i]) {
         EXPECT_EQ(piece.a, at);
         at = piece.b;
       }
       EXPECT_EQ(at, contour[(i + 1) % contour.size()]) << "segment " << i << " of contour " << c;
     }
   }
-  for (std::uint32_t depth = 0; depth <= height(hierarchy); ++depth) {
+  for (std::uint32_t depth = 0; depth <= detail::height(hierarchy); ++depth) {
     std::uint32_t next = 0;
     for (const std::uint32_t node : cut(hierarchy, depth)) {
       ASSERT_EQ(hierarchy.primitive_ranges[node].begin, next) << "depth " << depth;
@@ -85,7 +86,7 @@ void expect_covers_outline(const Hierarchy& hierarchy, const Outline& outline) {
 }
 
 void expect_leaves_below(const Hierarchy& hierarchy, float threshold) {
-  for (const HierarchyNode& node : hierarchy.nodes)
+  for (const Hierarchy::Node& node : hierarchy.nodes)
     if (node.is_leaf()) {
       EXPECT_LE(node.disc.radius, static_cast<double>(threshold) * (1 + 1e-6) + 4e-6 * hierarchy.reach);
     }

@@ -62,7 +62,7 @@ class ImportGltf : public ImportTest {
 /// Options of files that are in metres, with z up.
 inline ImportOptions as_it_is() {
   ImportOptions options;
-  options.up = UpAxis::z;
+  options.up = ImportOptions::UpAxis::z;
   options.scale = 1.0f;
   return options;
 }

@@ -11,6 +11,7 @@
 
 #include <bch/obstacles.hpp>
 
+#include "kernel/runtime/all_options.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace bch::test {
@@ -27,7 +28,7 @@ struct ObstacleAnswers {
 };
 
 inline ObstacleAnswers all_answers(const ShapeSet& set, const Agents& agents, const ObstacleSet& obstacles,
-                                   const QueryOptions& options, std::span<const double> distances,
+                                   const detail::AllOptions& options, std::span<const double> distances,
                                    const Displacements& displacements) {
   const std::size_t n = agents.size();
   ObstacleAnswers all{std::vector<std::uint8_t>(n),  std::vector<std::uint8_t>(n),
@@ -36,8 +37,8 @@ inline ObstacleAnswers all_answers(const ShapeSet& set, const Agents& agents, co
                       std::vector<DiscPair>(n),      std::vector<DiscPair>(n),
                       std::vector<NearestPoints>(n), std::vector<Penetration>(n)};
   collide(set, agents, obstacles, all.hits, options);
-  within(set, agents, obstacles, distances, all.near, options);
-  QueryOptions how = options;
+  within(set, agents, obstacles, distances, all.near, options.distance_leaves, options.implementation);
+  detail::AllOptions how = options;
   clearance(set, agents, obstacles, {all.distance, all.direction, all.discs, all.points}, how);
   how.overlap = Overlap::deepest;
   clearance(set, agents, obstacles, {.distance = all.deepest, .discs = all.deepest_discs}, how);

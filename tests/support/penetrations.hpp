@@ -16,7 +16,7 @@ namespace bch::test {
 inline std::vector<Penetration> best_of(std::uint32_t k, const ShapeSet& set, const PairScene& scene,
                                         const Implementation& implementation = best_implementation()) {
   std::vector<Penetration> found(scene.pairs.size(), {-1, -1, -1});
-  penetration(set, scene.crowd.agents(), scene.pairs, k, found, {.implementation = &implementation});
+  penetration(set, scene.crowd.agents(), scene.pairs, k, found, &implementation);
   return found;
 }
 
@@ -24,8 +24,7 @@ inline std::vector<Penetration> along(std::span<const Vec2> directions, const Sh
                                       const PairScene& scene,
                                       const Implementation& implementation = best_implementation()) {
   std::vector<Penetration> found(scene.pairs.size(), {-1, -1, -1});
-  penetration_along(set, scene.crowd.agents(), scene.pairs, directions, found,
-                    {.implementation = &implementation});
+  penetration_along(set, scene.crowd.agents(), scene.pairs, directions, found, &implementation);
   return found;
 }
 

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the bch authors
 
 #include "tests/support/query_answers.hpp"
+#include "kernel/runtime/all_options.hpp"
 
 #include <gtest/gtest.h>
 
@@ -27,7 +28,7 @@ std::vector<Answer> answers_of(std::size_t size, Answer marker, Query query) {
 }
 
 std::vector<NearestFeatures> nearest_features(const ShapeSet& set, const Questions& of,
-                                              const QueryOptions& options) {
+                                              const detail::AllOptions& options) {
   const std::size_t size = of.pairs.size();
   std::vector<Vec2> direction(size);
   std::vector<DiscPair> discs(size);
@@ -156,7 +157,7 @@ std::vector<PairAnswers> ask(const ShapeSet& set, const Questions& of, const Imp
     });
   };
   const auto near = answers_of<std::uint8_t>(size, 77, [&](std::span<std::uint8_t> out) {
-    within(set, agents, of.pairs, of.distances, out, {&implementation});
+    within(set, agents, of.pairs, of.distances, out, &implementation);
   });
   const auto nearest = [&](Overlap overlap, Leaves leaves) {
     return nearest_features(set, of,
@@ -169,20 +170,20 @@ std::vector<PairAnswers> ask(const ShapeSet& set, const Questions& of, const Imp
   const auto deepest = nearest(Overlap::deepest, Leaves::discs), zero = nearest(Overlap::zero, Leaves::discs),
              exact = nearest(Overlap::zero, Leaves::segments);
   const auto time = answers_of(size, -77.0f, [&](std::span<float> out) {
-    time_of_impact(set, agents, of.pairs, {of.way_x, of.way_y}, out, {.implementation = &implementation});
+    time_of_impact(set, agents, of.pairs, {of.way_x, of.way_y}, out, &implementation);
   });
   const Penetration none{-77, -77, -77};
   const auto best = answers_of(size, none, [&](std::span<Penetration> out) {
-    penetration(set, agents, of.pairs, of.lines, out, {.implementation = &implementation});
+    penetration(set, agents, of.pairs, of.lines, out, &implementation);
   });
   const auto along = answers_of(size, none, [&](std::span<Penetration> out) {
-    penetration_along(set, agents, of.pairs, of.directions, out, {.implementation = &implementation});
+    penetration_along(set, agents, of.pairs, of.directions, out, &implementation);
   });
   bch::Crowd finder, finder_of_discs;
   const Rows<DiscPair> contacts = finder.contacts(set, agents, of.pairs, {.implementation = &implementation}),
                        contacts_of_discs = finder_of_discs.contacts(
                            set, agents, of.pairs,
-                           {.leaves = Leaves::discs, .implementation = &implementation});
+                           {.implementation = &implementation, .leaves = Leaves::discs});
   const auto row = [](const Rows<DiscPair>& rows, std::size_t i) {
     return std::vector<DiscPair>(rows[i].begin(), rows[i].end());
   };

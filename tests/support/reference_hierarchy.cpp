@@ -12,6 +12,7 @@
 #include "baselines/welzl.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/format/contours.hpp"
+#include "layout/hierarchy/paper_hierarchies.hpp"
 
 namespace bch::test {
 namespace {
@@ -37,7 +38,8 @@ using Segments = std::vector<Segment>;
 
 class Reference {
  public:
-  Reference(const Outline& outline, double threshold, SplitRule rule) : threshold_(threshold), rule_(rule) {
+  Reference(const Outline& outline, double threshold, detail::SplitRule rule)
+      : threshold_(threshold), rule_(rule) {
     hierarchy_.reach = detail::reach(outline.points);
     margin_ = detail::rounding::query_margin * hierarchy_.reach +
               detail::rounding::outline_grid_steps * static_cast<double>(outline.grid_step);
@@ -75,7 +77,7 @@ class Reference {
                    dy = static_cast<double>(p.y) - static_cast<double>(y);
       radius = std::max(radius, std::sqrt(dx * dx + dy * dy));
     }
-    HierarchyNode node;
+    Hierarchy::Node node;
     node.disc = {x, y, detail::rounding::round_up(radius + margin_)};
     hierarchy_.primitive_ranges.push_back({static_cast<std::uint32_t>(hierarchy_.primitives.size()), 0});
     hierarchy_.nodes.push_back(node);
@@ -109,7 +111,7 @@ class Reference {
 
   float plane(const Segments& segments, int axis) const {
     const auto [low, high] = extent(segments, axis);
-    if (rule_ == SplitRule::centre) return static_cast<float>(0.5 * (low + high));
+    if (rule_ == detail::SplitRule::centre) return static_cast<float>(0.5 * (low + high));
     float sum = 0, weight = 0, plain = 0;
     for (const Segment& segment : segments) {
       sum += segment.weight() * segment.side(axis);
@@ -136,13 +138,13 @@ class Reference {
   }
 
   double threshold_, margin_;
-  SplitRule rule_;
+  detail::SplitRule rule_;
   bench::Welzl welzl_;
 };
 
 }  // namespace
 
-Hierarchy reference_hierarchy(const Outline& outline, float threshold, SplitRule rule) {
+Hierarchy reference_hierarchy(const Outline& outline, float threshold, detail::SplitRule rule) {
   Segments segments;
   for (std::size_t c = 0; c < outline.contours(); ++c) {
     const auto points = outline.contour(c);
@@ -164,7 +166,7 @@ void expect_same_tree(const Hierarchy& hierarchy, const Hierarchy& reference) {
     EXPECT_EQ(hierarchy.primitives[i].b, reference.primitives[i].b);
   }
   for (std::size_t i = 0; i < hierarchy.nodes.size(); ++i) {
-    const HierarchyNode &node = hierarchy.nodes[i], &expected = reference.nodes[i];
+    const Hierarchy::Node &node = hierarchy.nodes[i], &expected = reference.nodes[i];
     ASSERT_EQ(node.second_child, expected.second_child) << "node " << i;
     ASSERT_EQ(hierarchy.primitive_ranges[i].begin, reference.primitive_ranges[i].begin) << "node " << i;
     ASSERT_EQ(hierarchy.primitive_ranges[i].end, reference.primitive_ranges[i].end) << "node " << i;

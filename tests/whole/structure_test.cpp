@@ -249,6 +249,11 @@ TEST(PublicSurface, IsWhatIsWrittenDown) {
   }
   EXPECT_EQ(surface, read(fs::path(BCH_SOURCE) / "tests/whole/public_surface.txt")) << surface;
   EXPECT_LE(public_headers({layout_headers, kernel_headers, mpi_headers}).size(), 22u);
+  std::set<std::string> names;
+  for (const auto& [header, text] : public_headers({layout_headers, kernel_headers}))
+    for (const auto& [name, commented] : public_names(text))
+      if (!name.starts_with("BCH_")) names.insert(name);
+  EXPECT_LE(names.size(), 150u);
 }
 
 TEST(PublicSurface, NeedsTheStandardLibraryAlone) {

@@ -20,14 +20,14 @@ struct CrowdMemory;
 
 namespace bch {
 
-/// Holds the lengths after which the ground repeats along x and y, metres; 0: it does not repeat.
-struct Period {
-  double x = 0, y = 0;
-};
-
 /// Holds what is the same in all calls of a Crowd.
 struct CrowdOptions {
-  Period period = {};
+  /// Holds the lengths after which the ground repeats along x and y, metres; 0: it does not repeat.
+  struct Period {
+    double x, y;
+  };
+
+  Period period = {0, 0};
   /// Limits the candidates of a call, which throws std::length_error beyond: n agents at one place are n^2 / 2 pairs.
   std::size_t most_pairs = std::numeric_limits<std::size_t>::max();
 };
@@ -39,111 +39,6 @@ struct PairFilter {
   std::span<const std::uint32_t> category = {};
   std::span<const std::uint32_t> mask = {};
   std::span<const Pair> excluded = {};  ///< pairs to leave out, in any order
-};
-
-/// Holds the options of Crowd::candidates().
-struct CandidateOptions {
-  double margin = 0;  ///< metres, from 0 to 2e9
-  PairFilter filter = {};
-};
-
-/// Holds the options of Crowd::collisions(), contacts() and obstacles().
-struct CollisionOptions {
-  Leaves leaves = Leaves::segments;
-  PairFilter filter = {};  ///< obstacles() has no pairs and refuses one
-  const Implementation* implementation = nullptr;
-};
-
-/// Holds the options of Crowd::collisions() of bodies of spheres.
-struct BodyCollisionOptions {
-  PairFilter filter = {};
-  const Implementation* implementation = nullptr;
-};
-
-/// Holds the options of Crowd::clearances() of bodies of spheres.
-struct BodyClearanceOptions {
-  Overlap overlap = Overlap::zero;
-  PairFilter filter = {};
-  const Implementation* implementation = nullptr;
-};
-
-/// Holds the options of Crowd::clearances().
-struct CrowdClearanceOptions {
-  Leaves leaves = Leaves::discs;  ///< what distances are measured from, see QueryOptions::distance_leaves
-  Overlap overlap = Overlap::zero;
-  PairFilter filter = {};
-  const Implementation* implementation = nullptr;
-};
-
-/// Holds the options of Crowd::penetrations().
-struct CrowdPenetrationOptions {
-  std::uint32_t directions = 16;  ///< see penetration()
-  Leaves leaves = Leaves::segments;
-  PairFilter filter = {};
-  const Implementation* implementation = nullptr;
-};
-
-/// Names an agent of a pair as seen from the other.
-struct Neighbour {
-  std::uint32_t agent;
-  std::uint32_t pair;  ///< the pair's number in the answer
-  friend bool operator==(const Neighbour&, const Neighbour&) = default;
-};
-
-/// Views the pairs of an answer about a crowd, each once, with first < second. It is valid until the next call of the Crowd.
-class CrowdPairs {
- public:
-  CrowdPairs() = default;
-
-  std::size_t size() const noexcept { return pairs_.size(); }
-  bool empty() const noexcept { return pairs_.empty(); }
-  const Pair* begin() const noexcept { return pairs_.data(); }
-  const Pair* end() const noexcept { return pairs_.data() + pairs_.size(); }
-  const Pair& operator[](std::size_t i) const noexcept { return pairs_[i]; }
-  std::span<const Pair> span() const noexcept { return pairs_; }
-
-  /// Returns the same pairs by agent: one row per agent of the crowd, ascending by neighbour. Rows are made at the first call.
-  /// Errors:  throws std::length_error beyond 2^32 - 1 pairs.
-  Rows<Neighbour> by_agent() const;
-
- private:
-  friend class Crowd;
-  friend struct detail::CrowdMemory;
-  CrowdPairs(std::span<const Pair> pairs, detail::CrowdMemory& memory) noexcept
-      : pairs_(pairs), memory_(&memory) {}
-
-  std::span<const Pair> pairs_;
-  detail::CrowdMemory* memory_ = nullptr;
-};
-
-/// Holds the pairs of a crowd that collide, and their contacts.
-struct CrowdContacts {
-  CrowdPairs pairs;         ///< those that have a contact
-  Rows<DiscPair> contacts;  ///< one row per pair, none empty
-};
-
-/// Holds the pairs of a crowd that are near each other. Arrays have one value per pair; their meaning is that of ClearanceAnswers.
-struct CrowdClearances {
-  CrowdPairs pairs;
-  std::span<const float> distance;
-  std::span<const Vec2> direction;
-  std::span<const DiscPair> discs;
-  std::span<const NearestPoints> points;
-};
-
-/// Holds the pairs of a crowd of bodies of spheres that are near each other. The meaning of arrays is that of BodyClearanceAnswers.
-struct CrowdBodyClearances {
-  CrowdPairs pairs;
-  std::span<const float> distance;
-  std::span<const Vec3> direction;
-  std::span<const DiscPair> spheres;
-  std::span<const NearestSpacePoints> points;
-};
-
-/// Holds the pairs of a crowd that collide, and how far the first agent of each has to move to be free of the second.
-struct CrowdPenetrations {
-  CrowdPairs pairs;
-  std::span<const Penetration> penetrations;  ///< one per pair
 };
 
 /// Answers queries about all pairs of a crowd: broad and narrow phase in one call.
@@ -163,6 +58,69 @@ struct CrowdPenetrations {
 ///          other tasks, so one object for each of TBB's threads is enough.
 class Crowd {
  public:
+  /// Names an agent of a pair as seen from the other.
+  struct Neighbour {
+    std::uint32_t agent;
+    std::uint32_t pair;  ///< the pair's number in the answer
+    friend bool operator==(const Neighbour&, const Neighbour&) = default;
+  };
+
+  /// Views the pairs of an answer, each once, with first < second. It is valid until the next call of the Crowd.
+  class Pairs {
+   public:
+    Pairs() = default;
+
+    std::size_t size() const noexcept { return pairs_.size(); }
+    bool empty() const noexcept { return pairs_.empty(); }
+    const Pair* begin() const noexcept { return pairs_.data(); }
+    const Pair* end() const noexcept { return pairs_.data() + pairs_.size(); }
+    const Pair& operator[](std::size_t i) const noexcept { return pairs_[i]; }
+    std::span<const Pair> span() const noexcept { return pairs_; }
+
+    /// Returns the same pairs by agent: one row per agent of the crowd, ascending by neighbour. Rows are made at the first call.
+    /// Errors:  throws std::length_error beyond 2^32 - 1 pairs.
+    Rows<Neighbour> by_agent() const;
+
+   private:
+    friend class Crowd;
+    friend struct detail::CrowdMemory;
+    Pairs(std::span<const Pair> pairs, detail::CrowdMemory& memory) noexcept
+        : pairs_(pairs), memory_(&memory) {}
+
+    std::span<const Pair> pairs_;
+    detail::CrowdMemory* memory_ = nullptr;
+  };
+
+  /// Holds the pairs that collide, and their contacts.
+  struct Contacts {
+    Pairs pairs;              ///< those that have a contact
+    Rows<DiscPair> contacts;  ///< one row per pair, none empty
+  };
+
+  /// Holds the pairs that are near each other. Arrays have one value per pair; their meaning is that of ClearanceAnswers.
+  struct Clearances {
+    Pairs pairs;
+    std::span<const float> distance;
+    std::span<const Vec2> direction;
+    std::span<const DiscPair> discs;
+    std::span<const NearestPoints> points;
+  };
+
+  /// Holds the bodies of spheres that are near each other. The meaning of arrays is that of BodyClearanceAnswers.
+  struct BodyClearances {
+    Pairs pairs;
+    std::span<const float> distance;
+    std::span<const Vec3> direction;
+    std::span<const DiscPair> spheres;
+    std::span<const NearestSpacePoints> points;
+  };
+
+  /// Holds the pairs that collide, and how far the first agent of each has to move to be free of the second.
+  struct Penetrations {
+    Pairs pairs;
+    std::span<const Penetration> penetrations;  ///< one per pair
+  };
+
   Crowd();
   /// Errors:  throws std::invalid_argument on a period outside of 0 .. 5e8 m.
   explicit Crowd(const CrowdOptions& options);
@@ -173,16 +131,20 @@ class Crowd {
   /// Finds the pairs whose root discs, at the agents' levels, overlap or come within a margin of each other. They contain every pair
   /// that collides, and every pair with a clearance of at most the margin. For time_of_impact() the margin has to be twice the
   /// longest way of an agent. Other pairs miss the margin by a relative error of about 1e-6.
-  CrowdPairs candidates(const ShapeSet& shapes, const Agents& agents, const CandidateOptions& options = {}) &;
+  /// Units:   the margin is metres, from 0 to 2e9.
+  Pairs candidates(const ShapeSet& shapes, const Agents& agents, double margin = 0,
+                   const PairFilter& filter = {}) &;
 
   /// Finds the pairs for which collide() answers 1.
-  CrowdPairs collisions(const ShapeSet& shapes, const Agents& agents, const CollisionOptions& options = {}) &;
+  Pairs collisions(const ShapeSet& shapes, const Agents& agents, const CollideOptions& options = {},
+                   const PairFilter& filter = {}) &;
 
   // Queries of bodies of spheres answer as those of shapes do. Candidates are pairs whose discs, as seen from above, and whose heights come
   // within the margin of each other.
-  CrowdPairs candidates(const BodySet& bodies, const Agents& agents, const CandidateOptions& options = {}) &;
-  CrowdPairs collisions(const BodySet& bodies, const Agents& agents,
-                        const BodyCollisionOptions& options = {}) &;
+  Pairs candidates(const BodySet& bodies, const Agents& agents, double margin = 0,
+                   const PairFilter& filter = {}) &;
+  Pairs collisions(const BodySet& bodies, const Agents& agents,
+                   const Implementation* implementation = nullptr, const PairFilter& filter = {}) &;
 
   /// Finds all pairs of discs that make agents collide. A pair of discs counts if the discs overlap, all nodes above the one overlap all
   /// nodes above the other, and, with exact leaves, segments of the two meet; see Leaves. A pair that collides only because one agent
@@ -192,36 +154,36 @@ class Crowd {
   /// decide as well. For continuous forces use clearances() with Overlap::deepest, or penetration() of all pairs that are near.
   /// The contacts of bodies of discs (shape_from_discs()) are all overlaps of their discs, as in mechanical crowd models.
   /// Order:   contacts of a pair by the first discs, then the second discs.
-  CrowdContacts contacts(const ShapeSet& shapes, const Agents& agents,
-                         const CollisionOptions& options = {}) &;
+  Contacts contacts(const ShapeSet& shapes, const Agents& agents, const CollideOptions& options = {},
+                    const PairFilter& filter = {}) &;
 
   /// Finds the contacts of given pairs: one row per pair, empty where there are none. Two equal cuts of n discs at one place have at
   /// most n^2 contacts. A pair in the other order has the same contacts with their two discs exchanged, sorted in that order.
   /// An agent may be paired with itself.
-  /// Errors:  also like collide(), and on a filter or a period, which given pairs cannot have; std::bad_alloc or std::length_error
+  /// Errors:  also like collide(), and on a period, which given pairs cannot have; std::bad_alloc or std::length_error
   ///          where memory does not hold the contacts.
   Rows<DiscPair> contacts(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
-                          const CollisionOptions& options = {}) &;
+                          const CollideOptions& options = {}) &;
 
-  /// Finds the pairs whose clearance() is at most `within`, metres, finite.
-  CrowdClearances clearances(const ShapeSet& shapes, const Agents& agents, double within,
-                             const CrowdClearanceOptions& options = {}) &;
+  /// Finds the pairs whose clearance() is at most max_distance, which has to be finite.
+  Clearances clearances(const ShapeSet& shapes, const Agents& agents, const ClearanceOptions& options,
+                        const PairFilter& filter = {}) &;
 
   /// Finds the same of bodies of spheres, in space. With Overlap::deepest it has a contact of each pair that collides: where the deepest
   /// two spheres overlap, with a normal and a depth that grows from 0, for physics.
-  CrowdBodyClearances clearances(const BodySet& bodies, const Agents& agents, double within,
-                                 const BodyClearanceOptions& options = {}) &;
+  BodyClearances clearances(const BodySet& bodies, const Agents& agents, const BodyClearanceOptions& options,
+                            const PairFilter& filter = {}) &;
 
-  /// Finds the pairs that collide, and their penetration().
-  CrowdPenetrations penetrations(const ShapeSet& shapes, const Agents& agents,
-                                 const CrowdPenetrationOptions& options = {}) &;
+  /// Finds the pairs that collide, and their penetration() by so many directions.
+  Penetrations penetrations(const ShapeSet& shapes, const Agents& agents, std::uint32_t directions = 16,
+                            const CollideOptions& options = {}, const PairFilter& filter = {}) &;
 
   /// Finds the obstacles that each agent collides with: one row per agent, ascending. An agent has none exactly where collide() with
   /// obstacles answers 0.
   Rows<std::uint32_t> obstacles(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
-                                const CollisionOptions& options = {}) &;
+                                const CollideOptions& options = {}) &;
   Rows<std::uint32_t> obstacles(const BodySet& bodies, const Agents& agents, const ObstacleSet& obstacles,
-                                const CollisionOptions& options = {}) &;
+                                const Implementation* implementation = nullptr) &;
 
  private:
   std::unique_ptr<detail::CrowdMemory> memory_;

@@ -107,17 +107,15 @@ ObstacleSet obstacles_from_wkt(std::string_view text, Polygons polygons = Polygo
 /// collides where a disc of its cut overlaps the obstacle, and so does every node above that disc. With exact leaves the outline in that
 /// disc has to overlap it, too. An agent inside an area always collides, and so does one whose outline
 /// holds a whole path of an obstacle.
-/// Options: leaves, implementation.
 void collide(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
-             std::span<std::uint8_t> hits, const QueryOptions& options = {});
+             std::span<std::uint8_t> hits, const CollideOptions& options = {});
 
 /// Tests whether a disc of each agent's cut comes within a distance of an obstacle, and writes 1 if so and 0 otherwise. There is one
-/// distance for all agents, or one each. The answer is 1 where clearance() with the same distance_leaves and no limit is at most the
+/// distance for all agents, or one each. The answer is 1 where clearance() with the same leaves and no limit is at most the
 /// distance, apart from the rounding of that clearance to float.
-/// Options: distance_leaves, implementation.
 void within(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
-            std::span<const double> distances, std::span<std::uint8_t> answers,
-            const QueryOptions& options = {});
+            std::span<const double> distances, std::span<std::uint8_t> answers, Leaves leaves = Leaves::discs,
+            const Implementation* implementation = nullptr);
 
 // Queries of bodies of spheres. An obstacle stands upright, from its bottom to its top, on its line or over its area. A sphere touches it
 // where its centre is at most its radius away from that, in space. What spheres hold never meets an obstacle without a hit. Distances are
@@ -137,9 +135,8 @@ void within(const BodySet& bodies, const Agents& agents, const ObstacleSet& obst
 /// Overlap::zero 0 where they touch. The direction leads from the agent to the obstacle; `spheres` has the number of the sphere and that of
 /// the segment, which is 2^32 - 1 above, in and below an area. Points are relative to the agent's position. Of equal gaps that of the
 /// first obstacle counts. Where collide() answers 1 the distance is 0, and nowhere else.
-/// Options: max_distance, overlap, implementation.
 void clearance(const BodySet& bodies, const Agents& agents, const ObstacleSet& obstacles,
-               const BodyClearanceAnswers& answers, const QueryOptions& options = {});
+               const BodyClearanceAnswers& answers, const BodyClearanceOptions& options = {});
 
 /// Measures how far each agent is from the nearest obstacle: the least gap between a disc of its cut and a segment, or 0 where they
 /// overlap, an area holds a disc or the agent's outline a whole path. The direction leads from the agent to the obstacle. `discs` has the agent's disc and the
@@ -150,16 +147,15 @@ void clearance(const BodySet& bodies, const Agents& agents, const ObstacleSet& o
 /// or (1, 0) where that point is the disc's centre. An agent that is inside an area and touches none of its segments then has its distance
 /// to these segments, and one whose outline holds a whole path the distance to that.
 ///
-/// With distance_leaves = Leaves::segments, where the agent has exact leaves, the distance is that of its outline: the least from a
+/// With leaves = Leaves::segments, where the agent has exact leaves, the distance is that of its outline: the least from a
 /// segment of it to one of the obstacle, and 0 where they come within the margin of exact leaves or an area holds something of the
 /// outline. It is never larger than that of the outline as it was given, and below it by no more than 1.2 um per metre of reach, 0.12 um
 /// per metre of the distance and 9e-15 of the distances to the two ends of the segment together, which is 9 um beside the middle of a wall
 /// of 1e9 m. The points are those of the two segments, and the disc is the leaf that holds the agent's point. Of equal distances that with
 /// the first segment of the outline counts, then the first of the obstacle. A leaf of more than 127 segments is measured as a disc, after all segments. Where collide() answers 1
 /// the distance is 0; where the distance is positive, collide() answers 0.
-/// Options: max_distance, overlap, distance_leaves, implementation.
 void clearance(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
-               const ClearanceAnswers& answers, const QueryOptions& options = {});
+               const ClearanceAnswers& answers, const ClearanceOptions& options = {});
 
 /// Measures how far each agent has to move to leave an obstacle, and in which direction. Every move is at right angles to one
 /// segment:
@@ -174,16 +170,15 @@ void clearance(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& 
 /// call again after the move. The depth is 0, and the direction (0, 0), where nothing is
 /// touched, also where the agent's outline holds a whole path clear of its discs.
 /// Cost:    n log n for n segments that are near an agent, or as near as the farthest of those that it crosses.
-/// Options: implementation.
 void penetration(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
-                 std::span<Penetration> out, const QueryOptions& options = {});
+                 std::span<Penetration> out, const Implementation* implementation = nullptr);
 
 /// Finds when each agent first touches an obstacle while it moves by its displacement without turning. The time is the least t in [0, 1]
 /// at which a disc of the agent's cut overlaps an obstacle when the agent has moved by t times its displacement, or infinity if there is
 /// none. It is 0 inside an area, and where the agent's outline holds a whole path.
-/// Options: implementation.
 void time_of_impact(const ShapeSet& shapes, const Agents& agents, const Displacements& displacements,
-                    const ObstacleSet& obstacles, std::span<float> times, const QueryOptions& options = {});
+                    const ObstacleSet& obstacles, std::span<float> times,
+                    const Implementation* implementation = nullptr);
 
 /// Finds when each motion first touches an obstacle: the earliest time of an interval at which its solid has a point in common with one,
 /// or infinity if there is none. Bodies count as seen from above, and obstacles at all heights.

@@ -23,7 +23,6 @@ namespace bch {
 /// Meshes that have a point in common are hits in either case. The exception is lone triangles that are points on the grid of
 /// OutlineBuilder, because outlines leave them out.
 ///
-/// Options: leaves, implementation.
 /// Sizes:   hits.size() == pairs.size(); an agent may be paired with itself (it collides).
 /// Errors:  throws std::invalid_argument, before hits is touched, on sizes that differ, an index out of
 ///          range, a position or heading that is not finite or beyond the limits, unknown leaves, or an implementation that
@@ -31,19 +30,16 @@ namespace bch {
 /// Threads: runs in the caller's TBB arena, isolated from the cancellation of the caller's task group. Queries do not depend on
 ///          the threads' rounding mode, treatment of denormals and traps, and leave them as they are.
 void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
-             std::span<std::uint8_t> hits, const QueryOptions& options = {});
+             std::span<std::uint8_t> hits, const CollideOptions& options = {});
 
 /// Tests whether the bodies of the two agents of each pair have a point in common in space, touching included, and writes 1 for a hit and
 /// 0 otherwise: whether some sphere of one overlaps some sphere of the other. What spheres hold never meets without a hit; a false
 /// positive has a gap of at most 4 um per metre of the two bodies' reaches, beside what spheres stand out. The answer is the same bits
 /// on every processor, for any number of threads, any split of the batch and either order within a pair.
 /// Levels:  bodies have one, so agents have none or 0 for all.
-/// Sizes, errors, threads: as for collide() of a ShapeSet. `implementation` is as in QueryOptions.
+/// Sizes, errors, threads: as for collide() of a ShapeSet. `implementation` is as in CollideOptions.
 void collide(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs,
              std::span<std::uint8_t> hits, const Implementation* implementation = nullptr);
-
-/// Stands for the discs of a pair that has none in clearance(): it is beyond max_distance, or overlaps with Overlap::zero.
-constexpr DiscPair no_discs{0xffffffff, 0xffffffff};
 
 /// Holds the points of two agents that are nearest to each other. Each is relative to its own agent's position, in the world's axes,
 /// metres, so it is a lever arm of a contact, at 1e9 m as at the origin.
@@ -57,7 +53,7 @@ struct ClearanceAnswers {
   std::span<float> distance;  ///< metres; infinite beyond max_distance
   std::span<Vec2> direction =
       {};  ///< unit vectors; (0, 0) beyond max_distance, and with Overlap::zero where the distance is 0
-  std::span<DiscPair> discs = {};        ///< the nearest discs; no_discs for the same pairs
+  std::span<DiscPair> discs = {};        ///< the nearest discs; DiscPair::none for the same pairs
   std::span<NearestPoints> points = {};  ///< points of these discs, or of segments; (0, 0) for the same pairs
 };
 
@@ -74,7 +70,7 @@ struct ClearanceAnswers {
 /// the other. The radii of the discs limit the depth, so with fine cuts penetration() says more. It is about discs alone, and so
 /// positive for an agent that lies clear inside another's outline.
 ///
-/// With distance_leaves = Leaves::segments, where both shapes have exact leaves, the distance is that of the outlines: the least of a
+/// With leaves = Leaves::segments, where both shapes have exact leaves, the distance is that of the outlines: the least of a
 /// segment of one and a segment of the other, and 0 where they come within the margin of exact leaves. It is never larger than that of
 /// the outlines as they were given, and below it by no more than 1.7 um per metre of the two shapes' reach and 0.9 um per metre of the
 /// distance. The points are those of the segments, the direction leads from one to the other, and the discs are the leaves that hold
@@ -95,20 +91,19 @@ struct ClearanceAnswers {
 ///
 /// Agents at different heights (Agents::z) that do not meet are infinitely far from each other.
 ///
-/// Options: max_distance, overlap, distance_leaves, implementation.
 /// Sizes:   as many distances as pairs; as many directions, discs and points as pairs, or none. An agent may be paired with
 ///          itself.
 /// Errors:  throws std::invalid_argument, before anything is written, as collide() does, and on a
-///          max_distance that is negative or NaN, or an unknown overlap or distance_leaves.
+///          max_distance that is negative or NaN, or an unknown overlap or leaves.
 /// Threads: runs in the caller's TBB arena. Allocates nothing.
 void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
-               const ClearanceAnswers& answers, const QueryOptions& options = {});
+               const ClearanceAnswers& answers, const ClearanceOptions& options = {});
 
 /// Tests whether the two agents of each pair come within a distance of each other, and writes 1 if so and 0 otherwise. They do where
 /// a disc of one's cut is within the distance of a disc of the other's. With culling data this takes about the time of collide(),
 /// and clearance() takes several times as much.
 ///
-/// Only the discs of the cuts count, whatever distance_leaves says, as in clearance(): more pairs are within a distance of 0 than
+/// Only the discs of the cuts count, as in clearance() by discs: more pairs are within a distance of 0 than
 /// collide. An agent inside another's outline is within every distance of it. Agents at different heights that do not meet are within none.
 ///
 /// The answer is 1 wherever clearance() returns a finite distance of at most the given one, and wherever outlines are as close.
@@ -116,7 +111,6 @@ void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pai
 /// the answer is 1. Results are the same bits on every processor, for any number of threads and any split of the
 /// batch, and for either order of a pair.
 ///
-/// Options: implementation.
 /// Units:   distances are metres, not negative; an infinite one includes every pair whose heights meet.
 /// Sizes:   one distance for all pairs, or as many as pairs; as many answers as pairs.
 /// Errors:  throws std::invalid_argument, before anything is written, as collide() does, and on a distance that is negative or
@@ -124,7 +118,7 @@ void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pai
 /// Threads: runs in the caller's TBB arena. Allocates nothing.
 void within(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
             std::span<const double> distances, std::span<std::uint8_t> answers,
-            const QueryOptions& options = {});
+            const Implementation* implementation = nullptr);
 
 /// Holds the points of two bodies that are nearest to each other, as NearestPoints does, in space.
 struct NearestSpacePoints {
@@ -136,7 +130,7 @@ struct NearestSpacePoints {
 struct BodyClearanceAnswers {
   std::span<float> distance;
   std::span<Vec3> direction = {};
-  std::span<DiscPair> spheres = {};  ///< the nearest spheres, or no_discs
+  std::span<DiscPair> spheres = {};  ///< the nearest spheres, or DiscPair::none
   std::span<NearestSpacePoints> points = {};
 };
 
@@ -146,17 +140,16 @@ struct BodyClearanceAnswers {
 /// It is never larger than the distance of what the spheres hold, and below the gap of the spheres by no more than 6 um per metre of the
 /// two bodies' reaches and of the distance. Directions, points, Overlap::deepest, ties and bits are as for a ShapeSet, in space; where
 /// centres coincide, the direction is (1, 0, 0).
-/// Options: max_distance, overlap, implementation.
 /// Sizes, errors, threads: as for clearance() of a ShapeSet, without levels.
 void clearance(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs,
-               const BodyClearanceAnswers& answers, const QueryOptions& options = {});
+               const BodyClearanceAnswers& answers, const BodyClearanceOptions& options = {});
 
 /// Tests whether the bodies of the two agents of each pair come within a distance of each other in space, and writes 1 if so and 0
 /// otherwise: whether some sphere of one is within the distance of some sphere of the other. Within 0 are those that collide.
 ///
 /// The answer is 1 wherever clearance() is at most the given distance, and clearance() is at most that and 4 um per metre of it and of the
 /// largest radii where the answer is 1. It has the same bits everywhere, and in either order of a pair.
-/// Units, sizes, errors, threads: as for within() of a ShapeSet, without levels. `implementation` is as in QueryOptions.
+/// Units, sizes, errors, threads: as for within() of a ShapeSet, without levels. `implementation` is as in CollideOptions.
 void within(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs,
             std::span<const double> distances, std::span<std::uint8_t> answers,
             const Implementation* implementation = nullptr);
@@ -203,7 +196,6 @@ struct Penetration {
 /// Measures the depth of each pair along a given direction, which may have any length and is returned as a unit vector.
 /// The answer is the same bits on every processor, for any number of threads and any split of the batch. Only the
 /// difference of positions counts.
-/// Options: implementation.
 /// Sizes:   as many directions and answers as pairs; the set need not have outlines. An agent may be paired with
 ///          itself: then it has to move by its own width.
 /// Errors:  throws std::invalid_argument, before out is touched, like collide(), and on a direction that is zero or not
@@ -212,18 +204,16 @@ struct Penetration {
 /// Threads: runs in the caller's TBB arena.
 void penetration_along(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                        std::span<const Vec2> directions, std::span<Penetration> out,
-                       const QueryOptions& options = {});
+                       const Implementation* implementation = nullptr);
 
 /// Measures the least depth of each pair along `directions` evenly spread directions, the first of which is the x axis.
 /// Call it for pairs that collide. Usual numbers k of directions are 16 to 32, and the time is proportional to k. Of equal depths,
 /// the one of the first direction in the order 0, k / 2, 1, k / 2 + 1 ... counts, as seen from the agent with the lower index.
 /// Everything else is as for penetration_along().
-/// Errors:  also on a number of directions that is odd, which would not be symmetric, below 2 or above most_directions.
+/// Errors:  also on a number of directions that is odd, which would not be symmetric, below 2 or above 256.
 void penetration(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
-                 std::uint32_t directions, std::span<Penetration> out, const QueryOptions& options = {});
-
-/// Limits the number of directions that penetration() takes.
-constexpr std::uint32_t most_directions = 256;
+                 std::uint32_t directions, std::span<Penetration> out,
+                 const Implementation* implementation = nullptr);
 
 /// Holds the displacement of the first agent of each pair relative to the second: its own displacement minus the
 /// other's. Beside obstacles there is one for each agent, in the world. No agent turns.
@@ -248,7 +238,6 @@ struct Displacements {
 ///
 /// Agents at different heights (Agents::z) that do not meet never touch.
 ///
-/// Options: implementation.
 /// Sizes:   as many displacements in x, in y, and times as pairs. An agent may be paired with itself (0).
 /// Errors:  throws std::invalid_argument, before anything is written, as collide() does, and on a
 ///          displacement that is not finite or beyond the limits.
@@ -256,6 +245,6 @@ struct Displacements {
 /// Source:  the slide of the paper's experiment, which the paper makes in small steps.
 void time_of_impact(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                     const Displacements& displacements, std::span<float> times,
-                    const QueryOptions& options = {});
+                    const Implementation* implementation = nullptr);
 
 }  // namespace bch

@@ -58,19 +58,30 @@ enum class Overlap {
   deepest,  ///< the deepest overlap of two discs, as a negative distance, and its direction: a depth for forces where cuts are coarse
 };
 
-/// Holds the options of all queries. Each query's comment names the options that it uses; it ignores the others.
-struct QueryOptions {
+/// Holds the options of collide() and of what else finds who collides.
+struct CollideOptions {
   /// Selects one of implementations(); null selects best_implementation(), which may throw where BCH_ISA is set.
   const Implementation* implementation = nullptr;
-  Leaves leaves = Leaves::segments;  ///< of collide()
-  /// Limits the distances of interest of clearance(), metres, not negative; may be infinite. Pairs farther apart get an
-  /// infinite distance and nothing else. The smaller the limit, the sooner they are rejected.
+  Leaves leaves = Leaves::segments;
+};
+
+/// Holds the options of clearance().
+struct ClearanceOptions {
+  const Implementation* implementation = nullptr;  ///< as in CollideOptions
+  /// Limits the distances of interest, metres, not negative; may be infinite. Pairs farther apart get an infinite distance and nothing
+  /// else. The smaller the limit, the sooner they are rejected.
   double max_distance = std::numeric_limits<double>::infinity();
-  Overlap overlap = Overlap::zero;  ///< of clearance()
-  /// Selects what clearance(), and within() of obstacles, measure from: discs or, where shapes have exact leaves, segments of the outlines.
-  /// Segments give the distance of the outlines. Discs give up to 3 cm less, in about a seventh of the time of pairs.
-  /// Overlap::deepest always measures discs.
-  Leaves distance_leaves = Leaves::discs;
+  Overlap overlap = Overlap::zero;
+  /// Selects what distances are measured from: discs or, where shapes have exact leaves, segments of the outlines. Segments give the
+  /// distance of the outlines. Discs give up to 3 cm less, in about a seventh of the time of pairs. Overlap::deepest always measures discs.
+  Leaves leaves = Leaves::discs;
+};
+
+/// Holds the options of clearance() of bodies of spheres.
+struct BodyClearanceOptions {
+  const Implementation* implementation = nullptr;                 ///< as in CollideOptions
+  double max_distance = std::numeric_limits<double>::infinity();  ///< as in ClearanceOptions
+  Overlap overlap = Overlap::zero;
 };
 
 /// Names two discs by their numbers in the cuts of a pair's agents, in the order of ShapeSet::discs() and cut().
@@ -78,7 +89,11 @@ struct DiscPair {
   std::uint32_t first;   ///< a disc of the pair's first agent
   std::uint32_t second;  ///< a disc of its second agent
   friend bool operator==(const DiscPair&, const DiscPair&) = default;
+
+  /// Stands for the discs of a pair that has none in clearance(): it is beyond max_distance, or overlaps with Overlap::zero.
+  static const DiscPair none;
 };
+inline constexpr DiscPair DiscPair::none{0xffffffff, 0xffffffff};
 
 /// Views rows of different lengths in one array (CSR): row i is values[offsets[i]] .. values[offsets[i + 1]]. The memory belongs to
 /// the object that returned the rows.

@@ -52,9 +52,10 @@ class Agents:
         Index of each agent's shape in the set.
     x, y : (n,) float64
         Positions, metres, within 1e9 m.
-    heading : (n,) float64
+    heading : (n,) or (n, 2) float64
         Angles by which shapes are turned about their positions, radians, counter-clockwise. At 0 the built-in characters face
-        +x, and those of files stand as in their files.
+        +x, and those of files stand as in their files. Or directions (cos, sin): where an agent's +x points, of a length of 1
+        within 1e-3.
     level : (n,) uint8, optional
         Index into the set's depths; by default every agent uses the last level.
     z : (n,) float64, optional
@@ -75,11 +76,16 @@ class Agents:
         shapes = given(shape, u4, (None,), "shape")
         n = len(shape)
         self._arrays = (shape, x, y, heading, level, z)
+        directions = getattr(heading, "ndim", 1) == 2
+        headings = given(heading, f8, (n, 2) if directions else (n,), "heading")
         self._struct = _library.Agents(
             shape=shapes,
             x=given(x, f8, (n,), "x"),
             y=given(y, f8, (n,), "y"),
-            heading=given(heading, f8, (n,), "heading"),
+            heading=headings,
+            heading_stride=16 if directions else 0,
+            heading_y=headings + 8 if directions and n > 0 else None,
+            heading_y_stride=16,
             level=None if level is None else given(level, u1, (n,), "level"),
             z=None if z is None else given(z, f8, (n,), "z"),
             count=n,
@@ -105,7 +111,7 @@ class Agents:
 
     @property
     def heading(self) -> Float64:
-        """Angles by which shapes are turned, (n,) float64, radians, counter-clockwise."""
+        """Angles by which shapes are turned, (n,) float64, radians, counter-clockwise, or directions, (n, 2) float64."""
         return self._arrays[3]
 
     @property

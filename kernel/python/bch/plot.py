@@ -18,7 +18,8 @@ _FREE, _HIT, _DISC = "#4c78a8", "#e45756", "#9aa5b1"
 
 
 def _placed(points: Any, agents: Agents, i: int) -> Float64:
-    c, s = np.cos(agents.heading[i]), np.sin(agents.heading[i])
+    heading = agents.heading[i]
+    c, s = heading if np.ndim(heading) == 1 else (np.cos(heading), np.sin(heading))
     turned: Float64 = np.asarray(points, np.float64) @ np.array([[c, s], [-s, c]])
     turned += (agents.x[i], agents.y[i])
     return turned

@@ -76,6 +76,39 @@ class Numbers {
   bool is_float_ = false;
 };
 
+/// Views one heading per agent, all of them angles or all directions.
+class Headings {
+ public:
+  /// Holds a heading as it was given: an angle, in radians, or a direction (x, y).
+  struct Value {
+    double x, y = 0;
+    bool is_direction = false;
+  };
+
+  constexpr Headings() = default;
+  constexpr Headings(const Numbers& angles) noexcept  // NOLINT(google-explicit-constructor): views are
+      : x_(angles) {}
+  /// Takes unit vectors, which are the cosines and sines of angles: where an agent's +x points in the world. Their lengths are from 0.999 to
+  /// 1.001, and queries take them as if they were exactly 1.
+  constexpr Headings(const Numbers& x, const Numbers& y) noexcept : x_(x), y_(y), are_directions_(true) {}
+  template <class Range>
+  requires std::is_constructible_v<Numbers, const Range&>
+  constexpr Headings(const Range& angles) noexcept  // NOLINT(google-explicit-constructor): views are
+      : x_(angles) {}
+
+  constexpr std::size_t size() const noexcept { return x_.size(); }
+  constexpr bool are_directions() const noexcept { return are_directions_; }
+  Value operator[](std::size_t i) const noexcept {
+    return are_directions_ ? Value{x_[i], y_[i], true} : Value{x_[i]};
+  }
+  constexpr const Numbers& x() const noexcept { return x_; }  ///< of directions, or the angles
+  constexpr const Numbers& y() const noexcept { return y_; }  ///< of directions
+
+ private:
+  Numbers x_, y_;
+  bool are_directions_ = false;
+};
+
 /// Views a crowd as a simulator holds it: one entry per agent in each array; nothing is copied.
 /// A heading turns a shape about its agent's position. At a heading of 0 the built-in characters face +x, and those of files stand as
 /// import.hpp says. A turn of the root within a clip is part of the shape, not of the heading.
@@ -85,7 +118,7 @@ struct Agents {
   Strided<std::uint32_t> shape;  ///< index into the ShapeSet
   Numbers x;
   Numbers y;
-  Numbers heading;
+  Headings heading;
   Strided<std::uint8_t> level = {};  ///< index into the set's depths; empty: the last level for all
   /// Gives the heights of the grounds that agents stand on: floors, steps, a stage. Empty: one ground for all, and bodies are compared
   /// whatever their heights. Agents with a z meet only where their heights have a point in common, and the set has to know these heights

@@ -31,17 +31,16 @@ struct Key {
 /// one, cubic is a Hermite spline through the keys with the curve's tangents.
 enum class Interpolation : std::uint8_t { linear, step, cubic };
 
-/// Holds the derivatives of a value at a key, per second: `in` just before the key, `out` just after it.
-template <class Value>
-struct Tangents {
-  Value in, out;
-};
-
 /// Describes the interpolation of one part of a channel between its keys. Only cubic has tangents, one pair per key.
 template <class Value>
 struct Curve {
+  /// Holds the derivatives of a value at a key, per second: `in` just before the key, `out` just after it.
+  struct Tangents {
+    Value in, out;
+  };
+
   Interpolation interpolation = Interpolation::linear;
-  std::vector<Tangents<Value>> tangents;
+  std::vector<Tangents> tangents;
 };
 
 /// Describes the motion of one joint relative to its parent, with keys in order of time. A part without keys stays as it is in the

@@ -3,9 +3,7 @@
 
 #pragma once
 
-#include <array>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include <bch/geometry.hpp>
@@ -16,80 +14,60 @@ namespace bch {
 /// Stands for the depth of a cut that has no limit: its discs are the leaves.
 constexpr std::uint32_t all_depths = 0xffffffff;
 
-/// Represents a primitive that a hierarchy encloses: a triangle, or a segment (c equals b), or a point (all equal).
-struct Primitive {
-  Vec2 a, b, c;
-};
-
-/// Represents a node of the binary tree. Nodes are in depth-first order: the first child of an inner node is the next
-/// node.
-struct HierarchyNode {
-  /// Encloses the node's primitives: it is the smallest such disc, enlarged only by what rounding needs. It need not enclose
-  /// the discs of the nodes below.
-  Disc disc;
-  std::uint32_t second_child = 0;  ///< 0: a leaf
-
-  bool is_leaf() const { return second_child == 0; }
-};
-static_assert(sizeof(HierarchyNode) == 16);
-
-/// Holds the index range of a node's primitives, which follow each other in a hierarchy.
-struct PrimitiveRange {
-  std::uint32_t begin, end;
-};
-
 /// Holds a bounding cylinder hierarchy of one shape: a binary tree of discs on the ground.
 /// Source:  Stuvel, Magnenat-Thalmann, Thalmann, Egges, van der Stappen, "Hierarchical structures for
 ///          collision checking between virtual characters", Computer Animation and Virtual Worlds 25, 2014.
 struct Hierarchy {
-  std::vector<HierarchyNode> nodes;  ///< the root first; never empty
-  double reach = 0;                  ///< metres: largest distance of a primitive's point from the origin
+  /// Represents a primitive that a hierarchy encloses: a triangle, or a segment (c equals b), or a point (all equal).
+  struct Primitive {
+    Vec2 a, b, c;
+  };
+
+  /// Represents a node of the binary tree. Nodes are in depth-first order: the first child of an inner node is the next
+  /// node.
+  struct Node {
+    /// Encloses the node's primitives: it is the smallest such disc, enlarged only by what rounding needs. It need not enclose
+    /// the discs of the nodes below.
+    Disc disc;
+    std::uint32_t second_child = 0;  ///< 0: a leaf
+
+    bool is_leaf() const { return second_child == 0; }
+  };
+
+  /// Holds the index range of a node's primitives, which follow each other.
+  struct Range {
+    std::uint32_t begin, end;
+  };
+
+  std::vector<Node> nodes;  ///< the root first; never empty
+  double reach = 0;         ///< metres: largest distance of a primitive's point from the origin
 
   // The primitives of nodes. Exact leaves need them; builders leave them empty unless they are requested.
   std::vector<Primitive> primitives;  ///< in the order of the leaves
   std::vector<std::uint32_t>
       source;  ///< per primitive: index of the outline segment or triangle it comes from
-  std::vector<PrimitiveRange> primitive_ranges;  ///< per node: its primitives
+  std::vector<Range> primitive_ranges;  ///< per node: its primitives
   bool of_segments = false;  ///< the primitives are an outline's segments or pieces of them, not triangles
 };
+static_assert(sizeof(Hierarchy::Node) == 16);
 
 /// Checks what other functions rely on: at least one node, children after their parents, finite discs with a radius above 0 and
 /// a centre within the reach, a reach of 1e-6 to 1e6 m.
 /// Errors:  throws std::invalid_argument naming the node and the value.
 void validate(const Hierarchy& hierarchy);
 
-/// Selects the position of the plane that divides a node's segments. The plane's normal is the axis of the larger extent.
-enum class SplitRule {
-  centroid,  ///< through the centroid, weighted by length so that detailed parts do not pull it
-  centre,    ///< through the middle of the extent
-};
-
-/// Builds the paper's contour hierarchy. A segment goes to the side of its midpoint. Where one side would stay empty,
+/// Builds the paper's contour hierarchy. A plane divides a node's segments: at right angles to the axis of the larger extent, through the
+/// centroid, weighted by length. A segment goes to the side of its midpoint. Where one side would stay empty,
 /// the other axis is tried, then the segments are halved by count. A lone segment longer than twice the
 /// threshold is halved. A node is a leaf if its smallest enclosing disc has a radius below the threshold, or if it
 /// is a lone segment.
 /// Units:   metres; the threshold is positive and finite.
 /// Returns: the hierarchy with its primitives.
-/// Errors:  throws std::invalid_argument on a bad outline, threshold or rule, std::length_error beyond 2^22 nodes.
-Hierarchy contour_hierarchy(const Outline& outline, float threshold, SplitRule rule = SplitRule::centroid);
-
-/// Builds the paper's hierarchy over all projected triangles. The plane goes through the mean of the vertices, and a
-/// triangle goes to the side of its centroid and is never cut. One triangle is a leaf.
-/// Returns: the hierarchy with its primitives.
-/// Errors:  throws std::invalid_argument on no triangles, an index out of range, a vertex of a triangle that is not finite,
-///          or a reach outside 1e-6 to 1e6 m. Vertices of no triangle do not count.
-Hierarchy projected_hierarchy(std::span<const Vec2> vertices,
-                              std::span<const std::array<std::uint32_t, 3>> triangles);
-
-/// Builds the cylinder of crowd simulators, with one radius for every pose, around the agent's position.
-/// Errors:  throws std::invalid_argument unless the radius is from 1e-6 to 1e6 m.
-Hierarchy fixed_cylinder(float radius);
+/// Errors:  throws std::invalid_argument on a bad outline or threshold, std::length_error beyond 2^22 nodes.
+Hierarchy contour_hierarchy(const Outline& outline, float threshold);
 
 /// Returns the nodes at a depth and the leaves above it, in depth-first order: a covering of the shape with one disc
 /// each. Depth 0 is the single cylinder; all_depths selects the leaves.
 std::vector<std::uint32_t> cut(const Hierarchy& hierarchy, std::uint32_t depth);
-
-/// Returns the height of the tree: the number of edges on the longest way from the root to a leaf.
-std::uint32_t height(const Hierarchy& hierarchy);
 
 }  // namespace bch

@@ -23,14 +23,14 @@ class ImportError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Selects the axis of a file's frame that points up.
-enum class UpAxis : std::uint8_t { x, y, z };
-
 /// Holds the options of import_character(): values that override those of the file, and limits. Collada counts as metres for
 /// `scale`, because assimp applies a Collada file's own unit.
 /// The up axis becomes z and nothing else turns: in a file that is y up, x stays and z becomes -y. So a character that faces +z
 /// there, as in glTF, faces -y at heading 0 and walks along its heading less a quarter turn.
 struct ImportOptions {
+  /// Selects the axis of a file's frame that points up.
+  enum class UpAxis : std::uint8_t { x, y, z };
+
   std::optional<UpAxis> up;                       ///< in place of what the file says or what is guessed
   std::optional<float> scale;                     ///< metres per unit of the file, likewise
   std::vector<std::filesystem::path> clip_files;  ///< files whose clips follow the file's own, in this order
@@ -38,16 +38,16 @@ struct ImportOptions {
   std::size_t most_triangles = 0x7fffffff;  ///< more are refused; those of each instance of a mesh count
 };
 
-/// Describes the part of a clip that was imported.
-struct ClipReport {
-  std::string name;
-  float seconds = 0;
-  std::size_t channels = 0;          ///< channels that move a joint of the character
-  std::size_t channels_in_file = 0;  ///< all; the rest moves cameras, helpers, joints that carry nothing
-};
-
 /// Reports on an import by import_character(): what the file had, and what became of it.
 struct ImportReport {
+  /// Describes the part of a clip that was imported.
+  struct Clip {
+    std::string name;
+    float seconds = 0;
+    std::size_t channels = 0;          ///< channels that move a joint of the character
+    std::size_t channels_in_file = 0;  ///< all; the rest moves cameras, helpers, joints that carry nothing
+  };
+
   std::string format;        ///< what read the file
   std::size_t meshes = 0;    ///< instances that brought triangles
   std::size_t vertices = 0;  ///< vertices that differ in position or influences
@@ -56,7 +56,7 @@ struct ImportReport {
   std::size_t dropped_vertices = 0;  ///< used by no triangle
   std::size_t bones = 0;             ///< joints that move vertices or are bones of a skin
   float height = 0;                  ///< of the rest pose, metres
-  std::vector<ClipReport> clips;
+  std::vector<Clip> clips;
   std::vector<std::string> notes;  ///< a sentence for every conversion, guess and repair
 };
 

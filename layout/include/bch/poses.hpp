@@ -147,8 +147,8 @@ std::vector<Vec3> pose_vertices(const Character& character, const Pose& pose);
 /// Describes the axes and units of another program, by the way to ours: x forwards, y to the left, z up, metres, headings in radians,
 /// counter-clockwise.
 ///
-///     agents.x[i] = unity_axes.position(at.x, at.y, at.z)[0];
-///     shaper.shape(WorldPose{unity_axes.transforms(Transforms::column_major(matrices, joints))});
+///     agents.x[i] = AxisSystem::unity.position(at.x, at.y, at.z)[0];
+///     shaper.shape(WorldPose{AxisSystem::unity.transforms(Transforms::column_major(matrices, joints))});
 struct AxisSystem {
   double rows[3][3];  ///< rows * (x, y, z) is one of its points along our axes, in its unit
   double metres = 1;  ///< in its unit of length
@@ -162,18 +162,23 @@ struct AxisSystem {
   /// Returns a transform between two frames that both change to our axes.
   Affine3d transform(const Affine3d& theirs) const;
   std::vector<Affine3d> transforms(const Transforms& theirs) const;
+
+  static const AxisSystem
+      unity;  ///< y up, z forwards, left-handed, metres; degrees about y, clockwise seen from above
+  static const AxisSystem
+      unreal;  ///< z up, x forwards, left-handed, centimetres; degrees about z, clockwise seen from above
+  static const AxisSystem gltf;  ///< y up, z forwards, right-handed, metres; radians
+  /// Y up, nodes look along -z, right-handed, metres; radians. A model of a glTF file looks along z there, as in gltf.
+  static const AxisSystem godot;
+  static const AxisSystem ros;  ///< REP 103: our own axes and units
 };
 
-/// Unity: y up, z forwards, left-handed, metres; degrees about y, clockwise seen from above.
-inline constexpr AxisSystem unity_axes{{{0, 0, 1}, {-1, 0, 0}, {0, 1, 0}}, 1, -std::numbers::pi / 180};
-/// Unreal: z up, x forwards, left-handed, centimetres; degrees about z, clockwise seen from above.
-inline constexpr AxisSystem unreal_axes{{{1, 0, 0}, {0, -1, 0}, {0, 0, 1}}, 0.01, -std::numbers::pi / 180};
-/// glTF: y up, z forwards, right-handed, metres; radians.
-inline constexpr AxisSystem gltf_axes{{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}};
-/// Godot: y up, nodes look along -z, right-handed, metres; radians. A model of a glTF file looks along z there, as by gltf_axes.
-inline constexpr AxisSystem godot_axes{{{0, 0, -1}, {-1, 0, 0}, {0, 1, 0}}};
-/// ROS (REP 103): our own axes and units.
-inline constexpr AxisSystem ros_axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+inline constexpr AxisSystem AxisSystem::unity{{{0, 0, 1}, {-1, 0, 0}, {0, 1, 0}}, 1, -std::numbers::pi / 180};
+inline constexpr AxisSystem AxisSystem::unreal{
+    {{1, 0, 0}, {0, -1, 0}, {0, 0, 1}}, 0.01, -std::numbers::pi / 180};
+inline constexpr AxisSystem AxisSystem::gltf{{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}};
+inline constexpr AxisSystem AxisSystem::godot{{{0, 0, -1}, {-1, 0, 0}, {0, 1, 0}}};
+inline constexpr AxisSystem AxisSystem::ros{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
 /// Returns Character::to_ground times maps: a WorldPose or a SkinningPalette from joints or bone matrices that a program computes in
 /// the character's own frame.

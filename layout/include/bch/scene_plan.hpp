@@ -20,17 +20,6 @@ struct ShapeSource {
   PoseTime at;
 };
 
-/// Describes an agent of a scene to plan.
-struct SceneAgent {
-  ShapeSource shows;
-  double distance = 0;  ///< metres, from the viewer
-  double density = 0;   ///< people per square metre around the agent, as from local_densities()
-};
-
-/// Gives the number of pairs per shape from which culling data pays: the time to build it over the time that it saves per pair
-/// of a crowd, measured by `ratios.py --table plans`.
-constexpr double pairs_for_culling = 500;
-
 /// Describes the queries and levels of detail that a scene is planned for.
 struct SceneUse {
   /// Says whether to keep outlines, as ShapeSetPlan does.
@@ -46,12 +35,19 @@ struct SceneUse {
   /// only equal poses.
   float pose_step = 0;
   /// Gives the expected number of pairs of a shape before it is replaced; few where shapes live for one frame. From
-  /// pairs_for_culling on, shapes get culling data.
+  /// 500 on, shapes get culling data, which takes as long to build as it saves then.
   double pairs_per_shape = std::numeric_limits<double>::infinity();
 };
 
 /// Lists the shapes to build for a scene, each once, and the shape and level of each agent.
 struct ScenePlan {
+  /// Describes an agent of a scene to plan.
+  struct Agent {
+    ShapeSource shows;
+    double distance = 0;  ///< metres, from the viewer
+    double density = 0;   ///< people per square metre around the agent, as from local_densities()
+  };
+
   ShapeSetPlan set;
   std::vector<ShapeSource> shapes;         ///< in the order in which agents first show them
   std::vector<std::uint32_t> agent_shape;  ///< one per agent: Agents::shape
@@ -66,7 +62,7 @@ std::uint32_t depth_at_density(double people_per_square_metre);
 /// Errors:  throws std::invalid_argument on a distance or density that is negative or not finite, naming the agent, a time that is
 ///          not finite, a pose step that is negative or not finite, a number of pairs that is negative or NaN, and
 ///          on more than 255 different depths.
-ScenePlan plan_scene(std::span<const SceneAgent> agents, const SceneUse& use = {});
+ScenePlan plan_scene(std::span<const ScenePlan::Agent> agents, const SceneUse& use = {});
 
 /// Measures the density around each agent, in people per square metre: the number of agents within `radius`, itself included,
 /// over the area of that circle. The density is lower at the edge of a crowd.

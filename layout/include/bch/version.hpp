@@ -18,9 +18,6 @@ struct Version {
   friend bool operator==(const Version&, const Version&) = default;
 };
 
-/// Gives the version of these headers.
-constexpr Version header_version{BCH_VERSION_MAJOR, BCH_VERSION_MINOR, BCH_VERSION_PATCH};
-
 /// Returns the version of the library that the program is linked to.
 Version library_version() noexcept;
 

@@ -11,7 +11,8 @@
 
 int main() {
   const std::filesystem::path file = "pillars.bch";
-  const std::vector<bch::Shape> shapes = {{{}, bch::fixed_cylinder(0.25f)}};
+  const bch::Disc disc{0, 0, 0.25f};
+  const std::vector<bch::Shape> shapes = {bch::shape_from_discs({&disc, 1})};
   bch::save_baked(file, bch::ShapeSet(shapes));
   const bch::ShapeSet set = bch::load_baked(file, bch::FileAccess::map).set;
   std::filesystem::remove(file);  // the mapping keeps the bytes

@@ -70,7 +70,7 @@ class Stepper {
 
   /// All pairs that may meet within a step, in which either goes a step's length at most.
   std::span<const bch::Pair> pairs(const Walkers& walkers) {
-    return crowd_.candidates(shapes_, walkers.agents(), {.margin = 2 * step_length}).span();
+    return crowd_.candidates(shapes_, walkers.agents(), 2 * step_length).span();
   }
 
   /// Who overlaps somebody at the end of his way does not go it.

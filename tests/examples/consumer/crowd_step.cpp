@@ -51,7 +51,7 @@ class Pusher {
   /// Returns: how many pairs overlapped.
   std::size_t step(Crowd& crowd) {
     constexpr float longest = 0.1f, beyond = 0.001f;  // metres
-    const bch::CrowdPenetrations found = finder_.penetrations(shapes_, crowd.agents(), {.directions = 32});
+    const bch::Crowd::Penetrations found = finder_.penetrations(shapes_, crowd.agents(), 32);
     for (std::size_t k = 0; k < found.pairs.size(); ++k) {
       const auto [depth, x, y] = found.penetrations[k];
       const double half = std::min(0.5f * depth + beyond, longest);

@@ -43,7 +43,7 @@ People two_streams(std::uint32_t count, std::uint32_t shapes) {
 // [parting]
 /// Moves people apart who collide, each half of the way and at most 10 cm in a step, and out of walls.
 void part(People& people, bch::Crowd& crowd, const bch::ShapeSet& bodies, const bch::ObstacleSet& walls) {
-  const bch::CrowdPenetrations found = crowd.penetrations(bodies, people.agents());
+  const bch::Crowd::Penetrations found = crowd.penetrations(bodies, people.agents());
   for (std::size_t k = 0; k < found.pairs.size(); ++k) {
     const auto [depth, x, y] = found.penetrations[k];
     const auto [a, b] = found.pairs[k];

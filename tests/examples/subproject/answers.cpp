@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <exception>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -115,9 +116,12 @@ void ask_of_distances(const bch::ShapeSet& set, const bch::Agents& agents, std::
   const std::vector<double> gaps = random_numbers(count, .5);
   Hash clearance("clearance"), within("within"), collide("collide");
   for (const bch::Leaves leaves : {bch::Leaves::discs, bch::Leaves::segments}) {
-    bch::clearance(set, agents, others..., {values, directions, discs}, {.distance_leaves = leaves});
+    bch::clearance(set, agents, others..., {values, directions, discs}, {.leaves = leaves});
     clearance.add(values), clearance.add(directions), clearance.add(discs);
-    bch::within(set, agents, others..., gaps, hits, {.distance_leaves = leaves});
+    if constexpr ((std::is_same_v<Others, bch::ObstacleSet> && ...))
+      bch::within(set, agents, others..., gaps, hits, leaves);
+    else
+      bch::within(set, agents, others..., gaps, hits);
     within.add(hits);
     bch::collide(set, agents, others..., hits, {.leaves = leaves});
     collide.add(hits);
@@ -133,8 +137,8 @@ void ask_all(const bch::ShapeSet& set, const Crowd& crowd) {
   bch::Crowd of;
   Hash("collisions").add(of.collisions(set, agents).span());
   Hash("contacts").add(of.contacts(set, agents).contacts);
-  Hash("clearances").add(of.clearances(set, agents, .25).distance);
-  const std::span<const bch::Pair> pairs = of.candidates(set, agents, {.margin = .25}).span();
+  Hash("clearances").add(of.clearances(set, agents, {.max_distance = .25}).distance);
+  const std::span<const bch::Pair> pairs = of.candidates(set, agents, .25).span();
   Hash("candidates").add(pairs);
   ask_of_distances(set, agents, pairs.size(), pairs);
   std::vector<bch::Penetration> ways(pairs.size());

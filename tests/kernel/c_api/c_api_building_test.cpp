@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
+#include "layout/hierarchy/paper_hierarchies.hpp"
 #include "tests/support/c_api.hpp"
 #include "tests/support/program_run.hpp"
 #include "tests/support/test.hpp"
@@ -108,7 +109,7 @@ TEST(CApiBuilding, BodiesOfOnesOwnAreThoseOfTheLibrary) {
   const Disc disc{0.1f, 0, 0.2f};
   std::vector<Shape> own = {shape_from_polygons({&chair, 1}),
                             shape_from_capsules({&limb, 1}, 0.002f),
-                            {{}, fixed_cylinder(0.3f)},
+                            {{}, detail::fixed_cylinder(0.3f)},
                             shape_from_discs({&disc, 1})};
   own[3].heights = {0.5f, 1};
   ShapeOrigins origins{static_cast<double>(0.01f), {"polygons", "capsules", "cylinder", "discs"}, {}};

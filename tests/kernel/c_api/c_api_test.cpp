@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the bch authors
 
 #include "tests/support/c_api.hpp"
+#include "kernel/runtime/all_options.hpp"
 #include "tests/support/c_api_queries.hpp"
 #include "tests/support/crowd_pairs.hpp"
 #include "tests/support/test.hpp"
@@ -62,7 +63,7 @@ INSTANTIATE_TEST_SUITE_P(Of, CApi, testing::Values(Grounds::one, Grounds::many),
 });
 
 /// All answers of the C++ library, by the names of all_queries().
-std::map<std::string, std::string> answers_of(const test::CScene& scene, const QueryOptions& by) {
+std::map<std::string, std::string> answers_of(const test::CScene& scene, const detail::AllOptions& by) {
   const ShapeSet& set = scene.shapes;
   const Agents agents = scene.crowd.agents();
   const std::size_t n = scene.pairs.size(), people = agents.size();
@@ -90,21 +91,20 @@ std::map<std::string, std::string> answers_of(const test::CScene& scene, const Q
 
   all["candidates"] = bytes(test::candidate_pairs(set, agents, 0.4));
   bch::Crowd crowd;
-  const CollisionOptions colliding{.leaves = by.leaves, .implementation = by.implementation};
-  const CrowdPairs pairs = crowd.collisions(set, agents, colliding);
+  const CollideOptions colliding = by;
+  const bch::Crowd::Pairs pairs = crowd.collisions(set, agents, colliding);
   all["collisions"] = bytes(pairs.span());
   all["collisions by agent"] = bytes_of(pairs.by_agent());
   all["obstacles"] = bytes_of(crowd.obstacles(set, agents, walls, colliding));
   all["contacts of pairs"] =
       bytes(scene.pairs) + bytes_of(crowd.contacts(set, agents, scene.pairs, colliding));
-  const CrowdContacts contacts = crowd.contacts(set, agents, colliding);
+  const bch::Crowd::Contacts contacts = crowd.contacts(set, agents, colliding);
   all["contacts"] = bytes(contacts.pairs.span()) + bytes_of(contacts.contacts);
-  const CrowdClearances near =
-      crowd.clearances(set, agents, 0.2, {by.distance_leaves, by.overlap, {}, by.implementation});
+  const bch::Crowd::Clearances near =
+      crowd.clearances(set, agents, ClearanceOptions{by.implementation, 0.2, by.overlap, by.distance_leaves});
   all["clearances"] = bytes(near.pairs.span()) + bytes(near.distance) + bytes(near.direction) +
                       bytes(near.discs) + bytes(near.points);
-  const CrowdPenetrations apart =
-      crowd.penetrations(set, agents, {.leaves = by.leaves, .implementation = by.implementation});
+  const bch::Crowd::Penetrations apart = crowd.penetrations(set, agents, 16, by);
   all["penetrations"] =
       bytes(apart.pairs.span()) +
       bytes_of(std::vector<Penetration>(apart.penetrations.begin(), apart.penetrations.end()));
@@ -112,7 +112,8 @@ std::map<std::string, std::string> answers_of(const test::CScene& scene, const Q
   hits.resize(people), depths.resize(people), distance.resize(people);
   direction.resize(people), discs.resize(people), points.resize(people);
   collide(set, agents, walls, hits, by), all["walls: collide"] = bytes(hits);
-  within(set, agents, walls, nearer.first(people), hits, by), all["walls: within"] = bytes(hits);
+  within(set, agents, walls, nearer.first(people), hits, by.distance_leaves, by.implementation),
+      all["walls: within"] = bytes(hits);
   penetration(set, agents, walls, depths), all["walls: penetration"] = bytes_of(depths);
   time_of_impact(set, agents, {x.first(people), y.first(people)}, walls, distance);
   all["walls: time of impact"] = bytes(distance);
@@ -124,10 +125,10 @@ std::map<std::string, std::string> answers_of(const test::CScene& scene, const Q
 TEST_P(CApi, AnswersAreThoseOfTheLibrary) {
   std::map<std::string, std::string> before;
   for (const bool other : {false, true}) {
-    const QueryOptions by{.leaves = other ? Leaves::segments : Leaves::discs,
-                          .max_distance = other ? 0.7 : 0.5,
-                          .overlap = other ? Overlap::deepest : Overlap::zero,
-                          .distance_leaves = other ? Leaves::discs : Leaves::segments};
+    const detail::AllOptions by{.leaves = other ? Leaves::segments : Leaves::discs,
+                                .max_distance = other ? 0.7 : 0.5,
+                                .overlap = other ? Overlap::deepest : Overlap::zero,
+                                .distance_leaves = other ? Leaves::discs : Leaves::segments};
     scene.options.leaves = other, scene.options.overlap = other;
     scene.options.distance_leaves = !other, scene.options.max_distance = by.max_distance;
     scene.options.threads = other ? 3 : 0;

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the bch authors
 
 #include "baselines/obstacle_reference.hpp"
+#include "kernel/runtime/all_options.hpp"
 #include "tests/support/height_scenes.hpp"
 #include "tests/support/obstacle_answers.hpp"
 #include "tests/support/obstacle_scenes.hpp"
@@ -77,7 +78,7 @@ struct AgentAnswers {
 
 /// What agents are asked: how near is near, and their ways, the same in x and y.
 struct Question {
-  QueryOptions options;
+  detail::AllOptions options;
   std::vector<double> distances, way;
 
   test::ObstacleAnswers ask(const ShapeSet& set, const Agents& agents, const ObstacleSet& obstacles) const {

@@ -3,6 +3,7 @@
 
 // The ways and times of agents among obstacles, and what is said of wrong input.
 
+#include "layout/hierarchy/paper_hierarchies.hpp"
 #include "tests/support/obstacle_scenes.hpp"
 #include "tests/support/test.hpp"
 
@@ -15,7 +16,7 @@ using test::ObstacleScene;
 
 /// Repeated points are no sides, and a post is left the way that a disc is beside it.
 TEST_F(Obstacles, AreLeftAcrossRealSides) {
-  const std::vector<Shape> disc = {{{}, fixed_cylinder(0.3f)}};
+  const std::vector<Shape> disc = {{{}, detail::fixed_cylinder(0.3f)}};
   const ShapeSet discs(disc);
   const std::vector<double> x = {0, 1, 1, 0, 0, 5, 5, 5}, y = {0, 0, 1, 1, 1, 0, 0, 2};
   const std::vector<std::uint64_t> paths = {0, 5, 8};

@@ -5,6 +5,7 @@
 
 #include "baselines/leaf_segments.hpp"
 #include "baselines/quad.hpp"
+#include "layout/hierarchy/paper_hierarchies.hpp"
 #include "tests/support/obstacle_scenes.hpp"
 #include "tests/support/plane_geometry.hpp"
 #include "tests/support/test.hpp"
@@ -122,7 +123,7 @@ TEST_F(Obstacles, NeverMissWhatTouches) {
     collide(set, crowd.agents(), ObstacleSet({x, y, paths}), hits);
     std::vector<float> apart_by(4);
     clearance(set, crowd.agents(), ObstacleSet({x, y, paths}), {.distance = apart_by},
-              {.distance_leaves = Leaves::segments});
+              {.leaves = Leaves::segments});
     const QuadVector a{Quad{x[0]}, Quad{y[0]}}, b{Quad{x[1]}, Quad{y[1]}};
     if (meets(points, shape.outline, a, b)) {
       ASSERT_EQ(hits, std::vector<std::uint8_t>(4, 1)) << k;
@@ -166,7 +167,7 @@ TEST_F(Obstacles, AreAsFarAsOutlinesAre) {
     crowd.add({number, 0, 0, heading, 3});
     std::vector<float> measured(1);
     clearance(set, crowd.agents(), ObstacleSet({x, y, paths}), {.distance = measured},
-              {.distance_leaves = Leaves::segments});
+              {.leaves = Leaves::segments});
     const QuadVector a{Quad{x[0]}, Quad{y[0]}}, b{Quad{x[1]}, Quad{y[1]}};
     const std::vector<QuadVector> points = placed(shape.outline, 0, 0, heading);
     if (meets(points, shape.outline, a, b)) {
@@ -202,7 +203,7 @@ TEST_F(Obstacles, OfEquallyNearOnesTheFirstCounts) {
     NearestPoints points{};
     clearance(squares, crowd.agents(), ObstacleSet({x, y, paths}),
               {.distance = {&distance, 1}, .discs = {&discs, 1}, .points = {&points, 1}},
-              {.implementation = &each, .distance_leaves = Leaves::segments});
+              {.implementation = &each, .leaves = Leaves::segments});
     EXPECT_NEAR(distance, 1, 3e-6) << each.name;
     // The first side of the square leads along y = -1, and its end is as near to the third wall as all of it to the last one.
     EXPECT_EQ(discs.second, 2u) << each.name;
@@ -223,7 +224,7 @@ TEST_F(Obstacles, OfLeavesWithTooManySegments) {
   const Crowd crowd = test::crowd_about(random, set_of_stars, 20, 1);
   std::vector<float> distances(20);
   clearance(set_of_stars, crowd.agents(), ObstacleSet({x, y, paths}), {.distance = distances},
-            {.distance_leaves = Leaves::segments});
+            {.leaves = Leaves::segments});
   for (std::uint32_t i = 0; i < distances.size(); ++i) {
     const double gap = reference.outline_gap(crowd.agents(), i, walls).gap;
     EXPECT_LE(double{distances[i]}, std::max(gap, 0.0)) << i;
@@ -264,7 +265,7 @@ TEST_F(Obstacles, InsideAnOutline) {
 
 /// The rule of even and odd where a ray goes through vertices: each belongs to one side of it.
 TEST_F(Obstacles, HoldWhatIsLevelWithTheirVertices) {
-  const std::vector<Shape> disc = {{{}, fixed_cylinder(0.125f)}};
+  const std::vector<Shape> disc = {{{}, detail::fixed_cylinder(0.125f)}};
   const ShapeSet discs(disc);
   // A diamond; teeth whose tips are level with what stands before them; a notch.
   const std::vector<double> x = {1, 0, -1, 0, 4, 5, 6, 7, 8, 8, 4, 4, 5, 5, 4},

@@ -4,6 +4,7 @@
 // The ways out of many obstacles at once, and out of obstacles of many segments.
 
 #include "kernel/obstacles/ends_hull.hpp"
+#include "layout/hierarchy/paper_hierarchies.hpp"
 #include "tests/support/obstacle_scenes.hpp"
 #include "tests/support/test.hpp"
 
@@ -70,7 +71,7 @@ TEST_F(Obstacles, AreLeftByTheLongestOfTheMoves) {
 
 /// An area is left as a whole, whatever else is touched in it, and of areas that hold an agent the one that takes the longest way.
 TEST_F(Obstacles, AreLeftWithAWallInside) {
-  const std::vector<Shape> disc = {{{}, fixed_cylinder(0.25f)}};
+  const std::vector<Shape> disc = {{{}, detail::fixed_cylinder(0.25f)}};
   const ShapeSet discs(disc);
   Crowd crowd;
   crowd.add({0, 0, 0, 0, 0});
@@ -88,7 +89,7 @@ TEST_F(Obstacles, AreLeftWithAWallInside) {
 
 /// An obstacle of n segments that are all touched takes n log n steps: these would take an hour by n squared.
 TEST_F(Obstacles, AreLeftThoughAllOfManySegmentsAreTouched) {
-  const std::vector<Shape> disc = {{{}, fixed_cylinder(0.3f)}};
+  const std::vector<Shape> disc = {{{}, detail::fixed_cylinder(0.3f)}};
   const ShapeSet discs(disc);
   const std::uint32_t count = 16 * test::samples(32'000);
   ObstacleScene pillar, star, grid;

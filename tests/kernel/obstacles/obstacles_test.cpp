@@ -5,6 +5,8 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include "baselines/obstacle_reference.hpp"
+#include "kernel/runtime/all_options.hpp"
+#include "layout/hierarchy/paper_hierarchies.hpp"
 #include "tests/support/obstacle_answers.hpp"
 #include "tests/support/obstacle_scenes.hpp"
 #include "tests/support/plane_geometry.hpp"
@@ -29,7 +31,7 @@ using Obstacles = test::ObstacleTest;
 
 /// Returns a vector of an agent's frame in the axes of the world.
 Vec2 turned(const Agents& agents, std::uint32_t agent, double x, double y) {
-  const double c = std::cos(agents.heading[agent]), s = std::sin(agents.heading[agent]);
+  const double c = std::cos(agents.heading.x()[agent]), s = std::sin(agents.heading.x()[agent]);
   return {static_cast<float>(c * x - s * y), static_cast<float>(s * x + c * y)};
 }
 
@@ -66,7 +68,7 @@ void expect_nearest_outline(const Shape& shape, const Agents& agents, std::uint3
                             const ObstacleReference::Gap& gap, float distance, const DiscPair& named,
                             Vec2 direction, const NearestPoints& points) {
   constexpr double near = 1e-5;
-  const double c = std::cos(agents.heading[agent]), s = std::sin(agents.heading[agent]);
+  const double c = std::cos(agents.heading.x()[agent]), s = std::sin(agents.heading.x()[agent]);
   const double px = points.first.x, py = points.first.y, x = c * px + s * py, y = c * py - s * px;
   const auto [from, to] = baselines::LeafSegments::segment(shape.outline, gap.of_outline);
   EXPECT_LE(test::distance_to_segment<double>(x, y, from.x, from.y, to.x, to.y), near);
@@ -101,7 +103,7 @@ void expect_brute_force(Random& random, std::span<const Shape> shapes, const Sha
       dx.push_back(random.uniform(-1, 1)), dy.push_back(random.uniform(-1, 1));
     const Leaves leaves = k % 2 == 0 ? Leaves::segments : Leaves::discs;
     const ObstacleReference& reference = k % 2 == 0 ? with_segments : with_discs;
-    QueryOptions how{.leaves = leaves, .distance_leaves = leaves};
+    detail::AllOptions how{.leaves = leaves, .distance_leaves = leaves};
     const Answers best = all_answers(set, agents, obstacles, how, distances, {dx, dy});
     for (const Implementation& each : implementations())
       if (k % 4 < 2 && each.supported()) {
@@ -130,7 +132,7 @@ void expect_brute_force(Random& random, std::span<const Shape> shapes, const Sha
       ASSERT_TRUE(zero || best.deepest[i] <= best.distance[i]) << "scene " << k << ", agent " << i;
       ASSERT_TRUE(!hit || zero || !of_outline) << "scene " << k << ", agent " << i;
       if (zero || !of_outline) {
-        ASSERT_EQ(best.discs[i], zero ? no_discs : (DiscPair{gap.disc, gap.segment}));
+        ASSERT_EQ(best.discs[i], zero ? DiscPair::none : (DiscPair{gap.disc, gap.segment}));
       }
       if (zero) {
         ASSERT_EQ(best.direction[i], Vec2{});
@@ -162,7 +164,7 @@ TEST_F(Obstacles, OfSingleDiscsAreAsBruteForceSays) {
   const Disc five[] = {{0, -0.2f, 0.1f}, {0, -0.1f, 0.12f}, {0, 0, 0.13f}, {0, 0.1f, 0.12f}, {0, 0.2f, 0.1f}};
   std::vector<Shape> own = {shape_from_discs(five)};
   own.push_back({});
-  own.back().hierarchy = fixed_cylinder(0.25f);
+  own.back().hierarchy = detail::fixed_cylinder(0.25f);
   expect_brute_force(random, own, {.depths = {0, all_depths}}, test::samples(24));
 }
 
@@ -177,7 +179,7 @@ TEST_F(Obstacles, AnswerFarAwayAsAtTheOrigin) {
   std::vector<double> way(crowd.x.size());
   for (double& length : way) length = random.uniform(-1, 1);
   const Answers here = all_answers(set, crowd.agents(), scene.set(), {}, distances, {way, way});
-  const QueryOptions exact_distances{.distance_leaves = Leaves::segments};
+  const detail::AllOptions exact_distances{.distance_leaves = Leaves::segments};
   const Answers outlines =
       all_answers(set, crowd.agents(), scene.set(), exact_distances, distances, {way, way});
   const auto move = [&](double by) {
@@ -201,7 +203,7 @@ TEST_F(Obstacles, AnswerFarAwayAsAtTheOrigin) {
 
 /// A wall of 2e8 m is where it is next to an agent, and so is one whose near end is far away.
 TEST_F(Obstacles, MayBeLong) {
-  const std::vector<Shape> disc = {{{}, fixed_cylinder(0.25f)}};
+  const std::vector<Shape> disc = {{{}, detail::fixed_cylinder(0.25f)}};
   const ShapeSet discs(disc);
   const double far = 1e8;
   for (const double gap : {-1e-6, 3e-6}) {

@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "layout/base/decimal.hpp"
+#include "layout/hierarchy/paper_hierarchies.hpp"
 #include "tests/support/table.hpp"
 #include "tests/support/test.hpp"
 
@@ -26,7 +27,7 @@ std::vector<std::uint32_t> obstacles_of(const ObstacleSet& set) {
 
 /// Returns whether a small disc at a place collides with an obstacle.
 bool collides_at(const ObstacleSet& set, double x, double y) {
-  const std::vector<Shape> disc = {{{}, fixed_cylinder(0.01f)}};
+  const std::vector<Shape> disc = {{{}, detail::fixed_cylinder(0.01f)}};
   const ShapeSet shapes(disc);
   test::Crowd crowd;
   crowd.add({0, x, y, 0, 0});

@@ -48,8 +48,8 @@ bool holds(const baselines::ReferenceObstacle& area, long double x, long double 
 long double gap(const std::vector<Sphere>& spheres, const Agents& agents, std::uint32_t agent,
                 const ObstacleScene& scene, std::size_t obstacle) {
   const baselines::ReferenceObstacle& other = scene.reference[obstacle];
-  const long double c = std::cos(static_cast<long double>(agents.heading[agent])),
-                    s = std::sin(static_cast<long double>(agents.heading[agent]));
+  const long double c = std::cos(static_cast<long double>(agents.heading.x()[agent])),
+                    s = std::sin(static_cast<long double>(agents.heading.x()[agent]));
   long double least = unlimited;
   for (const Sphere& sphere : spheres) {
     const long double x = agents.x[agent] + (c * sphere.x - s * sphere.y),

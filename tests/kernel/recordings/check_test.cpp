@@ -126,7 +126,7 @@ TEST(Check, GapsAreThoseOfWhatDecides) {
       std::vector<float> gaps(pairs.size());
       std::vector<std::uint8_t> hits(pairs.size());
       collide(shapes, agents, pairs, hits, {.leaves = leaves});
-      clearance(shapes, agents, pairs, {gaps}, {.distance_leaves = leaves});
+      clearance(shapes, agents, pairs, {gaps}, {.leaves = leaves});
       for (std::size_t i = 0; i < pairs.size(); ++i) {
         const auto row = told.find({pairs[i].first, pairs[i].second});
         const bool is_near = static_cast<double>(gaps[i]) <= options.max_distance;

@@ -81,7 +81,7 @@ TEST_F(ImportData, CapturedCharacters) {
     EXPECT_EQ(root_name(c), file.root) << file.name;
     ASSERT_EQ(c.clips.size(), 14u) << file.name;
     float seconds = 0;
-    for (const ClipReport& clip : report.clips) {
+    for (const ImportReport::Clip& clip : report.clips) {
       seconds += clip.seconds;
       EXPECT_EQ(clip.channels, clip.channels_in_file) << clip.name;
     }

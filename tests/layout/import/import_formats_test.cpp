@@ -76,7 +76,7 @@ TEST_F(ImportFormats, ColladaSaysItsAxisAndUnit) {
   EXPECT_TRUE(has_note(report, "z up"));
   EXPECT_FALSE(has_note(report, "y up"));
   ImportOptions options;
-  options.up = UpAxis::y;
+  options.up = ImportOptions::UpAxis::y;
   const ImportReport turned = import("body.dae", text, options).report;
   EXPECT_NEAR(turned.height, 0.2f, 1e-5f);
   EXPECT_TRUE(has_note(turned, "y up -> z up, as the caller says"));

@@ -83,7 +83,8 @@ TEST_F(Import, OptionsOverrideUpAndScale) {
   ImportOptions options;
   options.scale = 0.5f;
   for (const auto& [up, height] :
-       {std::pair(UpAxis::x, 0.3f), std::pair(UpAxis::y, 1.8f), std::pair(UpAxis::z, 0.5f)}) {
+       {std::pair(ImportOptions::UpAxis::x, 0.3f), std::pair(ImportOptions::UpAxis::y, 1.8f),
+        std::pair(ImportOptions::UpAxis::z, 0.5f)}) {
     options.up = up;
     const auto [character, report] = import("body.obj", body, options);
     EXPECT_NEAR(report.height, 0.5f * height, 1e-6f);

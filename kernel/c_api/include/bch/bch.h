@@ -485,15 +485,18 @@ typedef struct bch_agents {
   const uint32_t* shape; /**< index into the set */
   const void* x;         /**< numbers, as y, heading and z are */
   const void* y;
-  const void* heading;  /**< counter-clockwise; 0 leaves a shape as it is */
+  const void* heading;  /**< counter-clockwise; 0 leaves a shape as it is. With heading_y the x of a direction */
   const uint8_t* level; /**< index into the set's depths; NULL: the last one for all */
   const void* z;        /**< heights of the grounds that agents stand on; NULL: one ground for all */
   size_t count;
   int32_t numbers; /**< BCH_DOUBLES or BCH_FLOATS */
   size_t shape_stride, x_stride, y_stride, heading_stride, level_stride, z_stride;
+  /** The y of directions, unit vectors within 1e-3 that say where an agent's +x points in the world; NULL: headings are angles. */
+  const void* heading_y;
+  size_t heading_y_stride;
 } bch_agents;
 #define BCH_AGENTS_INIT \
-  { sizeof(bch_agents), NULL, NULL, NULL, NULL, NULL, NULL, 0, BCH_DOUBLES, 0, 0, 0, 0, 0, 0 }
+  { sizeof(bch_agents), NULL, NULL, NULL, NULL, NULL, NULL, 0, BCH_DOUBLES, 0, 0, 0, 0, 0, 0, NULL, 0 }
 
 /** Names two agents by index. */
 typedef struct bch_pair {
