@@ -64,9 +64,7 @@ std::string collide_rows(const QueryInput& input) {
 
 std::string contact_rows(const QueryInput& input) {
   bch::Crowd crowd;
-  const Rows<DiscPair> rows =
-      crowd.contacts(*input.set, input.table.agents(), input.pairs,
-                     {.leaves = input.options.leaves, .implementation = input.options.implementation});
+  const Rows<DiscPair> rows = crowd.contacts(*input.set, input.table.agents(), input.pairs, input.options);
   std::string out;
   for (std::size_t i = 0; i < input.pairs.size(); ++i)
     for (const auto& [first, second] : rows[i])
