@@ -143,7 +143,7 @@ struct ContactsQuery : Question {
 
   void ask(const detail::AllOptions& options) {
     rows = finder.contacts(scene.set(), agents, pairs,
-                           {.leaves = Leaves::discs, .implementation = options.implementation});
+                           {.implementation = options.implementation, .leaves = Leaves::discs});
   }
   auto search(std::size_t i, Method) { return baselines::contacts(cuts, agents, pairs[i]); }
   bool is_right(std::size_t i, Method method) {
@@ -181,7 +181,7 @@ struct CollisionsQuery : Question {
   void ask(const detail::AllOptions& options) {
     rows = finder
                .collisions(scene.set(), agents,
-                           {.leaves = Leaves::discs, .implementation = options.implementation})
+                           {.implementation = options.implementation, .leaves = Leaves::discs})
                .by_agent();
   }
   static bool has(std::span<const bch::Crowd::Neighbour> row, std::uint32_t agent) {
