@@ -112,7 +112,11 @@ const std::vector<Damage>& all_damage() {
       {"blocks", [](Arrays& a) { a.top_block()[0] = infinity; }},
       {"room", [](Arrays& a) { a.tree().stride = detail::block_width - 1; }},
       {"room", [](Arrays& a) { a.own.nodes.resize(a.own.nodes.size() - 1); }},
-      {"windows", [](Arrays& a) { add(a.name(a.lowest_block(), 7), 4096); }},
+      {"windows",  // by one disc
+       [](Arrays& a) {
+         a.name(a.lowest_block(), 7) = std::bit_cast<float>(detail::leaf_window + a.tree().discs +
+                                                            a.tree().stride - detail::block_width + 1);
+       }},
       {"first window", [](Arrays& a) { add(a.name(a.lowest_block(), 0), 1); }},
       {"number of windows", name_a_window_64_times},
       {"padding", [](Arrays& a) { a.lowest_block()[3] = infinity; }},
