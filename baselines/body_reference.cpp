@@ -69,4 +69,32 @@ BodyClearance BodyReference::clearance(const Agents& agents, Pair pair) const {
   return least;
 }
 
+float BodyReference::time_of_impact(const Agents& agents, Pair pair, double x, double y, double z) const {
+  if (collide(agents, pair)) return 0;
+  const auto [first, second] = std::minmax(pair.first, pair.second);
+  const float sign = pair.second < pair.first ? -1.0f : 1.0f;
+  const float dx = sign * static_cast<float>(x), dy = sign * static_cast<float>(y);
+  const detail::UnitVector u = detail::unit_vector(agents.heading[first]);
+  const float ahead = u.cosine * dx + u.sine * dy, left = u.cosine * dy - u.sine * dx;
+  const double vx = static_cast<double>(ahead), vy = static_cast<double>(left),
+               vz = static_cast<double>(sign * static_cast<float>(z));
+  const std::vector<Sphere> other = placed(agents, pair);
+  double least = std::numeric_limits<double>::infinity();
+  for (const Sphere& a : spheres_[agents.shape[first]])
+    for (const Sphere& b : other) {
+      const double px = static_cast<double>(b.x - a.x), py = static_cast<double>(b.y - a.y),
+                   pz = static_cast<double>(b.z - a.z);
+      const double square = (px * px + py * py) + pz * pz, speed = (vx * vx + vy * vy) + vz * vz;
+      const double towards = (px * vx + py * vy) + pz * vz;
+      const double cx = py * vz - pz * vy, cy = pz * vx - px * vz, cz = px * vy - py * vx;
+      const double reach = static_cast<double>(a.radius + b.radius) + 0x1p-19 * std::sqrt(square);
+      const double inner = reach * reach * speed - ((cx * cx + cy * cy) + cz * cz);
+      if (towards <= 0 || inner < 0) continue;
+      const double gap = square - reach * reach;
+      const double time = gap <= 0 ? 0 : gap / (towards + std::sqrt(inner)) * (1 - 0x1p-22);
+      if (time <= 1) least = std::min(least, time);
+    }
+  return static_cast<float>(least);
+}
+
 }  // namespace bch::baselines

@@ -29,6 +29,8 @@ class BodyReference {
   bool within(const Agents& agents, Pair pair, double distance) const;
   /// Returns what clearance() answers with Overlap::deepest.
   BodyClearance clearance(const Agents& agents, Pair pair) const;
+  /// Returns what time_of_impact() answers where the pair's first agent moves by (x, y, z) relative to the second.
+  float time_of_impact(const Agents& agents, Pair pair, double x, double y, double z) const;
 
  private:
   /// Returns the spheres of the agent with the larger index where they are in the other one's frame.

@@ -247,6 +247,19 @@ bch_status bch_within_bodies(const bch_body_set* set, const bch_agents* agents, 
   });
 }
 
+bch_status bch_time_of_impact_bodies(const bch_body_set* set, const bch_agents* agents, const bch_pair* pairs,
+                                     size_t count, const double* x, const double* y, const double* z,
+                                     const bch_query_options* options, float* times) {
+  return guarded([&] {
+    const PairCallOn<bch_body_set> call(set, agents, pairs, count, options);
+    Displacements ways{array_of(x, count, "x"), array_of(y, count, "y")};
+    if (z != nullptr) ways.z = array_of(z, count, "z");
+    const auto to = array_of(times, count, "times");
+    call.run(
+        [&] { time_of_impact(call.shapes, call.agents, call.pairs, ways, to, call.options.implementation); });
+  });
+}
+
 bch_status bch_clearance_bodies(const bch_body_set* set, const bch_agents* agents, const bch_pair* pairs,
                                 size_t count, const bch_query_options* options,
                                 const bch_body_clearance_out* given) {

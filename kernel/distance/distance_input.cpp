@@ -66,12 +66,24 @@ void require_distances(const Asked& asked, std::span<const double> distances) {
 void require_valid(const Asked& asked, const Displacements& displacements, std::size_t times) {
   require_as_many(asked, displacements.x.size(), "displacements in x");
   require_as_many(asked, displacements.y.size(), "displacements in y");
+  require_none_or_as_many(asked, displacements.z.size(), "displacements in z");
   require_as_many(asked, times, "times");
   const auto good = [](double length) { return std::abs(length) <= rounding::largest_position; };
   for (std::size_t i = 0; i < displacements.x.size(); ++i)
     if (!good(displacements.x[i]) || !good(displacements.y[i]))
       throw std::invalid_argument(place(asked, i) + "displacement (" + shortest(displacements.x[i]) + ", " +
                                   shortest(displacements.y[i]) + ") m is not within +-1e9");
+  for (std::size_t i = 0; i < displacements.z.size(); ++i)
+    if (!good(displacements.z[i]))
+      throw std::invalid_argument(place(asked, i) + "displacement in z of " + shortest(displacements.z[i]) +
+                                  " m is not within +-1e9");
+}
+
+void require_on_ground(const Asked& asked, const Displacements& displacements) {
+  if (!displacements.z.empty())
+    throw std::invalid_argument(std::string(asked.query) +
+                                ": expected no displacements in z of outlines, found " +
+                                std::to_string(displacements.z.size()));
 }
 
 void put_alone(const ClearanceAnswers& answers, std::size_t i, float distance) noexcept {

@@ -22,6 +22,8 @@ void require_valid(const Asked& asked, const BodyClearanceAnswers& answers,
 void require_distances(const Asked& asked, std::span<const double> distances);
 /// Requires of time_of_impact() the sizes of displacements and times, and displacements within the limits.
 void require_valid(const Asked& asked, const Displacements& displacements, std::size_t times);
+/// Refuses displacements in z.
+void require_on_ground(const Asked& asked, const Displacements& displacements);
 
 /// Writes the distance of a pair or an agent without anything beside it.
 void put_alone(const ClearanceAnswers& answers, std::size_t i, float distance) noexcept;

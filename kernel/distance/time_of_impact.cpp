@@ -48,6 +48,7 @@ void time_of_impact(const ShapeSet& shapes, const Agents& agents, std::span<cons
                     const Implementation* wanted) {
   const FloatingPointStateGuard floats;
   require_valid({"time_of_impact", "pair", pairs.size()}, displacements, times.size());
+  require_on_ground({"time_of_impact", "pair", pairs.size()}, displacements);
   const Implementation& implementation = chosen(wanted, "time_of_impact");
   const ShapeSetView& view = shapes.view();
   require_valid(implementation, view, agents, pairs);

@@ -114,6 +114,7 @@ void time_of_impact(const ShapeSet& shapes, const Agents& agents, const Displace
                     const ObstacleSet& obstacles, std::span<float> times, const Implementation* wanted) {
   const FloatingPointStateGuard floats;
   require_valid({"time_of_impact", "agent", agents.size()}, displacements, times.size());
+  require_on_ground({"time_of_impact", "agent", agents.size()}, displacements);
   const Implementation& implementation = chosen(wanted, "time_of_impact");
   validate(shapes, agents);
   double farthest = 0;

@@ -113,6 +113,9 @@ TEST_F(QueryInput, SizesAreNamed) {
   expect_refused("2 pairs but 3 displacements in x", [&] {
     time_of_impact(set, agents, pairs, {three, way}, floats);
   });
+  expect_refused("expected no displacements in z of outlines, found 2", [&] {
+    time_of_impact(set, agents, pairs, {way, way, way}, floats);
+  });
   expect_refused("2 pairs but 1 times", [&] { time_of_impact(set, agents, pairs, {way, way}, one(floats)); });
   expect_refused("2 pairs but 1 directions",
                  [&] { penetration_along(set, agents, pairs, one(directions), depths); });

@@ -213,6 +213,12 @@ class Scenes(unittest.TestCase):
             self.assertEqual(near.tolist(), [True, True, True, False])
             gaps = bch.clearance(bodies, agents, pairs, implementation=name)
             np.testing.assert_allclose(gaps, [0, 0, 0.1, np.hypot(0.9, 0.65) - 0.75], atol=1e-4)
+            moved = (np.zeros(4), np.zeros(4))
+            self.assertEqual(bch.time_of_impact(bodies, agents, pairs, *moved, implementation=name).tolist(), [0, 0, np.inf, np.inf])
+            times = bch.time_of_impact(bodies, agents, pairs, *moved, dz=np.array([0, 0, 0.4, -1.0]), implementation=name)
+            np.testing.assert_allclose(times, [0, 0, 0.25, np.inf], atol=1e-4)
+        with self.assertRaisesRegex(bch.ArrayError, "dz is given; wanted is a bch.BodySet"):
+            bch.time_of_impact(SHAPES, LINE, PAIRS, np.zeros(3), np.zeros(3), dz=np.zeros(3))
         nearest = bch.nearest(bodies, agents, pairs, max_distance=0.2, overlap="deepest")
         np.testing.assert_allclose(nearest.distance[:3], [-0.1, -0.1, 0.1], atol=1e-4)
         np.testing.assert_allclose(nearest.direction[1:3], [[0, 0, 1]] * 2, atol=1e-6)

@@ -8,6 +8,7 @@
 #include <memory>
 #include <span>
 
+#include <bch/body_set.hpp>
 #include <bch/query.hpp>
 
 namespace bch {

@@ -218,8 +218,9 @@ void penetration(const ShapeSet& shapes, const Agents& agents, std::span<const P
 /// Holds the displacement of the first agent of each pair relative to the second: its own displacement minus the
 /// other's. Beside obstacles there is one for each agent, in the world. No agent turns.
 /// Units:   metres in the world; each within +-1e9.
+/// Sizes:   z is empty, so that nobody moves up or down, or of bodies of spheres as long as x and y.
 struct Displacements {
-  std::span<const double> x, y;
+  std::span<const double> x, y, z = {};
 };
 
 /// Finds when the two agents of each pair first touch while they move without turning. The time is the least t in [0, 1] at which
@@ -244,6 +245,18 @@ struct Displacements {
 /// Threads: runs in the caller's TBB arena. Allocates nothing.
 /// Source:  the slide of the paper's experiment, which the paper makes in small steps.
 void time_of_impact(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
+                    const Displacements& displacements, std::span<float> times,
+                    const Implementation* implementation = nullptr);
+
+/// Finds when the bodies of the two agents of each pair first touch in space while they move without turning: the least t in [0, 1] at which
+/// some sphere of one touches some sphere of the other when the first agent has moved by t times its displacement, or infinity if there
+/// is none. It is 0 where collide() answers 1.
+///
+/// The time is never later than the first contact of what the spheres hold. At that time the spheres are at most 6 um per metre of way
+/// and of the two bodies' reaches apart. So the time may be early, or finite where the spheres only pass each other within that distance. Bits
+/// are as for a ShapeSet.
+/// Sizes, errors, threads: as for time_of_impact() of a ShapeSet, without levels.
+void time_of_impact(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs,
                     const Displacements& displacements, std::span<float> times,
                     const Implementation* implementation = nullptr);
 

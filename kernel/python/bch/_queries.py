@@ -473,12 +473,13 @@ def penetration(
 
 
 def time_of_impact(
-    shapes: ShapeSet,
+    shapes: Union[ShapeSet, BodySet],
     agents: Agents,
     pairs: Pairs,
     dx: Float64,
     dy: Float64,
     *,
+    dz: Optional[Float64] = None,
     threads: int = 0,
     implementation: Optional[str] = None,
     out: Optional[Float32] = None,
@@ -490,11 +491,14 @@ def time_of_impact(
 
     Parameters
     ----------
-    shapes : ShapeSet
+    shapes : ShapeSet or BodySet
+        Bodies touch in space.
     agents : Agents
     pairs : (n, 2) uint32, or Obstacles
     dx, dy : (n,) float64
         The displacement of the first agent of each pair relative to the second, or of each agent among obstacles, metres.
+    dz : (n,) float64, optional
+        The same upward, of bodies alone. Nobody moves up or down without it.
     threads, implementation
         As for `collide`.
     out : (n,) float32, optional
@@ -504,11 +508,17 @@ def time_of_impact(
     (n,) float32
         The fraction of the displacement, from 0 to 1, after which they touch; infinity where they do not touch.
     """
-    set_at, agents_at, where, n = _asked(shapes, agents, pairs)
+    bodies = isinstance(shapes, BodySet)
+    if dz is not None and not bodies:
+        raise ArrayError("dz is given; wanted is a bch.BodySet for shapes, or no dz: outlines do not move up or down")
+    set_at, agents_at, where, n = _asked(shapes, agents, pairs, bodies)
     times = result(out, f4, (n,))
     how, _ = options("segments", "zero", math.inf, threads, implementation)
     to_x, to_y = given(dx, f8, (n,), "dx"), given(dy, f8, (n,), "dy")
-    if isinstance(pairs, Obstacles):
+    if bodies:
+        to_z = None if dz is None else given(dz, f8, (n,), "dz")
+        check(lib.bch_time_of_impact_bodies(set_at, agents_at, where, n, to_x, to_y, to_z, how, address(times)))
+    elif isinstance(pairs, Obstacles):
         check(lib.bch_obstacles_time_of_impact(set_at, agents_at, where, to_x, to_y, how, address(times)))
     else:
         check(lib.bch_time_of_impact(set_at, agents_at, where, n, to_x, to_y, how, address(times)))

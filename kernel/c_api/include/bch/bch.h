@@ -796,6 +796,11 @@ BCH_API bch_status bch_collide_bodies(const bch_body_set* set, const bch_agents*
 BCH_API bch_status bch_within_bodies(const bch_body_set* set, const bch_agents* agents, const bch_pair* pairs,
                                      size_t count, const double* distances, size_t distance_count,
                                      const bch_query_options* options, uint8_t* answers);
+/** Finds when the bodies of each pair's agents first touch in space while the first moves by (x, y, z) relative to the second: a time from 0
+ * to 1, or infinity. `z` may be NULL: nobody moves up or down. */
+BCH_API bch_status bch_time_of_impact_bodies(const bch_body_set* set, const bch_agents* agents, const bch_pair* pairs,
+                                             size_t count, const double* x, const double* y, const double* z,
+                                             const bch_query_options* options, float* times);
 /** Holds the nearest points of two bodies, each relative to its agent's position, in the world's axes. */
 typedef struct bch_nearest_space_points {
   bch_vec3 first, second;

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <array>
+
+#include <bch/pairs.hpp>
+
+#include "kernel/body/body_arguments.hpp"
+#include "kernel/body/sphere_impact.hpp"
+#include "kernel/distance/distance_input.hpp"
+#include "kernel/runtime/kernels.hpp"
+#include "kernel/runtime/pair_validation.hpp"
+#include "kernel/runtime/task_ranges.hpp"
+#include "layout/base/floating_point_state.hpp"
+#include "layout/base/heading.hpp"
+
+namespace bch {
+
+using namespace detail;
+
+namespace {
+
+/// Places B in A's frame as layout/base/rounding.hpp has it, and turns ways into that frame.
+class SpaceFrame {
+ public:
+  SpaceFrame(const Agents& agents, std::uint32_t a, std::uint32_t b)
+      : of_a_(unit_vector(agents.heading[a])), z_(rise(agents, a, b)) {
+    const UnitVector of_b = unit_vector(agents.heading[b]);
+    cosine_ = of_a_.cosine * of_b.cosine + of_a_.sine * of_b.sine;
+    sine_ = of_a_.cosine * of_b.sine - of_a_.sine * of_b.cosine;
+    const Vec2 at = turned(agents.x[b] - agents.x[a], agents.y[b] - agents.y[a]);
+    x_ = at.x, y_ = at.y;
+  }
+
+  SpaceWay way(double x, double y, double z) const {
+    const Vec2 flat = turned(x, y);
+    return {double{flat.x}, double{flat.y}, static_cast<double>(static_cast<float>(z))};
+  }
+  Sphere placed(const Sphere& s) const {
+    return {x_ + (cosine_ * s.x - sine_ * s.y), y_ + (sine_ * s.x + cosine_ * s.y), z_ + s.z, s.radius};
+  }
+  Cylinder placed(const Cylinder& c) const {
+    const double cosine = double{cosine_}, sine = double{sine_}, z = double{z_};
+    return {double{x_} + (cosine * c.x - sine * c.y), double{y_} + (sine * c.x + cosine * c.y), c.radius,
+            z + c.bottom, z + c.top};
+  }
+  double distance() const { return std::abs(double{x_}) + std::abs(double{y_}) + std::abs(double{z_}); }
+
+ private:
+  static float rise(const Agents& agents, std::uint32_t a, std::uint32_t b) {
+    return agents.z.empty() ? 0 : static_cast<float>(agents.z[b] - agents.z[a]);
+  }
+  Vec2 turned(double x, double y) const {
+    const float to_x = static_cast<float>(x), to_y = static_cast<float>(y);
+    return {of_a_.cosine * to_x + of_a_.sine * to_y, of_a_.cosine * to_y - of_a_.sine * to_x};
+  }
+
+  UnitVector of_a_;
+  float cosine_, sine_, x_, y_, z_;
+};
+
+Cylinder whole_of(const float* record) {
+  const BodyHeader& h = header_of(record);
+  return {double{h.x}, double{h.y}, double{h.radius}, double{h.bottom}, double{h.top}};
+}
+
+Cylinder node_of(const float* record, std::uint32_t leaf) {
+  const std::size_t stride = header_of(record).node_stride;
+  const float* const x = record + record_nodes + leaf;
+  return {double{x[0]}, double{x[stride]}, double{x[2 * stride]}, double{x[3 * stride]},
+          double{x[4 * stride]}};
+}
+
+/// Finds the first contact of two bodies that do not collide: of each, the leaves that may touch the other one's whole, and then the
+/// spheres of those leaves that may touch each other.
+class FirstImpact {
+ public:
+  FirstImpact(const float* a, const float* b, const SpaceFrame& frame, const SpaceWay& way)
+      : a_(a), b_(b), frame_(frame), way_(way) {
+    slack_ = 0x1p-16 * (double{header_of(a).reach} + double{header_of(b).reach} + frame.distance());
+  }
+
+  float time() {
+    const Cylinder whole_a = whole_of(a_), whole_b = frame_.placed(whole_of(b_));
+    if (is_late(bound_of_contact(whole_a, whole_b, way_, slack_))) return found();
+    std::uint32_t count = 0;
+    for (std::uint32_t j = 0; j < header_of(b_).leaf_count; ++j) {
+      const Cylinder node = frame_.placed(node_of(b_, j));
+      if (is_late(bound_of_contact(whole_a, node, way_, slack_))) continue;
+      nodes_[count] = node, leaves_[count++] = j;
+    }
+    for (std::uint32_t i = 0; count != 0 && i < header_of(a_).leaf_count; ++i) {
+      const Cylinder node = node_of(a_, i);
+      if (is_late(bound_of_contact(node, whole_b, way_, slack_))) continue;
+      for (std::uint32_t k = 0; k < count; ++k)
+        if (!is_late(bound_of_contact(node, nodes_[k], way_, slack_))) compare(i, leaves_[k]);
+    }
+    return found();
+  }
+
+ private:
+  /// Returns whether no time above a bound counts.
+  bool is_late(double bound) const { return bound * (1 - 0x1p-18) > best_; }
+  float found() const {
+    return is_found_ ? static_cast<float>(best_) : std::numeric_limits<float>::infinity();
+  }
+
+  void compare(std::uint32_t leaf_a, std::uint32_t leaf_b) {
+    const std::uint32_t size_a = header_of(a_).leaf_size, size_b = header_of(b_).leaf_size;
+    for (std::uint32_t j = 0; j < size_b; ++j) {
+      const Sphere b = frame_.placed(sphere_of(b_, leaf_b * size_b + j));
+      for (std::uint32_t i = 0; i < size_a; ++i) {
+        const Sphere a = sphere_of(a_, leaf_a * size_a + i);
+        const SpaceWay between{double{b.x - a.x}, double{b.y - a.y}, double{b.z - a.z}};
+        const double time = time_of_contact(between, way_, double{a.radius + b.radius});
+        if (time <= best_) best_ = time, is_found_ = true;
+      }
+    }
+  }
+
+  const float *a_, *b_;
+  const SpaceFrame& frame_;
+  SpaceWay way_;
+  double slack_, best_ = 1;
+  bool is_found_ = false;
+  std::array<Cylinder, most_spheres / 4> nodes_;  ///< of B, placed
+  std::array<std::uint32_t, most_spheres / 4> leaves_;
+};
+
+constexpr std::size_t impacts_at_once = 256;
+
+}  // namespace
+
+void time_of_impact(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs,
+                    const Displacements& displacements, std::span<float> times,
+                    const Implementation* wanted) {
+  const FloatingPointStateGuard floats;
+  require_valid({"time_of_impact", "pair", pairs.size()}, displacements, times.size());
+  const Implementation& implementation = chosen(wanted, "time_of_impact");
+  const BodySetView& view = bodies.view();
+  require_valid(implementation, view.ground, agents, pairs);
+  for_pair_ranges(pairs.size(), impacts_at_once, [&](std::size_t begin, std::size_t size) {
+    std::uint8_t hits[impacts_at_once];
+    BodyArguments arguments{arguments_for(view.ground, agents, pairs.subspan(begin, size)), &view};
+    arguments.pairs.codes = hits;
+    implementation.kernels->run_bodies(arguments, 0, size);
+    for (std::size_t k = 0; k < size; ++k) {
+      const std::size_t i = begin + k;
+      const auto [a, b] = std::minmax(pairs[i].first, pairs[i].second);
+      const double sign = pairs[i].second < pairs[i].first ? -1 : 1;
+      const SpaceFrame frame(agents, a, b);
+      const SpaceWay way = frame.way(sign * displacements.x[i], sign * displacements.y[i],
+                                     displacements.z.empty() ? 0 : sign * displacements.z[i]);
+      times[i] =
+          hits[k] != 0
+              ? 0
+              : FirstImpact(view.record(agents.shape[a]), view.record(agents.shape[b]), frame, way).time();
+    }
+  });
+}
+
+}  // namespace bch

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <bch/pairs.hpp>
+
+#include <cmath>
+#include <limits>
+
+#include "baselines/body_reference.hpp"
+#include "tests/support/body_scenes.hpp"
+#include "tests/support/implementations.hpp"
+#include "tests/support/test.hpp"
+
+// Times of impact of bodies of spheres: the brute-force reference's, never late, and not much too early.
+namespace bch {
+namespace {
+
+using test::BodyCrowd;
+using test::Random;
+
+constexpr float never_met = std::numeric_limits<float>::infinity();
+
+/// Holds a way of each pair's first agent.
+struct SpaceWays {
+  std::vector<double> x, y, z;
+
+  /// Makes ways of any direction, most of them towards the second agent and about as long as it is far, some of them level or none.
+  SpaceWays(Random& random, const BodyCrowd& crowd, double aside) {
+    for (const auto [a, b] : crowd.pairs) {
+      const double far = random.between(-0.2, 2);
+      const double rise = crowd.z[b] - crowd.z[a];
+      const bool is_level = random.below(4) == 0, is_none = random.below(20) == 0;
+      x.push_back(is_none ? 0 : far * (crowd.x[b] - crowd.x[a]) + random.between(-aside, aside));
+      y.push_back(is_none ? 0 : far * (crowd.y[b] - crowd.y[a]) + random.between(-aside, aside));
+      z.push_back(is_none || is_level ? 0 : far * rise + random.between(-aside, aside));
+    }
+  }
+  Displacements span() const { return {x, y, z}; }
+  void negate() {
+    for (auto* const part : {&x, &y, &z})
+      for (double& length : *part) length = -length;
+  }
+};
+
+std::vector<float> times_of(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs,
+                            const Displacements& ways, const Implementation* implementation = nullptr) {
+  std::vector<float> times(pairs.size(), -1);
+  time_of_impact(bodies, agents, pairs, ways, times, implementation);
+  return times;
+}
+
+/// Expects the reference's times of all implementations, also of pairs the other way round; returns them.
+std::vector<float> expect_times(const BodySet& bodies, const BodyCrowd& crowd, SpaceWays ways) {
+  const Agents agents = crowd.agents();
+  const baselines::BodyReference reference(bodies);
+  std::vector<float> expected;
+  std::vector<Pair> swapped;
+  for (std::size_t i = 0; i < crowd.pairs.size(); ++i) {
+    expected.push_back(reference.time_of_impact(agents, crowd.pairs[i], ways.x[i], ways.y[i], ways.z[i]));
+    swapped.push_back({crowd.pairs[i].second, crowd.pairs[i].first});
+  }
+  for (const Implementation& implementation : test::supported()) {
+    SCOPED_TRACE(implementation.name);
+    const std::vector<float> found = times_of(bodies, agents, crowd.pairs, ways.span(), &implementation);
+    for (std::size_t i = 0; i < found.size(); ++i) EXPECT_EQ(found[i], expected[i]) << "pair " << i;
+  }
+  ways.negate();
+  EXPECT_EQ(times_of(bodies, agents, swapped, ways.span()), expected);
+  return expected;
+}
+
+/// Expects that some agents touch on the way, and others at once or never.
+void expect_all_kinds(const std::vector<float>& times) {
+  const auto now = std::count(times.begin(), times.end(), 0.0f);
+  const auto never = std::count(times.begin(), times.end(), never_met);
+  EXPECT_GT(now, 0);
+  EXPECT_GT(never, 0);
+  EXPECT_LT(now + never, static_cast<std::ptrdiff_t>(times.size()) - 100);
+}
+
+/// Makes bodies of few spheres and many, standing and lying, some of them off their origins.
+BodySet bodies_of_all_kinds(Random& random, float scale = 1) {
+  std::vector<std::vector<Sphere>> bodies;
+  for (const std::uint32_t spheres : {1u, 3u, 17u, 64u, 256u, 385u})
+    for (const bool lies : {false, true}) bodies.push_back(test::random_body(random, spheres, lies));
+  for (Sphere& sphere : bodies.emplace_back(test::random_body(random, 50)))
+    sphere.z -= 0.7f, sphere.x += 0.8f;
+  for (auto& body : bodies)
+    for (Sphere& s : body) s = {scale * s.x, scale * s.y, scale * s.z, scale * s.radius};
+  return BodySet(bodies);
+}
+
+TEST(BodyImpact, CrowdsAreThoseOfTheReference) {
+  Random random(5421);
+  const BodySet bodies = bodies_of_all_kinds(random);
+  for (const double height : {0.0, 0.17, 2.5}) {
+    SCOPED_TRACE(height);
+    const BodyCrowd crowd = test::random_body_crowd(random, 50, bodies.body_count(), 5, height);
+    expect_all_kinds(expect_times(bodies, crowd, SpaceWays(random, crowd, 0.4)));
+  }
+}
+
+TEST(BodyImpact, AnySizeAndPlace) {
+  Random random(5422);
+  for (const float scale : {1e-5f, 100.0f, 2e5f})
+    for (const double far : {0.0, 1e7}) {
+      const BodySet bodies = bodies_of_all_kinds(random, scale);
+      const double side = 5 * static_cast<double>(scale);
+      BodyCrowd crowd = test::random_body_crowd(random, 40, bodies.body_count(), side, 0.2 * side);
+      for (double& x : crowd.x) x += far;
+      expect_times(bodies, crowd, SpaceWays(random, crowd, 0.1 * side));
+    }
+}
+
+TEST(BodyImpact, LongWays) {
+  Random random(5423);
+  const BodySet bodies = bodies_of_all_kinds(random);
+  for (const double side : {1e3, 1e6, 4e8}) {
+    const BodyCrowd crowd = test::random_body_crowd(random, 40, bodies.body_count(), side, side);
+    expect_times(bodies, crowd, SpaceWays(random, crowd, 0.2));
+  }
+}
+
+/// Measures the least gap of the spheres as they were given, in double, when A has gone a part of its way.
+double gap_on_way(const std::vector<std::vector<Sphere>>& given, const BodyCrowd& crowd, Pair pair, double x,
+                  double y, double z) {
+  const auto place = [&](std::uint32_t agent, const Sphere& s) {
+    const double c = std::cos(crowd.heading[agent]), sine = std::sin(crowd.heading[agent]);
+    const double sx = static_cast<double>(s.x), sy = static_cast<double>(s.y);
+    return std::array{crowd.x[agent] + c * sx - sine * sy, crowd.y[agent] + sine * sx + c * sy,
+                      crowd.z[agent] + static_cast<double>(s.z)};
+  };
+  double least = std::numeric_limits<double>::infinity();
+  for (const Sphere& a : given[crowd.body[pair.first]]) {
+    const auto p = place(pair.first, a);
+    for (const Sphere& b : given[crowd.body[pair.second]]) {
+      const auto q = place(pair.second, b);
+      const double apart = std::hypot(q[0] - p[0] - x, q[1] - p[1] - y, q[2] - p[2] - z);
+      least = std::min(least, apart - static_cast<double>(a.radius) - static_cast<double>(b.radius));
+    }
+  }
+  return least;
+}
+
+TEST(BodyImpact, NeverLateAndHardlyEarly) {
+  Random random(5424);
+  std::vector<std::vector<Sphere>> given;
+  for (const std::uint32_t spheres : {1u, 5u, 40u}) given.push_back(test::random_body(random, spheres));
+  const BodySet bodies(given);
+  const BodyCrowd crowd = test::random_body_crowd(random, 60, bodies.body_count(), 6, 1);
+  const SpaceWays ways(random, crowd, 0.3);
+  const std::vector<float> times = times_of(bodies, crowd.agents(), crowd.pairs, ways.span());
+  std::size_t touched = 0;
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const double time = static_cast<double>(times[i]);
+    const auto gap_at = [&](double t) {
+      return gap_on_way(given, crowd, crowd.pairs[i], t * ways.x[i], t * ways.y[i], t * ways.z[i]);
+    };
+    const double until = std::min(time, 1.0);
+    for (const double part : {0.0, 0.3, 0.7, 0.95, 0.999, 0.99999, 1.0})
+      if (until > 0) EXPECT_GE(gap_at(part * until), 0) << "pair " << i << " at " << part * until;
+    if (time == 0 || !std::isfinite(time)) continue;
+    ++touched;
+    const double way = std::hypot(ways.x[i], ways.y[i], ways.z[i]);
+    EXPECT_LE(gap_at(time), 6e-6 * (way + 4.2)) << "pair " << i;
+  }
+  EXPECT_GT(touched, 300u);
+}
+
+TEST(BodyImpact, WithoutHeightsNobodyMovesUp) {
+  Random random(5425);
+  const BodySet bodies = bodies_of_all_kinds(random);
+  const BodyCrowd crowd = test::random_body_crowd(random, 40, bodies.body_count(), 5, 0);
+  SpaceWays ways(random, crowd, 0.4);
+  std::fill(ways.z.begin(), ways.z.end(), 0.0);
+  Agents agents = crowd.agents();
+  agents.z = {};
+  EXPECT_EQ(times_of(bodies, agents, crowd.pairs, {ways.x, ways.y}), expect_times(bodies, crowd, ways));
+}
+
+TEST(BodyImpact, BallsFallOnEachOther) {
+  const BodySet bodies(std::vector<std::vector<Sphere>>{{{0, 0, 0, 0.5f}}});
+  BodyCrowd crowd{{0, 0}, {3, 3}, {4, 4}, {0, 5}, {1, 2}, {{1, 0}, {0, 1}, {1, 0}, {1, 0}}};
+  const std::vector<double> none(4, 0.0), z{-8, 8, 8, -3.9};
+  const std::vector<float> times = times_of(bodies, crowd.agents(), crowd.pairs, {none, none, z});
+  EXPECT_NEAR(times[0], 0.5, 1e-5);
+  EXPECT_EQ(times[0], times[1]);
+  EXPECT_EQ(times[2], never_met);
+  EXPECT_EQ(times[3], never_met);
+}
+
+TEST(BodyImpact, BadInputIsNamed) {
+  const BodySet bodies(std::vector<std::vector<Sphere>>{{{0, 0, 0, 0.5f}}});
+  BodyCrowd crowd{{0, 0}, {0, 3}, {0, 0}, {0, 0}, {0, 0}, {{0, 1}}};
+  const std::vector<double> one(1, 1.0), two(2, 1.0), high(1, 2e9), nan(1, std::nan(""));
+  std::vector<float> times(1, 7);
+  const auto refused = [&](const Displacements& ways) {
+    try {
+      time_of_impact(bodies, crowd.agents(), crowd.pairs, ways, times);
+    } catch (const std::invalid_argument& error) {
+      EXPECT_EQ(times[0], 7);
+      return std::string(error.what());
+    }
+    return std::string("nothing");
+  };
+  EXPECT_EQ(refused({one, one, high}),
+            "time_of_impact: pair 0: displacement in z of 2e+09 m is not within +-1e9");
+  EXPECT_NE(refused({one, one, nan}).find("pair 0: displacement in z of "), std::string::npos);
+  EXPECT_NE(refused({one, one, two}).find("displacements in z"), std::string::npos);
+  EXPECT_NE(refused({one, nan}).find("pair 0"), std::string::npos);
+  EXPECT_NE(refused({two, one}).find("displacements in x"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace bch
