@@ -167,6 +167,31 @@ TEST(BodyImpact, NeverLateAndHardlyEarly) {
   EXPECT_GT(touched, 300u);
 }
 
+TEST(BodyImpact, SpheresThatGraze) {
+  Random random(5426);
+  const BodySet bodies(std::vector<std::vector<Sphere>>{{{0, 0, 0, 0.3f}}, {{0, 0, 0, 0.2f}}});
+  BodyCrowd crowd;
+  std::vector<double> x, y;
+  for (std::uint32_t i = 0; i < 4000; i += 2) {
+    // The first one passes at the sum of the radii, to the last bits of the distance at the start.
+    const double turn = random.between(-4, 4), c = std::cos(turn), s = std::sin(turn);
+    const double ahead = random.between(1, 40), aside = 0.5 + random.between(-1, 4) * 0x1p-20 * ahead;
+    crowd.body.insert(crowd.body.end(), {0, 1});
+    crowd.x.insert(crowd.x.end(), {0, c * ahead - s * aside});
+    crowd.y.insert(crowd.y.end(), {0, s * ahead + c * aside});
+    crowd.z.insert(crowd.z.end(), 2, 0);
+    crowd.heading.insert(crowd.heading.end(), {random.between(-4, 4), random.between(-4, 4)});
+    crowd.pairs.push_back({i, i + 1});
+    x.push_back(2 * ahead * c), y.push_back(2 * ahead * s);
+  }
+  SpaceWays ways(random, crowd, 0);
+  ways.x = x, ways.y = y, ways.z.assign(x.size(), 0);
+  const std::vector<float> times = expect_times(bodies, crowd, ways);
+  const auto never = std::count(times.begin(), times.end(), never_met);
+  EXPECT_GT(never, 100);
+  EXPECT_LT(never, 1900);
+}
+
 TEST(BodyImpact, WithoutHeightsNobodyMovesUp) {
   Random random(5425);
   const BodySet bodies = bodies_of_all_kinds(random);
