@@ -32,6 +32,7 @@ constexpr Experiment all_experiments[] = {
     {"detail", run_detail},
     {"motions", run_motions},
     {"stability", run_stability},
+    {"stiff", run_stiff},
 };
 
 bool wants(const Options& options, std::string_view experiment) {

@@ -82,6 +82,7 @@ void run_density(Run& run);
 void run_detail(Run& run);
 void run_motions(Run& run);
 void run_stability(Run& run);
+void run_stiff(Run& run);
 
 /// Runs experiments, in the order of the page, and writes the tables of each, NAME*.csv, into the folder; and run.csv with machine,
 /// compiler, commit, seed, options and command.

@@ -29,7 +29,7 @@ TITLES = {  # of the experiments, in the order of the page
     "error_time": "Error against run time", "bodies": "Bodies in space", "construction": "Construction time", "query_time": "Query time",
     "distance": "Distance at detection", "depth": "Depth", "volume": "Represented volume",
     "mesh_detail": "Mesh detail", "density": "Crowd density", "detail": "Detail by density",
-    "motions": "Motions", "stability": "Stability"}
+    "motions": "Motions", "stability": "Stability", "stiff": "Stiff contact"}
 # What the paper reports: times of a pair (ns), distances at detection (cm), the critical depth, and table 1 with what the text says of the
 # meshes (mean, median, deviation), of its woman and its man.
 PAPER_TIMES = {"BCH outline": 2660, "OBB outline": 4630, "OBB projected": 20660}
@@ -350,6 +350,10 @@ def stability(data, out):
             "outlines that meet": row["outlines meeting"], "outlines missed by bch": row["outline misses"]})
     out["stability_refused"] = Table({"case": f"{row['title']}: {row['value']}", "exception": row["refused"]}
                                      for row in data["stability"] if isinstance(row["refused"], str))
+
+
+def stiff(data, out):
+    out["stiff"] = data["stiff"]
 
 
 def summarised(data):

@@ -8,7 +8,7 @@
 
 #include "bench/report/report.hpp"
 
-// Where tests of discs fail: hard cases, by exact arithmetic.
+// Where tests of discs fail: hard cases, by exact arithmetic; and depths as springs.
 
 namespace bch::report {
 namespace {
@@ -58,6 +58,15 @@ void run_stability(Run& run) {
   for (const StabilityRow& row : rows)
     if (const std::string broken = broken_promise(row); !broken.empty())
       throw std::runtime_error("a promise is broken: " + broken);
+}
+
+void run_stiff(Run& run) {
+  Table table({"depth from", "cut", "bounces", "first touch (mm)", "first touch, most (mm)", "energy (%)",
+               "energy, most (%)", "step: two (ms)", "step: a row (ms)", "step: a door (ms)"});
+  for (const bench::StiffRow& row : bench::stiff_rows(run.sizes().people / 5, run.sizes().cases / 5))
+    table.add({row.law, row.cut, row.bounces, 1e3 * row.onset, 1e3 * row.largest_onset, 100 * row.energy,
+               100 * row.most_energy, 1e3 * row.two_step, 1e3 * row.row_step, 1e3 * row.door_step});
+  run.write("stiff", table);
 }
 
 }  // namespace bch::report

@@ -63,4 +63,19 @@ std::string broken_promise(const StabilityRow& row);
 /// The documented gap in metres per metre of reach, see layout/base/rounding.hpp.
 constexpr double promised_gap = 4e-6;
 
+/// Holds how the depths of one law and cut behave as the springs of penalty forces.
+struct StiffRow {
+  std::string law, cut;
+  std::uint32_t bounces = 0;  ///< of two who fly into each other at 1 m/s, without drive and friction
+  double onset = 0, largest_onset = 0;  ///< metres of depth in the first step of a bounce: mean, largest
+  double energy = 0,
+         most_energy = 0;  ///< that a bounce creates, parts of what was there: mean of the size, largest
+  /// Seconds: of the steps that were tried, the largest up to which all were stable; 0: not even the first, 2 ms.
+  /// Two press against each other; up to 20 in a corridor, one behind the other, against a wall; all through a door.
+  double two_step = 0, row_step = 0, door_step = 0;
+};
+
+/// Returns the rows of all laws and cuts. Runs in the caller's TBB arena.
+std::vector<StiffRow> stiff_rows(std::uint32_t people, std::uint32_t bounces);
+
 }  // namespace bch::bench
