@@ -29,7 +29,7 @@ struct PairOfCase {
       : shape{agents.shape[2 * of], agents.shape[2 * of + 1]},
         x{},
         y{agents.y[2 * of], agents.y[2 * of + 1]},
-        heading{agents.heading[2 * of], agents.heading[2 * of + 1]} {}
+        heading{agents.heading.x()[2 * of], agents.heading.x()[2 * of + 1]} {}
 
   Agents at(double place) {
     x[0] = place;
