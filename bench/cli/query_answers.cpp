@@ -117,7 +117,7 @@ std::string clearance_lines(const QueryInput& input, const Measure& measure) {
 std::string clearance_rows(const QueryInput& input) {
   const Agents agents = input.table.agents();
   if (input.bodies != nullptr)
-    return clearance_lines<Vec3, NearestSpacePoints>(
+    return clearance_lines<Vec3, BodyClearanceAnswers::Points>(
         input, [&](auto& distance, auto& direction, auto& points) {
           clearance(*input.bodies, agents, input.pairs,
                     BodyClearanceAnswers{.distance = distance, .direction = direction, .points = points},

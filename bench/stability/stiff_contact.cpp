@@ -8,10 +8,10 @@
 #include <complex>
 #include <numbers>
 
-#include <bch/clearance.hpp>
+#include <bch/characters.hpp>
 #include <bch/crowd.hpp>
-#include <bch/default_characters.hpp>
-#include <bch/pose_shape.hpp>
+#include <bch/pairs.hpp>
+#include <bch/poses.hpp>
 
 #include "bench/base/text.hpp"
 #include "bench/stability/stability.hpp"
@@ -70,8 +70,8 @@ struct World {
     const Agents agents{shape, x, y, heading, levels};
     Crowd finder;
     // Discs of cuts may overlap where root discs do not. Any margin makes the candidates know that.
-    const auto pairs = discs ? finder.candidates(shapes, agents, {.margin = 1e-3}).span()
-                             : finder.collisions(shapes, agents).span();
+    const auto pairs =
+        discs ? finder.candidates(shapes, agents, 1e-3).span() : finder.collisions(shapes, agents).span();
     std::vector<Penetration> found(pairs.size());
     std::vector<float> distance(pairs.size());
     std::vector<Vec2> towards(pairs.size());

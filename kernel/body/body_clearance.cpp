@@ -44,7 +44,7 @@ class FoundSpheres {
 
   /// Returns the unit vector from A's sphere to B's, or with a sign of -1 its opposite.
   Vec3 direction(double sign) const { return rounded({sign * unit_.x, sign * unit_.y, sign * unit_.z}); }
-  NearestSpacePoints points() const { return {a_.end(unit_, 1), b_.end(unit_, -1)}; }
+  BodyClearanceAnswers::Points points() const { return {a_.end(unit_, 1), b_.end(unit_, -1)}; }
   DiscPair numbers() const {
     return {bodies_.number(agents_.shape[first_], nearest_.a),
             bodies_.number(agents_.shape[second_], nearest_.b)};
@@ -79,8 +79,8 @@ struct Writer {
       answers.spheres[i] = is_turned ? DiscPair{of.second, of.first} : of;
     }
     if (!answers.points.empty()) {
-      const NearestSpacePoints at = found.points();
-      answers.points[i] = is_turned ? NearestSpacePoints{at.second, at.first} : at;
+      const BodyClearanceAnswers::Points at = found.points();
+      answers.points[i] = is_turned ? BodyClearanceAnswers::Points{at.second, at.first} : at;
     }
   }
 };

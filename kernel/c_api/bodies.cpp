@@ -54,7 +54,7 @@ bch_status bch_spheres_from_capsules(const bch_space_capsule* capsules, size_t c
   return guarded([&] {
     same_array<Sphere>(spheres, capacity, "spheres");
     required(count, "count");
-    const auto all = same_array<SpaceCapsule>(capsules, capsule_count, "capsules");
+    const auto all = same_array<BodySet::Capsule>(capsules, capsule_count, "capsules");
     deliver(spheres_from_capsules(all, error), spheres, capacity, count);
   });
 }
@@ -270,7 +270,8 @@ bch_status bch_clearance_bodies(const bch_body_set* set, const bch_agents* agent
     BodyClearanceAnswers to{array_of(out.distance, count, "out->distance")};
     if (out.direction != nullptr) to.direction = same_array<Vec3>(out.direction, count, "out->direction");
     if (out.spheres != nullptr) to.spheres = same_array<DiscPair>(out.spheres, count, "out->spheres");
-    if (out.points != nullptr) to.points = same_array<NearestSpacePoints>(out.points, count, "out->points");
+    if (out.points != nullptr)
+      to.points = same_array<BodyClearanceAnswers::Points>(out.points, count, "out->points");
     call.run([&] { clearance(call.shapes, call.agents, call.pairs, to, call.options); });
   });
 }

@@ -111,7 +111,7 @@ struct CrowdMemory {
   Answers<DiscPair> discs;
   Answers<NearestPoints> points;
   Answers<Vec3> space_direction;
-  Answers<NearestSpacePoints> space_points;
+  Answers<BodyClearanceAnswers::Points> space_points;
   std::vector<Penetration> penetrations;
   ObstacleRows obstacle_rows;
 

@@ -39,7 +39,7 @@ class FoundObstacle {
   }
 
   Vec3 direction() const { return rounded(unit_); }
-  NearestSpacePoints points() const { return {sphere_.end(unit_, 1), rounded(at_)}; }
+  BodyClearanceAnswers::Points points() const { return {sphere_.end(unit_, 1), rounded(at_)}; }
 
  private:
   const AgentSphere sphere_;

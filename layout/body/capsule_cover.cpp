@@ -30,7 +30,7 @@ namespace {
 ///     sqrt(radius^2 + (spacing / 2)^2)
 ///
 /// hold it, and reach out of the capsule by the excess of that over the radius.
-void add_row(const SpaceCapsule& capsule, std::size_t number, float error, std::vector<Sphere>& spheres) {
+void add_row(const BodySet::Capsule& capsule, std::size_t number, float error, std::vector<Sphere>& spheres) {
   const double x = double{capsule.b.x} - double{capsule.a.x}, y = double{capsule.b.y} - double{capsule.a.y},
                z = double{capsule.b.z} - double{capsule.a.z}, radius = capsule.radius,
                length = std::sqrt(x * x + y * y + z * z);
@@ -62,7 +62,7 @@ void add_row(const SpaceCapsule& capsule, std::size_t number, float error, std::
 
 }  // namespace
 
-std::vector<Sphere> spheres_from_capsules(std::span<const SpaceCapsule> capsules, float error) {
+std::vector<Sphere> spheres_from_capsules(std::span<const BodySet::Capsule> capsules, float error) {
   const FloatingPointStateGuard floats;
   if (capsules.empty()) throw std::invalid_argument("spheres of capsules: expected at least one, found none");
   std::vector<Sphere> spheres;

@@ -27,7 +27,7 @@ struct Distances {
   std::vector<float> distance;
   std::vector<Vec3> direction;
   std::vector<DiscPair> spheres;
-  std::vector<NearestSpacePoints> points;
+  std::vector<BodyClearanceAnswers::Points> points;
 
   explicit Distances(std::size_t pairs) : distance(pairs), direction(pairs), spheres(pairs), points(pairs) {}
   Distances(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs,
@@ -81,7 +81,7 @@ void expect_distances(const BodySet& bodies, const Agents& agents, std::span<con
     ASSERT_EQ(overlap, expected.hits[i] == 1) << "pair " << i;
     ASSERT_EQ(apart.distance[i], overlap ? 0 : distance) << "pair " << i;
     ASSERT_EQ(apart.spheres[i], overlap ? DiscPair::none : spheres) << "pair " << i;
-    ASSERT_EQ(apart.points[i], overlap ? NearestSpacePoints{} : deepest.points[i]) << "pair " << i;
+    ASSERT_EQ(apart.points[i], overlap ? BodyClearanceAnswers::Points{} : deepest.points[i]) << "pair " << i;
     ASSERT_EQ(apart.direction[i], overlap ? Vec3{} : deepest.direction[i]) << "pair " << i;
     ASSERT_EQ(limited.distance[i], is_near ? apart.distance[i] : infinity) << "pair " << i;
     ASSERT_EQ(limited.spheres[i], is_near ? apart.spheres[i] : DiscPair::none) << "pair " << i;

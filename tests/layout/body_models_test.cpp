@@ -72,7 +72,7 @@ TEST(ModelBytes, AreRefusedWhereTheyEndEarlyOrLate) {
 }
 
 TEST(ModelBytes, PromiseNoMoreThanTheyHold) {
-  const std::string start(1 + core_spheres, '\0');  // leaf size and core
+  const std::string start(1 + detail::core_spheres, '\0');  // leaf size and core
   EXPECT_TRUE(test::has(test::complaint([&] { model_from(start + "\xff\xff\xff\xff\x0f", nullptr); }),
                         "expected at least 4294967295 more bytes, found 0"));
   EXPECT_TRUE(

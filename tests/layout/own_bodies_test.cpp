@@ -65,7 +65,7 @@ TEST(OwnBodies, OfCapsulesHoldThemAndHardlyMore) {
       return Vec3{static_cast<float>(random.uniform(-1, 1)), static_cast<float>(random.uniform(-1, 1)),
                   static_cast<float>(random.uniform(0, 2))};
     };
-    SpaceCapsule capsule{end(), end(), static_cast<float>(random.uniform(0, 0.2))};
+    BodySet::Capsule capsule{end(), end(), static_cast<float>(random.uniform(0, 0.2))};
     if (i % 10 == 0) capsule.b = capsule.a;
     if (i % 10 == 1) capsule.radius = 0.001f;
     const float error = i % 2 == 0 ? 0.005f : 0.03f;
@@ -164,7 +164,7 @@ TEST(OwnBodies, OfPolygonsWithHeightsHoldThemAndHardlyMore) {
 }
 
 TEST(OwnBodies, AreRefusedWithAReason) {
-  const auto of_capsule = [](SpaceCapsule capsule, float error) {
+  const auto of_capsule = [](BodySet::Capsule capsule, float error) {
     return test::complaint([&] { spheres_from_capsules({&capsule, 1}, error); });
   };
   EXPECT_EQ(of_capsule({{0, 0, 0}, {0, 0, 1}, -1}, 0.01f),
@@ -192,8 +192,8 @@ TEST(OwnBodies, AreRefusedWithAReason) {
 /// Holds a person, a cart and a ragdoll, as bodies.
 std::vector<std::vector<Sphere>> mixed_bodies() {
   const std::vector<Vec2> cart = {{-0.3f, -0.2f}, {0.3f, -0.2f}, {0.3f, 0.2f}, {-0.3f, 0.2f}};
-  const std::vector<SpaceCapsule> ragdoll = {{{0, 0, 0.1f}, {0, 0, 1.6f}, 0.1f},
-                                             {{0, -0.4f, 1.3f}, {0, 0.4f, 1.3f}, 0.05f}};
+  const std::vector<BodySet::Capsule> ragdoll = {{{0, 0, 0.1f}, {0, 0, 1.6f}, 0.1f},
+                                                 {{0, -0.4f, 1.3f}, {0, 0.4f, 1.3f}, 0.05f}};
   BodyPoser poser(default_body(default_male(), 64));
   const auto person = poser.spheres(Pose(0, 0.3f));
   return {{person.begin(), person.end()},

@@ -100,7 +100,7 @@ BodyModel plain_model(const Character& character, std::uint32_t spheres, float l
     model.corners.insert(model.corners.end(), corners.begin(), corners.end());
     model.corner_begin.push_back(static_cast<std::uint32_t>(model.corners.size()));
   }
-  for (std::uint32_t i = 0; i < core_spheres; ++i) model.core[i] = i * spheres / core_spheres;
+  for (std::uint32_t i = 0; i < detail::core_spheres; ++i) model.core[i] = i * spheres / detail::core_spheres;
   return model;
 }
 

@@ -112,7 +112,7 @@ class Crowd {
     std::span<const float> distance;
     std::span<const Vec3> direction;
     std::span<const DiscPair> spheres;
-    std::span<const NearestSpacePoints> points;
+    std::span<const BodyClearanceAnswers::Points> points;
   };
 
   /// Holds the pairs that collide, and how far the first agent of each has to move to be free of the second.

@@ -120,18 +120,17 @@ void within(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> 
             std::span<const double> distances, std::span<std::uint8_t> answers,
             const Implementation* implementation = nullptr);
 
-/// Holds the points of two bodies that are nearest to each other, as NearestPoints does, in space.
-struct NearestSpacePoints {
-  Vec3 first, second;
-  friend bool operator==(const NearestSpacePoints&, const NearestSpacePoints&) = default;
-};
-
 /// Holds the output arrays of clearance() of bodies, as ClearanceAnswers does, in space. Spheres have the numbers of BodySet::spheres().
 struct BodyClearanceAnswers {
+  /// Holds the points of two bodies that are nearest to each other, as NearestPoints does, in space.
+  struct Points {
+    Vec3 first, second;
+    friend bool operator==(const Points&, const Points&) = default;
+  };
   std::span<float> distance;
   std::span<Vec3> direction = {};
   std::span<DiscPair> spheres = {};  ///< the nearest spheres, or DiscPair::none
-  std::span<NearestSpacePoints> points = {};
+  std::span<Points> points = {};
 };
 
 /// Measures how far apart in space the bodies of the two agents of each pair are: the least gap between a sphere of one and a sphere of

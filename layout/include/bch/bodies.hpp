@@ -40,7 +40,7 @@ struct BodyModel {
   std::vector<float> least_radius;  ///< one a sphere, metres; of spheres that stand for themselves. None: 0
   /// Spheres follow each other in leaves of so many, 4 or 8, that are near each other in most poses.
   std::uint32_t leaf_size = 4;
-  std::array<std::uint32_t, core_spheres> core = {};  ///< spheres that most collisions meet first
+  std::array<std::uint32_t, detail::core_spheres> core = {};  ///< spheres that most collisions meet first
 
   std::size_t sphere_count() const noexcept {
     return influence_begin.empty() ? 0 : influence_begin.size() - 1;

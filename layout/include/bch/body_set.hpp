@@ -14,39 +14,22 @@
 namespace bch::detail {
 struct BodyLayout;
 struct BodySetView;
+/// The number of spheres of a body that queries test first.
+constexpr std::uint32_t core_spheres = 16;
 }  // namespace bch::detail
 
 namespace bch {
-
-/// Represents the points within a radius of a segment in space, metres.
-struct SpaceCapsule {
-  Vec3 a, b;
-  float radius = 0;
-};
-
-/// Returns spheres that together hold capsules, such as those of a ragdoll, and reach out of them by at most an error: rows of spheres
-/// from end to end.
-/// Units:   metres, all; the error is more than 1e-6 of a capsule's reach.
-/// Errors:  throws std::invalid_argument on no capsules; naming the capsule, on a negative radius, on a reach outside 1e-6 to 1e6 m, and on
-///          an error that is too small, or takes more than 4096 spheres.
-std::vector<Sphere> spheres_from_capsules(std::span<const SpaceCapsule> capsules, float error = 0.005f);
-
-/// Returns spheres that together hold all that stands on polygons (see outline_from_polygons()) from the bottom to the top, and reach out of
-/// it by at most an error: the footprint of a cart or a box beside people.
-/// Units:   metres, all.
-/// Cost:    milliseconds. A box of 0.6 x 0.4 x 1 m takes 104 spheres, and 556 at an error of 2 cm.
-/// Errors:  throws std::invalid_argument as outline_from_polygons() does, on a bottom that is not below the top, on heights that are not
-///          within +-1e6 m, and, naming the polygon, on an error that is not above 0 or takes more than 4096 spheres.
-std::vector<Sphere> spheres_from_polygons(std::span<const std::vector<Vec2>> polygons, const Heights& heights,
-                                          float error = 0.05f);
-
-/// The number of spheres of a body that queries test first.
-inline constexpr std::uint32_t core_spheres = 16;
 
 /// Holds bodies of spheres for batch queries, each as one record of a fixed size. Agents name bodies by their numbers (Agents::shape) and
 /// stand at any height (Agents::z). An object that was moved from can only be assigned to or destroyed.
 class BodySet {
  public:
+  /// Represents the points within a radius of a segment in space, metres.
+  struct Capsule {
+    Vec3 a, b;
+    float radius = 0;
+  };
+
   /// Makes bodies of given spheres, in metres, in the frames of their agents. Queries number spheres as they are given.
   /// Errors:  throws std::invalid_argument, naming the body, on no spheres or more than 4096, on a sphere that is not finite or has a
   ///          negative radius, and on a reach outside 1e-6 to 1e6 m; std::length_error beyond 2^32 bodies.
@@ -76,5 +59,21 @@ class BodySet {
   struct State;
   std::unique_ptr<State> state_;
 };
+
+/// Returns spheres that together hold capsules, such as those of a ragdoll, and reach out of them by at most an error: rows of spheres
+/// from end to end.
+/// Units:   metres, all; the error is more than 1e-6 of a capsule's reach.
+/// Errors:  throws std::invalid_argument on no capsules; naming the capsule, on a negative radius, on a reach outside 1e-6 to 1e6 m, and on
+///          an error that is too small, or takes more than 4096 spheres.
+std::vector<Sphere> spheres_from_capsules(std::span<const BodySet::Capsule> capsules, float error = 0.005f);
+
+/// Returns spheres that together hold all that stands on polygons (see outline_from_polygons()) from the bottom to the top, and reach out of
+/// it by at most an error: the footprint of a cart or a box beside people.
+/// Units:   metres, all.
+/// Cost:    milliseconds. A box of 0.6 x 0.4 x 1 m takes 104 spheres, and 556 at an error of 2 cm.
+/// Errors:  throws std::invalid_argument as outline_from_polygons() does, on a bottom that is not below the top, on heights that are not
+///          within +-1e6 m, and, naming the polygon, on an error that is not above 0 or takes more than 4096 spheres.
+std::vector<Sphere> spheres_from_polygons(std::span<const std::vector<Vec2>> polygons, const Heights& heights,
+                                          float error = 0.05f);
 
 }  // namespace bch

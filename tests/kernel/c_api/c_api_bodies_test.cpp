@@ -84,7 +84,7 @@ TEST(CApiBodies, ComeFromFilesAsTheyWere) {
 
 TEST(CApiBodies, OfCapsulesAndPolygonsAreThoseOfTheLibrary) {
   const bch_space_capsule capsule{{0, 0, 0.1f}, {0, 0.3f, 1}, 0.1f};
-  const SpaceCapsule same{{0, 0, 0.1f}, {0, 0.3f, 1}, 0.1f};
+  const BodySet::Capsule same{{0, 0, 0.1f}, {0, 0.3f, 1}, 0.1f};
   const bch_vec2 corners[] = {{0, 0}, {1, 0}, {0, 1}};
   const std::vector<Vec2> triangle = {{0, 0}, {1, 0}, {0, 1}};
   const std::uint64_t offsets[] = {0, 3};

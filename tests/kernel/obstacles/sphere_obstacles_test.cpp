@@ -87,7 +87,7 @@ void expect_right(const BodySet& bodies, const BodyCrowd& crowd, const ObstacleS
   std::vector<float> distance(n), deepest(n);
   std::vector<Vec3> direction(n);
   std::vector<DiscPair> which(n);
-  std::vector<NearestSpacePoints> points(n);
+  std::vector<BodyClearanceAnswers::Points> points(n);
   clearance(bodies, agents, obstacles, {distance, direction, which, points});
   clearance(bodies, agents, obstacles, {.distance = deepest}, {.overlap = Overlap::deepest});
   Crowd finder;
