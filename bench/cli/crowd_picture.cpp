@@ -26,17 +26,15 @@ constexpr double picture_height = view_top + view_height + legend_height;
 constexpr double window_agents = 48, whole_crowd = 60;
 
 constexpr const char* style =
-    R"(.key { font-size: 14px }
+    R"(.key { font-size: 22px }
 .middle { text-anchor: middle }
 .view { fill: #f7f9fa }
 .frame { fill: none; stroke: #9aa7b3 }
 .shape { stroke-width: 1.3; stroke-linejoin: round; fill-opacity: .8 }
 .discs { stroke-width: .8; fill: none; stroke-opacity: .7 }
-.free .shape { fill: #c1d3e2; stroke: #4f6f8b }
-.free .discs { stroke: #4f6a82 }
-.cleared .shape { fill: #ffe08a; stroke: #a87b00 }
-.cleared .discs { stroke: #9a7000 }
-.cylinder { fill: none; stroke: #3d3d3d; stroke-width: 1.3; stroke-dasharray: 5 4 }
+.free .shape, .cleared .shape { fill: #9cc3e6; stroke: #1f5f99 }
+.free .discs, .cleared .discs { stroke: #2f6a9e }
+.cylinder { fill: none; stroke: #1f5f99; stroke-width: 2; stroke-dasharray: 7 5 }
 .partner { fill: none; stroke: #8d8d8d; stroke-width: 1; stroke-dasharray: 2 4 }
 .colliding .shape { fill: #d9622b; stroke: #7a2503 }
 .colliding .discs { stroke: #6b1f02 }
@@ -227,16 +225,15 @@ void draw_key(Svg& svg, const CrowdPicture& picture, State state, double x, std:
     svg.group({}, "overlap", [&] { draw_overlaps(svg, agent); });
   }
   svg.close_group();
-  svg.text({x + icon + 12, y - 4}, "key", first);
-  svg.text({x + icon + 12, y + 15}, "key", second);
+  svg.text({x + icon + 14, y - 5}, "key", first);
+  svg.text({x + icon + 14, y + 21}, "key", second);
 }
 
 void draw_legend(Svg& svg, const CrowdPicture& picture, const Window& window) {
   svg.group("legend", {}, [&] {
     draw_key(svg, picture, is_colliding, margin, "collides;",
              fmt::format("overlapping {}s are dark", picture.part_name));
-    draw_key(svg, picture, is_cleared, 325, "cleared: only cylinders", "(dashed) overlap");
-    draw_key(svg, picture, is_free, 635, "free: not even", "cylinders overlap");
+    draw_key(svg, picture, is_cleared, 440, "free; dashed: its single", "cylinder overlaps another's");
   });
 
   const double right = picture_width - margin, left = right - window.scale();

@@ -53,8 +53,10 @@ VertexBlend::VertexBlend(std::span<const std::uint32_t> begin, std::span<const P
   };
   std::vector<std::uint32_t> order(begin.size() - 1);
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::uint32_t v, std::uint32_t w) { return compare_bones(v, w) < 0; });
+  std::sort(order.begin(), order.end(), [&](std::uint32_t v, std::uint32_t w) {
+    const auto compared = compare_bones(v, w);
+    return compared != 0 ? compared < 0 : v < w;
+  });
 
   for (std::size_t i = 0; i < order.size(); i += pairs_.back().number[0] == pairs_.back().number[1] ? 1 : 2) {
     const std::uint32_t v = order[i];

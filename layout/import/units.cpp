@@ -45,7 +45,7 @@ DeclaredFrame declared_by_fbx(const SceneFile& file) {
   std::int32_t sign = 1;
   float factor = 1;
   if (metadata != nullptr) {
-    metadata->Get("ImportOptions::UpAxis", axis);
+    metadata->Get("UpAxis", axis);
     metadata->Get("UpAxisSign", sign);
     metadata->Get("UnitScaleFactor", factor);
   }

@@ -128,7 +128,7 @@ aiAnimation* animation_of(Bytes& bytes) {
 void fill(Bytes& bytes, aiScene& scene) {
   if (bytes.below(4) == 0) {
     scene.mMetaData = aiMetadata::Alloc(3);
-    scene.mMetaData->Set(0, "ImportOptions::UpAxis", static_cast<std::int32_t>(bytes.below(5)) - 1);
+    scene.mMetaData->Set(0, "UpAxis", static_cast<std::int32_t>(bytes.below(5)) - 1);
     scene.mMetaData->Set(1, "UpAxisSign", static_cast<std::int32_t>(bytes.below(3)) - 1);
     scene.mMetaData->Set(2, "UnitScaleFactor", bytes.number(step));
   }

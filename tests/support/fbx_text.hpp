@@ -71,7 +71,7 @@ class FbxText {
     if (!curves.empty()) add_clip(objects, links);
     return test::quoted(
         "; FBX 7.4.0 project file\nFBXHeaderExtension:  {\n\tFBXVersion: 7400\n}\nGlobalSettings:  {\n"
-        "Version: 1000\nProperties70:  {\nP: 'ImportOptions::UpAxis', 'int', 'Integer', ''," +
+        "Version: 1000\nProperties70:  {\nP: 'UpAxis', 'int', 'Integer', ''," +
         std::to_string(up_axis) + "\nP: 'UpAxisSign', 'int', 'Integer', ''," + std::to_string(up_sign) +
         "\nP: 'UnitScaleFactor', 'double', 'Number', ''," + digits(unit) +
         "\nP: 'TimeMode', 'enum', '', '',6\n}\n}\nObjects:  {\n" + objects + "}\nConnections:  {\n" + links +

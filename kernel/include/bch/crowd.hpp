@@ -24,10 +24,10 @@ namespace bch {
 struct CrowdOptions {
   /// Holds the lengths after which the ground repeats along x and y, metres; 0: it does not repeat.
   struct Period {
-    double x, y;
+    double x = 0, y = 0;
   };
 
-  Period period = {0, 0};
+  Period period = {};
   /// Limits the candidates of a call, which throws std::length_error beyond: n agents at one place are n^2 / 2 pairs.
   std::size_t most_pairs = std::numeric_limits<std::size_t>::max();
 };

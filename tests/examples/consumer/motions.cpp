@@ -12,8 +12,8 @@
 #include <bch/pairs.hpp>
 #include <bch/poses.hpp>
 
-// Motions: a man walks towards another one, who stands there. first_contact() tells when they touch; AnimatedShape::shape() makes
-// their shapes at that time, and at any other one, for every query.
+// Motions: a man walks towards another one, who stands there. first_contact() tells when they touch; AnimatedShape::spheres() makes
+// their bodies at that time, and at any other one, for every query.
 
 namespace {
 
@@ -41,9 +41,9 @@ int main() {
   std::printf("they touch at %.3f s; the first one is free until %.3f s\n", contact, free);
 
   const auto overlap_at = [&](double time) {
-    const std::vector<bch::Shape> shapes = {body.shape(time - motions[0].clip_begin),
-                                            body.shape(time - motions[1].clip_begin)};
-    const bch::ShapeSet set(shapes);
+    const std::vector<std::vector<bch::Sphere>> bodies = {body.spheres(time - motions[0].clip_begin),
+                                                          body.spheres(time - motions[1].clip_begin)};
+    const bch::BodySet set(bodies);
     const std::vector<std::uint32_t> shape = {0, 1};
     const std::vector<double> x = {-3 + time, 0}, y = {0, 0}, heading = {0, std::numbers::pi};
     std::uint8_t hit = 0;
