@@ -71,7 +71,7 @@ class NearestLeaves {
   /// nearly what it will be. Returns the end of these rows.
   std::uint32_t measure_rows(std::uint32_t begin) noexcept {
     const auto shift =
-        static_cast<std::uint32_t>(32 - __builtin_clz((leaves_.columns - 1) | (Simd::width - 1)));
+        static_cast<std::uint32_t>(32 - __builtin_clz((leaves_.columns - 1) | (Simd::width - 1) | 1));
     const std::uint32_t rows = std::uint32_t{most_bounds} >> shift, left = leaves_.rows - begin;
     const std::uint32_t end = begin + (left < rows ? left : rows);
     float least = 0;
