@@ -145,8 +145,8 @@ TEST(BodyDifferential, CrowdsOnOneGroundAndOnMany) {
   const BodySet bodies = many_bodies(random);
   for (const double height : {0.0, 1e-5, 0.009, 0.0101, 0.17, 0.6, 2.5, 30.0}) {
     SCOPED_TRACE(height);
-    expect_both(expect_reference(
-        bodies, test::random_body_crowd(random, crowd_size(60), bodies.body_count(), 4, height)));
+    expect_both(
+        expect_reference(bodies, test::random_body_crowd(random, 60, bodies.body_count(), 4, height)));
   }
 }
 
