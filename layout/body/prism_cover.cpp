@@ -161,7 +161,7 @@ class PrismCover {
       for (int direction = 0; direction < 27; ++direction) {
         const Centre next{rounded(best.x + (direction % 3 - 1) * step),
                           rounded(best.y + (direction / 3 % 3 - 1) * step),
-                          rounded(best.z + (direction / 9 - 1) * step)};
+                          rounded(best.z + (direction / 9 % 3 - 1) * step)};
         const double deep = depth(next), over = piece.radius(next) - deep;
         if (excess <= error_ ? over <= error_ && deep > deepest : over < excess)
           best = next, deepest = deep, excess = over, is_better = true;
