@@ -36,9 +36,9 @@ class FoundSpheres {
         a_(bodies, agents, first_, nearest.a),
         b_(bodies, agents, second_, nearest.b) {
     const double rise = agents.z.empty() ? 0 : agents.z[second_] - agents.z[first_];
-    const SpaceVector way{agents.x[second_] - agents.x[first_] + (b_.centre.x - a_.centre.x),
-                          agents.y[second_] - agents.y[first_] + (b_.centre.y - a_.centre.y),
-                          rise + (b_.centre.z - a_.centre.z)};
+    const SpacePoint way{agents.x[second_] - agents.x[first_] + (b_.centre.x - a_.centre.x),
+                         agents.y[second_] - agents.y[first_] + (b_.centre.y - a_.centre.y),
+                         rise + (b_.centre.z - a_.centre.z)};
     unit_ = unit_of(way);
   }
 
@@ -56,7 +56,7 @@ class FoundSpheres {
   const std::uint32_t first_, second_;
   const NearestSpheres& nearest_;
   const AgentSphere a_, b_;
-  SpaceVector unit_;
+  SpacePoint unit_;
 };
 
 /// Holds what all pairs of a query have in common, and writes their answers.

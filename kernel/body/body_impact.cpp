@@ -7,6 +7,7 @@
 
 #include "kernel/body/body_arguments.hpp"
 #include "kernel/body/sphere_impact.hpp"
+#include "kernel/body/sphere_test.hpp"
 #include "kernel/distance/distance_input.hpp"
 #include "kernel/runtime/kernels.hpp"
 #include "kernel/runtime/pair_validation.hpp"
@@ -23,40 +24,41 @@ namespace {
 /// Places B in A's frame as layout/base/rounding.hpp has it, and turns ways into that frame.
 class SpaceFrame {
  public:
-  SpaceFrame(const Agents& agents, std::uint32_t a, std::uint32_t b)
-      : of_a_(unit_vector(agents.heading[a])), z_(rise(agents, a, b)) {
-    const UnitVector of_b = unit_vector(agents.heading[b]);
-    cosine_ = of_a_.cosine * of_b.cosine + of_a_.sine * of_b.sine;
-    sine_ = of_a_.cosine * of_b.sine - of_a_.sine * of_b.cosine;
+  SpaceFrame(const Agents& agents, std::uint32_t a, std::uint32_t b) : of_a_(unit_vector(agents.heading[a])) {
+    const auto [cosine, sine] = unit_vector(agents.heading[b]);
     const Vec2 at = turned(agents.x[b] - agents.x[a], agents.y[b] - agents.y[a]);
-    x_ = at.x, y_ = at.y;
+    const double rise = agents.z.empty() ? 0 : agents.z[b] - agents.z[a];
+    b_in_a_ = {
+        {of_a_.cosine * cosine + of_a_.sine * sine, of_a_.cosine * sine - of_a_.sine * cosine, at.x, at.y},
+        static_cast<float>(rise)};
   }
 
-  SpaceWay way(double x, double y, double z) const {
+  SpacePoint way(double x, double y, double z) const {
     const Vec2 flat = turned(x, y);
     return {double{flat.x}, double{flat.y}, static_cast<double>(static_cast<float>(z))};
   }
   Sphere placed(const Sphere& s) const {
-    return {x_ + (cosine_ * s.x - sine_ * s.y), y_ + (sine_ * s.x + cosine_ * s.y), z_ + s.z, s.radius};
+    const auto [x, y, z, radius] = detail::placed<float>(b_in_a_, {s.x, s.y, s.z, s.radius});
+    return {x, y, z, radius};
   }
   Cylinder placed(const Cylinder& c) const {
-    const double cosine = double{cosine_}, sine = double{sine_}, z = double{z_};
-    return {double{x_} + (cosine * c.x - sine * c.y), double{y_} + (sine * c.x + cosine * c.y), c.radius,
-            z + c.bottom, z + c.top};
+    const auto [x, y] = b_in_a_.ground.in_lanes<double>().apply(c.x, c.y);
+    const double z = b_in_a_.tz;
+    return {x, y, c.radius, z + c.bottom, z + c.top};
   }
-  double distance() const { return std::abs(double{x_}) + std::abs(double{y_}) + std::abs(double{z_}); }
+  double distance() const {
+    const auto [ground, z] = b_in_a_;
+    return std::abs(double{ground.tx}) + std::abs(double{ground.ty}) + std::abs(double{z});
+  }
 
  private:
-  static float rise(const Agents& agents, std::uint32_t a, std::uint32_t b) {
-    return agents.z.empty() ? 0 : static_cast<float>(agents.z[b] - agents.z[a]);
-  }
   Vec2 turned(double x, double y) const {
     const float to_x = static_cast<float>(x), to_y = static_cast<float>(y);
     return {of_a_.cosine * to_x + of_a_.sine * to_y, of_a_.cosine * to_y - of_a_.sine * to_x};
   }
 
   UnitVector of_a_;
-  float cosine_, sine_, x_, y_, z_;
+  SpaceTransformOf<float> b_in_a_;
 };
 
 Cylinder whole_of(const float* record) {
@@ -75,7 +77,7 @@ Cylinder node_of(const float* record, std::uint32_t leaf) {
 /// spheres of those leaves that may touch each other.
 class FirstImpact {
  public:
-  FirstImpact(const float* a, const float* b, const SpaceFrame& frame, const SpaceWay& way)
+  FirstImpact(const float* a, const float* b, const SpaceFrame& frame, const SpacePoint& way)
       : a_(a), b_(b), frame_(frame), way_(way) {
     slack_ = 0x1p-16 * (double{header_of(a).reach} + double{header_of(b).reach} + frame.distance());
   }
@@ -111,7 +113,7 @@ class FirstImpact {
       const Sphere b = frame_.placed(sphere_of(b_, leaf_b * size_b + j));
       for (std::uint32_t i = 0; i < size_a; ++i) {
         const Sphere a = sphere_of(a_, leaf_a * size_a + i);
-        const SpaceWay between{double{b.x - a.x}, double{b.y - a.y}, double{b.z - a.z}};
+        const SpacePoint between{double{b.x - a.x}, double{b.y - a.y}, double{b.z - a.z}};
         const double time = time_of_contact(between, way_, double{a.radius + b.radius});
         if (time <= best_) best_ = time, is_found_ = true;
       }
@@ -120,7 +122,7 @@ class FirstImpact {
 
   const float *a_, *b_;
   const SpaceFrame& frame_;
-  SpaceWay way_;
+  SpacePoint way_;
   double slack_, best_ = 1;
   bool is_found_ = false;
   std::array<Cylinder, most_spheres / 4> nodes_;  ///< of B, placed
@@ -146,15 +148,14 @@ void time_of_impact(const BodySet& bodies, const Agents& agents, std::span<const
     implementation.kernels->run_bodies(arguments, 0, size);
     for (std::size_t k = 0; k < size; ++k) {
       const std::size_t i = begin + k;
+      times[i] = 0;
+      if (hits[k] != 0) continue;
       const auto [a, b] = std::minmax(pairs[i].first, pairs[i].second);
       const double sign = pairs[i].second < pairs[i].first ? -1 : 1;
       const SpaceFrame frame(agents, a, b);
-      const SpaceWay way = frame.way(sign * displacements.x[i], sign * displacements.y[i],
-                                     displacements.z.empty() ? 0 : sign * displacements.z[i]);
-      times[i] =
-          hits[k] != 0
-              ? 0
-              : FirstImpact(view.record(agents.shape[a]), view.record(agents.shape[b]), frame, way).time();
+      const SpacePoint way = frame.way(sign * displacements.x[i], sign * displacements.y[i],
+                                       displacements.z.empty() ? 0 : sign * displacements.z[i]);
+      times[i] = FirstImpact(view.record(agents.shape[a]), view.record(agents.shape[b]), frame, way).time();
     }
   });
 }

@@ -7,18 +7,10 @@
 #include <cmath>
 #include <limits>
 
+#include "layout/base/space_point.hpp"
 #include "layout/body/sphere_rounding.hpp"
 
 namespace bch::detail {
-
-/// Holds the way of A relative to B, or the way from A's centre to B's, in A's frame.
-struct SpaceWay {
-  double x, y, z;
-};
-
-inline double dot(const SpaceWay& a, const SpaceWay& b) noexcept {
-  return (a.x * b.x + a.y * b.y) + a.z * b.z;
-}
 
 /// Finds when two spheres that no test of a hit accepts touch, of which A's moves by t v, 0 <= t <= 1. It computes in double, from the
 /// floats p, v and r,
@@ -36,7 +28,7 @@ inline double dot(const SpaceWay& a, const SpaceWay& b) noexcept {
 /// b is off by some u D |v|, so those come nearer by the square of that, and the test of a hit has more to spare.) Double loses 2^-51
 /// of the squares that are subtracted, as in kernel/distance/time_of_impact_measure.hpp; R exceeds what touches at t by 16.8 u D, far
 /// more than there. The last product takes off 4 u for the rounding to float.
-inline double time_of_contact(const SpaceWay& p, const SpaceWay& v, double r) noexcept {
+inline double time_of_contact(const SpacePoint& p, const SpacePoint& v, double r) noexcept {
   constexpr double lengthening = 0x1p-19;
   static_assert(lengthening >= (rounding::terms::length_d + 2 + (rounding::terms::position + 1) + 16) *
                                    rounding::unit_roundoff,
@@ -45,7 +37,7 @@ inline double time_of_contact(const SpaceWay& p, const SpaceWay& v, double r) no
                 "of S");
   constexpr double never = std::numeric_limits<double>::infinity();
   const double towards = dot(p, v), square = dot(p, p), radius = r + lengthening * std::sqrt(square);
-  const SpaceWay across{p.y * v.z - p.z * v.y, p.z * v.x - p.x * v.z, p.x * v.y - p.y * v.x};
+  const SpacePoint across{p.y * v.z - p.z * v.y, p.z * v.x - p.x * v.z, p.x * v.y - p.y * v.x};
   const double under_root = radius * radius * dot(v, v) - dot(across, across);
   if (!(towards > 0) || !(under_root >= 0)) return never;
   const double left = square - radius * radius;
@@ -63,7 +55,7 @@ struct Cylinder {
 /// `slack` is 256 u F, where F >= S + |d|. Spheres of a node are within it, and D <= F + S, so that contacts at T are those of cylinders that
 /// are enlarged by 32 u D and 30 u S, and by less than 100 u F for what p, v and centres of nodes are rounded. What is left keeps the root
 /// away from 0 by far more than double loses.
-inline double bound_of_contact(const Cylinder& a, const Cylinder& b, const SpaceWay& v,
+inline double bound_of_contact(const Cylinder& a, const Cylinder& b, const SpacePoint& v,
                                double slack) noexcept {
   constexpr double never = std::numeric_limits<double>::infinity();
   double from = 0, to = never;

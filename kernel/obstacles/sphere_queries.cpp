@@ -34,8 +34,7 @@ class FoundObstacle {
       const auto [bottom, top] = obstacles.heights[nearest.obstacle];
       at_.z = std::clamp(at_.z, bottom - ground, top - ground);
     }
-    const SpaceVector way{at_.x - sphere_.centre.x, at_.y - sphere_.centre.y, at_.z - sphere_.centre.z};
-    unit_ = unit_of(way);
+    unit_ = unit_of(at_ - sphere_.centre);
   }
 
   Vec3 direction() const { return rounded(unit_); }
@@ -43,7 +42,7 @@ class FoundObstacle {
 
  private:
   const AgentSphere sphere_;
-  SpaceVector at_, unit_;
+  SpacePoint at_, unit_;
 };
 
 void put(const BodySetView& bodies, const Agents& agents, std::uint32_t agent, const ObstacleView& obstacles,

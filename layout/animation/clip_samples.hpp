@@ -9,8 +9,8 @@
 
 #include <bch/bodies.hpp>
 
+#include "layout/base/space_point.hpp"
 #include "layout/body/body_layout.hpp"
-#include "layout/body/model/space_point.hpp"
 #include "layout/body/posing/sphere_poser.hpp"
 #include "layout/character/motion_bounds.hpp"
 

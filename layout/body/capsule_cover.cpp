@@ -11,6 +11,7 @@
 #include "layout/base/floating_point_state.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/base/shortest.hpp"
+#include "layout/base/space_point.hpp"
 #include "layout/body/body_record.hpp"
 #include "layout/body/cover_rounding.hpp"
 
@@ -31,13 +32,9 @@ namespace {
 ///
 /// hold it, and reach out of the capsule by the excess of that over the radius.
 void add_row(const BodySet::Capsule& capsule, std::size_t number, float error, std::vector<Sphere>& spheres) {
-  const double x = double{capsule.b.x} - double{capsule.a.x}, y = double{capsule.b.y} - double{capsule.a.y},
-               z = double{capsule.b.z} - double{capsule.a.z}, radius = capsule.radius,
-               length = std::sqrt(x * x + y * y + z * z);
-  const auto distance = [](const Vec3& p) {
-    return std::sqrt(double{p.x} * double{p.x} + double{p.y} * double{p.y} + double{p.z} * double{p.z});
-  };
-  const double reach = std::max(distance(capsule.a), distance(capsule.b)) + radius;
+  const SpacePoint a = space_point(capsule.a), b = space_point(capsule.b), way = b - a;
+  const double radius = capsule.radius, length = std::sqrt(dot(way, way)),
+               reach = std::sqrt(std::max(dot(a, a), dot(b, b))) + radius;
   if (!(radius >= 0 && reach >= rounding::smallest_reach && reach <= rounding::largest_reach))
     refuse_capsule(number,
                    "expected a radius of at least 0 and a reach of 1e-6 to 1e6 m, found a radius of " +
@@ -53,9 +50,8 @@ void add_row(const BodySet::Capsule& capsule, std::size_t number, float error, s
   const double half = length / parts / 2;
   const float held_by = static_cast<float>(std::sqrt(radius * radius + half * half) + spare);
   for (double i = 0; i <= parts; ++i) {
-    const double share = i / parts;
-    const auto at = [&](float from, double way) { return static_cast<float>(double{from} + share * way); };
-    spheres.push_back({at(capsule.a.x, x), at(capsule.a.y, y), at(capsule.a.z, z), held_by});
+    const auto [x, y, z] = rounded(a + i / parts * way);
+    spheres.push_back({x, y, z, held_by});
     if (length == 0) return;
   }
 }

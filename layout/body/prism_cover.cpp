@@ -16,6 +16,7 @@
 #include "layout/base/plane_point.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/base/shortest.hpp"
+#include "layout/base/space_point.hpp"
 #include "layout/body/body_record.hpp"
 #include "layout/body/cover_rounding.hpp"
 
@@ -27,10 +28,6 @@ namespace {
 
 constexpr std::size_t most_pieces = 1 << 16;
 constexpr double infinite = std::numeric_limits<double>::infinity();
-
-struct Centre {
-  double x, y, z;
-};
 
 /// Holds a part of a prism: the corners of a convex hull about it as seen from above, and its heights.
 struct Piece {
@@ -48,7 +45,7 @@ struct Piece {
     return at;
   }
   /// Returns the radius about a centre that holds the piece.
-  double radius(const Centre& c) const {
+  double radius(const SpacePoint& c) const {
     double square = 0;
     for (const PlanePoint& corner : corners)
       square = std::max(square, squared_length(corner - PlanePoint{c.x, c.y}));
@@ -106,15 +103,16 @@ class PrismCover {
     }
     if (!open.empty() || balls_.size() > most_) return {};
     std::vector<Sphere> spheres;
-    for (const Ball& ball : balls_)
-      spheres.push_back({static_cast<float>(ball.centre.x), static_cast<float>(ball.centre.y),
-                         static_cast<float>(ball.centre.z), static_cast<float>(ball.needed + spare_)});
+    for (const Ball& ball : balls_) {
+      const auto [x, y, z] = rounded(ball.centre);
+      spheres.push_back({x, y, z, static_cast<float>(ball.needed + spare_)});
+    }
     return spheres;
   }
 
  private:
   struct Ball {
-    Centre centre;
+    SpacePoint centre;
     double radius, needed;  ///< what the error lets it have, and what its pieces need
   };
 
@@ -127,7 +125,7 @@ class PrismCover {
     return inside;
   }
 
-  double depth(const Centre& c) const {
+  double depth(const SpacePoint& c) const {
     const PlanePoint at{c.x, c.y};
     double square = infinite;
     for (std::size_t i = 0, before = sides_.size() - 1; i < sides_.size(); before = i++)
@@ -150,18 +148,16 @@ class PrismCover {
   /// Adds a sphere that holds a piece, if there is one and it needs one.
   bool hold(const Piece& piece) {
     const PlanePoint low = piece.low(), high = piece.high();
-    const auto rounded = [](double value) { return double{static_cast<float>(value)}; };
-    Centre best{rounded((low.x + high.x) / 2), rounded((low.y + high.y) / 2),
-                rounded((piece.bottom + piece.top) / 2)};
+    const auto in_float = [](const SpacePoint& at) { return space_point(rounded(at)); };
+    SpacePoint best = in_float({(low.x + high.x) / 2, (low.y + high.y) / 2, (piece.bottom + piece.top) / 2});
     const double size = std::max({high.x - low.x, high.y - low.y, piece.top - piece.bottom});
     double deepest = depth(best), excess = piece.radius(best) - deepest;
     if (deepest + piece.radius(best) < -spare_) return true;  // none of the prism, but a line along cuts
     for (double step = size / 2; step > size / 32;) {
       bool is_better = false;
       for (int direction = 0; direction < 27; ++direction) {
-        const Centre next{rounded(best.x + (direction % 3 - 1) * step),
-                          rounded(best.y + (direction / 3 % 3 - 1) * step),
-                          rounded(best.z + (direction / 9 % 3 - 1) * step)};
+        const SpacePoint way{direction % 3 - 1.0, direction / 3 % 3 - 1.0, direction / 9 % 3 - 1.0};
+        const SpacePoint next = in_float(best + step * way);
         const double deep = depth(next), over = piece.radius(next) - deep;
         if (excess <= error_ ? over <= error_ && deep > deepest : over < excess)
           best = next, deepest = deep, excess = over, is_better = true;

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "layout/base/number_class.hpp"
-#include "layout/body/model/space_point.hpp"
+#include "layout/base/space_point.hpp"
 
 namespace bch::detail {
 namespace {

@@ -7,7 +7,7 @@
 #include <map>
 #include <utility>
 
-#include "layout/body/model/space_point.hpp"
+#include "layout/base/space_point.hpp"
 
 namespace bch::detail {
 namespace {

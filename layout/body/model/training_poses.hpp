@@ -11,8 +11,8 @@
 #include <bch/bodies.hpp>
 #include <bch/characters.hpp>
 
+#include "layout/base/space_point.hpp"
 #include "layout/body/model/skin_pieces.hpp"
-#include "layout/body/model/space_point.hpp"
 #include "layout/character/skinning.hpp"
 
 namespace bch::detail {

@@ -7,7 +7,7 @@
 
 namespace bch::detail {
 
-/// Represents a point or vector of space in double.
+/// Represents a point or a vector of space in double, metres.
 struct SpacePoint {
   double x = 0, y = 0, z = 0;
 
@@ -22,6 +22,9 @@ struct SpacePoint {
 
 inline SpacePoint space_point(const Vec3& a) {
   return {double{a.x}, double{a.y}, double{a.z}};
+}
+inline Vec3 rounded(const SpacePoint& a) {
+  return {static_cast<float>(a.x), static_cast<float>(a.y), static_cast<float>(a.z)};
 }
 inline double dot(const SpacePoint& a, const SpacePoint& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
