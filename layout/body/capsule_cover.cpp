@@ -34,7 +34,8 @@ namespace {
 void add_row(const BodySet::Capsule& capsule, std::size_t number, float error, std::vector<Sphere>& spheres) {
   const SpacePoint a = space_point(capsule.a), b = space_point(capsule.b), way = b - a;
   const double radius = capsule.radius, length = std::sqrt(dot(way, way)),
-               reach = std::sqrt(std::max(dot(a, a), dot(b, b))) + radius;
+               // A NaN at either end makes the length one, where a maximum may drop it.
+      reach = (length >= 0 ? std::sqrt(std::max(dot(a, a), dot(b, b))) : length) + radius;
   if (!(radius >= 0 && reach >= rounding::smallest_reach && reach <= rounding::largest_reach))
     refuse_capsule(number,
                    "expected a radius of at least 0 and a reach of 1e-6 to 1e6 m, found a radius of " +

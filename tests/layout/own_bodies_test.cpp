@@ -173,7 +173,9 @@ TEST(OwnBodies, AreRefusedWithAReason) {
   EXPECT_TRUE(test::has(of_capsule({{0, 0, 0}, {0, 0, 1}, 0.1f}, 1e-7f), "expected an error above 1.049"));
   EXPECT_TRUE(test::has(of_capsule({{0, 0, 0}, {0, 0, 1000}, 0.1f}, 1e-2f),
                         "expected an error that 4096 spheres keep, found 0.01 m"));
-  EXPECT_TRUE(test::has(of_capsule({{0, 0, NAN}, {0, 0, 1}, 0.1f}, 1e-2f), "a reach of nan"));
+  for (const BodySet::Capsule& bad :
+       {BodySet::Capsule{{0, 0, NAN}, {0, 0, 1}, 0.1f}, BodySet::Capsule{{0, 0, 1}, {0, NAN, 0}, 0.1f}})
+    EXPECT_TRUE(test::has(of_capsule(bad, 1e-2f), "a reach of nan"));
   const std::vector<Vec2> square = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
   const auto of_square = [&](Heights heights, float error) {
     return test::complaint([&] { spheres_from_polygons({&square, 1}, heights, error); });
