@@ -5,10 +5,29 @@
 
 #include <algorithm>
 #include <numeric>
+#include <stdexcept>
+#include <string>
 
+#include "layout/base/number_class.hpp"
+#include "layout/base/shortest.hpp"
 #include "layout/body/leaf_order.hpp"
 
 namespace bch::detail {
+
+void require_spheres(std::span<const Sphere> spheres, const std::string& whose) {
+  const auto refuse = [&](const std::string& expected, const std::string& found) {
+    throw std::invalid_argument(whose + ": expected " + expected + ", found " + found);
+  };
+  if (spheres.empty() || spheres.size() > most_spheres)
+    refuse("1 to " + std::to_string(most_spheres) + " spheres", std::to_string(spheres.size()));
+  for (std::size_t i = 0; i < spheres.size(); ++i) {
+    const Sphere& s = spheres[i];
+    if (!is_finite(s.x) || !is_finite(s.y) || !is_finite(s.z) || !is_finite(s.radius) || s.radius < 0)
+      refuse("finite spheres with radii of at least 0",
+             std::string("(") + shortest(s.x) + ", " + shortest(s.y) + ", " + shortest(s.z) + ", radius " +
+                 shortest(s.radius) + ") as sphere " + std::to_string(i));
+  }
+}
 
 BodyLayout body_layout(std::span<const std::vector<Sphere>> poses) {
   const std::vector<Sphere>& spheres = poses.front();

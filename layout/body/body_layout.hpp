@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <vector>
 
 #include <bch/body_set.hpp>
@@ -34,6 +35,10 @@ struct BodyLayout {
     return (record_leaves() + std::size_t{4} * slot_count() + record_line - 1) / record_line * record_line;
   }
 };
+
+/// Checks the spheres of a body: their number, and each one.
+/// Errors:  throws std::invalid_argument, in the name of `whose`.
+void require_spheres(std::span<const Sphere> spheres, const std::string& whose);
 
 /// Returns the layout of bodies like one that is given in some poses: spheres that are near each other share a leaf, and the largest are the
 /// core.

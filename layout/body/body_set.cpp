@@ -12,7 +12,6 @@
 
 #include "layout/base/aligned_vector.hpp"
 #include "layout/base/floating_point_state.hpp"
-#include "layout/base/number_class.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/body/body_layout.hpp"
@@ -26,10 +25,6 @@ namespace {
 
 constexpr std::uint32_t only_depth = 0;
 
-[[noreturn]] void refuse(std::size_t body, const std::string& what) {
-  throw std::invalid_argument("body set: body " + std::to_string(body) + ": " + what);
-}
-
 double reach_of(std::span<const Sphere> spheres) {
   double reach = 0;
   for (const Sphere& s : spheres) {
@@ -40,19 +35,11 @@ double reach_of(std::span<const Sphere> spheres) {
 }
 
 void require(std::span<const Sphere> spheres, std::size_t body) {
-  if (spheres.empty() || spheres.size() > most_spheres)
-    refuse(body, "expected 1 to " + std::to_string(most_spheres) + " spheres, found " +
-                     std::to_string(spheres.size()));
-  for (std::size_t i = 0; i < spheres.size(); ++i) {
-    const Sphere& s = spheres[i];
-    if (!is_finite(s.x) || !is_finite(s.y) || !is_finite(s.z) || !is_finite(s.radius) || s.radius < 0)
-      refuse(body, "expected finite spheres with radii of at least 0, found (" + shortest(s.x) + ", " +
-                       shortest(s.y) + ", " + shortest(s.z) + ", radius " + shortest(s.radius) +
-                       ") as sphere " + std::to_string(i));
-  }
+  const std::string whose = "body set: body " + std::to_string(body);
+  require_spheres(spheres, whose);
   const double reach = reach_of(spheres);
   if (!(reach >= rounding::smallest_reach && reach <= rounding::largest_reach))
-    refuse(body, "expected a reach of 1e-6 to 1e6 m, found " + shortest(reach));
+    throw std::invalid_argument(whose + ": expected a reach of 1e-6 to 1e6 m, found " + shortest(reach));
 }
 
 /// Writes the record of spheres that are given in the order of their numbers.

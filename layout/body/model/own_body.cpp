@@ -2,15 +2,11 @@
 // Copyright (c) 2026 the bch authors
 
 #include <memory>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 #include <bch/bodies.hpp>
 
 #include "layout/base/floating_point_state.hpp"
-#include "layout/base/number_class.hpp"
-#include "layout/base/shortest.hpp"
 #include "layout/body/body_layout.hpp"
 
 namespace bch {
@@ -18,21 +14,6 @@ namespace bch {
 using namespace detail;
 
 namespace {
-
-void require_own(std::span<const Sphere> spheres) {
-  const auto refuse = [](const std::string& expected, const std::string& found) {
-    throw std::invalid_argument("make_body: expected " + expected + ", found " + found);
-  };
-  if (spheres.empty() || spheres.size() > most_spheres)
-    refuse("1 to " + std::to_string(most_spheres) + " spheres", std::to_string(spheres.size()));
-  for (std::size_t i = 0; i < spheres.size(); ++i) {
-    const Sphere& s = spheres[i];
-    if (!is_finite(s.x) || !is_finite(s.y) || !is_finite(s.z) || !is_finite(s.radius) || s.radius < 0)
-      refuse("finite spheres with radii of at least 0", "(" + shortest(s.x) + ", " + shortest(s.y) + ", " +
-                                                            shortest(s.z) + ", radius " + shortest(s.radius) +
-                                                            ") as sphere " + std::to_string(i));
-  }
-}
 
 /// Returns a character of one bone, whose mesh is the point in the middle of a sphere.
 Character point_on_a_bone(const Sphere& sphere) {
@@ -52,7 +33,7 @@ Character point_on_a_bone(const Sphere& sphere) {
 
 BodyModel make_body(std::span<const Sphere> spheres) {
   const FloatingPointStateGuard floats;
-  require_own(spheres);
+  require_spheres(spheres, "make_body");
   const std::vector<Sphere> given(spheres.begin(), spheres.end());
   const BodyLayout layout = body_layout({&given, 1});
   BodyModel model;
