@@ -19,14 +19,6 @@ struct ClippedLeaves {
   using Mask = typename Simd::Mask;
   static constexpr std::uint32_t most_leaves = most_spheres / 4, padding = 16;
 
-  /// Lists the leaves, and places B's nodes. Takes and returns the same.
-  bool clip(const PlacedBodies& bodies, const Reach* reach_a, const Reach* reach_b,
-            std::uint32_t count) noexcept {
-    if (!list(bodies, reach_a, reach_b, count)) return false;
-    place_columns(bodies);
-    return true;
-  }
-
   /// Lists the leaves. `reach_a` and `reach_b` hold, for each of `count` pairs of bands, what may take part. Returns whether both have some.
   bool list(const PlacedBodies& bodies, const Reach* reach_a, const Reach* reach_b,
             std::uint32_t count) noexcept {

@@ -16,10 +16,11 @@ namespace bch::detail {
 template <class Simd>
 class LeafSearch {
  public:
-  /// Returns whether some spheres meet. `reach_a` and `reach_b` are as for ClippedLeaves::clip().
+  /// Returns whether some spheres meet. `reach_a` and `reach_b` are as for ClippedLeaves::list().
   bool run(const PlacedBodies& bodies, const Reach* reach_a, const Reach* reach_b,
            std::uint32_t count) noexcept {
-    if (!leaves_.clip(bodies, reach_a, reach_b, count)) return false;
+    if (!leaves_.list(bodies, reach_a, reach_b, count)) return false;
+    leaves_.place_columns(bodies);
     for (std::uint32_t row = 0; row < leaves_.rows; row += rows_at_once)
       if (compare(bodies, row, leaves_.rows - row < rows_at_once ? leaves_.rows : row + rows_at_once))
         return true;
