@@ -127,8 +127,8 @@ void ClipPose::find_channels(PoseTime at) {
   for (const Channel& channel : clip.channels) channel_of_joint_[channel.joint] = &channel;
 }
 
-/// Asks for the keys about a time, which are far apart in memory, before they are read one after the other.
-void ClipPose::prefetch(float seconds) const {
+/// Asks for the keys about a time, which are far apart in memory, before they are read one after the other. Returns where they are.
+std::size_t ClipPose::prefetch(float seconds) const {
   std::size_t guess = 0;
   const auto fetch = [&guess, seconds](const auto& keys) {
     if (keys.size() < 2) return;
@@ -139,6 +139,7 @@ void ClipPose::prefetch(float seconds) const {
   };
   for (const Channel* const channel : channel_of_joint_)
     if (channel != nullptr) fetch(channel->rotations), fetch(channel->positions);
+  return guess;
 }
 
 /// `guess`: where keys of this time were last.
@@ -157,8 +158,7 @@ ClipPose::Moved ClipPose::moved(std::size_t joint, float seconds, std::size_t& g
 
 void ClipPose::place(PoseTime at, std::span<Affine3d> local) {
   find_channels(at);
-  prefetch(at.seconds);
-  std::size_t guess = 0;
+  std::size_t guess = prefetch(at.seconds);
   for (std::size_t j = 0; j < local.size(); ++j) {
     const Rest& rest = rest_[j];
     const Moved by = moved(j, at.seconds, guess);

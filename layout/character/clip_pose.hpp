@@ -49,7 +49,7 @@ class ClipPose {
   };
 
   void find_channels(PoseTime at);
-  void prefetch(float seconds) const;
+  std::size_t prefetch(float seconds) const;
   Moved moved(std::size_t joint, float seconds, std::size_t& guess) const;
   void add(std::size_t joint, const Moved& by, double share);
 
