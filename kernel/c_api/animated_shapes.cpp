@@ -130,22 +130,13 @@ bch_status bch_animated_shape_get_info(const bch_animated_shape* handle, bch_ani
 
 bch_status bch_animated_shape_get_discs(const bch_animated_shape* shape, double seconds, bch_disc* discs,
                                         size_t capacity, size_t* count) {
-  return guarded([&] {
-    const std::vector<Disc> all = shape_at(shape, seconds).discs(seconds);
-    const auto to = same_array<Disc>(discs, capacity, "discs");
-    required(count, "count") = all.size();
-    std::copy_n(all.begin(), std::min(to.size(), all.size()), to.begin());
-  });
+  return guarded([&] { deliver(shape_at(shape, seconds).discs(seconds), discs, capacity, "discs", count); });
 }
 
 bch_status bch_animated_shape_get_spheres(const bch_animated_shape* shape, double seconds,
                                           bch_sphere* spheres, size_t capacity, size_t* count) {
-  return guarded([&] {
-    const std::vector<Sphere> all = shape_at(shape, seconds).spheres(seconds);
-    const auto to = same_array<Sphere>(spheres, capacity, "spheres");
-    required(count, "count") = all.size();
-    std::copy_n(all.begin(), std::min(to.size(), all.size()), to.begin());
-  });
+  return guarded(
+      [&] { deliver(shape_at(shape, seconds).spheres(seconds), spheres, capacity, "spheres", count); });
 }
 
 bch_status bch_animated_shape_free(bch_animated_shape* shape) {

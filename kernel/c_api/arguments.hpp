@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -55,6 +56,15 @@ auto same_array(Value* values, std::size_t count, const char* argument) {
   using Target = std::conditional_t<std::is_const_v<Value>, const Own, Own>;
   static_assert(sizeof(Own) == sizeof(Value) && alignof(Own) == alignof(Value));
   return std::span<Target>(reinterpret_cast<Target*>(array_of(values, count, argument).data()), count);
+}
+
+/// Writes as many of the library's values into an array of the caller as there is room for, and how many there are.
+template <class Own, class Value>
+void deliver(const std::vector<Own>& all, Value* values, std::size_t capacity, const char* argument,
+             std::size_t* count) {
+  const auto to = same_array<Own>(values, capacity, argument);
+  required(count, "count") = all.size();
+  std::copy_n(all.begin(), std::min(to.size(), all.size()), to.begin());
 }
 
 /// Copies `count` parts of an array of the caller, which offsets delimit, as values of the library's own type.

@@ -40,22 +40,13 @@ std::vector<BodyModel> models_of(const bch_body_model* const* models, std::size_
   return all;
 }
 
-/// Writes as many spheres as there is room for.
-void deliver(const std::vector<Sphere>& all, bch_sphere* spheres, size_t capacity, size_t* count) {
-  std::copy_n(all.begin(), std::min(all.size(), capacity),
-              same_array<Sphere>(spheres, capacity, "spheres").begin());
-  *count = all.size();
-}
-
 }  // namespace
 
 bch_status bch_spheres_from_capsules(const bch_space_capsule* capsules, size_t capsule_count, float error,
                                      bch_sphere* spheres, size_t capacity, size_t* count) {
   return guarded([&] {
-    same_array<Sphere>(spheres, capacity, "spheres");
-    required(count, "count");
     const auto all = same_array<BodySet::Capsule>(capsules, capsule_count, "capsules");
-    deliver(spheres_from_capsules(all, error), spheres, capacity, count);
+    deliver(spheres_from_capsules(all, error), spheres, capacity, "spheres", count);
   });
 }
 
@@ -63,11 +54,9 @@ bch_status bch_spheres_from_polygons(const bch_vec2* corners, const uint64_t* of
                                      const bch_heights* heights, float error, bch_sphere* spheres,
                                      size_t capacity, size_t* count) {
   return guarded([&] {
-    same_array<Sphere>(spheres, capacity, "spheres");
-    required(count, "count");
     const auto all = parts_of<Vec2>(corners, offsets, polygons, "corners");
     const auto [bottom, top] = required(heights, "heights");
-    deliver(spheres_from_polygons(all, {bottom, top}, error), spheres, capacity, count);
+    deliver(spheres_from_polygons(all, {bottom, top}, error), spheres, capacity, "spheres", count);
   });
 }
 
@@ -95,9 +84,7 @@ bch_status bch_body_set_get_spheres(const bch_body_set* set, uint32_t body, bch_
   return guarded([&] {
     const BodySet& of = object_of(set, "set").set;
     check_index(body, of.body_count(), "body");
-    same_array<Sphere>(spheres, capacity, "spheres");
-    required(count, "count");
-    deliver(of.spheres(body), spheres, capacity, count);
+    deliver(of.spheres(body), spheres, capacity, "spheres", count);
   });
 }
 

@@ -165,10 +165,7 @@ bch_status bch_crowd_clearances(bch_crowd* handle, const bch_shape_set* set, con
     const CrowdCall call(handle, set, agents, filter, options);
     required(clearances, "clearances");
     const Crowd::Clearances found = call.answer([&](Crowd& crowd) {
-      return crowd.clearances(call.shapes, call.agents,
-                              ClearanceOptions{call.options.implementation, within, call.options.overlap,
-                                               call.options.distance_leaves},
-                              call.filter);
+      return crowd.clearances(call.shapes, call.agents, call.options.within(within), call.filter);
     });
     call.object.last = found.pairs;
     *clearances = {found.pairs.size(),
@@ -188,9 +185,7 @@ bch_status bch_crowd_body_clearances(bch_crowd* handle, const bch_body_set* set,
     const CrowdCallOn<bch_body_set> call(handle, set, agents, filter, options);
     required(clearances, "clearances");
     const Crowd::BodyClearances found = call.answer([&](Crowd& crowd) {
-      return crowd.clearances(call.shapes, call.agents,
-                              BodyClearanceOptions{call.options.implementation, within, call.options.overlap},
-                              call.filter);
+      return crowd.clearances(call.shapes, call.agents, call.options.within(within), call.filter);
     });
     call.object.last = found.pairs;
     *clearances = {found.pairs.size(),

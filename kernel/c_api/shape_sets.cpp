@@ -95,12 +95,7 @@ bch_status bch_shape_set_get_radius(const bch_shape_set* set, uint32_t shape, fl
 
 bch_status bch_shape_set_get_discs(const bch_shape_set* set, uint32_t shape, uint32_t level, bch_disc* discs,
                                    size_t capacity, size_t* count) {
-  return guarded([&] {
-    const std::vector<Disc> all = set_of(set).discs(shape, level);
-    const auto to = same_array<Disc>(discs, capacity, "discs");
-    required(count, "count") = all.size();
-    std::copy_n(all.begin(), std::min(to.size(), all.size()), to.begin());
-  });
+  return guarded([&] { deliver(set_of(set).discs(shape, level), discs, capacity, "discs", count); });
 }
 
 bch_status bch_shape_set_get_outline(const bch_shape_set* handle, uint32_t shape, bch_outline* outline) {

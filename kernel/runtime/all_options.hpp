@@ -17,18 +17,19 @@ struct AllOptions {
   Overlap overlap = Overlap::zero;
   Leaves distance_leaves = Leaves::discs;
 
-  operator const Implementation*() const noexcept {  // NOLINT(google-explicit-constructor)
-    return implementation;
+  AllOptions within(double distance) const noexcept {
+    AllOptions all = *this;
+    all.max_distance = distance;
+    return all;
   }
-  operator CollideOptions() const noexcept {
-    return {implementation, leaves};
-  }                                             // NOLINT(google-explicit-constructor)
-  operator ClearanceOptions() const noexcept {  // NOLINT(google-explicit-constructor)
+  // NOLINTBEGIN(google-explicit-constructor)
+  operator const Implementation*() const noexcept { return implementation; }
+  operator CollideOptions() const noexcept { return {implementation, leaves}; }
+  operator ClearanceOptions() const noexcept {
     return {implementation, max_distance, overlap, distance_leaves};
   }
-  operator BodyClearanceOptions() const noexcept {  // NOLINT(google-explicit-constructor)
-    return {implementation, max_distance, overlap};
-  }
+  operator BodyClearanceOptions() const noexcept { return {implementation, max_distance, overlap}; }
+  // NOLINTEND(google-explicit-constructor)
 };
 
 }  // namespace bch::detail
