@@ -6,13 +6,13 @@
 from __future__ import annotations
 
 import ctypes
-from ctypes import byref, c_size_t
+from ctypes import byref
 
 import numpy as np
 import numpy.typing as npt
 
 from . import _library
-from ._arrays import DISC, SPHERE, Records, address, converted, f4, f8, number, u4
+from ._arrays import DISC, SPHERE, Records, address, converted, f4, f8, number, records, u4
 from ._library import ArrayError, Handle, check, lib
 
 
@@ -76,11 +76,7 @@ class AnimatedShape:
         (n,) DISC
             Records of x, y and radius, metres.
         """
-        count, time = c_size_t(), number(seconds, "seconds")
-        check(lib.bch_animated_shape_get_discs(self._pointer, time, None, 0, byref(count)))
-        discs = np.empty(count.value, DISC)
-        check(lib.bch_animated_shape_get_discs(self._pointer, time, address(discs), len(discs), byref(count)))
-        return discs
+        return records(lib.bch_animated_shape_get_discs, DISC, self._pointer, number(seconds, "seconds"))
 
     def spheres(self, seconds: float) -> Records:
         """Return the spheres at a time of the clip, in seconds: none of a body of discs.
@@ -90,11 +86,7 @@ class AnimatedShape:
         (n,) SPHERE
             Records of x, y, z and radius, metres.
         """
-        count, time = c_size_t(), number(seconds, "seconds")
-        check(lib.bch_animated_shape_get_spheres(self._pointer, time, None, 0, byref(count)))
-        spheres = np.empty(count.value, SPHERE)
-        check(lib.bch_animated_shape_get_spheres(self._pointer, time, address(spheres), len(spheres), byref(count)))
-        return spheres
+        return records(lib.bch_animated_shape_get_spheres, SPHERE, self._pointer, number(seconds, "seconds"))
 
     def __repr__(self) -> str:
         return f"<bch.AnimatedShape from {self.begin:g} to {self.end:g} s{', loops' if self.loops else ''}: {self.key_count} keys>"

@@ -11,7 +11,7 @@ from typing import Any, Dict, List, Optional, Tuple, Type, TypeVar
 import numpy as np
 import numpy.typing as npt
 
-from ._library import ArgumentError, ArrayError, RangeError
+from ._library import ArgumentError, ArrayError, RangeError, check
 
 UInt8 = npt.NDArray[np.uint8]
 UInt32 = npt.NDArray[np.uint32]
@@ -42,6 +42,15 @@ PENETRATION = np.dtype({"names": ["depth", "x", "y"], "formats": [f4, f8, f8], "
 def address(array: npt.NDArray[Any]) -> int:
     """Return where an array's data begin."""
     return array.ctypes.data
+
+
+def records(call: Any, dtype: npt.DTypeLike, *arguments: Any) -> Records:
+    """Return what a call writes into an array: it is first asked how much that is."""
+    count = ctypes.c_size_t()
+    check(call(*arguments, None, 0, ctypes.byref(count)))
+    written = np.empty(count.value, dtype)
+    check(call(*arguments, address(written), len(written), ctypes.byref(count)))
+    return written
 
 
 def _words(array: Any) -> str:

@@ -13,7 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _library
-from ._arrays import SPHERE, Records, UInt32, address, bounded, encoded, f4, given, index, instance, instances, listed, number, pair, rejected, table, u4, u8
+from ._arrays import SPHERE, Records, UInt32, address, bounded, encoded, f4, given, index, instance, instances, listed, number, pair, records, rejected, table, u4, u8
 from ._library import Exclusive, Handle, check, lib
 from ._poses import own_poses
 from ._progress import Watched
@@ -79,11 +79,7 @@ class BodySet:
         (n,) SPHERE
             Records of x, y, z and radius, metres.
         """
-        which, count = index(body, "body", len(self)), c_size_t()
-        check(lib.bch_body_set_get_spheres(self._pointer, which, None, 0, byref(count)))
-        spheres = np.empty(count.value, SPHERE)
-        check(lib.bch_body_set_get_spheres(self._pointer, which, address(spheres), len(spheres), byref(count)))
-        return spheres
+        return records(lib.bch_body_set_get_spheres, SPHERE, self._pointer, index(body, "body", len(self)))
 
     def __repr__(self) -> str:
         return f"<bch.BodySet of {len(self)}>"

@@ -39,6 +39,7 @@ from ._arrays import (
     number,
     one_of,
     pair,
+    records,
     table,
     u4,
     u8,
@@ -459,11 +460,7 @@ class ShapeSet:
         number = whole_number(level, "level")
         number += len(self.depths) if number < 0 else 0
         shape, number = index(shape, "shape", self.shape_count), index(number, "level", len(self.depths))
-        count = c_size_t()
-        check(lib.bch_shape_set_get_discs(self._pointer, shape, number, None, 0, byref(count)))
-        discs = np.empty(count.value, DISC)
-        check(lib.bch_shape_set_get_discs(self._pointer, shape, number, address(discs), len(discs), byref(count)))
-        return discs
+        return records(lib.bch_shape_set_get_discs, DISC, self._pointer, shape, number)
 
     def outline(self, shape: int) -> List[Float32]:
         """Return the outline of a shape: closed contours, counter-clockwise, of points in metres.
