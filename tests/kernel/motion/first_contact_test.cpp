@@ -22,23 +22,31 @@ MotionCase disc_on(float radius, std::vector<PathKey> path) {
   return {still_disc(radius), std::move(path)};
 }
 
+/// Finds the first contact, and compares it with samples of the motions.
+void expect_first_contact(const MotionCase& a, const MotionCase& b, TimeInterval when, double tolerance,
+                          double& found) {
+  found = contact_of(a, b, when, tolerance);
+  for (double time = when.from; time < std::min(found, when.to); time += 0.001)
+    ASSERT_FALSE(test::gap_at(a, b, time) <= 0) << "at " << time << ", found " << found;
+  if (found == never) return;
+  for (int k = 1; k <= 100 && found - 1e-5 * k >= when.from; ++k)
+    ASSERT_FALSE(test::gap_at(a, b, found - 1e-5 * k) <= 0) << k << " before " << found;
+  // Just behind, too: a chunk may begin there.
+  const double gap = test::gap_at(a, b, found), behind = test::gap_at(a, b, found + 1e-9);
+  EXPECT_LE(std::min(gap, behind), tolerance + 2e-5)
+      << "gaps of " << gap << " and " << behind << " at " << found;
+}
+
 TEST(FirstContact, IsNeverLaterThanAnySampleAndEarlyByTheToleranceAtMost) {
   Random random(3101);
   int contacts = 0, passes = 0;
   for (std::uint32_t i = 0; i < test::samples(2100); ++i) {
+    SCOPED_TRACE(i);
     const MotionCase a = test::random_motion(random), b = test::random_motion(random);
-    const double tolerance = std::exp(random.uniform(-9, -3)), from = -2, to = 3;
-    const double found = contact_of(a, b, {from, to}, tolerance);
-    for (double time = from; time < std::min(found, to); time += 0.001)
-      ASSERT_FALSE(test::gap_at(a, b, time) <= 0) << i << ": at " << time << ", found " << found;
+    const double tolerance = std::exp(random.uniform(-9, -3));
+    double found = 0;
+    ASSERT_NO_FATAL_FAILURE(expect_first_contact(a, b, {-2, 3}, tolerance, found));
     ++(found < never ? contacts : passes);
-    if (found == never) continue;
-    for (int k = 1; k <= 100 && found - 1e-5 * k >= from; ++k)
-      ASSERT_FALSE(test::gap_at(a, b, found - 1e-5 * k) <= 0) << i << ": " << k << " before " << found;
-    // Just behind, too: a chunk may begin there.
-    const double gap = test::gap_at(a, b, found), behind = test::gap_at(a, b, found + 1e-9);
-    EXPECT_LE(std::min(gap, behind), tolerance + 2e-5)
-        << i << ": gaps of " << gap << " and " << behind << " at " << found;
   }
   EXPECT_GT(contacts, static_cast<int>(test::samples(500)));
   EXPECT_GT(passes, static_cast<int>(test::samples(250)));
@@ -57,24 +65,17 @@ TEST(FirstContact, InSpaceIsNeverLaterThanAnySampleAndEarlyByTheToleranceAtMost)
   Random random(3105);
   int contacts = 0, passes = 0, fewer = 0;
   for (std::uint32_t i = 0; i < test::samples(2100); ++i) {
+    SCOPED_TRACE(i);
     const MotionCase a = random_motion_in_space(random),
                      b = i % 4 == 0 ? test::random_motion(random) : random_motion_in_space(random);
-    const double tolerance = std::exp(random.uniform(-9, -3)), from = -2, to = 3;
-    const double found = contact_of(a, b, {from, to}, tolerance);
-    for (double time = from; time < std::min(found, to); time += 0.001)
-      ASSERT_FALSE(test::gap_at(a, b, time) <= 0) << i << ": at " << time << ", found " << found;
+    const double tolerance = std::exp(random.uniform(-9, -3));
+    double found = 0;
+    ASSERT_NO_FATAL_FAILURE(expect_first_contact(a, b, {-2, 3}, tolerance, found));
     ++(found < never ? contacts : passes);
     AnimatedDiscs flat = a.discs;
     for (AnimatedChunk& chunk : flat.chunks) chunk.z.clear();
-    const double from_above = contact_of({std::move(flat), a.path, a.clip_begin}, b, {from, to}, tolerance);
+    const double from_above = contact_of({std::move(flat), a.path, a.clip_begin}, b, {-2, 3}, tolerance);
     fewer += from_above < never && found == never;
-    if (found == never) continue;
-    for (int k = 1; k <= 100 && found - 1e-5 * k >= from; ++k)
-      ASSERT_FALSE(test::gap_at(a, b, found - 1e-5 * k) <= 0) << i << ": " << k << " before " << found;
-    // Just behind, too: a chunk may begin there.
-    const double gap = test::gap_at(a, b, found), behind = test::gap_at(a, b, found + 1e-9);
-    EXPECT_LE(std::min(gap, behind), tolerance + 2e-5)
-        << i << ": gaps of " << gap << " and " << behind << " at " << found;
   }
   EXPECT_GT(contacts, static_cast<int>(test::samples(500)));
   EXPECT_GT(passes, static_cast<int>(test::samples(250)));
