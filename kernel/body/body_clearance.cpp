@@ -24,41 +24,6 @@ using namespace detail;
 
 namespace {
 
-/// Holds what was found of a pair of agents, and all outputs of it: in double, from the positions themselves. A is the lower index.
-class FoundSpheres {
- public:
-  FoundSpheres(const BodySetView& bodies, const Agents& agents, Pair pair, const NearestSpheres& nearest)
-      : bodies_(bodies),
-        agents_(agents),
-        first_(std::min(pair.first, pair.second)),
-        second_(std::max(pair.first, pair.second)),
-        nearest_(nearest),
-        a_(bodies, agents, first_, nearest.a),
-        b_(bodies, agents, second_, nearest.b) {
-    const double rise = agents.z.empty() ? 0 : agents.z[second_] - agents.z[first_];
-    const SpacePoint way{agents.x[second_] - agents.x[first_] + (b_.centre.x - a_.centre.x),
-                         agents.y[second_] - agents.y[first_] + (b_.centre.y - a_.centre.y),
-                         rise + (b_.centre.z - a_.centre.z)};
-    unit_ = unit_of(way);
-  }
-
-  /// Returns the unit vector from A's sphere to B's, or with a sign of -1 its opposite.
-  Vec3 direction(double sign) const { return rounded({sign * unit_.x, sign * unit_.y, sign * unit_.z}); }
-  BodyClearanceAnswers::Points points() const { return {a_.end(unit_, 1), b_.end(unit_, -1)}; }
-  DiscPair numbers() const {
-    return {bodies_.number(agents_.shape[first_], nearest_.a),
-            bodies_.number(agents_.shape[second_], nearest_.b)};
-  }
-
- private:
-  const BodySetView& bodies_;
-  const Agents& agents_;
-  const std::uint32_t first_, second_;
-  const NearestSpheres& nearest_;
-  const AgentSphere a_, b_;
-  SpacePoint unit_;
-};
-
 /// Holds what all pairs of a query have in common, and writes their answers.
 struct Writer {
   const BodySetView& bodies;
@@ -71,16 +36,18 @@ struct Writer {
     if (nearest.distance <= enough) return put_alone(answers, i, 0);
     answers.distance[i] = nearest.distance;
     if (answers.direction.empty() && answers.spheres.empty() && answers.points.empty()) return;
-    const FoundSpheres found(bodies, agents, pair, nearest);
+    const auto [a, b] = std::minmax(pair.first, pair.second);
     const bool is_turned = pair.second < pair.first;
+    const AgentPair::Spheres found = AgentPair(bodies, agents, a, b).spheres(nearest.a, nearest.b);
     if (!answers.direction.empty()) answers.direction[i] = found.direction(is_turned ? -1 : 1);
     if (!answers.spheres.empty()) {
-      const DiscPair of = found.numbers();
+      const DiscPair of{bodies.number(agents.shape[a], nearest.a), bodies.number(agents.shape[b], nearest.b)};
       answers.spheres[i] = is_turned ? DiscPair{of.second, of.first} : of;
     }
     if (!answers.points.empty()) {
-      const BodyClearanceAnswers::Points at = found.points();
-      answers.points[i] = is_turned ? BodyClearanceAnswers::Points{at.second, at.first} : at;
+      const Vec3 at_a = found.end_of_a(), at_b = found.end_of_b();
+      answers.points[i] =
+          is_turned ? BodyClearanceAnswers::Points{at_b, at_a} : BodyClearanceAnswers::Points{at_a, at_b};
     }
   }
 };

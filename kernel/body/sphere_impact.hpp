@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "kernel/body/space_frame.hpp"
 #include "layout/base/space_point.hpp"
 #include "layout/body/sphere_rounding.hpp"
 
@@ -43,11 +44,6 @@ inline double time_of_contact(const SpacePoint& p, const SpacePoint& v, double r
   const double left = square - radius * radius;
   return left > 0 ? left / (towards + std::sqrt(under_root)) * (1 - 0x1p-22) : 0;
 }
-
-/// Holds an upright cylinder with room for spheres.
-struct Cylinder {
-  double x, y, radius, bottom, top;
-};
 
 /// Returns a bound of the times of spheres in two cylinders of one frame, of which A's moves by t v: no time of theirs is below it by more
 /// than 2^-20 of it. Infinity: they never touch. Times are within the intervals in which the discs and the heights overlap.

@@ -12,6 +12,7 @@
 
 #include <bch/pairs.hpp>
 
+#include "kernel/body/body_contacts.hpp"
 #include "kernel/broad_phase/broad_phase.hpp"
 #include "kernel/contact/disc_contacts.hpp"
 #include "kernel/crowd/kept_items.hpp"
@@ -57,6 +58,12 @@ struct CrowdMemory {
   };
 
   bool is_periodic() const noexcept { return options.period.x > 0 || options.period.y > 0; }
+  /// Given pairs name agents, not images of them.
+  void require_no_period() const {
+    if (is_periodic())
+      throw std::invalid_argument(
+          "contacts: expected a crowd without a period for given pairs, found one with");
+  }
   Candidates find(const ShapeSetView& shapes, const Agents& agents, double margin, const PairFilter& filter,
                   double height_margin = 0);
   /// Finds those of bodies of spheres that may be within a distance.
@@ -66,6 +73,15 @@ struct CrowdMemory {
   }
   std::span<const Pair> collide(const ShapeSet& shapes, const Candidates& candidates, Leaves leaves,
                                 const Implementation* implementation);
+  std::span<const Pair> collide(const BodySet& bodies, const Candidates& candidates,
+                                const Implementation* implementation);
+  /// Keeps the candidates whose rows are not empty, and returns them with their rows.
+  template <class Answer, class Value>
+  Answer keep_rows(const Candidates& candidates, const Rows<Value>& rows);
+  /// Measures the candidates that were kept.
+  template <class Set>
+  Crowd::Penetrations penetrations_of_kept(const Set& set, const Candidates& candidates,
+                                           std::uint32_t directions, const Implementation* implementation);
   Pair named(Pair candidate) const noexcept {
     return {test.origin(candidate.first), test.origin(candidate.second)};
   }
@@ -105,6 +121,7 @@ struct CrowdMemory {
   std::vector<Pair> to_part;  ///< pairs that collide, as candidates name them
 
   DiscContacts disc_contacts;
+  BodyContactRows body_contacts;
   std::vector<std::uint64_t> contact_offsets;
   Answers<float> distance;
   Answers<Vec2> direction;
@@ -156,6 +173,32 @@ std::span<const Pair> CrowdMemory::collide(const ShapeSet& shapes, const Candida
   bch::collide(shapes, candidates.agents, candidates.pairs, hits,
                {.implementation = implementation, .leaves = leaves});
   return keep_hits(candidates.pairs);
+}
+
+std::span<const Pair> CrowdMemory::collide(const BodySet& bodies, const Candidates& candidates,
+                                           const Implementation* implementation) {
+  hits.resize(candidates.pairs.size());
+  bch::collide(bodies, candidates.agents, candidates.pairs, hits, implementation);
+  return keep_hits(candidates.pairs);
+}
+
+template <class Answer, class Value>
+Answer CrowdMemory::keep_rows(const Candidates& candidates, const Rows<Value>& rows) {
+  keep(candidates.pairs, [&](std::size_t i) { return !rows[i].empty(); });
+  // Rows that are left out are empty, so only offsets move.
+  kept.gather(contact_offsets, [&](std::size_t i) { return rows.offsets[i]; });
+  contact_offsets.push_back(rows.values.size());
+  return {{pairs, *this}, {contact_offsets, rows.values}};
+}
+
+template <class Set>
+Crowd::Penetrations CrowdMemory::penetrations_of_kept(const Set& set, const Candidates& candidates,
+                                                      std::uint32_t directions,
+                                                      const Implementation* implementation) {
+  kept.gather(to_part, [&](std::size_t i) { return candidates.pairs[i]; });
+  penetrations.resize(to_part.size());
+  penetration(set, candidates.agents, to_part, directions, penetrations, implementation);
+  return {{pairs, *this}, penetrations};
 }
 
 Rows<Crowd::Neighbour> CrowdMemory::by_agent(std::span<const Pair> of) {
@@ -226,9 +269,7 @@ Crowd::Pairs Crowd::collisions(const BodySet& bodies, const Agents& agents,
   return without_tasks_from_outside([&]() -> Crowd::Pairs {
     CrowdMemory& of = *memory_;
     const CrowdMemory::Candidates candidates = of.find(bodies, agents, 0, filter);
-    of.hits.resize(candidates.pairs.size());
-    collide(bodies, candidates.agents, candidates.pairs, of.hits, implementation);
-    return {of.keep_hits(candidates.pairs), of};
+    return {of.collide(bodies, candidates, implementation), of};
   });
 }
 
@@ -239,22 +280,34 @@ Crowd::Contacts Crowd::contacts(const ShapeSet& shapes, const Agents& agents, co
     const CrowdMemory::Candidates candidates = of.find(shapes.view(), agents, 0, filter);
     const Rows<DiscPair> rows = of.disc_contacts.find_valid(shapes, candidates.agents, candidates.pairs,
                                                             options.leaves, options.implementation);
-    of.keep(candidates.pairs, [&](std::size_t i) { return !rows[i].empty(); });
-    // Rows that are left out are empty, so only offsets move.
-    of.kept.gather(of.contact_offsets, [&](std::size_t i) { return rows.offsets[i]; });
-    of.contact_offsets.push_back(rows.values.size());
-    return {{of.pairs, of}, {of.contact_offsets, rows.values}};
+    return of.keep_rows<Crowd::Contacts>(candidates, rows);
   });
 }
 
 Rows<DiscPair> Crowd::contacts(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                                const CollideOptions& options) & {
-  if (memory_->is_periodic())
-    throw std::invalid_argument(
-        "contacts: expected a crowd without a period for given pairs, found one with");
+  memory_->require_no_period();
   return without_tasks_from_outside([&] {
     return memory_->disc_contacts.find(shapes, agents, pairs, options.leaves, options.implementation);
   });
+}
+
+Crowd::BodyContacts Crowd::contacts(const BodySet& bodies, const Agents& agents,
+                                    const Implementation* implementation, const PairFilter& filter) & {
+  return without_tasks_from_outside([&]() -> Crowd::BodyContacts {
+    CrowdMemory& of = *memory_;
+    const CrowdMemory::Candidates candidates = of.find(bodies, agents, 0, filter);
+    return of.keep_rows<Crowd::BodyContacts>(
+        candidates, of.body_contacts.find(bodies, candidates.agents, candidates.pairs, implementation));
+  });
+}
+
+Rows<Crowd::SphereContact> Crowd::contacts(const BodySet& bodies, const Agents& agents,
+                                           std::span<const Pair> pairs,
+                                           const Implementation* implementation) & {
+  memory_->require_no_period();
+  return without_tasks_from_outside(
+      [&] { return memory_->body_contacts.find(bodies, agents, pairs, implementation); });
 }
 
 Crowd::Clearances Crowd::clearances(const ShapeSet& shapes, const Agents& agents,
@@ -297,14 +350,19 @@ Crowd::BodyClearances Crowd::clearances(const BodySet& bodies, const Agents& age
 Crowd::Penetrations Crowd::penetrations(const ShapeSet& shapes, const Agents& agents,
                                         std::uint32_t directions, const CollideOptions& options,
                                         const PairFilter& filter) & {
-  return without_tasks_from_outside([&]() -> Crowd::Penetrations {
-    CrowdMemory& of = *memory_;
-    const CrowdMemory::Candidates candidates = of.find(shapes.view(), agents, 0, filter);
-    of.collide(shapes, candidates, options.leaves, options.implementation);
-    of.kept.gather(of.to_part, [&](std::size_t i) { return candidates.pairs[i]; });
-    of.penetrations.resize(of.to_part.size());
-    penetration(shapes, candidates.agents, of.to_part, directions, of.penetrations, options.implementation);
-    return {{of.pairs, of}, of.penetrations};
+  return without_tasks_from_outside([&] {
+    const CrowdMemory::Candidates candidates = memory_->find(shapes.view(), agents, 0, filter);
+    memory_->collide(shapes, candidates, options.leaves, options.implementation);
+    return memory_->penetrations_of_kept(shapes, candidates, directions, options.implementation);
+  });
+}
+
+Crowd::Penetrations Crowd::penetrations(const BodySet& bodies, const Agents& agents, std::uint32_t directions,
+                                        const Implementation* implementation, const PairFilter& filter) & {
+  return without_tasks_from_outside([&] {
+    const CrowdMemory::Candidates candidates = memory_->find(bodies, agents, 0, filter);
+    memory_->collide(bodies, candidates, implementation);
+    return memory_->penetrations_of_kept(bodies, candidates, directions, implementation);
   });
 }
 

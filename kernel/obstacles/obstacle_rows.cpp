@@ -9,32 +9,21 @@
 
 namespace bch::detail {
 
-/// Collects what visit(query, agent, found) finds of each agent, in tasks that have a query each.
+/// Collects what visit(query, agent, found) finds of each agent.
 template <class MakeQuery, class Visit>
 Rows<std::uint32_t> ObstacleRows::find_all(std::size_t agents, const MakeQuery& make_query,
                                            const Visit& visit) {
-  const std::size_t count = (agents + agents_per_task - 1) / agents_per_task;
-  if (blocks_.size() < count) blocks_.resize(count);
-  offsets_.assign(agents + 1, 0);
-  for_ranges(count, 1, [&](std::size_t first, std::size_t last) {
-    BodyQuery query = make_query();
-    for (std::size_t block = first; block < last; ++block) {
-      std::vector<std::uint32_t>& found = blocks_[block];
-      found.clear();
-      const std::size_t end = std::min((block + 1) * agents_per_task, agents);
-      for_prepared(query, block * agents_per_task, end, 0, Look::touching, [&](std::uint32_t agent) {
-        const auto begin = static_cast<std::ptrdiff_t>(found.size());
-        visit(query, agent, [&](std::uint32_t obstacle) { return found.push_back(obstacle), true; });
-        std::sort(found.begin() + begin, found.end());
-        offsets_[agent + std::size_t{1}] = found.size() - static_cast<std::size_t>(begin);
+  return rows_.collect(agents, agents_per_task, [&] {
+    return [&visit, query = make_query()](std::size_t begin, std::size_t end, const auto& add) mutable {
+      for_prepared(query, begin, end, 0, Look::touching, [&](std::uint32_t agent) {
+        add(agent, [&](std::vector<std::uint32_t>& all) {
+          const auto first = static_cast<std::ptrdiff_t>(all.size());
+          visit(query, agent, [&](std::uint32_t obstacle) { return all.push_back(obstacle), true; });
+          std::sort(all.begin() + first, all.end());
+        });
       });
-    }
+    };
   });
-  for (std::size_t i = 0; i < agents; ++i) offsets_[i + 1] += offsets_[i];
-  values_.clear();
-  for (std::size_t block = 0; block < count; ++block)
-    values_.insert(values_.end(), blocks_[block].begin(), blocks_[block].end());
-  return {offsets_, values_};
 }
 
 Rows<std::uint32_t> ObstacleRows::find(const ShapeSet& shapes, const Agents& agents,

@@ -4,10 +4,11 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include <bch/body_set.hpp>
 #include <bch/obstacles.hpp>
+
+#include "kernel/runtime/row_blocks.hpp"
 
 namespace bch::detail {
 
@@ -24,9 +25,7 @@ class ObstacleRows {
   template <class MakeQuery, class Visit>
   Rows<std::uint32_t> find_all(std::size_t agents, const MakeQuery& make_query, const Visit& visit);
 
-  std::vector<std::vector<std::uint32_t>> blocks_;  ///< what a task found, one agent after the other
-  std::vector<std::uint64_t> offsets_;
-  std::vector<std::uint32_t> values_;
+  RowBlocks<std::uint32_t> rows_;
 };
 
 }  // namespace bch::detail

@@ -18,6 +18,8 @@
 #include "layout/base/heading.hpp"
 #include "layout/base/number_class.hpp"
 #include "layout/base/rounding.hpp"
+#include "layout/body/body_record.hpp"
+#include "layout/body/sphere_rounding.hpp"
 #include "layout/format/cut_discs.hpp"
 
 namespace bch {
@@ -33,12 +35,13 @@ constexpr std::size_t penetration_grain = 128;  ///< pairs a task, up to 10 us e
 /// Rounding, in the notation of layout/base/rounding.hpp, all as lengths. An axis, in double within 1e-9 of a unit vector,
 /// is turned into the agent's frame and rounded to float there: 0.75 u. An extent along it is off by 0.75 u P for that,
 /// 1.42 u P for the products, u P and 2 u P for the sums: 5.2 u P. The rest is done in double. For A's discs not to pass
-/// collide()'s test with B's, they have to be 23 u S apart: 28.2 u S together. And an axis falls short of a unit vector by
+/// collide()'s test with B's, they have to be 23 u S apart, or spheres 30 u S: 35.2 u S together. And an axis falls short of a unit vector by
 /// 4e-10, or by 0.75 u more where the caller rounds it to float. Tests see the margin; only the proof needs the lengthening.
 constexpr double margin = 40 * rounding::unit_roundoff;
 constexpr double extent_error = 5.2;  // in units of u
 static_assert(extent_error >= 0.75 + rounding::terms::root_2 + 1 + 2);
 static_assert(margin >= (extent_error + rounding::terms::query_error) * rounding::unit_roundoff);
+static_assert(margin >= (extent_error + rounding::terms::sphere_error) * rounding::unit_roundoff);
 constexpr double lengthening = 1 + 4 * rounding::unit_roundoff;
 static_assert(lengthening - 1 >= 0.75 * rounding::unit_roundoff + 4e-10);
 
@@ -66,11 +69,46 @@ struct Depths {
   }
 };
 
+/// The discs of an agent, about its position and unturned.
+class AgentDiscs {
+ public:
+  AgentDiscs(const ShapeSetView& shapes, const Agents& agents, std::uint32_t agent) noexcept
+      : discs(cut_discs(shapes, static_cast<std::uint32_t>(agents.root(agent, shapes.level_count)))),
+        // A set of single discs has no reaches.
+        reach(discs.count == 1 ? std::abs(discs.x[0]) + std::abs(discs.y[0]) + discs.radius[0]
+                               : shapes.reach[agents.shape[agent]]) {}
+
+  const CutDiscs discs;
+  const float reach;  ///< as in rounding.hpp
+};
+
+/// The spheres of an agent as seen from above.
+class AgentSpheres {
+ public:
+  AgentSpheres(const BodySetView& bodies, const Agents& agents, std::uint32_t agent) noexcept
+      : AgentSpheres(bodies.record(agents.shape[agent])) {}
+
+  const CutDiscs discs;
+  const float reach;
+
+ private:
+  explicit AgentSpheres(const float* record) noexcept
+      : discs{x_, y_, radius_, header_of(record).sphere_count}, reach(header_of(record).reach) {
+    for (std::uint32_t slot = 0; slot < discs.count; ++slot) {
+      const Sphere sphere = sphere_of(record, slot);
+      x_[slot] = sphere.x, y_[slot] = sphere.y, radius_[slot] = sphere.radius;
+    }
+  }
+
+  float x_[most_spheres], y_[most_spheres], radius_[most_spheres];
+};
+
+/// A query of shapes, whose agents have discs, or of bodies.
+template <class Set, class Discs>
 struct Query {
-  const ShapeSetView shapes;
+  const Set& set;
   const Agents& agents;
   const Implementation& implementation;
-
   const Arguments arguments;
 
   void measure(std::uint32_t agent, const Axes& axes, Extents& extents) const noexcept;
@@ -78,25 +116,23 @@ struct Query {
                Depths& depths) const noexcept;
 };
 
-void Query::measure(std::uint32_t agent, const Axes& axes, Extents& extents) const noexcept {
-  const CutDiscs discs =
-      cut_discs(shapes, static_cast<std::uint32_t>(agents.root(agent, shapes.level_count)));
+template <class Set, class Discs>
+void Query<Set, Discs>::measure(std::uint32_t agent, const Axes& axes, Extents& extents) const noexcept {
   const Rotation turn = rotation(agents.heading[agent]);
   float x[most_axes], y[most_axes];
   for (std::uint32_t i = 0; i < axes.count; ++i) {
     x[i] = static_cast<float>(turn.cosine * axes.x[i] + turn.sine * axes.y[i]);
     y[i] = static_cast<float>(turn.cosine * axes.y[i] - turn.sine * axes.x[i]);
   }
-  implementation.kernels->extents(discs, x, y, axes.count, extents.low, extents.high);
-  // A set of single discs has no reaches.
-  extents.reach =
-      static_cast<double>(discs.count == 1 ? std::abs(discs.x[0]) + std::abs(discs.y[0]) + discs.radius[0]
-                                           : shapes.reach[agents.shape[agent]]);
+  const Discs of(set, agents, agent);
+  implementation.kernels->extents(of.discs, x, y, axes.count, extents.low, extents.high);
+  extents.reach = double{of.reach};
 }
 
 /// `a` belongs to the lower index, whatever the pair's order: so that both orders agree.
-void Query::compare(Pair pair, const Axes& axes, const Extents& a, const Extents& b,
-                    Depths& depths) const noexcept {
+template <class Set, class Discs>
+void Query<Set, Discs>::compare(Pair pair, const Axes& axes, const Extents& a, const Extents& b,
+                                Depths& depths) const noexcept {
   const auto [low, high] = std::minmax(pair.first, pair.second);
   const double dx = agents.x[high] - agents.x[low], dy = agents.y[high] - agents.y[low];
   for (std::uint32_t i = 0; i < axes.count; ++i) {
@@ -123,15 +159,25 @@ Penetration answer_of(Pair pair, const Axes& axes, bool both_ways, const Depths&
   return {depth > 0 ? rounding::round_up(depth) : 0.0f, x, y};
 }
 
-Query checked_query(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
-                    std::span<Penetration> out, const Implementation* wanted) {
-  if (out.size() != pairs.size())
-    throw std::invalid_argument("penetration: " + std::to_string(pairs.size()) + " pairs but room for " +
-                                std::to_string(out.size()) + " answers");
+/// Checks the arguments of a query. `ground` is the set's discs, of bodies those that hold them.
+template <class Discs, class Set>
+Query<Set, Discs> checked_query(const Set& set, const ShapeSetView& ground, const Agents& agents,
+                                std::span<const Pair> pairs, std::span<Penetration> out,
+                                const Implementation* wanted) {
+  require_as_many({"penetration", "pair", pairs.size()}, out.size(), "answers");
   const Implementation& implementation = chosen(wanted, "penetration");
-  const ShapeSetView& view = shapes.view();
-  require_valid(implementation, view, agents, pairs);
-  return {view, agents, implementation, arguments_for(view, agents, {})};
+  require_valid(implementation, ground, agents, pairs);
+  return {set, agents, implementation, arguments_for(ground, agents, {})};
+}
+
+auto query_of(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
+              std::span<Penetration> out, const Implementation* wanted) {
+  return checked_query<AgentDiscs>(shapes.view(), shapes.view(), agents, pairs, out, wanted);
+}
+
+auto query_of(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs,
+              std::span<Penetration> out, const Implementation* wanted) {
+  return checked_query<AgentSpheres>(bodies.view(), bodies.view().ground, agents, pairs, out, wanted);
 }
 
 void require_directions(std::span<const Vec2> directions, std::size_t pairs) {
@@ -160,13 +206,12 @@ Axes spread_axes(std::uint32_t directions) {
   return axes;
 }
 
-}  // namespace
-
-void penetration_along(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
-                       std::span<const Vec2> directions, std::span<Penetration> out,
-                       const Implementation* wanted) {
+template <class Set>
+void measure_along(const Set& set, const Agents& agents, std::span<const Pair> pairs,
+                   std::span<const Vec2> directions, std::span<Penetration> out,
+                   const Implementation* wanted) {
   const FloatingPointStateGuard floats;
-  const Query query = checked_query(shapes, agents, pairs, out, wanted);
+  const auto query = query_of(set, agents, pairs, out, wanted);
   require_directions(directions, pairs.size());
   for_pair_ranges(pairs.size(), penetration_grain, [&](std::size_t begin, std::size_t size) {
     Axes axis;
@@ -188,10 +233,11 @@ void penetration_along(const ShapeSet& shapes, const Agents& agents, std::span<c
   });
 }
 
-void penetration(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
-                 std::uint32_t directions, std::span<Penetration> out, const Implementation* wanted) {
+template <class Set>
+void measure_least(const Set& set, const Agents& agents, std::span<const Pair> pairs,
+                   std::uint32_t directions, std::span<Penetration> out, const Implementation* wanted) {
   const FloatingPointStateGuard floats;
-  const Query query = checked_query(shapes, agents, pairs, out, wanted);
+  const auto query = query_of(set, agents, pairs, out, wanted);
   const Axes axes = spread_axes(directions);
   for_pair_ranges(pairs.size(), penetration_grain, [&](std::size_t begin, std::size_t size) {
     Extents a, b;
@@ -209,6 +255,30 @@ void penetration(const ShapeSet& shapes, const Agents& agents, std::span<const P
       out[i] = answer_of(pairs[i], axes, true, depths);
     }
   });
+}
+
+}  // namespace
+
+void penetration_along(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
+                       std::span<const Vec2> directions, std::span<Penetration> out,
+                       const Implementation* wanted) {
+  measure_along(shapes, agents, pairs, directions, out, wanted);
+}
+
+void penetration_along(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs,
+                       std::span<const Vec2> directions, std::span<Penetration> out,
+                       const Implementation* wanted) {
+  measure_along(bodies, agents, pairs, directions, out, wanted);
+}
+
+void penetration(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
+                 std::uint32_t directions, std::span<Penetration> out, const Implementation* wanted) {
+  measure_least(shapes, agents, pairs, directions, out, wanted);
+}
+
+void penetration(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs,
+                 std::uint32_t directions, std::span<Penetration> out, const Implementation* wanted) {
+  measure_least(bodies, agents, pairs, directions, out, wanted);
 }
 
 }  // namespace bch

@@ -12,38 +12,14 @@ namespace {
 using test::BodyCrowd;
 using test::Random;
 
-/// Returns the spheres of all agents where these stand, in double.
-std::vector<std::vector<std::array<double, 4>>> placed_spheres(const BodySet& bodies,
-                                                               const BodyCrowd& crowd) {
-  std::vector<std::vector<std::array<double, 4>>> placed(crowd.body.size());
-  for (std::size_t i = 0; i < placed.size(); ++i) {
-    const double c = std::cos(crowd.heading[i]), s = std::sin(crowd.heading[i]);
-    for (const Sphere& sphere : bodies.spheres(crowd.body[i])) {
-      const double x = double{sphere.x}, y = double{sphere.y};
-      placed[i].push_back({crowd.x[i] + c * x - s * y, crowd.y[i] + s * x + c * y,
-                           crowd.z[i] + double{sphere.z}, double{sphere.radius}});
-    }
-  }
-  return placed;
-}
-
-/// Returns the least gap between two spheres of two bodies; below 0 where they overlap.
-double gap(std::span<const std::array<double, 4>> a, std::span<const std::array<double, 4>> b) {
-  double least = std::numeric_limits<double>::infinity();
-  for (const auto& p : a)
-    for (const auto& q : b)
-      least = std::min(least, std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]) - p[3] - q[3]);
-  return least;
-}
-
 TEST(Bodies, CollideWhereSomeSpheresOverlap) {
   Random random(1);
   const BodySet bodies = test::random_bodies(random);
   for (const double height : {0.0, 0.005, 0.4, 3.0}) {
     const BodyCrowd crowd = test::random_body_crowd(random, 40, bodies.body_count(), 3, height);
-    const auto placed = placed_spheres(bodies, crowd);
+    const auto placed = test::placed_spheres(bodies, crowd);
     std::vector<double> gaps;
-    for (const auto [a, b] : crowd.pairs) gaps.push_back(gap(placed[a], placed[b]));
+    for (const auto [a, b] : crowd.pairs) gaps.push_back(test::gap(placed[a], placed[b]));
     EXPECT_LT(*std::min_element(gaps.begin(), gaps.end()), 0);
     EXPECT_GT(*std::max_element(gaps.begin(), gaps.end()), 0);
     std::vector<std::uint8_t> hits(crowd.pairs.size());
@@ -89,7 +65,7 @@ TEST(Bodies, ACrowdFindsThoseThatAreNear) {
   for (std::size_t i = 0; i < near.pairs.size(); ++i)
     found[{near.pairs[i].first, near.pairs[i].second}] = near.distance[i];
   EXPECT_EQ(found, expected);
-  const auto placed = placed_spheres(bodies, crowd);
+  const auto placed = test::placed_spheres(bodies, crowd);
   const auto is_above = [&](const auto& each) {
     return each.second > 0 && std::abs(crowd.z[each.first.first] - crowd.z[each.first.second]) > 2;
   };
@@ -99,14 +75,14 @@ TEST(Bodies, ACrowdFindsThoseThatAreNear) {
     const auto [p, q] = near.points[i];
     const Vec3 d = near.direction[i];
     const float gap = near.distance[i];
-    EXPECT_NEAR(double{gap}, bch::gap(placed[a], placed[b]), 2e-5);
+    EXPECT_NEAR(double{gap}, test::gap(placed[a], placed[b]), 2e-5);
     EXPECT_NEAR(crowd.x[a] + double{p.x + gap * d.x}, crowd.x[b] + double{q.x}, 2e-5);
     EXPECT_NEAR(crowd.y[a] + double{p.y + gap * d.y}, crowd.y[b] + double{q.y}, 2e-5);
     EXPECT_NEAR(crowd.z[a] + double{p.z + gap * d.z}, crowd.z[b] + double{q.z}, 2e-5);
-    const auto& sphere = placed[a][near.spheres[i].first];
-    const double at[] = {crowd.x[a] + double{p.x} - sphere[0], crowd.y[a] + double{p.y} - sphere[1],
-                         crowd.z[a] + double{p.z} - sphere[2]};
-    EXPECT_NEAR(std::hypot(at[0], at[1], at[2]), sphere[3], 2e-5);
+    const test::PlacedSphere& sphere = placed[a][near.spheres[i].first];
+    EXPECT_NEAR(std::hypot(crowd.x[a] + double{p.x} - sphere.x, crowd.y[a] + double{p.y} - sphere.y,
+                           crowd.z[a] + double{p.z} - sphere.z),
+                sphere.radius, 2e-5);
   }
 }
 

@@ -3,8 +3,11 @@
 
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -56,6 +59,40 @@ inline BodyCrowd random_body_crowd(Random& random, std::uint32_t agents, std::ui
     for (std::uint32_t j = 0; j < i; ++j) crowd.pairs.push_back({i, j});
   }
   return crowd;
+}
+
+/// Represents a sphere of an agent where it stands, and where the agent does.
+struct PlacedSphere {
+  double x, y, z, radius;
+  double agent_x, agent_y, agent_z;
+};
+
+/// Returns the spheres of all agents where these stand, in double.
+inline std::vector<std::vector<PlacedSphere>> placed_spheres(const BodySet& bodies, const BodyCrowd& crowd) {
+  std::vector<std::vector<PlacedSphere>> placed(crowd.body.size());
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    const double c = std::cos(crowd.heading[i]), s = std::sin(crowd.heading[i]);
+    for (const Sphere& sphere : bodies.spheres(crowd.body[i])) {
+      const double x = double{sphere.x}, y = double{sphere.y};
+      placed[i].push_back({crowd.x[i] + c * x - s * y, crowd.y[i] + s * x + c * y,
+                           crowd.z[i] + double{sphere.z}, double{sphere.radius}, crowd.x[i], crowd.y[i],
+                           crowd.z[i]});
+    }
+  }
+  return placed;
+}
+
+/// Returns the gap between two spheres; below 0 where they overlap.
+inline double gap(const PlacedSphere& a, const PlacedSphere& b) {
+  return std::hypot(a.x - b.x, a.y - b.y, a.z - b.z) - a.radius - b.radius;
+}
+
+/// Returns the least gap between two spheres of two bodies.
+inline double gap(std::span<const PlacedSphere> a, std::span<const PlacedSphere> b) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const PlacedSphere& p : a)
+    for (const PlacedSphere& q : b) least = std::min(least, gap(p, q));
+  return least;
 }
 
 }  // namespace bch::test

@@ -97,6 +97,22 @@ class Crowd {
     Rows<DiscPair> contacts;  ///< one row per pair, none empty
   };
 
+  /// Represents an overlap of two spheres, in space. The normal leads from the first agent's sphere to the second's; where centres coincide
+  /// it is (1, 0, 0). Moving the second agent by depth * normal parts the two spheres.
+  struct SphereContact {
+    DiscPair spheres;  ///< their numbers, as in BodySet::spheres()
+    Vec3
+        point;  ///< of the first sphere, the deepest in the second; relative to the first agent's position, metres
+    Vec3 normal;
+    float depth;  ///< metres
+    friend bool operator==(const SphereContact&, const SphereContact&) = default;
+  };
+  /// Holds the bodies of spheres that collide, and their contacts.
+  struct BodyContacts {
+    Pairs pairs;
+    Rows<SphereContact> contacts;  ///< one row per pair, none empty
+  };
+
   /// Holds the pairs that are near each other. Arrays have one value per pair; their meaning is that of ClearanceAnswers.
   struct Clearances {
     Pairs pairs;
@@ -165,6 +181,15 @@ class Crowd {
   Rows<DiscPair> contacts(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                           const CollideOptions& options = {}) &;
 
+  /// Finds all pairs of spheres that overlap, as collide() tests them, of bodies that collide: contacts for a physics engine. A pair has hundreds
+  /// where bodies are deep in each other; clearances() with Overlap::deepest has the deepest alone.
+  /// Order:   contacts of a pair by the first spheres, then the second spheres.
+  BodyContacts contacts(const BodySet& bodies, const Agents& agents,
+                        const Implementation* implementation = nullptr, const PairFilter& filter = {}) &;
+  /// Finds those of given pairs, as for shapes.
+  Rows<SphereContact> contacts(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs,
+                               const Implementation* implementation = nullptr) &;
+
   /// Finds the pairs whose clearance() is at most max_distance, which has to be finite.
   Clearances clearances(const ShapeSet& shapes, const Agents& agents, const ClearanceOptions& options,
                         const PairFilter& filter = {}) &;
@@ -177,6 +202,8 @@ class Crowd {
   /// Finds the pairs that collide, and their penetration() by so many directions.
   Penetrations penetrations(const ShapeSet& shapes, const Agents& agents, std::uint32_t directions = 16,
                             const CollideOptions& options = {}, const PairFilter& filter = {}) &;
+  Penetrations penetrations(const BodySet& bodies, const Agents& agents, std::uint32_t directions = 16,
+                            const Implementation* implementation = nullptr, const PairFilter& filter = {}) &;
 
   /// Finds the obstacles that each agent collides with: one row per agent, ascending. An agent has none exactly where collide() with
   /// obstacles answers 0.

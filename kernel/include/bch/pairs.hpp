@@ -214,6 +214,17 @@ void penetration(const ShapeSet& shapes, const Agents& agents, std::span<const P
                  std::uint32_t directions, std::span<Penetration> out,
                  const Implementation* implementation = nullptr);
 
+/// Measures how far the first agent of each pair has to move on the ground along a given direction until a line separates the spheres of the
+/// two as seen from above. collide() then answers 0. The depth is 0 for bodies whose heights do not meet. All else is as for a ShapeSet.
+void penetration_along(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs,
+                       std::span<const Vec2> directions, std::span<Penetration> out,
+                       const Implementation* implementation = nullptr);
+
+/// Measures the same along evenly spread directions, as penetration() of a ShapeSet does.
+void penetration(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs,
+                 std::uint32_t directions, std::span<Penetration> out,
+                 const Implementation* implementation = nullptr);
+
 /// Holds the displacement of the first agent of each pair relative to the second: its own displacement minus the
 /// other's. Beside obstacles there is one for each agent, in the world. No agent turns.
 /// Units:   metres in the world; each within +-1e9.
