@@ -219,7 +219,7 @@ bch_status bch_collide_bodies(const bch_body_set* set, const bch_agents* agents,
   return guarded([&] {
     const PairCallOn<bch_body_set> call(set, agents, pairs, count, options);
     const auto to = array_of(hits, count, "hits");
-    call.run([&] { collide(call.shapes, call.agents, call.pairs, to, call.options.implementation); });
+    call.run([&] { collide(call.shapes, call.agents, call.pairs, to, call.options); });
   });
 }
 
@@ -230,7 +230,7 @@ bch_status bch_within_bodies(const bch_body_set* set, const bch_agents* agents, 
     const PairCallOn<bch_body_set> call(set, agents, pairs, count, options);
     const auto near = array_of(distances, distance_count, "distances");
     const auto to = array_of(answers, count, "answers");
-    call.run([&] { within(call.shapes, call.agents, call.pairs, near, to, call.options.implementation); });
+    call.run([&] { within(call.shapes, call.agents, call.pairs, near, to, call.options); });
   });
 }
 
@@ -242,8 +242,7 @@ bch_status bch_time_of_impact_bodies(const bch_body_set* set, const bch_agents* 
     Displacements ways{array_of(x, count, "x"), array_of(y, count, "y")};
     if (z != nullptr) ways.z = array_of(z, count, "z");
     const auto to = array_of(times, count, "times");
-    call.run(
-        [&] { time_of_impact(call.shapes, call.agents, call.pairs, ways, to, call.options.implementation); });
+    call.run([&] { time_of_impact(call.shapes, call.agents, call.pairs, ways, to, call.options); });
   });
 }
 
@@ -252,13 +251,28 @@ bch_status bch_clearance_bodies(const bch_body_set* set, const bch_agents* agent
                                 const bch_body_clearance_out* given) {
   return guarded([&] {
     const PairCallOn<bch_body_set> call(set, agents, pairs, count, options);
-    const bch_body_clearance_out out =
-        sized(&required(given, "out"), bch_body_clearance_out BCH_BODY_CLEARANCE_OUT_INIT, "out");
-    BodyClearanceAnswers to{array_of(out.distance, count, "out->distance")};
-    if (out.direction != nullptr) to.direction = same_array<Vec3>(out.direction, count, "out->direction");
-    if (out.spheres != nullptr) to.spheres = same_array<DiscPair>(out.spheres, count, "out->spheres");
-    if (out.points != nullptr)
-      to.points = same_array<BodyClearanceAnswers::Points>(out.points, count, "out->points");
+    const BodyClearanceAnswers to = clearance_answers(given, count);
     call.run([&] { clearance(call.shapes, call.agents, call.pairs, to, call.options); });
+  });
+}
+
+bch_status bch_penetration_bodies(const bch_body_set* set, const bch_agents* agents, const bch_pair* pairs,
+                                  size_t count, uint32_t directions, const bch_query_options* options,
+                                  bch_penetration_depth* depths) {
+  return guarded([&] {
+    const PairCallOn<bch_body_set> call(set, agents, pairs, count, options);
+    const auto to = penetrations(depths, count);
+    call.run([&] { penetration(call.shapes, call.agents, call.pairs, directions, to, call.options); });
+  });
+}
+
+bch_status bch_penetration_along_bodies(const bch_body_set* set, const bch_agents* agents,
+                                        const bch_pair* pairs, size_t count, const bch_vec2* directions,
+                                        const bch_query_options* options, bch_penetration_depth* depths) {
+  return guarded([&] {
+    const PairCallOn<bch_body_set> call(set, agents, pairs, count, options);
+    const auto along = same_array<Vec2>(directions, count, "directions");
+    const auto to = penetrations(depths, count);
+    call.run([&] { penetration_along(call.shapes, call.agents, call.pairs, along, to, call.options); });
   });
 }

@@ -59,6 +59,18 @@ inline ClearanceAnswers clearance_answers(const bch_clearance_out* given, std::s
   return answers;
 }
 
+/// Does the same of bodies.
+inline BodyClearanceAnswers clearance_answers(const bch_body_clearance_out* given, std::size_t count) {
+  const bch_body_clearance_out out =
+      sized(&required(given, "out"), bch_body_clearance_out BCH_BODY_CLEARANCE_OUT_INIT, "out");
+  using Points = BodyClearanceAnswers::Points;
+  BodyClearanceAnswers answers{array_of(out.distance, count, "out->distance")};
+  if (out.direction != nullptr) answers.direction = same_array<Vec3>(out.direction, count, "out->direction");
+  if (out.spheres != nullptr) answers.spheres = same_array<DiscPair>(out.spheres, count, "out->spheres");
+  if (out.points != nullptr) answers.points = same_array<Points>(out.points, count, "out->points");
+  return answers;
+}
+
 /// Holds the answers of a query that needs memory on its way until all are there, so that nothing has been written for the
 /// caller where memory runs out.
 template <class Value>
@@ -90,6 +102,16 @@ void all_or_none(const ClearanceAnswers& to, Ask ask) {
   Kept points(to.points);
   ask(ClearanceAnswers{distance.answers(), direction.answers(), discs.answers(), points.answers()});
   distance.deliver(), direction.deliver(), discs.deliver(), points.deliver();
+}
+
+template <class Ask>
+void all_or_none(const BodyClearanceAnswers& to, Ask ask) {
+  Kept distance(to.distance);
+  Kept direction(to.direction);
+  Kept spheres(to.spheres);
+  Kept points(to.points);
+  ask(BodyClearanceAnswers{distance.answers(), direction.answers(), spheres.answers(), points.answers()});
+  distance.deliver(), direction.deliver(), spheres.deliver(), points.deliver();
 }
 
 inline std::span<Penetration> penetrations(bch_penetration_depth* depths, std::size_t count) {

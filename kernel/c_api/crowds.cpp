@@ -37,6 +37,12 @@ bch_contact_rows contact_rows(std::span<const Pair> pairs, const Rows<DiscPair>&
           reinterpret_cast<const bch_disc_pair*>(rows.values.data())};
 }
 
+bch_sphere_contact_rows contact_rows(std::span<const Pair> pairs, const Rows<Crowd::SphereContact>& rows) {
+  static_assert(sizeof(bch_sphere_contact) == sizeof(Crowd::SphereContact));
+  return {rows.size(), c_pairs(pairs), rows.offsets.data(),
+          reinterpret_cast<const bch_sphere_contact*>(rows.values.data())};
+}
+
 /// Holds the arguments of a query of a crowd. The last answer is gone as soon as the query begins.
 template <class Handle>
 struct CrowdCallOn : CallOn<Handle> {
@@ -59,6 +65,7 @@ struct CrowdCallOn : CallOn<Handle> {
   PairFilter filter;
 };
 using CrowdCall = CrowdCallOn<bch_shape_set>;
+using BodyCrowdCall = CrowdCallOn<bch_body_set>;
 
 template <class Ask, class Handle>
 void hand_out_pairs(const CrowdCallOn<Handle>& call, Ask ask, const bch_pair** pairs, size_t* count) {
@@ -85,6 +92,53 @@ void hand_out_collisions(const CrowdCallOn<Handle>& call, const bch_pair** pairs
     return crowd.collisions(call.shapes, call.agents, call.options, call.filter);
   };
   hand_out_pairs(call, ask, pairs, count);
+}
+
+/// Hands out the pairs of a crowd that collide, and the contacts of each.
+template <class Handle, class View>
+void hand_out_contacts(const CrowdCallOn<Handle>& call, View* contacts) {
+  required(contacts, "contacts");
+  const auto found = call.answer(
+      [&](Crowd& crowd) { return crowd.contacts(call.shapes, call.agents, call.options, call.filter); });
+  call.object.last = found.pairs;
+  *contacts = contact_rows(found.pairs.span(), found.contacts);
+}
+
+/// Hands out the contacts of given pairs.
+template <class Handle, class View>
+void hand_out_contacts(const CrowdCallOn<Handle>& call, const bch_pair* pairs, std::size_t count,
+                       View* contacts) {
+  const std::span<const Pair> of = same_array<Pair>(pairs, count, "pairs");
+  required(contacts, "contacts");
+  const auto found =
+      call.answer([&](Crowd& crowd) { return crowd.contacts(call.shapes, call.agents, of, call.options); });
+  *contacts = contact_rows(of, found);
+}
+
+template <class Handle>
+void hand_out_penetrations(const CrowdCallOn<Handle>& call, std::uint32_t directions,
+                           bch_crowd_penetration_view* penetrations) {
+  required(penetrations, "penetrations");
+  const Crowd::Penetrations found = call.answer([&](Crowd& crowd) {
+    return crowd.penetrations(call.shapes, call.agents, directions, call.options, call.filter);
+  });
+  call.object.last = found.pairs;
+  *penetrations = {found.pairs.size(), c_pairs(found.pairs.span()),
+                   reinterpret_cast<const bch_penetration_depth*>(found.penetrations.data())};
+}
+
+/// Hands out the obstacles that each agent of a set touches.
+template <class Handle>
+void hand_out_obstacles(bch_crowd* handle, const Handle* set, const bch_agents* agents,
+                        const bch_obstacles* obstacles, const bch_query_options* options,
+                        bch_index_rows* touched) {
+  bch_crowd& object = object_of(handle, "crowd");
+  const CallOn<Handle> call(set, agents, options);
+  const ObstacleSet& walls = object_of(obstacles, "obstacles").set;
+  required(touched, "touched");
+  Rows<std::uint32_t> rows;
+  call.run([&] { rows = object.crowd.obstacles(call.shapes, call.agents, walls, call.options); });
+  *touched = {rows.size(), rows.offsets.data(), rows.values.data()};
 }
 
 }  // namespace
@@ -119,42 +173,41 @@ bch_status bch_crowd_body_candidates(bch_crowd* handle, const bch_body_set* set,
                                      const bch_query_options* options, const bch_pair** pairs,
                                      size_t* count) {
   return guarded([&] {
-    hand_out_candidates(CrowdCallOn<bch_body_set>(handle, set, agents, filter, options), margin, pairs,
-                        count);
+    hand_out_candidates(BodyCrowdCall(handle, set, agents, filter, options), margin, pairs, count);
   });
 }
 
 bch_status bch_crowd_body_collisions(bch_crowd* handle, const bch_body_set* set, const bch_agents* agents,
                                      const bch_pair_filter* filter, const bch_query_options* options,
                                      const bch_pair** pairs, size_t* count) {
-  return guarded([&] {
-    hand_out_collisions(CrowdCallOn<bch_body_set>(handle, set, agents, filter, options), pairs, count);
-  });
+  return guarded(
+      [&] { hand_out_collisions(BodyCrowdCall(handle, set, agents, filter, options), pairs, count); });
 }
 
 bch_status bch_crowd_contacts(bch_crowd* handle, const bch_shape_set* set, const bch_agents* agents,
                               const bch_pair_filter* filter, const bch_query_options* options,
                               bch_contact_rows* contacts) {
-  return guarded([&] {
-    const CrowdCall call(handle, set, agents, filter, options);
-    required(contacts, "contacts");
-    const Crowd::Contacts found = call.answer(
-        [&](Crowd& crowd) { return crowd.contacts(call.shapes, call.agents, call.options, call.filter); });
-    call.object.last = found.pairs;
-    *contacts = contact_rows(found.pairs.span(), found.contacts);
-  });
+  return guarded([&] { hand_out_contacts(CrowdCall(handle, set, agents, filter, options), contacts); });
 }
 
 bch_status bch_crowd_contacts_of(bch_crowd* handle, const bch_shape_set* set, const bch_agents* agents,
                                  const bch_pair* pairs, size_t count, const bch_query_options* options,
                                  bch_contact_rows* contacts) {
+  return guarded(
+      [&] { hand_out_contacts(CrowdCall(handle, set, agents, nullptr, options), pairs, count, contacts); });
+}
+
+bch_status bch_crowd_body_contacts(bch_crowd* handle, const bch_body_set* set, const bch_agents* agents,
+                                   const bch_pair_filter* filter, const bch_query_options* options,
+                                   bch_sphere_contact_rows* contacts) {
+  return guarded([&] { hand_out_contacts(BodyCrowdCall(handle, set, agents, filter, options), contacts); });
+}
+
+bch_status bch_crowd_body_contacts_of(bch_crowd* handle, const bch_body_set* set, const bch_agents* agents,
+                                      const bch_pair* pairs, size_t count, const bch_query_options* options,
+                                      bch_sphere_contact_rows* contacts) {
   return guarded([&] {
-    const CrowdCall call(handle, set, agents, nullptr, options);
-    const std::span<const Pair> of = same_array<Pair>(pairs, count, "pairs");
-    required(contacts, "contacts");
-    const Rows<DiscPair> found =
-        call.answer([&](Crowd& crowd) { return crowd.contacts(call.shapes, call.agents, of, call.options); });
-    *contacts = contact_rows(of, found);
+    hand_out_contacts(BodyCrowdCall(handle, set, agents, nullptr, options), pairs, count, contacts);
   });
 }
 
@@ -182,7 +235,7 @@ bch_status bch_crowd_body_clearances(bch_crowd* handle, const bch_body_set* set,
                                      const bch_query_options* options,
                                      bch_crowd_body_clearance_view* clearances) {
   return guarded([&] {
-    const CrowdCallOn<bch_body_set> call(handle, set, agents, filter, options);
+    const BodyCrowdCall call(handle, set, agents, filter, options);
     required(clearances, "clearances");
     const Crowd::BodyClearances found = call.answer([&](Crowd& crowd) {
       return crowd.clearances(call.shapes, call.agents, call.options.within(within), call.filter);
@@ -202,14 +255,16 @@ bch_status bch_crowd_penetrations(bch_crowd* handle, const bch_shape_set* set, c
                                   const bch_query_options* options,
                                   bch_crowd_penetration_view* penetrations) {
   return guarded([&] {
-    const CrowdCall call(handle, set, agents, filter, options);
-    required(penetrations, "penetrations");
-    const Crowd::Penetrations found = call.answer([&](Crowd& crowd) {
-      return crowd.penetrations(call.shapes, call.agents, directions, call.options, call.filter);
-    });
-    call.object.last = found.pairs;
-    *penetrations = {found.pairs.size(), c_pairs(found.pairs.span()),
-                     reinterpret_cast<const bch_penetration_depth*>(found.penetrations.data())};
+    hand_out_penetrations(CrowdCall(handle, set, agents, filter, options), directions, penetrations);
+  });
+}
+
+bch_status bch_crowd_body_penetrations(bch_crowd* handle, const bch_body_set* set, const bch_agents* agents,
+                                       uint32_t directions, const bch_pair_filter* filter,
+                                       const bch_query_options* options,
+                                       bch_crowd_penetration_view* penetrations) {
+  return guarded([&] {
+    hand_out_penetrations(BodyCrowdCall(handle, set, agents, filter, options), directions, penetrations);
   });
 }
 
@@ -226,15 +281,13 @@ bch_status bch_crowd_by_agent(bch_crowd* handle, bch_neighbour_rows* neighbours)
 bch_status bch_crowd_obstacles(bch_crowd* handle, const bch_shape_set* set, const bch_agents* agents,
                                const bch_obstacles* obstacles, const bch_query_options* options,
                                bch_index_rows* touched) {
-  return guarded([&] {
-    bch_crowd& object = object_of(handle, "crowd");
-    const Call call(set, agents, options);
-    const ObstacleSet& walls = object_of(obstacles, "obstacles").set;
-    required(touched, "touched");
-    Rows<std::uint32_t> rows;
-    call.run([&] { rows = object.crowd.obstacles(call.shapes, call.agents, walls, call.options); });
-    *touched = {rows.size(), rows.offsets.data(), rows.values.data()};
-  });
+  return guarded([&] { hand_out_obstacles(handle, set, agents, obstacles, options, touched); });
+}
+
+bch_status bch_crowd_body_obstacles(bch_crowd* handle, const bch_body_set* set, const bch_agents* agents,
+                                    const bch_obstacles* obstacles, const bch_query_options* options,
+                                    bch_index_rows* touched) {
+  return guarded([&] { hand_out_obstacles(handle, set, agents, obstacles, options, touched); });
 }
 
 bch_status bch_crowd_free(bch_crowd* crowd) {

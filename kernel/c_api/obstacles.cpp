@@ -35,19 +35,21 @@ ObstacleArrays arrays_of(const bch_obstacle_arrays* given) {
 }
 
 /// What a query about obstacles is asked.
-struct ObstacleCall : Call {
-  ObstacleCall(const bch_shape_set* set, const bch_agents* of, const bch_obstacles* given,
-               const bch_query_options* wanted)
-      : Call(set, of, wanted), obstacles(object_of(given, "obstacles").set) {}
+template <class Handle>
+struct ObstacleCallOn : CallOn<Handle> {
+  ObstacleCallOn(const Handle* set, const bch_agents* of, const bch_obstacles* given,
+                 const bch_query_options* wanted)
+      : CallOn<Handle>(set, of, wanted), obstacles(object_of(given, "obstacles").set) {}
 
   /// Asks for answers about all agents, which come whole or not at all.
   template <class To, class Ask>
   void ask(To to, Ask ask_into) const {
-    all_or_none(to, [&](const auto& answers) { run([&] { ask_into(answers); }); });
+    all_or_none(to, [&](const auto& answers) { this->run([&] { ask_into(answers); }); });
   }
 
   const ObstacleSet& obstacles;
 };
+using ObstacleCall = ObstacleCallOn<bch_shape_set>;
 
 }  // namespace
 
@@ -151,6 +153,41 @@ bch_status bch_obstacles_time_of_impact(const bch_shape_set* set, const bch_agen
     const auto to = array_of(times, count, "times");
     call.ask(to, [&](auto into) {
       time_of_impact(call.shapes, call.agents, ways, call.obstacles, into, call.options);
+    });
+  });
+}
+
+bch_status bch_obstacles_collide_bodies(const bch_body_set* set, const bch_agents* agents,
+                                        const bch_obstacles* obstacles, const bch_query_options* options,
+                                        uint8_t* hits) {
+  return guarded([&] {
+    const ObstacleCallOn<bch_body_set> call(set, agents, obstacles, options);
+    const auto to = array_of(hits, call.agents.size(), "hits");
+    call.ask(to, [&](auto into) { collide(call.shapes, call.agents, call.obstacles, into, call.options); });
+  });
+}
+
+bch_status bch_obstacles_within_bodies(const bch_body_set* set, const bch_agents* agents,
+                                       const bch_obstacles* obstacles, const double* distances,
+                                       size_t distance_count, const bch_query_options* options,
+                                       uint8_t* answers) {
+  return guarded([&] {
+    const ObstacleCallOn<bch_body_set> call(set, agents, obstacles, options);
+    const auto near = array_of(distances, distance_count, "distances");
+    const auto to = array_of(answers, call.agents.size(), "answers");
+    call.ask(to,
+             [&](auto into) { within(call.shapes, call.agents, call.obstacles, near, into, call.options); });
+  });
+}
+
+bch_status bch_obstacles_clearance_bodies(const bch_body_set* set, const bch_agents* agents,
+                                          const bch_obstacles* obstacles, const bch_query_options* options,
+                                          const bch_body_clearance_out* out) {
+  return guarded([&] {
+    const ObstacleCallOn<bch_body_set> call(set, agents, obstacles, options);
+    const BodyClearanceAnswers to = clearance_answers(out, call.agents.size());
+    call.ask(to, [&](const auto& into) {
+      clearance(call.shapes, call.agents, call.obstacles, into, call.options);
     });
   });
 }

@@ -238,8 +238,34 @@ class Scenes(unittest.TestCase):
         self.assertEqual(len(crowd.collisions(bodies, agents, mask=mask)), 1)
         with self.assertRaisesRegex(bch.ArgumentError, "body 0: expected finite spheres"):
             bch.BodySet([[[0, 0, 0, -1]]])
-        with self.assertRaises(bch.ArrayError):
-            bch.penetration(bodies, agents, pairs)
+        parted = bch.penetration(bodies, agents, pairs)
+        np.testing.assert_allclose(parted["depth"], [0.1, 1, 0, 0.1], atol=1e-4)
+        np.testing.assert_array_equal(bch.penetration(bodies, agents, pairs, np.tile(np.float32([-2, 0]), (4, 1)))["depth"][:1], parted["depth"][:1])
+        contacts = crowd.contacts(bodies, agents)
+        row = contacts.discs[contacts.pairs.tolist().index([0, 2])]
+        self.assertEqual(row["spheres"].tolist(), [[2, 0]])
+        np.testing.assert_allclose([*row["point"][0], *row["normal"][0], row["depth"][0]], [0, 0, 2, 0, 0, 1, 0.1], atol=1e-4)
+        given = crowd.contacts(bodies, agents, pairs)
+        self.assertEqual(given.discs.counts.tolist(), [1, 1, 0, 0])
+        pushed = crowd.penetrations(bodies, agents)
+        self.assertEqual(pushed.pairs.tolist(), contacts.pairs.tolist())
+        np.testing.assert_array_equal(pushed.penetrations["depth"][:1], bch.penetration(bodies, agents, pushed.pairs)["depth"][:1])
+
+    def test_bodies_and_obstacles(self):
+        """A ball in front of a low wall."""
+        bodies, wall = bch.BodySet([[[0, 0, 0.5, 0.5]]]), "LINESTRING (0.4 -1, 0.4 1)"
+        agents = bch.Agents(np.zeros(2, np.uint32), np.array([0.0, -0.1]), np.zeros(2), np.zeros(2))
+        high, low = (bch.Obstacles.from_wkt(wall, heights=(0, top)) for top in (0.3, 0.1))
+        self.assertEqual(bch.collide(bodies, agents, high).tolist(), [True, False])
+        self.assertEqual(bch.collide(bodies, agents, low).tolist(), [False, False])
+        self.assertEqual(bch.within(bodies, agents, low, 0.07).tolist(), [True, False])
+        gap = np.hypot(0.4, 0.4) - 0.5
+        np.testing.assert_allclose(bch.clearance(bodies, agents, low)[0], gap, atol=1e-4)
+        nearest = bch.nearest(bodies, agents, low)
+        np.testing.assert_allclose(nearest.points[0][1], [0.4, 0, 0.1], atol=1e-4)
+        self.assertEqual([row.tolist() for row in bch.Crowd().obstacles(bodies, agents, high)], [[0], []])
+        with self.assertRaisesRegex(bch.ArrayError, "pairs"):
+            bch.penetration(bodies, agents, high)
 
     def test_live_bodies(self):
         man = bch.default_male()

@@ -22,7 +22,7 @@ raise an error that says what is wanted. Every query releases the interpreter's 
 
 from . import plot
 from ._animated import AnimatedShape
-from ._arrays import DISC, PENETRATION, POSE, SOURCE, SPHERE
+from ._arrays import DISC, PENETRATION, POSE, SOURCE, SPHERE, SPHERE_CONTACT
 from ._bake import bake
 from ._bodies import BodyModel, BodySet, LiveBodies, default_body, load_models, save_models, spheres_from_capsules, spheres_from_polygons
 from ._characters import Bone, Channel, Curve, Joint, Motion, make_character
@@ -139,6 +139,7 @@ __all__ = [
     "Rows",
     "SOURCE",
     "SPHERE",
+    "SPHERE_CONTACT",
     "ScenePlan",
     "ShapeSet",
     "ShapeSetBuilder",

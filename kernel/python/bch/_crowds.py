@@ -14,6 +14,7 @@ import numpy as np
 from . import _library
 from ._arrays import (
     PENETRATION,
+    SPHERE_CONTACT,
     Float32,
     Records,
     UInt32,
@@ -44,22 +45,22 @@ class Rows:
     Attributes
     ----------
     offsets : (n + 1,) uint64
-    values : (m,) or (m, 2) uint32
+    values : (m,) or (m, 2) uint32, or of contacts of bodies (m,) `SPHERE_CONTACT`
     """
 
     __slots__ = ("offsets", "values")
 
-    def __init__(self, offsets: UInt64, values: UInt32) -> None:
+    def __init__(self, offsets: UInt64, values: Any) -> None:
         self.offsets, self.values = offsets, values
 
     def __len__(self) -> int:
         return len(self.offsets) - 1
 
-    def __getitem__(self, i: int) -> UInt32:
+    def __getitem__(self, i: int) -> Any:
         number = index(i + len(self) if i < 0 else i, "row", len(self))
         return self.values[int(self.offsets[number]) : int(self.offsets[number + 1])]
 
-    def __iter__(self) -> Iterator[UInt32]:
+    def __iter__(self) -> Iterator[Any]:
         return (self[i] for i in range(len(self)))
 
     @property
@@ -71,9 +72,9 @@ class Rows:
         return f"<bch.Rows: {len(self)} of {len(self.values)} values>"
 
 
-def _rows(found: Any, shape: Tuple[int, ...] = ()) -> Rows:
+def _rows(found: Any, shape: Tuple[int, ...] = (), kind: Any = u4) -> Rows:
     offsets = copied(found.offsets, u8, (found.rows + 1,)) if found.offsets else np.zeros(1, u8)
-    return Rows(offsets, copied(found.values, u4, (int(offsets[-1]), *shape)))
+    return Rows(offsets, copied(found.values, kind, (int(offsets[-1]), *shape)))
 
 
 class Neighbours(Rows):
@@ -96,7 +97,10 @@ class Contacts(NamedTuple):
     """The result of `Crowd.contacts`."""
 
     pairs: UInt32  #: (n, 2), the pairs of agents
-    discs: Rows  #: a row per pair, of (m, 2) indices: a disc of the first agent and one of the second, see `ShapeSet.discs`
+    #: a row per pair, of (m, 2) indices: a disc of the first agent and one of the second, see `ShapeSet.discs`; of bodies, (m,)
+    #: `SPHERE_CONTACT`: two spheres that overlap, the point of the first that is deepest in the second, relative to the first agent's
+    #: position, the normal from the first to the second, and the depth, metres
+    discs: Rows
 
 
 class Clearances(NamedTuple):
@@ -211,7 +215,7 @@ class Crowd:
 
     def contacts(
         self,
-        shapes: ShapeSet,
+        shapes: Union[ShapeSet, BodySet],
         agents: Agents,
         pairs: Optional[UInt32] = None,
         *,
@@ -222,7 +226,7 @@ class Crowd:
         threads: int = 0,
         implementation: Optional[str] = None,
     ) -> Contacts:
-        """Find all discs of two agents that touch, for given pairs or for the whole crowd.
+        """Find all discs of two agents that touch, or all spheres that overlap, for given pairs or for the whole crowd.
 
         Parameters
         ----------
@@ -230,17 +234,21 @@ class Crowd:
             Each of them then has a row, which may be empty. A filter is for whole crowds.
         """
         how, _ = options(leaves=leaves, threads=threads, implementation=implementation)
-        at, found = pointers(shapes, agents), _library.ContactRows()
+        bodies = isinstance(shapes, BodySet)
+        at, kind = pointers(shapes, agents, bodies), "body_" * bodies
+        found = _library.SphereContactRows() if bodies else _library.ContactRows()
         chosen = _filter(agents, category, mask, excluded)
         if pairs is not None and chosen is not None:
             raise ArgumentError("category, mask and excluded: expected none of them for given pairs")
         with self._exclusive:
             if pairs is None:
-                check(lib.bch_crowd_contacts(self._handle.pointer, *at, chosen, how, byref(found)))
+                check(getattr(lib, f"bch_crowd_{kind}contacts")(self._handle.pointer, *at, chosen, how, byref(found)))
             else:
                 where = given(pairs, u4, (None, 2), "pairs")
-                check(lib.bch_crowd_contacts_of(self._handle.pointer, *at, where, len(pairs), how, byref(found)))
-            return Contacts(copied(found.pairs, u4, (found.rows, 2)), _rows(found, (2,)))
+                ask = getattr(lib, f"bch_crowd_{kind}contacts_of")
+                check(ask(self._handle.pointer, *at, where, len(pairs), how, byref(found)))
+            rows = _rows(found, (), SPHERE_CONTACT) if bodies else _rows(found, (2,))
+            return Contacts(copied(found.pairs, u4, (found.rows, 2)), rows)
 
     def clearances(
         self,
@@ -278,7 +286,7 @@ class Crowd:
 
     def penetrations(
         self,
-        shapes: ShapeSet,
+        shapes: Union[ShapeSet, BodySet],
         agents: Agents,
         directions: int = 16,
         *,
@@ -291,10 +299,12 @@ class Crowd:
     ) -> Penetrations:
         """Find the pairs that collide, and how far the first agent of each has to move, as `penetration` does."""
         how, _ = options(leaves=leaves, threads=threads, implementation=implementation)
-        at, found = pointers(shapes, agents), _library.CrowdPenetrationView()
+        bodies = isinstance(shapes, BodySet)
+        at, found = pointers(shapes, agents, bodies), _library.CrowdPenetrationView()
+        call = lib.bch_crowd_body_penetrations if bodies else lib.bch_crowd_penetrations
         chosen, ways = _filter(agents, category, mask, excluded), bounded(directions, "directions", 0, 2**32 - 1)
         with self._exclusive:
-            check(lib.bch_crowd_penetrations(self._handle.pointer, *at, ways, chosen, how, byref(found)))
+            check(call(self._handle.pointer, *at, ways, chosen, how, byref(found)))
             n = found.count
             return Penetrations(copied(found.pairs, u4, (n, 2)), copied(found.depths, PENETRATION, (n,)))
 
@@ -308,7 +318,7 @@ class Crowd:
 
     def obstacles(
         self,
-        shapes: ShapeSet,
+        shapes: Union[ShapeSet, BodySet],
         agents: Agents,
         obstacles: Obstacles,
         *,
@@ -318,10 +328,12 @@ class Crowd:
     ) -> Rows:
         """Find the obstacles that each agent collides with: one row per agent of their indices, ascending."""
         how, _ = options(leaves=leaves, threads=threads, implementation=implementation)
-        at, found = pointers(shapes, agents), _library.IndexRows()
+        bodies = isinstance(shapes, BodySet)
+        at, found = pointers(shapes, agents, bodies), _library.IndexRows()
+        call = lib.bch_crowd_body_obstacles if bodies else lib.bch_crowd_obstacles
         walls = instance(obstacles, Obstacles, "obstacles")._pointer
         with self._exclusive:
-            check(lib.bch_crowd_obstacles(self._handle.pointer, *at, walls, how, byref(found)))
+            check(call(self._handle.pointer, *at, walls, how, byref(found)))
             return _rows(found)
 
 

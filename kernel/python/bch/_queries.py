@@ -8,7 +8,7 @@ from __future__ import annotations
 import ctypes
 import functools
 import math
-from typing import Any, Dict, Literal, NamedTuple, Optional, Tuple, Union
+from typing import Any, Callable, Dict, List, Literal, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
 
@@ -195,12 +195,19 @@ def pointers(shapes: Union[ShapeSet, BodySet], agents: Agents, bodies: bool = Fa
     return shapes._pointer, agents._pointer
 
 
-def _asked(shapes: Union[ShapeSet, BodySet], agents: Agents, pairs: Pairs, bodies: bool = False) -> Tuple[int, int, int, int]:
-    """Return the addresses of the arguments of a query, and the number of its answers. Obstacles are asked about with shapes alone."""
+#: What cannot be asked about bodies and obstacles.
+_of_pairs_alone = ("penetration", "penetration_along", "time_of_impact")
+
+
+def _asked(name: str, shapes: Union[ShapeSet, BodySet], agents: Agents, pairs: Pairs) -> Tuple[Callable[..., int], int]:
+    """Return the function of a query, bound to what it is about, and the number of its answers."""
+    bodies = isinstance(shapes, BodySet)
     set_at, agents_at = pointers(shapes, agents, bodies)
-    if isinstance(pairs, Obstacles) and not bodies:
-        return set_at, agents_at, pairs._pointer, len(agents)
-    return set_at, agents_at, given(pairs, u4, (None, 2), "pairs"), len(pairs)
+    if isinstance(pairs, Obstacles) and not (bodies and name in _of_pairs_alone):
+        function = getattr(lib, f"bch_obstacles_{name}{'_bodies' * bodies}")
+        return functools.partial(function, set_at, agents_at, pairs._pointer), len(agents)
+    where = given(pairs, u4, (None, 2), "pairs")
+    return functools.partial(getattr(lib, f"bch_{name}{'_bodies' * bodies}"), set_at, agents_at, where, len(pairs)), len(pairs)
 
 
 def collide(
@@ -239,15 +246,9 @@ def collide(
     (n,) bool
     """
     how, _ = options(leaves, "zero", math.inf, threads, implementation)
-    bodies = isinstance(shapes, BodySet)
-    set_at, agents_at, where, n = _asked(shapes, agents, pairs, bodies)
+    ask, n = _asked("collide", shapes, agents, pairs)
     hits = result(out, b1, (n,))
-    if bodies:
-        check(lib.bch_collide_bodies(set_at, agents_at, where, n, how, address(hits)))
-    elif isinstance(pairs, Obstacles):
-        check(lib.bch_obstacles_collide(set_at, agents_at, where, how, address(hits)))
-    else:
-        check(lib.bch_collide(set_at, agents_at, where, n, how, address(hits)))
+    check(ask(how, address(hits)))
     return hits
 
 
@@ -283,8 +284,7 @@ def within(
     -------
     (n,) bool
     """
-    bodies = isinstance(shapes, BodySet)
-    set_at, agents_at, where, n = _asked(shapes, agents, pairs, bodies)
+    ask, n = _asked("within", shapes, agents, pairs)
     if leaves != "discs" and not isinstance(pairs, Obstacles):
         raise ArgumentError("leaves are for obstacles; pairs are measured between discs")
     answers = result(out, b1, (n,))
@@ -293,13 +293,7 @@ def within(
     if not isinstance(distance, (np.ndarray, list, tuple)):
         near = np.array([number(distance, "distance")], f8)
     at = given(near, f8, (None,), "distance")
-    if bodies:
-        status = lib.bch_within_bodies(set_at, agents_at, where, n, at, len(near), how, address(answers))
-    elif isinstance(pairs, Obstacles):
-        status = lib.bch_obstacles_within(set_at, agents_at, where, at, len(near), how, address(answers))
-    else:
-        status = lib.bch_within(set_at, agents_at, where, n, at, len(near), how, address(answers))
-    check(status)
+    check(ask(at, len(near), how, address(answers)))
     return answers
 
 
@@ -313,27 +307,18 @@ class Nearest(NamedTuple):
 
 
 def _measure(
-    shapes: Union[ShapeSet, BodySet],
-    agents: Agents,
-    pairs: Pairs,
+    ask: Callable[..., int],
+    bodies: bool,
     how: int,
     distance: Float32,
     direction: Optional[Float32] = None,
     discs: Optional[UInt32] = None,
     points: Optional[Float32] = None,
 ) -> None:
-    bodies = isinstance(shapes, BodySet)
-    set_at, agents_at, where, n = _asked(shapes, agents, pairs, bodies)
     to = (_library.BodyClearanceOut if bodies else _library.ClearanceOut)(distance=address(distance))
     for name, array in {"direction": direction, "spheres" if bodies else "discs": discs, "points": points}.items():
         setattr(to, name, None if array is None else address(array))
-    at = ctypes.addressof(to)
-    if bodies:
-        check(lib.bch_clearance_bodies(set_at, agents_at, where, n, how, at))
-    elif isinstance(pairs, Obstacles):
-        check(lib.bch_obstacles_clearance(set_at, agents_at, where, how, at))
-    else:
-        check(lib.bch_clearance(set_at, agents_at, where, n, how, at))
+    check(ask(how, ctypes.addressof(to)))
 
 
 def clearance(
@@ -374,10 +359,10 @@ def clearance(
     (n,) float32
         Metres.
     """
-    n = _asked(shapes, agents, pairs, isinstance(shapes, BodySet))[3]
+    ask, n = _asked("clearance", shapes, agents, pairs)
     distance = result(out, f4, (n,))
     how, _ = options("segments", overlap, max_distance, threads, implementation, leaves)
-    _measure(shapes, agents, pairs, how, distance)
+    _measure(ask, isinstance(shapes, BodySet), how, distance)
     return distance
 
 
@@ -409,7 +394,8 @@ def nearest(
         agents overlap unless `overlap` is "deepest".
     """
     bodies = isinstance(shapes, BodySet)
-    n, axes = _asked(shapes, agents, pairs, bodies)[3], 3 if bodies else 2
+    ask, n = _asked("clearance", shapes, agents, pairs)
+    axes = 3 if bodies else 2
     if out is not None:
         instance(out, Nearest, "out")
     found = Nearest(
@@ -419,12 +405,12 @@ def nearest(
         result(None if out is None else out.points, f4, (n, 2, axes), "out.points"),
     )
     how, _ = options("segments", overlap, max_distance, threads, implementation, leaves)
-    _measure(shapes, agents, pairs, how, *found)
+    _measure(ask, bodies, how, *found)
     return found
 
 
 def penetration(
-    shapes: ShapeSet,
+    shapes: Union[ShapeSet, BodySet],
     agents: Agents,
     pairs: Pairs,
     directions: Union[int, Float32] = 16,
@@ -439,10 +425,11 @@ def penetration(
 
     Parameters
     ----------
-    shapes : ShapeSet
+    shapes : ShapeSet or BodySet
+        Bodies move on the ground, and are free where a line separates them as seen from above.
     agents : Agents
     pairs : (n, 2) uint32, or Obstacles
-        With obstacles, the depth is how far each agent has to move to leave the one that it is deepest in.
+        With obstacles, of shapes alone, the depth is how far each agent has to move to leave the one that it is deepest in.
     directions : int, or (n, 2) float32
         The number of evenly spread directions to try, an even number from 2 to 256, of which the best one counts; or one
         direction per pair. Not for obstacles.
@@ -455,20 +442,17 @@ def penetration(
     (n,) PENETRATION
         Records of depth, in metres, and of x and y, a unit vector.
     """
-    set_at, agents_at, where, n = _asked(shapes, agents, pairs)
+    is_along = isinstance(directions, np.ndarray)
+    ask, n = _asked("penetration_along" if is_along and not isinstance(pairs, Obstacles) else "penetration", shapes, agents, pairs)
     depths = result(out, PENETRATION, (n,))
     how, _ = options("segments", "zero", math.inf, threads, implementation)
-    to = address(depths)
-    if isinstance(pairs, Obstacles):
-        if isinstance(directions, np.ndarray) or directions != 16:
-            raise ArgumentError("directions are for pairs; obstacles have directions of their own")
-        check(lib.bch_obstacles_penetration(set_at, agents_at, where, how, to))
-    elif not isinstance(directions, np.ndarray):
-        count = bounded(directions, "directions", 2, 256)
-        check(lib.bch_penetration(set_at, agents_at, where, n, count, how, to))
+    if not isinstance(pairs, Obstacles):
+        to = given(directions, f4, (n, 2), "directions") if is_along else bounded(directions, "directions", 2, 256)
+        check(ask(to, how, address(depths)))
+    elif is_along or directions != 16:
+        raise ArgumentError("directions are for pairs; obstacles have directions of their own")
     else:
-        along = given(directions, f4, (n, 2), "directions")
-        check(lib.bch_penetration_along(set_at, agents_at, where, n, along, how, to))
+        check(ask(how, address(depths)))
     return depths
 
 
@@ -494,7 +478,7 @@ def time_of_impact(
     shapes : ShapeSet or BodySet
         Bodies touch in space.
     agents : Agents
-    pairs : (n, 2) uint32, or Obstacles
+    pairs : (n, 2) uint32, or Obstacles (of shapes alone)
     dx, dy : (n,) float64
         The displacement of the first agent of each pair relative to the second, or of each agent among obstacles, metres.
     dz : (n,) float64, optional
@@ -511,17 +495,13 @@ def time_of_impact(
     bodies = isinstance(shapes, BodySet)
     if dz is not None and not bodies:
         raise ArrayError("dz is given; wanted is a bch.BodySet for shapes, or no dz: outlines do not move up or down")
-    set_at, agents_at, where, n = _asked(shapes, agents, pairs, bodies)
+    ask, n = _asked("time_of_impact", shapes, agents, pairs)
     times = result(out, f4, (n,))
     how, _ = options("segments", "zero", math.inf, threads, implementation)
-    to_x, to_y = given(dx, f8, (n,), "dx"), given(dy, f8, (n,), "dy")
+    way: List[Optional[int]] = [given(dx, f8, (n,), "dx"), given(dy, f8, (n,), "dy")]
     if bodies:
-        to_z = None if dz is None else given(dz, f8, (n,), "dz")
-        check(lib.bch_time_of_impact_bodies(set_at, agents_at, where, n, to_x, to_y, to_z, how, address(times)))
-    elif isinstance(pairs, Obstacles):
-        check(lib.bch_obstacles_time_of_impact(set_at, agents_at, where, to_x, to_y, how, address(times)))
-    else:
-        check(lib.bch_time_of_impact(set_at, agents_at, where, n, to_x, to_y, how, address(times)))
+        way.append(None if dz is None else given(dz, f8, (n,), "dz"))
+    check(ask(*way, how, address(times)))
     return times
 
 

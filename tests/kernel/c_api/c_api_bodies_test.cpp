@@ -3,7 +3,16 @@
 
 #include <bch/bodies.hpp>
 #include <bch/characters.hpp>
+#include <bch/crowd.hpp>
+#include <bch/obstacles.hpp>
+#include <bch/pairs.hpp>
 
+#include <cstring>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "tests/support/body_scenes.hpp"
 #include "tests/support/c_api.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/test.hpp"
@@ -110,6 +119,148 @@ TEST(CApiBodies, OfCapsulesAndPolygonsAreThoseOfTheLibrary) {
   EXPECT_EQ(bch_spheres_from_capsules(&capsule, 1, -1, found.data(), found.size(), &untouched),
             BCH_INVALID_ARGUMENT);
   EXPECT_EQ(untouched, 7u);
+}
+
+constexpr const char* walls_text = "LINESTRING (0 1, 3 1) POLYGON ((2 0, 3 0, 3 1, 2 0))";
+
+/// A crowd of bodies, in C and in C++.
+struct CrowdOfBodies {
+  test::Random random{5601};
+  std::vector<std::vector<Sphere>> spheres{test::random_body(random, 40), test::random_body(random, 9)};
+  BodySet set{spheres};
+  test::BodyCrowd crowd = test::random_body_crowd(random, 30, 2, 3, 0.5);
+  ObstacleSet walls = obstacles_from_wkt(walls_text, Polygons::solid, 0, 0.4);
+
+  test::Owned<bch_body_set, bch_body_set_free> c_set;
+  bch_obstacles* c_walls = nullptr;
+  bch_crowd* c_crowd = nullptr;
+  bch_agents agents = BCH_AGENTS_INIT;
+
+  CrowdOfBodies() {
+    std::vector<bch_sphere> all;
+    std::vector<std::uint64_t> offsets{0};
+    for (const auto& body : spheres) {
+      for (const Sphere& s : body) all.push_back({s.x, s.y, s.z, s.radius});
+      offsets.push_back(all.size());
+    }
+    c_set = made<bch_body_set_free>(bch_body_set_create, all.data(), offsets.data(), spheres.size());
+    expect_ok(bch_obstacles_from_wkt_at(walls_text, 0, 0, 0.4, &c_walls));
+    expect_ok(bch_crowd_create(nullptr, &c_crowd));
+    agents.shape = crowd.body.data(), agents.x = crowd.x.data(), agents.y = crowd.y.data();
+    agents.heading = crowd.heading.data(), agents.z = crowd.z.data(), agents.count = crowd.body.size();
+  }
+  CrowdOfBodies(const CrowdOfBodies&) = delete;
+  CrowdOfBodies& operator=(const CrowdOfBodies&) = delete;
+  ~CrowdOfBodies() {
+    bch_crowd_free(c_crowd);
+    bch_obstacles_free(c_walls);
+  }
+
+  const bch_pair* pairs() const { return reinterpret_cast<const bch_pair*>(crowd.pairs.data()); }
+  std::size_t pair_count() const { return crowd.pairs.size(); }
+};
+
+/// Expects the bytes of C's values to be those of C++'s.
+template <class C, class Cpp>
+void expect_bytes(const C* found, std::size_t count, std::span<const Cpp> expected) {
+  static_assert(sizeof(C) == sizeof(Cpp));
+  ASSERT_EQ(count, expected.size());
+  ASSERT_GT(count, 0u);
+  EXPECT_EQ(std::memcmp(found, expected.data(), count * sizeof(C)), 0);
+}
+
+TEST(CApiBodies, AnswerAboutPairsAsInCpp) {
+  const CrowdOfBodies of;
+  const Agents agents = of.crowd.agents();
+  const std::size_t n = of.pair_count();
+  std::vector<std::uint8_t> hits(n), expected_hits(n);
+  expect_ok(bch_collide_bodies(of.c_set.get(), &of.agents, of.pairs(), n, nullptr, hits.data()));
+  collide(of.set, agents, of.crowd.pairs, expected_hits);
+  EXPECT_EQ(hits, expected_hits);
+  const double near = 0.3;
+  expect_ok(bch_within_bodies(of.c_set.get(), &of.agents, of.pairs(), n, &near, 1, nullptr, hits.data()));
+  within(of.set, agents, of.crowd.pairs, {&near, 1}, expected_hits);
+  EXPECT_EQ(hits, expected_hits);
+
+  const std::vector<double> x(n, 0.3), y(n, -0.2), z(n, 0.1);
+  std::vector<float> times(n), expected_times(n);
+  expect_ok(bch_time_of_impact_bodies(of.c_set.get(), &of.agents, of.pairs(), n, x.data(), y.data(), z.data(),
+                                      nullptr, times.data()));
+  time_of_impact(of.set, agents, of.crowd.pairs, {x, y, z}, expected_times);
+  EXPECT_EQ(times, expected_times);
+
+  std::vector<bch_penetration_depth> depths(n);
+  std::vector<Penetration> expected(n);
+  expect_ok(bch_penetration_bodies(of.c_set.get(), &of.agents, of.pairs(), n, 16, nullptr, depths.data()));
+  penetration(of.set, agents, of.crowd.pairs, 16, expected);
+  const auto expect_depths = [&] {
+    for (std::size_t i = 0; i < n; ++i)
+      ASSERT_EQ((Penetration{depths[i].depth, depths[i].x, depths[i].y}), expected[i]);
+  };
+  expect_depths();
+  const std::vector<bch_vec2> along(n, {1, 2});
+  expect_ok(bch_penetration_along_bodies(of.c_set.get(), &of.agents, of.pairs(), n, along.data(), nullptr,
+                                         depths.data()));
+  penetration_along(of.set, agents, of.crowd.pairs, std::vector<Vec2>(n, {1, 2}), expected);
+  expect_depths();
+}
+
+TEST(CApiBodies, AnswerAboutCrowdsAsInCpp) {
+  const CrowdOfBodies of;
+  const Agents agents = of.crowd.agents();
+  Crowd crowd;
+  const Crowd::BodyContacts contacts = crowd.contacts(of.set, agents);
+  bch_sphere_contact_rows rows;
+  expect_ok(bch_crowd_body_contacts(of.c_crowd, of.c_set.get(), &of.agents, nullptr, nullptr, &rows));
+  expect_bytes(rows.pairs, rows.rows, contacts.pairs.span());
+  expect_bytes(rows.values, rows.offsets[rows.rows], contacts.contacts.values);
+  const Rows<Crowd::SphereContact> of_pairs = crowd.contacts(of.set, agents, of.crowd.pairs);
+  expect_ok(bch_crowd_body_contacts_of(of.c_crowd, of.c_set.get(), &of.agents, of.pairs(), of.pair_count(),
+                                       nullptr, &rows));
+  ASSERT_EQ(rows.rows, of.pair_count());
+  expect_bytes(rows.offsets, rows.rows + 1, of_pairs.offsets);
+  expect_bytes(rows.values, rows.offsets[rows.rows], of_pairs.values);
+
+  const Crowd::Penetrations parted = crowd.penetrations(of.set, agents, 32);
+  bch_crowd_penetration_view view;
+  expect_ok(bch_crowd_body_penetrations(of.c_crowd, of.c_set.get(), &of.agents, 32, nullptr, nullptr, &view));
+  expect_bytes(view.pairs, view.count, parted.pairs.span());
+  for (std::size_t i = 0; i < view.count; ++i)
+    EXPECT_EQ((Penetration{view.depths[i].depth, view.depths[i].x, view.depths[i].y}),
+              parted.penetrations[i]);
+}
+
+TEST(CApiBodies, AnswerAboutObstaclesAsInCpp) {
+  const CrowdOfBodies of;
+  const Agents agents = of.crowd.agents();
+  const std::size_t n = agents.size();
+  std::vector<std::uint8_t> hits(n), expected_hits(n);
+  expect_ok(bch_obstacles_collide_bodies(of.c_set.get(), &of.agents, of.c_walls, nullptr, hits.data()));
+  collide(of.set, agents, of.walls, expected_hits);
+  EXPECT_EQ(hits, expected_hits);
+  EXPECT_EQ(std::set<std::uint8_t>(hits.begin(), hits.end()), (std::set<std::uint8_t>{0, 1}));
+  const double near = 0.3;
+  expect_ok(
+      bch_obstacles_within_bodies(of.c_set.get(), &of.agents, of.c_walls, &near, 1, nullptr, hits.data()));
+  within(of.set, agents, of.walls, {&near, 1}, expected_hits);
+  EXPECT_EQ(hits, expected_hits);
+
+  std::vector<float> distance(n), expected(n);
+  std::vector<bch_nearest_space_points> points(n);
+  std::vector<BodyClearanceAnswers::Points> expected_points(n);
+  bch_body_clearance_out out = BCH_BODY_CLEARANCE_OUT_INIT;
+  out.distance = distance.data(), out.points = points.data();
+  expect_ok(bch_obstacles_clearance_bodies(of.c_set.get(), &of.agents, of.c_walls, nullptr, &out));
+  clearance(of.set, agents, of.walls, BodyClearanceAnswers{.distance = expected, .points = expected_points});
+  EXPECT_EQ(distance, expected);
+  expect_bytes(points.data(), n, std::span<const BodyClearanceAnswers::Points>(expected_points));
+
+  Crowd crowd;
+  const Rows<std::uint32_t> touched = crowd.obstacles(of.set, agents, of.walls);
+  bch_index_rows rows;
+  expect_ok(bch_crowd_body_obstacles(of.c_crowd, of.c_set.get(), &of.agents, of.c_walls, nullptr, &rows));
+  expect_bytes(rows.offsets, rows.rows + 1, touched.offsets);
+  expect_bytes(rows.values, rows.offsets[rows.rows], touched.values);
 }
 
 TEST(CApiBodies, AreRefusedWithAReason) {

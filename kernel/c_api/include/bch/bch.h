@@ -801,6 +801,15 @@ BCH_API bch_status bch_within_bodies(const bch_body_set* set, const bch_agents* 
 BCH_API bch_status bch_time_of_impact_bodies(const bch_body_set* set, const bch_agents* agents, const bch_pair* pairs,
                                              size_t count, const double* x, const double* y, const double* z,
                                              const bch_query_options* options, float* times);
+/** Measures how far the first agent of each pair has to move on the ground until a line separates the two bodies as seen from above, as
+ * bch_penetration() does. */
+BCH_API bch_status bch_penetration_bodies(const bch_body_set* set, const bch_agents* agents, const bch_pair* pairs,
+                                          size_t count, uint32_t directions, const bch_query_options* options,
+                                          bch_penetration_depth* depths);
+/** Measures the same along given directions, as bch_penetration_along() does. */
+BCH_API bch_status bch_penetration_along_bodies(const bch_body_set* set, const bch_agents* agents,
+                                                const bch_pair* pairs, size_t count, const bch_vec2* directions,
+                                                const bch_query_options* options, bch_penetration_depth* depths);
 /** Holds the nearest points of two bodies, each relative to its agent's position, in the world's axes. */
 typedef struct bch_nearest_space_points {
   bch_vec3 first, second;
@@ -842,6 +851,34 @@ BCH_API bch_status bch_crowd_body_clearances(bch_crowd* crowd, const bch_body_se
                                              double within, const bch_pair_filter* filter,
                                              const bch_query_options* options,
                                              bch_crowd_body_clearance_view* clearances);
+/** Finds the pairs whose bodies collide and their depths, see bch_penetration_bodies(). */
+BCH_API bch_status bch_crowd_body_penetrations(bch_crowd* crowd, const bch_body_set* set, const bch_agents* agents,
+                                               uint32_t directions, const bch_pair_filter* filter,
+                                               const bch_query_options* options,
+                                               bch_crowd_penetration_view* penetrations);
+/** Represents an overlap of two spheres, in space. Moving the second agent by depth * normal parts the two. */
+typedef struct bch_sphere_contact {
+  bch_disc_pair spheres; /**< the numbers of the spheres */
+  bch_vec3 point;        /**< of the first sphere, the deepest in the second; relative to the first agent's position */
+  bch_vec3 normal;       /**< a unit vector from the first sphere to the second */
+  float depth;           /**< metres */
+} bch_sphere_contact;
+/** Views rows of contacts, one row per pair of agents. */
+typedef struct bch_sphere_contact_rows {
+  size_t rows;
+  const bch_pair* pairs; /**< one per row */
+  const uint64_t* offsets;
+  const bch_sphere_contact* values;
+} bch_sphere_contact_rows;
+/** Finds all spheres of a crowd that overlap, one row for each pair of agents that collides. */
+BCH_API bch_status bch_crowd_body_contacts(bch_crowd* crowd, const bch_body_set* set, const bch_agents* agents,
+                                           const bch_pair_filter* filter, const bch_query_options* options,
+                                           bch_sphere_contact_rows* contacts);
+/** Finds those of given pairs, one row per pair, which may be empty. The rows' `pairs` are the given ones. */
+BCH_API bch_status bch_crowd_body_contacts_of(bch_crowd* crowd, const bch_body_set* set, const bch_agents* agents,
+                                              const bch_pair* pairs, size_t count,
+                                              const bch_query_options* options,
+                                              bch_sphere_contact_rows* contacts);
 
 /* Obstacles --------------------------------------------------------------------------------------------------------- */
 
@@ -898,6 +935,27 @@ BCH_API bch_status bch_obstacles_penetration(const bch_shape_set* set, const bch
 BCH_API bch_status bch_obstacles_time_of_impact(const bch_shape_set* set, const bch_agents* agents,
                                                 const bch_obstacles* obstacles, const double* x, const double* y,
                                                 const bch_query_options* options, float* times);
+
+/* The same of bodies of spheres, in space: an obstacle stands upright from its bottom to its top. */
+
+/** Tests whether some sphere of each agent touches an obstacle, and writes 1 or 0 to `hits`. */
+BCH_API bch_status bch_obstacles_collide_bodies(const bch_body_set* set, const bch_agents* agents,
+                                                const bch_obstacles* obstacles, const bch_query_options* options,
+                                                uint8_t* hits);
+/** Tests whether an obstacle is within a distance of each agent's spheres, and writes 1 or 0 to `answers`. */
+BCH_API bch_status bch_obstacles_within_bodies(const bch_body_set* set, const bch_agents* agents,
+                                               const bch_obstacles* obstacles, const double* distances,
+                                               size_t distance_count, const bch_query_options* options,
+                                               uint8_t* answers);
+/** Measures how far each agent's spheres are from the nearest obstacle. `spheres` has the agent's sphere and the obstacle's segment, which
+ * is BCH_NO_DISC above, in and below an area. */
+BCH_API bch_status bch_obstacles_clearance_bodies(const bch_body_set* set, const bch_agents* agents,
+                                                  const bch_obstacles* obstacles, const bch_query_options* options,
+                                                  const bch_body_clearance_out* out);
+/** Finds the obstacles that each agent's spheres touch, one row per agent, ascending. */
+BCH_API bch_status bch_crowd_body_obstacles(bch_crowd* crowd, const bch_body_set* set, const bch_agents* agents,
+                                            const bch_obstacles* obstacles, const bch_query_options* options,
+                                            bch_index_rows* touched);
 
 /* Motions ----------------------------------------------------------------------------------------------------------- */
 
