@@ -45,9 +45,10 @@ struct QueryKind {
   const char* help;     ///< what they are, in the words of --help
   /// Returns the answer as CSV, without the header, in the order of the pairs or agents.
   std::string (*rows)(const QueryInput& input);
-  bool moving = false;                   ///< asks how agents move
-  bool of_obstacles = true;              ///< can be asked about obstacles
-  const char* sphere_columns = nullptr;  ///< of bodies of spheres; none: they cannot be asked
+  const char* sphere_columns;         ///< of bodies of spheres
+  bool moving = false;                ///< asks how agents move
+  bool of_obstacles = true;           ///< can be asked about obstacles
+  bool spheres_of_obstacles = false;  ///< and so of bodies of spheres
 };
 
 /// More columns of a clearance.

@@ -43,51 +43,27 @@ std::string hit_rows(const QueryInput& input, const std::vector<std::uint8_t>& h
   return out;
 }
 
-/// Asks about obstacles, where there are some, or pairs: what queries take in the same place.
+/// Asks query(set, about) about shapes or bodies, and about obstacles, where there are some, or pairs.
 template <class Query>
-void ask(const QueryInput& input, Query query) {
-  if (input.obstacles != nullptr)
-    query(*input.obstacles);
+void ask(const QueryInput& input, const Query& query) {
+  const auto about = [&](const auto& set) {
+    if (input.obstacles != nullptr)
+      query(set, *input.obstacles);
+    else
+      query(set, input.pairs);
+  };
+  if (input.bodies != nullptr)
+    about(*input.bodies);
   else
-    query(input.pairs);
+    about(*input.set);
 }
 
 std::string collide_rows(const QueryInput& input) {
   std::vector<std::uint8_t> hits(input.size());
-  if (input.bodies != nullptr)
-    collide(*input.bodies, input.table.agents(), input.pairs, hits, input.options.implementation);
-  else
-    ask(input,
-        [&](const auto& about) { collide(*input.set, input.table.agents(), about, hits, input.options); });
+  ask(input, [&](const auto& set, const auto& about) {
+    collide(set, input.table.agents(), about, hits, input.options);
+  });
   return hit_rows(input, hits);
-}
-
-std::string contact_rows(const QueryInput& input) {
-  bch::Crowd crowd;
-  const Rows<DiscPair> rows = crowd.contacts(*input.set, input.table.agents(), input.pairs, input.options);
-  std::string out;
-  for (std::size_t i = 0; i < input.pairs.size(); ++i)
-    for (const auto& [first, second] : rows[i])
-      out += fmt::format("{},{},{}\n", ids(input, i), first, second);
-  return out;
-}
-
-std::string penetration_rows(const QueryInput& input) {
-  std::vector<Penetration> ways(input.size());
-  const Agents agents = input.table.agents();
-  if (input.obstacles != nullptr) {
-    penetration(*input.set, agents, *input.obstacles, ways, input.options);
-  } else if (input.direction) {
-    const std::vector<Vec2> along(input.pairs.size(), *input.direction);
-    penetration_along(*input.set, agents, input.pairs, along, ways, input.options);
-  } else {
-    penetration(*input.set, agents, input.pairs, input.directions, ways, input.options);
-  }
-  std::string out;
-  for (std::size_t i = 0; i < ways.size(); ++i)
-    out += fmt::format("{},{},{},{}\n", ids(input, i), plain(ways[i].depth), plain_part(ways[i].x),
-                       plain_part(ways[i].y));
-  return out;
 }
 
 std::string columns(const Vec2& v) {
@@ -96,6 +72,60 @@ std::string columns(const Vec2& v) {
 
 std::string columns(const Vec3& v) {
   return fmt::format(",{},{},{}", plain(v.x), plain(v.y), plain(v.z));
+}
+
+std::string columns(const DiscPair& discs) {
+  return fmt::format(",{},{}", discs.first, discs.second);
+}
+
+std::string columns(const bch::Crowd::SphereContact& contact) {
+  return columns(contact.spheres) + fmt::format(",{}", contact.depth) + columns(contact.point) +
+         columns(contact.normal);
+}
+
+std::string contact_rows(const QueryInput& input) {
+  std::string out;
+  const auto list = [&](const auto& set) {
+    bch::Crowd crowd;
+    const auto rows = crowd.contacts(set, input.table.agents(), input.pairs, input.options);
+    for (std::size_t i = 0; i < input.pairs.size(); ++i)
+      for (const auto& contact : rows[i]) out += ids(input, i) + columns(contact) + "\n";
+  };
+  if (input.bodies != nullptr)
+    list(*input.bodies);
+  else
+    list(*input.set);
+  return out;
+}
+
+/// Measures the way out of obstacles, which bodies of spheres have none of.
+void find_ways(const QueryInput& input, const ShapeSet& set, const ObstacleSet& obstacles,
+               std::span<Penetration> ways) {
+  penetration(set, input.table.agents(), obstacles, ways, input.options);
+}
+
+template <class Set>
+void find_ways(const QueryInput& input, const Set& set, std::span<const Pair> pairs,
+               std::span<Penetration> ways) {
+  const Agents agents = input.table.agents();
+  if (!input.direction) return penetration(set, agents, pairs, input.directions, ways, input.options);
+  const std::vector<Vec2> along(pairs.size(), *input.direction);
+  penetration_along(set, agents, pairs, along, ways, input.options);
+}
+
+std::string penetration_rows(const QueryInput& input) {
+  std::vector<Penetration> ways(input.size());
+  if (input.bodies != nullptr)
+    find_ways(input, *input.bodies, input.pairs, ways);
+  else if (input.obstacles != nullptr)
+    find_ways(input, *input.set, *input.obstacles, ways);
+  else
+    find_ways(input, *input.set, input.pairs, ways);
+  std::string out;
+  for (std::size_t i = 0; i < ways.size(); ++i)
+    out += fmt::format("{},{},{},{}\n", ids(input, i), plain(ways[i].depth), plain_part(ways[i].x),
+                       plain_part(ways[i].y));
+  return out;
 }
 
 /// `measure` fills the three arrays.
@@ -115,78 +145,74 @@ std::string clearance_lines(const QueryInput& input, const Measure& measure) {
 }
 
 std::string clearance_rows(const QueryInput& input) {
-  const Agents agents = input.table.agents();
-  if (input.bodies != nullptr)
-    return clearance_lines<Vec3, BodyClearanceAnswers::Points>(
-        input, [&](auto& distance, auto& direction, auto& points) {
-          clearance(*input.bodies, agents, input.pairs,
-                    BodyClearanceAnswers{.distance = distance, .direction = direction, .points = points},
-                    input.options);
-        });
-  return clearance_lines<Vec2, NearestPoints>(input, [&](auto& distance, auto& direction, auto& points) {
-    ask(input, [&](const auto& about) {
-      clearance(*input.set, agents, about,
-                ClearanceAnswers{.distance = distance, .direction = direction, .points = points},
-                input.options);
+  const auto lines = [&]<class Vector, class Points, class Answers>() {
+    return clearance_lines<Vector, Points>(input, [&](auto& distance, auto& direction, auto& points) {
+      ask(input, [&](const auto& set, const auto& about) {
+        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(set)>, BodySet> ==
+                      std::is_same_v<Answers, BodyClearanceAnswers>)
+          clearance(set, input.table.agents(), about,
+                    Answers{.distance = distance, .direction = direction, .points = points}, input.options);
+      });
     });
-  });
+  };
+  return input.bodies != nullptr
+             ? lines.template operator()<Vec3, BodyClearanceAnswers::Points, BodyClearanceAnswers>()
+             : lines.template operator()<Vec2, NearestPoints, ClearanceAnswers>();
 }
 
 std::string within_rows(const QueryInput& input) {
   std::vector<std::uint8_t> hits(input.size());
+  const Agents agents = input.table.agents();
   const std::span<const double> distance(&input.options.max_distance, 1);
-  if (input.bodies != nullptr)
-    within(*input.bodies, input.table.agents(), input.pairs, distance, hits, input.options.implementation);
-  else
-    ask(input, [&](const auto& about) {
-      if constexpr (std::is_same_v<std::remove_cvref_t<decltype(about)>, ObstacleSet>)
-        within(*input.set, input.table.agents(), about, distance, hits, input.options.distance_leaves,
-               input.options.implementation);
-      else
-        within(*input.set, input.table.agents(), about, distance, hits, input.options.implementation);
-    });
+  ask(input, [&]<class Set, class About>(const Set& set, const About& about) {
+    if constexpr (std::is_same_v<Set, ShapeSet> && std::is_same_v<About, ObstacleSet>)
+      within(set, agents, about, distance, hits, input.options.distance_leaves, input.options);
+    else
+      within(set, agents, about, distance, hits, input.options);
+  });
   return hit_rows(input, hits);
 }
 
 std::string time_of_impact_rows(const QueryInput& input) {
   const AgentTable& table = input.table;
   std::vector<float> time(input.size());
-  if (input.obstacles != nullptr) {
+  std::vector<double> x, y;
+  for (const auto [first, second] : input.pairs)
+    x.push_back(table.dx[first] - table.dx[second]), y.push_back(table.dy[first] - table.dy[second]);
+  if (input.bodies != nullptr)
+    time_of_impact(*input.bodies, table.agents(), input.pairs, {x, y}, time, input.options);
+  else if (input.obstacles != nullptr)
     time_of_impact(*input.set, table.agents(), {table.dx, table.dy}, *input.obstacles, time, input.options);
-  } else {
-    std::vector<double> x, y;
-    for (const auto [first, second] : input.pairs)
-      x.push_back(table.dx[first] - table.dx[second]), y.push_back(table.dy[first] - table.dy[second]);
+  else
     time_of_impact(*input.set, table.agents(), input.pairs, {x, y}, time, input.options);
-  }
   std::string out;
   for (std::size_t i = 0; i < time.size(); ++i) out += fmt::format("{},{}\n", ids(input, i), time[i]);
   return out;
 }
 
 constexpr QueryKind kinds[] = {
-    {"collide", "hit", "1 where the agents collide, else 0", collide_rows, false, true, "hit"},
+    {"collide", "hit", "1 where the agents collide, else 0", collide_rows, "hit", false, true, true},
     {"clearance", "distance,x,y",
      R"(the least gap between their discs or, with --leaves segments,
                  their outlines, in metres, and the unit vector from the first to the second; 0,0,0 where
                  they overlap, unless --overlap deepest is given; inf,0,0 beyond --max-distance.
                  --points adds first_x,first_y,second_x,second_y)",
-     clearance_rows, false, true, "distance,x,y,z"},
+     clearance_rows, "distance,x,y,z", false, true, true},
     {"within", "hit", "1 where the agents come within --max-distance of each other, else 0", within_rows,
-     false, true, "hit"},
+     "hit", false, true, true},
     {"time-of-impact", "time",
      R"(when the agents first touch while each moves by its dx,dy, from 0 at
                  the start to 1 at the end; inf where they do not touch)",
-     time_of_impact_rows, true},
+     time_of_impact_rows, "time", true},
     {"contacts", "first_disc,second_disc",
      R"(one line for each two discs that overlap, by their
                  numbers in the agents' cuts, counted from 0, depth first)",
-     contact_rows, false, false},
+     contact_rows, "first_sphere,second_sphere,depth,x,y,z,normal_x,normal_y,normal_z", false, false},
     {"penetration", "depth,x,y",
      R"(how far (metres) and in which direction (unit vector) the first agent
                  has to move until a line separates the two; 0 where a line already does. With --direction:
                  until all of it lies beyond the second, which may be far where the two are apart)",
-     penetration_rows},
+     penetration_rows, "depth,x,y"},
 };
 
 /// Tells which pairs have a clearance.

@@ -241,8 +241,10 @@ Output of --what: one line per line of PAIRS.csv, in the same order, unless stat
       R"(collide and contacts test what --leaves names. within, time-of-impact and penetration use the discs of the
 cuts, and so does clearance unless --leaves segments is given. Discs cover more than outlines, so agents
 at a distance of 0 m need not collide. With --obstacles, --leaves segments applies to within, too.
-With --bodies spheres, agents have z or all one ground, and collide, clearance and within can be asked, in space:
-directions and points then have a z as well.
+With --bodies spheres, agents have z or all one ground, and all is asked in space: directions and points have a z as
+well, and contacts are spheres that overlap: depth (metres), the point of the first that is deepest in the second,
+relative to the first agent, and the normal. Agents move on the ground, by dx,dy and for penetration. About
+--obstacles, collide, clearance and within can be asked.
 With --obstacles, each line is about one agent and the obstacles: id,... instead of first,second,...;
 contacts cannot be asked. FILE.wkt may have POLYGON, MULTIPOLYGON, LINESTRING, MULTILINESTRING and
 GEOMETRYCOLLECTION; Z and M are ignored.

@@ -61,9 +61,10 @@ void require_no_misfits(const CLI::App& command, const QueryCommandOptions& opti
 
 void require_of_spheres(const CLI::App& command, const QueryCommandOptions& options) {
   const char* const reason = "belongs to outlines, not to --bodies spheres";
-  require_absent(command, {"--obstacles", "--depths", "--leaves", "--threshold"}, reason);
-  if (query_kind(options.what).sphere_columns == nullptr)
-    throw UsageError(fmt::format("--what: '{}' {}", options.what, reason));
+  require_absent(command, {"--depths", "--leaves", "--threshold"}, reason);
+  const QueryKind& kind = query_kind(options.what);
+  if (!options.obstacles.empty() && kind.of_obstacles && !kind.spheres_of_obstacles)
+    throw UsageError(fmt::format("--what: '{}' about --obstacles {}", options.what, reason));
   if (is_baked(options.character))
     throw UsageError(options.character +
                      ": a baked file has outlines alone, which --bodies spheres does not use");

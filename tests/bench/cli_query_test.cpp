@@ -102,11 +102,32 @@ TEST(Cli, QueryOfSpheresKnowsHeights) {
   EXPECT_NE(gaps.find("\nman,bench,0,0,0,0,"), std::string::npos) << gaps;
 }
 
+TEST(Cli, QueryOfSpheresHasContactsAndWaysOut) {
+  const TemporaryFolder folder;
+  const std::string pairs = folder.write("pairs.csv", "first,second\nman,above\nman,bench\n");
+  const std::string contacts = ask_spheres(folder, {pairs, "--what", "contacts"}).out;
+  EXPECT_TRUE(contacts.starts_with(
+      "first,second,first_sphere,second_sphere,depth,x,y,z,normal_x,normal_y,normal_z\nman,bench,"))
+      << contacts;
+  EXPECT_EQ(contacts.find("man,above"), std::string::npos);
+  const std::string ways = ask_spheres(folder, {pairs, "--what", "penetration"}).out;
+  EXPECT_TRUE(ways.starts_with("first,second,depth,x,y\nman,above,0,")) << ways;
+  EXPECT_NE(ways.find("\nman,bench,0."), std::string::npos) << ways;
+}
+
+TEST(Cli, QueryOfSpheresKnowsTheHeightsOfObstacles) {
+  const TemporaryFolder folder;
+  const std::string wall = folder.write("wall.wkt", "LINESTRING (0 -1, 0 1)");
+  EXPECT_EQ(ask_spheres(folder, {"--obstacles", wall, "--obstacle-heights", "2,4"}).out,
+            "id,hit\nman,0\nsame,0\nbench,1\nabove,1\n");
+}
+
 TEST(Cli, QueryOfSpheresRefusesWhatIsOfOutlines) {
   const TemporaryFolder folder;
   expect_failure(ask_spheres(folder, {"--all-pairs", "--depths", "3"}), 2, {"--depths", "--bodies spheres"});
-  expect_failure(ask_spheres(folder, {"--all-pairs", "--what", "penetration"}), 2,
-                 {"'penetration'", "--bodies spheres"});
+  const std::string wall = folder.write("wall.wkt", "LINESTRING (0 -1, 0 1)");
+  expect_failure(ask_spheres(folder, {"--obstacles", wall, "--what", "penetration"}), 2,
+                 {"'penetration' about --obstacles", "--bodies spheres"});
   expect_failure(bch({"query", "default:male", "a.csv", "--all-pairs", "--spheres", "64"}), 2,
                  {"--spheres", "--bodies spheres"});
 }
