@@ -33,98 +33,13 @@
 #include "tests/support/body_models.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/complaint.hpp"
+#include "tests/support/held_triangles.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace bch {
 namespace {
 
 using detail::Random;
-
-struct Point {
-  double x, y, z;
-};
-
-Point middle(const Point& a, const Point& b) {
-  return {(a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2};
-}
-
-/// Finds the sphere of each piece of each triangle: the first one that has all of its corners.
-class Covering {
- public:
-  explicit Covering(const BodyModel& model) : model_(model) {
-    const auto vertices = static_cast<std::uint32_t>(model.character->vertices.size());
-    for (std::uint32_t i = 0; i < model.cuts.size(); ++i)
-      cut_.try_emplace(std::minmax(model.cuts[i][0], model.cuts[i][1]), vertices + i);
-    owners_.resize(vertices + model.cuts.size());
-    for (std::uint32_t s = 0; s < model.sphere_count(); ++s)
-      for (std::uint32_t i = model.corner_begin[s]; i < model.corner_begin[s + 1]; ++i)
-        owners_[model.corners[i]].push_back(s);
-  }
-
-  /// Returns by how much a piece of some triangle stands out of its sphere, metres; less than 0: how deep all are inside. Corners are
-  /// computed from posed vertices in double, whose error is added.
-  double protrusion(std::span<const Vec3> posed, std::span<const Sphere> spheres) const {
-    double most = -1e9;
-    for (const auto& triangle : model_.character->triangles) {
-      std::array<Point, 3> at;
-      for (std::size_t k = 0; k < 3; ++k)
-        at[k] = {double{posed[triangle[k]].x}, double{posed[triangle[k]].y}, double{posed[triangle[k]].z}};
-      const double one = protrusion(triangle, at, spheres);
-      EXPECT_LT(one, 1e8) << "a piece in no sphere";
-      most = std::max(most, one);
-    }
-    return most;
-  }
-
- private:
-  double protrusion(const std::array<std::uint32_t, 3>& corners, const std::array<Point, 3>& at,
-                    std::span<const Sphere> spheres) const {
-    double least = 1e9;
-    for (const std::uint32_t s : owners_[corners[0]]) {
-      const auto begin = model_.corners.begin() + model_.corner_begin[s],
-                 end = model_.corners.begin() + model_.corner_begin[s + 1];
-      if (!std::binary_search(begin, end, corners[1]) || !std::binary_search(begin, end, corners[2]))
-        continue;
-      double most = 0;
-      for (const auto& [x, y, z] : at) {
-        const double dx = x - double{spheres[s].x}, dy = y - double{spheres[s].y},
-                     dz = z - double{spheres[s].z};
-        most = std::max(most, std::sqrt(dx * dx + dy * dy + dz * dz) * (1 + 0x1p-48));
-      }
-      least = std::min(least, most - double{spheres[s].radius});
-    }
-    if (least < 1e9) return least;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t l = (k + 1) % 3, m = (k + 2) % 3;
-      const auto found = cut_.find(std::minmax(corners[k], corners[l]));
-      if (found == cut_.end()) continue;
-      const Point half = middle(at[k], at[l]);
-      const double both =
-          std::max(protrusion({corners[k], found->second, corners[m]}, {at[k], half, at[m]}, spheres),
-                   protrusion({found->second, corners[l], corners[m]}, {half, at[l], at[m]}, spheres));
-      least = std::min(least, both);
-    }
-    return least;
-  }
-
-  const BodyModel& model_;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> cut_;
-  std::vector<std::vector<std::uint32_t>> owners_;  ///< spheres by corner
-};
-
-double reach_of(std::span<const Sphere> spheres) {
-  double reach = 0;
-  for (const Sphere& s : spheres)
-    reach = std::max(reach, std::hypot(double{s.x}, double{s.y}, double{s.z}) + double{s.radius});
-  return reach;
-}
-
-/// Expects that spheres hold all triangles of a pose, and have room for what a query rounds.
-void expect_held(const Covering& covering, BodyPoser& poser, const Character& character, const Pose& pose) {
-  const std::span<const Sphere> spheres = poser.spheres(pose);
-  const double room = detail::rounding::sphere_margin * reach_of(spheres);
-  EXPECT_LE(covering.protrusion(pose_vertices(character, pose), spheres), -room * (1 - 1e-4));
-}
 
 /// Turns all joints of a pose at random by up to half a turn.
 std::vector<Affine3d> bent(std::vector<Affine3d> joints, Random& random, double most) {
@@ -158,19 +73,19 @@ std::vector<Affine3d> palette(const Character& character, std::span<const Affine
 
 void expect_held_in_poses(const BodyModel& model, std::uint32_t poses) {
   const Character& character = *model.character;
-  const Covering covering(model);
+  const test::HeldTriangles held(model);
   BodyPoser poser(model);
   Random random(54);
-  expect_held(covering, poser, character, Pose());
+  test::expect_held(held, poser, character, Pose());
   for (const PoseTime& at : sample_poses(character, poses)) {
-    expect_held(covering, poser, character, at);
+    test::expect_held(held, poser, character, at);
     const auto world = joint_transforms(character, at, JointFrame::world);
     const auto bones = palette(character, world);
-    expect_held(covering, poser, character, SkinningPalette{bones, 0.25, -0.5});
+    test::expect_held(held, poser, character, SkinningPalette{bones, 0.25, -0.5});
     const std::vector<Affine3d> joints = joint_transforms(character, at);
     for (const double degrees : {30.0, 180.0}) {
       const auto turned = bent(joints, random, degrees * std::numbers::pi / 180);
-      expect_held(covering, poser, character, LocalPose{turned});
+      test::expect_held(held, poser, character, LocalPose{turned});
     }
   }
 }
@@ -185,12 +100,12 @@ TEST(BodyPosing, HoldsEveryTriangleInEveryPose) {
 TEST(BodyPosing, HoldsEveryTriangleFarFromTheOrigin) {
   const Character man = default_male();
   const BodyModel model = test::plain_model(man, 96);
-  const Covering covering(model);
+  const test::HeldTriangles held(model);
   BodyPoser poser(model);
   for (const double height : {1e3, 1e5}) {
     std::vector<Affine3d> joints = joint_transforms(man, {0, 0.5f}, JointFrame::world);
     for (Affine3d& joint : joints) joint.rows[2][3] += height;
-    expect_held(covering, poser, man, WorldPose{joints});
+    test::expect_held(held, poser, man, WorldPose{joints});
   }
 }
 

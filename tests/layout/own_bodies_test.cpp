@@ -269,20 +269,25 @@ TEST(OwnBodies, ModelsOfEveryNumberOfSpheresHoldOneCharacterInOneSet) {
   EXPECT_EQ(crowd.collisions(live.set(), {body, x, x, heading}).size(), 10u);
 }
 
-TEST(OwnBodies, OfMeshesWithoutBones) {
+/// A mesh without bones.
+Character box_of(float width, float depth, float height) {
   Character box;
   box.name = "box";
   box.joints = {Joint{"box", -1, {}}};
   box.bones = {Bone{}};
   box.influence_begin = {0};
   for (std::uint32_t v = 0; v < 8; ++v) {
-    box.vertices.push_back({v & 1 ? 0.1f : 0, v & 2 ? 0.06f : 0, v & 4 ? 0.16f : 0});
+    box.vertices.push_back({v & 1 ? width : 0, v & 2 ? depth : 0, v & 4 ? height : 0});
     box.influences.push_back({0, 1});
     box.influence_begin.push_back(v + 1);
   }
   box.triangles = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
                    {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
-  const BodyModel model = make_body(box, {.spheres = 32, .draft = true});
+  return box;
+}
+
+TEST(OwnBodies, OfMeshesWithoutBones) {
+  const BodyModel model = make_body(box_of(0.1f, 0.06f, 0.16f), {.spheres = 32, .draft = true});
   EXPECT_NO_THROW(validate(model));
   BodyPoser poser(model);
   const auto spheres = poser.spheres(Pose());
@@ -290,6 +295,21 @@ TEST(OwnBodies, OfMeshesWithoutBones) {
   Random random(3);
   for (int k = 0; k < 300; ++k)
     ASSERT_LE(outside(spheres, {0.05, random.uniform(-0.03, 0.03), random.uniform(0, 0.16)}), 1e-6);
+}
+
+/// A ship takes no more pieces than a man does.
+TEST(OwnBodies, OfLargeMeshesAreThoseOfSmallOnesAndLarger) {
+  constexpr float larger = 128;
+  const BodyModel one = make_body(box_of(0.0625f, 0.03125f, 2), {.spheres = 32, .draft = true}),
+                  other = make_body(box_of(larger * 0.0625f, larger * 0.03125f, larger * 2),
+                                    {.spheres = 32, .draft = true});
+  EXPECT_EQ(one.cuts, other.cuts);
+  EXPECT_EQ(one.corners, other.corners);
+  ASSERT_EQ(one.influences.size(), other.influences.size());
+  for (std::size_t i = 0; i < one.influences.size(); ++i)
+    EXPECT_EQ(larger * one.influences[i].centre.z, other.influences[i].centre.z);
+  EXPECT_TRUE(test::has(test::complaint([] { make_body(box_of(1, 1e7f, 1), {.draft = true}); }),
+                        "character 'box': expected vertices within 1e6 m of the origin"));
 }
 
 }  // namespace

@@ -15,9 +15,10 @@
 namespace bch::detail {
 namespace {
 
-constexpr double radius_of_flat_skin = 0.025;  // metres: about a piece's middle it holds the piece
-constexpr double first_radius = 0.3, least_radius = 0.004, most_radius = 0.29;  // metres
-constexpr double grid_cell = 0.03;                                              ///< metres, of the grid
+// Of bodies of up to two metres, metres.
+constexpr double radius_of_flat_skin = 0.025;  ///< about a piece's middle it holds the piece
+constexpr double first_radius = 0.3, least_radius = 0.004, most_radius = 0.29;
+constexpr double grid_cell = 0.03;
 constexpr double least_weight = 0.02;  ///< of a bone; smaller ones are dropped
 constexpr int most_shrinks = 40;
 
@@ -46,7 +47,7 @@ struct SkinPoint {
 /// Finds the points nearest to others: points by cells, which are sorted.
 class SkinGrid {
  public:
-  explicit SkinGrid(const std::vector<SkinPoint>& points) : points_(points) {
+  SkinGrid(const std::vector<SkinPoint>& points, double cell) : points_(points), cell_(cell) {
     for (std::uint32_t i = 0; i < points.size(); ++i) entries_.push_back({cell_of(points[i].at), i});
     std::sort(entries_.begin(), entries_.end());
     low_ = high_ = entries_.empty() ? GridCell{} : entries_.front().first;
@@ -89,10 +90,10 @@ class SkinGrid {
  private:
   using GridCell = std::array<std::int64_t, 3>;
 
-  static GridCell cell_of(const SpacePoint& at) {
-    return {static_cast<std::int64_t>(std::floor(at.x / grid_cell)),
-            static_cast<std::int64_t>(std::floor(at.y / grid_cell)),
-            static_cast<std::int64_t>(std::floor(at.z / grid_cell))};
+  GridCell cell_of(const SpacePoint& at) const {
+    return {static_cast<std::int64_t>(std::floor(at.x / cell_)),
+            static_cast<std::int64_t>(std::floor(at.y / cell_)),
+            static_cast<std::int64_t>(std::floor(at.z / cell_))};
   }
   GridCell clamped(GridCell at) const {
     for (std::size_t axis = 0; axis < 3; ++axis) at[axis] = std::clamp(at[axis], low_[axis], high_[axis]);
@@ -104,6 +105,7 @@ class SkinGrid {
   }
 
   const std::vector<SkinPoint>& points_;
+  const double cell_;
   std::vector<std::pair<GridCell, std::uint32_t>> entries_;
   GridCell low_, high_, extent_;
   std::vector<std::size_t> begin_;
@@ -186,12 +188,12 @@ std::vector<SphereInfluence> bind(const SpacePoint& centre, const SkinPoint& p, 
 }  // namespace
 
 std::vector<BodyCandidate> find_candidates(const Character& character, const SkinPieces& skin,
-                                           std::span<const Vec3> points, const Skinner& posed) {
+                                           std::span<const Vec3> points, const Skinner& posed, double scale) {
   const std::vector<SkinPoint> all = skin_points(character, skin, points);
-  const SkinGrid grid(all);
+  const SkinGrid grid(all, scale * grid_cell);
   std::vector<BodyCandidate> found;
   for (const SkinPoint& p : all) {
-    double radius = first_radius;
+    double radius = scale * first_radius;
     std::uint32_t touched = SkinGrid::none;
     for (int i = 0; i < most_shrinks; ++i) {
       const std::uint32_t inside = grid.nearest(p.at - radius * p.normal, radius * (1 - 1e-6), p.at);
@@ -199,15 +201,16 @@ std::vector<BodyCandidate> find_candidates(const Character& character, const Ski
       const SpacePoint way = p.at - all[inside].at;
       radius = dot(way, way) / (2 * dot(p.normal, way));
       touched = inside;
-      if (radius < least_radius) break;
+      if (radius < scale * least_radius) break;
     }
-    if (touched == SkinGrid::none || !(radius >= least_radius && radius <= most_radius)) continue;
+    if (touched == SkinGrid::none || !(radius >= scale * least_radius && radius <= scale * most_radius))
+      continue;
     BodyCandidate candidate{bind(p.at - radius * p.normal, p, all[touched], posed), radius};
     if (!candidate.influences.empty()) found.push_back(std::move(candidate));
   }
   if (!found.empty()) return found;
   // A skin that encloses nothing.
-  for (const SkinPoint& p : all) found.push_back({bind(p.at, p, p, posed), radius_of_flat_skin});
+  for (const SkinPoint& p : all) found.push_back({bind(p.at, p, p, posed), scale * radius_of_flat_skin});
   std::erase_if(found, [](const BodyCandidate& candidate) { return candidate.influences.empty(); });
   return found;
 }

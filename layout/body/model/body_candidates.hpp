@@ -22,8 +22,9 @@ struct BodyCandidate {
 };
 
 /// Finds the largest balls inside a skin in the last pose of a skinner: one that touches each point, and the middle of each piece, of
-/// `skin`, by shrinking; of a skin without such balls, small ones about its points. `points`: the positions of all points in that pose.
+/// `skin`, by shrinking; of a skin without such balls, small ones about its points. `points`: the positions of all points in that pose. `scale`: by how much
+/// lengths are larger than those for people.
 std::vector<BodyCandidate> find_candidates(const Character& character, const SkinPieces& skin,
-                                           std::span<const Vec3> points, const Skinner& posed);
+                                           std::span<const Vec3> points, const Skinner& posed, double scale);
 
 }  // namespace bch::detail

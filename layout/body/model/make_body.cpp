@@ -3,12 +3,17 @@
 
 #include <bch/bodies.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <system_error>
 #include <utility>
 
 #include "layout/base/floating_point_state.hpp"
+#include "layout/base/rounding.hpp"
+#include "layout/base/shortest.hpp"
 #include "layout/body/body_layout.hpp"
 #include "layout/body/model/assemble_model.hpp"
 #include "layout/body/model/body_candidates.hpp"
@@ -24,7 +29,28 @@ using namespace detail;
 namespace {
 
 constexpr double longest_edge = 0.025;   // metres: a sphere of a forearm holds a triangle of that size
+constexpr double usual_size = 2;         // metres, of people
 constexpr std::uint32_t chosen_in = 12;  ///< poses
+
+/// Returns by how much lengths have to be larger than those for people: the largest side of the box of all vertices over theirs, or 1.
+/// Errors:  throws std::invalid_argument on vertices that are too far away.
+double scale_of(const Character& character, std::span<const Vec3> vertices) {
+  double size = usual_size;
+  for (const auto axis : {&Vec3::x, &Vec3::y, &Vec3::z}) {
+    double low = 0, high = 0;
+    for (const Vec3& vertex : vertices) {
+      const double at = double{vertex.*axis};
+      if (!(std::abs(at) <= rounding::largest_reach))
+        throw std::invalid_argument(
+            "character '" + character.name +
+            "': expected vertices within 1e6 m of the origin of the rest pose, found one at " + shortest(at) +
+            " m");
+      low = std::min(low, at), high = std::max(high, at);
+    }
+    size = std::max(size, high - low);
+  }
+  return size / usual_size;
+}
 
 /// Returns as many poses as the search for better spheres expects: a character without clips has a single one.
 std::vector<PoseTime> repeated(std::vector<PoseTime> poses) {
@@ -47,8 +73,9 @@ BodyModel make_body(const Character& character, const BodyOptions& options) {
   auto own = std::make_shared<const Character>(character);
   Skinner skinner(*own);
   const auto at_rest = skinner.pose(Pose());
-  const SkinPieces skin = cut_skin(*own, at_rest, longest_edge);
-  const auto candidates = find_candidates(*own, skin, place_points(at_rest, skin.cuts), skinner);
+  const double scale = scale_of(*own, at_rest);
+  const SkinPieces skin = cut_skin(*own, at_rest, scale * longest_edge);
+  const auto candidates = find_candidates(*own, skin, place_points(at_rest, skin.cuts), skinner, scale);
   if (candidates.empty())
     throw std::invalid_argument(
         "character '" + own->name +
@@ -56,7 +83,7 @@ BodyModel make_body(const Character& character, const BodyOptions& options) {
   advance(0.2);
   const TrainingPoses poses(*own, skin, sample_poses(*own, chosen_in));
   const double chosen = options.draft ? 1 : 0.3;
-  SphereChoice choice = choose_spheres(skin, candidates, poses, options.spheres,
+  SphereChoice choice = choose_spheres(skin, candidates, poses, options.spheres, scale,
                                        [&](double share) { advance(chosen * (0.2 + 0.8 * share)); });
   if (options.draft) return assemble_model(std::move(own), skin, choice, poses);
   choice.spheres.resize(options.spheres, choice.spheres.front());  // the search gives pieces to the others

@@ -13,8 +13,8 @@
 namespace bch::detail {
 namespace {
 
-constexpr double most_growth = 0.06;  // metres; more is needed by few spheres only
-constexpr int halvings = 12;          ///< of the search for the least growth
+constexpr double usual_growth = 0.06;  // metres, of people; more is needed by few spheres only
+constexpr int halvings = 12;           ///< of the search for the least growth
 
 /// Says by how much a candidate has to grow to hold a piece in all poses, metres.
 struct Growth {
@@ -25,8 +25,13 @@ struct Growth {
 /// Lists, for each candidate, the pieces that it can hold.
 class GrowthTable {
  public:
-  GrowthTable(const SkinPieces& skin, std::span<const BodyCandidate> candidates, const TrainingPoses& poses)
-      : skin_(skin), candidates_(candidates), poses_(poses), pieces_at_(poses.points(0).size()) {
+  GrowthTable(const SkinPieces& skin, std::span<const BodyCandidate> candidates, const TrainingPoses& poses,
+              double most_growth)
+      : skin_(skin),
+        candidates_(candidates),
+        poses_(poses),
+        most_growth_(most_growth),
+        pieces_at_(poses.points(0).size()) {
     for (std::uint32_t p = 0; p < skin.pieces.size(); ++p)
       for (const std::uint32_t corner : skin.pieces[p]) pieces_at_[corner].push_back(p);
     growth_of_point_.resize(poses.points(0).size());
@@ -40,7 +45,7 @@ class GrowthTable {
 
  private:
   void add(std::uint32_t candidate) {
-    const double radius = candidates_[candidate].radius, most = radius + most_growth;
+    const double radius = candidates_[candidate].radius, most = radius + most_growth_;
     std::vector<std::uint32_t> near;
     SpacePoint centre = poses_.centre(0, candidates_[candidate].influences);
     for (std::uint32_t i = 0; i < poses_.points(0).size(); ++i) {
@@ -75,6 +80,7 @@ class GrowthTable {
   const SkinPieces& skin_;
   std::span<const BodyCandidate> candidates_;
   const TrainingPoses& poses_;
+  const double most_growth_;
   std::vector<std::vector<std::uint32_t>> pieces_at_;  ///< by point
   std::vector<double> growth_of_point_;  ///< squared distance from the centre, the largest of all poses
   std::vector<std::uint8_t> corners_seen_;
@@ -116,9 +122,10 @@ std::vector<std::uint32_t> cover(const GrowthTable& table, std::size_t candidate
 }  // namespace
 
 SphereChoice choose_spheres(const SkinPieces& skin, std::span<const BodyCandidate> candidates,
-                            const TrainingPoses& poses, std::uint32_t most,
+                            const TrainingPoses& poses, std::uint32_t most, double scale,
                             const std::function<void(double)>& advance) {
-  const GrowthTable table(skin, candidates, poses);
+  const double most_growth = scale * usual_growth;
+  const GrowthTable table(skin, candidates, poses, most_growth);
   advance(0.5);
   float low = 0, high = static_cast<float>(most_growth);
   std::vector<std::uint32_t> chosen = cover(table, candidates.size(), skin.pieces.size(), high);

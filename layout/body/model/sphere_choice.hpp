@@ -24,7 +24,7 @@ struct SphereChoice {
 /// holds most of the pieces that are left. Pieces that no candidate can hold go to the chosen one that has to grow least.
 /// `advance`: is called with the share that is done.
 SphereChoice choose_spheres(const SkinPieces& skin, std::span<const BodyCandidate> candidates,
-                            const TrainingPoses& poses, std::uint32_t most,
+                            const TrainingPoses& poses, std::uint32_t most, double scale,
                             const std::function<void(double)>& advance);
 
 }  // namespace bch::detail
