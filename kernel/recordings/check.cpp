@@ -38,6 +38,7 @@ class Checker {
   std::size_t look(const FrameBlock& block, std::size_t frames);
   void pose(std::size_t runs);
   std::size_t asked_at_once(std::size_t first, std::size_t end) const;
+  void ask(FrameRun& run);
   void tell(const FrameBlock& block, const FrameRun& run, double fps);
 
   const CheckOptions options_;
@@ -81,6 +82,11 @@ void Checker::pose(std::size_t runs) {
   for (const WalkerPose& pose : shapes_.find(poses_, shape_)) summary_.poses.insert(pose.key());
 }
 
+void Checker::ask(FrameRun& run) {
+  const std::span<const std::uint32_t> shapes = run.with_next(shape_);
+  run.ask(RunOutlines(shapes_.set(), options_.leaves, shapes), shapes, shapes_.given_up());
+}
+
 /// Tells the frames of a run, and joins its overlaps to events.
 void Checker::tell(const FrameBlock& block, const FrameRun& run, double fps) {
   std::span<const CheckedPair> pairs = run.pairs();
@@ -111,7 +117,7 @@ void Checker::check(const FrameBlock& block, bool at_end, double fps) {
   for (std::size_t first = 0; first < runs;) {
     const std::size_t last = asked_at_once(first, runs);
     for_ranges(last - first, 1, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k) runs_[first + k]->ask(shapes_, shape_);
+      for (std::size_t k = begin; k < end; ++k) ask(*runs_[first + k]);
     });
     for (; first < last; ++first) {
       tell(block, *runs_[first], fps);
