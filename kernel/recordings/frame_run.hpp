@@ -41,6 +41,8 @@ class FrameRun {
 
   std::size_t first() const noexcept { return first_; }
   std::size_t last() const noexcept { return last_; }
+  /// Returns the number of people.
+  std::size_t size() const noexcept { return end_ - begin_; }
   /// Returns, of an array with an entry for each person of the block, those of these frames and of the one behind them.
   template <class Value>
   std::span<const Value> with_next(const std::vector<Value>& of_block) const noexcept {
@@ -55,7 +57,6 @@ class FrameRun {
   const OverlapCounts& counts() const noexcept { return counts_; }
 
  private:
-  std::size_t size() const noexcept { return end_ - begin_; }
   /// Returns for how many pairs memory is kept.
   std::size_t usual_pairs() const noexcept { return 65'536 + 32 * size(); }
   static constexpr double square(double value) { return value * value; }

@@ -8,9 +8,11 @@
 #include <span>
 #include <vector>
 
+#include <bch/body_set.hpp>
 #include <bch/obstacles.hpp>
 #include <bch/pairs.hpp>
 
+#include "kernel/recordings/walker_bodies.hpp"
 #include "layout/format/shape_set_view.hpp"
 
 namespace bch::detail {
@@ -78,6 +80,33 @@ class RunOutlines : public RunBodies {
   const ShapeSet& set_;
   const Leaves leaves_;
   const std::span<const std::uint32_t> numbers_;
+};
+
+/// Answers by bodies of spheres, in space. Depths are the deepest overlaps of two spheres, or of a sphere and a wall.
+class RunSpheres : public RunBodies {
+ public:
+  /// Poses the bodies of `people` of the run. Of the others, who are behind them, touch() poses those that it is asked about. Refers to all
+  /// arguments.
+  RunSpheres(const WalkerBodies& bodies, std::span<const WalkerPose> poses, std::size_t people);
+
+  std::span<const std::uint32_t> numbers() const noexcept override { return numbers_; }
+  const ShapeSetView& roots() const noexcept override;
+  void collide(const Agents& agents, std::span<const Pair> pairs,
+               std::span<std::uint8_t> hits) const override;
+  void touch(const Agents& agents, std::span<const Pair> pairs, std::span<std::uint8_t> hits) const override;
+  std::vector<Penetration> depths(const Agents& agents, std::span<const Pair> pairs) const override;
+  std::vector<float> gaps(const Agents& agents, std::span<const Pair> pairs,
+                          double max_distance) const override;
+  std::vector<float> times_of_impact(const Agents& agents, std::span<const Pair> pairs,
+                                     const Displacements& displacements) const override;
+  void collide(const Agents& agents, const ObstacleSet& walls, std::span<std::uint8_t> hits) const override;
+  std::vector<WallDepth> depths(const Agents& agents, const ObstacleSet& walls) const override;
+
+ private:
+  const WalkerBodies& bodies_;
+  const std::span<const WalkerPose> poses_;
+  const BodySet set_;
+  std::vector<std::uint32_t> numbers_;
 };
 
 }  // namespace bch::detail
