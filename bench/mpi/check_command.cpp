@@ -45,6 +45,7 @@ void check_on_ranks(const CLI::App& command, const CheckRanksOptions& options, M
   const std::uint32_t count = options.parts == 0 ? static_cast<std::uint32_t>(size) : options.parts;
   const Threads threads(options.threads);
   detail::agree(comm, [&] {
+    options.input.require_fitting(command);
     if (rank == 0) require_outputs(options.outputs.files(), options.input.files());
     const nlohmann::ordered_json run = run_of(command, options.input.files());
     for (std::uint32_t k = static_cast<std::uint32_t>(rank); k < count; k += static_cast<std::uint32_t>(size))

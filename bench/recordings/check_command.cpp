@@ -27,13 +27,15 @@ void check_whole(const CheckCommandOptions& options) {
   std::vector<OutputOption> files = options.outputs.files();
   files.push_back({"--html", options.html});
   require_outputs(files, options.input.files());
-  const OpenedCheck opened(options.input);  // before there are threads: see import_in_child()
+  OpenedCheck opened(options.input);  // before there are threads: see import_in_child()
   const Threads threads(options.threads);
   CheckTables tables(options.outputs);
   std::optional<RecordingPage> page;
   if (!options.html.empty()) page.emplace(opened.recording);
-  const detail::CheckSummary summary = opened.check(
-      opened.options(options.input), [&](const detail::CheckedFrame& frame, const ShapeSet& shapes) {
+  detail::CheckOptions how = opened.options(options.input);
+  how.draws = page.has_value();
+  const detail::CheckSummary summary =
+      opened.check(how, [&](const detail::CheckedFrame& frame, const ShapeSet& shapes) {
         tables.add(frame);
         if (page) page->add(frame, shapes);
       });
@@ -43,6 +45,7 @@ void check_whole(const CheckCommandOptions& options) {
 }
 
 void run_check(const CLI::App& command, const CheckCommandOptions& options) {
+  options.input.require_fitting(command);
   if (!options.part.are_given()) return check_whole(options);
   require_absent(command, {"--events", "--frames", "--pairs", "--json", "--fail-above"},
                  "--part writes parts of all: it belongs to bch merge");
@@ -66,8 +69,9 @@ frame rate or the unit of length, the program asks for --fps or --unit, and for 
 have no names and their rows do not tell them. It prints every assumption.
 Each row becomes a pedestrian of the person's stature, in the stride that belongs to the person's
 speed, with the head above the recorded position.
-Two people overlap if their outlines overlap, seen from above. The exit code is 1 if overlaps exceed
---fail-above, and else 0, whatever is found.
+Two people overlap if their outlines overlap, seen from above; with --bodies spheres if their bodies
+meet in space, posed at each person's phase. The exit code is 1 if overlaps exceed --fail-above, and
+else 0, whatever is found.
 Example: bch check trajectories.sqlite --events events.csv)");
   options->input.add_to(command);
   add_outputs_to(command, options->outputs);

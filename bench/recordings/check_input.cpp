@@ -13,6 +13,7 @@
 #include "bench/base/wkt_input.hpp"
 #include "bench/characters/characters.hpp"
 #include "kernel/recordings/baked_cast.hpp"
+#include "kernel/recordings/walker_bodies.hpp"
 
 namespace bch::cli {
 namespace {
@@ -61,6 +62,8 @@ std::optional<BakedShapes> baked_of(const CheckInput& input) {
     return std::nullopt;
   }
   const std::string& file = input.characters[0];
+  if (input.spheres() > 0)
+    throw UsageError(file + ": a baked set has outlines, which --bodies spheres does not use");
   if (input.characters.size() > 1)
     throw UsageError("--character: " + file + " and others: a baked set has all characters of a check");
   if (!input.shapes.clips.empty() || input.depth != "all")
@@ -118,6 +121,15 @@ detail::TrajectoryInfo info_of(const CheckInput& input, const detail::Trajectory
   return info;
 }
 
+/// Bodies of spheres of the cast, or of pedestrians, of whom only the number of spheres can be wrong.
+std::vector<BodyModel> bodies_of(detail::CastView cast, std::uint32_t spheres) try {
+  return detail::body_models(cast, spheres);
+} catch (const std::invalid_argument& error) {
+  if (!cast.empty()) throw InputError(error.what());
+  throw UsageError(
+      fmt::format("--spheres: expected 64, 128, 256 or 512 of built-in pedestrians, found {}", spheres));
+}
+
 /// Segments, where they are asked for and there.
 Leaves leaves_of(const CheckInput& input, const std::optional<BakedShapes>& baked) {
   const bool has_segments = !baked || baked->set.exact_leaves();
@@ -130,6 +142,11 @@ std::vector<std::string> CheckInput::files() const {
   std::vector<std::string> files = shapes.inputs(characters);
   files.insert(files.end(), {file, walls});
   return files;
+}
+
+void CheckInput::require_fitting(const CLI::App& command) const {
+  if (!kind.are_spheres(command)) return;
+  require_absent(command, {"--depth", "--leaves"}, "belongs to outlines, not to --bodies spheres");
 }
 
 void CheckInput::add_to(CLI::App& command) {
@@ -155,6 +172,7 @@ void CheckInput::add_to(CLI::App& command) {
 
 void CheckInput::add_bodies_to(CLI::App& command) {
   const OptionAdder add(command);
+  kind.add_to(command);
   CLI::Option* const character =
       add("--character", characters, "FILE",
           "Bodies, assigned by id or as the rows name them (repeatable), or one baked set [built-in]")
@@ -195,6 +213,7 @@ OpenedCheck::OpenedCheck(const CheckInput& input)
       walls(walls_of(input, floor)),
       recording{input.file,
                 info_of(input, *reader, *this),
+                input.spheres(),
                 baked ? baked->set.depths().back() : parse_depth("--depth", input.depth),
                 leaves_of(input, baked),
                 static_cast<std::uint32_t>(cast.size()),
@@ -202,8 +221,10 @@ OpenedCheck::OpenedCheck(const CheckInput& input)
                 walls.has_value(),
                 floor} {}
 
-detail::CheckOptions OpenedCheck::options(const CheckInput& input) const {
+detail::CheckOptions OpenedCheck::options(const CheckInput& input) {
   detail::CheckOptions how;
+  if (recording.spheres > 0) bodies = bodies_of(cast, recording.spheres);
+  how.bodies = bodies;
   how.plan = {.depths = {recording.depth}};
   how.leaves = recording.leaves;
   how.cast = cast;
@@ -212,7 +233,8 @@ detail::CheckOptions OpenedCheck::options(const CheckInput& input) const {
   how.max_distance = input.max_distance;
   how.most_pairs = input.max_pairs;
   how.walls = walls ? &*walls : nullptr;
-  how.coarse = recording.info.rows < detail::coarse_from ? 1 : 3;
+  // Bodies of spheres are posed in the exact time, and not kept.
+  how.coarse = recording.spheres > 0 || recording.info.rows < detail::coarse_from ? 1 : 3;
   return how;
 }
 

@@ -43,6 +43,14 @@ std::vector<OverlapEvent> worst_of(const CheckSummary& summary) {
   return worst;
 }
 
+std::string poses_text(const CheckedRecording& recording) {
+  if (recording.baked) return "those of the baked set";
+  if (recording.spheres > 0) return "at each person's phase, in the walk of the nearest speed";
+  return fmt::format(
+      "within {} cm of each person's {}", recording.info.rows < coarse_from ? 1 : 3,
+      recording.characters == 0 ? "speed and phase" : "phase, in the walk of the nearest speed");
+}
+
 std::string facts(const CheckedRecording& recording, const CheckSummary& summary) {
   const double fps = recording.info.fps;
   const double seconds = static_cast<double>(summary.last_frame - summary.first_frame) / fps;
@@ -51,13 +59,10 @@ std::string facts(const CheckedRecording& recording, const CheckSummary& summary
            fmt::format("{}: {}, {:g} frames a second", recording.file, recording.info.format, fps)) +
       fact("people", fmt::format("{} in {} ({:.1f} s), {} person-frames", grouped(summary.people),
                                  counted(summary.frames, "frame"), seconds, grouped(summary.all.people))) +
-      fact("bodies", fmt::format("{}, {}", bodies_text(recording), counted(summary.poses.size(), "pose"))) +
-      fact("poses",
-           recording.baked
-               ? std::string("those of the baked set")
-               : fmt::format("within {} cm of each person's {}", recording.info.rows < coarse_from ? 1 : 3,
-                             recording.characters == 0 ? "speed and phase"
-                                                       : "phase, in the walk of the nearest speed")) +
+      fact("bodies", recording.spheres > 0 ? bodies_text(recording)
+                                           : fmt::format("{}, {}", bodies_text(recording),
+                                                         counted(summary.poses.size(), "pose"))) +
+      fact("poses", poses_text(recording)) +
       fact("headings", fmt::format("{:.1f} % guessed: people who stand keep the last one",
                                    percent(summary.guessed, summary.all.people)));
   for (const std::string& assumption : recording.info.assumptions) text += fact("assumed", assumption);
@@ -125,20 +130,25 @@ nlohmann::ordered_json json_of(const CheckedRecording& recording, const CheckSum
     of["from_people_per_m2"] = density_classes[k];
     densities.push_back(of);
   }
-  return {{"file", recording.file},
-          {"format", recording.info.format},
-          {"fps", recording.info.fps},
-          {"assumptions", recording.info.assumptions},
-          {"depth", depth_name(recording.depth)},
-          {"leaves", recording.leaves == Leaves::segments ? "segments" : "discs"},
-          {"characters", recording.characters},
-          {"people", summary.people},
-          {"frames", summary.frames},
-          {"first_frame", summary.first_frame},
-          {"last_frame", summary.last_frame},
-          {"guessed_headings", summary.guessed},
-          {"all", json_of(summary.all)},
-          {"by_density", densities}};
+  nlohmann::ordered_json json{{"file", recording.file},
+                              {"format", recording.info.format},
+                              {"fps", recording.info.fps},
+                              {"assumptions", recording.info.assumptions}};
+  if (recording.spheres > 0) {
+    json["spheres"] = recording.spheres;
+  } else {
+    json["depth"] = depth_name(recording.depth);
+    json["leaves"] = recording.leaves == Leaves::segments ? "segments" : "discs";
+  }
+  json.update({{"characters", recording.characters},
+               {"people", summary.people},
+               {"frames", summary.frames},
+               {"first_frame", summary.first_frame},
+               {"last_frame", summary.last_frame},
+               {"guessed_headings", summary.guessed},
+               {"all", json_of(summary.all)},
+               {"by_density", densities}});
+  return json;
 }
 
 nlohmann::ordered_json json_of(const OverlapEvent& event) {
@@ -229,13 +239,12 @@ std::string event_line(const OverlapEvent& event, double fps) {
 }
 
 std::string bodies_text(const CheckedRecording& recording) {
-  const char* const leaves =
-      recording.leaves == Leaves::segments ? "their outlines" : "discs of their leaves";
-  return fmt::format(
-      "{}, {}",
-      recording.characters == 0 ? std::string("built-in pedestrians")
-                                : counted(recording.characters, "character"),
-      recording.depth == all_depths ? leaves : fmt::format("discs of depth {}", depth_name(recording.depth)));
+  const std::string whose = recording.characters == 0 ? std::string("built-in pedestrians")
+                                                      : counted(recording.characters, "character");
+  if (recording.spheres > 0) return fmt::format("{}, {} each", whose, counted(recording.spheres, "sphere"));
+  if (recording.depth != all_depths)
+    return fmt::format("{}, discs of depth {}", whose, depth_name(recording.depth));
+  return whose + (recording.leaves == Leaves::segments ? ", their outlines" : ", discs of their leaves");
 }
 
 double percent_in_overlap(const CheckSummary& summary) {

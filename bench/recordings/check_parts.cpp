@@ -114,17 +114,23 @@ CheckSummary summary_of(const Json& json) {
 }
 
 Json kept(const CheckedRecording& recording) {
-  return {{"file", recording.file},      {"format", recording.info.format},
-          {"fps", recording.info.fps},   {"assumptions", recording.info.assumptions},
-          {"rows", recording.info.rows}, {"depth", recording.depth},
-          {"leaves", recording.leaves},  {"characters", recording.characters},
-          {"baked", recording.baked},    {"walls", recording.walls}};
+  return {{"file", recording.file},
+          {"format", recording.info.format},
+          {"fps", recording.info.fps},
+          {"assumptions", recording.info.assumptions},
+          {"rows", recording.info.rows},
+          {"spheres", recording.spheres},
+          {"depth", recording.depth},
+          {"leaves", recording.leaves},
+          {"characters", recording.characters},
+          {"baked", recording.baked},
+          {"walls", recording.walls}};
 }
 
 CheckedRecording recording_of(const Json& json) {
   CheckedRecording recording{};
   int leaves = 0;
-  take(json.at("depth"), recording.depth);
+  take(json.at("spheres"), recording.spheres), take(json.at("depth"), recording.depth);
   take(json.at("leaves"), leaves), take(json.at("characters"), recording.characters);
   recording.leaves = static_cast<Leaves>(leaves);
   take(json.at("rows"), recording.info.rows);
@@ -189,8 +195,9 @@ std::string check_part(const CheckInput& input, const PartFiles& files, const Js
   const std::string name = files.part().name();
   if (files.is_done(run)) return files.done_line();
   files.prepare("check", input.files());
-  const OpenedCheck opened(input);
+  OpenedCheck opened(input);
   CheckOptions how = opened.options(input);
+  how.draws = false;
   how.frames = frames_of(files.part(), opened.recording.info);
   files.begin();
   StreamedFile frames(files.file(frames_kind)), pairs(files.file(pairs_kind)),

@@ -17,6 +17,7 @@
 #include "bench/base/options.hpp"
 #include "bench/base/output.hpp"
 #include "bench/base/output_file.hpp"
+#include "bench/characters/body_models.hpp"
 #include "bench/recordings/parts.hpp"
 #include "kernel/recordings/check.hpp"
 
@@ -26,6 +27,7 @@ namespace bch::cli {
 struct CheckedRecording {
   std::string file;
   detail::TrajectoryInfo info;
+  std::uint32_t spheres;  ///< of a body; 0: people have outlines
   std::uint32_t depth;
   Leaves leaves;
   std::uint32_t characters;  ///< of one's own; 0: built-in pedestrians
@@ -89,11 +91,15 @@ struct CheckInput {
   ShapeOptions shapes;        ///< of which clips alone are asked for
   std::vector<std::string> characters;
   std::string depth = "all", leaves = "segments";
+  BodyKind kind;
   std::vector<std::string> clip_speeds;  ///< NAME=SPEED each; these and the next of a baked set alone
   double facing = 0;                     ///< degrees
 
   void add_to(CLI::App& command);
+  /// Errors:  throws UsageError on options that do not belong together.
+  void require_fitting(const CLI::App& command) const;
   std::vector<std::string> files() const;
+  std::uint32_t spheres() const { return kind.bodies == "spheres" ? kind.spheres : 0; }
 
  private:
   void add_bodies_to(CLI::App& command);
@@ -110,11 +116,13 @@ struct OpenedCheck {
   std::string floor;  ///< as WKT, or empty
   std::optional<ObstacleSet> walls;
   CheckedRecording recording;
+  std::vector<BodyModel> bodies;  ///< made by options(), where people have spheres
 
   /// Opens the recording. Errors: throws UsageError, InputError, TrajectoryError.
   explicit OpenedCheck(const CheckInput& input);
-  /// Returns what to ask check(); as long as this lives.
-  detail::CheckOptions options(const CheckInput& input) const;
+  /// Returns what to ask check(); as long as this lives. Makes models where people have spheres.
+  /// Errors:  throws UsageError, InputError on models that cannot be made.
+  detail::CheckOptions options(const CheckInput& input);
   /// Checks the recording by detail::check(). Errors: throws InputError also on too many pairs.
   detail::CheckSummary check(
       const detail::CheckOptions& options,

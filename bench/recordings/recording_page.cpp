@@ -39,6 +39,8 @@ PageFacts facts_of(const CheckedRecording& recording) {
   facts.facts = {{"format", recording.info.format},
                  {"people", fmt::format("{}", recording.info.people)},
                  {"bodies", bodies_text(recording)}};
+  if (recording.spheres > 0)
+    facts.facts.emplace_back("drawn", "outlines of the same people, in poses within a centimetre");
   for (const std::string& assumption : recording.info.assumptions)
     facts.facts.emplace_back("assumed", assumption);
   facts.walls = lines_of(recording.floor);

@@ -15,6 +15,7 @@
 #include "kernel/c_api/recordings.hpp"
 #include "kernel/recordings/baked_cast.hpp"
 #include "kernel/recordings/check.hpp"
+#include "kernel/recordings/walker_bodies.hpp"
 
 namespace bch::c_api {
 namespace {
@@ -114,6 +115,17 @@ Cast cast_of(const bch_check_options& options) {
   return cast;
 }
 
+/// The bodies of spheres, or none.
+std::vector<BodyModel> bodies_of(const bch_check_options& options, CastView cast) {
+  if (options.spheres == 0) return {};
+  if (options.baked != nullptr)
+    throw Failure(BCH_INVALID_ARGUMENT, "options->baked has outlines, which options->spheres does not use");
+  if (options.depth != BCH_ALL_DEPTHS || options.leaves != BCH_SEGMENTS)
+    throw Failure(BCH_INVALID_ARGUMENT,
+                  "options->depth and options->leaves belong to outlines, not to options->spheres");
+  return body_models(cast, options.spheres);
+}
+
 }  // namespace
 
 std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check_options& given) {
@@ -127,6 +139,10 @@ std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check
   options.most_pairs = given.max_pairs;
   const Cast cast = cast_of(given);
   options.cast = cast;
+  options.draws = false;
+  std::vector<BodyModel> bodies;
+  on_threads(given.threads, [&] { bodies = bodies_of(given, cast); });
+  options.bodies = bodies;
   options.baked = given.baked == nullptr ? nullptr : &object_of(given.baked, "options->baked").set;
   options.facing = given.baked == nullptr ? 0 : given.facing;
   const std::optional<ObstacleSet> walls = own_walls(given, trajectory.reader->info());
@@ -134,7 +150,7 @@ std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check
                   : walls                ? &*walls
                                          : nullptr;
 
-  options.coarse = trajectory.reader->info().rows < coarse_from ? 1 : 3;
+  options.coarse = given.spheres > 0 || trajectory.reader->info().rows < coarse_from ? 1 : 3;
   auto made = std::make_unique<bch_check>();
   made->assumptions = trajectory.assumptions;
   for (const CastMember& member : cast)

@@ -7,10 +7,12 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "kernel/recordings/events.hpp"
 #include "kernel/recordings/frame_block.hpp"
 #include "kernel/recordings/frame_run.hpp"
+#include "kernel/recordings/walker_bodies.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 #include "layout/base/floating_point_state.hpp"
 
@@ -28,7 +30,9 @@ class Checker {
       : options_(options),
         motions_(cast_motions(info.motions, options_.cast)),
         seen_(seen),
-        shapes_(options_.plan, options_.cast, options_.baked) {}
+        shapes_(options_.plan, options_.cast, options_.baked) {
+    if (!options_.bodies.empty()) bodies_.emplace(options_.bodies, options_.cast);
+  }
 
   /// Checks all frames of a block but the last one, which the next block begins with or nobody asks for; at the end that one, too.
   void check(const FrameBlock& block, bool at_end, double fps);
@@ -38,12 +42,14 @@ class Checker {
   std::size_t look(const FrameBlock& block, std::size_t frames);
   void pose(std::size_t runs);
   std::size_t asked_at_once(std::size_t first, std::size_t end) const;
+  void ask(FrameRun& run);
   void tell(const FrameBlock& block, const FrameRun& run, double fps);
 
   const CheckOptions options_;
   const std::vector<CastMotion> motions_;
   const std::function<void(const CheckedFrame&, const ShapeSet&)>& seen_;
   WalkerShapes shapes_;
+  std::optional<WalkerBodies> bodies_;
   CheckSummary summary_;
   EventLog events_;
   std::vector<std::unique_ptr<FrameRun>> runs_;
@@ -77,8 +83,20 @@ void Checker::pose(std::size_t runs) {
   poses_.clear();
   for (std::size_t k = 0; k < runs; ++k)
     poses_.insert(poses_.end(), runs_[k]->poses().begin(), runs_[k]->poses().end());
-  shape_.resize(poses_.size());
-  for (const WalkerPose& pose : shapes_.find(poses_, shape_)) summary_.poses.insert(pose.key());
+  shape_.assign(poses_.size(), 0);
+  if (bodies_) bodies_->prepare(poses_);
+  if (bodies_ && !options_.draws) return;
+  for (const WalkerPose& pose : shapes_.find(poses_, shape_))
+    if (!bodies_) summary_.poses.insert(pose.key());
+}
+
+void Checker::ask(FrameRun& run) {
+  const std::span<const std::uint32_t> shapes = run.with_next(shape_);
+  if (!bodies_)
+    return run.ask(RunOutlines(shapes_.set(), options_.leaves, shapes), shapes, shapes_.given_up());
+  // Bodies take memory, so a thread has those of one run at a time.
+  without_tasks_from_outside(
+      [&] { run.ask(RunSpheres(*bodies_, run.with_next(poses_), run.size()), shapes, shapes_.given_up()); });
 }
 
 /// Tells the frames of a run, and joins its overlaps to events.
@@ -111,7 +129,7 @@ void Checker::check(const FrameBlock& block, bool at_end, double fps) {
   for (std::size_t first = 0; first < runs;) {
     const std::size_t last = asked_at_once(first, runs);
     for_ranges(last - first, 1, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k) runs_[first + k]->ask(shapes_, shape_);
+      for (std::size_t k = begin; k < end; ++k) ask(*runs_[first + k]);
     });
     for (; first < last; ++first) {
       tell(block, *runs_[first], fps);

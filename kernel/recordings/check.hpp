@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include <bch/bodies.hpp>
 #include <bch/obstacles.hpp>
 
 #include "kernel/recordings/walker_shapes.hpp"
@@ -33,7 +34,12 @@ struct CheckOptions {
   FrameInterval frames = {};  ///< these are checked; all before them are read, because people hold headings
   CastView cast = {};         ///< whose bodies people have; where it is empty, pedestrians'
   const ShapeSet* baked =
-      nullptr;        ///< their shapes, of baked_cast(): of its last level, so that the plan does not matter
+      nullptr;  ///< their shapes, of baked_cast(): of its last level, so that the plan does not matter
+  /// Models of bodies of spheres that people have in place of outlines, in the exact time of a clip: body_models() of a cast that is not
+  /// baked. Empty: outlines. Spheres decide in space, and all people stand on one ground.
+  std::span<const BodyModel> bodies = {};
+  bool draws =
+      true;  ///< shapes are made where spheres decide, too, for who is told of frames and shows people
   double facing = 0;  ///< radians: where the shapes of baked people face, which others do to 0
   std::size_t people_at_once =
       100'000;  ///< about so many, of many frames; the answers are the same for any number
@@ -54,7 +60,7 @@ struct CheckedPair {
   bool is_wall;
   bool overlap;  ///< the two overlap in this frame
   bool passing;  ///< they do between this frame and the next, and in neither of them
-  float depth;   ///< how far the first has to move to be free, metres
+  float depth;   ///< how far the first has to move to be free, or how deep two spheres overlap, metres
   float gap;     ///< between them in this frame, metres; 0 also where discs overlap, but not the nodes above
   float x, y;    ///< where the first has to move
   // Of a pass: how long after this frame they touch, in frames, and the way of the first until then, metres.
@@ -64,7 +70,7 @@ struct CheckedPair {
 /// Describes a person of a frame, as he was checked.
 struct CheckedPerson {
   Walker walker;
-  std::uint32_t shape;  ///< in the set that is handed over with the frame
+  std::uint32_t shape;  ///< in the set that is handed over with the frame; 0 where none are made
   std::uint32_t pose;   ///< a number that nobody in another pose has, in the whole recording
   float density;        ///< people per square metre within a metre of him
   bool overlaps;        ///< somebody, in this frame
@@ -121,7 +127,7 @@ struct CheckSummary {
   OverlapCount all;
   OverlapCounts by_density;
   std::vector<OverlapEvent> events;  ///< by their first frames, then ids
-  std::set<std::uint64_t> poses;     ///< keys of all that people were in
+  std::set<std::uint64_t> poses;     ///< keys of all that people were in; none where spheres decide
 };
 
 /// Puts a walking person on every row of a recording and finds who runs into whom. Reads frame after frame; memory grows with the people, and with

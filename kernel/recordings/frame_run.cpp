@@ -10,15 +10,12 @@
 #include <string>
 #include <tuple>
 
-#include <bch/pairs.hpp>
-
 #include "kernel/broad_phase/pair_limit.hpp"
 #include "layout/base/number_class.hpp"
 
 namespace bch::detail {
 namespace {
 
-constexpr std::uint32_t directions = 32;
 /// Metres: nobody passes through a body, an arm included, who moves by less than that.
 constexpr double thinnest = 0.05;
 
@@ -28,10 +25,11 @@ bool by_place(Pair a, Pair b) {
 
 }  // namespace
 
-Agents FrameRun::agents(std::span<const std::uint32_t> shapes, std::size_t end) const {
-  const std::size_t count = end - begin_;
-  return {shapes.subspan(begin_, count), block_->x().subspan(begin_, count),
-          block_->y().subspan(begin_, count), block_->heading().subspan(begin_, count)};
+/// Returns the first people as agents, one for each body.
+Agents FrameRun::agents(std::span<const std::uint32_t> bodies) const {
+  const std::size_t count = bodies.size();
+  return {bodies, block_->x().subspan(begin_, count), block_->y().subspan(begin_, count),
+          block_->heading().subspan(begin_, count)};
 }
 
 double FrameRun::square_distance(Pair pair) const {
@@ -75,19 +73,18 @@ CheckedPair FrameRun::checked(Pair pair) const {
           0};
 }
 
-void FrameRun::ask(const WalkerShapes& walker_shapes, std::span<const std::uint32_t> shapes) {
-  const ShapeSet& set = walker_shapes.set();
-  const Agents all = agents(shapes, end_);
+void FrameRun::ask(const RunBodies& bodies, std::span<const std::uint32_t> shapes, std::uint32_t given_up) {
+  const Agents all = agents(bodies.numbers().first(size()));
   checked_.clear();
-  ask_pairs(set, all);
-  ask_depths(set, all);
-  ask_between(set, all, agents(shapes, block_->begin(std::min(last_ + 1, block_->frames()))));
-  ask_walls(set, all);
+  ask_pairs(bodies, all);
+  ask_depths(bodies, all);
+  ask_between(bodies, agents(bodies.numbers()));
+  ask_walls(bodies, all);
   std::sort(checked_.begin(), checked_.end(), [](const CheckedPair& a, const CheckedPair& b) {
     return std::tie(a.frame, a.first, a.is_wall, a.second, a.passing) <
            std::tie(b.frame, b.first, b.is_wall, b.second, b.passing);
   });
-  tell_people(walker_shapes, all);
+  tell_people(shapes, given_up);
   count_overlaps();
 }
 
@@ -104,13 +101,12 @@ void FrameRun::let_go() {
 }
 
 /// Finds the neighbours among the people, as if each frame stood far from the others.
-std::span<const Pair> FrameRun::find(BroadPhase& phase, const ShapeSet& shapes,
+std::span<const Pair> FrameRun::find(BroadPhase& phase, const ShapeSetView& shapes,
                                      Strided<std::uint32_t> shape_of, double margin) const {
   const std::size_t most = options_.most_pairs > 0 ? options_.most_pairs : usual_most_pairs(size());
   try {
-    return phase.find(shapes.view(),
-                      {shape_of, own(block_->apart_x()), own(block_->y()), own(block_->heading())}, margin,
-                      most);
+    return phase.find(shapes, {shape_of, own(block_->apart_x()), own(block_->y()), own(block_->heading())},
+                      margin, most);
   } catch (const std::length_error&) {
     const std::int64_t first = block_->frame(first_), last = block_->frame(last_ - 1);
     const std::string frames = last > first
@@ -122,10 +118,10 @@ std::span<const Pair> FrameRun::find(BroadPhase& phase, const ShapeSet& shapes,
 }
 
 /// Finds who overlaps, and who does not but may be within the largest distance or touch before the next frame.
-void FrameRun::ask_pairs(const ShapeSet& set, const Agents& all) {
-  const std::span<const Pair> found = find(body_phase_, set, all.shape, margin_);
+void FrameRun::ask_pairs(const RunBodies& bodies, const Agents& all) {
+  const std::span<const Pair> found = find(body_phase_, bodies.roots(), all.shape, margin_);
   answers_.resize(found.size());
-  collide(set, all, found, answers_, {.leaves = options_.leaves});
+  bodies.collide(all, found, answers_);
   const auto frame_of = own(block_->frame_of());
   hits_.clear(), apart_.clear();
   for (std::size_t i = 0; i < found.size(); ++i)
@@ -134,18 +130,9 @@ void FrameRun::ask_pairs(const ShapeSet& set, const Agents& all) {
   std::sort(hits_.begin(), hits_.end(), by_place);
 }
 
-/// Measures how far people are apart who do not overlap, by what decides whether they do; infinite beyond the distance.
-std::vector<float> FrameRun::gaps_of(const ShapeSet& set, const Agents& all, std::span<const Pair> pairs,
-                                     double max_distance) const {
-  std::vector<float> gaps(pairs.size());
-  clearance(set, all, pairs, {gaps}, {.max_distance = max_distance, .leaves = options_.leaves});
-  return gaps;
-}
-
 /// Measures how deep people overlap, and how far others are apart.
-void FrameRun::ask_depths(const ShapeSet& set, const Agents& all) {
-  std::vector<Penetration> depths(hits_.size());
-  penetration(set, all, hits_, directions, depths);
+void FrameRun::ask_depths(const RunBodies& bodies, const Agents& all) {
+  const std::vector<Penetration> depths = bodies.depths(all, hits_);
   overlaps_.assign(size(), 0);
   for (std::size_t i = 0; i < hits_.size(); ++i) {
     overlaps_[hits_[i].first] = overlaps_[hits_[i].second] = 1;
@@ -155,13 +142,13 @@ void FrameRun::ask_depths(const ShapeSet& set, const Agents& all) {
     pair.x = static_cast<float>(depths[i].x), pair.y = static_cast<float>(depths[i].y);
   }
   if (options_.max_distance <= 0) return;
-  const std::vector<float> gaps = gaps_of(set, all, apart_, options_.max_distance);
+  const std::vector<float> gaps = bodies.gaps(all, apart_, options_.max_distance);
   for (std::size_t i = 0; i < apart_.size(); ++i)
     if (is_finite(gaps[i])) checked_.emplace_back(checked(apart_[i])).gap = gaps[i];
 }
 
 /// Finds who passes through whom between two frames: people who do not overlap in either.
-void FrameRun::ask_between(const ShapeSet& set, const Agents& all, const Agents& with_next) {
+void FrameRun::ask_between(const RunBodies& bodies, const Agents& with_next) {
   const auto next_of = own(block_->next_of());
   std::vector<Pair> moving, later;
   std::vector<double> x, y;
@@ -177,9 +164,8 @@ void FrameRun::ask_between(const ShapeSet& set, const Agents& all, const Agents&
     later.push_back({first - begin, second - begin});
     x.push_back(dx), y.push_back(dy);
   }
-  std::vector<float> times(moving.size());
-  time_of_impact(set, all, moving, {x, y}, times);
-  // Discs decide about times, so that they have to be clear of each other before and after: who touches now, or then, does not pass.
+  std::vector<float> times = bodies.times_of_impact(with_next, moving, {x, y});
+  // Bodies have to be clear of each other before and after, in the sense of times: who touches now, or then, does not pass.
   const auto keep_if = [&](auto is_kept) {
     std::size_t kept = 0;
     for (std::size_t i = 0; i < moving.size(); ++i)
@@ -188,9 +174,9 @@ void FrameRun::ask_between(const ShapeSet& set, const Agents& all, const Agents&
   };
   keep_if([&](std::size_t i) { return times[i] > 0 && times[i] < 1; });
   answers_.resize(later.size());
-  collide(set, with_next, later, answers_, {.leaves = Leaves::discs});
+  bodies.touch(with_next, later, answers_);
   keep_if([&](std::size_t i) { return answers_[i] == 0; });
-  const std::vector<float> gaps = gaps_of(set, all, moving, std::numeric_limits<double>::infinity());
+  const std::vector<float> gaps = bodies.gaps(with_next, moving, std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < moving.size(); ++i)
     add_pass(moving[i], begin_ + later[i].first, times[i], gaps[i]);
 }
@@ -208,39 +194,34 @@ void FrameRun::add_pass(Pair people, std::size_t next, float time, float gap) {
   pair.way_y = until_then(block_->y()[now], block_->y()[next]);
 }
 
-void FrameRun::ask_walls(const ShapeSet& set, const Agents& all) {
+void FrameRun::ask_walls(const RunBodies& bodies, const Agents& all) {
   in_wall_.assign(size(), 0);
   if (options_.walls == nullptr) return;
-  collide(set, all, *options_.walls, in_wall_, {.leaves = options_.leaves});
-  std::vector<std::uint32_t> who, shape;
+  bodies.collide(all, *options_.walls, in_wall_);
+  std::vector<std::uint32_t> who, body;
   std::vector<double> x, y, heading;
   for (std::uint32_t i = 0; i < size(); ++i)
     if (in_wall_[i] != 0) {
-      who.push_back(i), shape.push_back(all.shape[i]);
+      who.push_back(i), body.push_back(all.shape[i]);
       x.push_back(all.x[i]), y.push_back(all.y[i]), heading.push_back(all.heading.x()[i]);
     }
-  std::vector<Penetration> depths(who.size());
-  std::vector<float> gaps(who.size());
-  std::vector<DiscPair> nearest(who.size());
-  penetration(set, {shape, x, y, heading}, *options_.walls, depths);
-  clearance(set, {shape, x, y, heading}, *options_.walls, {.distance = gaps, .discs = nearest},
-            {.overlap = Overlap::deepest});
+  const std::vector<WallDepth> depths = bodies.depths({body, x, y, heading}, *options_.walls);
   for (std::size_t k = 0; k < who.size(); ++k) {
-    const std::uint32_t segment = nearest[k].second;
+    const std::uint32_t segment = depths[k].segment;
     CheckedPair& pair = checked_.emplace_back(checked({who[k], who[k]}));
     pair.second = segment == DiscPair::none.second ? 0 : options_.walls->obstacle_of(segment);
     pair.is_wall = pair.overlap = true;
     pair.depth = depths[k].depth;
-    pair.x = static_cast<float>(depths[k].x), pair.y = static_cast<float>(depths[k].y);
+    pair.x = depths[k].x, pair.y = depths[k].y;
   }
 }
 
-void FrameRun::tell_people(const WalkerShapes& walker_shapes, const Agents& all) {
+void FrameRun::tell_people(std::span<const std::uint32_t> shapes, std::uint32_t given_up) {
   const auto people = own(block_->people());
   checked_people_.clear();
   for (std::size_t i = 0; i < size(); ++i)
-    checked_people_.push_back({people[i], all.shape[i], walker_shapes.given_up() + all.shape[i],
-                               static_cast<float>(density_[i]), overlaps_[i] != 0, in_wall_[i] != 0});
+    checked_people_.push_back({people[i], shapes[i], given_up + shapes[i], static_cast<float>(density_[i]),
+                               overlaps_[i] != 0, in_wall_[i] != 0});
 }
 
 std::uint8_t FrameRun::class_of(Pair pair) const {

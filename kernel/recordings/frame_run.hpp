@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -12,6 +13,7 @@
 
 #include "kernel/recordings/check.hpp"
 #include "kernel/recordings/frame_block.hpp"
+#include "kernel/recordings/run_bodies.hpp"
 
 namespace bch::detail {
 
@@ -33,11 +35,20 @@ class FrameRun {
   std::span<const WalkerPose> poses() const noexcept { return poses_; }
   /// Returns about how many pairs of neighbours ask() will hold, or more.
   double expected_pairs() const;
-  /// Finds who overlaps or passes whom, and counts. `shapes`: of all people of the block.
-  void ask(const WalkerShapes& walker_shapes, std::span<const std::uint32_t> shapes);
+  /// Finds who overlaps or passes whom, and counts. `bodies` are those of with_next(); `shapes` show people, and `given_up` is what
+  /// WalkerShapes says of them.
+  void ask(const RunBodies& bodies, std::span<const std::uint32_t> shapes, std::uint32_t given_up);
 
   std::size_t first() const noexcept { return first_; }
   std::size_t last() const noexcept { return last_; }
+  /// Returns the number of people.
+  std::size_t size() const noexcept { return end_ - begin_; }
+  /// Returns, of an array with an entry for each person of the block, those of these frames and of the one behind them.
+  template <class Value>
+  std::span<const Value> with_next(const std::vector<Value>& of_block) const noexcept {
+    const std::size_t end = block_->begin(std::min(last_ + 1, block_->frames()));
+    return std::span(of_block).subspan(begin_, end - begin_);
+  }
   std::span<const CheckedPerson> people() const noexcept { return checked_people_; }
   /// Gives the memory for pairs back where it is more than usual, because there are many runs.
   void let_go();
@@ -46,7 +57,6 @@ class FrameRun {
   const OverlapCounts& counts() const noexcept { return counts_; }
 
  private:
-  std::size_t size() const noexcept { return end_ - begin_; }
   /// Returns for how many pairs memory is kept.
   std::size_t usual_pairs() const noexcept { return 65'536 + 32 * size(); }
   static constexpr double square(double value) { return value * value; }
@@ -58,24 +68,22 @@ class FrameRun {
   std::span<Value> own(std::span<Value> of_block) const noexcept {
     return of_block.subspan(begin_, size());
   }
-  Agents agents(std::span<const std::uint32_t> shapes, std::size_t end) const;
+  Agents agents(std::span<const std::uint32_t> bodies) const;
   double square_step(std::size_t person) const;
   double longest_step() const;
   double square_distance(Pair pair) const;
   CheckedPair checked(Pair pair) const;
 
-  std::span<const Pair> find(BroadPhase& phase, const ShapeSet& shapes, Strided<std::uint32_t> shape_of,
+  std::span<const Pair> find(BroadPhase& phase, const ShapeSetView& shapes, Strided<std::uint32_t> shape_of,
                              double margin) const;
   void find_near();
   void turn_shoulders();
-  void ask_pairs(const ShapeSet& set, const Agents& all);
-  std::vector<float> gaps_of(const ShapeSet& set, const Agents& all, std::span<const Pair> pairs,
-                             double max_distance) const;
-  void ask_depths(const ShapeSet& set, const Agents& all);
-  void ask_between(const ShapeSet& set, const Agents& all, const Agents& with_next);
+  void ask_pairs(const RunBodies& bodies, const Agents& all);
+  void ask_depths(const RunBodies& bodies, const Agents& all);
+  void ask_between(const RunBodies& bodies, const Agents& with_next);
   void add_pass(Pair people, std::size_t next, float time, float gap);
-  void ask_walls(const ShapeSet& set, const Agents& all);
-  void tell_people(const WalkerShapes& walker_shapes, const Agents& all);
+  void ask_walls(const RunBodies& bodies, const Agents& all);
+  void tell_people(std::span<const std::uint32_t> shapes, std::uint32_t given_up);
   std::uint8_t class_of(Pair pair) const;
   void count_near();
   void count_overlaps();

@@ -73,7 +73,7 @@ void FrameRun::look(const FrameBlock& block, std::size_t first, std::size_t last
 /// Finds who is within 1.2 m of whom, what discs say of them, and how many are within 1 m.
 void FrameRun::find_near() {
   zeros_.resize(size());
-  const std::span<const Pair> found = find(near_phase_, near_discs(), zeros_, 0);
+  const std::span<const Pair> found = find(near_phase_, near_discs().view(), zeros_, 0);
   const auto frame_of = own(block_->frame_of());
   near_.clear(), near_in_discs_.clear();
   in_discs_.assign(size(), 0);

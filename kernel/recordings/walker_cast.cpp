@@ -219,13 +219,14 @@ CastPose cast_pose(CastView cast, std::span<const CastMotion> motions, const Wal
   const CastClip& clip = body.clips[at];
   const double turns = turns_of(clip, walker, size);
   const double share = turns - std::floor(turns);
+  const auto exact = static_cast<float>(share * clip.seconds);
   if (!clip.baked.empty()) {
     const std::uint32_t phase = nearest_baked(clip, share);
-    return {member, at, phase, clip.baked[phase].seconds};
+    return {member, at, phase, clip.baked[phase].seconds, exact};
   }
   const std::uint32_t phases = std::max(1u, clip.phases / coarse);
   const std::uint32_t phase = std::min(static_cast<std::uint32_t>(share * phases), phases - 1);
-  return {member, at, phase, static_cast<float>((phase + 0.5) / phases * clip.seconds)};
+  return {member, at, phase, static_cast<float>((phase + 0.5) / phases * clip.seconds), exact};
 }
 
 Character scaled(const CastMember& member, double stature) {

@@ -77,7 +77,8 @@ struct CastPose {
   std::uint32_t member;  ///< of the cast
   std::uint32_t clip;    ///< of the character
   std::uint32_t phase;
-  float seconds;  ///< of the phase, in the clip
+  float seconds;        ///< of the phase, in the clip
+  float exact_seconds;  ///< of the walker, before he is rounded to a phase
 };
 
 /// Returns how a walker moves: as his row says, else in the walk of the nearest speed, as far in it as he has walked, or in an idle while he

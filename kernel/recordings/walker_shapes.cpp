@@ -35,13 +35,6 @@ std::uint32_t rounded(double value, std::uint32_t step) {
   return static_cast<std::uint32_t>(std::round(value / step)) * step;
 }
 
-Character character_of(const WalkerPose& pose, CastView cast) {
-  constexpr double turn[] = {0, 0.7, -0.7};  // radians; of Shoulders
-  if (pose.member != WalkerPose::built_in) return scaled(cast[pose.member], pose.metres());
-  return default_pedestrian(pose.is_female ? Sex::female : Sex::male, pose.metres(),
-                            turn[static_cast<std::size_t>(pose.shoulders)]);
-}
-
 }  // namespace
 
 WalkerPose::WalkerPose(const Walker& walker, Shoulders held, std::uint32_t coarse, CastView cast,
@@ -53,14 +46,17 @@ WalkerPose::WalkerPose(const Walker& walker, Shoulders held, std::uint32_t coars
   if (!cast.empty()) {
     const CastPose pose = cast_pose(cast, motions, walker, coarse);
     if (cast[pose.member].height == 0) stature = 0;  // as it was baked
-    member = pose.member, clip = pose.clip, phase = pose.phase, seconds = pose.seconds;
+    member = pose.member, clip = pose.clip, phase = pose.phase;
+    seconds = pose.seconds, exact_seconds = pose.exact_seconds;
     return;
   }
   clip = std::min(rounded(walker.speed / pedestrian_speed_step, coarse), pedestrian_speeds - 1);
   const std::uint32_t phases = phases_at(clip, coarse);
   phase = std::min(static_cast<std::uint32_t>(walker.phase * phases), phases - 1);
   const double share = (phase + 0.5) / phases;
-  seconds = static_cast<float>(share / pedestrian_strides_per_second(clip * pedestrian_speed_step));
+  const double strides = pedestrian_strides_per_second(clip * pedestrian_speed_step);
+  seconds = static_cast<float>(share / strides);
+  exact_seconds = static_cast<float>(walker.phase / strides);
 }
 
 std::uint64_t WalkerPose::key() const noexcept {
@@ -78,6 +74,17 @@ double WalkerPose::metres() const noexcept {
 
 PoseTime WalkerPose::at() const noexcept {
   return {clip, seconds};
+}
+
+PoseTime WalkerPose::exact() const noexcept {
+  return {clip, exact_seconds};
+}
+
+Character WalkerPose::character(CastView cast) const {
+  constexpr double turn[] = {0, 0.7, -0.7};  // radians; of Shoulders
+  if (member != built_in) return scaled(cast[member], metres());
+  return default_pedestrian(is_female ? Sex::female : Sex::male, metres(),
+                            turn[static_cast<std::size_t>(shoulders)]);
 }
 
 /// A character, and the shapers of it that no thread has. They are few, because threads take poses as they come, of many bodies.
@@ -127,7 +134,7 @@ std::vector<WalkerShapes::Body*> WalkerShapes::bodies_of(std::span<const WalkerP
   }
   for_ranges(made.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      made[i]->character = std::make_unique<const Character>(character_of(*wanted[i], cast_));
+      made[i]->character = std::make_unique<const Character>(wanted[i]->character(cast_));
   });
   return bodies;
 }

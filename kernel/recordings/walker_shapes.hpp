@@ -33,7 +33,8 @@ struct WalkerPose {
   Shoulders shoulders;
   std::uint32_t clip;  ///< of default_pedestrian(), or of the cast's character
   std::uint32_t phase;
-  float seconds;  ///< of the clip
+  float seconds;        ///< of the clip, in the middle of the phase
+  float exact_seconds;  ///< before it was rounded to a phase
 
   /// Rounds a person to a pose. `coarse`, 1 or 3, multiplies the steps of speed and phase, and the exponent of the step of stature.
   /// `cast` are the characters whose bodies people have, or the pedestrians' where it is empty; members of a cast do not turn their
@@ -44,6 +45,10 @@ struct WalkerPose {
   std::uint64_t body() const noexcept;  ///< the same for all that one character has
   double metres() const noexcept;       ///< of the stature
   PoseTime at() const noexcept;
+  /// Returns the time that was not rounded.
+  PoseTime exact() const noexcept;
+  /// Returns the character in the stature.
+  Character character(CastView cast) const;
 };
 
 /// Keeps the shapes of people in poses. New ones are built on all threads and kept for the next frames. Where they need too much

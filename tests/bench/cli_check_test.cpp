@@ -19,6 +19,7 @@ TEST(Cli, CheckWritesTheSameForAnyNumberOfThreads) {
                     page = folder.file("check.html");
   ASSERT_EQ(bch({"bake", "default:male", "--poses", "200", "--depths", "0,all", "-o", people}).code, 0);
   for (const Arguments& bodies : {Arguments{}, Arguments{"--depth", "4", "--leaves", "discs"},
+                                  Arguments{"--bodies", "spheres", "--spheres", "64"},
                                   Arguments{"--character", "default:bulky", "--character", "default:female"},
                                   Arguments{"--character", people, "--clip-speed", "walk=1.3"}}) {
     std::vector<std::string> written;

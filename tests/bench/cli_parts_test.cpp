@@ -92,6 +92,7 @@ TEST_F(CliParts, MakeTheBytesOfOneRun) {
   expect_parts_make_the_run({"check", file, "--walls", floor, "--max-distance", "0.3"}, {1, 2, 3, 7});
   const std::string few = folder.write("few.txt", crossing_people(9));
   expect_parts_make_the_run({"check", few, "--depth", "4", "--leaves", "discs"}, {11});
+  expect_parts_make_the_run({"check", few, "--bodies", "spheres", "--spheres", "64"}, {3});
 }
 
 TEST_F(CliParts, OfRealRecordingsToo) {

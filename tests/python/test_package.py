@@ -680,6 +680,9 @@ class Recordings(unittest.TestCase):
         counts = [overlaps(depth=0), overlaps(depth=3), overlaps(leaves="discs"), overlaps()]
         self.assertEqual(counts, sorted(counts, reverse=True))
         self.assertGreater(counts[0], counts[2])
+        self.assertLessEqual(overlaps(bodies="spheres", spheres=512), overlaps(bodies="spheres", spheres=64))
+        people = [bch.default_male(), bch.default_female()]
+        self.assertGreater(overlaps(bodies="spheres", spheres=64, characters=people), 0)
         baked = bch.bake([bch.default_male()], poses=100)
         for more, assumed in (
             ({"characters": [bch.default_male(), bch.default_female()]}, "walks, by its feet, at "),
@@ -694,6 +697,10 @@ class Recordings(unittest.TestCase):
             (TypeError, "clip_speeds and facing are for", {"facing": 1.5}),
             (TypeError, r"characters\[0\] is a str", {"characters": ["default:male"]}),
             (ValueError, "leaves is 'discs and segments'", {"leaves": "discs and segments"}),
+            (ValueError, "bodies is 'capsules'", {"bodies": "capsules"}),
+            (ValueError, "expected 64, 128, 256 or 512 spheres, found 65", {"bodies": "spheres", "spheres": 65}),
+            (ValueError, "belong to outlines", {"bodies": "spheres", "depth": 3}),
+            (ValueError, "baked has outlines", {"bodies": "spheres", "characters": baked, "clip_speeds": {"walk": 1.3}}),
             (TypeError, "walls is a str", {"walls": "LINESTRING(0 0, 1 1)"}),
         ):
             with self.assertRaisesRegex(kind, words):

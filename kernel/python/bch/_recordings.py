@@ -8,7 +8,7 @@ from __future__ import annotations
 import ctypes
 from ctypes import byref
 from types import MappingProxyType
-from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Union
+from typing import Any, Dict, List, Literal, Mapping, NamedTuple, Optional, Sequence, Union
 
 import numpy as np
 
@@ -38,6 +38,8 @@ _EVENT = np.dtype(
     [("first", i8), ("second", i8), ("from", i8), ("to", i8), ("worst", i8), ("x", f8), ("y", f8), ("depth", f4)]
     + [("frames", u4), ("kind", i4), ("after", f4)]
 )
+Bodies = Literal["outlines", "spheres"]
+_BODIES = {"outlines": 0, "spheres": 1}
 #: People whom a frame has at most.
 _MOST_PEOPLE = 1_000_000
 
@@ -171,6 +173,8 @@ def check(
     characters: Union[Sequence[Character], ShapeSet] = (),
     clip_speeds: Mapping[str, float] = MappingProxyType({}),
     facing: float = 0.0,
+    bodies: Bodies = "outlines",
+    spheres: int = 256,
     depth: int = ALL_DEPTHS,
     leaves: Leaves = "segments",
     max_distance: float = 0.0,
@@ -195,6 +199,11 @@ def check(
         For a baked set: the walking speed in the clips of each name, metres per second; 0 where people stand.
     facing : float
         For a baked set: the direction that people face, radians, counter-clockwise from +x.
+    bodies : {"outlines", "spheres"}
+        Outlines, seen from above, or bodies of spheres, which are posed at each person's phase in every frame and meet in space.
+        `depth`, `leaves` and baked sets belong to outlines.
+    spheres : int
+        Spheres of a body: 64, 128, 256 or 512; of characters that the library has no models of up to 4096.
     depth : int
         Depth in the bodies' hierarchies: 0 is one disc per body, ALL_DEPTHS the body itself.
     leaves : {"segments", "discs"}
@@ -242,6 +251,7 @@ def check(
             clip_speed_count=len(speeds),
             facing=ahead,
             leaves=one_of(LEAVES, leaves, "leaves"),
+            spheres=bounded(spheres, "spheres", 1, 4096) if one_of(_BODIES, bodies, "bodies") else 0,
             max_distance=number(max_distance, "max_distance"),
             max_pairs=bounded(max_pairs, "max_pairs", 0, 1_000_000_000),
             walls=None if walls is None else walls._pointer,

@@ -164,6 +164,11 @@ TEST_F(CApiRecordings, AreChecked) {
   options.characters = people, options.character_count = 1;
   expect_ok(bch_check_get_summary(checked(options).get(), &summary));
   EXPECT_GT(summary.overlapping, 0u);
+  EXPECT_GT(summary.shapes, 0u);
+  options.spheres = 64;
+  expect_ok(bch_check_get_summary(checked(options).get(), &summary));
+  EXPECT_GT(summary.overlapping, 0u);
+  EXPECT_EQ(summary.shapes, 0u);
 }
 
 TEST_F(CApiRecordings, ChecksNameWhatIsWrong) {
@@ -183,6 +188,13 @@ TEST_F(CApiRecordings, ChecksNameWhatIsWrong) {
   expect_ok(bch_obstacles_free(freed));
   options.walls = freed;
   EXPECT_EQ(said(options, BCH_INVALID_ARGUMENT), "options->walls is no living bch_obstacles; was it freed?");
+  options = BCH_CHECK_OPTIONS_INIT;
+  options.spheres = 65;
+  EXPECT_NE(said(options, BCH_INVALID_ARGUMENT).find("64, 128, 256 or 512 spheres, found 65"),
+            std::string::npos);
+  options.leaves = BCH_DISCS;
+  EXPECT_EQ(said(options, BCH_INVALID_ARGUMENT),
+            "options->depth and options->leaves belong to outlines, not to options->spheres");
   options = BCH_CHECK_OPTIONS_INIT;
   options.max_pairs = 1;
   EXPECT_NE(said(options, BCH_TOO_LARGE).find("pairs of people"), std::string::npos);

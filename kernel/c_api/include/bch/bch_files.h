@@ -127,15 +127,18 @@ typedef struct bch_check_options {
   double facing; /**< of the baked set: the direction that people face, radians from +x */
   /** The most pairs of people near each other, in a frame or in some 4096 rows; more are BCH_TOO_LARGE. 0: 4 million and 100 a person. */
   size_t max_pairs;
+  /** Of a body, of people who have bodies of spheres in place of outlines, posed at their times and compared in space: 64, 128, 256 or 512, and of
+   * characters that the library has no models of up to 4096. 0: outlines. There is neither a baked set nor another depth or leaves then. */
+  uint32_t spheres;
 } bch_check_options;
 #define BCH_CHECK_OPTIONS_INIT \
-  { sizeof(bch_check_options), 0, 0, NULL, 0, NULL, NULL, BCH_ALL_DEPTHS, BCH_SEGMENTS, NULL, 0, NULL, NULL, 0, 0, 0 }
+  { sizeof(bch_check_options), 0, 0, NULL, 0, NULL, NULL, BCH_ALL_DEPTHS, BCH_SEGMENTS, NULL, 0, NULL, NULL, 0, 0, 0, 0 }
 /** Puts a walking person on every row of a recording that has not been read from, and finds who runs into whom. */
 BCH_API bch_status bch_check_run(bch_trajectory* trajectory, const bch_check_options* options, bch_check** check);
 /** Holds the summary of a whole recording. */
 typedef struct bch_check_summary {
   uint32_t size;   /**< sizeof(bch_check_summary) */
-  uint32_t shapes; /**< different poses */
+  uint32_t shapes; /**< different poses; 0 of bodies of spheres */
   double fps;
   uint64_t frames;
   uint64_t people;
@@ -172,7 +175,7 @@ typedef struct bch_check_frame {
 typedef struct bch_check_pair {
   int64_t frame;
   int64_t first, second; /**< ids; `second` is the number of a wall */
-  float depth;           /**< how far the first has to move to be free, metres */
+  float depth;           /**< how far the first has to move to be free, or how deep two spheres overlap, metres */
   float gap;             /**< how far they are apart in this frame, metres; 0 where they overlap, and where discs do but no nodes above */
   float x, y;            /**< the direction in which the first has to move */
   int32_t kind;          /**< BCH_CHECK_OVERLAP ... */

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/recordings/run_bodies.hpp"
+
+namespace bch::detail {
+namespace {
+
+constexpr std::uint32_t directions = 32;  ///< of which the best one tells the depth
+
+}  // namespace
+
+void RunOutlines::collide(const Agents& agents, std::span<const Pair> pairs,
+                          std::span<std::uint8_t> hits) const {
+  bch::collide(set_, agents, pairs, hits, {.leaves = leaves_});
+}
+
+void RunOutlines::touch(const Agents& agents, std::span<const Pair> pairs,
+                        std::span<std::uint8_t> hits) const {
+  bch::collide(set_, agents, pairs, hits, {.leaves = Leaves::discs});
+}
+
+std::vector<Penetration> RunOutlines::depths(const Agents& agents, std::span<const Pair> pairs) const {
+  std::vector<Penetration> depths(pairs.size());
+  penetration(set_, agents, pairs, directions, depths);
+  return depths;
+}
+
+std::vector<float> RunOutlines::gaps(const Agents& agents, std::span<const Pair> pairs,
+                                     double max_distance) const {
+  std::vector<float> gaps(pairs.size());
+  clearance(set_, agents, pairs, {gaps}, {.max_distance = max_distance, .leaves = leaves_});
+  return gaps;
+}
+
+std::vector<float> RunOutlines::times_of_impact(const Agents& agents, std::span<const Pair> pairs,
+                                                const Displacements& displacements) const {
+  std::vector<float> times(pairs.size());
+  time_of_impact(set_, agents, pairs, displacements, times);
+  return times;
+}
+
+void RunOutlines::collide(const Agents& agents, const ObstacleSet& walls,
+                          std::span<std::uint8_t> hits) const {
+  bch::collide(set_, agents, walls, hits, {.leaves = leaves_});
+}
+
+std::vector<WallDepth> RunOutlines::depths(const Agents& agents, const ObstacleSet& walls) const {
+  std::vector<Penetration> depths(agents.size());
+  std::vector<float> gaps(agents.size());
+  std::vector<DiscPair> nearest(agents.size());
+  penetration(set_, agents, walls, depths);
+  clearance(set_, agents, walls, {.distance = gaps, .discs = nearest}, {.overlap = Overlap::deepest});
+  std::vector<WallDepth> in_walls;
+  for (std::size_t i = 0; i < agents.size(); ++i)
+    in_walls.push_back({nearest[i].second, depths[i].depth, static_cast<float>(depths[i].x),
+                        static_cast<float>(depths[i].y)});
+  return in_walls;
+}
+
+}  // namespace bch::detail
