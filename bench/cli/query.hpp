@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <bch/body_set.hpp>
@@ -23,10 +24,15 @@
 
 namespace bch::cli {
 
+/// Refers to what agents have: shapes, or bodies of spheres.
+using AskedSet = std::variant<const ShapeSet*, const BodySet*>;
+inline bool has_spheres(const AskedSet& set) {
+  return std::holds_alternative<const BodySet*>(set);
+}
+
 /// Holds the input of a query.
 struct QueryInput {
-  const ShapeSet* set;    ///< the bodies, or
-  const BodySet* bodies;  ///< those of spheres; one of the two is there
+  AskedSet set;
   const AgentTable& table;
   std::span<const Pair> pairs;
   detail::AllOptions options;
@@ -69,9 +75,7 @@ std::string query_help();
 /// Returns all pairs that collide or, with a finite max_distance, are within it, in the order of the agents' lines. `what`: "within" counts
 /// as that query does, also who stands inside whom; else distances count alone.
 /// Errors:  throws std::length_error where there are more pairs of neighbours than `most`.
-std::vector<Pair> all_pairs(const ShapeSet& set, const AgentTable& table, const std::string& what,
-                            const detail::AllOptions& options, std::size_t most);
-std::vector<Pair> all_pairs(const BodySet& bodies, const AgentTable& table, const std::string& what,
+std::vector<Pair> all_pairs(const AskedSet& set, const AgentTable& table, const std::string& what,
                             const detail::AllOptions& options, std::size_t most);
 
 /// Holds what the command line of bch query says.

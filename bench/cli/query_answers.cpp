@@ -43,19 +43,21 @@ std::string hit_rows(const QueryInput& input, const std::vector<std::uint8_t>& h
   return out;
 }
 
-/// Asks query(set, about) about shapes or bodies, and about obstacles, where there are some, or pairs.
+/// Calls use(set) with the shapes or bodies.
+template <class Use>
+void with_set(const QueryInput& input, const Use& use) {
+  std::visit([&](const auto* set) { use(*set); }, input.set);
+}
+
+/// Asks query(set, about) about obstacles, where there are some, or pairs.
 template <class Query>
 void ask(const QueryInput& input, const Query& query) {
-  const auto about = [&](const auto& set) {
+  with_set(input, [&](const auto& set) {
     if (input.obstacles != nullptr)
       query(set, *input.obstacles);
     else
       query(set, input.pairs);
-  };
-  if (input.bodies != nullptr)
-    about(*input.bodies);
-  else
-    about(*input.set);
+  });
 }
 
 std::string collide_rows(const QueryInput& input) {
@@ -85,42 +87,32 @@ std::string columns(const bch::Crowd::SphereContact& contact) {
 
 std::string contact_rows(const QueryInput& input) {
   std::string out;
-  const auto list = [&](const auto& set) {
+  with_set(input, [&](const auto& set) {
     bch::Crowd crowd;
     const auto rows = crowd.contacts(set, input.table.agents(), input.pairs, input.options);
     for (std::size_t i = 0; i < input.pairs.size(); ++i)
       for (const auto& contact : rows[i]) out += ids(input, i) + columns(contact) + "\n";
-  };
-  if (input.bodies != nullptr)
-    list(*input.bodies);
-  else
-    list(*input.set);
+  });
   return out;
 }
 
-/// Measures the way out of obstacles, which bodies of spheres have none of.
-void find_ways(const QueryInput& input, const ShapeSet& set, const ObstacleSet& obstacles,
-               std::span<Penetration> ways) {
-  penetration(set, input.table.agents(), obstacles, ways, input.options);
-}
-
-template <class Set>
-void find_ways(const QueryInput& input, const Set& set, std::span<const Pair> pairs,
-               std::span<Penetration> ways) {
-  const Agents agents = input.table.agents();
-  if (!input.direction) return penetration(set, agents, pairs, input.directions, ways, input.options);
-  const std::vector<Vec2> along(pairs.size(), *input.direction);
-  penetration_along(set, agents, pairs, along, ways, input.options);
-}
+/// Bodies of spheres cannot be asked about obstacles; see require_fitting().
+template <class Set, class About>
+constexpr bool of_pairs_alone = std::is_same_v<Set, BodySet>&& std::is_same_v<About, ObstacleSet>;
 
 std::string penetration_rows(const QueryInput& input) {
   std::vector<Penetration> ways(input.size());
-  if (input.bodies != nullptr)
-    find_ways(input, *input.bodies, input.pairs, ways);
-  else if (input.obstacles != nullptr)
-    find_ways(input, *input.set, *input.obstacles, ways);
-  else
-    find_ways(input, *input.set, input.pairs, ways);
+  const Agents agents = input.table.agents();
+  ask(input, [&]<class Set, class About>(const Set& set, const About& about) {
+    if constexpr (std::is_same_v<About, ObstacleSet>) {
+      if constexpr (!of_pairs_alone<Set, About>) penetration(set, agents, about, ways, input.options);
+    } else if (input.direction) {
+      const std::vector<Vec2> along(input.pairs.size(), *input.direction);
+      penetration_along(set, agents, about, along, ways, input.options);
+    } else {
+      penetration(set, agents, about, input.directions, ways, input.options);
+    }
+  });
   std::string out;
   for (std::size_t i = 0; i < ways.size(); ++i)
     out += fmt::format("{},{},{},{}\n", ids(input, i), plain(ways[i].depth), plain_part(ways[i].x),
@@ -145,19 +137,18 @@ std::string clearance_lines(const QueryInput& input, const Measure& measure) {
 }
 
 std::string clearance_rows(const QueryInput& input) {
-  const auto lines = [&]<class Vector, class Points, class Answers>() {
+  const auto lines = [&]<class Set, class Vector, class Points, class Answers>() {
     return clearance_lines<Vector, Points>(input, [&](auto& distance, auto& direction, auto& points) {
       ask(input, [&](const auto& set, const auto& about) {
-        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(set)>, BodySet> ==
-                      std::is_same_v<Answers, BodyClearanceAnswers>)
+        if constexpr (std::is_same_v<decltype(set), const Set&>)
           clearance(set, input.table.agents(), about,
                     Answers{.distance = distance, .direction = direction, .points = points}, input.options);
       });
     });
   };
-  return input.bodies != nullptr
-             ? lines.template operator()<Vec3, BodyClearanceAnswers::Points, BodyClearanceAnswers>()
-             : lines.template operator()<Vec2, NearestPoints, ClearanceAnswers>();
+  return has_spheres(input.set)
+             ? lines.template operator()<BodySet, Vec3, BodyClearanceAnswers::Points, BodyClearanceAnswers>()
+             : lines.template operator()<ShapeSet, Vec2, NearestPoints, ClearanceAnswers>();
 }
 
 std::string within_rows(const QueryInput& input) {
@@ -179,12 +170,12 @@ std::string time_of_impact_rows(const QueryInput& input) {
   std::vector<double> x, y;
   for (const auto [first, second] : input.pairs)
     x.push_back(table.dx[first] - table.dx[second]), y.push_back(table.dy[first] - table.dy[second]);
-  if (input.bodies != nullptr)
-    time_of_impact(*input.bodies, table.agents(), input.pairs, {x, y}, time, input.options);
-  else if (input.obstacles != nullptr)
-    time_of_impact(*input.set, table.agents(), {table.dx, table.dy}, *input.obstacles, time, input.options);
-  else
-    time_of_impact(*input.set, table.agents(), input.pairs, {x, y}, time, input.options);
+  ask(input, [&]<class Set, class About>(const Set& set, const About& about) {
+    if constexpr (!std::is_same_v<About, ObstacleSet>)
+      time_of_impact(set, table.agents(), about, {x, y}, time, input.options);
+    else if constexpr (!of_pairs_alone<Set, About>)
+      time_of_impact(set, table.agents(), {table.dx, table.dy}, about, time, input.options);
+  });
   std::string out;
   for (std::size_t i = 0; i < time.size(); ++i) out += fmt::format("{},{}\n", ids(input, i), time[i]);
   return out;
@@ -271,14 +262,9 @@ std::string query_help() {
   return text;
 }
 
-std::vector<Pair> all_pairs(const ShapeSet& set, const AgentTable& table, const std::string& what,
+std::vector<Pair> all_pairs(const AskedSet& set, const AgentTable& table, const std::string& what,
                             const detail::AllOptions& options, std::size_t most) {
-  return all_pairs_of(set, table, what, options, most);
-}
-
-std::vector<Pair> all_pairs(const BodySet& bodies, const AgentTable& table, const std::string& what,
-                            const detail::AllOptions& options, std::size_t most) {
-  return all_pairs_of(bodies, table, what, options, most);
+  return std::visit([&](const auto* of) { return all_pairs_of(*of, table, what, options, most); }, set);
 }
 
 }  // namespace bch::cli

@@ -91,20 +91,13 @@ Question read_question(const QueryCommandOptions& options, std::size_t shapes, s
   return question;
 }
 
-/// What is asked: one of the two is there.
-struct AskedBodies {
-  const ShapeSet* shapes;
-  const BodySet* spheres;
-};
-
 /// Returns all pairs of neighbours that are asked about.
-std::vector<Pair> pairs_of_all(const QueryCommandOptions& options, const AskedBodies& bodies,
+std::vector<Pair> pairs_of_all(const QueryCommandOptions& options, const AskedSet& set,
                                const AgentTable& table, const detail::AllOptions& how) {
   const std::size_t most =
       options.max_pairs > 0 ? options.max_pairs : detail::usual_most_pairs(table.id.size());
   try {
-    return bodies.spheres != nullptr ? all_pairs(*bodies.spheres, table, options.what, how, most)
-                                     : all_pairs(*bodies.shapes, table, options.what, how, most);
+    return all_pairs(set, table, options.what, how, most);
   } catch (const std::length_error&) {
     throw InputError(
         fmt::format("{}: more than {} pairs of agents are near each other; --max-pairs raises the limit",
@@ -115,8 +108,7 @@ std::vector<Pair> pairs_of_all(const QueryCommandOptions& options, const AskedBo
 using Write = std::function<void(const std::string&)>;
 
 /// Writes the table of answers, piece by piece.
-void answer(const QueryCommandOptions& options, const AskedBodies& bodies, Question& question,
-            const Write& write) {
+void answer(const QueryCommandOptions& options, const AskedSet& set, Question& question, const Write& write) {
   constexpr std::size_t at_once = 65'536;  // pairs, of which each may have many contacts
   auto& [table, pairs, obstacle_set] = question;
   const ObstacleSet* const obstacles = obstacle_set ? &*obstacle_set : nullptr;
@@ -124,9 +116,9 @@ void answer(const QueryCommandOptions& options, const AskedBodies& bodies, Quest
   how.max_distance = options.max_distance;
   how.overlap = options.overlap == "zero" ? Overlap::zero : Overlap::deepest;
   how.distance_leaves = options.answer.leaves == "segments" ? Leaves::segments : Leaves::discs;
-  if (options.all_pairs) pairs = pairs_of_all(options, bodies, table, how);
+  if (options.all_pairs) pairs = pairs_of_all(options, set, table, how);
   const QueryKind& kind = query_kind(options.what);
-  const bool spheres = bodies.spheres != nullptr;
+  const bool spheres = has_spheres(set);
   std::string lines =
       fmt::format("{},{}{}\n", subject_columns(obstacles), spheres ? kind.sphere_columns : kind.columns,
                   !options.points ? ""
@@ -136,8 +128,8 @@ void answer(const QueryCommandOptions& options, const AskedBodies& bodies, Quest
   std::size_t begin = 0;
   do {
     const std::span<const Pair> some = all.subspan(begin, std::min(at_once, all.size() - begin));
-    lines += kind.rows({bodies.shapes, bodies.spheres, table, some, how, options.directions,
-                        options.only_direction(), options.points, obstacles});
+    lines += kind.rows(
+        {set, table, some, how, options.directions, options.only_direction(), options.points, obstacles});
     write(lines);
     lines.clear();
     begin += some.size();
@@ -160,7 +152,7 @@ void query_character(const QueryCommandOptions& options, const Write& write) {
   const BuiltShapes built = build_shapes({&from, 1}, used, options.shapes.threshold, plan, limits);
   const ShapeSet set(built.shapes, plan);
   guard.reset();
-  answer(options, {&set, nullptr}, question, write);
+  answer(options, &set, question, write);
   std::fputs(notes_text({&from, 1}).c_str(), stderr);  // standard output is for data
 }
 
@@ -172,7 +164,7 @@ void query_spheres(const QueryCommandOptions& options, const Write& write) {
   const Threads threads(options.answer.threads);
   const auto used = keep_used(sources, question.table);
   const BodySet bodies = posed_bodies(make_models(from, options.kind.spheres), used);
-  answer(options, {nullptr, &bodies}, question, write);
+  answer(options, &bodies, question, write);
   std::fputs(notes_text(from).c_str(), stderr);  // standard output is for data
 }
 
@@ -183,7 +175,7 @@ void query_baked(const QueryCommandOptions& options, const Write& write) {
     throw InputError(options.character + ": was baked without heights, which agents with a z and " +
                      "--obstacle-heights need; bake it with --heights");
   const Threads threads(options.answer.threads);
-  answer(options, {&baked.set, nullptr}, question, write);
+  answer(options, &baked.set, question, write);
 }
 
 void answer_all(const CLI::App& command, const QueryCommandOptions& options, const Write& write) {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <type_traits>
 #include <vector>
 
 #include <bch/pairs.hpp>
@@ -94,24 +95,17 @@ void all_or_none(std::span<Value> to, Ask ask) {
   kept.deliver();
 }
 
-template <class Ask>
-void all_or_none(const ClearanceAnswers& to, Ask ask) {
-  Kept distance(to.distance);
-  Kept direction(to.direction);
-  Kept discs(to.discs);
-  Kept points(to.points);
-  ask(ClearanceAnswers{distance.answers(), direction.answers(), discs.answers(), points.answers()});
+/// Does the same for a distance and what goes with it: ClearanceAnswers, or BodyClearanceAnswers.
+template <class Answers, class Ask>
+requires std::is_aggregate_v<Answers>
+void all_or_none(const Answers& to, Ask ask) {
+  const auto& [to_distance, to_direction, to_discs, to_points] = to;
+  Kept distance(to_distance);
+  Kept direction(to_direction);
+  Kept discs(to_discs);
+  Kept points(to_points);
+  ask(Answers{distance.answers(), direction.answers(), discs.answers(), points.answers()});
   distance.deliver(), direction.deliver(), discs.deliver(), points.deliver();
-}
-
-template <class Ask>
-void all_or_none(const BodyClearanceAnswers& to, Ask ask) {
-  Kept distance(to.distance);
-  Kept direction(to.direction);
-  Kept spheres(to.spheres);
-  Kept points(to.points);
-  ask(BodyClearanceAnswers{distance.answers(), direction.answers(), spheres.answers(), points.answers()});
-  distance.deliver(), direction.deliver(), spheres.deliver(), points.deliver();
 }
 
 inline std::span<Penetration> penetrations(bch_penetration_depth* depths, std::size_t count) {
