@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <cmath>
-
 #include "bench/stability/stability.hpp"
 #include "tests/support/test.hpp"
 

@@ -7,8 +7,6 @@
 
 #include <new>
 
-#include <bch/crowd.hpp>
-
 #include "kernel/distributed/agreement.hpp"
 #include "kernel/distributed/session.hpp"
 #include "kernel/runtime/all_options.hpp"

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/characters.hpp>
 #include <bch/distributed_crowd.hpp>
-#include <bch/poses.hpp>
 
 #include "kernel/runtime/all_options.hpp"
 #include "tests/distributed/world.hpp"

@@ -1,23 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/agents.hpp>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
-#include <bch/crowd.hpp>
-#include <bch/pairs.hpp>
-
 #include "layout/base/heading.hpp"
 #include "tests/support/crowd_pairs.hpp"
-#include "tests/support/implementations.hpp"
-#include "tests/support/scenes.hpp"
 #include "tests/support/test.hpp"
 
 namespace bch {

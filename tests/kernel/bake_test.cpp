@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 
-#include <limits>
-#include <string>
 #include <system_error>
-#include <vector>
-
-#include <bch/characters.hpp>
-#include <bch/poses.hpp>
 
 #include "tests/support/baked_bytes.hpp"
-#include "tests/support/complaint.hpp"
+#include "tests/support/test.hpp"
 
 // bake() gives what the loop over PoseShaper gives, for any number of threads, and names what it cannot make.
 

@@ -1,19 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <initializer_list>
-#include <limits>
-#include <string>
-#include <type_traits>
-#include <vector>
-
-#include <bch/crowd.hpp>
-#include <bch/pairs.hpp>
-
 #include "kernel/runtime/all_options.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 
 // What collide() refuses, and that it does nothing then.
 
@@ -80,8 +69,7 @@ TEST_F(BadInput, AFewOfManyAgents) {
   for (int i = 0; i < 98; ++i) crowd.add({0, 100.0 + 10 * i, 0, 0, 0});
   pairs = {{43, 40}, {41, 43}, {41, 40}};
   crowd.shape[39] = crowd.shape[42] = crowd.shape[44] = 2;
-  for (const Implementation& implementation : implementations()) {
-    if (!implementation.supported()) continue;
+  for (const Implementation& implementation : test::supported()) {
     detail::AllOptions options{.implementation = &implementation};
     std::vector<std::uint8_t> hits(pairs.size());
     EXPECT_NO_THROW(collide(set, crowd.agents(), pairs, hits, options)) << implementation.name;
@@ -101,8 +89,7 @@ TEST_F(BadInput, AFewOfManyAgents) {
 TEST_F(BadInput, AnyValueInAnyPlaceOfABatch) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN(),
                    infinity = std::numeric_limits<double>::infinity();
-  for (const Implementation& implementation : implementations()) {
-    if (!implementation.supported()) continue;
+  for (const Implementation& implementation : test::supported()) {
     const detail::AllOptions options{.implementation = &implementation};
     for (const std::uint32_t size : {1, 2, 5, 15, 16, 17, 33, 255, 256, 257}) {
       crowd = {};
@@ -137,8 +124,7 @@ TEST_F(BadInput, AnyValueInAnyPlaceOfABatch) {
 }
 
 TEST_F(BadInput, TheLargestValuesAreValid) {
-  for (const Implementation& implementation : implementations()) {
-    if (!implementation.supported()) continue;
+  for (const Implementation& implementation : test::supported()) {
     for (const double far : {4.9e8, 5.1e8, 1e9}) {
       crowd = {};
       crowd.add({0, far, -far, far, 0});

@@ -1,14 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/pairs.hpp>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <string>
-#include <vector>
-
 #include "baselines/reference.hpp"
 #include "kernel/runtime/kernels.hpp"
 #include "layout/base/heading.hpp"
@@ -16,6 +8,7 @@
 #include "layout/format/shape_set_view.hpp"
 #include "layout/hierarchy/paper_hierarchies.hpp"
 #include "tests/support/differential.hpp"
+#include "tests/support/test.hpp"
 
 namespace bch {
 namespace {
@@ -42,8 +35,7 @@ void expect_equal_to_brute_force(const ShapeSet& set, const Reference& reference
   const auto hits = std::count(expected.begin(), expected.end(), 1);
   EXPECT_GT(hits, 0) << what;
   EXPECT_LT(hits, std::ssize(expected)) << what;
-  for (const auto& implementation : implementations()) {
-    if (!implementation.supported()) continue;
+  for (const Implementation& implementation : test::supported()) {
     const auto hits_of = answers(set, agents, scene.pairs, implementation);
     for (std::size_t i = 0; i < expected.size(); ++i)
       ASSERT_EQ(hits_of[i], expected[i])
@@ -86,8 +78,7 @@ TEST(Collide, AContourInsideAnotherOfTheSameCentreIsFound) {
   scene.crowd.add({0, 0, 0, 0, 0});
   scene.crowd.add({1, static_cast<double>(profiles[0].x) - static_cast<double>(profiles[1].x), 0, 0, 0});
   scene.pairs = {{0, 1}};
-  for (const auto& implementation : implementations()) {
-    if (!implementation.supported()) continue;
+  for (const Implementation& implementation : test::supported()) {
     EXPECT_EQ(answers(set, scene.crowd.agents(), scene.pairs, implementation)[0], 1) << implementation.name;
     EXPECT_EQ(answers(discs, scene.crowd.agents(), scene.pairs, implementation)[0], 0) << implementation.name;
   }

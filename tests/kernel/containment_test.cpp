@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-
-#include <bch/characters.hpp>
-#include <bch/pairs.hpp>
-
 #include "layout/base/heading.hpp"
 #include "layout/format/contours.hpp"
 #include "layout/hierarchy/paper_hierarchies.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/outline_checks.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 #include "tests/support/test_characters.hpp"
 
 namespace bch {
@@ -70,8 +62,7 @@ void expect_all_found(const std::vector<Shape>& poses) {
     const test::PairScene scene = copies_inside(random, pose.outline, small);
     ASSERT_GT(scene.pairs.size(), 100u);
     std::vector<std::uint8_t> hits(scene.pairs.size()), hits_of_discs(hits);
-    for (const auto& implementation : implementations()) {
-      if (!implementation.supported()) continue;
+    for (const Implementation& implementation : test::supported()) {
       collide(set, scene.crowd.agents(), scene.pairs, hits, {&implementation});
       EXPECT_EQ(std::count(hits.begin(), hits.end(), 0), 0) << implementation.name;
     }
@@ -121,8 +112,7 @@ TEST(Containment, InsideIsWhatAContourGoesRoundAnOddNumberOfTimes) {
     for (const bool culling : {false, true}) {
       const ShapeSet set(shapes, {.culling = culling}),
           discs(shapes, {.outlines = false, .culling = culling});
-      for (const auto& implementation : implementations()) {
-        if (!implementation.supported()) continue;
+      for (const Implementation& implementation : test::supported()) {
         collide(discs, scene.crowd.agents(), scene.pairs, hits_of_discs, {&implementation});
         collide(set, scene.crowd.agents(), scene.pairs, hits, {&implementation});
         for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
@@ -150,8 +140,7 @@ TEST(Containment, ABodyWithoutAnOutlineIsItsDiscsAlone) {
   const std::vector<Pair> pairs = {{0, 1}, {0, 2}, {3, 4}, {3, 5}};
   for (const bool culling : {false, true}) {
     const ShapeSet set(shapes, {.culling = culling});
-    for (const auto& implementation : implementations()) {
-      if (!implementation.supported()) continue;
+    for (const Implementation& implementation : test::supported()) {
       std::vector<std::uint8_t> hits(pairs.size());
       collide(set, crowd.agents(), pairs, hits, {&implementation});
       EXPECT_EQ(hits, (std::vector<std::uint8_t>{1, 0, 1, 1})) << implementation.name;

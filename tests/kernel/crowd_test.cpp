@@ -1,23 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/crowd.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <stdexcept>
-#include <string>
-#include <tuple>
-#include <utility>
-#include <vector>
-
-#include <bch/pairs.hpp>
-
 #include "tests/support/crowd_pairs.hpp"
-#include "tests/support/scenes.hpp"
 #include "tests/support/test.hpp"
 
 namespace bch {

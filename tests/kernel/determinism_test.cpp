@@ -1,25 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 #define XXH_INLINE_ALL  // nothing is linked
 #include <xxhash.h>
 
-#include <algorithm>
-#include <array>
-#include <cstdint>
-#include <string>
-#include <vector>
-
-#include <bch/crowd.hpp>
-#include <bch/pairs.hpp>
-
 #include "layout/base/floating_point_state.hpp"
 #include "tests/support/crowd_pairs.hpp"
 #include "tests/support/float_state.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 
 // The answers to one crowd as hashes, the same for every compiler, optimisation, processor, instruction set, number of
 // threads, split of the batch, and floating-point state of the threads. Where an answer changes on purpose, so do these.

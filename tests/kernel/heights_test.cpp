@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/crowd.hpp>
-#include <bch/shapes.hpp>
-
 #include "tests/support/crowd_pairs.hpp"
 #include "tests/support/height_scenes.hpp"
 #include "tests/support/query_references.hpp"

@@ -40,8 +40,7 @@ void expect_no_crossing_missed(const std::vector<Shape>& shapes, std::uint32_t p
   for (const Pair pair : scene.pairs)
     expected.push_back(reference.solid(agents, pair, baselines::Method::brute_force));
   for (std::uint32_t i = 0; i < pairs; ++i) EXPECT_TRUE(expected[i] == 1 || !crossing[i]) << i;
-  for (const auto& implementation : implementations()) {
-    if (!implementation.supported()) continue;
+  for (const Implementation& implementation : test::supported()) {
     collide(set, agents, scene.pairs, hits, {&implementation});
     EXPECT_EQ(hits, expected) << implementation.name;
   }

@@ -1,20 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
-
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <numbers>
-#include <ostream>
-#include <string>
-#include <vector>
-
-#include <bch/characters.hpp>
-#include <bch/crowd.hpp>
 
 #include "kernel/runtime/kernels.hpp"
 #include "layout/hierarchy/paper_hierarchies.hpp"
@@ -22,6 +10,7 @@
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/crowd_pairs.hpp"
 #include "tests/support/query_references.hpp"
+#include "tests/support/test.hpp"
 #include "tests/support/touching_scene.hpp"
 
 // All queries of all implementations against brute force: shapes of many kinds x plans x placements of pairs.

@@ -10,7 +10,6 @@
 
 #include "baselines/placement.hpp"
 #include "layout/base/heading.hpp"
-#include "tests/support/implementations.hpp"
 #include "tests/support/near_tangent.hpp"
 #include "tests/support/test.hpp"
 

@@ -168,8 +168,7 @@ TEST(SegmentClearanceOfOutlines, NamesTheFirstOfEquallyNearSegments) {
     scene.pairs.push_back({2 * i, 2 * i + 1});
   }
   const Found first = find(set, scene);
-  for (const auto& implementation : implementations()) {
-    if (!implementation.supported()) continue;
+  for (const Implementation& implementation : test::supported()) {
     const Found found = find(set, scene, {.implementation = &implementation});
     for (std::size_t i = 0; i < scene.pairs.size(); ++i)
       ASSERT_TRUE(found.same(i, first, i)) << implementation.name << ", pair " << i;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <optional>
 #include <thread>
 
 #include "kernel/collide/answer.hpp"
@@ -40,8 +39,7 @@ class Threads : public testing::Test {
 };
 
 TEST_F(Threads, RangesOfOneBatchDoNotMeet) {
-  for (const auto& implementation : implementations()) {
-    if (!implementation.supported()) continue;
+  for (const Implementation& implementation : test::supported()) {
     const auto alone = answers(implementation, 1);
     for (const unsigned threads : {2u, 3u, 8u})
       EXPECT_EQ(answers(implementation, threads), alone) << implementation.name;

@@ -71,8 +71,7 @@ class TimeOfImpactDifferential : public test::Differential {
     const auto between =
         std::count_if(brute_force.begin(), brute_force.end(), [](float t) { return t > 0 && t <= 1; });
     EXPECT_GT(between, std::ssize(brute_force) / 20) << what;
-    for (const auto& implementation : implementations()) {
-      if (!implementation.supported()) continue;
+    for (const Implementation& implementation : test::supported()) {
       const std::vector<float> of = times(set, motion, &implementation);
       for (std::size_t i = 0; i < motion.pairs.size(); ++i)
         ASSERT_EQ(of[i], brute_force[i]) << what << ", " << implementation.name << ", pair " << i;
@@ -140,8 +139,7 @@ TEST(TimeOfImpact, OfASmallBodyAtTheEndOfALongOne) {
   }
   for (const bool culling : {false, true}) {
     const ShapeSet set(shapes, {.culling = culling});
-    for (const auto& implementation : implementations()) {
-      if (!implementation.supported()) continue;
+    for (const Implementation& implementation : test::supported()) {
       const std::vector<float> of = times(set, motion, &implementation);
       for (std::size_t i = 0; i < of.size(); ++i)
         ASSERT_EQ(of[i], reference.query(motion.crowd.agents(), motion.pairs[i], motion.x[i], motion.y[i],

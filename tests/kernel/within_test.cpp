@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <ostream>
-
 #include "baselines/oracle.hpp"
 #include "kernel/runtime/all_options.hpp"
 #include "kernel/simd/gaps.hpp"

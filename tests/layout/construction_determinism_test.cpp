@@ -4,14 +4,8 @@
 #define XXH_INLINE_ALL  // nothing is linked
 #include <xxhash.h>
 
-#include <array>
-#include <cstring>
-
-#include <bch/bodies.hpp>
-
 #include "tests/support/baked_bytes.hpp"
 #include "tests/support/float_state.hpp"
-#include "tests/support/scenes.hpp"
 #include "tests/support/test.hpp"
 
 // What construction makes, as hashes of baked files: the same bytes for every compiler, optimisation and processor. Where

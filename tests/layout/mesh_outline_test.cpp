@@ -1,20 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <string>
 #include <system_error>
-#include <vector>
-
-#include <bch/characters.hpp>
-#include <bch/obstacles.hpp>
-#include <bch/outline_builder.hpp>
 
 #include "kernel/obstacles/segment.hpp"
 #include "layout/character/skinning.hpp"
-#include "tests/support/complaint.hpp"
 #include "tests/support/outline_soups.hpp"
 #include "tests/support/test.hpp"
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/poses.hpp>
-
 #include "layout/character/affine_rows.hpp"
 #include "layout/character/eigen.hpp"
 #include "tests/support/allocation_count.hpp"

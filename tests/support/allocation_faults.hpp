@@ -5,12 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cstddef>
-#include <functional>
-
 #include <bch/bch.h>
 
 #include "tests/support/allocation_count.hpp"
+#include "tests/support/standard.hpp"
 
 // Every allocation of a call of the C interface fails once, and once with all that follow it. So it does for what it calls of the C++
 // library, which throws std::bad_alloc then.

@@ -3,9 +3,6 @@
 
 #include "tests/support/animated_cover.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace bch::test {
 namespace {
 

@@ -3,12 +3,7 @@
 
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <vector>
-
-#include <bch/shapes.hpp>
+#include "tests/support/standard.hpp"
 
 // What moving discs cover at a time, and what they leave out.
 

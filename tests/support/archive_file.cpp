@@ -5,9 +5,6 @@
 
 #include <hdf5.h>
 
-#include <cstddef>
-#include <stdexcept>
-
 namespace bch::test {
 namespace {
 

@@ -3,11 +3,7 @@
 
 #pragma once
 
-#include <cstdint>
-#include <filesystem>
-#include <optional>
-#include <string>
-#include <vector>
+#include "tests/support/standard.hpp"
 
 namespace bch::test {
 

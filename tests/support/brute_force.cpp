@@ -3,10 +3,6 @@
 
 #include "tests/support/brute_force.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 #include "baselines/exact_tests.hpp"
 
 namespace bch::test {

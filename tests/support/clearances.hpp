@@ -3,13 +3,6 @@
 
 #pragma once
 
-#include <bit>
-#include <cstdint>
-#include <span>
-#include <vector>
-
-#include <bch/pairs.hpp>
-
 #include "baselines/clearance_reference.hpp"
 #include "tests/support/scenes.hpp"
 

@@ -3,13 +3,7 @@
 
 #pragma once
 
-#include <algorithm>
-#include <cstdint>
-#include <span>
-#include <tuple>
-#include <vector>
-
-#include <bch/crowd.hpp>
+#include "tests/support/standard.hpp"
 
 namespace bch::test {
 

@@ -3,10 +3,6 @@
 
 #pragma once
 
-#include <algorithm>
-#include <bit>
-#include <functional>
-
 #include "layout/format/shape_set_view.hpp"
 #include "layout/shape_set/shape_storage.hpp"
 #include "tests/support/baked_bytes.hpp"

@@ -3,10 +3,6 @@
 
 #include "tests/support/near_tangent.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <span>
-
 namespace bch::test {
 namespace {
 

@@ -3,11 +3,6 @@
 
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
-#include <bch/shapes.hpp>
-
 #include "baselines/exact_discs.hpp"
 #include "layout/base/rounding.hpp"
 #include "tests/support/scenes.hpp"

@@ -3,9 +3,6 @@
 
 #include "tests/support/obstacle_scenes.hpp"
 
-#include <cmath>
-#include <numbers>
-
 namespace bch::test {
 namespace {
 

@@ -5,11 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdint>
-#include <vector>
-
-#include <bch/obstacles.hpp>
-
 #include "baselines/obstacle_reference.hpp"
 #include "tests/support/scenes.hpp"
 

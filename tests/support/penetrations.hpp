@@ -3,12 +3,6 @@
 
 #pragma once
 
-#include <cstdint>
-#include <span>
-#include <vector>
-
-#include <bch/pairs.hpp>
-
 #include "tests/support/scenes.hpp"
 
 namespace bch::test {

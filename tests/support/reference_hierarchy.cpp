@@ -5,10 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 #include "baselines/welzl.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/format/contours.hpp"

@@ -3,11 +3,6 @@
 
 #include "tests/support/scenes.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <utility>
-
 #include "layout/format/shape_set_view.hpp"
 
 namespace bch::test {

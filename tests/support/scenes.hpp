@@ -3,15 +3,8 @@
 
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <span>
-#include <vector>
-
-#include <bch/agents.hpp>
-#include <bch/shapes.hpp>
-
 #include "layout/base/random.hpp"
+#include "tests/support/standard.hpp"
 
 namespace bch::test {
 

@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <string>
-#include <vector>
-
-#include <bch/bch.hpp>
-
 #include "tests/support/c_api.hpp"
+#include "tests/support/test.hpp"
 
 // Poses of one's own by the C interface: every way to give them has the bytes of the clip's.
 

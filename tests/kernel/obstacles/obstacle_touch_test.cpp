@@ -196,8 +196,7 @@ TEST_F(Obstacles, OfEquallyNearOnesTheFirstCounts) {
   // Walls beside all four sides, each a metre away; the one above twice.
   const std::vector<double> x = {-3, 3, -3, 3, 2, 2, -2, -2, -3, 3}, y = {2, 2, 2, 2, -3, 3, -3, 3, -2, -2};
   const std::vector<std::uint64_t> paths = {0, 2, 4, 6, 8, 10};
-  for (const Implementation& each : implementations()) {
-    if (!each.supported()) continue;
+  for (const Implementation& each : test::supported()) {
     float distance = 0;
     DiscPair discs{};
     NearestPoints points{};

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/bodies.hpp>
-
 #include "layout/character/skinning.hpp"
 #include "tests/support/animated_cover.hpp"
 #include "tests/support/body_models.hpp"

@@ -160,8 +160,7 @@ void query(const ShapeSet& set, std::uint64_t seed) {
                random.uniform(0, 6), static_cast<std::uint8_t>(random.below(set.level_count()))});
   std::vector<Pair> pairs = candidate_pairs(set, crowd.agents());
   for (std::uint32_t i = 1; i < 24; ++i) pairs.push_back({0, i});
-  for (const Implementation& row : implementations()) {
-    if (!row.supported()) continue;
+  for (const Implementation& row : test::supported()) {
     ask_all(set, crowd.agents(), pairs, row);
     ask_all_of_a_dynamic_copy(set, crowd.agents(), pairs, row);
   }

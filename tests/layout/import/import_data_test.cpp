@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <string_view>
-
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/import_test.hpp"
 #include "tests/support/test.hpp"

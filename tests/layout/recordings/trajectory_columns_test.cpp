@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <initializer_list>
-
 #include "tests/support/recordings.hpp"
 #include "tests/support/test.hpp"
 #include "tests/support/text_recordings.hpp"
