@@ -158,5 +158,151 @@ TEST_F(BadInput, SizesThatDiffer) {
   EXPECT_THROW(collide(set, crowd.agents(), pairs, hits), std::invalid_argument);
 }
 
+// ---- What other queries over pairs refuse: agents and pairs of every kind are those of collide() above.
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Two agents, two pairs, and room for two answers of every query.
+class QueryInput : public testing::Test {
+ protected:
+  QueryInput() {
+    crowd.add({0, 0, 0, 0, 0});
+    crowd.add({1, 1, 0, 0, 0});
+  }
+
+  /// Expects that a call is refused with these words, and that no answer is written.
+  template <class Call>
+  void expect_refused(const std::string& words, Call call) {
+    EXPECT_NE(test::complaint(call).find(words), std::string::npos) << words << ": " << test::complaint(call);
+    EXPECT_EQ(hits, std::vector<std::uint8_t>(2, 42)) << words;
+    EXPECT_EQ(floats, std::vector<float>(2, 42)) << words;
+    EXPECT_EQ(depths, std::vector<Penetration>(2, {42, 42, 42})) << words;
+  }
+
+  void expect_refused_by_all(const std::string& words) {
+    const Agents agents = crowd.agents();
+    expect_refused(words, [&] { collide(set, agents, pairs, hits); });
+    expect_refused(words, [&] { clearance(set, agents, pairs, {floats}); });
+    expect_refused(words, [&] { within(set, agents, pairs, distances, hits); });
+    expect_refused(words, [&] { time_of_impact(set, agents, pairs, {way, way}, floats); });
+    expect_refused(words, [&] { penetration(set, agents, pairs, 4, depths); });
+    expect_refused(words, [&] { penetration_along(set, agents, pairs, directions, depths); });
+    expect_refused(words, [&] { finder.contacts(set, agents, pairs); });
+  }
+
+  std::vector<Shape> shapes = test::synthetic_shapes(1, 2);
+  ShapeSet set{shapes};
+  test::Crowd crowd;
+  Crowd finder;
+  std::vector<Pair> pairs = {{0, 1}, {1, 0}};
+  std::vector<double> distances = {1, 1}, way = {1, 1};
+  std::vector<Vec2> directions = {{1, 0}, {1, 0}};
+  std::vector<std::uint8_t> hits = {42, 42};
+  std::vector<float> floats = {42, 42};
+  std::vector<Penetration> depths = {{42, 42, 42}, {42, 42, 42}};
+};
+
+TEST_F(QueryInput, AgentsAreNamed) {
+  pairs[1] = {0, 2};
+  expect_refused_by_all("pair 1: agent 2 of 2");
+  pairs[1] = {1, 0};
+  crowd.y[1] = nan;
+  expect_refused_by_all("pair 0: agent 1: position (1, nan)");
+  crowd.y[1] = -2e9;
+  expect_refused_by_all("pair 0: agent 1: position (1, -2e+09)");
+  crowd.y[1] = 0, crowd.heading[0] = infinity;
+  expect_refused_by_all("pair 0: agent 0: heading inf");
+}
+
+TEST_F(QueryInput, ValuesAreNamed) {
+  const Agents agents = crowd.agents();
+  for (const double bad : {nan, -0.5}) {
+    expect_refused("max_distance of " + std::string(bad < 0 ? "-0.5" : "nan"),
+                   [&] { clearance(set, agents, pairs, {floats}, {.max_distance = bad}); });
+    distances[1] = bad;
+    expect_refused("within: pair 1: a distance of " + std::string(bad < 0 ? "-0.5 m" : "nan m"),
+                   [&] { within(set, agents, pairs, distances, hits); });
+    expect_refused("within: a distance of " + std::string(bad < 0 ? "-0.5 m" : "nan m"), [&] {
+      within(set, agents, pairs, {&bad, 1}, hits);
+    });
+  }
+  for (const double bad : {nan, -2e9}) {
+    way[1] = bad;
+    expect_refused("pair 1: displacement (" + std::string(bad < 0 ? "-2e+09" : "nan"), [&] {
+      time_of_impact(set, agents, pairs, {way, way}, floats);
+    });
+  }
+  for (const Vec2 bad : {Vec2{0, 0}, {-0.0f, 0}, {NAN, 1}, {1, HUGE_VALF}}) {
+    directions[1] = bad;
+    expect_refused("pair 1: direction (", [&] { penetration_along(set, agents, pairs, directions, depths); });
+  }
+  for (const std::uint32_t lines : {0u, 1u, 3u, 255u, 258u, ~0u})
+    expect_refused(std::to_string(lines) + " directions are not",
+                   [&] { penetration(set, agents, pairs, lines, depths); });
+  EXPECT_NO_THROW(penetration(set, agents, pairs, 256, depths));
+}
+
+TEST_F(QueryInput, SizesAreNamed) {
+  const Agents agents = crowd.agents();
+  const std::vector<double> three(3, 1.0);
+  const auto one = [](auto& values) { return std::span(values).first(1); };
+  expect_refused("2 pairs but 1 distances", [&] { clearance(set, agents, pairs, {one(floats)}); });
+  expect_refused("2 pairs but 0 distances", [&] { clearance(set, agents, pairs, {{}, directions}); });
+  expect_refused("2 pairs but 1 directions", [&] {
+    clearance(set, agents, pairs, {floats, one(directions)});
+  });
+  std::vector<DiscPair> discs(1);
+  expect_refused("2 pairs but 1 discs", [&] { clearance(set, agents, pairs, {floats, {}, discs}); });
+  std::vector<NearestPoints> points(1);
+  expect_refused("2 pairs but 1 points", [&] { clearance(set, agents, pairs, {floats, {}, {}, points}); });
+  expect_refused("within: 2 pairs but 0 distances", [&] { within(set, agents, pairs, {}, hits); });
+  expect_refused("within: 2 pairs but 3 distances", [&] { within(set, agents, pairs, three, hits); });
+  expect_refused("within: 2 pairs but 1 answers", [&] { within(set, agents, pairs, distances, one(hits)); });
+  expect_refused("2 pairs but 0 displacements in y", [&] {
+    time_of_impact(set, agents, pairs, {way, {}}, floats);
+  });
+  expect_refused("2 pairs but 3 displacements in x", [&] {
+    time_of_impact(set, agents, pairs, {three, way}, floats);
+  });
+  expect_refused("expected no displacements in z of outlines, found 2", [&] {
+    time_of_impact(set, agents, pairs, {way, way, way}, floats);
+  });
+  expect_refused("2 pairs but 1 times", [&] { time_of_impact(set, agents, pairs, {way, way}, one(floats)); });
+  expect_refused("2 pairs but 1 directions",
+                 [&] { penetration_along(set, agents, pairs, one(directions), depths); });
+  expect_refused("room for 1", [&] { penetration(set, agents, pairs, 4, one(depths)); });
+}
+
+TEST_F(QueryInput, OptionsThatThereAreNot) {
+  const Agents agents = crowd.agents();
+  const auto leaves = static_cast<Leaves>(7);
+  EXPECT_THROW(collide(set, agents, pairs, hits, {.leaves = leaves}), std::invalid_argument);
+  EXPECT_THROW(finder.contacts(set, agents, pairs, {.leaves = leaves}), std::invalid_argument);
+  EXPECT_THROW(finder.contacts(set, agents, {.leaves = leaves}), std::invalid_argument);
+  EXPECT_THROW(clearance(set, agents, pairs, {floats}, {.leaves = leaves}), std::invalid_argument);
+  expect_refused("no overlap is 2",
+                 [&] { clearance(set, agents, pairs, {floats}, {.overlap = Overlap{2}}); });
+}
+
+TEST_F(QueryInput, OfWholeCrowdsIsNamed) {
+  crowd.x[1] = nan;
+  expect_refused("agent 1: position (nan, 0)", [&] { finder.collisions(set, crowd.agents()); });
+  expect_refused("agent 1: position (nan, 0)", [&] { finder.contacts(set, crowd.agents()); });
+}
+
+/// Rows that were found before stay as they are.
+TEST_F(QueryInput, LeavesTheLastContacts) {
+  crowd.x[1] = 0;
+  const Rows<DiscPair> rows = finder.contacts(set, crowd.agents(), pairs);
+  const std::vector<std::uint64_t> offsets(rows.offsets.begin(), rows.offsets.end());
+  const std::vector<DiscPair> contacts(rows.values.begin(), rows.values.end());
+  EXPECT_FALSE(contacts.empty());
+  crowd.heading[1] = nan;
+  expect_refused("pair 0: agent 1: heading nan", [&] { finder.contacts(set, crowd.agents(), pairs); });
+  EXPECT_TRUE(std::ranges::equal(rows.offsets, offsets));
+  EXPECT_TRUE(std::ranges::equal(rows.values, contacts));
+}
+
 }  // namespace
 }  // namespace bch
