@@ -290,13 +290,9 @@ TEST(Kinds, HaveTheirNames) {
     EXPECT_TRUE(names.contains(name)) << name;
   EXPECT_TRUE(names.size() == 9 || names.size() == 14) << names.size();
   EXPECT_EQ(&baselines::kind("obb_full"), &baselines::kind("obb_full"));
-  try {
-    baselines::kind("obb");
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_TRUE(
-        std::string(error.what()).starts_with("no structure 'obb' (known: reference, paper_descent,"));
-  }
+  EXPECT_TRUE(complaint([] {
+                baselines::kind("obb");
+              }).starts_with("no structure 'obb' (known: reference, paper_descent,"));
 }
 
 TEST(Kinds, AnswerInAnyOrderOneByOneAndCounted) {

@@ -155,13 +155,8 @@ TEST(Agents, AreRefusedWhereTheirNumbersAreNotAligned) {
   Agents agents = view(structs);
   agents.level = {}, agents.z = {};
   agents.x = Strided(&structs[0].x, 3, 6);
-  try {
-    validate(set, agents);
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_EQ(std::string(error.what()),
-              "agents: expected values of x at addresses that are multiples of 4, found a stride of 6");
-  }
+  EXPECT_EQ(test::complaint([&] { validate(set, agents); }),
+            "agents: expected values of x at addresses that are multiples of 4, found a stride of 6");
 }
 
 }  // namespace

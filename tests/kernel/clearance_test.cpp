@@ -2,13 +2,13 @@
 // Copyright (c) 2026 the bch authors
 
 #include "baselines/clearance_reference.hpp"
-#include "baselines/oracle.hpp"
 #include "kernel/runtime/all_options.hpp"
 #include "kernel/simd/gaps.hpp"
 #include "layout/hierarchy/paper_hierarchies.hpp"
 #include "tests/support/clearances.hpp"
 #include "tests/support/differential.hpp"
 #include "tests/support/test.hpp"
+#include "tests/support/touching_scene.hpp"
 
 namespace bch {
 namespace {
@@ -28,19 +28,14 @@ class ClearanceDifferential : public test::Differential {
 
 /// Never larger than the distance of the outlines, and below it by no more than pairs.hpp says.
 TEST_F(ClearanceDifferential, BoundsTheDistanceOfTheOutlines) {
-  std::vector<Shape> whole = shapes;
-  const ShapeSet finest(whole);
+  const ShapeSet finest(shapes);
   std::vector<PairScene> scenes;
   for (const std::uint32_t pairs : {700, 500, 300, 300})
     scenes.push_back(random_scene(random, finest, test::samples(pairs)));
   for (std::size_t i = 1; i < scenes[1].crowd.x.size(); i += 2)
     scenes[1].crowd.x[i] += random.uniform(-100, 100);
-  make_tangent(random, scenes[2], [&](const Agents& agents, Pair pair) {
-    return baselines::Oracle(shapes[agents.shape[pair.first]].outline,
-                             shapes[agents.shape[pair.second]].outline,
-                             baselines::exact_placement(agents, pair.first, pair.second))
-        .cross();
-  });
+  make_tangent(random, scenes[2],
+               [&](const Agents& agents, Pair pair) { return test::oracle(shapes, agents, pair).cross(); });
   test::move_away(scenes[3], 1e7, -8e8);
   std::size_t apart = 0;
   for (const PairScene& scene : scenes) {
@@ -49,9 +44,7 @@ TEST_F(ClearanceDifferential, BoundsTheDistanceOfTheOutlines) {
     for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
       const auto [a, b] = scene.pairs[i];
       const Shape &shape_a = shapes[agents.shape[a]], &shape_b = shapes[agents.shape[b]];
-      const long double exact =
-          baselines::Oracle(shape_a.outline, shape_b.outline, baselines::exact_placement(agents, a, b))
-              .distance();
+      const long double exact = test::oracle(shapes, agents, {a, b}).distance();
       const long double found = all.distance[i];
       EXPECT_LE(found, exact) << i;
       if (!(found > 0)) continue;
@@ -83,9 +76,7 @@ TEST(Clearance, OfTipsIsTheDistanceOfTheOutlinesLessTheMargin) {
     scene.crowd.add(
         {0, x + length * std::cos(angle), y + length * std::sin(angle), angle + std::numbers::pi, 0});
     scene.pairs.push_back({2 * i, 2 * i + 1});
-    exact.push_back(baselines::Oracle(shapes[0].outline, shapes[0].outline,
-                                      baselines::exact_placement(scene.crowd.agents(), 2 * i, 2 * i + 1))
-                        .distance());
+    exact.push_back(test::oracle(shapes, scene.crowd.agents(), scene.pairs[i]).distance());
   }
   const Answers all = answers(set, scene.crowd.agents(), scene.pairs, infinity);
   for (std::size_t i = 0; i < exact.size(); ++i) {
@@ -121,42 +112,20 @@ TEST_F(ClearanceDifferential, PointsAreThoseOfTheNearestFeatures) {
   }
 }
 
-TEST(Clearance, OfSingleDiscs) {
+/// Along x from the first agent of a list to the other one.
+TEST(Clearance, OfDiscsInOnePlaceIsAlongX) {
   const std::vector<Shape> shapes = {{{}, detail::fixed_cylinder(0.25f)}, {{}, detail::fixed_cylinder(0.5f)}};
+  test::Crowd crowd;
+  for (const std::uint32_t shape : {0u, 1u}) crowd.add({shape, 1, 1, 0.7 + shape, 0});
+  const std::vector<Pair> pairs = {{0, 1}, {1, 0}, {0, 0}};
   for (const ShapeSetPlan& levels : {ShapeSetPlan{{0}}, ShapeSetPlan{}}) {
-    const ShapeSet set(shapes, levels);
-    test::Crowd crowd;
-    crowd.add({0, 1, 1, 0.7, 0});
-    crowd.add({1, 4, 5, 2, 0});
-    crowd.add({1, 1, 1, 3, 0});
-    const std::vector<Pair> pairs = {{0, 1}, {1, 0}, {0, 2}, {2, 0}, {0, 0}};
-    const auto of = answers(set, crowd.agents(), pairs, infinity);
-    EXPECT_NEAR(of.distance[0], 4.25, 1e-5);
-    EXPECT_NEAR(of.direction[0].x, 0.6, 1e-6);
-    EXPECT_NEAR(of.direction[0].y, 0.8, 1e-6);
-    EXPECT_EQ(of.direction[1], (Vec2{-of.direction[0].x, -of.direction[0].y}));
-    EXPECT_NEAR(of.distance[2], -0.75, 1e-5);
-    EXPECT_EQ(of.direction[2], (Vec2{1, 0}));  // coincident centres
-    EXPECT_EQ(of.direction[3], (Vec2{-1, 0}));
-    EXPECT_NEAR(of.distance[4], -0.5, 1e-5);  // an agent and itself
-    EXPECT_EQ(of.direction[4], (Vec2{1, 0}));
-    EXPECT_EQ(of.discs[4], (DiscPair{0, 0}));
-    const auto limited = answers(set, crowd.agents(), pairs, 4);
-    EXPECT_EQ(limited.distance[0], std::numeric_limits<float>::infinity());
-    EXPECT_EQ(limited.direction[0], (Vec2{0, 0}));
-    EXPECT_EQ(limited.discs[0], DiscPair::none);
-    std::vector<float> distance(pairs.size());
-    std::vector<NearestPoints> points(pairs.size(), {{1, 1}, {1, 1}});
-    clearance(set, crowd.agents(), pairs, {.distance = distance, .points = points}, {.max_distance = 4.5});
-    EXPECT_NEAR(points[0].first.x, 0.15, 1e-5);
-    EXPECT_NEAR(points[0].first.y, 0.2, 1e-5);
-    EXPECT_NEAR(points[0].second.x, -0.3, 1e-5);
-    EXPECT_NEAR(points[0].second.y, -0.4, 1e-5);
-    EXPECT_EQ(points[1], (NearestPoints{points[0].second, points[0].first}));
-    EXPECT_EQ(points[2], NearestPoints{});  // they overlap
-    const auto touching = answers(set, crowd.agents(), pairs, 0);
-    EXPECT_EQ(touching.distance[2], of.distance[2]);
-    EXPECT_EQ(touching.distance[0], std::numeric_limits<float>::infinity());
+    const Answers of = answers(ShapeSet(shapes, levels), crowd.agents(), pairs, infinity);
+    const float depths[] = {-0.75f, -0.75f, -0.5f}, along[] = {1, -1, 1};
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_NEAR(of.distance[i], depths[i], 1e-5);
+      EXPECT_EQ(of.direction[i], (Vec2{along[i], 0}));
+      EXPECT_EQ(of.discs[i], (DiscPair{0, 0}));
+    }
   }
 }
 
@@ -180,25 +149,9 @@ Hits hits_within(const ShapeSet& set, const PairScene& scene, std::span<const do
   return hits;
 }
 
-/// The sets differ in what lets the kernel skip traversals.
-struct SetKind {
-  const char* name;
-  ShapeSetPlan plan;
-};
-void PrintTo(const SetKind& kind, std::ostream* out) {
-  *out << kind.name;
-}
-const SetKind set_kinds[] = {{"FourLevels", test::four_levels},
-                             {"OneLevel", {}},
-                             {"NoCulling", {.depths = {0, 3, 6, all_depths}, .culling = false}},
-                             {"RootsAlone", {{0}}}};
-
-class Within : public testing::TestWithParam<SetKind> {
+class Within : public test::Differential {
  protected:
-  const ShapeSetPlan& plan = GetParam().plan;
-  std::vector<Shape> shapes = test::synthetic_shapes(2701, 40);
-  ShapeSet set{shapes, plan};
-  Random random{2702};
+  Within() : Differential(2701, four_levels) {}
 
   PairScene scene_of(std::uint32_t pairs, double apart = 1) {
     PairScene scene = random_scene(random, set, pairs);
@@ -240,13 +193,8 @@ class Within : public testing::TestWithParam<SetKind> {
   }
 };
 
-std::string name_of(const testing::TestParamInfo<SetKind>& kind) {
-  return kind.param.name;
-}
-INSTANTIATE_TEST_SUITE_P(Sets, Within, testing::ValuesIn(set_kinds), name_of);
-
 /// What pairs.hpp says of both, at distances around the clearances.
-TEST_P(Within, AgreesWithClearanceButForItsMargin) {
+TEST_F(Within, AgreesWithClearanceButForItsMargin) {
   const PairScene scene = scene_of(40'000);
   const Agents agents = scene.crowd.agents();
   const test::Answers apart = test::answers(set, agents, scene.pairs, infinity, nullptr, Overlap::zero);
@@ -270,20 +218,19 @@ TEST_P(Within, AgreesWithClearanceButForItsMargin) {
   EXPECT_GT(beyond, hits.size() / 100);  // the margin is looked at
 }
 
-TEST_P(Within, AnswersAreOnesWhereOutlinesAreAsClose) {
+TEST_F(Within, AnswersAreOnesWhereOutlinesAreAsClose) {
   const PairScene scene = scene_of(test::samples(600));
   const Agents agents = scene.crowd.agents();
   std::vector<double> distances;
-  for (const auto& [a, b] : scene.pairs) {
-    const baselines::Oracle outlines(shapes[agents.shape[a]].outline, shapes[agents.shape[b]].outline,
-                                     baselines::exact_placement(agents, a, b));
-    distances.push_back(std::nextafter(static_cast<double>(outlines.distance()), infinity));
+  for (const Pair pair : scene.pairs) {
+    const long double apart = test::oracle(shapes, agents, pair).distance();
+    distances.push_back(std::nextafter(static_cast<double>(apart), infinity));
   }
   const Hits hits = hits_within(set, scene, distances);
   for (std::size_t i = 0; i < hits.size(); ++i) EXPECT_EQ(hits[i], 1) << i;
 }
 
-TEST_P(Within, OneDistanceServesAllPairs) {
+TEST_F(Within, OneDistanceServesAllPairs) {
   const PairScene scene = scene_of(3'000);
   for (const double distance : {0.0, 0.1, infinity})
     EXPECT_EQ(hits_within(set, scene, {&distance, 1}),

@@ -197,12 +197,7 @@ void expect_no_crossing_missed(const std::vector<Shape>& shapes, std::uint32_t p
   const baselines::Reference reference(shapes, plan);
   test::Random random(2014);
 
-  const auto crosses = [&](const Agents& agents, Pair pair) {
-    return baselines::Oracle(shapes[agents.shape[pair.first]].outline,
-                             shapes[agents.shape[pair.second]].outline,
-                             baselines::exact_placement(agents, pair.first, pair.second))
-        .cross();
-  };
+  const auto crosses = [&](const Agents& agents, Pair pair) { return oracle(shapes, agents, pair).cross(); };
   pairs = test::samples(pairs);
   test::PairScene scene = random_scene(random, set, pairs);
   for (std::uint32_t i = 0; i < pairs; ++i)

@@ -106,11 +106,9 @@ TEST_F(AgentsWithHeights, AreFoundByACrowd) {
   EXPECT_EQ(test::candidate_pairs(set, agents, 0.5), expected);
   EXPECT_LT(expected.size(), on_all_floors * 3 / 4);
 
-  const auto all_pairs = [&](auto keeps) {
-    std::vector<Pair> kept;
-    for (std::uint32_t a = 0; a < agents.size(); ++a)
-      for (std::uint32_t b = a + 1; b < agents.size(); ++b)
-        if (keeps(Pair{a, b})) kept.push_back({a, b});
+  const auto all_pairs = [](auto keeps) {
+    std::vector<Pair> kept = test::all_pairs(400);
+    std::erase_if(kept, [&](Pair pair) { return !keeps(pair); });
     return kept;
   };
   bch::Crowd finder;

@@ -2,7 +2,6 @@
 // Copyright (c) 2026 the bch authors
 
 #include "baselines/contact_reference.hpp"
-#include "baselines/oracle.hpp"
 #include "baselines/penetration_reference.hpp"
 #include "layout/base/heading.hpp"
 #include "layout/format/shape_arrays.hpp"
@@ -10,6 +9,7 @@
 #include "tests/support/crowd_pairs.hpp"
 #include "tests/support/differential.hpp"
 #include "tests/support/test.hpp"
+#include "tests/support/touching_scene.hpp"
 
 namespace bch::test {
 namespace {
@@ -97,11 +97,7 @@ TEST_F(SeparatingAxisTest, NothingOverlapsAfterwards) {
 
 /// By what is true of outlines, where they cross, nest, or nearly touch.
 TEST_F(SeparatingAxisTest, NoOutlinesMeetAfterwards) {
-  const auto outlines = [&](const Agents& agents, Pair pair) {
-    return baselines::Oracle(shapes[agents.shape[pair.first]].outline,
-                             shapes[agents.shape[pair.second]].outline,
-                             baselines::exact_placement(agents, pair.first, pair.second));
-  };
+  const auto outlines = [&](const Agents& agents, Pair pair) { return test::oracle(shapes, agents, pair); };
   PairScene tangent = random_scene(random, set, test::samples(400));
   make_tangent(random, tangent,
                [&](const Agents& agents, Pair pair) { return outlines(agents, pair).cross(); });
@@ -313,22 +309,12 @@ class Contacts : public test::Differential {
   }
 };
 
-/// Makes a body of discs in no order: its nodes hold them.
-Shape body_of_discs(test::Random& random, std::uint32_t count) {
-  const double size = std::pow(10, random.uniform(-3, 1));
-  std::vector<Disc> discs;
-  while (discs.size() < count)
-    discs.push_back({static_cast<float>(random.uniform(-size, size)),
-                     static_cast<float>(random.uniform(-size, size)),
-                     static_cast<float>(random.uniform(0.02, 0.4) * size)});
-  return shape_from_discs(discs);
-}
-
 /// Hits of such bodies are not verified where neither is much larger than the other; brute force does.
 TEST_F(Contacts, OfBodiesOfDiscs) {
   for (const std::uint32_t most : {8u, 40u}) {
     shapes.clear();
-    for (std::uint32_t i = 0; i < 40; ++i) shapes.push_back(body_of_discs(random, 1 + random.below(most)));
+    for (std::uint32_t i = 0; i < 40; ++i)
+      shapes.push_back(test::body_of_discs(random, 1 + random.below(most)));
     set = ShapeSet(shapes, of_discs);
     cuts = CutLists(shapes, of_discs);
     discs = baselines::Reference(shapes, of_discs);
@@ -345,7 +331,7 @@ TEST_F(Contacts, OfBodiesOfDiscs) {
 /// Broad and narrow phase, in any set: the same as one after the other.
 TEST_F(Contacts, OfACrowdAreThoseOfItsCandidates) {
   std::vector<Shape> few_discs;
-  for (std::uint32_t i = 0; i < 10; ++i) few_discs.push_back(body_of_discs(random, 5));
+  for (std::uint32_t i = 0; i < 10; ++i) few_discs.push_back(test::body_of_discs(random, 5));
   const ShapeSet sets[] = {ShapeSet(shapes, of_discs), ShapeSet(few_discs),
                            ShapeSet(few_discs, {.heights = true})};
   for (const ShapeSet& of : sets) {

@@ -102,15 +102,8 @@ std::vector<Shape> of_deep_trees(Random& random) {
 /// Bodies of discs in no order, whose nodes hold them: hits of such bodies are not verified where neither is much larger than the other.
 std::vector<Shape> of_discs(Random& random) {
   std::vector<Shape> shapes;
-  while (shapes.size() < 40) {
-    const double size = std::pow(10, random.uniform(-3, 1));
-    std::vector<Disc> discs(1 + random.below(shapes.size() % 2 == 0 ? 8 : 40));
-    for (Disc& disc : discs)
-      disc = {static_cast<float>(random.uniform(-size, size)),
-              static_cast<float>(random.uniform(-size, size)),
-              static_cast<float>(random.uniform(0.02, 0.4) * size)};
-    shapes.push_back(shape_from_discs(discs));
-  }
+  while (shapes.size() < 40)
+    shapes.push_back(test::body_of_discs(random, 1 + random.below(shapes.size() % 2 == 0 ? 8 : 40)));
   return shapes;
 }
 

@@ -18,6 +18,14 @@ inline std::vector<Pair> sorted(std::span<const Pair> pairs) {
   return all;
 }
 
+/// Returns the pairs of so many agents, in order.
+inline std::vector<Pair> all_pairs(std::uint32_t count) {
+  std::vector<Pair> pairs;
+  for (std::uint32_t i = 0; i < count; ++i)
+    for (std::uint32_t j = i + 1; j < count; ++j) pairs.push_back({i, j});
+  return pairs;
+}
+
 /// Returns the pairs of Crowd::candidates() in a vector of their own.
 inline std::vector<Pair> candidate_pairs(const ShapeSet& set, const Agents& agents, double margin = 0) {
   bch::Crowd crowd;

@@ -50,6 +50,9 @@ Shape contour_shape(const Outline& outline, float threshold = 0.01f);
 /// whiskers, triangles, and sizes from 1 cm to 4 m.
 std::vector<Shape> synthetic_shapes(std::uint64_t seed, std::uint32_t count);
 
+/// Makes a body of so many discs in no order, of any size from a millimetre to 10 m: its nodes hold them.
+Shape body_of_discs(Random& random, std::uint32_t count);
+
 /// Repeats the shapes until there are so many that kernels prefetch them.
 std::vector<Shape> repeated(std::span<const Shape> shapes);
 
