@@ -54,10 +54,8 @@ TEST(ObstacleContact, IsNeverLaterThanAnySampleAndEarlyByTheToleranceAtMost) {
     const MotionCase motion = test::random_motion(random);
     ObstacleScene scene = test::obstacle_scene(random, 1 + random.below(2), 1.5);
     const double where = random.uniform(-0.2, 0.2), x = motion.path[0].x + where, y = motion.path[0].y;
-    if (i % 8 == 0) scene.add_path({{x, y}}, false), scene.end_obstacle(false);
-    if (i % 8 == 1)
-      scene.add_path({{x - 1, y - 1}, {x + 1, y - 1}, {x + 1, y + 1}, {x - 1, y + 1}}, true),
-          scene.end_obstacle(true);
+    if (i % 8 == 0) scene.add({{x, y}}, false);
+    if (i % 8 == 1) scene.add({{x - 1, y - 1}, {x + 1, y - 1}, {x + 1, y + 1}, {x - 1, y + 1}}, true);
     const ObstacleSet obstacles = scene.set();
     const double tolerance = std::exp(random.uniform(-9, -3)), from = random.uniform(-2, 0.5), to = 3,
                  found = contact_of(motion, obstacles, {from, to}, tolerance);
@@ -81,8 +79,7 @@ TEST(ObstacleContact, IsNeverLaterThanAnySampleAndEarlyByTheToleranceAtMost) {
 
 ObstacleScene scene_of(const std::vector<ObstacleScene::Point>& path, bool is_area) {
   ObstacleScene scene;
-  scene.add_path(path, is_area);
-  scene.end_obstacle(is_area);
+  scene.add(path, is_area);
   return scene;
 }
 
@@ -177,9 +174,7 @@ MotionCase standing(AnimatedDiscs body, double x, double y, double begin = 0) {
 }
 
 ObstacleSet wall(double ax, double ay, double bx, double by) {
-  const std::vector<double> x = {ax, bx}, y = {ay, by};
-  const std::vector<std::uint64_t> paths = {0, 2};
-  return ObstacleSet({x, y, paths});
+  return scene_of({{ax, ay}, {bx, by}}, false).set();
 }
 
 /// Two billion rounds within reach of each other are not gone through one by one: this would take an hour.

@@ -44,8 +44,7 @@ TEST_F(Obstacles, AreLeftByTheLongestOfTheMoves) {
   for (std::uint32_t k = 0; k < test::samples(400); ++k) {
     ObstacleScene scene = test::obstacle_scene(random, 8, 2);
     // Large areas that hold agents who touch something else, too.
-    for (std::uint32_t i = random.below(3); i > 0; --i)
-      scene.add_path(square(random.uniform(2, 9)), true), scene.end_obstacle(true);
+    for (std::uint32_t i = random.below(3); i > 0; --i) scene.add(square(random.uniform(2, 9)), true);
     const Crowd crowd = test::crowd_about(random, set, 60, 2.5);
     std::vector<Penetration> ways(60), alone(60);
     std::vector<std::vector<Penetration>> by_obstacle(60);
@@ -72,26 +71,23 @@ TEST_F(Obstacles, AreLeftByTheLongestOfTheMoves) {
 
 /// An area is left as a whole, whatever else is touched in it, and of areas that hold an agent the one that takes the longest way.
 TEST_F(Obstacles, AreLeftWithAWallInside) {
-  const std::vector<Shape> disc = {{{}, detail::fixed_cylinder(0.25f)}};
-  const ShapeSet discs(disc);
+  const ShapeSet discs(std::vector<Shape>{{{}, detail::fixed_cylinder(0.25f)}});
   Crowd crowd;
   crowd.add({0, 0, 0, 0, 0});
   Penetration way{};
   ObstacleScene scene;
-  scene.add_path(square(5), true), scene.end_obstacle(true);
-  scene.add_path({{0.2, -1}, {0.2, 1}}, false), scene.end_obstacle(false);
+  scene.add(square(5), true);
+  scene.add({{0.2, -1}, {0.2, 1}}, false);
   penetration(discs, crowd.agents(), scene.set(), {&way, 1});
   EXPECT_NEAR(way.depth, 5.25, 1e-5);
-  for (int i = 0; i < 3'000; ++i)
-    scene.add_path(square(6 + 0.001 * (i * 7 % 3'000)), true), scene.end_obstacle(true);
+  for (int i = 0; i < 3'000; ++i) scene.add(square(6 + 0.001 * (i * 7 % 3'000)), true);
   penetration(discs, crowd.agents(), scene.set(), {&way, 1});
   EXPECT_NEAR(way.depth, 0.25 + 6 + 2.999, 1e-5);
 }
 
 /// An obstacle of n segments that are all touched takes n log n steps: these would take an hour by n squared.
 TEST_F(Obstacles, AreLeftThoughAllOfManySegmentsAreTouched) {
-  const std::vector<Shape> disc = {{{}, detail::fixed_cylinder(0.3f)}};
-  const ShapeSet discs(disc);
+  const ShapeSet discs(std::vector<Shape>{{{}, detail::fixed_cylinder(0.3f)}});
   const std::uint32_t count = 16 * test::samples(32'000);
   ObstacleScene pillar, star, grid;
   std::vector<ObstacleScene::Point> corners, spikes;
@@ -103,8 +99,8 @@ TEST_F(Obstacles, AreLeftThoughAllOfManySegmentsAreTouched) {
     const double aside = 0.1 * (-1 + 2.0 * i / count);
     grid.add_path({{-1 - aside, -1 + aside}, {1 - aside, 1 + aside}}, false);
   }
-  pillar.add_path(corners, true), pillar.end_obstacle(true);
-  star.add_path(spikes, false), star.end_obstacle(false);
+  pillar.add(corners, true);
+  star.add(spikes, false);
   grid.end_obstacle(false);
   Crowd crowd;
   crowd.add({0, 0.1, 0, 0, 0});
@@ -149,8 +145,7 @@ TEST_F(Obstacles, HaveTheHullOfTheirEnds) {
 
 /// Repeated points are no sides, and a post is left the way that a disc is beside it.
 TEST_F(Obstacles, AreLeftAcrossRealSides) {
-  const std::vector<Shape> disc = {{{}, detail::fixed_cylinder(0.3f)}};
-  const ShapeSet discs(disc);
+  const ShapeSet discs(std::vector<Shape>{{{}, detail::fixed_cylinder(0.3f)}});
   const std::vector<double> x = {0, 1, 1, 0, 0, 5, 5, 5}, y = {0, 0, 1, 1, 1, 0, 0, 2};
   const std::vector<std::uint64_t> paths = {0, 5, 8};
   const std::vector<std::uint8_t> areas = {1, 0};

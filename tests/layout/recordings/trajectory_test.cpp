@@ -1,14 +1,37 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
+#include <string>
+
 #include "layout/base/shortest.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/recordings.hpp"
 #include "tests/support/table.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/support/test.hpp"
-#include "tests/support/text_recordings.hpp"
 
 // Recordings as text, CSV and ndjson.
+
+namespace bch::test {
+namespace {
+
+/// Recordings that are given as text.
+class Trajectories : public testing::Test {
+ protected:
+  TemporaryFolder folder;
+
+  ReadRecording read(const std::string& text, const detail::TrajectoryOptions& options = {}) const {
+    ReadRecording recording = read_recording(folder.write("f", text), options);
+    expect_sound(recording);
+    return recording;
+  }
+  std::string complaint(const std::string& text, const detail::TrajectoryOptions& options = {}) const {
+    return trajectory_complaint(folder.write("f", text), options);
+  }
+};
+
+}  // namespace
+}  // namespace bch::test
 
 namespace bch {
 namespace {
