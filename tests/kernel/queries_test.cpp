@@ -445,14 +445,6 @@ TEST_F(Queries, AmongManyShapesAreTheSame) {
   expect_answers(large, questions, expected, "many shapes");
 }
 
-/// Supports and inscribed discs decide pairs early, and nothing else.
-TEST_F(Queries, WithoutCullingAreTheSame) {
-  const std::vector<PairAnswers> expected = ask(world.set, questions);
-  const ShapeSet plain(world.shapes, {.depths = world.plan.depths, .culling = false});
-  EXPECT_LT(plain.bytes(), world.set.bytes());
-  expect_answers(plain, questions, expected, "without culling");
-}
-
 /// A descent that leaves out what cannot count finds what brute force finds.
 TEST_F(Queries, OfTheReferencesAgree) {
   BruteForce& all = world.brute_force;

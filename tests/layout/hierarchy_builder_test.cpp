@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/hierarchy.hpp>
-
 #include "baselines/welzl.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/culling/supports.hpp"

@@ -4,8 +4,6 @@
 #include <sqlite3.h>
 #include <unistd.h>
 
-#include <string>
-
 #include "tests/support/recordings.hpp"
 #include "tests/support/table.hpp"
 #include "tests/support/test.hpp"

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <string>
-
 #include "layout/base/shortest.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/recordings.hpp"
 #include "tests/support/table.hpp"
-#include "tests/support/temporary_folder.hpp"
 #include "tests/support/test.hpp"
 
 // Recordings as text, CSV and ndjson.
