@@ -242,7 +242,8 @@ TEST_F(QueryInput, SizesAreNamed) {
   expect_refused("2 pairs but 1 times", [&] { time_of_impact(set, agents, pairs, {way, way}, one(floats)); });
   expect_refused("2 pairs but 1 directions",
                  [&] { penetration_along(set, agents, pairs, one(directions), depths); });
-  expect_refused("room for 1", [&] { penetration(set, agents, pairs, 4, one(depths)); });
+  expect_refused("penetration: 2 pairs but 1 answers",
+                 [&] { penetration(set, agents, pairs, 4, one(depths)); });
 }
 
 TEST_F(QueryInput, OptionsThatThereAreNot) {
