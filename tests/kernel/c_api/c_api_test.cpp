@@ -2,12 +2,8 @@
 // Copyright (c) 2026 the bch authors
 
 #include <bch/bch_files.h>
-#include <bch/bch_files.h>
 
 #include <thread>
-
-#include <bch/bch_files.h>
-#include <bch/bch_files.h>
 
 #include "kernel/runtime/all_options.hpp"
 #include "tests/support/c_api.hpp"
