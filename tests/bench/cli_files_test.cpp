@@ -1,6 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
+#include <fcntl.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include <nlohmann/json.hpp>
+#include <regex>
+
+#include "bench/base/csv_input.hpp"
+#include "bench/base/text.hpp"
 #include "tests/support/bch_run.hpp"
 #include "tests/support/gltf_file.hpp"
 #include "tests/support/test.hpp"
@@ -9,6 +18,10 @@
 
 namespace bch::test {
 namespace {
+
+using namespace std::string_literals;
+using cli::printable;
+using cli::printable_line;
 
 namespace fs = std::filesystem;
 
@@ -113,6 +126,166 @@ TEST(Cli, EveryCommandPrintsTheNotesOfAnImport) {
     const std::size_t first = run.out.find(note);
     EXPECT_NE(first, std::string::npos) << run.out;
     EXPECT_EQ(run.out.find(note, first + 1), std::string::npos) << run.out;
+  }
+}
+
+// ---- Text that comes from elsewhere: what a terminal gets to see of it, and values that are not what they look like.
+
+/// A name that clears a screen, returns to the beginning of a line, and turns the direction of writing.
+const std::string hostile =
+    "a\x1b[2J\r\x7f\xc2\x9b"
+    "5m\xe2\x80\xae\xe2\x81\xa6z";
+const std::string shown = "a\\x1b[2J\\x0d\\x7f\\u009b5m\\u202e\\u2066z";
+
+bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+void expect_harmless(const std::string& text) {
+  for (const char c : text) EXPECT_TRUE(c == '\n' || static_cast<unsigned char>(c) >= ' ') << text;
+  for (const std::string& part : {"\x7f"s, "\xc2\x9b"s, "\xe2\x80\xae"s, "\xe2\x81\xa6"s, "\xff"s})
+    EXPECT_FALSE(has(text, part)) << text;
+}
+
+TEST(Printable, OrdinaryTextStays) {
+  for (const std::string& text :
+       {""s, "walk 3\n"s, "M\xc3\xa4nnchen \xe6\xad\xa9\xe3\x81\x8f \xf0\x9f\x9a\xb6"s, "a\\b"s, "\xc2\xa0"s,
+        "\xf4\x8f\xbf\xbd"s})
+    EXPECT_EQ(printable(text), text);
+}
+
+TEST(Printable, ControlsAreWrittenOut) {
+  EXPECT_EQ(printable_line(hostile), shown);
+  EXPECT_EQ(printable("a\nb\tc\0d"s), "a\nb\\x09c\\x00d");
+  EXPECT_EQ(printable_line("a\nb"), "a\\x0ab");
+  EXPECT_EQ(printable("\xc2\x80\xc2\x85\xc2\x9f"), "\\u0080\\u0085\\u009f");
+  EXPECT_EQ(printable("\xd8\x9c\xe2\x80\x8e\xe2\x80\x8f\xe2\x80\xa8\xe2\x80\xaa\xe2\x81\xa9\xef\xbf\xbf"),
+            "\\u061c\\u200e\\u200f\\u2028\\u202a\\u2069\\uffff");
+}
+
+TEST(Printable, BytesThatAreNotUtf8AreWrittenOut) {
+  EXPECT_EQ(printable("m\xff"
+                      "an"),
+            "m\\xffan");
+  EXPECT_EQ(printable("\x9b"
+                      "31m"),
+            "\\x9b31m");                                    // a control of one byte
+  EXPECT_EQ(printable("\xc1\x9b"), "\\xc1\\x9b");           // too long
+  EXPECT_EQ(printable("\xe0\x80\x9b"), "\\xe0\\x80\\x9b");  // too long
+  EXPECT_EQ(printable("\xed\xa0\x80"), "\\xed\\xa0\\x80");  // half of a pair
+  EXPECT_EQ(printable("\xf4\x90\x80\x80"), "\\xf4\\x90\\x80\\x80");
+  EXPECT_EQ(printable("\xe2\x80"), "\\xe2\\x80");
+  EXPECT_EQ(printable("\xc3\xa4\xc3"), "\xc3\xa4\\xc3");
+}
+
+/// The strip with a clip whose name is hostile.
+std::string strip_with_hostile_clip() {
+  const std::string name = R"(a\u001b[2J\r\u007f\u009b5m\u202e\u2066z)";
+  return std::regex_replace(SkinnedStrip().text(), std::regex("\"walk\""), "\"" + name + "\"");
+}
+
+TEST(CliText, NamesOfClipsAreHarmless) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("strip.gltf", strip_with_hostile_clip());
+  const std::string baked = folder.file("strip.bch");
+  ASSERT_EQ(bch({"bake", file, "-o", baked, "--poses", "2"}).code, 0);
+  for (const Ending& run : {bch({"inspect", file, "--poses", "2"}), bch({"inspect", file, "--shape", "0"}),
+                            bch({"inspect", baked})}) {
+    EXPECT_EQ(run.code, 0) << run.err;
+    EXPECT_TRUE(has(run.out, "5m\\u202e")) << run.out;
+    expect_harmless(run.out);
+  }
+}
+
+/// A terminal that a program can write to.
+class Terminal {
+ public:
+  Terminal() : master_(posix_openpt(O_RDWR | O_NOCTTY)) {
+    if (grantpt(master_) != 0 || unlockpt(master_) != 0) throw std::runtime_error("no terminal");
+    name_ = ptsname(master_);
+    slave_ = open(name_.c_str(), O_RDWR | O_NOCTTY);  // else what was written is lost with the program
+  }
+  ~Terminal() {
+    close(slave_);
+    close(master_);
+  }
+  Terminal(const Terminal&) = delete;
+  Terminal& operator=(const Terminal&) = delete;
+
+  const std::string& name() const { return name_; }
+  std::string text() const {
+    char bytes[4096];
+    const ssize_t got = read(master_, bytes, sizeof bytes);
+    return {bytes, static_cast<std::size_t>(std::max<ssize_t>(got, 0))};
+  }
+
+ private:
+  int master_, slave_;
+  std::string name_;
+};
+
+/// Answers are data: programs get the ids as they are. A terminal gets text.
+TEST(CliText, AnswersAreDataExceptOnATerminal) {
+  const TemporaryFolder folder;
+  const std::string id = "a\x1b[2J\xe2\x80\xae";
+  const std::string shapes = folder.write("box.obj", box),
+                    agents = folder.write("agents.csv", "id,shape,x,y,heading\n" + id + ",0,0,0,0\n"),
+                    pairs = folder.write("pairs.csv", "first,second\n" + id + "," + id + "\n");
+  const Arguments query{"query", shapes, agents, pairs};
+  EXPECT_EQ(bch(query, as_metres).out, "first,second,hit\n" + id + "," + id + ",1\n");
+  const Terminal terminal;
+  EXPECT_EQ(bch(query, as_metres, {terminal.name(), {}}).code, 0);
+  EXPECT_EQ(terminal.text(), "first,second,hit\r\na\\x1b[2J\\u202e,a\\x1b[2J\\u202e,1\r\n");
+}
+
+TEST(CliText, APictureOfANameThatIsNotUtf8IsWellFormed) {
+  const TemporaryFolder folder;
+  const std::string svg = folder.file("a.svg");
+  const Ending run = bch({"inspect",
+                          folder.write("m\xff\x1b"
+                                       "an.obj",
+                                       box),
+                          "--shape", "0", "--svg", svg},
+                         as_metres);
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_TRUE(has(read_text(svg), "m\\xff")) << read_text(svg).substr(0, 500);
+  EXPECT_EQ(printable(read_text(svg)), read_text(svg));
+}
+
+TEST(CliText, TablesComeThroughPipes) {
+  const TemporaryFolder folder;
+  const std::string shapes = folder.write("box.obj", box), agents = folder.write("agents.csv", four_agents);
+  // In parts, each of them less than a line.
+  const std::string script =
+      "(printf 'first,se'; sleep 0.2; printf 'cond\\na,'; sleep 0.2; printf 'b\\n') | " +
+      ("'" BCH_PROGRAM "' query '"s) + shapes + "' '" + agents + "' /dev/stdin --up y --scale 1";
+  EXPECT_EQ(run_program("/bin/sh", {"-c", script}).out, "first,second,hit\na,b,1\n");
+}
+
+TEST(CliText, ValuesBeyondTheRangeOfADoubleAreNumbers) {
+  EXPECT_EQ(cli::parse_number("1e-400"), 0.0);
+  EXPECT_EQ(cli::parse_number("1e400x"), std::nullopt);
+  EXPECT_GT(cli::parse_number("1e400"), 1e300);
+  EXPECT_LT(cli::parse_number("-1e99999"), -1e300);
+}
+
+TEST(CliText, IdsKeepTheQuotesThatTheyNeed) {
+  EXPECT_EQ(cli::csv_field("a b"), "a b");
+  EXPECT_EQ(cli::csv_field(" a"), "\" a\"");
+  EXPECT_EQ(cli::csv_field("a\t"), "\"a\t\"");
+  EXPECT_EQ(cli::csv_field("a\"b"), "\"a\"\"b\"");
+  EXPECT_EQ(cli::csv_field(""), "");
+}
+
+TEST(CliText, AFolderThatIsGoneIsNoFaultOfTheProgram) {
+  const TemporaryFolder folder;
+  for (const std::string command :
+       {"crowd --json x.json --agents 5 --poses 1", "inspect default:male --json x",
+        "bake default:male -o x.bch --poses 1", "inspect a.obj"}) {
+    const std::string place = folder.file("gone");
+    const std::string script = "mkdir '" + place + "' && cd '" + place + "' && rmdir '" + place +
+                               "' && exec '" + BCH_PROGRAM + "' " + command;
+    expect_failure(run_program("/bin/sh", {"-c", script}), 3, {});
   }
 }
 

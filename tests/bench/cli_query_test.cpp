@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
+#include <nlohmann/json.hpp>
+
 #include "tests/support/bch_run.hpp"
 #include "tests/support/test.hpp"
 
@@ -130,6 +132,114 @@ TEST(Cli, QueryOfSpheresRefusesWhatIsOfOutlines) {
                  {"'penetration' about --obstacles", "--bodies spheres"});
   expect_failure(bch({"query", "default:male", "a.csv", "--all-pairs", "--spheres", "64"}), 2,
                  {"--spheres", "--bodies spheres"});
+}
+
+// ---- `bch crowd`, and pictures.
+
+/// What must not depend on the machine: the answers.
+struct CrowdAnswer {
+  std::vector<std::uint64_t> hits;
+  std::string csv;
+  friend bool operator==(const CrowdAnswer&, const CrowdAnswer&) = default;
+};
+
+CrowdAnswer small_crowd(const TemporaryFolder& folder, const Arguments& more) {
+  const std::string json_file = folder.file("crowd.json"), csv_file = folder.file("crowd.csv");
+  const Ending run =
+      bch({"crowd", "--agents", "200", "--poses", "5", "--json", json_file, "--csv", csv_file}, more);
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  CrowdAnswer answer{{}, read_text(csv_file)};
+  const auto json = read_json(json_file);
+  for (const auto& level : json["levels"]) answer.hits.push_back(level["hits"]);
+  return answer;
+}
+
+TEST(Cli, CrowdGivesTheSameAnswersEverywhere) {
+  const TemporaryFolder folder;
+  const CrowdAnswer first = small_crowd(folder, {"--threads", "1"});
+  ASSERT_EQ(first.hits.size(), 4u);
+  EXPECT_GT(first.hits[0], first.hits[3]);
+  EXPECT_EQ(lines(first.csv), first.hits[3] + 1);
+  EXPECT_EQ(first, small_crowd(folder, {"--threads", "3"}));
+  EXPECT_NE(first, small_crowd(folder, {"--seed", "2"}));
+  for (const Implementation& row : implementations())
+    if (row.supported()) {
+      EXPECT_EQ(first, small_crowd(folder, {"--isa", row.name})) << row.name;
+    }
+}
+
+/// The collisions of the last frame of a small crowd whose bodies are posed anew, and their pairs.
+CrowdAnswer live_crowd(const TemporaryFolder& folder, const Arguments& more) {
+  const std::string json_file = folder.file("live.json"), csv_file = folder.file("live.csv");
+  const Ending run = bch({"crowd", "--live", "--agents", "60", "--spheres", "64", "--frames", "2", "--json",
+                          json_file, "--csv", csv_file},
+                         more);
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(run.err, "");
+  const auto json = read_json(json_file);
+  EXPECT_GT(json["checked_pairs"], 0u);
+  EXPECT_EQ(json["checked_pairs"], json["candidate_pairs"]);
+  return {{json["collisions"]}, read_text(csv_file)};
+}
+
+TEST(Cli, LiveCrowdGivesTheSameAnswersEverywhere) {
+  const TemporaryFolder folder;
+  const CrowdAnswer first = live_crowd(folder, {"--threads", "1"});
+  EXPECT_GT(first.hits[0], 0u);
+  EXPECT_EQ(lines(first.csv), first.hits[0] + 1);
+  EXPECT_EQ(first, live_crowd(folder, {"--threads", "3", "--isa", "scalar"}));
+  EXPECT_NE(first, live_crowd(folder, {"--seed", "2"}));
+}
+
+std::size_t count_of(const std::string& text, const std::string& word) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++found;
+  return found;
+}
+
+void expect_crowd_picture(const std::string& svg_file) {
+  const std::string svg = read_text(svg_file);
+  EXPECT_TRUE(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
+  EXPECT_LT(svg.size(), 600000u);
+  for (const char* id :
+       {"crowd", "colliding", "cleared", "free", "overlaps", "single-cylinders", "legend", "scale"})
+    EXPECT_NE(svg.find("id=\"" + std::string(id) + "\""), std::string::npos) << id;
+  EXPECT_EQ(count_of(svg, "<g"), count_of(svg, "</g>"));
+  EXPECT_EQ(svg.find("nan"), std::string::npos);
+  EXPECT_EQ(svg.find("inf"), std::string::npos);
+}
+
+TEST(Cli, CrowdDrawsAPicture) {
+  const TemporaryFolder folder;
+  const std::string svg_file = folder.file("crowd.svg");
+  const Ending run = bch({"crowd", "--agents", "200", "--poses", "5", "--svg", svg_file});
+  ASSERT_EQ(run.code, 0) << run.err;
+  expect_crowd_picture(svg_file);
+  // The terminal's last line is about all depths.
+  EXPECT_NE(read_text(svg_file).find(": depth 6 clears"), std::string::npos);
+}
+
+TEST(Cli, LiveCrowdDrawsItsLastFrame) {
+  const TemporaryFolder folder;
+  const std::string svg_file = folder.file("crowd.svg");
+  const Ending run = bch({"crowd", "--live", "--agents", "60", "--spheres", "64", "--svg", svg_file});
+  ASSERT_EQ(run.code, 0) << run.err;
+  expect_crowd_picture(svg_file);
+  EXPECT_NE(read_text(svg_file).find("Bodies of 64 spheres."), std::string::npos);
+}
+
+TEST(Cli, InspectDrawsSpheresFromTwoSides) {
+  const TemporaryFolder folder;
+  const std::string svg_file = folder.file("body.svg"), json_file = folder.file("body.json");
+  const Ending run = bch({"inspect", "default:male", "--bodies", "spheres", "--spheres", "64", "--clip",
+                          "walk", "--time", "0.5", "--svg", svg_file, "--json", json_file});
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(read_json(json_file)["body"]["spheres_xyz_radius_m"].size(), 64u);
+  const std::string svg = read_text(svg_file);
+  EXPECT_LT(svg.size(), 150'000u);
+  EXPECT_EQ(count_of(svg, "<circle"), 2u * 64 + 2);  // two views and the legend
+  EXPECT_EQ(count_of(svg, "<g"), count_of(svg, "</g>"));
 }
 
 }  // namespace

@@ -1,30 +1,147 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/distributed_crowd.hpp>
-
 #include <oneapi/tbb/global_control.h>
 
+#include <cstdlib>
 #include <new>
 
-#include <bch/crowd.hpp>
+#include <bch/distributed_crowd.hpp>
 
 #include "kernel/distributed/agreement.hpp"
+#include "kernel/distributed/curve.hpp"
+#include "kernel/distributed/cut.hpp"
 #include "kernel/distributed/session.hpp"
 #include "kernel/runtime/all_options.hpp"
-#include "tests/distributed/world.hpp"
 #include "tests/support/crowd_pairs.hpp"
 #include "tests/support/test.hpp"
 
 // Every rank runs these tests, all with the same random numbers: each knows the whole crowd and what one process answers. Tests
 // only EXPECT, because a rank that left one early would leave the others waiting.
 
-namespace bch {
+namespace bch::test {
+namespace {
+
+// A crowd on all ranks, and the same one on each of them.
+
+int rank() {
+  int rank;
+  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+  return rank;
+}
+
+int ranks() {
+  int ranks;
+  MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+  return ranks;
+}
+
+struct Answer {
+  std::uint32_t first, second;
+  float metres;  ///< 0 of collisions
+  friend auto operator<=>(const Answer&, const Answer&) = default;
+};
+using Answers = std::vector<Answer>;
+
+/// The values of all ranks, on each of them.
+template <class Value>
+std::vector<Value> of_all_ranks(const std::vector<Value>& mine) {
+  std::vector<int> sizes(static_cast<std::size_t>(ranks())), begins(sizes);
+  const int size = static_cast<int>(mine.size() * sizeof(Value));
+  MPI_Allgather(&size, 1, MPI_INT, sizes.data(), 1, MPI_INT, MPI_COMM_WORLD);
+  std::exclusive_scan(sizes.begin(), sizes.end(), begins.begin(), 0);
+  std::vector<Value> all(static_cast<std::size_t>(begins.back() + sizes.back()) / sizeof(Value));
+  MPI_Allgatherv(mine.data(), size, MPI_BYTE, all.data(), sizes.data(), begins.data(), MPI_BYTE,
+                 MPI_COMM_WORLD);
+  return all;
+}
+
+Answers sorted(Answers answers) {
+  std::ranges::sort(answers);
+  return answers;
+}
+
+Answers collisions(DistributedCrowd& crowd, const detail::AllOptions& options = {}) {
+  Answers mine;
+  for (const Pair& pair : crowd.collide_all(options)) mine.push_back({pair.first, pair.second, 0});
+  return sorted(of_all_ranks(mine));
+}
+
+Answers clearances(DistributedCrowd& crowd, const detail::AllOptions& options) {
+  Answers mine;
+  for (const DistributedCrowd::Distance& one : crowd.clearances(options))
+    mine.push_back({one.first, one.second, one.metres});
+  return sorted(of_all_ranks(mine));
+}
+
+/// The whole crowd, as one process has it: in the order of ids.
+struct World {
+  std::vector<DistributedCrowd::Agent> agents;
+  bool has_heights = false;
+
+  /// The agents that a rank begins with: one here, one there, in no order.
+  std::vector<DistributedCrowd::Agent> dealt() const {
+    std::vector<DistributedCrowd::Agent> mine;
+    for (std::size_t i = 0; i < agents.size(); ++i)
+      if (i % static_cast<std::size_t>(ranks()) == static_cast<std::size_t>(rank()))
+        mine.push_back(agents[i]);
+    std::ranges::reverse(mine);
+    return mine;
+  }
+
+  Crowd columns() const {
+    Crowd crowd;
+    for (const DistributedCrowd::Agent& agent : agents) {
+      crowd.add({agent.shape, agent.x, agent.y, agent.heading, agent.level});
+      if (has_heights) crowd.z.push_back(agent.z);
+    }
+    return crowd;
+  }
+
+  Answer answer(Pair pair, float metres) const {
+    return {agents[pair.first].id, agents[pair.second].id, metres};
+  }
+
+  Answers collisions(const ShapeSet& set, const detail::AllOptions& options = {}) const {
+    const Crowd crowd = columns();
+    const std::vector<Pair> pairs = candidate_pairs(set, crowd.agents());
+    std::vector<std::uint8_t> hits(pairs.size());
+    collide(set, crowd.agents(), pairs, hits, options);
+    Answers answers;
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      if (hits[i] != 0) answers.push_back(answer(pairs[i], 0));
+    return sorted(answers);
+  }
+
+  Answers clearances(const ShapeSet& set, const detail::AllOptions& options) const {
+    const Crowd crowd = columns();
+    const std::vector<Pair> pairs = candidate_pairs(set, crowd.agents(), options.max_distance);
+    std::vector<float> metres(pairs.size());
+    clearance(set, crowd.agents(), pairs, {.distance = metres}, options);
+    Answers answers;
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      if (std::isfinite(metres[i])) answers.push_back(answer(pairs[i], metres[i]));
+    return sorted(answers);
+  }
+};
+
+/// Moves each agent in the world, and on whichever rank owns it, by the same.
+template <class Move>
+void move_all(World& world, DistributedCrowd& crowd, const Move& move) {
+  for (DistributedCrowd::Agent& agent : world.agents) move(agent);
+  for (DistributedCrowd::Agent& agent : crowd.agents()) move(agent);
+}
+
+}  // namespace
+}  // namespace bch::test
+
+namespace bch::detail {
 namespace {
 
 using test::Answers;
 using test::clearances;
 using test::collisions;
+using test::complaint;
 using test::move_all;
 using test::of_all_ranks;
 using test::Random;
@@ -265,8 +382,176 @@ TEST_F(Distributed, WhatMakesNoSenseIsAnError) {
             "rank 0: clearances beyond the margin of the last update()");
 }
 
+// ---- Crowds of characters that are posed anew in every step.
+
+class PosedCrowd : public testing::Test {
+ protected:
+  static constexpr std::uint32_t count = 80;
+  static const std::vector<Character>& people() {
+    static const std::vector<Character> both{default_pedestrian(Sex::female, 0.9),
+                                             default_pedestrian(Sex::male, 2.3)};
+    return both;
+  }
+  const std::vector<Character>& characters = people();
+
+  DistributedCrowd::Agent walker(std::uint32_t id, double side, std::size_t levels) const {
+    Random random(900 + id);
+    DistributedCrowd::Agent agent{.heading = random.uniform(-4, 4), .id = id};
+    agent.x = random.uniform(0, side), agent.y = random.uniform(0, side), agent.z = 0.4 * random.below(5);
+    agent.shape = random.below(8) == 0;  // one in eight is tall
+    agent.level = static_cast<std::uint8_t>(random.below(static_cast<std::uint32_t>(levels)));
+    agent.pose = {random.below(pedestrian_speeds), static_cast<float>(random.uniform(0, 0.5))};
+    if (random.below(10) == 0) agent.pose = {};
+    return agent;
+  }
+
+  World world(double side, std::size_t levels) const {
+    World world;
+    for (std::uint32_t id = 0; id < count; ++id) world.agents.push_back(walker(id, side, levels));
+    return world;
+  }
+
+  /// What one process knows: a set with a shape for each agent, who has its number.
+  ShapeSet shapes_of(World& world, const ShapeSetPlan& plan) const {
+    std::vector<PoseShaper> shapers;
+    for (const Character& character : characters) shapers.emplace_back(character, plan);
+    std::vector<Shape> shapes;
+    for (DistributedCrowd::Agent& agent : world.agents) {
+      shapes.push_back(shapers[agent.shape].shape(agent.pose));
+      agent.shape = static_cast<std::uint32_t>(shapes.size() - 1);
+    }
+    return ShapeSet(shapes, plan);
+  }
+
+  void expect_same(World world, const ShapeSetPlan& plan, DistributedCrowd& crowd) const {
+    constexpr detail::AllOptions by_discs{.leaves = Leaves::discs}, near{.max_distance = 0.4};
+    crowd.update(0.4);
+    const Answers found = collisions(crowd, by_discs), found_near = clearances(crowd, near);
+    if (rank() != 0) return;  // one knows what is right: poses take long
+    const ShapeSet set = shapes_of(world, plan);
+    EXPECT_GT(found.size(), 10u);
+    EXPECT_EQ(found, world.collisions(set, by_discs));
+    EXPECT_EQ(found_near, world.clearances(set, near));
+  }
+};
+
+TEST_F(PosedCrowd, AnswersLikeOneProcessWhilePeopleWalk) {
+  const ShapeSetPlan plan{.depths = {3, all_depths}, .culling = false};
+  World all = world(7, 2);
+  DistributedCrowd crowd(MPI_COMM_WORLD, characters, plan, all.dealt(), {.cell = 1});
+  for (int step = 0; step < 3; ++step) {
+    expect_same(all, plan, crowd);
+    move_all(all, crowd, [](DistributedCrowd::Agent& agent) {
+      agent.x += 0.5 * std::cos(agent.heading), agent.y += 0.5 * std::sin(agent.heading);
+      agent.pose.seconds += 0.1f;
+    });
+  }
+}
+
+TEST_F(PosedCrowd, AnswersLikeOneProcessAtDifferentHeights) {
+  const ShapeSetPlan plan{.heights = true};
+  World all = world(5, 1);
+  all.has_heights = true;
+  DistributedCrowd crowd(MPI_COMM_WORLD, characters, plan, all.dealt(), {.cell = 1, .heights = true});
+  expect_same(all, plan, crowd);
+}
+
+TEST_F(PosedCrowd, PosesTravelAsTwelveBytes) {
+  World all = world(6, 1);
+  DistributedCrowd crowd(MPI_COMM_WORLD, characters, {.depths = {3}}, all.dealt(), {.cell = 1});
+  crowd.update();
+  const DistributedCrowd::Counters& counters = crowd.counters();
+  EXPECT_EQ(counters.poses, crowd.agents().size() + crowd.halo().size());
+  std::uint64_t sums[] = {counters.agents, counters.halo_bytes, counters.halo * (33 + 8),
+                          counters.migration_bytes, counters.arrived * (41 + 8)};
+  MPI_Allreduce(MPI_IN_PLACE, sums, 5, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
+  EXPECT_EQ(sums[0], count);
+  EXPECT_EQ(
+      sums[1],
+      sums[2]);  // as of shapes of a set, of which the number of a shape is that of a character; clip and time
+  EXPECT_EQ(sums[3], sums[4]);
+  EXPECT_EQ(sums[1] > 0, ranks() > 1);
+}
+
+TEST_F(PosedCrowd, WhatIsWrongOnOneRankIsAnErrorOnAll) {
+  const std::string last = "rank " + std::to_string(ranks() - 1) + ": ";
+  const auto complaint_about = [&](const DistributedCrowd::Agent& agent) {
+    DistributedCrowd crowd(MPI_COMM_WORLD, characters, {.depths = {0}}, {});
+    if (rank() == ranks() - 1) crowd.agents().push_back(agent);
+    return complaint<RankError>([&] { crowd.update(); });
+  };
+  EXPECT_EQ(complaint_about({.id = 9, .shape = 2}), last + "agent 9: shape is 2, not one of the characters");
+  EXPECT_EQ(complaint_about({.id = 9, .level = 1}), last + "agent 9: level is 1, not one of the plan");
+  EXPECT_EQ(complaint_about({.id = 9, .pose = {74, 0}}),
+            last + "agent 9: clip is 74, not one of the character's");
+  EXPECT_EQ(complaint_about({.id = 9, .pose = {0, -1}}), last + "agent 9: time is -1, not within the clip");
+  EXPECT_EQ(complaint_about({.id = 9, .pose = {73, 5}}), last + "agent 9: time is 5, not within the clip");
+  EXPECT_EQ(complaint_about({.id = 9, .pose = {PoseTime::rest, 5}}), "accepted");
+
+  std::vector<Character> damaged = characters;
+  if (rank() == ranks() - 1) damaged[1].triangles[0][0] = 1'000'000;
+  const std::string complaint_of_damage =
+      complaint<RankError>([&] { DistributedCrowd(MPI_COMM_WORLD, damaged, {}, {}); });
+  EXPECT_EQ(complaint_of_damage.find(last), 0u) << complaint_of_damage;
+  EXPECT_NE(complaint_of_damage.find("1000000"), std::string::npos) << complaint_of_damage;
+  EXPECT_NE(complaint<RankError>([&] { DistributedCrowd(MPI_COMM_WORLD, characters, {.depths = {}}, {}); }),
+            "accepted");
+}
+
+// ---- How places are ordered and cut.
+
+TEST(Curve, GoesFromSquareToSquareThroughAll) {
+  struct Step {
+    std::uint64_t key;
+    Cell cell;
+  };
+  std::vector<Step> steps;
+  for (std::int32_t y = 0; y < 64; ++y)
+    for (std::int32_t x = 0; x < 64; ++x) steps.push_back({curve_key({x - 192, y + 1024}), {x, y}});
+  std::ranges::sort(steps, {}, &Step::key);
+  for (std::size_t i = 1; i < steps.size(); ++i) {
+    EXPECT_EQ(steps[i].key, steps[i - 1].key + 1);
+    EXPECT_EQ(
+        std::abs(steps[i].cell.x - steps[i - 1].cell.x) + std::abs(steps[i].cell.y - steps[i - 1].cell.y), 1);
+  }
+}
+
+TEST(Curve, SquaresHoldTheirLowerBorders) {
+  EXPECT_EQ(cell_at(0, -0.0, 2), (Cell{0, 0}));
+  EXPECT_EQ(cell_at(2, -1e-300, 2), (Cell{1, -1}));
+  EXPECT_EQ(cell_at(-2, 1e9, 2), (Cell{-1, 500'000'000}));
+}
+
+TEST(Cut, PartsWeighTheSameButForAPlace) {
+  test::Random random(4);
+  for (const int ranks : {1, 2, 3, 7, 16, 1024}) {
+    std::vector<Weight> weights;
+    std::uint64_t total = 0, largest = 0;
+    for (int i = 0; i < 3000; ++i) {
+      weights.push_back({random.next(), random.below(1000)});
+      total += weights.back().weight, largest = std::max(largest, weights.back().weight);
+    }
+    std::ranges::sort(weights, {}, &Weight::key);
+    const std::vector<Weight> places = weights;
+    const Cut cut = cut_evenly(ranks, weight_before(weights));
+    EXPECT_EQ(cut.firsts().size() + 1, static_cast<std::size_t>(ranks));
+    EXPECT_TRUE(std::ranges::is_sorted(cut.firsts()));
+    std::vector<std::uint64_t> sums(static_cast<std::size_t>(ranks), 0);
+    for (const Weight& place : places) sums[static_cast<std::size_t>(cut.owner(place.key))] += place.weight;
+    EXPECT_LE(*std::ranges::max_element(sums), total / static_cast<std::uint64_t>(ranks) + 1 + largest);
+    EXPECT_EQ(std::accumulate(sums.begin(), sums.end(), std::uint64_t{0}), total);
+  }
+}
+
+TEST(Cut, NothingNeedsNoPlace) {
+  std::vector<Weight> none;
+  const Cut cut = cut_evenly(5, weight_before(none));
+  EXPECT_EQ(cut.firsts().size(), 4u);
+  EXPECT_EQ(cut.owner(0), 4);  // whoever it is
+}
+
 }  // namespace
-}  // namespace bch
+}  // namespace bch::detail
 
 int main(int argc, char** argv) {
   const bch::detail::Session session(argc, argv);

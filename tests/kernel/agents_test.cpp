@@ -1,23 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/agents.hpp>
-
-#include <gtest/gtest.h>
-
-#include <cmath>
-#include <limits>
-#include <stdexcept>
-#include <string>
-#include <vector>
-
-#include <bch/crowd.hpp>
-#include <bch/pairs.hpp>
-
 #include "layout/base/heading.hpp"
 #include "tests/support/crowd_pairs.hpp"
-#include "tests/support/implementations.hpp"
-#include "tests/support/scenes.hpp"
 #include "tests/support/test.hpp"
 
 namespace bch {
@@ -170,13 +155,8 @@ TEST(Agents, AreRefusedWhereTheirNumbersAreNotAligned) {
   Agents agents = view(structs);
   agents.level = {}, agents.z = {};
   agents.x = Strided(&structs[0].x, 3, 6);
-  try {
-    validate(set, agents);
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_EQ(std::string(error.what()),
-              "agents: expected values of x at addresses that are multiples of 4, found a stride of 6");
-  }
+  EXPECT_EQ(test::complaint([&] { validate(set, agents); }),
+            "agents: expected values of x at addresses that are multiples of 4, found a stride of 6");
 }
 
 }  // namespace

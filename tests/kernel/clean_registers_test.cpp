@@ -54,8 +54,7 @@ TEST_F(CleanRegisters, AfterQueries) {
     std::vector<double> x(pairs.size(), 0.5), y(pairs.size(), -0.25);
     std::vector<Penetration> ways(pairs.size());
     bch::Crowd finder;
-    for (const Implementation& isa : implementations()) {
-      if (!isa.supported()) continue;
+    for (const Implementation& isa : test::supported()) {
       SCOPED_TRACE(std::string(isa.name) + ", " + std::to_string(count) + " pairs");
       expect_clean("collide", [&] { collide(shapes, agents, pairs, hits, {&isa}); });
       for (const double limit : {0.0, 0.5, 10.0})

@@ -2,11 +2,57 @@
 // Copyright (c) 2026 the bch authors
 
 #include "baselines/clearance_reference.hpp"
-#include "baselines/oracle.hpp"
+#include "baselines/segment_clearance.hpp"
+#include "kernel/runtime/all_options.hpp"
+#include "kernel/simd/gaps.hpp"
+#include "layout/base/rounding.hpp"
 #include "layout/hierarchy/paper_hierarchies.hpp"
-#include "tests/support/clearances.hpp"
+#include "tests/support/character_shapes.hpp"
 #include "tests/support/differential.hpp"
+#include "tests/support/plane_geometry.hpp"
 #include "tests/support/test.hpp"
+#include "tests/support/touching_scene.hpp"
+
+namespace bch::test {
+namespace {
+
+/// The results of clearance() for some pairs, with Overlap::deepest where nothing is said.
+struct Answers {
+  std::vector<float> distance;
+  std::vector<Vec2> direction;
+  std::vector<DiscPair> discs;
+
+  explicit Answers(std::size_t size = 0) : distance(size), direction(size), discs(size) {}
+  ClearanceAnswers spans() { return {distance, direction, discs}; }
+  /// Compares bits, not values: -0 is not 0.
+  bool same(std::size_t i, const Answers& other, std::size_t k) const {
+    const auto bits = [](float value) { return std::bit_cast<std::uint32_t>(value); };
+    return bits(distance[i]) == bits(other.distance[k]) &&
+           bits(direction[i].x) == bits(other.direction[k].x) &&
+           bits(direction[i].y) == bits(other.direction[k].y) && discs[i] == other.discs[k];
+  }
+};
+
+Answers answers(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs, double max_distance,
+                const Implementation* implementation = nullptr, Overlap overlap = Overlap::deepest) {
+  Answers all(pairs.size());
+  clearance(set, agents, pairs, all.spans(),
+            {.implementation = implementation, .max_distance = max_distance, .overlap = overlap});
+  return all;
+}
+
+/// Returns the way from the nearest point of a pair's first agent to that of the second, metres.
+struct Way {
+  double x, y;
+};
+Way way_between(const NearestPoints& points, const Crowd& crowd, Pair pair) {
+  const auto& [first, second] = points;
+  return {crowd.x[pair.second] - crowd.x[pair.first] + (double{second.x} - double{first.x}),
+          crowd.y[pair.second] - crowd.y[pair.first] + (double{second.y} - double{first.y})};
+}
+
+}  // namespace
+}  // namespace bch::test
 
 namespace bch {
 namespace {
@@ -26,19 +72,14 @@ class ClearanceDifferential : public test::Differential {
 
 /// Never larger than the distance of the outlines, and below it by no more than pairs.hpp says.
 TEST_F(ClearanceDifferential, BoundsTheDistanceOfTheOutlines) {
-  std::vector<Shape> whole = shapes;
-  const ShapeSet finest(whole);
+  const ShapeSet finest(shapes);
   std::vector<PairScene> scenes;
   for (const std::uint32_t pairs : {700, 500, 300, 300})
     scenes.push_back(random_scene(random, finest, test::samples(pairs)));
   for (std::size_t i = 1; i < scenes[1].crowd.x.size(); i += 2)
     scenes[1].crowd.x[i] += random.uniform(-100, 100);
-  make_tangent(random, scenes[2], [&](const Agents& agents, Pair pair) {
-    return baselines::Oracle(shapes[agents.shape[pair.first]].outline,
-                             shapes[agents.shape[pair.second]].outline,
-                             baselines::exact_placement(agents, pair.first, pair.second))
-        .cross();
-  });
+  make_tangent(random, scenes[2],
+               [&](const Agents& agents, Pair pair) { return test::oracle(shapes, agents, pair).cross(); });
   test::move_away(scenes[3], 1e7, -8e8);
   std::size_t apart = 0;
   for (const PairScene& scene : scenes) {
@@ -47,9 +88,7 @@ TEST_F(ClearanceDifferential, BoundsTheDistanceOfTheOutlines) {
     for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
       const auto [a, b] = scene.pairs[i];
       const Shape &shape_a = shapes[agents.shape[a]], &shape_b = shapes[agents.shape[b]];
-      const long double exact =
-          baselines::Oracle(shape_a.outline, shape_b.outline, baselines::exact_placement(agents, a, b))
-              .distance();
+      const long double exact = test::oracle(shapes, agents, {a, b}).distance();
       const long double found = all.distance[i];
       EXPECT_LE(found, exact) << i;
       if (!(found > 0)) continue;
@@ -81,9 +120,7 @@ TEST(Clearance, OfTipsIsTheDistanceOfTheOutlinesLessTheMargin) {
     scene.crowd.add(
         {0, x + length * std::cos(angle), y + length * std::sin(angle), angle + std::numbers::pi, 0});
     scene.pairs.push_back({2 * i, 2 * i + 1});
-    exact.push_back(baselines::Oracle(shapes[0].outline, shapes[0].outline,
-                                      baselines::exact_placement(scene.crowd.agents(), 2 * i, 2 * i + 1))
-                        .distance());
+    exact.push_back(test::oracle(shapes, scene.crowd.agents(), scene.pairs[i]).distance());
   }
   const Answers all = answers(set, scene.crowd.agents(), scene.pairs, infinity);
   for (std::size_t i = 0; i < exact.size(); ++i) {
@@ -119,42 +156,20 @@ TEST_F(ClearanceDifferential, PointsAreThoseOfTheNearestFeatures) {
   }
 }
 
-TEST(Clearance, OfSingleDiscs) {
+/// Along x from the first agent of a list to the other one.
+TEST(Clearance, OfDiscsInOnePlaceIsAlongX) {
   const std::vector<Shape> shapes = {{{}, detail::fixed_cylinder(0.25f)}, {{}, detail::fixed_cylinder(0.5f)}};
+  test::Crowd crowd;
+  for (const std::uint32_t shape : {0u, 1u}) crowd.add({shape, 1, 1, 0.7 + shape, 0});
+  const std::vector<Pair> pairs = {{0, 1}, {1, 0}, {0, 0}};
   for (const ShapeSetPlan& levels : {ShapeSetPlan{{0}}, ShapeSetPlan{}}) {
-    const ShapeSet set(shapes, levels);
-    test::Crowd crowd;
-    crowd.add({0, 1, 1, 0.7, 0});
-    crowd.add({1, 4, 5, 2, 0});
-    crowd.add({1, 1, 1, 3, 0});
-    const std::vector<Pair> pairs = {{0, 1}, {1, 0}, {0, 2}, {2, 0}, {0, 0}};
-    const auto of = answers(set, crowd.agents(), pairs, infinity);
-    EXPECT_NEAR(of.distance[0], 4.25, 1e-5);
-    EXPECT_NEAR(of.direction[0].x, 0.6, 1e-6);
-    EXPECT_NEAR(of.direction[0].y, 0.8, 1e-6);
-    EXPECT_EQ(of.direction[1], (Vec2{-of.direction[0].x, -of.direction[0].y}));
-    EXPECT_NEAR(of.distance[2], -0.75, 1e-5);
-    EXPECT_EQ(of.direction[2], (Vec2{1, 0}));  // coincident centres
-    EXPECT_EQ(of.direction[3], (Vec2{-1, 0}));
-    EXPECT_NEAR(of.distance[4], -0.5, 1e-5);  // an agent and itself
-    EXPECT_EQ(of.direction[4], (Vec2{1, 0}));
-    EXPECT_EQ(of.discs[4], (DiscPair{0, 0}));
-    const auto limited = answers(set, crowd.agents(), pairs, 4);
-    EXPECT_EQ(limited.distance[0], std::numeric_limits<float>::infinity());
-    EXPECT_EQ(limited.direction[0], (Vec2{0, 0}));
-    EXPECT_EQ(limited.discs[0], DiscPair::none);
-    std::vector<float> distance(pairs.size());
-    std::vector<NearestPoints> points(pairs.size(), {{1, 1}, {1, 1}});
-    clearance(set, crowd.agents(), pairs, {.distance = distance, .points = points}, {.max_distance = 4.5});
-    EXPECT_NEAR(points[0].first.x, 0.15, 1e-5);
-    EXPECT_NEAR(points[0].first.y, 0.2, 1e-5);
-    EXPECT_NEAR(points[0].second.x, -0.3, 1e-5);
-    EXPECT_NEAR(points[0].second.y, -0.4, 1e-5);
-    EXPECT_EQ(points[1], (NearestPoints{points[0].second, points[0].first}));
-    EXPECT_EQ(points[2], NearestPoints{});  // they overlap
-    const auto touching = answers(set, crowd.agents(), pairs, 0);
-    EXPECT_EQ(touching.distance[2], of.distance[2]);
-    EXPECT_EQ(touching.distance[0], std::numeric_limits<float>::infinity());
+    const Answers of = answers(ShapeSet(shapes, levels), crowd.agents(), pairs, infinity);
+    const float depths[] = {-0.75f, -0.75f, -0.5f}, along[] = {1, -1, 1};
+    for (std::size_t i = 0; i < 3; ++i) {
+      EXPECT_NEAR(of.distance[i], depths[i], 1e-5);
+      EXPECT_EQ(of.direction[i], (Vec2{along[i], 0}));
+      EXPECT_EQ(of.discs[i], (DiscPair{0, 0}));
+    }
   }
 }
 
@@ -167,6 +182,269 @@ TEST(Clearance, AnswersThatAreNotAskedForChangeNoOthers) {
   clearance(set, scene.crowd.agents(), scene.pairs, {distance, {}, {}},
             {.max_distance = 0.5, .overlap = Overlap::deepest});
   EXPECT_EQ(distance, all.distance);
+}
+
+using Hits = std::vector<std::uint8_t>;
+
+Hits hits_within(const ShapeSet& set, const PairScene& scene, std::span<const double> distances,
+                 const detail::AllOptions& options = {}) {
+  Hits hits(scene.pairs.size());
+  within(set, scene.crowd.agents(), scene.pairs, distances, hits, options);
+  return hits;
+}
+
+class Within : public test::Differential {
+ protected:
+  Within() : Differential(2701, four_levels) {}
+
+  PairScene scene_of(std::uint32_t pairs, double apart = 1) {
+    PairScene scene = random_scene(random, set, pairs);
+    for (std::size_t i = 1; i < scene.crowd.x.size(); i += 2)
+      scene.crowd.x[i] += random.uniform(-apart, apart);
+    return scene;
+  }
+
+  /// Draws distances of which many are as the pairs' clearances but for some bits, and some are none or infinite.
+  std::vector<double> near_clearances(const PairScene& scene) {
+    const test::Answers apart = test::answers(set, scene.crowd.agents(), scene.pairs, infinity);
+    std::vector<double> distances;
+    for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+      const double clearance = std::max(0.0, static_cast<double>(apart.distance[i]));
+      switch (random.below(8)) {
+        case 0:
+          distances.push_back(random.uniform(0, 2));
+          break;
+        case 1:
+          distances.push_back(random.below(2) == 0 ? 0 : infinity);
+          break;
+        default:
+          distances.push_back(clearance * (1 + random.uniform(-2e-6, 0.5e-6)));
+      }
+    }
+    return distances;
+  }
+
+  /// Returns the sum of the radii of the largest discs of two agents.
+  double largest_radii(const Agents& agents, std::size_t first) const {
+    double sum = 0;
+    for (const std::size_t agent : {first, first + 1}) {
+      float largest = 0;
+      for (const Disc& disc : set.discs(agents.shape[agent], agents.level[agent]))
+        largest = std::max(largest, disc.radius);
+      sum += static_cast<double>(largest);
+    }
+    return sum;
+  }
+};
+
+/// What pairs.hpp says of both, at distances around the clearances.
+TEST_F(Within, AgreesWithClearanceButForItsMargin) {
+  const PairScene scene = scene_of(40'000);
+  const Agents agents = scene.crowd.agents();
+  const test::Answers apart = test::answers(set, agents, scene.pairs, infinity, nullptr, Overlap::zero);
+  std::vector<double> distances = near_clearances(scene);
+  for (std::size_t i = 0; i < distances.size(); i += 4)
+    distances[i] = std::max(0.0, static_cast<double>(apart.distance[i]));  // just so far
+  const Hits hits = hits_within(set, scene, distances);
+  std::size_t misses = 0, beyond = 0;
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    const double clearance = apart.distance[i];
+    if (clearance <= distances[i]) {
+      ASSERT_EQ(hits[i], 1) << i;
+    } else if (hits[i]) {
+      ASSERT_LE(clearance, distances[i] + detail::gap_price * (distances[i] + largest_radii(agents, 2 * i)))
+          << i;
+      ++beyond;
+    }
+    misses += hits[i] == 0;
+  }
+  EXPECT_GT(misses, hits.size() / 50);
+  EXPECT_GT(beyond, hits.size() / 100);  // the margin is looked at
+}
+
+TEST_F(Within, AnswersAreOnesWhereOutlinesAreAsClose) {
+  const PairScene scene = scene_of(test::samples(600));
+  const Agents agents = scene.crowd.agents();
+  std::vector<double> distances;
+  for (const Pair pair : scene.pairs) {
+    const long double apart = test::oracle(shapes, agents, pair).distance();
+    distances.push_back(std::nextafter(static_cast<double>(apart), infinity));
+  }
+  const Hits hits = hits_within(set, scene, distances);
+  for (std::size_t i = 0; i < hits.size(); ++i) EXPECT_EQ(hits[i], 1) << i;
+}
+
+TEST_F(Within, OneDistanceServesAllPairs) {
+  const PairScene scene = scene_of(3'000);
+  for (const double distance : {0.0, 0.1, infinity})
+    EXPECT_EQ(hits_within(set, scene, {&distance, 1}),
+              hits_within(set, scene, std::vector<double>(scene.pairs.size(), distance)));
+  const double all = infinity;
+  EXPECT_EQ(hits_within(set, scene, {&all, 1}), Hits(scene.pairs.size(), 1));
+}
+
+// ---- clearance() with exact leaves: the distance of the outlines.
+
+/// All outputs.
+struct Found : test::Answers {
+  explicit Found(std::size_t size) : Answers(size), points(size) {}
+  std::vector<NearestPoints> points;
+
+  bool same(std::size_t i, const Found& other, std::size_t k) const {
+    return Answers::same(i, other, k) && points[i] == other.points[k];
+  }
+};
+
+Found find(const ShapeSet& set, const PairScene& scene, detail::AllOptions options = {}) {
+  options.distance_leaves = Leaves::segments;
+  Found found(scene.pairs.size());
+  clearance(set, scene.crowd.agents(), scene.pairs,
+            {found.distance, found.direction, found.discs, found.points}, options);
+  return found;
+}
+
+class SegmentClearance : public test::Differential {
+ protected:
+  SegmentClearance() : Differential(2701, test::four_levels) {}
+};
+
+TEST_F(SegmentClearance, DeepestOverlapsAreThoseOfDiscs) {
+  const PairScene scene = tangent_scene(5'000);
+  const Found found = find(set, scene, {.overlap = Overlap::deepest});
+  const test::Answers of_discs = test::answers(set, scene.crowd.agents(), scene.pairs, infinity);
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) ASSERT_TRUE(found.Answers::same(i, of_discs, i)) << i;
+}
+
+/// Returns how far a point of an agent, as clearance() gives it, is from a segment of its outline.
+double distance_from_segment(const Shape& shape, std::uint32_t segment, double heading, Vec2 point) {
+  const double c = std::cos(heading), s = std::sin(heading), x = point.x, y = point.y;
+  const double own_x = c * x + s * y, own_y = c * y - s * x;
+  const auto [from, to] = baselines::LeafSegments::segment(shape.outline, segment);
+  return test::distance_to_segment<double>(own_x, own_y, from.x, from.y, to.x, to.y);
+}
+
+double distance_from_outline(const Shape& shape, double heading, Vec2 point) {
+  double least = infinity;
+  for (std::uint32_t i = 0; i < shape.outline.points.size(); ++i)
+    least = std::min(least, distance_from_segment(shape, i, heading, point));
+  return least;
+}
+
+/// Never larger than the distance of the outlines, and below it by no more than pairs.hpp says; and all outputs belong together.
+void expect_distances_of_outlines(const std::vector<Shape>& shapes, const PairScene& scene,
+                                  const Found& found) {
+  std::size_t apart = 0;
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+    const Pair pair = scene.pairs[i];
+    const Shape &a = shapes[scene.crowd.shape[pair.first]], &b = shapes[scene.crowd.shape[pair.second]];
+    const baselines::Oracle truth = test::oracle(shapes, scene.crowd.agents(), pair);
+    const long double exact = !truth.cross() && truth.nested() ? 0 : truth.distance();
+    ASSERT_LE(found.distance[i], exact) << i;
+    const bool segments = a.hierarchy.nodes.size() > 1 && b.hierarchy.nodes.size() > 1;
+    if (!segments) continue;
+    const long double reach = a.hierarchy.reach + b.hierarchy.reach,
+                      steps = static_cast<long double>(a.outline.grid_step) + b.outline.grid_step,
+                      most = 1.4e-6L * reach + detail::rounding::outline_grid_steps * steps + 0.9e-6L * exact;
+    ASSERT_LE(exact - found.distance[i], most) << i;
+    if (found.distance[i] == 0) {
+      EXPECT_EQ(found.discs[i], DiscPair::none);
+      EXPECT_EQ(found.direction[i], (Vec2{0, 0}));
+      EXPECT_EQ(found.points[i], NearestPoints{});
+      continue;
+    }
+    ++apart;
+    const auto slack = static_cast<double>(most);
+    EXPECT_LE(distance_from_outline(a, scene.crowd.heading[pair.first], found.points[i].first), slack) << i;
+    EXPECT_LE(distance_from_outline(b, scene.crowd.heading[pair.second], found.points[i].second), slack) << i;
+    const auto [way_x, way_y] = test::way_between(found.points[i], scene.crowd, pair);
+    const double x = found.direction[i].x, y = found.direction[i].y, distance = found.distance[i];
+    EXPECT_NEAR(std::hypot(x, y), 1, 1e-6) << i;
+    EXPECT_NEAR(way_x * x + way_y * y, distance, slack) << i;
+    EXPECT_NEAR(way_x * y - way_y * x, 0, slack) << i;
+    // The named discs hold the points.
+    const auto expect_in_disc = [&](const Shape& shape, std::uint32_t agent, std::uint32_t number,
+                                    Vec2 point) {
+      const Disc disc = shape.hierarchy.nodes[cut(shape.hierarchy, all_depths)[number]].disc;
+      const double c = std::cos(scene.crowd.heading[agent]), s = std::sin(scene.crowd.heading[agent]);
+      const double px = point.x, py = point.y;
+      const double from_x = c * px + s * py - double{disc.x}, from_y = c * py - s * px - double{disc.y};
+      EXPECT_LE(std::hypot(from_x, from_y), double{disc.radius} + slack) << i;
+    };
+    expect_in_disc(a, pair.first, found.discs[i].first, found.points[i].first);
+    expect_in_disc(b, pair.second, found.discs[i].second, found.points[i].second);
+  }
+  EXPECT_GT(apart, scene.pairs.size() / 10);
+}
+
+TEST(SegmentClearanceOfOutlines, IsTheirDistanceForAnySize) {
+  Random random(2702);
+  const std::vector<Shape> shapes = test::simple_shapes(random, 400);
+  const ShapeSet set(shapes);
+  const test::TouchingScene scene = test::touching_scene(random, shapes, test::samples(60'000));
+  expect_distances_of_outlines(shapes, scene, find(set, scene));
+}
+
+TEST(SegmentClearanceOfOutlines, IsTheirDistanceFarApart) {
+  Random random(2703);
+  const std::vector<Shape> shapes = test::simple_shapes(random, 400);
+  const ShapeSet set(shapes);
+  PairScene scene;
+  for (std::uint32_t i = 0; i < test::samples(20'000); ++i) {
+    const auto shape = [&] { return random.below(400); };
+    const double length = std::pow(10, random.uniform(-3, 5)), angle = random.uniform(-4, 4);
+    const std::uint32_t a = shape(), b = shape();
+    scene.crowd.add({a, 0, 0, random.uniform(-4, 4), 0});
+    scene.crowd.add({b, length * std::cos(angle), length * std::sin(angle), random.uniform(-4, 4), 0});
+    scene.pairs.push_back(i % 2 == 0 ? Pair{2 * i, 2 * i + 1} : Pair{2 * i + 1, 2 * i});
+  }
+  expect_distances_of_outlines(shapes, scene, find(set, scene));
+}
+
+TEST(SegmentClearanceOfOutlines, IsTheirDistanceForPeople) {
+  const std::vector<Shape> shapes = test::pose_shapes(default_male(), 12);
+  const ShapeSet set(shapes);
+  Random random(2704);
+  PairScene scene = random_scene(random, set, 2'000);
+  scene.crowd.level.clear();
+  expect_distances_of_outlines(shapes, scene, find(set, scene));
+}
+
+/// Equal distances: copies of one comb, at places on a grid. The first segments count, on every processor.
+TEST(SegmentClearanceOfOutlines, NamesTheFirstOfEquallyNearSegments) {
+  Outline comb = test::polygon({{-0.5f, -0.25f}, {0.5f, -0.25f}});
+  std::vector<Vec2>& points = comb.points;
+  for (int tooth = 2; tooth >= -2; --tooth) {
+    const auto x = 0.25f * static_cast<float>(tooth);
+    points.insert(points.end(), {{x, 0}, {x - 0.0625f, 0.25f}, {x - 0.125f, 0}});
+  }
+  const std::vector<Shape> shapes = {test::contour_shape(test::polygon(points))};
+  const ShapeSet set(shapes);
+  const baselines::SegmentClearance reference(shapes, {});
+  Random random(2705);
+  PairScene scene;
+  for (std::uint32_t i = 0; i < test::samples(5'000); ++i) {
+    const double quarter = 1.5707963267948966 * random.below(4);
+    const auto at = [&] { return 0.25 * (static_cast<int>(random.below(17)) - 8); };
+    scene.crowd.add({0, at(), at(), quarter, 0});
+    scene.crowd.add({0, at(), at(), quarter + 3.141592653589793 * random.below(2), 0});
+    scene.pairs.push_back({2 * i, 2 * i + 1});
+  }
+  const Found first = find(set, scene);
+  for (const Implementation& implementation : test::supported()) {
+    const Found found = find(set, scene, {.implementation = &implementation});
+    for (std::size_t i = 0; i < scene.pairs.size(); ++i)
+      ASSERT_TRUE(found.same(i, first, i)) << implementation.name << ", pair " << i;
+  }
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
+    const auto nearest = reference.nearest(scene.crowd.agents(), scene.pairs[i]);
+    ASSERT_EQ(first.distance[i], nearest->distance) << i;
+    if (first.distance[i] == 0) continue;
+    const auto [a, b] = scene.pairs[i];
+    EXPECT_LT(distance_from_segment(shapes[0], nearest->a, scene.crowd.heading[a], first.points[i].first),
+              1e-6);
+    EXPECT_LT(distance_from_segment(shapes[0], nearest->b, scene.crowd.heading[b], first.points[i].second),
+              1e-6);
+  }
 }
 
 }  // namespace

@@ -1,19 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <initializer_list>
-#include <limits>
-#include <string>
-#include <type_traits>
-#include <vector>
-
-#include <bch/crowd.hpp>
-#include <bch/pairs.hpp>
-
 #include "kernel/runtime/all_options.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 
 // What collide() refuses, and that it does nothing then.
 
@@ -44,27 +33,6 @@ class BadInput : public testing::Test {
   }
 };
 
-TEST_F(BadInput, NamesTheAgentOrPairAndTheValue) {
-  pairs.push_back({0, 2});
-  expect_rejected("pair 1: agent 2 of 2");
-  pairs = {{0, 0}, {1, 0}};
-  crowd.shape[1] = 2;
-  expect_rejected("pair 1: agent 1: shape 2 of 2");
-  crowd.shape[1] = 1;
-  crowd.level[1] = 1;
-  expect_rejected("pair 1: agent 1: level 1 of 1");
-  crowd.level[1] = 0;
-  crowd.x[1] = std::numeric_limits<double>::quiet_NaN();
-  expect_rejected("pair 1: agent 1: position (nan, 0)");
-  crowd.x[1] = -2e9;
-  expect_rejected("position (-2e+09, 0)");
-  crowd.x[1] = 1'000'000'000.5;
-  expect_rejected("position (1000000000.5, 0)");
-  crowd.x[1] = 0;
-  crowd.heading[1] = std::numeric_limits<double>::infinity();
-  expect_rejected("heading inf");
-}
-
 TEST_F(BadInput, AnAgentThatNoPairNamesMayBeAnything) {
   crowd.add({99, std::numeric_limits<double>::quiet_NaN(), 0, 0, 7});
   for (const std::size_t count : {1u, 2u, 50u}) {
@@ -80,8 +48,7 @@ TEST_F(BadInput, AFewOfManyAgents) {
   for (int i = 0; i < 98; ++i) crowd.add({0, 100.0 + 10 * i, 0, 0, 0});
   pairs = {{43, 40}, {41, 43}, {41, 40}};
   crowd.shape[39] = crowd.shape[42] = crowd.shape[44] = 2;
-  for (const Implementation& implementation : implementations()) {
-    if (!implementation.supported()) continue;
+  for (const Implementation& implementation : test::supported()) {
     detail::AllOptions options{.implementation = &implementation};
     std::vector<std::uint8_t> hits(pairs.size());
     EXPECT_NO_THROW(collide(set, crowd.agents(), pairs, hits, options)) << implementation.name;
@@ -101,8 +68,7 @@ TEST_F(BadInput, AFewOfManyAgents) {
 TEST_F(BadInput, AnyValueInAnyPlaceOfABatch) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN(),
                    infinity = std::numeric_limits<double>::infinity();
-  for (const Implementation& implementation : implementations()) {
-    if (!implementation.supported()) continue;
+  for (const Implementation& implementation : test::supported()) {
     const detail::AllOptions options{.implementation = &implementation};
     for (const std::uint32_t size : {1, 2, 5, 15, 16, 17, 33, 255, 256, 257}) {
       crowd = {};
@@ -137,8 +103,7 @@ TEST_F(BadInput, AnyValueInAnyPlaceOfABatch) {
 }
 
 TEST_F(BadInput, TheLargestValuesAreValid) {
-  for (const Implementation& implementation : implementations()) {
-    if (!implementation.supported()) continue;
+  for (const Implementation& implementation : test::supported()) {
     for (const double far : {4.9e8, 5.1e8, 1e9}) {
       crowd = {};
       crowd.add({0, far, -far, far, 0});
@@ -156,20 +121,162 @@ TEST_F(BadInput, TheLargestValuesAreValid) {
   }
 }
 
-TEST_F(BadInput, LeavesThatThereAreNot) {
-  expect_rejected("collide: no leaves are 2", {.leaves = static_cast<Leaves>(2)});
-  expect_rejected("collide: no leaves are -1", {.leaves = static_cast<Leaves>(-1)});
-  bch::Crowd finder;
-  EXPECT_THROW(finder.collisions(set, crowd.agents(), {.leaves = static_cast<Leaves>(2)}),
-               std::invalid_argument);
+// ---- What other queries over pairs refuse: agents and pairs of every kind are those of collide() above.
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// Two agents, two pairs, and room for two answers of every query.
+class QueryInput : public testing::Test {
+ protected:
+  QueryInput() {
+    crowd.add({0, 0, 0, 0, 0});
+    crowd.add({1, 1, 0, 0, 0});
+  }
+
+  /// Expects that a call is refused with these words, and that no answer is written.
+  template <class Call>
+  void expect_refused(const std::string& words, Call call) {
+    EXPECT_NE(test::complaint(call).find(words), std::string::npos) << words << ": " << test::complaint(call);
+    EXPECT_EQ(hits, std::vector<std::uint8_t>(2, 42)) << words;
+    EXPECT_EQ(floats, std::vector<float>(2, 42)) << words;
+    EXPECT_EQ(depths, std::vector<Penetration>(2, {42, 42, 42})) << words;
+  }
+
+  void expect_refused_by_all(const std::string& words) {
+    const Agents agents = crowd.agents();
+    expect_refused(words, [&] { collide(set, agents, pairs, hits); });
+    expect_refused(words, [&] { clearance(set, agents, pairs, {floats}); });
+    expect_refused(words, [&] { within(set, agents, pairs, distances, hits); });
+    expect_refused(words, [&] { time_of_impact(set, agents, pairs, {way, way}, floats); });
+    expect_refused(words, [&] { penetration(set, agents, pairs, 4, depths); });
+    expect_refused(words, [&] { penetration_along(set, agents, pairs, directions, depths); });
+    expect_refused(words, [&] { finder.contacts(set, agents, pairs); });
+  }
+
+  std::vector<Shape> shapes = test::synthetic_shapes(1, 2);
+  ShapeSet set{shapes};
+  test::Crowd crowd;
+  Crowd finder;
+  std::vector<Pair> pairs = {{0, 1}, {1, 0}};
+  std::vector<double> distances = {1, 1}, way = {1, 1};
+  std::vector<Vec2> directions = {{1, 0}, {1, 0}};
+  std::vector<std::uint8_t> hits = {42, 42};
+  std::vector<float> floats = {42, 42};
+  std::vector<Penetration> depths = {{42, 42, 42}, {42, 42, 42}};
+};
+
+TEST_F(QueryInput, AgentsAreNamed) {
+  pairs[1] = {0, 2};
+  expect_refused_by_all("pair 1: agent 2 of 2");
+  pairs[0] = {0, 0}, pairs[1] = {1, 0};
+  const auto expect_named = [&](auto& value, auto bad, const std::string& words) {
+    const auto good = std::exchange(value, bad);
+    expect_refused_by_all(words);
+    value = good;
+  };
+  expect_named(crowd.shape[1], 2u, "pair 1: agent 1: shape 2 of 2");
+  expect_named(crowd.level[1], std::uint8_t{1}, "pair 1: agent 1: level 1 of 1");
+  expect_named(crowd.x[1], 1'000'000'000.5, "pair 1: agent 1: position (1000000000.5, 0)");
+  expect_named(crowd.y[1], nan, "pair 1: agent 1: position (1, nan)");
+  expect_named(crowd.y[1], -2e9, "pair 1: agent 1: position (1, -2e+09)");
+  expect_named(crowd.heading[1], infinity, "pair 1: agent 1: heading inf");
+  crowd.y.pop_back();
+  expect_refused_by_all("2 shapes but 1 values of y");
 }
 
-TEST_F(BadInput, SizesThatDiffer) {
-  crowd.y.pop_back();
-  expect_rejected("2 shapes but 1 values of y");
-  crowd.y.push_back(0);
-  std::vector<std::uint8_t> hits(2);
-  EXPECT_THROW(collide(set, crowd.agents(), pairs, hits), std::invalid_argument);
+TEST_F(QueryInput, ValuesAreNamed) {
+  const Agents agents = crowd.agents();
+  for (const double bad : {nan, -0.5}) {
+    expect_refused("max_distance of " + std::string(bad < 0 ? "-0.5" : "nan"),
+                   [&] { clearance(set, agents, pairs, {floats}, {.max_distance = bad}); });
+    distances[1] = bad;
+    expect_refused("within: pair 1: a distance of " + std::string(bad < 0 ? "-0.5 m" : "nan m"),
+                   [&] { within(set, agents, pairs, distances, hits); });
+    expect_refused("within: a distance of " + std::string(bad < 0 ? "-0.5 m" : "nan m"), [&] {
+      within(set, agents, pairs, {&bad, 1}, hits);
+    });
+  }
+  for (const double bad : {nan, -2e9}) {
+    way[1] = bad;
+    expect_refused("pair 1: displacement (" + std::string(bad < 0 ? "-2e+09" : "nan"), [&] {
+      time_of_impact(set, agents, pairs, {way, way}, floats);
+    });
+  }
+  for (const Vec2 bad : {Vec2{0, 0}, {-0.0f, 0}, {NAN, 1}, {1, HUGE_VALF}}) {
+    directions[1] = bad;
+    expect_refused("pair 1: direction (", [&] { penetration_along(set, agents, pairs, directions, depths); });
+  }
+  for (const std::uint32_t lines : {0u, 1u, 3u, 255u, 258u, ~0u})
+    expect_refused(std::to_string(lines) + " directions are not",
+                   [&] { penetration(set, agents, pairs, lines, depths); });
+  EXPECT_NO_THROW(penetration(set, agents, pairs, 256, depths));
+}
+
+TEST_F(QueryInput, SizesAreNamed) {
+  const Agents agents = crowd.agents();
+  const std::vector<double> three(3, 1.0);
+  const auto one = [](auto& values) { return std::span(values).first(1); };
+  expect_refused("2 pairs but 1 hits", [&] { collide(set, agents, pairs, one(hits)); });
+  expect_refused("2 pairs but 1 distances", [&] { clearance(set, agents, pairs, {one(floats)}); });
+  expect_refused("2 pairs but 0 distances", [&] { clearance(set, agents, pairs, {{}, directions}); });
+  expect_refused("2 pairs but 1 directions", [&] {
+    clearance(set, agents, pairs, {floats, one(directions)});
+  });
+  std::vector<DiscPair> discs(1);
+  expect_refused("2 pairs but 1 discs", [&] { clearance(set, agents, pairs, {floats, {}, discs}); });
+  std::vector<NearestPoints> points(1);
+  expect_refused("2 pairs but 1 points", [&] { clearance(set, agents, pairs, {floats, {}, {}, points}); });
+  expect_refused("within: 2 pairs but 0 distances", [&] { within(set, agents, pairs, {}, hits); });
+  expect_refused("within: 2 pairs but 3 distances", [&] { within(set, agents, pairs, three, hits); });
+  expect_refused("within: 2 pairs but 1 answers", [&] { within(set, agents, pairs, distances, one(hits)); });
+  expect_refused("2 pairs but 0 displacements in y", [&] {
+    time_of_impact(set, agents, pairs, {way, {}}, floats);
+  });
+  expect_refused("2 pairs but 3 displacements in x", [&] {
+    time_of_impact(set, agents, pairs, {three, way}, floats);
+  });
+  expect_refused("expected no displacements in z of outlines, found 2", [&] {
+    time_of_impact(set, agents, pairs, {way, way, way}, floats);
+  });
+  expect_refused("2 pairs but 1 times", [&] { time_of_impact(set, agents, pairs, {way, way}, one(floats)); });
+  expect_refused("2 pairs but 1 directions",
+                 [&] { penetration_along(set, agents, pairs, one(directions), depths); });
+  expect_refused("penetration: 2 pairs but 1 answers",
+                 [&] { penetration(set, agents, pairs, 4, one(depths)); });
+}
+
+TEST_F(QueryInput, OptionsThatThereAreNot) {
+  const Agents agents = crowd.agents();
+  const auto leaves = static_cast<Leaves>(7);
+  expect_refused("collide: no leaves are 7", [&] { collide(set, agents, pairs, hits, {.leaves = leaves}); });
+  expect_refused("collide: no leaves are -1",
+                 [&] { collide(set, agents, pairs, hits, {.leaves = static_cast<Leaves>(-1)}); });
+  EXPECT_THROW(finder.collisions(set, agents, {.leaves = leaves}), std::invalid_argument);
+  EXPECT_THROW(finder.contacts(set, agents, pairs, {.leaves = leaves}), std::invalid_argument);
+  EXPECT_THROW(finder.contacts(set, agents, {.leaves = leaves}), std::invalid_argument);
+  EXPECT_THROW(clearance(set, agents, pairs, {floats}, {.leaves = leaves}), std::invalid_argument);
+  expect_refused("no overlap is 2",
+                 [&] { clearance(set, agents, pairs, {floats}, {.overlap = Overlap{2}}); });
+}
+
+TEST_F(QueryInput, OfWholeCrowdsIsNamed) {
+  crowd.x[1] = nan;
+  expect_refused("agent 1: position (nan, 0)", [&] { finder.collisions(set, crowd.agents()); });
+  expect_refused("agent 1: position (nan, 0)", [&] { finder.contacts(set, crowd.agents()); });
+}
+
+/// Rows that were found before stay as they are.
+TEST_F(QueryInput, LeavesTheLastContacts) {
+  crowd.x[1] = 0;
+  const Rows<DiscPair> rows = finder.contacts(set, crowd.agents(), pairs);
+  const std::vector<std::uint64_t> offsets(rows.offsets.begin(), rows.offsets.end());
+  const std::vector<DiscPair> contacts(rows.values.begin(), rows.values.end());
+  EXPECT_FALSE(contacts.empty());
+  crowd.heading[1] = nan;
+  expect_refused("pair 0: agent 1: heading nan", [&] { finder.contacts(set, crowd.agents(), pairs); });
+  EXPECT_TRUE(std::ranges::equal(rows.offsets, offsets));
+  EXPECT_TRUE(std::ranges::equal(rows.values, contacts));
 }
 
 }  // namespace

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/crowd.hpp>
-#include <bch/shapes.hpp>
-
 #include "tests/support/crowd_pairs.hpp"
 #include "tests/support/height_scenes.hpp"
 #include "tests/support/query_references.hpp"
 #include "tests/support/test.hpp"
 
 // Agents with a z, against the definition: a pair is answered as on one ground by brute force where both intervals of heights have a
-// point in common, and else as agents who never meet. (obstacle_heights_test.cpp does the same for obstacles.)
+// point in common, and else as agents who never meet. (obstacle_hall_test.cpp does the same for obstacles.)
 
 namespace bch {
 namespace {
@@ -73,23 +70,18 @@ class AgentsWithHeights : public testing::Test {
   test::BruteForce reference{shapes, plan};
 };
 
+/// Anywhere, near tangent, and far from the origin.
 TEST_F(AgentsWithHeights, AreAnsweredAsBruteForceSays) {
   for (const std::uint32_t pairs : {255u, test::samples(3'000)})
     expect_as_brute_force(random_scene(random, set, pairs));
-}
-
-TEST_F(AgentsWithHeights, AreAnsweredAsBruteForceSaysNearTangent) {
-  PairScene scene = random_scene(random, set, test::samples(2'000));
-  make_tangent(random, scene, [&](const Agents& agents, Pair pair) {
+  PairScene tangent = random_scene(random, set, test::samples(2'000));
+  make_tangent(random, tangent, [&](const Agents& agents, Pair pair) {
     return reference.collisions.boundary(agents, pair, baselines::Method::depth_first);
   });
-  expect_as_brute_force(scene);
-}
-
-TEST_F(AgentsWithHeights, AreAnsweredAsBruteForceSaysFarFromTheOrigin) {
-  PairScene scene = random_scene(random, set, test::samples(2'000));
-  test::move_away(scene, 1e7, -8e8);
-  expect_as_brute_force(scene);
+  expect_as_brute_force(tangent);
+  PairScene far = random_scene(random, set, test::samples(2'000));
+  test::move_away(far, 1e7, -8e8);
+  expect_as_brute_force(far);
 }
 
 /// What a crowd finds by itself on floors three metres apart: as all pairs of agents one by one.
@@ -109,11 +101,9 @@ TEST_F(AgentsWithHeights, AreFoundByACrowd) {
   EXPECT_EQ(test::candidate_pairs(set, agents, 0.5), expected);
   EXPECT_LT(expected.size(), on_all_floors * 3 / 4);
 
-  const auto all_pairs = [&](auto keeps) {
-    std::vector<Pair> kept;
-    for (std::uint32_t a = 0; a < agents.size(); ++a)
-      for (std::uint32_t b = a + 1; b < agents.size(); ++b)
-        if (keeps(Pair{a, b})) kept.push_back({a, b});
+  const auto all_pairs = [](auto keeps) {
+    std::vector<Pair> kept = test::all_pairs(400);
+    std::erase_if(kept, [&](Pair pair) { return !keeps(pair); });
     return kept;
   };
   bch::Crowd finder;

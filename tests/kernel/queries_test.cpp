@@ -1,20 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
-
-#include <algorithm>
-#include <cmath>
-#include <memory>
-#include <numbers>
-#include <ostream>
-#include <string>
-#include <vector>
-
-#include <bch/characters.hpp>
-#include <bch/crowd.hpp>
 
 #include "kernel/runtime/kernels.hpp"
 #include "layout/hierarchy/paper_hierarchies.hpp"
@@ -22,6 +10,7 @@
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/crowd_pairs.hpp"
 #include "tests/support/query_references.hpp"
+#include "tests/support/test.hpp"
 #include "tests/support/touching_scene.hpp"
 
 // All queries of all implementations against brute force: shapes of many kinds x plans x placements of pairs.
@@ -113,15 +102,8 @@ std::vector<Shape> of_deep_trees(Random& random) {
 /// Bodies of discs in no order, whose nodes hold them: hits of such bodies are not verified where neither is much larger than the other.
 std::vector<Shape> of_discs(Random& random) {
   std::vector<Shape> shapes;
-  while (shapes.size() < 40) {
-    const double size = std::pow(10, random.uniform(-3, 1));
-    std::vector<Disc> discs(1 + random.below(shapes.size() % 2 == 0 ? 8 : 40));
-    for (Disc& disc : discs)
-      disc = {static_cast<float>(random.uniform(-size, size)),
-              static_cast<float>(random.uniform(-size, size)),
-              static_cast<float>(random.uniform(0.02, 0.4) * size)};
-    shapes.push_back(shape_from_discs(discs));
-  }
+  while (shapes.size() < 40)
+    shapes.push_back(test::body_of_discs(random, 1 + random.below(shapes.size() % 2 == 0 ? 8 : 40)));
   return shapes;
 }
 
@@ -461,14 +443,6 @@ TEST_F(Queries, AmongManyShapesAreTheSame) {
   for (std::size_t i = 0; i < questions.crowd.shape.size(); ++i)
     questions.crowd.shape[i] += static_cast<std::uint32_t>(i * world.shapes.size() % large.shape_count());
   expect_answers(large, questions, expected, "many shapes");
-}
-
-/// Supports and inscribed discs decide pairs early, and nothing else.
-TEST_F(Queries, WithoutCullingAreTheSame) {
-  const std::vector<PairAnswers> expected = ask(world.set, questions);
-  const ShapeSet plain(world.shapes, {.depths = world.plan.depths, .culling = false});
-  EXPECT_LT(plain.bytes(), world.set.bytes());
-  expect_answers(plain, questions, expected, "without culling");
 }
 
 /// A descent that leaves out what cannot count finds what brute force finds.

@@ -1,21 +1,235 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "layout/base/rounding.hpp"
-
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/parallel_for.h>
 
 #include <cstdlib>
 
+#include "baselines/exact_discs.hpp"
 #include "baselines/placement.hpp"
 #include "layout/base/heading.hpp"
-#include "tests/support/implementations.hpp"
-#include "tests/support/near_tangent.hpp"
+#include "layout/base/rounding.hpp"
 #include "tests/support/test.hpp"
 
 // The bound of layout/base/rounding.hpp, attacked where it matters: discs that touch, far from their agents' origins, judged by
 // exact arithmetic.
+
+namespace bch::test {
+namespace {
+
+using baselines::ExactDisc;
+using baselines::Quad;
+using baselines::QuadVector;
+
+/// A shape as it stands at a heading, with the exact discs of its cut at a level and of all nodes above.
+struct PosedShape {
+  std::uint32_t shape;
+  std::uint8_t level;
+  double heading, reach;
+  baselines::QuadVector rotation;  ///< by the heading
+  baselines::ExactCut cut;
+};
+
+/// Strokes and small trees, a millimetre to some metres, up to 8 m from their origins, at headings of all sizes. Nothing
+/// but the bound of layout/base/rounding.hpp enlarges their discs: they have no grid.
+class TangentShapes {
+ public:
+  TangentShapes(std::uint64_t seed, std::uint32_t shapes, std::uint32_t poses);
+
+  const ShapeSet& set() const { return set_; }
+  const PosedShape& pose(std::uint32_t i) const { return poses_[i]; }
+  std::uint32_t size() const { return static_cast<std::uint32_t>(poses_.size()); }
+
+ private:
+  std::vector<Shape> shapes_;
+  ShapeSet set_;
+  std::vector<PosedShape> poses_;
+};
+
+/// A pair of agents at the edge of a hit. A disc of one's cut and one of the other's overlap, with all discs
+/// above them, except for two of these discs, which are within a few units in the last place of touching.
+/// Those two are the discs of the cuts, or discs above one of them or both.
+struct NearTangent {
+  const PosedShape *a, *b;
+  double x, y;  ///< of b's agent; a's stands at (at_x, at_y)
+  double at_x, at_y;
+  std::uint32_t i, j;  ///< the two that nearly touch, among PosedShape::cut.discs
+  bool above;          ///< whether one of them is above its cut
+  bool
+      meet;  ///< whether the discs of the cuts overlap with all above, exactly: then the pair has to be a hit
+  double gap;  ///< of i and j, metres, less than zero where they overlap
+
+  double reaches() const { return a->reach + b->reach; }
+  const baselines::ExactDisc& disc_a() const { return a->cut.discs[i]; }
+  const baselines::ExactDisc& disc_b() const { return b->cut.discs[j]; }
+  double radii() const { return static_cast<double>(disc_a().radius + disc_b().radius); }
+  /// Returns whether the cuts have no other discs.
+  bool lone() const { return a->cut.discs.size() == 1 && b->cut.discs.size() == 1; }
+};
+
+const ShapeSetPlan plan{{0, 2, all_depths}};
+
+/// Its two ends lie on its smallest enclosing disc.
+Outline stroke(Random& random) {
+  const double far = std::exp2(random.uniform(-6, 3)), size = std::exp2(random.uniform(-10, 2));
+  const double at = random.uniform(-4, 4), along = random.uniform(-4, 4);
+  const double x = far * std::cos(at), y = far * std::sin(at);
+  Outline outline;
+  outline.points = {
+      {static_cast<float>(x), static_cast<float>(y)},
+      {static_cast<float>(x + size * std::cos(along)), static_cast<float>(y + size * std::sin(along))}};
+  outline.contour_begin.push_back(2);
+  return outline;
+}
+
+Shape tangent_shape(Random& random) {
+  if (random.below(2) == 0) {
+    const Outline outline = stroke(random);
+    return {outline, contour_hierarchy(outline, 9.0f)};
+  }
+  Outline outline = star(random, 3 + random.below(8), 0.1, 0.4, random.uniform(-1, 1), random.uniform(-1, 1));
+  outline.grid_step = 0;
+  return {outline, contour_hierarchy(outline, 0.03f)};
+}
+
+double heading_of_any_size(Random& random) {
+  const double sign = random.below(2) == 0 ? 1 : -1;
+  switch (random.below(4)) {
+    case 0:
+      return sign * std::exp2(random.uniform(-60, 0));
+    case 1:
+      return sign * std::exp2(random.uniform(2, 29.8));
+    default:
+      return random.uniform(-4, 4);
+  }
+}
+
+std::vector<Shape> make_shapes(Random& random, std::uint32_t count) {
+  std::vector<Shape> shapes;
+  for (std::uint32_t i = 0; i < count; ++i) shapes.push_back(tangent_shape(random));
+  return shapes;
+}
+
+double extent(const ExactDisc& disc, double x, double y) {
+  return static_cast<double>(disc.centre.x) * x + static_cast<double>(disc.centre.y) * y +
+         static_cast<double>(disc.radius);
+}
+
+/// The disc of the cut that goes furthest along (x, y).
+std::uint32_t outermost(const PosedShape& pose, double x, double y) {
+  const auto& discs = pose.cut.discs;
+  return *std::max_element(pose.cut.cut.begin(), pose.cut.cut.end(), [&](std::uint32_t i, std::uint32_t j) {
+    return extent(discs[i], x, y) < extent(discs[j], x, y);
+  });
+}
+
+/// Two discs, and the unit vector from the first one's centre to the second's where they touch.
+struct Touching {
+  std::uint32_t i, j;
+  double distance;  ///< that b has gone until then
+  double x, y;
+};
+
+/// Of all discs above a disc of each cut, these included, the first that part as b goes along (x, y) from where the centres
+/// of the two are one point.
+Touching first_to_part(const baselines::ExactCut& a, std::span<const std::uint32_t> path_a,
+                       const baselines::ExactCut& b, std::span<const std::uint32_t> path_b, double x,
+                       double y) {
+  const QuadVector begin = a.discs[path_a[0]].centre - b.discs[path_b[0]].centre;
+  Touching first{0, 0, HUGE_VAL, x, y};
+  for (const std::uint32_t i : path_a)
+    for (const std::uint32_t j : path_b) {
+      const QuadVector between = a.discs[i].centre - b.discs[j].centre - begin;
+      const double dx = static_cast<double>(between.x), dy = static_cast<double>(between.y);
+      const double radii = static_cast<double>(a.discs[i].radius + b.discs[j].radius);
+      const double across = x * dy - y * dx,
+                   along = std::sqrt(std::max(0.0, radii * radii - across * across));
+      const double distance = x * dx + y * dy + along;
+      if (distance < first.distance)
+        first = {i, j, distance, (along * x + across * y) / radii, (along * y - across * x) / radii};
+    }
+  return first;
+}
+
+/// How far the squares of two discs' distance and of their radii are apart, exactly; `shift` leads from a's agent to b's.
+Quad excess(const ExactDisc& a, const ExactDisc& b, QuadVector shift) {
+  const Quad radii = a.radius + b.radius;
+  return square(shift - (a.centre - b.centre)) - radii * radii;
+}
+
+double near_gap(Random& random, double radii, double reaches) {
+  switch (random.below(4)) {
+    case 0:
+      return (static_cast<int>(random.below(129)) - 64) * 0x1p-52 * radii;
+    case 1:
+      return random.uniform(-8, 8) * detail::rounding::unit_roundoff * reaches;
+    default:
+      return (static_cast<int>(random.below(129)) - 64) * 0x1p-24 * radii;
+  }
+}
+
+void place(Random& random, NearTangent& pair, const Touching& touching) {
+  const double radii = pair.radii(), distance = radii + near_gap(random, radii, pair.reaches());
+  const QuadVector between = pair.disc_a().centre - pair.disc_b().centre;
+  pair.x = pair.at_x + (static_cast<double>(between.x) + distance * touching.x);
+  pair.y = pair.at_y + (static_cast<double>(between.y) + distance * touching.y);
+}
+
+bool all_overlap(const NearTangent& pair, std::span<const std::uint32_t> path_a,
+                 std::span<const std::uint32_t> path_b, QuadVector shift) {
+  for (const std::uint32_t i : path_a)
+    for (const std::uint32_t j : path_b)
+      if (excess(pair.a->cut.discs[i], pair.b->cut.discs[j], shift) > 0) return false;
+  return true;
+}
+
+TangentShapes::TangentShapes(std::uint64_t seed, std::uint32_t shapes, std::uint32_t poses)
+    : shapes_([&] {
+        Random random(seed);
+        return make_shapes(random, shapes);
+      }()),
+      set_(shapes_, plan) {
+  Random random(seed + 1);
+  for (std::uint32_t i = 0; i < poses; ++i) {
+    const std::uint32_t shape = i % shapes;
+    const auto level = static_cast<std::uint8_t>(random.below(3));
+    const double heading = heading_of_any_size(random);
+    const auto rotation = baselines::quad_rotation(heading);
+    const Hierarchy& hierarchy = shapes_[shape].hierarchy;
+    poses_.push_back({shape, level, heading, hierarchy.reach, rotation,
+                      baselines::exact_cut(hierarchy, plan.depths[level]).posed(rotation)});
+  }
+}
+
+/// Draws a pair of agents that nearly touch. The discs of the cuts are the outermost along a random line, so
+/// that hardly any others hide a miss of theirs. The two that nearly touch are those that separate the
+/// agents: the first to do so as b moves away along that line from where the centres of both discs of the
+/// cuts coincide. That point is then in all discs above, too, so that all overlap on the way.
+///
+/// Half of the gaps are -64 to 64 units in the last place of a float, a quarter as many of a double, and the rest up to 8 u
+/// of the reaches.
+NearTangent near_tangent(Random& random, const TangentShapes& shapes) {
+  NearTangent pair{};
+  pair.a = &shapes.pose(random.below(shapes.size()));
+  pair.b = &shapes.pose(random.below(shapes.size()));
+  if (random.below(4) == 0) pair.at_x = random.uniform(-1e6, 1e6), pair.at_y = random.uniform(-1e6, 1e6);
+  const double angle = random.uniform(-4, 4), along_x = std::cos(angle), along_y = std::sin(angle);
+  const auto path_a = pair.a->cut.path(outermost(*pair.a, along_x, along_y)),
+             path_b = pair.b->cut.path(outermost(*pair.b, -along_x, -along_y));
+  const Touching touching = first_to_part(pair.a->cut, path_a, pair.b->cut, path_b, along_x, along_y);
+  pair.i = touching.i, pair.j = touching.j;
+  pair.above = pair.i != path_a[0] || pair.j != path_b[0];
+  place(random, pair, touching);
+  // The doubles that came out are the input; what is true of them:
+  const QuadVector shift{Quad{pair.x} - pair.at_x, Quad{pair.y} - pair.at_y};
+  pair.meet = all_overlap(pair, path_a, path_b, shift);
+  pair.gap = static_cast<double>(excess(pair.disc_a(), pair.disc_b(), shift)) / (2 * pair.radii());
+  return pair;
+}
+
+}  // namespace
+}  // namespace bch::test
 
 namespace bch {
 namespace {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "baselines/oracle.hpp"
 #include "baselines/time_of_impact_reference.hpp"
-#include "layout/hierarchy/paper_hierarchies.hpp"
 #include "tests/support/differential.hpp"
 #include "tests/support/test.hpp"
+#include "tests/support/touching_scene.hpp"
 
 namespace bch {
 namespace {
@@ -71,8 +70,7 @@ class TimeOfImpactDifferential : public test::Differential {
     const auto between =
         std::count_if(brute_force.begin(), brute_force.end(), [](float t) { return t > 0 && t <= 1; });
     EXPECT_GT(between, std::ssize(brute_force) / 20) << what;
-    for (const auto& implementation : implementations()) {
-      if (!implementation.supported()) continue;
+    for (const Implementation& implementation : test::supported()) {
       const std::vector<float> of = times(set, motion, &implementation);
       for (std::size_t i = 0; i < motion.pairs.size(); ++i)
         ASSERT_EQ(of[i], brute_force[i]) << what << ", " << implementation.name << ", pair " << i;
@@ -140,8 +138,7 @@ TEST(TimeOfImpact, OfASmallBodyAtTheEndOfALongOne) {
   }
   for (const bool culling : {false, true}) {
     const ShapeSet set(shapes, {.culling = culling});
-    for (const auto& implementation : implementations()) {
-      if (!implementation.supported()) continue;
+    for (const Implementation& implementation : test::supported()) {
       const std::vector<float> of = times(set, motion, &implementation);
       for (std::size_t i = 0; i < of.size(); ++i)
         ASSERT_EQ(of[i], reference.query(motion.crowd.agents(), motion.pairs[i], motion.x[i], motion.y[i],
@@ -179,9 +176,8 @@ TEST_F(TimeOfImpactDifferential, IsNotLaterThanTheContactOfTheOutlines) {
     const Agents agents = motion.crowd.agents();
     const std::vector<float> all = times(finest, motion);
     for (std::size_t i = 0; i < all.size(); ++i) {
-      const auto [a, b] = motion.pairs[i];
-      const baselines::Oracle oracle(shapes[agents.shape[a]].outline, shapes[agents.shape[b]].outline,
-                                     baselines::exact_placement(agents, a, b));
+      const std::uint32_t a = motion.pairs[i].first;
+      const baselines::Oracle oracle = test::oracle(shapes, agents, motion.pairs[i]);
       const long double c = std::cos(static_cast<long double>(agents.heading.x()[a])),
                         s = std::sin(static_cast<long double>(agents.heading.x()[a]));
       const long double x = motion.x[i], y = motion.y[i];
@@ -211,8 +207,7 @@ TEST(TimeOfImpact, OfTipsIsThatOfTheOutlinesLessTheMargin) {
     motion.pairs.push_back({2 * i, 2 * i + 1});
     motion.x.push_back(way * length * std::cos(angle));
     motion.y.push_back(way * length * std::sin(angle));
-    const baselines::Oracle oracle(shapes[0].outline, shapes[0].outline,
-                                   baselines::exact_placement(motion.crowd.agents(), 2 * i, 2 * i + 1));
+    const baselines::Oracle oracle = test::oracle(shapes, motion.crowd.agents(), motion.pairs[i]);
     // Tips may pass each other by a rounding, so by their distance instead of where corners arrive.
     exact.push_back(oracle.distance() / (static_cast<long double>(way) * length));
     margin.push_back(4e-6L * (1 + length) / (static_cast<long double>(way) * length));
@@ -226,27 +221,6 @@ TEST(TimeOfImpact, OfTipsIsThatOfTheOutlinesLessTheMargin) {
     EXPECT_GE(all[i], exact[i] - margin[i]) << i;
   }
   EXPECT_GT(contacts, test::samples(1'000));
-}
-
-TEST(TimeOfImpact, OfSingleDiscs) {
-  const std::vector<Shape> shapes = {{{}, detail::fixed_cylinder(0.25f)}};
-  for (const ShapeSetPlan& levels : {ShapeSetPlan{{0}}, ShapeSetPlan{}}) {
-    const ShapeSet set(shapes, levels);
-    Motion motion;
-    motion.crowd.add({0, 0, 0, 1, 0});
-    motion.crowd.add({0, 2.5, 0, 2, 0});
-    motion.pairs = {{0, 1}, {0, 1}, {1, 0}, {0, 1}, {0, 0}, {0, 1}, {0, 1}};
-    motion.x = {4, -4, -4, 1.9, 1, 0, 4};
-    motion.y = {0, 0, 0, 0, 0, 0, 1};
-    const std::vector<float> all = times(set, motion);
-    EXPECT_NEAR(all[0], 0.5, 1e-5);
-    EXPECT_EQ(all[1], never);  // away from each other
-    EXPECT_EQ(all[2], all[0]);
-    EXPECT_EQ(all[3], never);  // ends before
-    EXPECT_EQ(all[4], 0);      // an agent and itself
-    EXPECT_EQ(all[5], never);  // at rest
-    EXPECT_EQ(all[6], never);  // passes by
-  }
 }
 
 }  // namespace

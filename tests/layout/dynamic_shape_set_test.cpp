@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <ostream>
-
 #include "layout/format/shape_validation.hpp"
 #include "layout/hierarchy/paper_hierarchies.hpp"
 #include "layout/shape_set/shape_storage.hpp"

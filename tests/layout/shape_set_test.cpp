@@ -169,6 +169,7 @@ TEST(ShapeSet, BuildsOnlyWhatThePlanNames) {
   EXPECT_LT(bytes({3}, false), bytes({6}, false));
   EXPECT_LT(bytes({6}, false), bytes({all_depths}, false));
   EXPECT_LT(bytes({all_depths}, false), bytes({all_depths}, true));
+  EXPECT_LT(ShapeSet(shapes, {.culling = false}).bytes(), ShapeSet(shapes).bytes());
   EXPECT_TRUE(ShapeSet(std::vector<Shape>{{{}, detail::fixed_cylinder(1)}}).roots_only());
 }
 

@@ -49,34 +49,6 @@ Character two_joints() {
   return c;
 }
 
-TEST(Skinning, RestPoseIsTheBindPose) {
-  const Character c = two_joints();
-  validate(c);
-  detail::Skinner skinner(c);
-  const auto pose = skinner.pose({});
-  for (std::size_t v = 0; v < c.vertices.size(); ++v) EXPECT_EQ(pose[v], c.vertices[v]);
-}
-
-TEST(Skinning, TakesOutTheWayButKeepsTheTurn) {
-  const Character c = two_joints();
-  detail::Skinner skinner(c);
-  const auto pose = skinner.pose({0, 1.0f});
-  EXPECT_TRUE(detail::to_eigen(pose[1]).isApprox(Eigen::Vector3f(1, 0, 0), 1e-6f));
-  EXPECT_TRUE(detail::to_eigen(pose[4]).isApprox(Eigen::Vector3f(0, 1, 1), 1e-6f))
-      << detail::to_eigen(pose[4]).transpose();
-}
-
-TEST(Skinning, BlendsTheBonesOfAVertex) {
-  Character c = two_joints();
-  c.influence_begin = {0, 1, 2, 3, 4, 6, 7};
-  c.influences = {{0, 1}, {0, 1}, {0, 1}, {1, 1}, {0, 0.5f}, {1, 0.5f}, {1, 1}};
-  validate(c);
-  detail::Skinner skinner(c);
-  const auto pose = skinner.pose({0, 2.0f});
-  EXPECT_TRUE(detail::to_eigen(pose[4]).isApprox(Eigen::Vector3f(0, 0, 1), 1e-6f))
-      << detail::to_eigen(pose[4]).transpose();
-}
-
 /// Linear blend skinning as it is written, in double and with the library's slerp.
 class SlowSkinner {
  public:
@@ -170,7 +142,7 @@ TEST(Skinning, IsWhatItIsWrittenAs) {
   for (const Character& character : test::people()) expect_as_slowly(character);
 }
 
-/// More bones than have a loop of their own, scales, and keys whose times differ from joint to joint.
+/// In the rest pose and at times of clips: more bones than have a loop of their own, scales, and keys whose times differ from joint to joint.
 TEST(Skinning, BlendsManyBonesWithKeysAtAnyTimes) {
   std::mt19937 random(5);
   const auto uniform = [&] { return std::uniform_real_distribution<float>(-1, 1)(random); };

@@ -24,14 +24,12 @@ from unittest import mock
 import bch
 import numpy as np
 
-
 def squares(n=2):
     """A set of squares of 1, 2 ... metres, and n agents on a line."""
     bodies = [[[(-k, -k), (k, -k), (k, k), (-k, k)]] for k in (0.5, 1.0)]
     shapes = bch.ShapeSet.from_polygons(bodies, plan=bch.Plan(heights=True), heights=[(0.0, 1.0), (0.0, 2.0)])
     agents = bch.Agents(np.zeros(n, np.uint32), 0.9 * np.arange(n), np.zeros(n), np.zeros(n))
     return shapes, agents
-
 
 class Errors(unittest.TestCase):
     def setUp(self):
@@ -286,7 +284,6 @@ class Errors(unittest.TestCase):
             self.expect(OSError, ["b.bch"], bch.import_character, wrong)
             self.expect(OSError, ["nowhere"], self.shapes.save, Path(folder) / "nowhere" / "c.bch")
 
-
 class Libraries(unittest.TestCase):
     """libbch is loaded with the package, and libbch_files, which needs many packages, when a file is read."""
 
@@ -343,7 +340,6 @@ class Libraries(unittest.TestCase):
             files.write_bytes((package / files.name).read_bytes())
             first.write_bytes(first.read_bytes().replace(private.encode(), private[:-1].encode() + b"x"))
             expect(f"version `{private}' not found")
-
 
 class Sets(unittest.TestCase):
     def test_own_bodies(self):
@@ -451,45 +447,17 @@ class Sets(unittest.TestCase):
             with self.assertRaisesRegex(bch.Error, message):
                 bch.bake(man, bad)
 
-    def test_bodies_of_smpl(self):
-        """A made body in the arrays that loaders of SMPL give: y up, looking along z, 24 joints, weights for all of them."""
-        parents = [-1, 0, 0, 0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 9, 9, 12, 13, 14, 16, 17, 18, 19, 20, 21]
-        random = np.random.default_rng(5)
-        rest = random.normal(size=(24, 3)) * [0.2, 0.5, 0.1]
-        v_template = (rest[:, None] + 0.05 * random.normal(size=(24, 10, 3))).reshape(-1, 3)
-        faces = np.arange(240, dtype=np.uint32).reshape(-1, 3)
-        weights = np.repeat(np.eye(24), 10, axis=0) * 0.75 + np.roll(np.repeat(np.eye(24), 10, axis=0), 1, axis=1) * 0.25
-        frames = 3
-        A = np.tile(np.eye(4), (frames, 24, 1, 1))  # world times inverse bind, as smplx.lbs names it
-        for frame, joint in np.ndindex(frames, 24):
-            turn = np.linalg.qr(random.normal(size=(3, 3)))[0]
-            A[frame, joint, :3] = np.column_stack([turn, rest[joint] - turn @ rest[joint]])
-        A[:, :, :3, 3] += [5.0, 0, 7.0]  # the body's way
-        points = np.concatenate([v_template, np.ones((240, 1))], axis=1)
-        vertices = np.einsum("nj,fjab,nb->fna", weights, A, points)[..., :3]
-        joints = rest + [5.0, 0, 7.0]
-
-        to_ours = np.array([[0, 0, 1, 0], [1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 1.0]])
-        origins = np.tile(joints[0] @ to_ours[:2, :3].T, (frames, 1))
-        mesh = bch.make_character(v_template @ to_ours[:3, :3].T, faces)
-        posed = vertices @ to_ours[:3, :3].T - [*origins[0], 0]
-        by_vertices = bch.bake(mesh, bch.Vertices(posed))
-        body = bch.make_character(
-            v_template,
-            faces,
-            joints=[bch.Joint(parent=parent) for parent in parents],
-            bones=[bch.Bone(joint) for joint in range(24)],
-            vertex_bones=np.tile(np.arange(24), (240, 1)),
-            weights=weights,
-            root_joint=0,
-        )
-        by_matrices = bch.bake(body, bch.Transforms(to_ours @ A, "palette", origins))
-        for shape in range(frames):
-            ours, others = by_vertices.discs(shape, 0)[0], by_matrices.discs(shape, 0)[0]
-            for field in ("x", "y", "radius"):
-                self.assertAlmostEqual(float(ours[field]), float(others[field]), places=5)
-            corners = np.concatenate(by_vertices.outline(shape))
-            np.testing.assert_allclose(corners.max(axis=0), posed[shape, :, :2].max(axis=0), atol=1e-5)
+    def test_palettes_of_ones_own(self):
+        """Matrices of bones, of which one stands elsewhere: where it stands does not count, how it is turned does."""
+        mesh = [(0, 0, 0), (1, 0, 0), (0, 1, 1)], [(0, 1, 2)]
+        bones = {"joints": [bch.Joint()], "bones": [bch.Bone(0)], "root_joint": 0}
+        bones |= {"vertex_bones": [[0]] * 3, "weights": np.ones((3, 1))}
+        turned = np.array([(0, -1, 0, 5), (1, 0, 0, 7), (0, 0, 1, 0), (0, 0, 0, 1)], float)
+        palette = np.stack([np.eye(4), turned])[:, None]
+        made = bch.bake(bch.make_character(*mesh, **bones), bch.Transforms(palette, "palette", np.array([(0.0, 0), (5, 7)])))
+        for shape, corners in enumerate(([(0, 0), (0, 1), (1, 0)], [(-1, 0), (0, 0), (0, 1)])):
+            (contour,) = made.outline(shape)
+            np.testing.assert_allclose(sorted(contour.round(4).tolist()), corners, atol=1e-4)
 
     def test_replacing(self):
         male = bch.default_male()
@@ -596,7 +564,6 @@ class Sets(unittest.TestCase):
         x = np.array([0.0, 1.0, 50.0])
         np.testing.assert_allclose(bch.local_densities(x, np.zeros(3)), np.array([2, 2, 1]) / (4 * np.pi))
         self.assertGreaterEqual(bch.depth_at_density(0.1), 0)
-
 
 class Recordings(unittest.TestCase):
     """Two people who walk through each other."""
@@ -706,7 +673,6 @@ class Recordings(unittest.TestCase):
             with self.assertRaisesRegex(kind, words):
                 check(**more)
 
-
 class Interrupts(unittest.TestCase):
     def test_baking_ends_and_leaves_no_file(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -741,7 +707,6 @@ class Interrupts(unittest.TestCase):
         self.assertIn(b"baking default:male", shown)
         ended = subprocess.run([sys.executable, "-c", script], capture_output=True)
         self.assertEqual((ended.stdout, ended.stderr), (b"", b""))
-
 
 class Memory(unittest.TestCase):
     def test_calls_with_out_allocate_nothing(self):
@@ -786,7 +751,6 @@ class Memory(unittest.TestCase):
             make()
         self.assertLess(resident() - before, 10 * people.nbytes)
 
-
 class Documentation(unittest.TestCase):
     def test_everything_public_explains_itself(self):
         for name in bch.__all__:
@@ -800,7 +764,6 @@ class Documentation(unittest.TestCase):
             for member, function in inspect.getmembers(thing, inspect.isfunction):
                 if not member.startswith("_") and function.__module__.startswith("bch"):
                     self.assertTrue(inspect.getdoc(function), f"{name}.{member}")
-
 
 if __name__ == "__main__":
     unittest.main()

@@ -3,13 +3,6 @@
 
 #include "tests/support/all_queries.hpp"
 
-#include <vector>
-
-#include <bch/crowd.hpp>
-#include <bch/obstacles.hpp>
-#include <bch/pairs.hpp>
-#include <bch/shapes.hpp>
-
 #include "kernel/runtime/all_options.hpp"
 #include "layout/shape_set/flat_shape.hpp"
 

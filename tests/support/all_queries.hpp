@@ -3,11 +3,7 @@
 
 #pragma once
 
-#include <span>
-
-#include <bch/agents.hpp>
-#include <bch/query.hpp>
-#include <bch/shapes.hpp>
+#include "tests/support/standard.hpp"
 
 namespace bch::test {
 

@@ -3,14 +3,9 @@
 
 #pragma once
 
-#include <cstddef>
-#include <span>
-#include <string>
-
-#include <bch/files.hpp>
-
 #include "layout/baked/format.hpp"
 #include "layout/base/aligned_vector.hpp"
+#include "tests/support/standard.hpp"
 
 namespace bch::test {
 

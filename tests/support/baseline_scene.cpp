@@ -3,14 +3,8 @@
 
 #include "tests/support/baseline_scene.hpp"
 
-#include <cmath>
 #include <cstdlib>
 #include <ios>
-#include <numbers>
-#include <sstream>
-#include <stdexcept>
-
-#include <bch/poses.hpp>
 
 #include "layout/character/skinning.hpp"
 

@@ -3,13 +3,6 @@
 
 #pragma once
 
-#include <cstdint>
-#include <memory>
-#include <string>
-#include <vector>
-
-#include <bch/characters.hpp>
-
 #include "baselines/structure.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -50,9 +43,6 @@ template <class Answer>
 bool touches(const PairScene& scene, std::size_t pair, double shift, Answer answer);
 
 }  // namespace bch::test
-
-#include <cmath>
-#include <numbers>
 
 template <class Answer>
 bool bch::test::touches(const PairScene& scene, std::size_t pair, double shift, Answer answer) {

@@ -3,10 +3,7 @@
 
 #pragma once
 
-#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
-#include <string>
-#include <vector>
 
 #include "tests/support/program_run.hpp"
 

@@ -3,9 +3,7 @@
 
 #pragma once
 
-#include <cstddef>
-#include <string>
-#include <vector>
+#include "tests/support/standard.hpp"
 
 namespace bch::test {
 

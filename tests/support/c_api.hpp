@@ -5,13 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <memory>
-#include <string>
-#include <tuple>
-#include <type_traits>
-
 #include <bch/bch.h>
-#include <bch/files.hpp>
 
 #include "tests/support/scenes.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -3,11 +3,6 @@
 
 #include "tests/support/c_api_queries.hpp"
 
-#include <algorithm>
-#include <cstring>
-#include <memory>
-#include <span>
-
 namespace bch::test {
 namespace {
 

@@ -3,10 +3,6 @@
 
 #pragma once
 
-#include <functional>
-#include <string>
-#include <vector>
-
 #include "tests/support/c_api.hpp"
 
 // Every query of the C interface once, for all tests that ask them all.

@@ -8,8 +8,6 @@
 
 #include <cstdlib>
 
-#include <bch/poses.hpp>
-
 namespace bch::test {
 
 std::optional<std::filesystem::path> test_data() {

@@ -3,12 +3,7 @@
 
 #pragma once
 
-#include <filesystem>
-#include <optional>
-#include <vector>
-
-#include <bch/characters.hpp>
-#include <bch/shapes.hpp>
+#include "tests/support/standard.hpp"
 
 namespace bch::test {
 

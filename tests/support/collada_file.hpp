@@ -3,10 +3,6 @@
 
 #pragma once
 
-#include <string>
-#include <utility>
-#include <vector>
-
 #include "tests/support/quoted.hpp"
 
 // Parts of Collada files, and files of them.

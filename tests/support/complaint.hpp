@@ -5,8 +5,7 @@
 
 #include <gtest/gtest.h>
 
-#include <stdexcept>
-#include <string>
+#include "tests/support/standard.hpp"
 
 namespace bch::test {
 

@@ -3,13 +3,7 @@
 
 #pragma once
 
-#include <algorithm>
-#include <cstdint>
-#include <span>
-#include <tuple>
-#include <vector>
-
-#include <bch/crowd.hpp>
+#include "tests/support/standard.hpp"
 
 namespace bch::test {
 
@@ -22,6 +16,14 @@ inline std::vector<Pair> sorted(std::span<const Pair> pairs) {
   std::vector<Pair> all(pairs.begin(), pairs.end());
   std::sort(all.begin(), all.end(), precedes);
   return all;
+}
+
+/// Returns the pairs of so many agents, in order.
+inline std::vector<Pair> all_pairs(std::uint32_t count) {
+  std::vector<Pair> pairs;
+  for (std::uint32_t i = 0; i < count; ++i)
+    for (std::uint32_t j = i + 1; j < count; ++j) pairs.push_back({i, j});
+  return pairs;
 }
 
 /// Returns the pairs of Crowd::candidates() in a vector of their own.

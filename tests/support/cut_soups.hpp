@@ -5,12 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <string>
-
-#include <bch/outline.hpp>
-
 #include "layout/outline/mesh_outliner.hpp"
 #include "tests/support/outline_checks.hpp"
 #include "tests/support/outline_soups.hpp"

@@ -5,10 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdint>
-#include <string>
-#include <vector>
-
 #include "baselines/reference.hpp"
 #include "tests/support/scenes.hpp"
 

@@ -4,14 +4,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <bit>
-#include <cmath>
-#include <cstdint>
 #include <cstdio>
-#include <map>
-#include <numbers>
-#include <string>
-#include <vector>
 
 #include "tests/support/quoted.hpp"
 

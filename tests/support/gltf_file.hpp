@@ -3,10 +3,7 @@
 
 #pragma once
 
-#include <cstdint>
-#include <string>
-#include <type_traits>
-#include <vector>
+#include "tests/support/standard.hpp"
 
 namespace bch {
 

@@ -3,10 +3,6 @@
 
 #include "tests/support/height_scenes.hpp"
 
-#include <utility>
-
-#include <bch/poses.hpp>
-
 #include "tests/support/test_characters.hpp"
 
 namespace bch::test {

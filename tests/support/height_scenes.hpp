@@ -3,10 +3,6 @@
 
 #pragma once
 
-#include <vector>
-
-#include <bch/shapes.hpp>
-
 #include "tests/support/scenes.hpp"
 
 // Bodies with heights, and crowds on different grounds.

@@ -5,10 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <vector>
-
 #include "layout/base/rounding.hpp"
 #include "layout/hierarchy/paper_hierarchies.hpp"
 #include "layout/hierarchy/subtrees.hpp"

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <bch/hierarchy.hpp>
+#include "tests/support/standard.hpp"
 
 namespace bch::test {
 

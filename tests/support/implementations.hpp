@@ -3,10 +3,7 @@
 
 #pragma once
 
-#include <functional>
-#include <vector>
-
-#include <bch/query.hpp>
+#include "tests/support/standard.hpp"
 
 namespace bch::test {
 

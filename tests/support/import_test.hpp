@@ -5,13 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <filesystem>
-#include <string>
-#include <vector>
-
-#include <bch/import.hpp>
-
 #include "layout/character/eigen.hpp"
 #include "layout/character/skinning.hpp"
 #include "tests/support/complaint.hpp"

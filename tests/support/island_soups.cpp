@@ -3,8 +3,6 @@
 
 #include "tests/support/island_soups.hpp"
 
-#include <cmath>
-
 namespace bch::test {
 namespace {
 

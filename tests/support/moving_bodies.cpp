@@ -3,11 +3,6 @@
 
 #include "tests/support/moving_bodies.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <numbers>
-
 namespace bch::test {
 namespace {
 

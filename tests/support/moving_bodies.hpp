@@ -3,15 +3,6 @@
 
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <vector>
-
-#include <bch/motion.hpp>
-#include <bch/obstacles.hpp>
-#include <bch/shapes.hpp>
-
 #include "tests/support/scenes.hpp"
 
 // Bodies that move, and motions of theirs, with a definition of contact that samples. Random bodies have discs that an AnimatedShape

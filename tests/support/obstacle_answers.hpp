@@ -3,14 +3,6 @@
 
 #pragma once
 
-#include <cmath>
-#include <cstddef>
-#include <cstdint>
-#include <span>
-#include <vector>
-
-#include <bch/obstacles.hpp>
-
 #include "kernel/runtime/all_options.hpp"
 #include "tests/support/scenes.hpp"
 

@@ -3,9 +3,6 @@
 
 #include "tests/support/obstacle_scenes.hpp"
 
-#include <cmath>
-#include <numbers>
-
 namespace bch::test {
 namespace {
 
@@ -58,21 +55,18 @@ ObstacleScene obstacle_scene(Random& random, std::uint32_t count, double half, d
         std::vector<Point> path{at};
         for (std::uint32_t k = 1 + random.below(4); k > 0; --k)
           path.push_back(random.below(5) == 0 ? path.back() : point());
-        scene.add_path(path, false);
-        scene.end_obstacle(false);
+        scene.add(path, false);
         break;
       }
       case 1:  // collinear pieces that overlap
-        scene.add_path({at, {at.x + 1, at.y}, {at.x + 0.5, at.y}, {at.x + 2, at.y}}, false);
-        scene.end_obstacle(false);
+        scene.add({at, {at.x + 1, at.y}, {at.x + 0.5, at.y}, {at.x + 2, at.y}}, false);
         break;
       case 2:  // a post without extent
-        scene.add_path({at}, false);
-        scene.end_obstacle(false);
+        scene.add({at}, false);
         break;
       case 3: {  // the same twice
         const Point to = point();
-        for (int k = 0; k < 2; ++k) scene.add_path({at, to}, false), scene.end_obstacle(false);
+        for (int k = 0; k < 2; ++k) scene.add({at, to}, false);
         break;
       }
       case 4: {  // a polygon with a hole, and something in that
@@ -84,18 +78,15 @@ ObstacleScene obstacle_scene(Random& random, std::uint32_t count, double half, d
         break;
       }
       case 5:  // one that crosses itself
-        scene.add_path({at, {at.x + 1, at.y + 1}, {at.x + 1, at.y}, {at.x, at.y + 1}}, true);
-        scene.end_obstacle(true);
+        scene.add({at, {at.x + 1, at.y + 1}, {at.x + 1, at.y}, {at.x, at.y + 1}}, true);
         break;
       case 6:  // a square, and the same as an obstacle of its own, closed by its points
         for (int k = 0; k < 2; ++k) {
-          scene.add_path({at, {at.x + 0.5, at.y}, {at.x + 0.5, at.y + 0.5}, {at.x, at.y + 0.5}, at}, true);
-          scene.end_obstacle(true);
+          scene.add({at, {at.x + 0.5, at.y}, {at.x + 0.5, at.y + 0.5}, {at.x, at.y + 0.5}, at}, true);
         }
         break;
       default:  // a pillar
-        scene.add_path(ring(random, at, random.uniform(0.05, 0.4), 3 + random.below(6)), true);
-        scene.end_obstacle(true);
+        scene.add(ring(random, at, random.uniform(0.05, 0.4), 3 + random.below(6)), true);
     }
   }
   return scene;

@@ -5,11 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdint>
-#include <vector>
-
-#include <bch/obstacles.hpp>
-
 #include "baselines/obstacle_reference.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -28,6 +23,8 @@ struct ObstacleScene {
   };
   void add_path(const std::vector<Point>& points, bool is_ring);
   void end_obstacle(bool area);
+  /// Adds an obstacle of one path, which is a ring where the obstacle is an area.
+  void add(const std::vector<Point>& points, bool area) { add_path(points, area), end_obstacle(area); }
   ObstacleSet set() const {
     return ObstacleSet({x, y, path_offsets, obstacle_offsets, is_area, bottom, top});
   }

@@ -3,13 +3,6 @@
 
 #include "tests/support/outline_arrangement.hpp"
 
-#include <algorithm>
-#include <iterator>
-#include <map>
-#include <set>
-#include <tuple>
-#include <utility>
-
 namespace bch::test {
 namespace {
 

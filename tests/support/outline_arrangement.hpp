@@ -3,9 +3,7 @@
 
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <vector>
+#include "tests/support/standard.hpp"
 
 namespace bch::test {
 

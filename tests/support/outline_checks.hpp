@@ -3,11 +3,7 @@
 
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <span>
-
-#include <bch/outline.hpp>
+#include "tests/support/standard.hpp"
 
 namespace bch::test {
 

@@ -3,8 +3,6 @@
 
 #include "tests/support/outline_soups.hpp"
 
-#include <utility>
-
 namespace bch::test {
 namespace {
 

@@ -3,12 +3,6 @@
 
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <vector>
-
-#include <bch/outline.hpp>
-
 #include "tests/support/outline_arrangement.hpp"
 #include "tests/support/scenes.hpp"
 

@@ -5,13 +5,9 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdint>
-#include <cstring>
 #include <nlohmann/json.hpp>
-#include <stdexcept>
-#include <string>
-#include <string_view>
-#include <vector>
+
+#include "tests/support/standard.hpp"
 
 namespace bch::test {
 

@@ -3,12 +3,7 @@
 
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <span>
-
-#include <bch/geometry.hpp>
+#include "tests/support/standard.hpp"
 
 // Distances in the plane, as textbooks have them, in any floating-point type.
 

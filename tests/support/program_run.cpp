@@ -10,9 +10,6 @@
 #include <unistd.h>
 
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
-#include <stdexcept>
 #include <thread>
 
 #include "tests/support/temporary_folder.hpp"

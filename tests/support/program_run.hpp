@@ -4,10 +4,8 @@
 #pragma once
 
 #include <chrono>
-#include <filesystem>
-#include <functional>
-#include <string>
-#include <vector>
+
+#include "tests/support/standard.hpp"
 
 namespace bch::test {
 

@@ -6,13 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <cmath>
-#include <numbers>
-#include <utility>
-
 namespace bch::test {
 namespace {
 

@@ -3,15 +3,6 @@
 
 #pragma once
 
-#include <cstdint>
-#include <limits>
-#include <span>
-#include <string>
-#include <vector>
-
-#include <bch/crowd.hpp>
-#include <bch/pairs.hpp>
-
 #include "tests/support/implementations.hpp"
 #include "tests/support/scenes.hpp"
 

@@ -3,9 +3,6 @@
 
 #pragma once
 
-#include <span>
-#include <vector>
-
 #include "baselines/clearance_reference.hpp"
 #include "baselines/reference.hpp"
 #include "baselines/segment_clearance.hpp"

@@ -3,9 +3,7 @@
 
 #pragma once
 
-#include <algorithm>
-#include <stdexcept>
-#include <string>
+#include "tests/support/standard.hpp"
 
 namespace bch::test {
 

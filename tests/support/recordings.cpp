@@ -6,13 +6,6 @@
 #include <gtest/gtest.h>
 #include <sqlite3.h>
 
-#include <algorithm>
-#include <cmath>
-#include <fstream>
-#include <iterator>
-#include <set>
-#include <stdexcept>
-
 #include "layout/base/shortest.hpp"
 
 namespace bch::test {

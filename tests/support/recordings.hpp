@@ -3,11 +3,6 @@
 
 #pragma once
 
-#include <cstdint>
-#include <filesystem>
-#include <string>
-#include <vector>
-
 #include "layout/recordings/trajectory.hpp"
 #include "tests/support/complaint.hpp"
 

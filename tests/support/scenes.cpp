@@ -3,11 +3,6 @@
 
 #include "tests/support/scenes.hpp"
 
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <utility>
-
 #include "layout/format/shape_set_view.hpp"
 
 namespace bch::test {
@@ -126,6 +121,16 @@ std::vector<Shape> synthetic_shapes(std::uint64_t seed, std::uint32_t count) {
     }
   }
   return shapes;
+}
+
+Shape body_of_discs(Random& random, std::uint32_t count) {
+  const double size = std::pow(10, random.uniform(-3, 1));
+  const auto at = [&](double low, double high) {
+    return static_cast<float>(size * random.uniform(low, high));
+  };
+  std::vector<Disc> discs;
+  while (discs.size() < count) discs.push_back({at(-1, 1), at(-1, 1), at(0.02, 0.4)});
+  return shape_from_discs(discs);
 }
 
 std::vector<Shape> repeated(std::span<const Shape> shapes) {

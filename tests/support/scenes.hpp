@@ -3,15 +3,8 @@
 
 #pragma once
 
-#include <cstdint>
-#include <functional>
-#include <span>
-#include <vector>
-
-#include <bch/agents.hpp>
-#include <bch/shapes.hpp>
-
 #include "layout/base/random.hpp"
+#include "tests/support/standard.hpp"
 
 namespace bch::test {
 
@@ -56,6 +49,9 @@ Shape contour_shape(const Outline& outline, float threshold = 0.01f);
 /// Makes shapes of many kinds: people-sized stars of few and of many corners, slender ones, several contours,
 /// whiskers, triangles, and sizes from 1 cm to 4 m.
 std::vector<Shape> synthetic_shapes(std::uint64_t seed, std::uint32_t count);
+
+/// Makes a body of so many discs in no order, of any size from a millimetre to 10 m: its nodes hold them.
+Shape body_of_discs(Random& random, std::uint32_t count);
 
 /// Repeats the shapes until there are so many that kernels prefetch them.
 std::vector<Shape> repeated(std::span<const Shape> shapes);

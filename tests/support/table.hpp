@@ -6,12 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <map>
-#include <sstream>
-#include <string>
-#include <vector>
+
+#include "tests/support/standard.hpp"
 
 // Tables of cases in text files: a line for each, whose fields, divided by " | ", are what is asked and, last, what is to be answered.
 // In fields \n, \t, \r, \\ and \xNN are bytes, and {name} is the text of a line "name := text" above. "//" begins a line that says something

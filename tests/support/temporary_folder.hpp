@@ -5,10 +5,7 @@
 
 #include <stdlib.h>
 
-#include <filesystem>
-#include <fstream>
-#include <stdexcept>
-#include <string>
+#include "tests/support/standard.hpp"
 
 namespace bch {
 

@@ -3,12 +3,6 @@
 
 #pragma once
 
-#include <filesystem>
-#include <vector>
-
-#include <bch/characters.hpp>
-#include <bch/import.hpp>
-
 #include "tests/support/character_shapes.hpp"
 
 namespace bch::test {

@@ -3,9 +3,6 @@
 
 #include "tests/support/touching_scene.hpp"
 
-#include <cmath>
-#include <numbers>
-
 #include "layout/base/rounding.hpp"
 
 namespace bch::test {

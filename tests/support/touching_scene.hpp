@@ -3,12 +3,6 @@
 
 #pragma once
 
-#include <cstdint>
-#include <vector>
-
-#include <bch/agents.hpp>
-#include <bch/shapes.hpp>
-
 #include "baselines/oracle.hpp"
 #include "tests/support/scenes.hpp"
 

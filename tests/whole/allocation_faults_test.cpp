@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "tests/support/allocation_faults.hpp"
+#include <bch/bch.h>
+
+#include <bch/bch.h>
+
+#include "tests/support/allocation_count.hpp"
 #include "tests/support/baked_bytes.hpp"
 #include "tests/support/c_api.hpp"
 #include "tests/support/c_api_queries.hpp"
@@ -11,6 +15,80 @@
 
 // Every function of the C interface that lacks memory writes nothing, and succeeds when it is called again. Thus what it calls of the C++
 // library leaves everything as it was.
+
+namespace bch::test {
+namespace {
+
+// Every allocation of a call of the C interface fails once, and once with all that follow it. So it does for what it calls of the C++
+// library, which throws std::bad_alloc then.
+
+/// Calls, and expects that nothing but memory is lacking.
+/// Returns: whether it is.
+template <class Call>
+bool lacks_memory(const Call& call) {
+  const bch_status status = call();
+  if (status == BCH_OK) return false;
+  EXPECT_EQ(status, BCH_NO_MEMORY);
+  EXPECT_STREQ(bch_last_error(), "out of memory");
+  return true;
+}
+
+/// Makes the calls of a round that are to lack memory.
+class Attempt {
+ public:
+  Attempt(Failing mode, std::size_t after) : mode_(mode), after_(after) {}
+
+  /// Makes a call without the memory that it needs.
+  /// Returns: whether it failed for that.
+  template <class Call>
+  bool fails(const Call& call) {
+    fail_allocations(mode_, after_);
+    const bool failed = lacks_memory(call);
+    const std::size_t failures = stop_failing_allocations();
+    EXPECT_EQ(failed, failures > 0) << "allocation " << after_;
+    any_failed = any_failed || failures > 0;
+    return failed;
+  }
+
+  /// Makes a call without the memory that it needs, asks whether all is as it was, and makes the call again with memory.
+  template <class Call>
+  void operator()(
+      const Call& call, const std::function<bool()>& untouched = [] { return true; }) {
+    if (!fails(call)) return;
+    EXPECT_TRUE(untouched()) << "allocation " << after_;
+    EXPECT_FALSE(lacks_memory(call)) << "after allocation " << after_;
+  }
+
+  bool any_failed = false;
+
+ private:
+  const Failing mode_;
+  const std::size_t after_;
+};
+
+/// Runs a round, which leaves nothing behind, with the first, second ... allocation of what it attempts failing, or with every
+/// `step`-th, until no more are left. Expects that these are more than `least`.
+template <class Round>
+void fail_each(std::size_t least, Round round, std::size_t step = 1) {
+  Attempt first(Failing::none, 0);
+  round(first);  // what is made once in a program is made
+  for (std::size_t after = 0;; after += step)
+    for (const Failing mode : {Failing::one, Failing::all}) {
+      const std::size_t live = live_allocations();
+      Attempt attempt(mode, after);
+      round(attempt);
+      const std::size_t leaked = live_allocations() - live;
+      EXPECT_EQ(leaked, 0u) << "allocation " << after;
+      if (testing::Test::HasFailure()) return;
+      if (!attempt.any_failed) {
+        EXPECT_GT(after, least);
+        return;
+      }
+    }
+}
+
+}  // namespace
+}  // namespace bch::test
 
 namespace bch {
 namespace {
@@ -374,6 +452,58 @@ TEST_F(AllocationFaults, Messages) {
     EXPECT_EQ(far, memory ? BCH_OUT_OF_RANGE : BCH_NO_MEMORY);
   }
 }
+
+// ---- Queries of pairs need no memory, and objects keep theirs: those of the C interface, and what they call of the C++ library.
+
+/// By the number of threads that calls ask for.
+class Allocations : public testing::TestWithParam<std::uint32_t> {
+ protected:
+  /// Of later calls, the first being over.
+  static std::size_t count(const test::CQuery& query) {
+    test::expect_ok(query.ask());
+    const std::size_t before = test::allocation_count();
+    for (int i = 0; i < 5; ++i) test::expect_ok(query.ask());
+    return test::allocation_count() - before;
+  }
+
+  static void expect_none(const ShapeSet& set, double step) {
+    test::Random random(53);
+    test::Crowd crowd;
+    for (int i = 0; i < 1'500; ++i) {
+      crowd.add({random.below(16), random.uniform(0, 67), random.uniform(0, 67), random.uniform(-4, 4),
+                 static_cast<std::uint8_t>(random.below(3))});
+      if (step > 0) crowd.z.push_back(step * (i % 4));
+    }
+    std::vector<Pair> pairs = test::candidate_pairs(set, crowd.agents());
+    ASSERT_GT(pairs.size(), 1'000u);
+    pairs.resize(1'000);
+    test::CScene scene(set, crowd, pairs);
+    scene.options.threads = GetParam();
+    for (const bool other : {false, true}) {
+      scene.options.distance_leaves = other;
+      scene.options.implementation = other ? "scalar" : nullptr;
+      for (const test::CQuery& query : all_queries(scene)) {
+        const std::size_t counted = count(query);
+        EXPECT_EQ(counted > 0, query.needs_memory) << query.name << ": " << counted;
+      }
+    }
+  }
+
+  const std::vector<Shape> bodies = test::synthetic_shapes(54, 16);
+};
+
+TEST_P(Allocations, BodiesOnOneGround) {
+  expect_none(ShapeSet(bodies, {{0, 3, all_depths}, true}), 0);
+}
+
+TEST_P(Allocations, BodiesAtDifferentHeights) {
+  std::vector<Shape> high = bodies;
+  for (Shape& body : high) body.heights = {0, 0.5f};
+  expect_none(ShapeSet(high, {.depths = {0, 3, all_depths}, .heights = true}), 0.3);
+}
+
+INSTANTIATE_TEST_SUITE_P(Threads, Allocations, testing::Values(0, 1, 2, 4),
+                         testing::PrintToStringParamName());
 
 }  // namespace
 }  // namespace bch

@@ -196,8 +196,7 @@ TEST_F(Obstacles, OfEquallyNearOnesTheFirstCounts) {
   // Walls beside all four sides, each a metre away; the one above twice.
   const std::vector<double> x = {-3, 3, -3, 3, 2, 2, -2, -2, -3, 3}, y = {2, 2, 2, 2, -3, 3, -3, 3, -2, -2};
   const std::vector<std::uint64_t> paths = {0, 2, 4, 6, 8, 10};
-  for (const Implementation& each : implementations()) {
-    if (!each.supported()) continue;
+  for (const Implementation& each : test::supported()) {
     float distance = 0;
     DiscPair discs{};
     NearestPoints points{};
@@ -265,8 +264,7 @@ TEST_F(Obstacles, InsideAnOutline) {
 
 /// The rule of even and odd where a ray goes through vertices: each belongs to one side of it.
 TEST_F(Obstacles, HoldWhatIsLevelWithTheirVertices) {
-  const std::vector<Shape> disc = {{{}, detail::fixed_cylinder(0.125f)}};
-  const ShapeSet discs(disc);
+  const ShapeSet discs(std::vector<Shape>{{{}, detail::fixed_cylinder(0.125f)}});
   // A diamond; teeth whose tips are level with what stands before them; a notch.
   const std::vector<double> x = {1, 0, -1, 0, 4, 5, 6, 7, 8, 8, 4, 4, 5, 5, 4},
                             y = {0, 1, 0, -1, 1, 0, 1, 0, 1, 2, 2, -3, -3, -2, -2.5};
@@ -308,8 +306,7 @@ TEST_F(Obstacles, HoldAPartOfAnOutline) {
       const double angle = 2 * std::numbers::pi * k / 32, radius = 0.105 / std::cos(std::numbers::pi / 32);
       ring.push_back({side + radius * std::cos(angle), radius * std::sin(angle)});
     }
-    scene.add_path(ring, true);
-    scene.end_obstacle(true);
+    scene.add(ring, true);
     Crowd crowd;
     for (std::uint32_t shape = 0; shape < 2; ++shape)
       for (std::uint8_t level = 0; level < 6; ++level) crowd.add({shape, 0, 0, 0, level});

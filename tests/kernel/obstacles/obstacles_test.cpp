@@ -203,8 +203,7 @@ TEST_F(Obstacles, AnswerFarAwayAsAtTheOrigin) {
 
 /// A wall of 2e8 m is where it is next to an agent, and so is one whose near end is far away.
 TEST_F(Obstacles, MayBeLong) {
-  const std::vector<Shape> disc = {{{}, detail::fixed_cylinder(0.25f)}};
-  const ShapeSet discs(disc);
+  const ShapeSet discs(std::vector<Shape>{{{}, detail::fixed_cylinder(0.25f)}});
   const double far = 1e8;
   for (const double gap : {-1e-6, 3e-6}) {
     Crowd crowd;

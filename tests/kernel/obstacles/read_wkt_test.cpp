@@ -27,8 +27,7 @@ std::vector<std::uint32_t> obstacles_of(const ObstacleSet& set) {
 
 /// Returns whether a small disc at a place collides with an obstacle.
 bool collides_at(const ObstacleSet& set, double x, double y) {
-  const std::vector<Shape> disc = {{{}, detail::fixed_cylinder(0.01f)}};
-  const ShapeSet shapes(disc);
+  const ShapeSet shapes(std::vector<Shape>{{{}, detail::fixed_cylinder(0.01f)}});
   test::Crowd crowd;
   crowd.add({0, x, y, 0, 0});
   std::uint8_t hit;

@@ -110,78 +110,58 @@ TEST(AnimatedShape, HasRoomForAllDiscsThatAreAllowed) {
     expect_tree(AnimatedShape(test::loose_discs(random, discs)).tree().chunks[0]);
 }
 
-/// Discs of numbers of 16 bits are kept, others held by ones that reach out by less than 1.5e-4 of the reach.
-TEST(AnimatedShape, RoundsDiscsOutward) {
+/// Discs of numbers of 16 bits are kept, others held by ones that reach out by less than 1.5e-4 of the reach; spheres alike, by less than
+/// 2e-4 of the reach in space.
+TEST(AnimatedShape, RoundsOutward) {
   Random random(3115);
   int kept = 0, moved = 0;
-  for (std::uint32_t i = 0; i < test::samples(2000); ++i) {
-    const double size = std::exp(random.uniform(-12, 12));
-    std::vector<Disc> discs(2 * (1 + random.below(4)));
-    for (Disc& disc : discs)
-      disc = {static_cast<float>(random.uniform(-size, size)),
-              static_cast<float>(random.uniform(-size, size)),
-              static_cast<float>(random.uniform(0, random.below(3) == 0 ? 2 * size : 0.4 * size))};
-    const auto count = static_cast<std::uint32_t>(discs.size() / 2);
-    const AnimatedShape shape(moving({{{0, 1}, count, discs}}));
-    double reach = 0;
-    for (const Disc& disc : discs)
-      reach = std::max(reach, std::hypot(double{disc.x}, double{disc.y}) + double{disc.radius});
-    std::vector<Disc> rounded = shape.discs(0);
-    const std::vector<Disc> last = shape.discs(1);
-    rounded.insert(rounded.end(), last.begin(), last.end());
-    for (std::size_t k = 0; k < discs.size(); ++k) {
-      const double away =
-          std::hypot(double{rounded[k].x} - double{discs[k].x}, double{rounded[k].y} - double{discs[k].y});
-      const double room = double{rounded[k].radius} - double{discs[k].radius};
-      EXPECT_LE(away, room * (1 + 1e-12)) << i;
-      EXPECT_LT(away + room, 1.5e-4 * reach) << i;
-      moved += away > 0;
-    }
-    EXPECT_GE(shape.reach(), reach * (1 - 1e-12));
-    AnimatedChunk again{{0, 1}, count, rounded};
-    const bool small = std::all_of(rounded.begin(), rounded.end(), [&](const Disc& disc) {
-      return double{disc.radius} <
-             0.4 * std::max(double{std::abs(rounded[0].x)}, double{std::abs(rounded[0].y)});
-    });
-    if (!small) continue;
-    ++kept;
-    EXPECT_EQ(AnimatedShape(moving({again})).discs(0), shape.discs(0));
-  }
-  EXPECT_GT(kept, static_cast<int>(test::samples(100)));
-  EXPECT_GT(moved, static_cast<int>(test::samples(1000)));
-}
-
-/// Spheres alike, by less than 2e-4 of the reach in space.
-TEST(AnimatedShape, RoundsSpheresOutward) {
-  Random random(3117);
-  for (std::uint32_t i = 0; i < test::samples(2000); ++i) {
+  for (std::uint32_t i = 0; i < test::samples(4000); ++i) {
+    const bool in_space = i % 2 == 0;
     const double size = std::exp(random.uniform(-12, 12)), tall = size * std::exp(random.uniform(-3, 1));
     AnimatedChunk chunk{{0, 1}, 1 + random.below(4), {}};
     double reach = 0;
     for (std::uint32_t k = 0; k < 2 * chunk.disc_count; ++k) {
       chunk.keys.push_back(
           {static_cast<float>(random.uniform(-size, size)), static_cast<float>(random.uniform(-size, size)),
-           static_cast<float>(random.uniform(0, random.below(3) == 0 ? 2 * size : 0.1 * size))});
-      chunk.z.push_back(static_cast<float>(random.uniform(-tall, tall)));
+           static_cast<float>(random.uniform(0, random.below(3) == 0 ? 2 * size : 0.4 * size))});
+      const double z = in_space ? random.uniform(-tall, tall) : 0;
+      if (in_space) chunk.z.push_back(static_cast<float>(z));
       const Disc& disc = chunk.keys.back();
-      reach = std::max(
-          reach, std::hypot(double{disc.x}, double{disc.y}, double{chunk.z.back()}) + double{disc.radius});
+      reach = std::max(reach, std::hypot(double{disc.x}, double{disc.y}, z) + double{disc.radius});
     }
     const AnimatedShape shape(moving({chunk}));
-    std::vector<Sphere> rounded = shape.spheres(0);
-    const std::vector<Sphere> last = shape.spheres(1);
-    rounded.insert(rounded.end(), last.begin(), last.end());
+    std::vector<Sphere> rounded;
+    for (const double seconds : {0.0, 1.0}) {
+      for (const Disc& disc : in_space ? std::vector<Disc>() : shape.discs(seconds))
+        rounded.push_back({disc.x, disc.y, 0, disc.radius});
+      for (const Sphere& sphere : shape.spheres(seconds)) rounded.push_back(sphere);
+    }
     ASSERT_EQ(rounded.size(), chunk.keys.size());
     for (std::size_t k = 0; k < rounded.size(); ++k) {
       const Disc& disc = chunk.keys[k];
       const double away =
           std::hypot(double{rounded[k].x} - double{disc.x}, double{rounded[k].y} - double{disc.y},
-                     double{rounded[k].z} - double{chunk.z[k]});
+                     in_space ? double{rounded[k].z} - double{chunk.z[k]} : 0);
       const double room = double{rounded[k].radius} - double{disc.radius};
       EXPECT_LE(away, room * (1 + 1e-12)) << i;
-      EXPECT_LT(away + room, 2e-4 * reach) << i;
+      EXPECT_LT(away + room, (in_space ? 2e-4 : 1.5e-4) * reach) << i;
+      moved += away > 0;
     }
+    if (in_space) continue;
+    EXPECT_GE(shape.reach(), reach * (1 - 1e-12));
+    AnimatedChunk again{{0, 1}, chunk.disc_count, {}};
+    const double widest = std::max(double{std::abs(rounded[0].x)}, double{std::abs(rounded[0].y)});
+    bool small = true;
+    for (const Sphere& each : rounded) {
+      again.keys.push_back({each.x, each.y, each.radius});
+      small = small && double{each.radius} < 0.4 * widest;
+    }
+    if (!small) continue;
+    ++kept;
+    EXPECT_EQ(AnimatedShape(moving({again})).discs(0), shape.discs(0));
   }
+  EXPECT_GT(kept, static_cast<int>(test::samples(100)));
+  EXPECT_GT(moved, static_cast<int>(test::samples(1000)));
 }
 
 /// A hull's extents, in any direction and at any time of its window, are those of the discs at least, and in the mean hardly more.

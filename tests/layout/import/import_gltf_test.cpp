@@ -184,5 +184,256 @@ TEST_F(ImportGltf, NodesMayNestDeeperThanAStack) {
   EXPECT_EQ(import(triangle(gltf, positions, "", "", nodes)).report.triangles, 1u);
 }
 
+// ---- What moves a mesh in a glTF file: weights and joints, and keys between which is interpolated.
+
+// ---- Weights and joints
+
+/// A strip whose skin is told by accessors of the test: JOINTS_0, WEIGHTS_0 and more.
+template <class AddAttributes>
+std::string strip_with(AddAttributes add_attributes, bool inverse_binds = true) {
+  const SkinnedStrip strip;
+  GltfFile gltf;
+  const std::string attributes =
+      "'POSITION':" + gltf.add(strip.positions, "VEC3") + "," + add_attributes(gltf);
+  gltf.add_json("'meshes':[{'name':'strip','primitives':[{'attributes':{" + attributes +
+                "},'indices':" + gltf.add(strip.indices, "SCALAR") + "}]}]");
+  gltf.add_json(
+      "'skins':[{" +
+      (inverse_binds ? "'inverseBindMatrices':" + gltf.add(strip.inverse_binds, "MAT4") + "," : "") +
+      "'joints':[1,2]}]");
+  gltf.add_json(
+      "'nodes':[{'mesh':0,'skin':0},{'name':'hips','children':[2],'translation':[0,1,0]},"
+      "{'name':'head','translation':[0,0.5,0]}],'scenes':[{'nodes':[0,1]}]");
+  return gltf.text();
+}
+
+const std::vector<std::uint8_t> both_joints = {0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0};
+
+template <class Number>
+std::vector<Number> fifths(Number one) {
+  std::vector<Number> weights;
+  for (int vertex = 0; vertex < 4; ++vertex)
+    for (const Number share : {Number{1}, Number{4}, Number{0}, Number{0}})
+      weights.push_back(static_cast<Number>(one / Number{5} * share));
+  return weights;
+}
+
+void expect_fifths(const Character& character) {
+  ASSERT_EQ(character.vertices.size(), 4u);
+  for (std::size_t v = 0; v < 4; ++v) {
+    ASSERT_EQ(character.influence_begin[v + 1] - character.influence_begin[v], 2u);
+    const Influence* const list = &character.influences[character.influence_begin[v]];
+    EXPECT_NEAR(list[0].weight, 0.2f, 1e-6f);
+    EXPECT_NEAR(list[1].weight, 0.8f, 1e-6f);
+  }
+}
+
+template <class Weights>
+std::string strip_of_weights(const Weights& weights, bool normalised) {
+  return strip_with([&](GltfFile& gltf) {
+    return "'JOINTS_0':" + gltf.add(both_joints, "VEC4") +
+           ",'WEIGHTS_0':" + gltf.add(weights, "VEC4", normalised);
+  });
+}
+
+TEST_F(ImportGltf, WeightsMayBeNormalisedIntegers) {
+  const std::string texts[] = {strip_of_weights(fifths(1.0f), false),
+                               strip_of_weights(fifths<std::uint8_t>(255), true),
+                               strip_of_weights(fifths<std::uint16_t>(65535), true)};
+  for (const std::string& text : texts) {
+    const Character first = import(text).character;
+    expect_fifths(first);
+    for (int run = 0; run < 40; ++run) {
+      const Character again = import(text).character;
+      ASSERT_EQ(again.vertices, first.vertices);
+      for (std::size_t i = 0; i < first.influences.size(); ++i)
+        ASSERT_EQ(again.influences[i].weight, first.influences[i].weight);
+    }
+  }
+  expect_error(strip_of_weights(fifths<std::uint8_t>(255), false), "gives vertex 0 the weight 51");
+}
+
+TEST_F(ImportGltf, SetsOfJointsMayBeOfDifferentTypes) {
+  const std::vector<float> some = {0.2f, 0.3f, 0, 0, 0.2f, 0.3f, 0, 0, 0.2f, 0.3f, 0, 0, 0.2f, 0.3f, 0, 0};
+  const std::vector<float> more = {0.5f, 0, 0, 0, 0.5f, 0, 0, 0, 0.5f, 0, 0, 0, 0.5f, 0, 0, 0};
+  const std::vector<std::uint16_t> second = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
+  expect_fifths(import(strip_with([&](GltfFile& gltf) {
+                  return "'JOINTS_0':" + gltf.add(both_joints, "VEC4") +
+                         ",'WEIGHTS_0':" + gltf.add(some, "VEC4") +
+                         ",'JOINTS_1':" + gltf.add(second, "VEC4") + ",'WEIGHTS_1':" + gltf.add(more, "VEC4");
+                })).character);
+}
+
+TEST_F(ImportGltf, WithoutInverseBindMatricesTheyAreIdentity) {
+  const Character c =
+      import(strip_with(
+                 [](GltfFile& gltf) {
+                   const std::vector<float> weights = {1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0};
+                   return "'JOINTS_0':" + gltf.add(both_joints, "VEC4") +
+                          ",'WEIGHTS_0':" + gltf.add(weights, "VEC4");
+                 },
+                 false))
+          .character;
+  for (const Bone& bone : c.bones) EXPECT_EQ(bone.inverse_bind, Affine3());
+  detail::Skinner skinner(c);
+  const auto pose = skinner.pose({});
+  // The hips stand 1 m up and the head 1.5 m: feet at 0 come to 1, hands at 1.8 to 3.3.
+  EXPECT_NEAR(pose[c.triangles[0][1]].z, 1.0f, 1e-6f);
+  EXPECT_NEAR(pose[c.triangles[0][2]].z, 3.3f, 1e-6f);
+}
+
+TEST_F(ImportGltf, NodesOfOneNameAreTheirOwn) {
+  SkinnedStrip strip;
+  const auto [good, good_report] = import(strip.text());
+  strip.head = strip.hips = "body";  // as the node of the mesh
+  const auto [character, report] = import(strip.text());
+  EXPECT_EQ(report.bones, good_report.bones);
+  EXPECT_EQ(test::farthest_in_clips(character, 0, good, 0), 0);
+}
+
+TEST_F(ImportGltf, AJointOfTwoSkinsCountsOnce) {
+  SkinnedStrip strip;
+  GltfFile gltf = strip.file();
+  strip.inverse_binds[13] = -1.1f;  // another skin's
+  const std::string text =
+      with(with(with(gltf.text(), "'skins':[", "'skins':[{'joints':[1,2]},"), "'skin':0", "'skin':1"),
+           "{'name':'camera',", "{'mesh':0,'skin':0,'name':'camera',");
+  const auto [character, report] = import(text);
+  EXPECT_EQ(character.bones.size(), 4u);
+  EXPECT_EQ(report.bones, 2u);
+  EXPECT_EQ(report.meshes, 2u);
+}
+
+// ---- Interpolation
+
+/// The height of the strip's feet (which the hips carry) over their rest, and the head's turn about the vertical.
+struct Posed {
+  float height, turn;
+};
+
+Posed posed(const Character& character, float seconds) {
+  detail::Skinner skinner(character);
+  const auto pose = skinner.pose({0, seconds});
+  const Vec3 left = pose[character.triangles[0][2]], right = pose[character.triangles[1][2]];
+  return {pose[character.triangles[0][0]].z, std::atan2(left.y - right.y, left.x - right.x)};
+}
+
+constexpr float right_angle = 1.57079633f;
+
+TEST_F(ImportGltf, LinearKeysAreBlended) {
+  SkinnedStrip strip;
+  strip.way = {0, 1, 0, 0, 2, 0, 0, 5, 0};
+  const Character c = import(strip.text()).character;
+  EXPECT_NEAR(posed(c, 0.25f).height, 0.25f, 1e-6f);
+  EXPECT_NEAR(posed(c, 1.5f).height, 2.5f, 1e-6f);
+  EXPECT_NEAR(posed(c, 0.5f).turn, 0.25f * right_angle, 1e-6f);
+}
+
+TEST_F(ImportGltf, StepKeysHold) {
+  SkinnedStrip strip;
+  strip.interpolation = "'interpolation':'STEP',";
+  strip.way = {0, 1, 0, 0, 2, 0, 0, 5, 0};
+  const Character c = import(strip.text()).character;
+  const struct {
+    float seconds, height, turn;
+  } expected[] = {{0, 0, 0}, {0.999f, 0, 0}, {1, 1, 0.5f}, {1.999f, 1, 0.5f}, {2, 4, 1}};
+  for (const auto& [seconds, height, turn] : expected) {
+    EXPECT_NEAR(posed(c, seconds).height, height, 1e-6f) << seconds;
+    EXPECT_NEAR(posed(c, seconds).turn, turn * right_angle, 1e-6f) << seconds;
+  }
+}
+
+/// Keys at 0 s and 2 s; the hips leave with 3 m/s upwards and arrive with -1 m/s.
+SkinnedStrip cubic_strip() {
+  SkinnedStrip strip;
+  strip.interpolation = "'interpolation':'CUBICSPLINE',";
+  strip.times = {0, 2};
+  strip.way = {9, 9, 9, 0, 1, 0, 0, 3, 0, 0, -1, 0, 0, 5, 0, 9, 9, 9};
+  const float half = 0.70710678f;  // a right angle about y
+  strip.turns = {9, 9, 9, 9, 0, 0, 0, 1, 0, 0.5f, 0, 0, 0, 0, 0, 0, 0, half, 0, half, 9, 9, 9, 9};
+  return strip;
+}
+
+TEST_F(ImportGltf, CubicKeysAreHermiteSplines) {
+  const Character c = import(cubic_strip().text()).character;
+  EXPECT_NEAR(posed(c, 0).height, 0, 1e-6f);
+  EXPECT_NEAR(posed(c, 2).height, 4, 1e-6f);
+  // At the middle, t = 1/2: 1/2 1 + 1/8 2 3 + 1/2 5 - 1/8 2 (-1) = 4, less the 1 of the rest pose.
+  EXPECT_NEAR(posed(c, 1).height, 3, 1e-6f);
+  // At t = 1/4: 27/32 1 + 9/64 2 3 + 5/32 5 - 3/64 2 (-1) = 2.5625.
+  EXPECT_NEAR(posed(c, 0.5f).height, 1.5625f, 1e-6f);
+  // At t = 1/2: y = 1/8 2 0.5 + 1/2 0.70710678 = 0.47855339, w = 1/2 1 + 1/2 0.70710678 = 0.85355339.
+  EXPECT_NEAR(posed(c, 1).turn, 2 * std::atan2(0.47855339f, 0.85355339f), 1e-6f);
+  EXPECT_NEAR(posed(c, 2).turn, right_angle, 1e-6f);
+}
+
+TEST_F(ImportGltf, CubicKeysThatLeadThroughNoRotationHold) {
+  SkinnedStrip strip = cubic_strip();
+  for (std::size_t i = 0; i < 4; ++i) strip.turns[8 + i] = strip.turns[12 + i] = 0;  // no tangents
+  for (std::size_t i = 0; i < 4; ++i) strip.turns[16 + i] = -strip.turns[4 + i];
+  EXPECT_NEAR(posed(import(strip.text()).character, 1).turn, 0, 1e-6f);
+}
+
+TEST_F(ImportGltf, UnorderedCubicKeysKeepTheirTangents) {
+  SkinnedStrip strip = cubic_strip();
+  strip.times = {2, 0};
+  std::rotate(strip.way.begin(), strip.way.begin() + 9, strip.way.end());
+  std::rotate(strip.turns.begin(), strip.turns.begin() + 12, strip.turns.end());
+  const auto [character, report] = import(strip.text());
+  EXPECT_TRUE(has_note(report, "2 lists of keys put in order"));
+  EXPECT_NEAR(posed(character, 0.5f).height, 1.5625f, 1e-6f);
+}
+
+TEST_F(ImportGltf, CubicKeysOfAnotherFileTurnAndGrowWithItsSkeleton) {
+  const SkinnedStrip own = cubic_strip();
+  SkinnedStrip other = own;  // half as large, turned and scaled back by the node above
+  other.armature = "'scale':[2,2,2],'rotation':[0,0.70710678,0,0.70710678],";
+  other.head_place = "'translation':[0,0.25,0]";
+  for (float& part : other.way) part /= 2;
+  ImportOptions options;
+  options.clip_files = {folder.write("other.gltf", other.text())};
+  const Character c = import_character(folder.write("own.gltf", own.text()), options).character;
+  ASSERT_EQ(c.clips.size(), 2u);
+  detail::Skinner first(c), second(c);
+  for (const float time : {0.3f, 0.5f, 1.0f, 1.7f}) {
+    const auto wanted = first.pose({0, time});
+    const auto pose = second.pose({1, time});
+    for (std::size_t v = 0; v < pose.size(); ++v)
+      EXPECT_NEAR(pose[v].z, wanted[v].z, 1e-5f) << time;  // the turn is the other skeleton's own
+  }
+}
+
+TEST_F(ImportGltf, KeysThatAreNotWhatTheySay) {
+  SkinnedStrip strip = cubic_strip();
+  strip.way.resize(9);
+  expect_error(strip.text(), "has 3 values for 2 keys, not three times as many");
+  strip = cubic_strip();
+  strip.way[7] = std::nanf("");
+  expect_error(strip.text(), "tangent of position key 0 is not finite");
+  strip = cubic_strip();
+  strip.way[7] = 1e10f;
+  expect_error(strip.text(), "'hips' absurdly far away");
+  strip = {};
+  strip.interpolation = "'interpolation':'BEZIER',";
+  expect_error(strip.text(), "is 'BEZIER', none of LINEAR, STEP and CUBICSPLINE");
+}
+
+TEST_F(ImportGltf, RotationsMayBeNormalisedShorts) {
+  SkinnedStrip strip;
+  const Character floats = import(strip.text()).character;
+  GltfFile gltf = strip.file();
+  std::vector<std::int16_t> turns;
+  for (const float part : strip.turns)
+    turns.push_back(static_cast<std::int16_t>(std::lround(part * 32767.0f)));
+  const std::string accessor = gltf.add(turns, "VEC4", true);
+  std::string text = gltf.text();
+  const std::size_t output =
+      text.rfind(test::quoted("'output':")) + 9;  // of the second sampler, which turns the head
+  text.replace(output, text.find('}', output) - output, accessor);
+  const Character shorts = import(text).character;
+  for (const float time : {0.0f, 0.5f, 1.3f, 2.0f})
+    EXPECT_NEAR(posed(shorts, time).turn, posed(floats, time).turn, 1e-4f);
+}
+
 }  // namespace
 }  // namespace bch
