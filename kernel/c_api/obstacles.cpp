@@ -3,8 +3,6 @@
 
 #include "kernel/c_api/obstacles.hpp"
 
-#include <cmath>
-
 #include "kernel/c_api/calls.hpp"
 
 using namespace bch;
@@ -60,12 +58,8 @@ bch_status bch_obstacles_create(const bch_obstacle_arrays* arrays, bch_obstacles
   });
 }
 
-bch_status bch_obstacles_from_wkt(const char* text, int32_t walkable, bch_obstacles** obstacles) {
-  return bch_obstacles_from_wkt_at(text, walkable, -HUGE_VAL, HUGE_VAL, obstacles);
-}
-
-bch_status bch_obstacles_from_wkt_at(const char* text, int32_t walkable, double bottom, double top,
-                                     bch_obstacles** obstacles) {
+bch_status bch_obstacles_from_wkt(const char* text, int32_t walkable, double bottom, double top,
+                                  bch_obstacles** obstacles) {
   return guarded([&] {
     required(obstacles, "obstacles");
     const Polygons polygons = walkable != 0 ? Polygons::walkable : Polygons::solid;

@@ -79,15 +79,21 @@ constexpr auto& steps =
         bch_within, bch_clearance, bch_penetration, even_directions, bch_penetration_along,
         bch_time_of_impact, bch_crowd_create, bch_crowd_candidates, bch_crowd_collisions, bch_crowd_contacts,
         bch_crowd_contacts_of, bch_crowd_clearances, bch_crowd_penetrations, bch_crowd_by_agent,
-        bch_crowd_obstacles, bch_obstacles_create, bch_obstacles_from_wkt, bch_obstacles_from_wkt_at,
-        bch_obstacles_get_counts, bch_obstacles_get_owner, bch_obstacles_collide, bch_obstacles_within,
-        bch_obstacles_clearance, bch_obstacles_penetration, bch_obstacles_time_of_impact,
-        bch_animated_shape_create, bch_animated_shape_get_info, bch_animated_shape_get_discs,
-        bch_shape_set_builder_add_moment, bch_shape_set_add_clip, bch_shape_set_get_clip_count,
-        bch_shape_set_get_clip, bch_local_densities, bch_depth_at_density, bch_scene_plan_create,
-        bch_scene_plan_get_set, bch_scene_plan_get_shapes, bch_scene_plan_get_agents, status_name,
-        bch_shape_set_free, bch_pose_shaper_free, bch_shape_set_builder_free, bch_dynamic_shape_set_free,
-        bch_crowd_free, bch_character_free, bch_scene_plan_free, bch_obstacles_free, bch_animated_shape_free>;
+        bch_crowd_obstacles, bch_obstacles_create, bch_obstacles_from_wkt, bch_obstacles_get_counts,
+        bch_obstacles_get_owner, bch_obstacles_collide, bch_obstacles_within, bch_obstacles_clearance,
+        bch_obstacles_penetration, bch_obstacles_time_of_impact, bch_animated_shape_create,
+        bch_animated_shape_get_info, bch_animated_shape_get_discs, bch_shape_set_builder_add_moment,
+        bch_shape_set_add_clip, bch_shape_set_get_clip_count, bch_shape_set_get_clip, bch_local_densities,
+        bch_depth_at_density, bch_scene_plan_create, bch_scene_plan_get_set, bch_scene_plan_get_shapes,
+        bch_scene_plan_get_agents, status_name, bch_shape_set_free, bch_pose_shaper_free,
+        bch_shape_set_builder_free, bch_dynamic_shape_set_free, bch_crowd_free, bch_character_free,
+        bch_scene_plan_free, bch_obstacles_free, bch_animated_shape_free, bch_body_set_create,
+        bch_body_set_get_info, bch_body_set_get_spheres, bch_collide_bodies, bch_within_bodies,
+        bch_clearance_bodies, bch_penetration_bodies, bch_penetration_along_bodies, bch_time_of_impact_bodies,
+        bch_crowd_body_candidates, bch_crowd_body_collisions, bch_crowd_body_contacts,
+        bch_crowd_body_contacts_of, bch_crowd_body_clearances, bch_crowd_body_penetrations,
+        bch_crowd_body_obstacles, bch_obstacles_collide_bodies, bch_obstacles_within_bodies,
+        bch_obstacles_clearance_bodies, bch_body_set_free>;
 
 /// Something of most kinds, so that calls have something to ask. The first byte says how the set is made.
 void begin(Caller& by) {
@@ -112,8 +118,11 @@ void begin(Caller& by) {
   by.begin_with<bch_dynamic_shape_set>(
       [&](bch_dynamic_shape_set** to) { return bch_dynamic_shape_set_create(set, to); });
   by.begin_with<bch_obstacles>([](bch_obstacles** to) {
-    return bch_obstacles_from_wkt("LINESTRING(-1 0, 1 1) POLYGON((0 0, 2 0, 2 2, 0 0))", 0, to);
+    return bch_obstacles_from_wkt("LINESTRING(-1 0, 1 1) POLYGON((0 0, 2 0, 2 2, 0 0))", 0, -1, HUGE_VAL, to);
   });
+  const bch_sphere spheres[] = {{0, 0, 0.5f, 0.5f}, {0, 0, 1.25f, 0.375f}, {0, 0.25f, 0.25f, 0.25f}};
+  const std::uint64_t bodies[] = {0, 2, 3};
+  by.begin_with<bch_body_set>([&](bch_body_set** to) { return bch_body_set_create(spheres, bodies, 2, to); });
   auto* const character =
       by.begin_with<bch_character>([&](bch_character** to) { return bch_character_create(&arrays, to); });
   auto* const shaper = by.begin_with<bch_pose_shaper>(

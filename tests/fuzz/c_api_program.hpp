@@ -137,7 +137,8 @@ class Program {
 
   std::tuple<Objects<bch_shape_set>, Objects<bch_pose_shaper>, Objects<bch_shape_set_builder>,
              Objects<bch_dynamic_shape_set>, Objects<bch_crowd>, Objects<bch_obstacles>,
-             Objects<bch_character>, Objects<bch_scene_plan>, Objects<bch_animated_shape>>
+             Objects<bch_character>, Objects<bch_scene_plan>, Objects<bch_animated_shape>,
+             Objects<bch_body_set>>
       objects_;
   std::vector<void*> all_;
   std::vector<std::function<void(bool)>> after_;

@@ -64,6 +64,7 @@ class Caller : public Program {
   void draw(bch_pose& of) { of = {chance(8) ? index() : BCH_REST_POSE, std::abs(number<float>())}; }
   void draw(bch_shape_source& of) { draw_all(of.character, of.at); }
   void draw(bch_disc& of) { draw_all(of.x, of.y), of.radius = size(); }
+  void draw(bch_sphere& of) { draw_all(of.x, of.y, of.z), of.radius = size(); }
   void draw(bch_capsule& of) { draw_all(of.a, of.b), of.radius = size(); }
   /// A radius, mostly.
   float size() { return chance(32) ? number<float>() : std::abs(number<float>()) + 0x1p-5f; }
@@ -243,6 +244,10 @@ class Caller : public Program {
     draw_all(of.distance, of.direction, of.discs, of.points);
     if (chance(2)) of.direction = nullptr, of.discs = nullptr;
   }
+  void draw(bch_body_clearance_out& of) {
+    draw_all(of.distance, of.direction, of.spheres, of.points);
+    if (chance(2)) of.direction = nullptr, of.spheres = nullptr;
+  }
   void draw(bch_outline& of) {
     draw(of.points), of.offsets = fresh<std::uint64_t>(room);
     of.point_capacity = count(), of.offset_capacity = count();
@@ -357,6 +362,7 @@ class Caller : public Program {
   }
   void draw(bch_index_rows*& rows) { draw_rows(rows); }
   void draw(bch_contact_rows*& rows) { draw_rows(rows); }
+  void draw(bch_sphere_contact_rows*& rows) { draw_rows(rows); }
 
   template <class... Fields>
   void draw_all(Fields&... fields) {

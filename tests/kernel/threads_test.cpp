@@ -238,7 +238,9 @@ TEST_F(CApiThreads, ObjectsGoFromThreadToThread) {
   std::vector<bch_obstacles*> of(thread_count);
   std::vector<std::vector<std::uint8_t>> hits(thread_count, std::vector<std::uint8_t>(scene.agents.count));
   const auto text = [](unsigned t) { return "LINESTRING(-20 0, 20 " + std::to_string(t) + ")"; };
-  on_threads([&](unsigned t) { expect_ok(bch_obstacles_from_wkt(text(t).c_str(), 0, &of[t])); });
+  on_threads([&](unsigned t) {
+    expect_ok(bch_obstacles_from_wkt(text(t).c_str(), 0, -HUGE_VAL, HUGE_VAL, &of[t]));
+  });
   on_threads([&](unsigned t) {
     expect_ok(bch_obstacles_collide(set, &scene.agents, of[0], nullptr, hits[t].data()));
   });

@@ -218,7 +218,7 @@ CScene::CScene(const ShapeSet& of, Crowd people, std::vector<Pair> asked)
       y(drawn(2, x.size(), -2, 2)),
       nearer(drawn(3, x.size(), 0, 0.5)),
       along(directions(x, y)),
-      walls(made<bch_obstacles_free>(bch_obstacles_from_wkt, walls_text, 0)) {}
+      walls(made<bch_obstacles_free>(bch_obstacles_from_wkt, walls_text, 0, -HUGE_VAL, HUGE_VAL)) {}
 
 std::vector<CQuery> all_queries(const CScene& scene) {
   std::vector<CQuery> all;

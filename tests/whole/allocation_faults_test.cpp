@@ -230,8 +230,7 @@ TEST_F(AllocationFaults, Obstacles) {
   fail_each_making<bch_obstacles>(
       10,
       [](bch_obstacles** to) {
-        return bch_obstacles_from_wkt_at("POLYGON((2 2, 4 2, 4 4, 2 4), (2.5 2.5, 3 2.5, 3 3))", 1, -1, 3,
-                                         to);
+        return bch_obstacles_from_wkt("POLYGON((2 2, 4 2, 4 4, 2 4), (2.5 2.5, 3 2.5, 3 3))", 1, -1, 3, to);
       },
       bch_obstacles_free);
   const double x[] = {0, 1, 1}, y[] = {0, 0, 1};

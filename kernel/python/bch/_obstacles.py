@@ -90,7 +90,7 @@ class Obstacles:
         bottom, top = pair(heights, "heights")
         made = cls.__new__(cls)
         wkt = encoded(getattr(text, "wkt", text), "text")
-        made._take(Handle("obstacles", "from_wkt_at", wkt, int(walkable), bottom, top))
+        made._take(Handle("obstacles", "from_wkt", wkt, int(walkable), bottom, top))
         return made
 
     def _take(self, handle: Handle) -> None:

@@ -144,7 +144,7 @@ struct CrowdOfBodies {
       offsets.push_back(all.size());
     }
     c_set = made<bch_body_set_free>(bch_body_set_create, all.data(), offsets.data(), spheres.size());
-    expect_ok(bch_obstacles_from_wkt_at(walls_text, 0, 0, 0.4, &c_walls));
+    expect_ok(bch_obstacles_from_wkt(walls_text, 0, 0, 0.4, &c_walls));
     expect_ok(bch_crowd_create(nullptr, &c_crowd));
     agents.shape = crowd.body.data(), agents.x = crowd.x.data(), agents.y = crowd.y.data();
     agents.heading = crowd.heading.data(), agents.z = crowd.z.data(), agents.count = crowd.body.size();

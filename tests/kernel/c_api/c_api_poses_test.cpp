@@ -364,7 +364,7 @@ TEST(CApiMotions, TouchWhenTheyDo) {
   expect_ok(bch_free_until(motions.data(), motions.data() + 1, motions.size() - 1, -1, 3, 0.01, &free));
   EXPECT_EQ(free, free_until(own[0], std::span(own).subspan(1), {-1, 3}, 0.01));
   constexpr const char* text = "POLYGON((0 0, 1 0, 1 1, 0 1))";
-  const auto walls = made<bch_obstacles_free>(bch_obstacles_from_wkt, text, 0);
+  const auto walls = made<bch_obstacles_free>(bch_obstacles_from_wkt, text, 0, -HUGE_VAL, HUGE_VAL);
   times.assign(own.size(), 0), expected.assign(own.size(), 0);
   first_contact(own, obstacles_from_wkt(text), {-1, 3}, expected, 0.01);
   expect_ok(

@@ -188,7 +188,7 @@ TEST_P(CApi, ObstaclesAreThoseOfTheLibrary) {
   const char* const text = "LINESTRING(-9 0, 9 1) POLYGON((-1 -1, 1 -1, 1 1, -1 1))";
   for (const double from : {-HUGE_VAL, 0.5, 100.0})
     expect_same_hits(obstacles_from_wkt(text, Polygons::walkable, from, 101),
-                     made<bch_obstacles_free>(bch_obstacles_from_wkt_at, text, 1, from, 101));
+                     made<bch_obstacles_free>(bch_obstacles_from_wkt, text, 1, from, 101));
 }
 
 TEST_P(CApi, TellsWhatASetHas) {
@@ -371,7 +371,8 @@ TEST_F(CApiRecordings, AreChecked) {
   EXPECT_NE(std::string(assumptions), "");
 
   // Objects of the library of queries.
-  const auto walls = made<bch_obstacles_free>(bch_obstacles_from_wkt, "LINESTRING(-9 0, 9 0)", 0);
+  const auto walls =
+      made<bch_obstacles_free>(bch_obstacles_from_wkt, "LINESTRING(-9 0, 9 0)", 0, -HUGE_VAL, HUGE_VAL);
   options.walls = walls.get();
   expect_ok(bch_check_get_summary(checked(options).get(), &summary));
   EXPECT_GT(summary.in_walls, 0u);
@@ -401,7 +402,7 @@ TEST_F(CApiRecordings, ChecksNameWhatIsWrong) {
   EXPECT_EQ(said(options, BCH_INVALID_ARGUMENT), "options->max_distance is 11.000000");
   options = BCH_CHECK_OPTIONS_INIT;
   bch_obstacles* freed = nullptr;
-  expect_ok(bch_obstacles_from_wkt("LINESTRING(0 0, 1 1)", 0, &freed));
+  expect_ok(bch_obstacles_from_wkt("LINESTRING(0 0, 1 1)", 0, -HUGE_VAL, HUGE_VAL, &freed));
   expect_ok(bch_obstacles_free(freed));
   options.walls = freed;
   EXPECT_EQ(said(options, BCH_INVALID_ARGUMENT), "options->walls is no living bch_obstacles; was it freed?");
@@ -468,8 +469,8 @@ TEST_F(CApiMisuse, PointersThatAreNull) {
   expect_invalid(bch_collide(set.get(), &agents, &pair, 1, nullptr, nullptr), "hits is NULL");
   expect_invalid(bch_shape_set_load(nullptr, 0, nullptr), "path is NULL");
   expect_invalid(bch_crowd_create(nullptr, nullptr), "crowd is NULL");
-  expect_invalid(bch_obstacles_from_wkt(nullptr, 0, nullptr), "is NULL");
-  expect_invalid(bch_obstacles_from_wkt_at("POINT", 0, 0, 1, nullptr), "obstacles is NULL");
+  expect_invalid(bch_obstacles_from_wkt(nullptr, 0, 0, 1, nullptr), "is NULL");
+  expect_invalid(bch_obstacles_from_wkt("POINT", 0, 0, 1, nullptr), "obstacles is NULL");
   agents.heading = nullptr;
   expect_invalid(ask(), "agents->heading is NULL");
   // Nothing to do is no mistake.
@@ -654,7 +655,7 @@ TEST_F(CApiMisuse, Obstacles) {
   arrays.obstacle_offsets = nullptr, arrays.bottom = &up, arrays.top = &down;
   const char* const word = "obstacles: obstacle 0: heights from 2 to 1 m";
   expect_invalid(bch_obstacles_create(&arrays, &none), word);
-  expect_invalid(bch_obstacles_from_wkt_at("LINESTRING(0 0, 1 1)", 0, up, down, &none), word);
+  expect_invalid(bch_obstacles_from_wkt("LINESTRING(0 0, 1 1)", 0, up, down, &none), word);
   EXPECT_EQ(none, nullptr);
   arrays.top = nullptr;
   const auto obstacles = made<bch_obstacles_free>(bch_obstacles_create, &arrays);

@@ -899,11 +899,10 @@ typedef struct bch_obstacle_arrays {
   { sizeof(bch_obstacle_arrays), NULL, NULL, NULL, 0, NULL, 0, NULL, NULL, NULL }
 /** Makes obstacles from arrays. */
 BCH_API bch_status bch_obstacles_create(const bch_obstacle_arrays* arrays, bch_obstacles** obstacles);
-/** Makes obstacles from well-known text. If `walkable` is not 0, polygons are the floor, and their rings are walls. */
-BCH_API bch_status bch_obstacles_from_wkt(const char* text, int32_t walkable, bch_obstacles** obstacles);
-/** Makes obstacles from well-known text. All reach from `bottom` to `top`, in metres; either may be infinite. */
-BCH_API bch_status bch_obstacles_from_wkt_at(const char* text, int32_t walkable, double bottom, double top,
-                                             bch_obstacles** obstacles);
+/** Makes obstacles from well-known text. If `walkable` is not 0, polygons are the floor, and their rings are walls. All reach from `bottom` to
+ * `top`, in metres; of all heights: -HUGE_VAL and HUGE_VAL. */
+BCH_API bch_status bch_obstacles_from_wkt(const char* text, int32_t walkable, double bottom, double top,
+                                          bch_obstacles** obstacles);
 /** Gets the numbers of obstacles and segments. Either may be NULL. */
 BCH_API bch_status bch_obstacles_get_counts(const bch_obstacles* obstacles, uint32_t* obstacle_count,
                                             uint32_t* segment_count);
