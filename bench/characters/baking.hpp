@@ -54,15 +54,15 @@ std::vector<ClipOf> find_clips(std::span<const std::string> names, std::span<con
   return found;
 }
 
-/// The spheres of bodies that clips are made of as moving discs.
+/// The spheres of bodies that clips are made of as moving spheres.
 constexpr std::uint32_t animated_spheres = 256;
 
-/// Makes moving discs of a clip; errors call its character `name`.
+/// Makes moving spheres of a clip; errors call its character `name`.
 /// Errors:  throws InputError where animate() refuses the clip.
 AnimatedDiscs animate_clip(const BodyModel& model, const std::string& name, std::uint32_t clip,
                            const AnimateOptions& how = {});
 
-/// Makes moving discs of clips in parallel, with a progress bar, as a baked file has them beside origins_of().
+/// Makes moving spheres of clips in parallel, with a progress bar, as a baked file has them beside origins_of().
 std::vector<BakedClip> bake_clips(std::span<const LoadedCharacter> characters, std::span<const ClipOf> clips);
 
 /// Returns what a baked file says about the origins of its shapes. Characters go by their sources' file
@@ -70,7 +70,7 @@ std::vector<BakedClip> bake_clips(std::span<const LoadedCharacter> characters, s
 ShapeOrigins origins_of(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,
                         double threshold);
 
-/// Writes the results of bake_shapes(), origins_of() and, of clips that are to be moving discs as well, bake_clips() into a file, and
+/// Writes the results of bake_shapes(), origins_of() and, of clips that are to be moving spheres as well, bake_clips() into a file, and
 /// models of bodies of so many spheres, unless that is 0.
 /// Errors:  as these, BakedImage and OutputFile throw.
 BakedShapes bake_file(const std::string& file, std::span<const LoadedCharacter> characters,

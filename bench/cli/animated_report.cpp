@@ -75,7 +75,7 @@ Json json_of(const AnimatedFacts& facts) {
 
 std::string text_of(const AnimatedView& view) {
   const AnimatedFacts facts = facts_of(view.discs);
-  std::string out = fmt::format("\n{} as moving discs\n", printable_line(view.clip));
+  std::string out = fmt::format("\n{} as moving spheres\n", printable_line(view.clip));
   out += fact("  clip", fmt::format("{:.2f} s, {}", facts.seconds, facts.loops ? "loops" : "does not loop"));
   out += fact("  keys", fmt::format("{} in {}", grouped(facts.keys), counted(facts.chunks, "chunk")));
   out += fact("  discs",

@@ -73,7 +73,7 @@ Examples:
       ->excludes("--poses");
   command.add_flag("--heights", options->heights, "Keep the heights of bodies, which agents with a z need");
   add("--animated", options->animated, "CLIP",
-      "Also keep the clip of this name, or all, as moving discs for every time (repeatable)")
+      "Also keep the clip of this name, or all, as moving spheres for every time (repeatable)")
       ->allow_extra_args(false);
   add("--spheres", options->spheres, "N",
       "Keep bodies of N spheres, up to a minute each; shapes only with --poses or --rate",

@@ -83,7 +83,7 @@ void show(const InspectOptions& options, const std::string& head, const Json& he
   write_standard_output(head + text_of(view));
 }
 
-/// Shows a clip of a character as moving discs.
+/// Shows a clip of a character as moving spheres.
 void inspect_animated(const InspectOptions& options, const LoadedCharacter& from, const ShapeSource& source) {
   const CostLimits& limits = options.shapes.limits;
   const Clip& clip = from.character.clips[source.at.clip];
@@ -121,7 +121,7 @@ void inspect_baked(const InspectOptions& options) {
                         table_text(baked));
 }
 
-/// Shows a clip that a baked file has as moving discs.
+/// Shows a clip that a baked file has as moving spheres.
 void inspect_baked_clip(const InspectOptions& options) {
   const BakedShapes baked = open_baked(options.character);
   if (options.verify) require_verified(options.character, baked.set);
@@ -135,7 +135,7 @@ void inspect_baked_clip(const InspectOptions& options) {
     return show(options, text_of(options.character, baked), {"source", options.character},
                 {baked.origins.names[clip.character], *options.clip, clip.discs, *options.time, nullptr});
   }
-  throw InputError(fmt::format("{}: has no clip '{}' as moving discs; bch bake --animated keeps clips so",
+  throw InputError(fmt::format("{}: has no clip '{}' as moving spheres; bch bake --animated keeps clips so",
                                options.character, *options.clip));
 }
 
@@ -150,7 +150,7 @@ void run_inspect(const CLI::App& command, const InspectOptions& options) {
     require_unsettled(command, options.character);
     if (options.animated) return inspect_baked_clip(options);
     require_absent(command, {"--shape", "--clip", "--svg"},
-                   "a baked file has no hierarchies to show; --animated shows its moving discs");
+                   "a baked file has no hierarchies to show; --animated shows its moving spheres");
     return inspect_baked(options);
   }
   require_absent(command, {"--verify"}, "only a baked file can be verified");
@@ -188,7 +188,7 @@ Examples: bch inspect default:male --clip walk --time 1.5 --svg walk.svg
   add("--clip", options->clip, "NAME", "Show this clip at --time in detail");
   add("--time", options->time, "SECONDS", "Seconds from the start of --clip", number_between(0, 1e9));
   command.add_flag("--animated", options->animated,
-                   "Show the clip as moving discs, at --time and from key to key; also of a baked file");
+                   "Show the clip as moving spheres, at --time and from key to key; also of a baked file");
   options->kind.add_to(command);
   options->shapes.add_to(command);
   add_threads_option(command, options->threads);

@@ -159,7 +159,7 @@ void draw_ways(const Drawing& drawing, Pixel corner) {
 }  // namespace
 
 std::string draw_animated(const AnimatedView& view) {
-  const std::string title = fmt::format("{}, {} as moving discs", view.character, view.clip);
+  const std::string title = fmt::format("{}, {} as moving spheres", view.character, view.clip);
   Svg svg(width, head + large + label + border, title, css);
   const Drawing drawing(view, svg);
   svg.text({border, 38}, "title", title);

@@ -78,7 +78,7 @@ nlohmann::ordered_json json_of(const LoadedCharacter& character, const BodyFacts
 /// Draws the spheres from the side and from above, with the outline of the skin and the bones.
 std::string draw_body(const LoadedCharacter& character, const BodyFacts& facts);
 
-/// Holds properties of a clip as moving discs.
+/// Holds properties of a clip as moving spheres.
 struct AnimatedFacts {
   double seconds = 0;
   bool loops = false;
@@ -94,7 +94,7 @@ AnimatedFacts facts_of(const AnimatedDiscs& discs);
 std::string text_of(const AnimatedFacts& facts);
 nlohmann::ordered_json json_of(const AnimatedFacts& facts);
 
-/// Represents a clip as moving discs, seen at a time.
+/// Represents a clip as moving spheres, seen at a time.
 struct AnimatedView {
   std::string character, clip;
   const AnimatedDiscs& discs;

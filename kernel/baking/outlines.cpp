@@ -48,8 +48,8 @@ std::vector<Outline> make_all(std::size_t count, const OutlineOptions& options, 
   return outlines;
 }
 
-/// A mesh's first pose, which tells what vertices are near each other. A number that is none is for the pose itself to refuse, and a
-/// height that nobody looks at may be one.
+/// Returns the first pose of a mesh, which tells what vertices are near each other. A number that is not finite becomes 0: the pose itself
+/// refuses it. So does each height where heights do not count.
 std::vector<Vec3> bind_pose(std::span<const Vec3> vertices, const OutlineOptions& options) {
   const bool is_flat = is_infinite(options.between.bottom) && is_infinite(options.between.top);
   const auto number = [](float value) { return is_finite(value) ? value : 0; };
