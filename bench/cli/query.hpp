@@ -26,9 +26,6 @@ namespace bch::cli {
 
 /// Refers to what agents have: shapes, or bodies of spheres.
 using AskedSet = std::variant<const ShapeSet*, const BodySet*>;
-inline bool has_spheres(const AskedSet& set) {
-  return std::holds_alternative<const BodySet*>(set);
-}
 
 /// Holds the input of a query.
 struct QueryInput {

@@ -43,21 +43,15 @@ std::string hit_rows(const QueryInput& input, const std::vector<std::uint8_t>& h
   return out;
 }
 
-/// Calls use(set) with the shapes or bodies.
-template <class Use>
-void with_set(const QueryInput& input, const Use& use) {
-  std::visit([&](const auto* set) { use(*set); }, input.set);
-}
-
 /// Asks query(set, about) about obstacles, where there are some, or pairs.
 template <class Query>
 void ask(const QueryInput& input, const Query& query) {
-  with_set(input, [&](const auto& set) {
-    if (input.obstacles != nullptr)
-      query(set, *input.obstacles);
-    else
-      query(set, input.pairs);
-  });
+  std::visit(
+      [&](const auto* set) {
+        if (input.obstacles != nullptr) return query(*set, *input.obstacles);
+        query(*set, input.pairs);
+      },
+      input.set);
 }
 
 std::string collide_rows(const QueryInput& input) {
@@ -87,12 +81,14 @@ std::string columns(const bch::Crowd::SphereContact& contact) {
 
 std::string contact_rows(const QueryInput& input) {
   std::string out;
-  with_set(input, [&](const auto& set) {
-    bch::Crowd crowd;
-    const auto rows = crowd.contacts(set, input.table.agents(), input.pairs, input.options);
+  bch::Crowd crowd;
+  const auto list = [&](const auto& rows) {
     for (std::size_t i = 0; i < input.pairs.size(); ++i)
       for (const auto& contact : rows[i]) out += ids(input, i) + columns(contact) + "\n";
-  });
+  };
+  std::visit(
+      [&](const auto* set) { list(crowd.contacts(*set, input.table.agents(), input.pairs, input.options)); },
+      input.set);
   return out;
 }
 
@@ -146,7 +142,7 @@ std::string clearance_rows(const QueryInput& input) {
       });
     });
   };
-  return has_spheres(input.set)
+  return std::holds_alternative<const BodySet*>(input.set)
              ? lines.template operator()<BodySet, Vec3, BodyClearanceAnswers::Points, BodyClearanceAnswers>()
              : lines.template operator()<ShapeSet, Vec2, NearestPoints, ClearanceAnswers>();
 }

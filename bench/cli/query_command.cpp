@@ -118,7 +118,7 @@ void answer(const QueryCommandOptions& options, const AskedSet& set, Question& q
   how.distance_leaves = options.answer.leaves == "segments" ? Leaves::segments : Leaves::discs;
   if (options.all_pairs) pairs = pairs_of_all(options, set, table, how);
   const QueryKind& kind = query_kind(options.what);
-  const bool spheres = has_spheres(set);
+  const bool spheres = std::holds_alternative<const BodySet*>(set);
   std::string lines =
       fmt::format("{},{}{}\n", subject_columns(obstacles), spheres ? kind.sphere_columns : kind.columns,
                   !options.points ? ""
