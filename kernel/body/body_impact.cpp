@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <array>
+#include <algorithm>
+#include <limits>
 
 #include <bch/pairs.hpp>
 
 #include "kernel/body/body_arguments.hpp"
+#include "kernel/body/near_spheres.hpp"
 #include "kernel/body/space_frame.hpp"
 #include "kernel/body/sphere_impact.hpp"
 #include "kernel/distance/distance_input.hpp"
@@ -21,60 +23,35 @@ using namespace detail;
 
 namespace {
 
-/// Finds the first contact of two bodies that do not collide: of each, the leaves that may touch the other one's whole, and then the
-/// spheres of those leaves that may touch each other.
+/// Finds the first contact of two bodies that do not collide.
 class FirstImpact {
  public:
   FirstImpact(const float* a, const float* b, const SpaceFrame& frame, const SpacePoint& way)
-      : a_(a), b_(b), frame_(frame), way_(way) {
+      : spheres_(a, b, frame), way_(way) {
     slack_ = 0x1p-16 * (double{header_of(a).reach} + double{header_of(b).reach} + frame.distance());
   }
 
   float time() {
-    const Cylinder whole_a = whole_of(a_), whole_b = frame_.placed(whole_of(b_));
-    if (is_late(bound_of_contact(whole_a, whole_b, way_, slack_))) return found();
-    std::uint32_t count = 0;
-    for (std::uint32_t j = 0; j < header_of(b_).leaf_count; ++j) {
-      const Cylinder node = frame_.placed(node_of(b_, j));
-      if (is_late(bound_of_contact(whole_a, node, way_, slack_))) continue;
-      nodes_[count] = node, leaves_[count++] = j;
-    }
-    for (std::uint32_t i = 0; count != 0 && i < header_of(a_).leaf_count; ++i) {
-      const Cylinder node = node_of(a_, i);
-      if (is_late(bound_of_contact(node, whole_b, way_, slack_))) continue;
-      for (std::uint32_t k = 0; k < count; ++k)
-        if (!is_late(bound_of_contact(node, nodes_[k], way_, slack_))) compare(i, leaves_[k]);
-    }
-    return found();
+    spheres_.visit(
+        [&](const Cylinder& a, const Cylinder& b) { return !is_late(bound_of_contact(a, b, way_, slack_)); },
+        [&](std::uint32_t, std::uint32_t, const Sphere& a, const Sphere& b) { compare(a, b); });
+    return is_found_ ? static_cast<float>(best_) : std::numeric_limits<float>::infinity();
   }
 
  private:
   /// Returns whether no time above a bound counts.
   bool is_late(double bound) const { return bound * (1 - 0x1p-18) > best_; }
-  float found() const {
-    return is_found_ ? static_cast<float>(best_) : std::numeric_limits<float>::infinity();
+
+  void compare(const Sphere& a, const Sphere& b) {
+    const SpacePoint between{double{b.x - a.x}, double{b.y - a.y}, double{b.z - a.z}};
+    const double time = time_of_contact(between, way_, double{a.radius + b.radius});
+    if (time <= best_) best_ = time, is_found_ = true;
   }
 
-  void compare(std::uint32_t leaf_a, std::uint32_t leaf_b) {
-    const std::uint32_t size_a = header_of(a_).leaf_size, size_b = header_of(b_).leaf_size;
-    for (std::uint32_t j = 0; j < size_b; ++j) {
-      const Sphere b = frame_.placed(sphere_of(b_, leaf_b * size_b + j));
-      for (std::uint32_t i = 0; i < size_a; ++i) {
-        const Sphere a = sphere_of(a_, leaf_a * size_a + i);
-        const SpacePoint between{double{b.x - a.x}, double{b.y - a.y}, double{b.z - a.z}};
-        const double time = time_of_contact(between, way_, double{a.radius + b.radius});
-        if (time <= best_) best_ = time, is_found_ = true;
-      }
-    }
-  }
-
-  const float *a_, *b_;
-  const SpaceFrame& frame_;
+  NearSpheres spheres_;
   SpacePoint way_;
   double slack_, best_ = 1;
   bool is_found_ = false;
-  std::array<Cylinder, most_spheres / 4> nodes_;  ///< of B, placed
-  std::array<std::uint32_t, most_spheres / 4> leaves_;
 };
 
 constexpr std::size_t impacts_at_once = 256;
