@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include <bch/crowd.hpp>
+#include <bch/pairs.hpp>
+
+#include "kernel/body/body_contacts.hpp"
+#include "kernel/broad_phase/broad_phase.hpp"
+#include "kernel/contact/disc_contacts.hpp"
+#include "kernel/crowd/kept_items.hpp"
+#include "kernel/crowd/periodic_agents.hpp"
+#include "kernel/obstacles/obstacle_rows.hpp"
+#include "layout/body/body_record.hpp"
+#include "layout/body/sphere_rounding.hpp"
+
+namespace bch::detail {
+
+/// Holds a value of each candidate that clearance() gave, and of those that are kept.
+template <class Value>
+struct AnswersOfPairs {
+  std::vector<Value> of_candidates, kept;
+
+  void keep(const KeptItems& items) {
+    items.gather(kept, [&](std::size_t i) { return of_candidates[i]; });
+  }
+};
+
+/// Finds the pairs of a crowd, keeps those that answer a query, and holds the memory of both from call to call.
+struct CrowdMemory {
+  /// Agents of a query, images behind them where the crowd is periodic, and the pairs of these that are candidates.
+  struct Candidates {
+    Agents agents;
+    std::span<const Pair> pairs;
+  };
+
+  bool is_periodic() const noexcept { return options.period.x > 0 || options.period.y > 0; }
+  /// Given pairs name agents, not images of them.
+  void require_no_period() const {
+    if (is_periodic())
+      throw std::invalid_argument(
+          "contacts: expected a crowd without a period for given pairs, found one with");
+  }
+  Candidates find(const ShapeSetView& shapes, const Agents& agents, double margin, const PairFilter& filter,
+                  double height_margin = 0);
+  /// Finds those of bodies of spheres that may be within a distance.
+  Candidates find(const BodySet& bodies, const Agents& agents, double within, const PairFilter& filter) {
+    const double margin = within * (1 + rounding::bound_share);
+    return find(bodies.view().ground, agents, margin, filter, margin);
+  }
+  Candidates find(const ShapeSet& shapes, const Agents& agents, double within, const PairFilter& filter) {
+    return find(shapes.view(), agents, within, filter);
+  }
+  Pair named(Pair candidate) const noexcept {
+    return {test.origin(candidate.first), test.origin(candidate.second)};
+  }
+  std::span<const Pair> named(std::span<const Pair> candidates);
+  /// Keeps the candidates i for which keeps(i), and makes them the pairs of the answer.
+  template <class Keeps>
+  std::span<const Pair> keep(std::span<const Pair> candidates, const Keeps& keeps) {
+    kept.select(candidates.size(), keeps);
+    kept.gather(pairs, [&](std::size_t i) { return named(candidates[i]); });
+    return pairs;
+  }
+  /// Keeps the candidates that collide. Options are those of collide() of such a set.
+  template <class Set, class Options>
+  Crowd::Pairs keep_collisions(const Set& set, const Candidates& candidates, const Options& options) {
+    hits.resize(candidates.pairs.size());
+    collide(set, candidates.agents, candidates.pairs, hits, options);
+    return {keep(candidates.pairs, [&](std::size_t i) { return hits[i] != 0; }), *this};
+  }
+  /// Measures the candidates that were kept.
+  template <class Set>
+  Crowd::Penetrations penetrations_of_kept(const Set& set, const Candidates& candidates,
+                                           std::uint32_t directions, const Implementation* implementation) {
+    kept.gather(to_part, [&](std::size_t i) { return candidates.pairs[i]; });
+    penetrations.resize(to_part.size());
+    penetration(set, candidates.agents, to_part, directions, penetrations, implementation);
+    return {{pairs, *this}, penetrations};
+  }
+  /// Keeps the candidates whose rows are not empty, and returns them with their rows.
+  template <class Answer, class Value>
+  Answer keep_rows(const Candidates& candidates, const Rows<Value>& rows) {
+    keep(candidates.pairs, [&](std::size_t i) { return !rows[i].empty(); });
+    // Rows that are left out are empty, so only offsets move.
+    kept.gather(contact_offsets, [&](std::size_t i) { return rows.offsets[i]; });
+    contact_offsets.push_back(rows.values.size());
+    return {{pairs, *this}, {contact_offsets, rows.values}};
+  }
+  /// Asks ask() for the distances of the candidates and what goes with them, and keeps those that are near.
+  template <class Ask, class... Value>
+  Crowd::Pairs keep_near(std::span<const Pair> candidates, const Ask& ask, AnswersOfPairs<Value>&... beside) {
+    distance.of_candidates.resize(candidates.size());
+    (beside.of_candidates.resize(candidates.size()), ...);
+    ask();
+    keep(candidates,
+         [&](std::size_t i) { return distance.of_candidates[i] < std::numeric_limits<float>::infinity(); });
+    distance.keep(kept);
+    (beside.keep(kept), ...);
+    return {pairs, *this};
+  }
+  Rows<Crowd::Neighbour> by_agent(std::span<const Pair> pairs);
+
+  CrowdOptions options;
+  PairTest test;
+  PeriodicAgents periodic;
+  BroadPhase broad_phase;
+  KeptItems kept;
+  std::vector<std::uint8_t> hits;
+  std::vector<Pair> pairs;    ///< of the answer, that names agents
+  std::vector<Pair> to_part;  ///< pairs that collide, as candidates name them
+
+  DiscContacts disc_contacts;
+  BodyContactRows body_contacts;
+  std::vector<std::uint64_t> contact_offsets;
+  AnswersOfPairs<float> distance;
+  AnswersOfPairs<Vec2> direction;
+  AnswersOfPairs<DiscPair> discs;
+  AnswersOfPairs<NearestPoints> points;
+  AnswersOfPairs<Vec3> space_direction;
+  AnswersOfPairs<BodyClearanceAnswers::Points> space_points;
+  std::vector<Penetration> penetrations;
+  ObstacleRows obstacle_rows;
+
+  std::size_t agents = 0;  ///< of the answer
+  std::vector<std::uint64_t> begin;
+  std::vector<Crowd::Neighbour> neighbours;
+};
+
+}  // namespace bch::detail
