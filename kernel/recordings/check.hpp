@@ -39,7 +39,7 @@ struct CheckOptions {
   /// baked. Empty: outlines. Spheres decide in space, and all people stand on one ground.
   std::span<const BodyModel> bodies = {};
   bool draws =
-      true;  ///< shapes are made where spheres decide, too, for who is told of frames and shows people
+      true;  ///< where spheres decide, frames are handed over with shapes of the same people, too: pictures need them
   double facing = 0;  ///< radians: where the shapes of baked people face, which others do to 0
   std::size_t people_at_once =
       100'000;  ///< about so many, of many frames; the answers are the same for any number

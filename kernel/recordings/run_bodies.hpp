@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <bch/body_set.hpp>
@@ -13,6 +14,7 @@
 #include <bch/pairs.hpp>
 
 #include "kernel/recordings/walker_bodies.hpp"
+#include "kernel/runtime/all_options.hpp"
 #include "layout/format/shape_set_view.hpp"
 
 namespace bch::detail {
@@ -56,34 +58,56 @@ class RunBodies {
   virtual std::vector<WallDepth> depths(const Agents& agents, const ObstacleSet& walls) const = 0;
 };
 
+/// Answers what shapes and bodies of spheres are asked in the same way. `Set` is a set, or a reference to one that lives longer.
+template <class Set>
+class RunOf : public RunBodies {
+ public:
+  void collide(const Agents& agents, std::span<const Pair> pairs,
+               std::span<std::uint8_t> hits) const override {
+    bch::collide(set_, agents, pairs, hits, options_);
+  }
+  std::vector<float> gaps(const Agents& agents, std::span<const Pair> pairs,
+                          double max_distance) const override {
+    std::vector<float> gaps(pairs.size());
+    clearance(set_, agents, pairs, {gaps}, options_.within(max_distance));
+    return gaps;
+  }
+  std::vector<float> times_of_impact(const Agents& agents, std::span<const Pair> pairs,
+                                     const Displacements& displacements) const override {
+    std::vector<float> times(pairs.size());
+    time_of_impact(set_, agents, pairs, displacements, times);
+    return times;
+  }
+  void collide(const Agents& agents, const ObstacleSet& walls, std::span<std::uint8_t> hits) const override {
+    bch::collide(set_, agents, walls, hits, options_);
+  }
+
+ protected:
+  RunOf(Set set, const AllOptions& options) : set_(std::forward<Set>(set)), options_(options) {}
+
+  Set set_;
+  const AllOptions options_;
+};
+
 /// Answers by outlines, seen from above.
-class RunOutlines : public RunBodies {
+class RunOutlines : public RunOf<const ShapeSet&> {
  public:
   /// Refers to a set, and to the shapes of all people.
   RunOutlines(const ShapeSet& set, Leaves leaves, std::span<const std::uint32_t> numbers)
-      : set_(set), leaves_(leaves), numbers_(numbers) {}
+      : RunOf(set, {.leaves = leaves, .distance_leaves = leaves}), numbers_(numbers) {}
 
   std::span<const std::uint32_t> numbers() const noexcept override { return numbers_; }
   const ShapeSetView& roots() const noexcept override { return set_.view(); }
-  void collide(const Agents& agents, std::span<const Pair> pairs,
-               std::span<std::uint8_t> hits) const override;
   void touch(const Agents& agents, std::span<const Pair> pairs, std::span<std::uint8_t> hits) const override;
   std::vector<Penetration> depths(const Agents& agents, std::span<const Pair> pairs) const override;
-  std::vector<float> gaps(const Agents& agents, std::span<const Pair> pairs,
-                          double max_distance) const override;
-  std::vector<float> times_of_impact(const Agents& agents, std::span<const Pair> pairs,
-                                     const Displacements& displacements) const override;
-  void collide(const Agents& agents, const ObstacleSet& walls, std::span<std::uint8_t> hits) const override;
   std::vector<WallDepth> depths(const Agents& agents, const ObstacleSet& walls) const override;
 
  private:
-  const ShapeSet& set_;
-  const Leaves leaves_;
   const std::span<const std::uint32_t> numbers_;
 };
 
 /// Answers by bodies of spheres, in space. Depths are the deepest overlaps of two spheres, or of a sphere and a wall.
-class RunSpheres : public RunBodies {
+class RunSpheres : public RunOf<BodySet> {
  public:
   /// Poses the bodies of `people` of the run. Of the others, who are behind them, touch() poses those that it is asked about. Refers to all
   /// arguments.
@@ -91,21 +115,13 @@ class RunSpheres : public RunBodies {
 
   std::span<const std::uint32_t> numbers() const noexcept override { return numbers_; }
   const ShapeSetView& roots() const noexcept override;
-  void collide(const Agents& agents, std::span<const Pair> pairs,
-               std::span<std::uint8_t> hits) const override;
   void touch(const Agents& agents, std::span<const Pair> pairs, std::span<std::uint8_t> hits) const override;
   std::vector<Penetration> depths(const Agents& agents, std::span<const Pair> pairs) const override;
-  std::vector<float> gaps(const Agents& agents, std::span<const Pair> pairs,
-                          double max_distance) const override;
-  std::vector<float> times_of_impact(const Agents& agents, std::span<const Pair> pairs,
-                                     const Displacements& displacements) const override;
-  void collide(const Agents& agents, const ObstacleSet& walls, std::span<std::uint8_t> hits) const override;
   std::vector<WallDepth> depths(const Agents& agents, const ObstacleSet& walls) const override;
 
  private:
-  const WalkerBodies& bodies_;
+  const WalkerBodies& walkers_;
   const std::span<const WalkerPose> poses_;
-  const BodySet set_;
   std::vector<std::uint32_t> numbers_;
 };
 

@@ -10,11 +10,6 @@ constexpr std::uint32_t directions = 32;  ///< of which the best one tells the d
 
 }  // namespace
 
-void RunOutlines::collide(const Agents& agents, std::span<const Pair> pairs,
-                          std::span<std::uint8_t> hits) const {
-  bch::collide(set_, agents, pairs, hits, {.leaves = leaves_});
-}
-
 void RunOutlines::touch(const Agents& agents, std::span<const Pair> pairs,
                         std::span<std::uint8_t> hits) const {
   bch::collide(set_, agents, pairs, hits, {.leaves = Leaves::discs});
@@ -24,25 +19,6 @@ std::vector<Penetration> RunOutlines::depths(const Agents& agents, std::span<con
   std::vector<Penetration> depths(pairs.size());
   penetration(set_, agents, pairs, directions, depths);
   return depths;
-}
-
-std::vector<float> RunOutlines::gaps(const Agents& agents, std::span<const Pair> pairs,
-                                     double max_distance) const {
-  std::vector<float> gaps(pairs.size());
-  clearance(set_, agents, pairs, {gaps}, {.max_distance = max_distance, .leaves = leaves_});
-  return gaps;
-}
-
-std::vector<float> RunOutlines::times_of_impact(const Agents& agents, std::span<const Pair> pairs,
-                                                const Displacements& displacements) const {
-  std::vector<float> times(pairs.size());
-  time_of_impact(set_, agents, pairs, displacements, times);
-  return times;
-}
-
-void RunOutlines::collide(const Agents& agents, const ObstacleSet& walls,
-                          std::span<std::uint8_t> hits) const {
-  bch::collide(set_, agents, walls, hits, {.leaves = leaves_});
 }
 
 std::vector<WallDepth> RunOutlines::depths(const Agents& agents, const ObstacleSet& walls) const {

@@ -32,17 +32,12 @@ struct Deepest {
 }  // namespace
 
 RunSpheres::RunSpheres(const WalkerBodies& bodies, std::span<const WalkerPose> poses, std::size_t people)
-    : bodies_(bodies), poses_(poses), set_(bodies.pose(poses.first(people))), numbers_(poses.size()) {
+    : RunOf(bodies.pose(poses.first(people)), {}), walkers_(bodies), poses_(poses), numbers_(poses.size()) {
   std::iota(numbers_.begin(), numbers_.end(), 0);
 }
 
 const ShapeSetView& RunSpheres::roots() const noexcept {
   return set_.view().ground;
-}
-
-void RunSpheres::collide(const Agents& agents, std::span<const Pair> pairs,
-                         std::span<std::uint8_t> hits) const {
-  bch::collide(set_, agents, pairs, hits);
 }
 
 void RunSpheres::touch(const Agents& agents, std::span<const Pair> pairs,
@@ -58,7 +53,7 @@ void RunSpheres::touch(const Agents& agents, std::span<const Pair> pairs,
     }
   Agents of_asked = agents;
   of_asked.shape = numbers;
-  bch::collide(bodies_.pose(asked), of_asked, pairs, hits);
+  bch::collide(walkers_.pose(asked), of_asked, pairs, hits);
 }
 
 std::vector<Penetration> RunSpheres::depths(const Agents& agents, std::span<const Pair> pairs) const {
@@ -70,24 +65,6 @@ std::vector<Penetration> RunSpheres::depths(const Agents& agents, std::span<cons
     depths.push_back({deepest.depth(i), double{out.x}, double{out.y}});
   }
   return depths;
-}
-
-std::vector<float> RunSpheres::gaps(const Agents& agents, std::span<const Pair> pairs,
-                                    double max_distance) const {
-  std::vector<float> gaps(pairs.size());
-  clearance(set_, agents, pairs, {gaps}, {.max_distance = max_distance});
-  return gaps;
-}
-
-std::vector<float> RunSpheres::times_of_impact(const Agents& agents, std::span<const Pair> pairs,
-                                               const Displacements& displacements) const {
-  std::vector<float> times(pairs.size());
-  time_of_impact(set_, agents, pairs, displacements, times);
-  return times;
-}
-
-void RunSpheres::collide(const Agents& agents, const ObstacleSet& walls, std::span<std::uint8_t> hits) const {
-  bch::collide(set_, agents, walls, hits);
 }
 
 std::vector<WallDepth> RunSpheres::depths(const Agents& agents, const ObstacleSet& walls) const {
