@@ -378,7 +378,7 @@ TEST(Objects, LibrariesExportTheFunctionsOfTheirHeaders) {
 #endif
 }
 
-/// Who asks for collisions loads no readers of files.
+/// A program that asks for collisions alone loads no reader of files.
 TEST(Objects, TheLibraryNeedsThreadsAlone) {
   std::istringstream lines(output_of("" BCH_OBJDUMP " -p '" BCH_C_LIBRARY "'"));
   const std::regex common(R"(lib(tbb|stdc\+\+|c\+\+(abi)?|unwind|m|gcc_s|c)\.so.*|ld-linux.*)");

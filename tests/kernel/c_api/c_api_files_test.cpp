@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <bch/bch_files.h>
+
+#include "tests/support/c_api.hpp"
+#include "tests/support/gltf_file.hpp"
+#include "tests/support/test.hpp"
+
+// What the C interface reads from files: characters and recordings. Their objects and errors are those of the library of queries.
+
+namespace bch {
+namespace {
+
+using test::expect_ok;
+using test::made;
+
+using OwnedTrajectory = test::Owned<bch_trajectory, bch_trajectory_free>;
+using OwnedCheck = test::Owned<bch_check, bch_check_free>;
+
+TEST(CApiFiles, CharactersAreImported) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("strip.gltf", SkinnedStrip{}.text());
+  const auto character = made<bch_character_free>(bch_character_import, file.c_str(), nullptr);
+  bch_character_info info = BCH_CHARACTER_INFO_INIT;
+  expect_ok(bch_character_get_info(character.get(), &info));
+  EXPECT_EQ(info.triangles, 2u);
+  EXPECT_STREQ(info.name, "strip.gltf");
+  const char* name = nullptr;
+  float seconds = 0;
+  expect_ok(bch_character_get_clip(character.get(), 0, &name, &seconds));
+  EXPECT_STREQ(name, "walk");
+  EXPECT_GT(seconds, 0);
+  EXPECT_EQ(bch_character_get_clip(character.get(), info.clips, &name, &seconds), BCH_OUT_OF_RANGE);
+
+  bch_import_options options = BCH_IMPORT_OPTIONS_INIT;
+  options.progress = [](void*, std::uint64_t, std::uint64_t) { return 1; };
+  bch_character* none = nullptr;
+  EXPECT_EQ(bch_character_import(file.c_str(), &options, &none), BCH_CANCELLED);
+  options = BCH_IMPORT_OPTIONS_INIT;
+  options.most_triangles = 1;
+  EXPECT_EQ(bch_character_import(file.c_str(), &options, &none), BCH_BAD_FILE);
+  EXPECT_EQ(bch_character_import("/nowhere/a.glb", nullptr, &none), BCH_FILE_NOT_FOUND);
+  EXPECT_EQ(none, nullptr);
+  EXPECT_STREQ(bch_last_error(), "/nowhere/a.glb: no such file");
+}
+
+/// Two people who walk through each other, in ten frames.
+class CApiRecordings : public testing::Test {
+ protected:
+  OwnedTrajectory opened() const {
+    bch_trajectory_options options = BCH_TRAJECTORY_OPTIONS_INIT;
+    options.fps = 10, options.unit = 1;
+    return made<bch_trajectory_free>(bch_trajectory_open, file.c_str(), &options);
+  }
+  OwnedCheck checked(const bch_check_options& options) const {
+    const auto trajectory = opened();
+    return made<bch_check_free>(bch_check_run, trajectory.get(), &options);
+  }
+  static std::string rows() {
+    std::string all = "frame,id,x,y,character,clip,clip_time\n";
+    for (int k = 0; k < 10; ++k)
+      all += std::to_string(k) + ",7," + std::to_string(0.1 * k - 0.5) + ",0,,,\n" + std::to_string(k) +
+             ",5," + std::to_string(0.5 - 0.1 * k) + ",0.1,,,\n";
+    return all;
+  }
+
+  const TemporaryFolder folder;
+  const std::string file = folder.write("two.csv", rows());
+};
+
+TEST_F(CApiRecordings, AreRead) {
+  const std::string named = folder.write(
+      "named.csv", "frame,id,x,y,character,clip,clip_time\n3,1,0,2,man,walk,0.25\n3,2,5,0,,,\n4,1,0,0,,,\n");
+  bch_trajectory_options options = BCH_TRAJECTORY_OPTIONS_INIT;
+  options.fps = 10, options.unit = 0.5;
+  const auto trajectory = made<bch_trajectory_free>(bch_trajectory_open, named.c_str(), &options);
+  bch_trajectory_info info = BCH_TRAJECTORY_INFO_INIT;
+  expect_ok(bch_trajectory_get_info(trajectory.get(), &info));
+  EXPECT_EQ(info.fps, 10);
+  EXPECT_EQ(info.rows, 3u);
+  EXPECT_EQ(info.people, 2u);
+  EXPECT_EQ(info.first_frame, 3);
+  EXPECT_EQ(info.last_frame, 4);
+  EXPECT_STREQ(info.geometry, "");
+  EXPECT_NE(std::string(info.format), "");
+  const bch_named_motion* motions = nullptr;
+  std::size_t count = 0;
+  expect_ok(bch_trajectory_get_motions(trajectory.get(), &motions, &count));
+  ASSERT_EQ(count, 1u);
+  EXPECT_STREQ(motions[0].character, "man");
+  EXPECT_STREQ(motions[0].clip, "walk");
+  bch_tracked_person people[3];
+  EXPECT_EQ(bch_trajectory_read(trajectory.get(), people, 1, &count), BCH_INVALID_ARGUMENT);
+  EXPECT_STREQ(bch_last_error(), "capacity is 1, and frame 3 has 2 people");
+  expect_ok(bch_trajectory_read(trajectory.get(), people, 2, &count));  // whole frames
+  ASSERT_EQ(count, 2u);
+  EXPECT_EQ(people[0].frame, 3);
+  EXPECT_EQ(people[0].id, 1);
+  EXPECT_EQ(people[0].y, 1);
+  EXPECT_EQ(people[0].motion, 0u);
+  EXPECT_EQ(people[0].clip_seconds, 0.25f);
+  EXPECT_TRUE(std::isnan(people[0].heading) && std::isnan(people[0].stature));
+  EXPECT_EQ(people[1].motion, BCH_NO_MOTION);
+  expect_ok(bch_trajectory_read(trajectory.get(), people, 3, &count));
+  EXPECT_EQ(count, 1u);
+  expect_ok(bch_trajectory_read(trajectory.get(), people, 3, &count));
+  EXPECT_EQ(count, 0u);
+  bch_check* none = nullptr;
+  EXPECT_EQ(bch_check_run(trajectory.get(), nullptr, &none), BCH_INVALID_ARGUMENT);
+  EXPECT_STREQ(bch_last_error(), "trajectory has been read from; open it again");
+
+  bch_trajectory* other = nullptr;
+  const std::string bad = folder.write("bad.csv", "frame,id,x,y\n1,1,zero,0\n");
+  EXPECT_EQ(bch_trajectory_open(bad.c_str(), &options, &other), BCH_BAD_FILE);
+  EXPECT_NE(std::string(bch_last_error()).find("bad.csv:2"), std::string::npos) << bch_last_error();
+  EXPECT_EQ(bch_trajectory_open("/nowhere.csv", &options, &other), BCH_FILE_NOT_FOUND);
+  options.progress = [](void*, std::uint64_t, std::uint64_t) { return 1; };
+  EXPECT_EQ(bch_trajectory_open(file.c_str(), &options, &other), BCH_CANCELLED);
+  EXPECT_EQ(other, nullptr);
+}
+
+TEST_F(CApiRecordings, AreChecked) {
+  bch_check_options options = BCH_CHECK_OPTIONS_INIT;
+  options.max_distance = 0.5;
+  const auto check = checked(options);
+  const bch_check_frame* frames = nullptr;
+  const bch_check_pair* pairs = nullptr;
+  const bch_check_event* events = nullptr;
+  std::size_t frame_count = 0, pair_count = 0, event_count = 0;
+  expect_ok(bch_check_get_frames(check.get(), &frames, &frame_count));
+  expect_ok(bch_check_get_pairs(check.get(), &pairs, &pair_count));
+  expect_ok(bch_check_get_events(check.get(), &events, &event_count));
+  ASSERT_EQ(frame_count, 10u);
+  EXPECT_EQ(frames[5].frame, 5);
+  EXPECT_EQ(frames[5].people, 2u);
+  EXPECT_EQ(frames[5].overlapping, 2u);
+  EXPECT_EQ(frames[5].overlapping_pairs, 1u);
+  ASSERT_EQ(event_count, 1u);
+  EXPECT_EQ(events[0].first, 5);
+  EXPECT_EQ(events[0].second, 7);
+  EXPECT_EQ(events[0].kind, BCH_CHECK_OVERLAP);
+  EXPECT_TRUE(events[0].from <= events[0].worst && events[0].worst <= events[0].to);
+  EXPECT_GT(events[0].depth, 0);
+  ASSERT_GT(pair_count, events[0].frames);
+  EXPECT_EQ(pairs[0].kind, BCH_CHECK_NEAR);
+  EXPECT_GT(pairs[0].gap, 0);
+  bch_check_summary summary = BCH_CHECK_SUMMARY_INIT;
+  expect_ok(bch_check_get_summary(check.get(), &summary));
+  EXPECT_EQ(summary.person_frames, 20u);
+  EXPECT_EQ(summary.overlapping, 2 * events[0].frames);
+  const char* assumptions = nullptr;
+  expect_ok(bch_check_get_assumptions(check.get(), &assumptions));
+  EXPECT_NE(std::string(assumptions), "");
+
+  // Objects of the library of queries.
+  const auto walls =
+      made<bch_obstacles_free>(bch_obstacles_from_wkt, "LINESTRING(-9 0, 9 0)", 0, -HUGE_VAL, HUGE_VAL);
+  options.walls = walls.get();
+  expect_ok(bch_check_get_summary(checked(options).get(), &summary));
+  EXPECT_GT(summary.in_walls, 0u);
+  options.without_walls = 1;
+  const auto man = made<bch_character_free>(bch_character_default, BCH_MALE);
+  const bch_character* const people[] = {man.get()};
+  options.characters = people, options.character_count = 1;
+  expect_ok(bch_check_get_summary(checked(options).get(), &summary));
+  EXPECT_GT(summary.overlapping, 0u);
+  EXPECT_GT(summary.shapes, 0u);
+  options.spheres = 64;
+  expect_ok(bch_check_get_summary(checked(options).get(), &summary));
+  EXPECT_GT(summary.overlapping, 0u);
+  EXPECT_EQ(summary.shapes, 0u);
+}
+
+TEST_F(CApiRecordings, ChecksNameWhatIsWrong) {
+  const auto said = [&](const bch_check_options& options, bch_status expected) {
+    const auto trajectory = opened();
+    bch_check* none = nullptr;
+    EXPECT_EQ(bch_check_run(trajectory.get(), &options, &none), expected);
+    EXPECT_EQ(none, nullptr);
+    return std::string(bch_last_error());
+  };
+  bch_check_options options = BCH_CHECK_OPTIONS_INIT;
+  options.max_distance = 11;
+  EXPECT_EQ(said(options, BCH_INVALID_ARGUMENT), "options->max_distance is 11.000000");
+  options = BCH_CHECK_OPTIONS_INIT;
+  bch_obstacles* freed = nullptr;
+  expect_ok(bch_obstacles_from_wkt("LINESTRING(0 0, 1 1)", 0, -HUGE_VAL, HUGE_VAL, &freed));
+  expect_ok(bch_obstacles_free(freed));
+  options.walls = freed;
+  EXPECT_EQ(said(options, BCH_INVALID_ARGUMENT), "options->walls is no living bch_obstacles; was it freed?");
+  options = BCH_CHECK_OPTIONS_INIT;
+  options.spheres = 65;
+  EXPECT_NE(said(options, BCH_INVALID_ARGUMENT).find("64, 128, 256 or 512 spheres, found 65"),
+            std::string::npos);
+  options.leaves = BCH_DISCS;
+  EXPECT_EQ(said(options, BCH_INVALID_ARGUMENT),
+            "options->depth and options->leaves belong to outlines, not to options->spheres");
+  options = BCH_CHECK_OPTIONS_INIT;
+  options.max_pairs = 1;
+  EXPECT_NE(said(options, BCH_TOO_LARGE).find("pairs of people"), std::string::npos);
+  options = BCH_CHECK_OPTIONS_INIT;
+  options.progress = [](void*, std::uint64_t, std::uint64_t) { return 1; };
+  EXPECT_EQ(said(options, BCH_CANCELLED), "cancelled by the caller");
+  EXPECT_EQ(bch_check_free(reinterpret_cast<bch_check*>(freed)), BCH_INVALID_ARGUMENT);
+  EXPECT_STREQ(bch_last_error(), "check is no living bch_check; was it freed?");
+}
+
+}  // namespace
+}  // namespace bch

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "tests/support/baked_bytes.hpp"
+#include "tests/support/c_api.hpp"
+#include "tests/support/moving_bodies.hpp"
+#include "tests/support/test.hpp"
+
+// Bodies that move by themselves, by the C interface: they and their answers are those of the C++ library.
+
+namespace bch {
+namespace {
+
+using test::expect_ok;
+using test::made;
+using test::MotionCase;
+
+using OwnedAnimated = test::Owned<bch_animated_shape, bch_animated_shape_free>;
+
+/// Moving discs in arrays, as callers have them.
+struct Arrays {
+  std::vector<std::uint32_t> keys, discs;
+  std::vector<double> times;
+  std::vector<Disc> all;
+  std::vector<float> z;
+  bch_animated_arrays arrays = BCH_ANIMATED_ARRAYS_INIT;
+
+  explicit Arrays(const AnimatedDiscs& of) {
+    for (const AnimatedChunk& chunk : of.chunks) {
+      keys.push_back(static_cast<std::uint32_t>(chunk.times.size()));
+      discs.push_back(chunk.disc_count);
+      times.insert(times.end(), chunk.times.begin(), chunk.times.end());
+      all.insert(all.end(), chunk.keys.begin(), chunk.keys.end());
+      z.insert(z.end(), chunk.z.begin(), chunk.z.end());
+    }
+    arrays.loops = of.loops;
+    arrays.key_counts = keys.data(), arrays.disc_counts = discs.data();
+    arrays.chunk_count = keys.size();
+    arrays.times = times.data(), arrays.discs = reinterpret_cast<const bch_disc*>(all.data());
+    arrays.z = z.empty() ? nullptr : z.data();
+  }
+  OwnedAnimated shape() const { return made<bch_animated_shape_free>(bch_animated_shape_create, &arrays); }
+};
+
+std::vector<Disc> discs_of(const bch_animated_shape* shape, double seconds) {
+  std::size_t count = 0;
+  expect_ok(bch_animated_shape_get_discs(shape, seconds, nullptr, 0, &count));
+  std::vector<Disc> discs(count);
+  expect_ok(
+      bch_animated_shape_get_discs(shape, seconds, reinterpret_cast<bch_disc*>(discs.data()), count, &count));
+  return discs;
+}
+
+std::vector<Sphere> spheres_of(const bch_animated_shape* shape, double seconds) {
+  std::size_t count = 0;
+  expect_ok(bch_animated_shape_get_spheres(shape, seconds, nullptr, 0, &count));
+  std::vector<Sphere> spheres(count);
+  expect_ok(bch_animated_shape_get_spheres(shape, seconds, reinterpret_cast<bch_sphere*>(spheres.data()),
+                                           count, &count));
+  return spheres;
+}
+
+void expect_body(const bch_animated_shape* shape, const AnimatedShape& expected) {
+  bch_animated_shape_info info = BCH_ANIMATED_SHAPE_INFO_INIT;
+  expect_ok(bch_animated_shape_get_info(shape, &info));
+  EXPECT_EQ(info.loops != 0, expected.loops());
+  EXPECT_EQ(info.begin, expected.begin());
+  EXPECT_EQ(info.end, expected.end());
+  EXPECT_EQ(info.reach, expected.reach());
+  EXPECT_EQ(info.bytes, expected.bytes());
+  EXPECT_GE(info.chunks, 1u);
+  EXPECT_GE(info.keys, 2 * info.chunks);
+  for (const double seconds : {-1.0, 0.2, expected.end(), 7.0}) {
+    EXPECT_EQ(discs_of(shape, seconds), expected.discs(seconds));
+    EXPECT_EQ(spheres_of(shape, seconds), expected.spheres(seconds));
+  }
+}
+
+TEST(CApiMotions, BodiesAreTheirArrays) {
+  test::Random random(3141);
+  for (const AnimatedDiscs& discs :
+       {test::loose_discs(random), test::swinging_body(random, 1), test::swinging_body(random, 2),
+        test::in_space(random, test::swinging_body(random, 2), 1.5)})
+    expect_body(Arrays(discs).shape().get(), AnimatedShape(discs));
+}
+
+TEST(CApiMotions, ClipsAreAnimated) {
+  constexpr std::uint32_t clip = 40;
+  const BodyModel model = default_body(default_pedestrian(Sex::female, 1.7), 64);
+  const auto character = made<bch_character_free>(bch_character_pedestrian, BCH_PEDESTRIAN_FEMALE, 1.7, 0);
+  const auto of = made<bch_body_model_free>(bch_body_model_default, character.get(), 64);
+  bch_animate_options options = BCH_ANIMATE_OPTIONS_INIT;
+  options.error = 0.01f;
+  const auto animated = [&] {
+    return made<bch_animated_shape_free>(bch_animated_shape_animate, of.get(), clip, &options);
+  };
+  AnimateOptions own{.error = 0.01f};
+  expect_body(animated().get(), AnimatedShape(animate(model, clip, own)));
+  for (const bool loops : {false, true}) {
+    options.loops = loops, own.loops = loops;
+    expect_body(animated().get(), AnimatedShape(animate(model, clip, own)));
+  }
+  bch_animated_shape* none = nullptr;
+  EXPECT_EQ(bch_animated_shape_animate(of.get(), 9999, nullptr, &none), BCH_OUT_OF_RANGE);
+  options.loops = 2;
+  EXPECT_EQ(bch_animated_shape_animate(of.get(), clip, &options, &none), BCH_INVALID_ARGUMENT);
+  options.loops = 1, options.error = 0;
+  EXPECT_EQ(bch_animated_shape_animate(of.get(), clip, &options, &none), BCH_INVALID_ARGUMENT);
+  EXPECT_EQ(none, nullptr);
+}
+
+TEST(CApiMotions, SetsKeepThem) {
+  const TemporaryFolder folder;
+  const std::string file = folder.file("people.bch");
+  const std::vector<BakedClip> clips = test::few_clips();
+  const auto set = test::c_set(ShapeSet(test::few_shapes()));
+  std::size_t count = 9;
+  expect_ok(bch_shape_set_get_clip_count(set.get(), &count));
+  EXPECT_EQ(count, 0u);
+  expect_ok(bch_shape_set_add_clip(set.get(), Arrays(clips[0].discs).shape().get(), "man.glb", "walk"));
+  expect_ok(bch_shape_set_add_clip(set.get(), Arrays(clips[1].discs).shape().get(), "own", nullptr));
+  expect_ok(bch_shape_set_save(set.get(), file.c_str()));
+  const BakedShapes baked = load_baked(file);
+  ASSERT_EQ(baked.clips.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(baked.clips[i].discs, clips[i].discs);
+  EXPECT_EQ(baked.clips[1].clip, ShapeOrigin::rest_pose);
+  const auto loaded = made<bch_shape_set_free>(bch_shape_set_load, file.c_str(), BCH_READ);
+  expect_ok(bch_shape_set_get_clip_count(loaded.get(), &count));
+  EXPECT_EQ(count, 2u);
+  const char *character = nullptr, *clip = nullptr;
+  const auto shape =
+      made<bch_animated_shape_free>(bch_shape_set_get_clip, loaded.get(), 0, &character, &clip);
+  EXPECT_STREQ(character, "man.glb");
+  EXPECT_STREQ(clip, "walk");
+  EXPECT_EQ(discs_of(shape.get(), 2), AnimatedShape(clips[0].discs).discs(2));
+  expect_ok(bch_shape_set_get_clip(loaded.get(), 1, &character, &clip, nullptr));
+  EXPECT_STREQ(character, "own");
+  EXPECT_EQ(clip, nullptr);
+  EXPECT_EQ(bch_shape_set_get_clip(loaded.get(), 2, nullptr, nullptr, nullptr), BCH_OUT_OF_RANGE);
+}
+
+TEST(CApiMotions, ShapesAtATimeAreAdded) {
+  test::Random random(3142);
+  const AnimatedDiscs discs = test::swinging_body(random);
+  const OwnedAnimated body = Arrays(discs).shape();
+  const auto builder = made<bch_shape_set_builder_free>(bch_shape_set_builder_create, nullptr);
+  expect_ok(bch_shape_set_builder_add_moment(builder.get(), body.get(), 0.5));
+  EXPECT_EQ(bch_shape_set_builder_add_moment(builder.get(), body.get(), NAN), BCH_INVALID_ARGUMENT);
+  const auto set = made<bch_shape_set_free>(bch_shape_set_builder_finish, builder.get());
+  float radius = 0;
+  expect_ok(bch_shape_set_get_radius(set.get(), 0, &radius));
+  EXPECT_EQ(radius, ShapeSet({{AnimatedShape(discs).shape(0.5)}}).bounding_radius(0));
+}
+
+bch_motion c_motion(const MotionCase& of, const bch_animated_shape* shape) {
+  static_assert(sizeof(bch_path_key) == sizeof(PathKey));
+  return {shape, reinterpret_cast<const bch_path_key*>(of.path.data()), of.path.size(), of.clip_begin};
+}
+
+TEST(CApiMotions, TouchWhenTheyDo) {
+  test::Random random(3143);
+  std::vector<MotionCase> cases;
+  std::vector<OwnedAnimated> shapes;
+  for (int i = 0; i < 8; ++i) cases.push_back(test::random_motion(random));
+  std::vector<bch_motion> motions;
+  std::vector<Motion> own;
+  for (const MotionCase& each : cases) {
+    shapes.push_back(Arrays(each.discs).shape());
+    motions.push_back(c_motion(each, shapes.back().get()));
+    own.push_back(each.motion());
+  }
+  std::vector<Pair> pairs;
+  for (std::uint32_t i = 0; i < cases.size(); ++i)
+    for (std::uint32_t j = 0; j < i; ++j) pairs.push_back({i, j});
+  std::vector<double> times(pairs.size()), expected(pairs.size());
+  first_contact(own, pairs, {-1, 3}, expected, 0.01);
+  expect_ok(bch_first_contact(motions.data(), motions.size(), test::c_pairs(pairs), pairs.size(), -1, 3, 0.01,
+                              2, times.data()));
+  EXPECT_EQ(times, expected);
+  EXPECT_GT(std::count_if(times.begin(), times.end(), [](double t) { return t < 3; }), 2);
+  double free = 0;
+  expect_ok(bch_free_until(motions.data(), motions.data() + 1, motions.size() - 1, -1, 3, 0.01, &free));
+  EXPECT_EQ(free, free_until(own[0], std::span(own).subspan(1), {-1, 3}, 0.01));
+  constexpr const char* text = "POLYGON((0 0, 1 0, 1 1, 0 1))";
+  const auto walls = made<bch_obstacles_free>(bch_obstacles_from_wkt, text, 0, -HUGE_VAL, HUGE_VAL);
+  times.assign(own.size(), 0), expected.assign(own.size(), 0);
+  first_contact(own, obstacles_from_wkt(text), {-1, 3}, expected, 0.01);
+  expect_ok(
+      bch_obstacles_first_contact(motions.data(), motions.size(), walls.get(), -1, 3, 0.01, 2, times.data()));
+  EXPECT_EQ(times, expected);
+  EXPECT_GT(std::count_if(times.begin(), times.end(), [](double t) { return t < 3; }), 0);
+}
+
+TEST(CApiMotions, NameWhatIsWrong) {
+  const auto said = [](bch_status status) {
+    EXPECT_EQ(status, BCH_INVALID_ARGUMENT);
+    return std::string(bch_last_error());
+  };
+  const AnimatedDiscs disc = test::still_disc(0.2f);
+  const OwnedAnimated shape = Arrays(disc).shape();
+  bch_animated_shape* none = nullptr;
+  Arrays bad(disc);
+  bad.all[1].radius = -1;
+  EXPECT_EQ(said(bch_animated_shape_create(&bad.arrays, &none)),
+            "animated shape: chunk 0: disc 0 at key 1, of -1 m at (0, 0) m");
+  bad.arrays.times = nullptr;
+  EXPECT_EQ(said(bch_animated_shape_create(&bad.arrays, &none)), "arrays->times is NULL");
+  EXPECT_EQ(none, nullptr);
+  const bch_path_key key = {0, 0, 0, 0, 0};
+  bch_motion motions[] = {{shape.get(), &key, 1, 0}, {shape.get(), &key, 0, 0}};
+  const bch_pair pair = {0, 1};
+  double time = 77;
+  EXPECT_EQ(said(bch_first_contact(motions, 2, &pair, 1, 0, 1, 0.005, 0, &time)),
+            "first_contact: motion 1: a path without keys");
+  motions[1].shape = nullptr;
+  EXPECT_EQ(said(bch_first_contact(motions, 2, &pair, 1, 0, 1, 0.005, 0, &time)), "motions[1].shape is NULL");
+  EXPECT_EQ(said(bch_free_until(nullptr, motions, 1, 0, 1, 0.005, &time)), "motion is NULL");
+  EXPECT_EQ(said(bch_free_until(motions, motions, 1, 1, 0, 0.005, &time)),
+            "free_until: from 1 s to 0 s is no interval within +-1e6 s");
+  EXPECT_EQ(time, 77);
+}
+
+}  // namespace
+}  // namespace bch

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "tests/support/height_scenes.hpp"
+#include "tests/support/obstacle_answers.hpp"
+#include "tests/support/obstacle_scenes.hpp"
+#include "tests/support/test.hpp"
+
+// Obstacles with heights, against the definition: a body without heights, and the obstacles whose heights meet the body's, in a set of
+// their own.
+
+namespace bch {
+namespace {
+
+using baselines::ObstacleReference;
+using test::Crowd;
+using test::ObstacleScene;
+using test::Random;
+
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+/// Gives obstacles, which have none, heights about those of agents: some reach the ground or the sky, some are planes at whole multiples of a quarter.
+void raise(Random& random, ObstacleScene& scene) {
+  for (std::size_t i = 0; i < scene.is_area.size(); ++i) {
+    const double bottom = random.below(2) == 0 ? random.uniform(4, 8) : 4 + 0.25 * random.below(16);
+    scene.bottom.push_back(random.below(4) == 0 ? -unlimited : bottom);
+    scene.top.push_back(random.below(4) == 0 ? unlimited : bottom + 0.5 * random.below(3));
+  }
+}
+
+/// Obstacles of a scene that are level with a body, without heights.
+struct LevelObstacles {
+  LevelObstacles(const ObstacleScene& scene, const std::vector<bool>& kept) {
+    std::uint32_t number = 0;
+    std::vector<std::uint64_t> obstacle_offsets{0}, path_offsets{0};
+    std::vector<std::uint8_t> is_area;
+    std::vector<double> x, y;
+    for (std::size_t o = 0; o < scene.is_area.size(); ++o) {
+      const std::size_t segments = scene.reference[o].segments.size();
+      for (std::size_t k = 0; k < segments; ++k, ++number)
+        if (kept[o]) numbers.push_back(number);
+      if (!kept[o]) continue;
+      obstacles.push_back(static_cast<std::uint32_t>(o)), reference.push_back(scene.reference[o]);
+      for (std::size_t p = scene.obstacle_offsets[o]; p < scene.obstacle_offsets[o + 1]; ++p) {
+        for (std::size_t i = scene.path_offsets[p]; i < scene.path_offsets[p + 1]; ++i)
+          x.push_back(scene.x[i]), y.push_back(scene.y[i]);
+        path_offsets.push_back(x.size());
+      }
+      obstacle_offsets.push_back(path_offsets.size() - 1), is_area.push_back(scene.is_area[o]);
+    }
+    set = std::make_unique<ObstacleSet>(ObstacleArrays{x, y, path_offsets, obstacle_offsets, is_area});
+  }
+
+  std::unique_ptr<ObstacleSet> set;
+  std::vector<std::uint32_t> numbers, obstacles;  ///< in the whole scene, of its segments and obstacles
+  std::vector<baselines::ReferenceObstacle> reference;
+};
+
+/// What all queries say of an agent.
+struct AgentAnswers {
+  std::uint8_t hit = 0, near = 0;
+  float distance = HUGE_VALF, deepest = HUGE_VALF, time = HUGE_VALF;
+  DiscPair discs{};
+  Penetration way_out{};
+
+  AgentAnswers() = default;
+  AgentAnswers(const test::ObstacleAnswers& all, std::size_t i)
+      : hit(all.hits[i]),
+        near(all.near[i]),
+        distance(all.distance[i]),
+        deepest(all.deepest[i]),
+        time(all.time[i]),
+        discs(all.deepest_discs[i]),
+        way_out(all.ways[i]) {}
+};
+
+/// What agents are asked: how near is near, and their ways, the same in x and y.
+struct Question {
+  detail::AllOptions options;
+  std::vector<double> distances, way;
+
+  test::ObstacleAnswers ask(const ShapeSet& set, const Agents& agents, const ObstacleSet& obstacles) const {
+    return test::all_answers(set, agents, obstacles, options, distances, {way, way});
+  }
+};
+
+class ObstaclesWithHeights : public testing::Test {
+ protected:
+  /// Returns what an agent says of the obstacles level with it. `touched`: those that it collides with.
+  AgentAnswers expected_of(const Crowd& crowd, std::uint32_t agent, const ObstacleScene& scene,
+                           const Question& question, std::vector<std::uint32_t>& touched) {
+    const LevelObstacles level = level_with(scene, bodies[crowd.shape[agent]].heights, crowd.z[agent]);
+    Crowd one;
+    one.add({crowd.shape[agent], crowd.x[agent], crowd.y[agent], crowd.heading[agent], crowd.level[agent]});
+    const Question its_own{
+        question.options, {question.distances[agent]}, std::vector<double>(1, question.way[agent])};
+    AgentAnswers of(its_own.ask(flat, one.agents(), *level.set), 0);
+    EXPECT_EQ(of.hit, std::ranges::any_of(level.reference, [&](const auto& obstacle) {
+                return reference.collides(one.agents(), 0, obstacle);
+              }));
+    if (of.deepest < HUGE_VALF) of.discs.second = level.numbers[of.discs.second];
+    const Rows<std::uint32_t> rows =
+        collider.obstacles(flat, one.agents(), *level.set, {.leaves = question.options.leaves});
+    for (const std::uint32_t obstacle : rows[0]) touched.push_back(level.obstacles[obstacle]);
+    return of;
+  }
+
+  Random random{3011};
+  const ShapeSetPlan plan{.depths = {0, 3, all_depths}, .heights = true};
+  const std::vector<Shape> bodies = test::bodies_with_heights(random);
+  const ShapeSet set{bodies, plan};
+
+ private:
+  /// In long double, with the slack of the definition.
+  static LevelObstacles level_with(const ObstacleScene& scene, Heights body, double z) {
+    std::vector<bool> kept;
+    const long double slack = 1e-9L + std::abs(z) * 0x1p-50L;
+    for (std::size_t o = 0; o < scene.is_area.size(); ++o)
+      kept.push_back(scene.bottom.empty() ||
+                     (scene.bottom[o] <= static_cast<long double>(body.top) + z + slack &&
+                      static_cast<long double>(body.bottom) + z <= scene.top[o] + slack));
+    return {scene, kept};
+  }
+
+  const ShapeSet flat{bodies, {.depths = plan.depths}};
+  ObstacleReference reference{bodies, {.depths = plan.depths}, Leaves::segments};
+  bch::Crowd collider;
+};
+
+/// Obstacles of all heights, and the same ones raised.
+TEST_F(ObstaclesWithHeights, AreAsWithoutHeightsWhereLevelWithABody) {
+  constexpr std::uint32_t agents = 100;
+  std::size_t hits = 0, passed = 0;
+  for (std::uint32_t k = 0; k < test::samples(36); ++k) {
+    ObstacleScene scene = test::obstacle_scene(random, 12, 3);
+    Crowd crowd = test::crowd_about(random, set, agents, 3);
+    Question question{{}, test::distances_for(random, agents), {}};
+    question.options.distance_leaves = k % 2 == 0 ? Leaves::discs : Leaves::segments;
+    for (std::uint32_t i = 0; i < agents; ++i) {
+      crowd.z.push_back(random.below(3) == 0 ? 5 : random.uniform(3, 8));
+      question.way.push_back(random.uniform(-1, 1));
+    }
+    std::vector<std::uint8_t> hits_of_all;
+    for (const bool raised : {false, true}) {
+      if (raised) raise(random, scene);
+      const ObstacleSet obstacles = scene.set();
+      const test::ObstacleAnswers found = question.ask(set, crowd.agents(), obstacles);
+      bch::Crowd whole;
+      const Rows<std::uint32_t> rows =
+          whole.obstacles(set, crowd.agents(), obstacles, {.leaves = question.options.leaves});
+      for (std::uint32_t i = 0; i < agents; ++i) {
+        std::vector<std::uint32_t> touched;
+        const AgentAnswers expected = expected_of(crowd, i, scene, question, touched), of(found, i);
+        ASSERT_EQ(of.hit, expected.hit) << k << ", agent " << i;
+        ASSERT_EQ(of.near, expected.near) << k << ", agent " << i;
+        ASSERT_EQ(of.distance, expected.distance) << k << ", agent " << i;
+        ASSERT_EQ(of.deepest, expected.deepest) << k << ", agent " << i;
+        if (expected.deepest < HUGE_VALF) {
+          ASSERT_EQ(of.discs, expected.discs) << k << ", agent " << i;
+        }
+        ASSERT_EQ(of.time, expected.time) << k << ", agent " << i;
+        ASSERT_EQ(of.way_out, expected.way_out) << k << ", agent " << i;
+        ASSERT_EQ(std::vector<std::uint32_t>(rows[i].begin(), rows[i].end()), touched);
+        hits += expected.hit;
+        passed += raised && hits_of_all[i] != 0 && expected.hit == 0;
+      }
+      hits_of_all = found.hits;
+    }
+  }
+  EXPECT_GT(hits, test::samples(300));
+  EXPECT_GT(passed, test::samples(150));
+}
+
+/// A box of a metre and a half beside a wall, on the ground and above it.
+class BoxAtAWall : public testing::Test {
+ protected:
+  static ShapeSet box(bool heights) {
+    Shape shape = test::synthetic_shapes(3012, 1).front();
+    shape.heights = {0, 1.5f};
+    return ShapeSet(std::vector<Shape>{shape}, {.heights = heights});
+  }
+
+  /// Asks for a collision with an area from `bottom` to `top` that holds the agent.
+  static bool hits(const ShapeSet& set, const std::vector<double>& z, double bottom, double top) {
+    const std::vector<double> x = {-50, 50, 50, -50}, y = {-50, -50, 50, 50};
+    const std::vector<std::uint64_t> paths = {0, 4};
+    const std::vector<std::uint8_t> area = {1};
+    const std::vector<double> bottoms = {bottom}, tops = {top};
+    const ObstacleSet obstacles({x, y, paths, {}, area, bottoms, tops});
+    Crowd crowd;
+    crowd.add({0, 1, 2, 0.5, 0});
+    crowd.z = z;
+    std::uint8_t hit = 0;
+    collide(set, crowd.agents(), obstacles, {&hit, 1});
+    float time = 0;
+    const std::vector<double> still = {0};
+    time_of_impact(set, crowd.agents(), {still, still}, obstacles, {&time, 1});
+    EXPECT_EQ(time == 0, hit != 0);
+    return hit != 0;
+  }
+};
+
+TEST_F(BoxAtAWall, MeetsWhatTouchesItsHeights) {
+  const ShapeSet set = box(true);
+  EXPECT_TRUE(hits(set, {}, 1.5, 3));
+  EXPECT_FALSE(hits(set, {}, 1.5 + 1e-8, 3));
+  EXPECT_TRUE(hits(set, {10}, 11.5, 13));
+  EXPECT_FALSE(hits(set, {10}, 11.5 + 1e-8, 13));
+  EXPECT_TRUE(hits(set, {10}, 2, 10));
+  EXPECT_FALSE(hits(set, {10}, 2, 10 - 1e-8));
+  EXPECT_FALSE(hits(set, {500}, -unlimited, 3));
+  EXPECT_TRUE(hits(set, {500}, 3, unlimited));
+  EXPECT_TRUE(hits(set, {500}, -unlimited, unlimited));
+  // As between agents, what is rounded far above counts as touching.
+  EXPECT_TRUE(hits(set, {1e9}, 1e9 + 1.5 + 5e-7, unlimited));
+  EXPECT_FALSE(hits(set, {1e9}, 1e9 + 1.5 + 2e-6, unlimited));
+}
+
+TEST_F(BoxAtAWall, WithoutHeightsMeetsWallsOfAllHeights) {
+  EXPECT_TRUE(hits(box(false), {}, 500, 501));
+}
+
+}  // namespace
+}  // namespace bch
