@@ -168,7 +168,7 @@ Lines expected(const ToldFrame& now, const PosedFrame& posed, const ToldFrame* n
 /// Checks every frame, and that all kinds of answers were there.
 void expect_answers(const CheckOptions& options) {
   MadeUp recording(fps);
-  test::add_crowd(recording, 60, static_cast<int>(test::samples(12)));
+  test::add_crowd(recording, 60, 6);
   const std::vector<ToldFrame> frames = told(recording, options);
   std::vector<PosedFrame> posed;
   for (const ToldFrame& frame : frames) posed.emplace_back(frame, options);
