@@ -19,9 +19,10 @@ struct Crowd {
   double side = 0;  ///< metres
   std::vector<std::uint32_t> shape;
   std::vector<double> x, y, heading;
+  std::vector<double> z;  ///< heights of the grounds, or none
 
   std::size_t size() const { return shape.size(); }
-  Agents agents() const { return {shape, x, y, heading}; }
+  Agents agents() const { return {.shape = shape, .x = x, .y = y, .heading = heading, .z = z}; }
   /// Returns the agents, all at one level.
   Agents at_level(const std::vector<std::uint8_t>& level) const { return {shape, x, y, heading, level}; }
 };

@@ -59,10 +59,12 @@ void BodySubjects::add_outlines() {
   subject.bytes = static_cast<double>(set.bytes()) / set.shape_count();
   const auto workshops = std::make_shared<std::vector<ShapeWorkshop>>(
       of_each_character(scene_, [](const Character& character) { return ShapeWorkshop(character); }));
-  all_.push_back({std::move(subject), [this, workshops](std::size_t shape) {
+  all_.push_back({std::move(subject),
+                  [this, workshops](std::size_t shape) {
                     ShapeWorkshop& of = (*workshops)[scene_.sources()[shape].character];
                     of.prepared.prepare(of.shaper.shape(WorldPose{joints_[shape]}), shape);
-                  }});
+                  },
+                  false});
 }
 
 void BodySubjects::add_meshes() {
@@ -118,19 +120,20 @@ namespace {
 
 constexpr std::size_t warming_poses = 10;
 
-/// Adds what each subject says of the crowd's pairs, beside the meshes.
-Table hits_of(const std::vector<Subject>& subjects, const bench::Workload& crowd, const bench::Hits& meshes) {
-  Table table({"subject", "asked", "meshes meet", "false hits", "missed"});
-  for (std::size_t i = 0; i < subjects.size(); ++i) {
-    const bench::Hits hits = answers(subjects[i], crowd);
+/// Adds what each subject that knows heights says of the pairs, beside the meshes, which come last.
+void add_hits(Table& table, std::string_view ground, const std::vector<BodySubject>& all,
+              const bench::Workload& pairs) {
+  const bench::Hits meshes = answers(all.back().subject, pairs);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (!pairs.crowd.z.empty() && !all[i].knows_heights) continue;
+    const bench::Hits hits = answers(all[i].subject, pairs);
     std::size_t wrong = 0, missed = 0;
     for (std::size_t k = 0; k < hits.size(); ++k) {
       wrong += hits[k] > meshes[k] ? 1 : 0;
       missed += hits[k] < meshes[k] ? 1 : 0;
     }
-    table.add({i, hits.size(), std::ranges::count(meshes, 1), wrong, missed});
+    table.add({i, ground, hits.size(), std::ranges::count(meshes, 1), wrong, missed});
   }
-  return table;
 }
 
 /// Times a pose, all kinds in turn in every run; a few poses before it bring code and data into caches.
@@ -166,7 +169,10 @@ void run_bodies(Run& run) {
   tables.slide(SlideCases(run.scene.shapes(), run.sizes().cases, run.seed()),
                *baselines::fcl_mesh_distances(run.scene.bodies()));
   tables.write("bodies");
-  run.write("bodies_hits", hits_of(subjects, crowd, run.scene.hits("obb_full", crowd)));
+  Table hits({"subject", "ground", "asked", "meshes meet", "false hits", "missed"});
+  add_hits(hits, "level", bodies.all(), crowd);
+  add_hits(hits, "stairs", bodies.all(), bench::on_stairs(crowd));
+  run.write("bodies_hits", hits);
   run.write("bodies_poses", pose_times(bodies.all(), run.scene.shapes().size(), run.sizes().runs));
 }
 

@@ -25,6 +25,7 @@ using MakePose = std::function<void(std::size_t shape)>;
 struct BodySubject {
   Subject subject;
   MakePose pose;  ///< or none
+  bool knows_heights = true;
 };
 
 /// Makes bodies of all shapes of a scene, and owns them.

@@ -226,7 +226,7 @@ def bodies(data, out):
     meshes = places[data["bodies"].column("structure").index(MESHES)]
     out["bodies"] = Table()
     for i, row in enumerate(data.subjects("bodies")):
-        asked = hits[i][0]
+        asked, *stairs = hits[i]
         earlier = [1000 * (mesh - place) for mesh, place in zip(meshes, places[i]) if not is_nan(mesh) and not is_nan(place)]
         later = [is_nan(place) or place > mesh + SAME_PLACE for mesh, place in zip(meshes, places[i]) if not is_nan(mesh)]
         pose = spread(poses[i].column("pose (us)") if i in poses else [], "pose (us)", "pose")
@@ -235,6 +235,7 @@ def bodies(data, out):
             "frame (us an agent)": pose["pose (us)"] + row["crowd (ns/pair)"] * asked["asked"] / agents / 1000,
             **data.mean(earlier, "earlier than meshes (mm)", "earlier"), "later than meshes (% of slides)": Share(sum(later), len(later)),
             "mean (cm)": row["mean (cm)"], "false hits (% of mesh hits)": Share(asked["false hits"], asked["meshes meet"]),
+            "on stairs (% of mesh hits)": Share(stairs[0]["false hits"], stairs[0]["meshes meet"]) if stairs else math.nan,
             "missed (% of mesh hits)": Share(asked["missed"], asked["meshes meet"])})
 
 

@@ -80,7 +80,7 @@ Workload random_pairs(std::string_view name, std::uint64_t seed, std::span<const
       workload.pairs.push_back(pair);
       in_vain = 0;
     } else {
-      auto& [side, shape, x, y, heading] = workload.crowd;
+      auto& [side, shape, x, y, heading, z] = workload.crowd;
       shape.resize(agent), x.resize(agent), y.resize(agent), heading.resize(agent);
     }
   }
@@ -94,6 +94,12 @@ Workload crowd_pairs(const ShapeSet& set, std::uint32_t agents, double margin) {
   bch::Crowd finder;
   const bch::Crowd::Pairs pairs = finder.candidates(set, workload.agents(), margin);
   workload.pairs.assign(pairs.begin(), pairs.end());
+  return workload;
+}
+
+Workload on_stairs(Workload workload) {
+  constexpr double rise = 0.17, tread = 0.3;  // metres, of a staircase in a house
+  for (const double x : workload.crowd.x) workload.crowd.z.push_back(rise * std::floor(x / tread));
   return workload;
 }
 

@@ -64,6 +64,9 @@ constexpr double clearance_limit =
 /// Returns the crowd, or with a margin the candidates.
 Workload crowd_pairs(const ShapeSet& set, std::uint32_t agents, double margin = 0);
 
+/// Returns a workload of the same pairs on stairs that lead up along x: each step is 17 cm high and 30 cm deep.
+Workload on_stairs(Workload workload);
+
 /// Repeats the first `cases` pairs of a workload, `pairs` in all. Cached: each case over and over, then the
 /// next; else the cases in sequence, over and over.
 Workload repeated(std::string_view name, const Workload& from, std::uint32_t cases, std::uint32_t pairs,

@@ -119,7 +119,9 @@ class Tables(unittest.TestCase):
     def test_only_capsules_miss_meshes(self):
         names = [row["structure"] for row in read(self.folder, "bodies")]
         self.assertEqual([sum(kind in name for name in names) for kind in ("capsules", "spheres")], [6, 1])
-        for row in read(self.folder, "bodies_hits"):
+        hits = read(self.folder, "bodies_hits")
+        self.assertEqual({row["ground"] for row in hits}, {"level", "stairs"})
+        for row in hits:
             name, meeting = names[int(row["subject"])], int(row["meshes meet"])
             self.assertGreater(meeting, 0)
             self.assertTrue("capsules" in name or row["missed"] == "0", name)
