@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -66,6 +67,11 @@ class RunOf : public RunBodies {
                std::span<std::uint8_t> hits) const override {
     bch::collide(set_, agents, pairs, hits, options_);
   }
+  std::vector<Penetration> depths(const Agents& agents, std::span<const Pair> pairs) const override {
+    std::vector<Penetration> depths(pairs.size());
+    penetration(set_, agents, pairs, directions, depths);
+    return depths;
+  }
   std::vector<float> gaps(const Agents& agents, std::span<const Pair> pairs,
                           double max_distance) const override {
     std::vector<float> gaps(pairs.size());
@@ -84,6 +90,10 @@ class RunOf : public RunBodies {
 
  protected:
   RunOf(Set set, const AllOptions& options) : set_(std::forward<Set>(set)), options_(options) {}
+  const std::remove_reference_t<Set>& set() const noexcept { return set_; }
+
+ private:
+  static constexpr std::uint32_t directions = 32;  ///< of which the best one tells the depth
 
   Set set_;
   const AllOptions options_;
@@ -97,16 +107,15 @@ class RunOutlines : public RunOf<const ShapeSet&> {
       : RunOf(set, {.leaves = leaves, .distance_leaves = leaves}), numbers_(numbers) {}
 
   std::span<const std::uint32_t> numbers() const noexcept override { return numbers_; }
-  const ShapeSetView& roots() const noexcept override { return set_.view(); }
+  const ShapeSetView& roots() const noexcept override { return set().view(); }
   void touch(const Agents& agents, std::span<const Pair> pairs, std::span<std::uint8_t> hits) const override;
-  std::vector<Penetration> depths(const Agents& agents, std::span<const Pair> pairs) const override;
   std::vector<WallDepth> depths(const Agents& agents, const ObstacleSet& walls) const override;
 
  private:
   const std::span<const std::uint32_t> numbers_;
 };
 
-/// Answers by bodies of spheres, in space. Depths are the deepest overlaps of two spheres, or of a sphere and a wall.
+/// Answers by bodies of spheres, in space. Depths in walls are the deepest overlaps of a sphere and a wall.
 class RunSpheres : public RunOf<BodySet> {
  public:
   /// Poses the bodies of `people` of the run. Of the others, who are behind them, touch() poses those that it is asked about. Refers to all
@@ -116,7 +125,6 @@ class RunSpheres : public RunOf<BodySet> {
   std::span<const std::uint32_t> numbers() const noexcept override { return numbers_; }
   const ShapeSetView& roots() const noexcept override;
   void touch(const Agents& agents, std::span<const Pair> pairs, std::span<std::uint8_t> hits) const override;
-  std::vector<Penetration> depths(const Agents& agents, std::span<const Pair> pairs) const override;
   std::vector<WallDepth> depths(const Agents& agents, const ObstacleSet& walls) const override;
 
  private:

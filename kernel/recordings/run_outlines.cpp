@@ -4,29 +4,18 @@
 #include "kernel/recordings/run_bodies.hpp"
 
 namespace bch::detail {
-namespace {
-
-constexpr std::uint32_t directions = 32;  ///< of which the best one tells the depth
-
-}  // namespace
 
 void RunOutlines::touch(const Agents& agents, std::span<const Pair> pairs,
                         std::span<std::uint8_t> hits) const {
-  bch::collide(set_, agents, pairs, hits, {.leaves = Leaves::discs});
-}
-
-std::vector<Penetration> RunOutlines::depths(const Agents& agents, std::span<const Pair> pairs) const {
-  std::vector<Penetration> depths(pairs.size());
-  penetration(set_, agents, pairs, directions, depths);
-  return depths;
+  bch::collide(set(), agents, pairs, hits, {.leaves = Leaves::discs});
 }
 
 std::vector<WallDepth> RunOutlines::depths(const Agents& agents, const ObstacleSet& walls) const {
   std::vector<Penetration> depths(agents.size());
   std::vector<float> gaps(agents.size());
   std::vector<DiscPair> nearest(agents.size());
-  penetration(set_, agents, walls, depths);
-  clearance(set_, agents, walls, {.distance = gaps, .discs = nearest}, {.overlap = Overlap::deepest});
+  penetration(set(), agents, walls, depths);
+  clearance(set(), agents, walls, {.distance = gaps, .discs = nearest}, {.overlap = Overlap::deepest});
   std::vector<WallDepth> in_walls;
   for (std::size_t i = 0; i < agents.size(); ++i)
     in_walls.push_back({nearest[i].second, depths[i].depth, static_cast<float>(depths[i].x),

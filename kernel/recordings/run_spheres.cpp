@@ -37,7 +37,7 @@ RunSpheres::RunSpheres(const WalkerBodies& bodies, std::span<const WalkerPose> p
 }
 
 const ShapeSetView& RunSpheres::roots() const noexcept {
-  return set_.view().ground;
+  return set().view().ground;
 }
 
 void RunSpheres::touch(const Agents& agents, std::span<const Pair> pairs,
@@ -56,20 +56,9 @@ void RunSpheres::touch(const Agents& agents, std::span<const Pair> pairs,
   bch::collide(walkers_.pose(asked), of_asked, pairs, hits);
 }
 
-std::vector<Penetration> RunSpheres::depths(const Agents& agents, std::span<const Pair> pairs) const {
-  Deepest deepest(pairs.size());
-  clearance(set_, agents, pairs, deepest.answers(), {.overlap = Overlap::deepest});
-  std::vector<Penetration> depths;
-  for (std::size_t i = 0; i < pairs.size(); ++i) {
-    const Vec2 out = way_out(deepest.direction[i]);
-    depths.push_back({deepest.depth(i), double{out.x}, double{out.y}});
-  }
-  return depths;
-}
-
 std::vector<WallDepth> RunSpheres::depths(const Agents& agents, const ObstacleSet& walls) const {
   Deepest deepest(agents.size());
-  clearance(set_, agents, walls, deepest.answers(), {.overlap = Overlap::deepest});
+  clearance(set(), agents, walls, deepest.answers(), {.overlap = Overlap::deepest});
   std::vector<WallDepth> in_walls;
   for (std::size_t i = 0; i < agents.size(); ++i) {
     const Vec2 out = way_out(deepest.direction[i]);

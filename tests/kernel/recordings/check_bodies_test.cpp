@@ -77,10 +77,16 @@ struct PosedFrame {
     return hit != 0;
   }
   /// How far two people are apart, or how deep two of their spheres overlap, below 0.
-  std::pair<float, Vec3> gap(Pair pair) const {
-    std::pair<float, Vec3> gap;
-    clearance(set, agents(), {&pair, 1}, {{&gap.first, 1}, {&gap.second, 1}}, {.overlap = Overlap::deepest});
+  float gap(Pair pair) const {
+    float gap = 0;
+    clearance(set, agents(), {&pair, 1}, {{&gap, 1}}, {.overlap = Overlap::deepest});
     return gap;
+  }
+  /// How far the first of two people has to move, and where.
+  Penetration way_out(Pair pair) const {
+    Penetration out = {};
+    penetration(set, agents(), {&pair, 1}, 32, {&out, 1});
+    return out;
   }
   float time(Pair pair, double dx, double dy) const {
     float time = 0;
@@ -145,10 +151,12 @@ Lines expected(const ToldFrame& now, const PosedFrame& posed, const ToldFrame* n
     for (std::uint32_t a = 0; a < b; ++a) {
       const Pair pair{a, b};
       const std::int64_t first = now.people[a].walker.id, second = now.people[b].walker.id;
-      const auto [gap, direction] = posed.gap(pair);
+      const float gap = posed.gap(pair);
       EXPECT_EQ(posed.collides(pair), gap <= 0);
       if (gap <= 0) {
-        lines.insert(line("overlap", first, second, -gap, against(direction)));
+        const auto [depth, x, y] = posed.way_out(pair);
+        lines.insert(
+            line("overlap", first, second, depth, line(static_cast<float>(x), static_cast<float>(y))));
         continue;
       }
       if (static_cast<double>(gap) <= max_distance) lines.insert(line("near", first, second, gap));
