@@ -205,7 +205,7 @@ void FrameRun::ask_walls(const RunBodies& bodies, const Agents& all) {
       who.push_back(i), body.push_back(all.shape[i]);
       x.push_back(all.x[i]), y.push_back(all.y[i]), heading.push_back(all.heading.x()[i]);
     }
-  const std::vector<WallDepth> depths = bodies.depths({body, x, y, heading}, *options_.walls);
+  const std::vector<WallDepth> depths = bodies.wall_depths({body, x, y, heading}, *options_.walls);
   for (std::size_t k = 0; k < who.size(); ++k) {
     const std::uint32_t segment = depths[k].segment;
     CheckedPair& pair = checked_.emplace_back(checked({who[k], who[k]}));

@@ -56,7 +56,7 @@ class RunBodies {
   virtual void collide(const Agents& agents, const ObstacleSet& walls,
                        std::span<std::uint8_t> hits) const = 0;
   /// Measures how deep those are in walls who are.
-  virtual std::vector<WallDepth> depths(const Agents& agents, const ObstacleSet& walls) const = 0;
+  virtual std::vector<WallDepth> wall_depths(const Agents& agents, const ObstacleSet& walls) const = 0;
 };
 
 /// Answers what shapes and bodies of spheres are asked in the same way. `Set` is a set, or a reference to one that lives longer.
@@ -109,7 +109,7 @@ class RunOutlines : public RunOf<const ShapeSet&> {
   std::span<const std::uint32_t> numbers() const noexcept override { return numbers_; }
   const ShapeSetView& roots() const noexcept override { return set().view(); }
   void touch(const Agents& agents, std::span<const Pair> pairs, std::span<std::uint8_t> hits) const override;
-  std::vector<WallDepth> depths(const Agents& agents, const ObstacleSet& walls) const override;
+  std::vector<WallDepth> wall_depths(const Agents& agents, const ObstacleSet& walls) const override;
 
  private:
   const std::span<const std::uint32_t> numbers_;
@@ -125,7 +125,7 @@ class RunSpheres : public RunOf<BodySet> {
   std::span<const std::uint32_t> numbers() const noexcept override { return numbers_; }
   const ShapeSetView& roots() const noexcept override;
   void touch(const Agents& agents, std::span<const Pair> pairs, std::span<std::uint8_t> hits) const override;
-  std::vector<WallDepth> depths(const Agents& agents, const ObstacleSet& walls) const override;
+  std::vector<WallDepth> wall_depths(const Agents& agents, const ObstacleSet& walls) const override;
 
  private:
   const WalkerBodies& walkers_;

@@ -10,7 +10,7 @@ void RunOutlines::touch(const Agents& agents, std::span<const Pair> pairs,
   bch::collide(set(), agents, pairs, hits, {.leaves = Leaves::discs});
 }
 
-std::vector<WallDepth> RunOutlines::depths(const Agents& agents, const ObstacleSet& walls) const {
+std::vector<WallDepth> RunOutlines::wall_depths(const Agents& agents, const ObstacleSet& walls) const {
   std::vector<Penetration> depths(agents.size());
   std::vector<float> gaps(agents.size());
   std::vector<DiscPair> nearest(agents.size());

@@ -56,7 +56,7 @@ void RunSpheres::touch(const Agents& agents, std::span<const Pair> pairs,
   bch::collide(walkers_.pose(asked), of_asked, pairs, hits);
 }
 
-std::vector<WallDepth> RunSpheres::depths(const Agents& agents, const ObstacleSet& walls) const {
+std::vector<WallDepth> RunSpheres::wall_depths(const Agents& agents, const ObstacleSet& walls) const {
   Deepest deepest(agents.size());
   clearance(set(), agents, walls, deepest.answers(), {.overlap = Overlap::deepest});
   std::vector<WallDepth> in_walls;
