@@ -6,11 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 
+#include "kernel/penetration/spread_axes.hpp"
 #include "kernel/runtime/pair_heights.hpp"
 #include "kernel/runtime/pair_validation.hpp"
 #include "kernel/runtime/task_ranges.hpp"
@@ -28,8 +28,6 @@ using namespace detail;
 
 namespace {
 
-constexpr std::uint32_t most_directions = 256;
-constexpr std::uint32_t most_axes = most_directions / 2;
 constexpr std::size_t penetration_grain = 128;  ///< pairs a task, up to 10 us each
 
 /// Rounding, in the notation of layout/base/rounding.hpp, all as lengths. An axis, in double within 1e-9 of a unit vector,
@@ -44,12 +42,6 @@ static_assert(margin >= (extent_error + rounding::terms::query_error) * rounding
 static_assert(margin >= (extent_error + rounding::terms::sphere_error) * rounding::unit_roundoff);
 constexpr double lengthening = 1 + 4 * rounding::unit_roundoff;
 static_assert(lengthening - 1 >= 0.75 * rounding::unit_roundoff + 4e-10);
-
-/// Directions of the world, as unit vectors.
-struct Axes {
-  double x[most_axes], y[most_axes];
-  std::uint32_t count;
-};
 
 /// The intervals that an agent takes along axes, about its position.
 struct Extents {
@@ -191,21 +183,6 @@ void require_directions(std::span<const Vec2> directions, std::size_t pairs) {
   }
 }
 
-/// Half of the directions; the others are opposite.
-Axes spread_axes(std::uint32_t directions) {
-  if (directions < 2 || directions > most_directions || directions % 2 != 0)
-    throw std::invalid_argument("penetration: " + std::to_string(directions) +
-                                " directions are not an even number from 2 to " +
-                                std::to_string(most_directions));
-  Axes axes;
-  axes.count = directions / 2;
-  for (std::uint32_t i = 0; i < axes.count; ++i) {
-    const Rotation axis = rotation(2 * std::numbers::pi * i / directions);
-    axes.x[i] = axis.cosine, axes.y[i] = axis.sine;
-  }
-  return axes;
-}
-
 template <class Set>
 void measure_along(const Set& set, const Agents& agents, std::span<const Pair> pairs,
                    std::span<const Vec2> directions, std::span<Penetration> out,
@@ -238,7 +215,7 @@ void measure_least(const Set& set, const Agents& agents, std::span<const Pair> p
                    std::uint32_t directions, std::span<Penetration> out, const Implementation* wanted) {
   const FloatingPointStateGuard floats;
   const auto query = query_of(set, agents, pairs, out, wanted);
-  const Axes axes = spread_axes(directions);
+  const Axes axes = spread_axes("penetration", directions);
   for_pair_ranges(pairs.size(), penetration_grain, [&](std::size_t begin, std::size_t size) {
     Extents a, b;
     std::size_t measured = agents.size();

@@ -225,6 +225,15 @@ void penetration(const BodySet& bodies, const Agents& agents, std::span<const Pa
                  std::uint32_t directions, std::span<Penetration> out,
                  const Implementation* implementation = nullptr);
 
+/// Measures how far the first agent of each pair has to move on the ground, along the best of `directions` evenly spread directions, until no
+/// sphere of its body overlaps one of the second's. collide() then answers 0. The depth is 0 where it answers 0 already, and grows from there
+/// on with the overlap; it is never larger than that of penetration(), to rounding, because the two may stay entangled. Between two places that
+/// are free it may jump, where a shorter way opens or closes; the nearest free place itself is exact along each direction.
+/// Sizes, symmetry, bits, directions and errors are those of penetration(). Threads: runs in the caller's TBB arena.
+void nearest_free(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs,
+                  std::uint32_t directions, std::span<Penetration> out,
+                  const Implementation* implementation = nullptr);
+
 /// Holds the displacement of the first agent of each pair relative to the second: its own displacement minus the
 /// other's. Beside obstacles there is one for each agent, in the world. No agent turns.
 /// Units:   metres in the world; each within +-1e9.
