@@ -14,6 +14,7 @@
 
 #include "kernel/runtime/ordered_build.hpp"
 #include "kernel/runtime/task_ranges.hpp"
+#include "layout/default_character/pedestrian_speeds.hpp"
 
 namespace bch::detail {
 namespace {

@@ -15,6 +15,7 @@
 #include "layout/default_character/character_at_rest.hpp"
 #include "layout/default_character/parametric_body.hpp"
 #include "layout/default_character/parametric_motion.hpp"
+#include "layout/default_character/pedestrian_speeds.hpp"
 
 namespace bch {
 

@@ -13,6 +13,7 @@
 #include "kernel/distributed/cut.hpp"
 #include "kernel/distributed/session.hpp"
 #include "kernel/runtime/all_options.hpp"
+#include "layout/default_character/pedestrian_speeds.hpp"
 #include "tests/support/crowd_pairs.hpp"
 #include "tests/support/test.hpp"
 
@@ -400,7 +401,7 @@ class PosedCrowd : public testing::Test {
     agent.x = random.uniform(0, side), agent.y = random.uniform(0, side), agent.z = 0.4 * random.below(5);
     agent.shape = random.below(8) == 0;  // one in eight is tall
     agent.level = static_cast<std::uint8_t>(random.below(static_cast<std::uint32_t>(levels)));
-    agent.pose = {random.below(pedestrian_speeds), static_cast<float>(random.uniform(0, 0.5))};
+    agent.pose = {random.below(detail::pedestrian_speeds), static_cast<float>(random.uniform(0, 0.5))};
     if (random.below(10) == 0) agent.pose = {};
     return agent;
   }

@@ -6,6 +6,7 @@
 #include "baselines/welzl.hpp"
 #include "layout/character/eigen.hpp"
 #include "layout/character/skinning.hpp"
+#include "layout/default_character/pedestrian_speeds.hpp"
 #include "tests/support/test.hpp"
 
 namespace bch {
@@ -233,8 +234,8 @@ TEST(Pedestrians, FeetOnTheGroundStayWhereTheyAre) {
   for (const Sex sex : {Sex::female, Sex::male}) {
     const double stature = sex == Sex::male ? 1.8 : 1.6;
     const Character character = default_pedestrian(sex, stature);
-    ASSERT_EQ(character.clips.size(), pedestrian_speeds);
-    for (std::uint32_t clip = 0; clip < pedestrian_speeds; clip += 6) {
+    ASSERT_EQ(character.clips.size(), detail::pedestrian_speeds);
+    for (std::uint32_t clip = 0; clip < detail::pedestrian_speeds; clip += 6) {
       const Channel& pelvis = character.clips[clip].channels[0];
       const float scale = character.to_ground.rows[0][0];
       const float way = scale * (pelvis.positions.back().value.x - pelvis.positions.front().value.x);
@@ -248,7 +249,7 @@ TEST(Pedestrians, FeetOnTheGroundStayWhereTheyAre) {
 TEST(Pedestrians, StridesCanBeRepeated) {
   for (const Sex sex : {Sex::female, Sex::male}) {
     const Character character = default_pedestrian(sex, 1.7, sex == Sex::male ? 0.7 : 0);
-    for (std::uint32_t clip = 0; clip < pedestrian_speeds; ++clip) {
+    for (std::uint32_t clip = 0; clip < detail::pedestrian_speeds; ++clip) {
       const float seconds = character.clips[clip].seconds;
       const double speed = pedestrian_speed_step * clip;
       EXPECT_NEAR(static_cast<double>(seconds) * pedestrian_strides_per_second(speed), 1, 1e-6);

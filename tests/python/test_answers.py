@@ -237,6 +237,9 @@ class Scenes(unittest.TestCase):
         with self.assertRaisesRegex(bch.ArgumentError, "body 0: expected finite spheres"):
             bch.BodySet([[[0, 0, 0, -1]]])
         parted = bch.penetration(bodies, agents, pairs)
+        free = bch.nearest_free(bodies, agents, pairs)
+        np.testing.assert_array_equal(free["depth"] > 0, bch.collide(bodies, agents, pairs) == 1)
+        self.assertTrue((free["depth"] <= parted["depth"] + 1e-5).all())
         np.testing.assert_allclose(parted["depth"], [0.1, 1, 0, 0.1], atol=1e-4)
         np.testing.assert_array_equal(bch.penetration(bodies, agents, pairs, np.tile(np.float32([-2, 0]), (4, 1)))["depth"][:1], parted["depth"][:1])
         contacts = crowd.contacts(bodies, agents)

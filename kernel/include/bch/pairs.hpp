@@ -226,10 +226,10 @@ void penetration(const BodySet& bodies, const Agents& agents, std::span<const Pa
                  const Implementation* implementation = nullptr);
 
 /// Measures how far the first agent of each pair has to move on the ground, along the best of `directions` evenly spread directions, until no
-/// sphere of its body overlaps one of the second's. collide() then answers 0. The depth is 0 where it answers 0 already, and grows from there
-/// on with the overlap; it is never larger than that of penetration(), to rounding, because the two may stay entangled. Between two places that
-/// are free it may jump, where a shorter way opens or closes; the nearest free place itself is exact along each direction.
-/// Sizes, symmetry, bits, directions and errors are those of penetration(). Threads: runs in the caller's TBB arena.
+/// sphere of its body overlaps one of the second's. The two may stay entangled, so the way is at most that of penetration(), to rounding.
+/// collide() answers 0 afterwards; where it answers 0 before, the depth is 0. It grows from there on, and may jump where a gap opens or closes.
+/// Sizes, symmetry, directions and errors are those of penetration(); the bits are the same on every processor.
+/// Memory:  allocates in every call. Threads: runs in the caller's TBB arena.
 void nearest_free(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs,
                   std::uint32_t directions, std::span<Penetration> out,
                   const Implementation* implementation = nullptr);

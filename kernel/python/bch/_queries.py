@@ -196,7 +196,7 @@ def pointers(shapes: Union[ShapeSet, BodySet], agents: Agents, bodies: bool = Fa
 
 
 #: What cannot be asked about bodies and obstacles.
-_of_pairs_alone = ("penetration", "penetration_along", "time_of_impact")
+_of_pairs_alone = ("nearest_free", "penetration", "penetration_along", "time_of_impact")
 
 
 def _asked(name: str, shapes: Union[ShapeSet, BodySet], agents: Agents, pairs: Pairs) -> Tuple[Callable[..., int], int]:
@@ -453,6 +453,44 @@ def penetration(
         raise ArgumentError("directions are for pairs; obstacles have directions of their own")
     else:
         check(ask(how, address(depths)))
+    return depths
+
+
+def nearest_free(
+    bodies: BodySet,
+    agents: Agents,
+    pairs: Pairs,
+    directions: int = 16,
+    *,
+    threads: int = 0,
+    implementation: Optional[str] = None,
+    out: Optional[Records] = None,
+) -> Records:
+    """Measure the shortest way on the ground after which the first body of each pair is free of the second.
+
+    It is 0 where the two do not collide, and at most that of `penetration`, because bodies may stay entangled.
+
+    Parameters
+    ----------
+    bodies : BodySet
+    agents : Agents
+    pairs : (n, 2) uint32
+    directions : int
+        The number of evenly spread directions to try, an even number from 2 to 256.
+    threads, implementation
+        As for `collide`.
+    out : (n,) PENETRATION, optional
+
+    Returns
+    -------
+    (n,) PENETRATION
+        Records of depth, in metres, and of x and y, a unit vector.
+    """
+    pointers(bodies, agents, True)
+    ask, n = _asked("nearest_free", bodies, agents, pairs)
+    depths = result(out, PENETRATION, (n,))
+    how, _ = options("segments", "zero", math.inf, threads, implementation)
+    check(ask(bounded(directions, "directions", 2, 256), how, address(depths)))
     return depths
 
 

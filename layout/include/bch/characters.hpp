@@ -129,9 +129,7 @@ Character default_bulky_male();
 /// Selects the sex of a pedestrian's body.
 enum class Sex { female, male };
 
-/// Gives the number of speeds at which pedestrians walk, from 0 to 2.19 m/s.
-constexpr std::uint32_t pedestrian_speeds = 74;
-/// Gives the step of these speeds, metres per second: clip k of a pedestrian walks at k steps.
+/// Gives the step of the speeds at which pedestrians walk, metres per second: clip k of a pedestrian walks at k steps, the last one at 2.19 m/s.
 constexpr double pedestrian_speed_step = 0.03;
 
 /// Returns a pedestrian for recorded and simulated crowds: the built-in man or woman of a given stature. The pedestrian walks at every

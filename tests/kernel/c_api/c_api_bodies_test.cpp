@@ -198,6 +198,9 @@ TEST(CApiBodies, AnswerAboutPairsAsInCpp) {
       ASSERT_EQ((Penetration{depths[i].depth, depths[i].x, depths[i].y}), expected[i]);
   };
   expect_depths();
+  expect_ok(bch_nearest_free_bodies(of.c_set.get(), &of.agents, of.pairs(), n, 16, nullptr, depths.data()));
+  nearest_free(of.set, agents, of.crowd.pairs, 16, expected);
+  expect_depths();
   const std::vector<bch_vec2> along(n, {1, 2});
   expect_ok(bch_penetration_along_bodies(of.c_set.get(), &of.agents, of.pairs(), n, along.data(), nullptr,
                                          depths.data()));

@@ -8,6 +8,7 @@
 #include <cstdio>
 
 #include "kernel/recordings/walker_shapes.hpp"
+#include "layout/default_character/pedestrian_speeds.hpp"
 #include "tests/support/made_up_recording.hpp"
 #include "tests/support/outline_checks.hpp"
 #include "tests/support/test.hpp"

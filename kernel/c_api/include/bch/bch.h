@@ -806,7 +806,12 @@ BCH_API bch_status bch_time_of_impact_bodies(const bch_body_set* set, const bch_
 BCH_API bch_status bch_penetration_bodies(const bch_body_set* set, const bch_agents* agents, const bch_pair* pairs,
                                           size_t count, uint32_t directions, const bch_query_options* options,
                                           bch_penetration_depth* depths);
-/** Measures the same along given directions, as bch_penetration_along() does. */
+/** Measures the shortest such way after which no sphere of one body overlaps one of the other: the two may stay entangled. 0: they do not
+ * collide. */
+BCH_API bch_status bch_nearest_free_bodies(const bch_body_set* set, const bch_agents* agents, const bch_pair* pairs,
+                                           size_t count, uint32_t directions, const bch_query_options* options,
+                                           bch_penetration_depth* depths);
+/** Measures how far a line along given directions separates the two, as bch_penetration_along() does. */
 BCH_API bch_status bch_penetration_along_bodies(const bch_body_set* set, const bch_agents* agents,
                                                 const bch_pair* pairs, size_t count, const bch_vec2* directions,
                                                 const bch_query_options* options, bch_penetration_depth* depths);
