@@ -58,15 +58,6 @@ std::size_t root_of(const std::filesystem::path& file, const std::string& table)
   return static_cast<std::size_t>(root);
 }
 
-}  // namespace
-
-ReadRecording read_recording(const std::filesystem::path& file, const detail::TrajectoryOptions& options) {
-  const auto reader = detail::open_trajectory(file, options);
-  ReadRecording recording{reader->info(), {}};
-  for (RecordedFrame frame; reader->next(frame.number, frame.people);) recording.frames.push_back(frame);
-  return recording;
-}
-
 void expect_sound(const ReadRecording& recording) {
   const detail::TrajectoryInfo& info = recording.info;
   std::uint64_t rows = 0;
@@ -95,6 +86,16 @@ void expect_sound(const ReadRecording& recording) {
   EXPECT_FALSE(info.format.empty());
 }
 
+}  // namespace
+
+ReadRecording read_recording(const std::filesystem::path& file, const detail::TrajectoryOptions& options) {
+  const auto reader = detail::open_trajectory(file, options);
+  ReadRecording recording{reader->info(), {}};
+  for (RecordedFrame frame; reader->next(frame.number, frame.people);) recording.frames.push_back(frame);
+  expect_sound(recording);
+  return recording;
+}
+
 std::string text_of(const ReadRecording& recording) {
   std::string text;
   for (const RecordedFrame& frame : recording.frames)
@@ -103,6 +104,12 @@ std::string text_of(const ReadRecording& recording) {
               detail::shortest(person.x) + " " + detail::shortest(person.y) + " " + number(person.heading) +
               " " + number(person.stature) + "\n";
   return text;
+}
+
+std::string assumptions_of(const ReadRecording& recording) {
+  std::string all;
+  for (const std::string& sentence : recording.info.assumptions) all += sentence + "\n";
+  return all;
 }
 
 std::string trajectory_complaint(const std::filesystem::path& file,
