@@ -30,11 +30,6 @@ TEST(Cli, TheOtherProgramsGiveTheSameExitCodes) {
 
 TEST(Cli, OutputThatCannotBeWrittenIsReported) {
   expect_failure(bch({"--version"}, {}, {"/dev/full", {}}), 3, {"standard output"});
-  expect_failure(bch({"crowd", "--json", "/nowhere/crowd.json"}), 3, {"/nowhere/crowd.json"});
-  const TemporaryFolder folder;
-  const std::string file = folder.write("a.csv", "old");
-  expect_failure(bch({"crowd", "--json", file + "/crowd.json"}), 3, {"Not a directory"});
-  EXPECT_EQ(read_text(file), "old");
 }
 
 TEST(Cli, FilesThatCrashTheImporterGiveThree) {
