@@ -87,14 +87,6 @@ TEST_F(ImportFormats, ColladaSaysItsAxisAndUnit) {
   EXPECT_TRUE(has_note(turned, "y up -> z up, as the caller says"));
 }
 
-TEST_F(ImportFormats, TextMayBeginWithAByteOrderMark) {
-  const std::string text = "v 0 0 0\nv 0.5 0 0\nv 0 1.8 0\nf 1 2 3\n";
-  const Character plain = import("plain.obj", text).character;
-  const Character marked = import("marked.obj", "\xEF\xBB\xBF" + text).character;
-  EXPECT_EQ(marked.vertices, plain.vertices);
-  EXPECT_EQ(marked.triangles, plain.triangles);
-}
-
 /// A file that lies beside this one, its lines ended as the game's own tools do; assimp 5.2 loses every second header line (the frame
 /// rate) of a file with bare line feeds.
 std::string with_carriage_returns(const char* name) {
