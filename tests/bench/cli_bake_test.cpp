@@ -164,8 +164,6 @@ TEST(Cli, BakingLeavesAllOrNothing) {
   std::filesystem::create_symlink("/dev/full", full);
   expect_failure(bch({"bake", "default:male", "--poses", "1", "-o", full}), 3, {full, "No space"});
   std::filesystem::remove(full);
-  expect_failure(bch({"bake", "default:male", "--poses", "1", "-o", "/nowhere/a.bch"}), 3,
-                 {"/nowhere/a.bch"});
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 

@@ -125,35 +125,26 @@ std::size_t count_of(const std::string& text, const std::string& word) {
   return found;
 }
 
-void expect_crowd_picture(const std::string& svg_file) {
-  const std::string svg = read_text(svg_file);
-  EXPECT_TRUE(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
-  EXPECT_LT(svg.size(), 600000u);
-  for (const char* id :
-       {"crowd", "colliding", "cleared", "free", "overlaps", "single-cylinders", "legend", "scale"})
-    EXPECT_NE(svg.find("id=\"" + std::string(id) + "\""), std::string::npos) << id;
-  EXPECT_EQ(count_of(svg, "<g"), count_of(svg, "</g>"));
-  EXPECT_EQ(svg.find("nan"), std::string::npos);
-  EXPECT_EQ(svg.find("inf"), std::string::npos);
-}
-
+/// Of shapes, and of the last frame of bodies that are posed anew. The terminal's last line is about all depths.
 TEST(Cli, CrowdDrawsAPicture) {
   const TemporaryFolder folder;
   const std::string svg_file = folder.file("crowd.svg");
-  const Ending run = bch({"crowd", "--agents", "200", "--poses", "5", "--svg", svg_file});
-  ASSERT_EQ(run.code, 0) << run.err;
-  expect_crowd_picture(svg_file);
-  // The terminal's last line is about all depths.
-  EXPECT_NE(read_text(svg_file).find(": depth 6 clears"), std::string::npos);
-}
-
-TEST(Cli, LiveCrowdDrawsItsLastFrame) {
-  const TemporaryFolder folder;
-  const std::string svg_file = folder.file("crowd.svg");
-  const Ending run = bch({"crowd", "--live", "--agents", "60", "--spheres", "64", "--svg", svg_file});
-  ASSERT_EQ(run.code, 0) << run.err;
-  expect_crowd_picture(svg_file);
-  EXPECT_NE(read_text(svg_file).find("Bodies of 64 spheres."), std::string::npos);
+  const Arguments of_shapes{"crowd", "--agents", "200", "--poses", "5"},
+      live{"crowd", "--live", "--agents", "60", "--spheres", "64"};
+  for (const auto& [crowd, says] :
+       {std::pair(of_shapes, ": depth 6 clears"), std::pair(live, "Bodies of 64 spheres.")}) {
+    const Ending run = bch(crowd, {"--svg", svg_file});
+    ASSERT_EQ(run.code, 0) << run.err;
+    const std::string svg = read_text(svg_file);
+    EXPECT_TRUE(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
+    EXPECT_LT(svg.size(), 600000u);
+    for (const char* id :
+         {"crowd", "colliding", "cleared", "free", "overlaps", "single-cylinders", "legend", "scale"})
+      EXPECT_TRUE(has(svg, "id=\"" + std::string(id) + "\""));
+    EXPECT_TRUE(has(svg, says));
+    EXPECT_EQ(count_of(svg, "<g"), count_of(svg, "</g>"));
+    for (const char* const number : {"nan", "inf"}) EXPECT_EQ(count_of(svg, number), 0u);
+  }
 }
 
 TEST(Cli, InspectDrawsSpheresFromTwoSides) {

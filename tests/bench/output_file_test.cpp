@@ -12,7 +12,6 @@
 #include "bench/base/output.hpp"
 #include "bench/base/output_file.hpp"
 #include "bench/characters/baking.hpp"
-#include "layout/format/shape_set_view.hpp"
 #include "tests/support/baked_bytes.hpp"
 #include "tests/support/test.hpp"
 
@@ -245,18 +244,6 @@ TEST_P(Baking, ATaskThatThrowsEndsTheBatchAndNothingElse) {
   }
   const ShapeSet set = arena.execute([&] { return bake_shapes(characters, sources(300, 300), 0.01, {}); });
   EXPECT_EQ(set.shape_count(), 300u);
-}
-
-TEST(BakingOfRoots, AreThoseOfTheOutlines) {
-  const std::vector<LoadedCharacter> characters{{"default:female", default_female(), {}}};
-  const auto poses = list_shapes(characters, 20);
-  const ShapeSet roots = bake_shapes(characters, poses, 0.01, {.depths = {0}});
-  const ShapeSet all = bake_shapes(characters, poses, 0.01, {.depths = {0, all_depths}});
-  ASSERT_EQ(roots.shape_count(), all.shape_count());
-  for (std::uint32_t shape = 0; shape < roots.shape_count(); ++shape) {
-    const detail::Root &one = roots.view().roots[shape], &other = all.view().roots[2 * shape];
-    EXPECT_TRUE(one.x == other.x && one.y == other.y && one.radius == other.radius) << shape;
-  }
 }
 
 std::string image(const BakedShapes& baked) {
