@@ -16,20 +16,10 @@
 namespace bch::test {
 namespace {
 
-/// A row for each agent of a lattice, in one of so many shapes and levels.
-std::string mixed_agents(int side, int shapes, int levels) {
-  std::ostringstream csv;
-  csv << "id,shape,x,y,heading,level\n";
-  for (int i = 0; i < side * side; ++i)
-    csv << i << ',' << i % shapes << ',' << 0.43 * (i % side) << ',' << 0.41 * (i / side) << ',' << 0.7 * i
-        << ',' << i % levels << '\n';
-  return csv.str();
-}
-
 TEST(Cli, BakedShapesAnswerLikeTheirCharacter) {
   const TemporaryFolder folder;
   const std::string baked = folder.file("female.bch"),
-                    agents = folder.write("agents.csv", mixed_agents(9, 5, 3));
+                    agents = folder.write("agents.csv", crooked_lattice(9, 5, 3));
   const Arguments how{"--poses", "5", "--depths", "0,4,all"};
   const Ending bake = bch({"bake", "default:female", "-o", baked}, how);
   ASSERT_EQ(bake.code, 0) << bake.err;
@@ -108,7 +98,7 @@ TEST(Cli, BakedFilesOfAnySizeGiveThreeAndOneLine) {
 TEST(Cli, BakedFilesKeepClipsAsMovingDiscs) {
   const TemporaryFolder folder;
   const std::string baked = folder.file("p.bch"), plain = folder.file("q.bch"), json = folder.file("p.json"),
-                    svg = folder.file("p.svg"), agents = folder.write("agents.csv", mixed_agents(5, 3, 1));
+                    svg = folder.file("p.svg"), agents = folder.write("agents.csv", crooked_lattice(5, 3, 1));
   const Arguments bake{"bake", "default:male", "--poses", "3"};
   ASSERT_EQ(bch(bake, {"-o", plain}).code, 0);
   ASSERT_EQ(bch(bake, {"-o", baked, "--animated", "idle think"}).code, 0);
@@ -139,7 +129,7 @@ TEST(Cli, FilesThatDoNotFitLeaveNothing) {
   expect_failure(bch({"crowd", "--poses", "2", "--agents", "300", "--svg", json}, {}, small), 3,
                  {json, "too large"});
   EXPECT_EQ(read_text(json), "old");
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+  EXPECT_EQ(folder.files(), 1);
 }
 
 /// Whenever it comes: the file is whole, or not there.
@@ -193,12 +183,6 @@ std::string soup_file(const TemporaryFolder& folder, std::uint32_t triangles) {
   return folder.write("soup.stl", stl_file(separate_triangles(triangles)));
 }
 
-std::size_t files_in(const TemporaryFolder& folder) {
-  std::size_t count = 0;
-  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder.path())) ++count;
-  return count;
-}
-
 TEST(CliLimits, AMeshOfManyIslandsIsInspected) {
   const TemporaryFolder folder;
   const Ending run = bch({"inspect", soup_file(folder, 360'000)}, seen_from_above);
@@ -233,7 +217,7 @@ TEST(CliLimits, TimeAndMemoryAreLimitedAndNoFileIsLeft) {
   expect_failure(bake({"--max-memory", "0.01"}), 3,
                  {"soup.stl: ", "more than 0.01 GiB", "--max-memory raises the limit"});
 #endif
-  EXPECT_EQ(files_in(folder), 1u);
+  EXPECT_EQ(folder.files(), 1);
 }
 
 }  // namespace

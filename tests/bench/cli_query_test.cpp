@@ -11,24 +11,14 @@
 namespace bch::test {
 namespace {
 
-/// Agents on a crooked lattice, dense enough for many to collide.
-std::string lattice(int side) {
-  std::ostringstream csv;
-  csv << "id,shape,x,y,heading\n";
-  for (int i = 0; i < side * side; ++i)
-    csv << "agent" << i << ",0," << 0.43 * (i % side) + 0.01 * (i % 7) << ',' << 0.41 * (i / side) << ','
-        << 0.7 * i << '\n';
-  return csv.str();
-}
-
 TEST(Cli, AllPairsEqualsExplicitPairs) {
   const TemporaryFolder folder;
   constexpr int side = 9;
-  const std::string shapes = folder.write("box.obj", box), agents = folder.write("agents.csv", lattice(side));
+  const std::string shapes = folder.write("box.obj", box),
+                    agents = folder.write("agents.csv", crooked_lattice(side));
   std::string every = "first,second\n";
   for (int a = 0; a < side * side; ++a)
-    for (int b = a + 1; b < side * side; ++b)
-      every += "agent" + std::to_string(a) + ",agent" + std::to_string(b) + "\n";
+    for (int b = a + 1; b < side * side; ++b) every += std::to_string(a) + "," + std::to_string(b) + "\n";
   const Ending each = bch({"query", shapes, agents, folder.write("pairs.csv", every)}, as_metres);
   const Ending all = bch({"query", shapes, agents, "--all-pairs"}, as_metres);
   ASSERT_EQ(each.code, 0) << each.err;
@@ -117,12 +107,6 @@ TEST(Cli, LiveCrowdGivesTheSameAnswersEverywhere) {
   EXPECT_EQ(lines(first.csv), first.hits[0] + 1);
   EXPECT_EQ(first, live_crowd(folder, {"--threads", "3", "--isa", "scalar"}));
   EXPECT_NE(first, live_crowd(folder, {"--seed", "2"}));
-}
-
-std::size_t count_of(const std::string& text, const std::string& word) {
-  std::size_t found = 0;
-  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++found;
-  return found;
 }
 
 /// Of shapes, and of the last frame of bodies that are posed anew. The terminal's last line is about all depths.

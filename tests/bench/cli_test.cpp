@@ -64,7 +64,7 @@ TEST(Cli, FilesAreReplacedAndDevicesWrittenTo) {
   EXPECT_TRUE(read_text(json_file).starts_with("{"));
   EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
   // No temporary file stays behind.
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+  EXPECT_EQ(folder.files(), 1);
 }
 
 // ---- What the system does to the program: signals, streams that are closed, a small stack.

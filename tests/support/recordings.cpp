@@ -122,11 +122,6 @@ std::string trajectory_complaint(const std::filesystem::path& file,
   return message.substr(message.starts_with(folder) ? folder.size() : 0);
 }
 
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 void write_sqlite(const std::filesystem::path& file, const std::string& sql) {
   std::filesystem::remove(file);
   std::string statements = "PRAGMA synchronous=OFF; PRAGMA journal_mode=OFF;";
@@ -140,7 +135,7 @@ void write_sqlite(const std::filesystem::path& file, const std::string& sql) {
 }
 
 void make_graph(const std::filesystem::path& file, const std::string& table) {
-  std::string bytes = bytes_of(file);
+  std::string bytes = read_text(file);
   const std::size_t size = big_endian(bytes, 16, 2), root = root_of(file, table), head = root == 1 ? 100 : 0;
   const std::string old = bytes.substr((root - 1) * size, size);
   if (old[head] != 13) throw std::runtime_error(table + " has more than a page");

@@ -5,6 +5,7 @@
 
 #include "layout/recordings/trajectory.hpp"
 #include "tests/support/complaint.hpp"
+#include "tests/support/program_run.hpp"
 
 namespace bch::test {
 
@@ -33,8 +34,6 @@ std::string assumptions_of(const ReadRecording& recording);
 /// Returns the message of the TrajectoryError that reading throws, the folder left out; "accepted" where there is none.
 std::string trajectory_complaint(const std::filesystem::path& file,
                                  const detail::TrajectoryOptions& options = {});
-
-std::string bytes_of(const std::filesystem::path& file);
 
 /// Makes a SQLite file by statements, in place of one that may be there.
 void write_sqlite(const std::filesystem::path& file, const std::string& sql);

@@ -306,7 +306,7 @@ TEST_F(ArchiveFiles, AreRefusedByOneLine) {
 TEST_F(ArchiveFiles, ThatAreDamagedAreReadOrRefused) {
   ArchiveFile file;
   file.write(folder.file("f"));
-  const std::string bytes = bytes_of(folder.file("f"));
+  const std::string bytes = read_text(folder.file("f"));
   ASSERT_GT(bytes.size(), 2'000u);
   for (std::size_t size = 8; size < bytes.size(); size += 1 + bytes.size() / 40) {
     const std::string message = trajectory_complaint(folder.write("g", bytes.substr(0, size)));

@@ -134,7 +134,7 @@ TEST_F(JuPedSimFiles, ThatAreDamagedAreReadOrRefused) {
     for (const char* const person : {"1", "2", "3"})
       file.rows.append(",(").append(std::to_string(frame)).append(",").append(person).append(",1.5,2,0,1)");
   write_sqlite(folder.file("f"), file.sql());
-  const std::string bytes = bytes_of(folder.file("f"));
+  const std::string bytes = read_text(folder.file("f"));
   ASSERT_GT(bytes.size(), 20'000u);
   const std::string whole = text_of(read_recording(folder.file("f")));
   for (std::size_t size = 16; size < bytes.size(); size += 997) {
@@ -192,7 +192,7 @@ class ArchivedJuPedSimFiles : public testing::Test {
   std::map<std::string, std::size_t> contents() const {
     std::map<std::string, std::size_t> all;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder.path()))
-      all[entry.path().filename()] = std::hash<std::string>()(bytes_of(entry.path()));
+      all[entry.path().filename()] = std::hash<std::string>()(read_text(entry.path()));
     return all;
   }
 
