@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "layout/base/random.hpp"
+#include "tests/support/bch_run.hpp"
 #include "tests/support/page_blocks.hpp"
 #include "tests/support/test.hpp"
 
@@ -18,7 +19,7 @@ namespace {
 
 using Json = nlohmann::json;
 using detail::CheckedFrame, detail::CheckedPair, detail::CheckedPerson, detail::OverlapEvent;
-using test::Blocks;
+using test::Blocks, test::count_of;
 
 PageShape square(std::uint32_t shape) {
   return {fmt::format("shape {}", shape),
@@ -131,20 +132,16 @@ void expect_frames(const std::string& html, const std::vector<Frame>& frames, st
   }
 }
 
+/// Also places far apart.
 TEST(CheckPage, HoldsWhatWasPutIn) {
-  const auto frames = random_frames(20, 30, 40);
-  const std::string html = page_of(frames);
-  expect_frames(html, frames, 1);
-  EXPECT_EQ(Blocks(html).type("x"), "u16");
-  EXPECT_EQ(Blocks(html).type("who"), "u16");
-  EXPECT_EQ(Blocks(html).meta()["frames"], 20);
-}
-
-TEST(CheckPage, HoldsPlacesFarApart) {
-  const auto frames = random_frames(5, 30, 20'000);
-  const std::string html = page_of(frames);
-  expect_frames(html, frames, 1);
-  EXPECT_EQ(Blocks(html).type("x"), "u32");
+  for (const double side : {40.0, 20'000.0}) {
+    const auto frames = random_frames(20, 30, side);
+    const std::string html = page_of(frames);
+    expect_frames(html, frames, 1);
+    EXPECT_EQ(Blocks(html).type("x"), side == 40 ? "u16" : "u32");
+    EXPECT_EQ(Blocks(html).type("who"), "u16");
+    EXPECT_EQ(Blocks(html).meta()["frames"], 20);
+  }
 }
 
 TEST(CheckPage, HoldsMorePeopleThanSixteenBitsCount) {
@@ -236,12 +233,6 @@ TEST(CheckPage, MayBeEmpty) {
   }
 }
 
-std::size_t count(const std::string& text, const std::string& word) {
-  std::size_t found = 0;
-  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++found;
-  return found;
-}
-
 TEST(CheckPage, NothingFromOutsideBecomesMarkup) {
   const std::string evil = "</script></title><script>alert(1)</script><!--{{script}}\"'&\xff\xe2\x80\xae\n";
   const auto frames = random_frames(2, 3, 10);
@@ -256,9 +247,9 @@ TEST(CheckPage, NothingFromOutsideBecomesMarkup) {
   };
   const std::string html = make(evil), plain = make("plain");
   for (const char* const mark : {"<script", "</script", "<title", "</title", "<!--", "\r"})
-    EXPECT_EQ(count(html, mark), count(plain, mark)) << mark;
-  EXPECT_EQ(count(html, "alert(1)"),
-            count(html, "alert(1)&lt;/script") + count(html, "alert(1)\\u003c/script"));
+    EXPECT_EQ(count_of(html, mark), count_of(plain, mark)) << mark;
+  EXPECT_EQ(count_of(html, "alert(1)"),
+            count_of(html, "alert(1)&lt;/script") + count_of(html, "alert(1)\\u003c/script"));
   EXPECT_NE(html.find("&lt;script&gt;alert(1)"), std::string::npos);
   const std::string shown = Blocks(html).meta()["facts"][0][1];
   EXPECT_EQ(shown.substr(0, 24), evil.substr(0, 24));

@@ -38,16 +38,5 @@ TEST(Cli, CheckWritesTheSameForAnyNumberOfThreads) {
   }
 }
 
-/// Devices that never end are refused at their first bytes: without that, the test runs out of memory.
-TEST(Cli, WallsOfADeviceAreRefused) {
-  const TemporaryFolder folder;
-  const std::string file = folder.write("two.txt", two_who_meet());
-  expect_failure(bch({"check", file, "--walls", "/dev/zero"}), 3, {"/dev/zero", "line 1, column 1"});
-  expect_failure(bch({"place", "--obstacles", "/dev/zero"}), 3, {"/dev/zero", "line 1, column 1"});
-  expect_failure(bch({"check", "/dev/zero"}), 3, {"/dev/zero"});
-  expect_failure(bch({"check", file, "--character", "/dev/zero"}), 3, {"/dev/zero"});
-  expect_failure(bch({"merge", "/dev/zero"}), 3, {"/dev/zero"});
-}
-
 }  // namespace
 }  // namespace bch::test

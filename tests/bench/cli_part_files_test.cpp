@@ -91,27 +91,11 @@ TEST_F(CliPartFiles, AreWrittenToNoPipe) {
 TEST_F(CliPartFiles, ThatAreNoneAreRefusedByALine) {
   fs::create_directory(parts);
   const std::string manifest = part("manifest.json");
-  const char* const run = "{\"command\":\"check\",\"version\":\"1\",\"options\":{},\"inputs\":[]}";
-  const auto forged = [&](const char* number, const char* count, const char* what, const char* files) {
-    return fmt::format(R"({{"bch_part":1,"part":{},"of":{},"share":{{}},"run":{},"files":{}}})", number,
-                       count, what, files);
-  };
-  const std::string no_run = R"({"bch_part":1,"part":1,"of":1,"share":{},"files":[]})";
-  const char* const fifo = R"([{"file":"part-1-of-1.answers.csv","bytes":0,"xxh3":"0"}])";
-  const char* const query = "{\"command\":\"query\"}";
   ASSERT_EQ(mkfifo(part("answers.csv").c_str(), 0600), 0);
-  for (const std::string& text :
-       {no_run, forged("1", "1", "[]", "[]"), forged("1", "1", "{}", "[]"), forged("1", "1", "5", "[]"),
-        forged("1", "1", "{\"command\":\"bake\"}", "[]"), forged("1.5", "1.5", run, "[]"),
-        forged("1", "-1", run, "[]"), forged("1", "1e308", run, "[]"), forged("\"1\"", "1", run, "[]"),
-        forged("4294967297", "4294967297", run, "[]"), forged("1", "1", run, "[]"),
-        forged("1", "1", run, "5"), forged("1", "1", query, "[]"), forged("1", "1", query, "[1]"),
-        forged("1", "1", query, "{\"a\":1}"), forged("1", "1", query, fifo),
-        forged("1", "1", query, R"([{"file":".."}])")}) {
-    folder.write("parts/part-1-of-1.manifest.json", text);
-    const Ending ending = bch({"merge", parts});
-    expect_failure(ending, 3, {"part-1-of-1"});
-  }
+  folder.write("parts/part-1-of-1.manifest.json",
+               R"({"bch_part":1,"part":1,"of":1,"share":{},"run":{"command":"query"},)"
+               R"("files":[{"file":"part-1-of-1.answers.csv","bytes":0,"xxh3":"0"}]})");
+  expect_failure(bch({"merge", parts}), 3, {part("answers.csv")});
   fs::remove(manifest);
   fs::create_directory(manifest);
   expect_failure(bch({"merge", parts}), 3, {manifest});

@@ -12,8 +12,8 @@
 #include "bench/base/output.hpp"
 #include "bench/base/output_file.hpp"
 #include "bench/characters/baking.hpp"
-#include "layout/format/shape_set_view.hpp"
 #include "tests/support/baked_bytes.hpp"
+#include "tests/support/program_run.hpp"
 #include "tests/support/test.hpp"
 
 // What is written is whole or not there, whoever else writes into the same folder.
@@ -23,16 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using test::complaint;
-
-std::string content(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
-
-std::ptrdiff_t files_in(const fs::path& folder) {
-  return std::distance(fs::directory_iterator(folder), {});
-}
+using test::read_text;
 
 unsigned permissions(const fs::path& file) {
   return static_cast<unsigned>(fs::status(file).permissions());
@@ -67,19 +58,19 @@ TEST(OutputFile, TwoWritersOfOneFileDoNotMeet) {
   first.write("first, long");
   second.write("second");
   second.commit();
-  EXPECT_EQ(content(file), "second");
+  EXPECT_EQ(read_text(file), "second");
   first.write("er");
   first.commit();
-  EXPECT_EQ(content(file), "first, longer");
-  EXPECT_EQ(files_in(folder.path()), 1);
+  EXPECT_EQ(read_text(file), "first, longer");
+  EXPECT_EQ(folder.files(), 1);
 }
 
 TEST(OutputFile, WithoutCommitNothingChanges) {
   const TemporaryFolder folder;
   const std::string file = folder.write("a.json", "old");
   { OutputFile(file).write("new"); }
-  EXPECT_EQ(content(file), "old");
-  EXPECT_EQ(files_in(folder.path()), 1);
+  EXPECT_EQ(read_text(file), "old");
+  EXPECT_EQ(folder.files(), 1);
 }
 
 /// Whoever knows the process number cannot prepare the way: a link, a file, a folder.
@@ -89,14 +80,14 @@ TEST(OutputFile, WhatWasPlantedStaysAsItIs) {
   const std::string victim = folder.write("victim", "precious");
   fs::create_symlink(victim, planted);
   write_file(file, "one");
-  EXPECT_EQ(content(victim), "precious");
+  EXPECT_EQ(read_text(victim), "precious");
   EXPECT_TRUE(fs::is_symlink(planted));
   EXPECT_FALSE(fs::is_symlink(file));
   fs::remove(planted);
   folder.write(fs::path(planted).filename(), "somebody's");
   write_file(file, "two");
-  EXPECT_EQ(content(planted), "somebody's");
-  EXPECT_EQ(content(file), "two");
+  EXPECT_EQ(read_text(planted), "somebody's");
+  EXPECT_EQ(read_text(file), "two");
 }
 
 TEST(OutputFile, TemporaryNamesDoNotRepeat) {
@@ -121,7 +112,7 @@ TEST(OutputFile, PermissionsAreThoseOfTheReplacedFile) {
     output.write("new");
     output.commit();
     EXPECT_EQ(permissions(file), mode);
-    EXPECT_EQ(content(file), "new");
+    EXPECT_EQ(read_text(file), "new");
   }
 }
 
@@ -146,9 +137,9 @@ TEST(OutputFile, LinksStayAndTheirTargetsAreReplaced) {
   write_file(folder.file("second.csv"), "new");
   EXPECT_TRUE(fs::is_symlink(link));
   EXPECT_FALSE(fs::is_symlink(target));
-  EXPECT_EQ(content(target), "new");
+  EXPECT_EQ(read_text(target), "new");
   EXPECT_EQ(permissions(target), 0600u);
-  EXPECT_EQ(files_in(folder.path()), 3);
+  EXPECT_EQ(folder.files(), 3);
   fs::create_symlink("circle", folder.file("circle"));
   EXPECT_NE(error_of_writing(folder.file("circle")).find("Too many levels"), std::string::npos);
 }
@@ -159,10 +150,10 @@ TEST(OutputFile, TheLongestNames) {
   longest += ".csv";
   const std::string file = folder.file(longest);
   write_file(file, "new");
-  EXPECT_EQ(content(file), "new");
+  EXPECT_EQ(read_text(file), "new");
   const std::string longer = folder.file(std::string(NAME_MAX + 1, 'a'));
   EXPECT_EQ(error_of_writing(longer), longer + ": cannot be written: File name too long");
-  EXPECT_EQ(files_in(folder.path()), 1);
+  EXPECT_EQ(folder.files(), 1);
   // A path of PATH_MAX - 1 bytes, which leaves no room for a longer name beside it.
   fs::path deep = folder.path();
   while (deep.native().size() + 202 < PATH_MAX - 2) deep /= std::string(200, 'd');
@@ -170,7 +161,7 @@ TEST(OutputFile, TheLongestNames) {
   deep /= std::string(PATH_MAX - 2 - deep.native().size(), 'f');
   ASSERT_EQ(deep.native().size(), std::size_t{PATH_MAX - 1});
   write_file(deep, "deep");
-  EXPECT_EQ(content(deep), "deep");
+  EXPECT_EQ(read_text(deep), "deep");
 }
 
 TEST(OutputFile, MissingPermissionsAreNamed) {
@@ -186,7 +177,7 @@ TEST(OutputFile, MissingPermissionsAreNamed) {
   fs::permissions(closed, fs::perms(0755));
   fs::permissions(file, fs::perms(0444));  // nobody is to change it, by another way neither
   EXPECT_EQ(error_of_writing(file), file + ": cannot be written: Permission denied");
-  EXPECT_EQ(content(file), "old");
+  EXPECT_EQ(read_text(file), "old");
   EXPECT_EQ(error_of_writing(closed), closed + ": cannot be written: Is a directory");
 }
 
@@ -247,18 +238,6 @@ TEST_P(Baking, ATaskThatThrowsEndsTheBatchAndNothingElse) {
   EXPECT_EQ(set.shape_count(), 300u);
 }
 
-TEST(BakingOfRoots, AreThoseOfTheOutlines) {
-  const std::vector<LoadedCharacter> characters{{"default:female", default_female(), {}}};
-  const auto poses = list_shapes(characters, 20);
-  const ShapeSet roots = bake_shapes(characters, poses, 0.01, {.depths = {0}});
-  const ShapeSet all = bake_shapes(characters, poses, 0.01, {.depths = {0, all_depths}});
-  ASSERT_EQ(roots.shape_count(), all.shape_count());
-  for (std::uint32_t shape = 0; shape < roots.shape_count(); ++shape) {
-    const detail::Root &one = roots.view().roots[shape], &other = all.view().roots[2 * shape];
-    EXPECT_TRUE(one.x == other.x && one.y == other.y && one.radius == other.radius) << shape;
-  }
-}
-
 std::string image(const BakedShapes& baked) {
   return test::BakedBytes(baked.set, baked.origins).text();
 }
@@ -271,7 +250,7 @@ TEST_P(Baking, FilesHoldTheirImages) {
        {ShapeSetPlan{}, ShapeSetPlan{.depths = {0, 3, all_depths}, .outlines = true},
         ShapeSetPlan{.depths = {0}}}) {
     const BakedShapes baked = arena.execute([&] { return bake_file(file, characters, poses, 0.01, plan); });
-    EXPECT_EQ(content(file), image(baked));
+    EXPECT_EQ(read_text(file), image(baked));
     EXPECT_EQ(image(baked),
               image({bake_shapes(characters, poses, 0.01, plan), origins_of(characters, poses, 0.01)}));
   }
@@ -281,8 +260,8 @@ TEST_P(Baking, FilesOfATaskThatThrowsAreAsTheyWere) {
   const TemporaryFolder folder;
   const std::string file = folder.write("a.bch", "old");
   expect_vanished([&] { bake_file(file, characters, sources(600, 599), 0.01, {}); });
-  EXPECT_EQ(content(file), "old");
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+  EXPECT_EQ(read_text(file), "old");
+  EXPECT_EQ(folder.files(), 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Threads, Baking, testing::Values(1, 2, 4), testing::PrintToStringParamName());

@@ -178,35 +178,29 @@ void expect_same_tree(const Hierarchy& hierarchy, const Hierarchy& reference) {
   }
 }
 
-}  // namespace
-}  // namespace bch::test
-
-namespace bch {
-namespace {
-
 void expect_as_reference(const Outline& outline, float threshold) {
   detail::HierarchyBuilder builder;
   Hierarchy hierarchy;
   for (const detail::SplitRule rule : {detail::SplitRule::centroid, detail::SplitRule::centre}) {
     builder.contour(outline, threshold, rule, hierarchy);
     builder.add_primitives(hierarchy);
-    test::expect_same_tree(hierarchy, test::reference_hierarchy(outline, threshold, rule));
-    test::expect_sound(hierarchy);
+    expect_same_tree(hierarchy, reference_hierarchy(outline, threshold, rule));
+    expect_sound(hierarchy);
   }
 }
 
 TEST(HierarchyBuilder, EqualsTheReferenceOnManyShapes) {
-  for (const Shape& shape : test::synthetic_shapes(31, 120))
+  for (const Shape& shape : synthetic_shapes(31, 120))
     for (const float threshold : {0.003f, 0.01f, 0.2f}) expect_as_reference(shape.outline, threshold);
 }
 
 TEST(HierarchyBuilder, EqualsTheReferenceOnPoses) {
-  for (const Character& character : test::people())
-    for (const Shape& shape : test::pose_shapes(character, 100)) expect_as_reference(shape.outline, 0.01f);
+  for (const Character& character : people())
+    for (const Shape& shape : pose_shapes(character, 100)) expect_as_reference(shape.outline, 0.01f);
 }
 
 /// Points of a kind: on a line, on a circle, few distinct ones, anywhere; a power of two keeps them exact.
-Outline outline_of(test::Random& random, int kind, double scale) {
+Outline outline_of(Random& random, int kind, double scale) {
   Outline outline;
   const std::uint32_t count = 1 + random.below(60);
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -220,11 +214,11 @@ Outline outline_of(test::Random& random, int kind, double scale) {
   }
   outline.points.push_back({static_cast<float>(0.75 * scale), 0});
   outline.contour_begin.push_back(count + 1);
-  return test::counter_clockwise(std::move(outline));
+  return counter_clockwise(std::move(outline));
 }
 
 TEST(HierarchyBuilder, EqualsTheReferenceOnDegenerateOutlines) {
-  test::Random random(32);
+  Random random(32);
   for (const double scale : {0x1p-19, 1.0, 0x1p19})
     for (int kind = 0; kind < 4; ++kind)
       for (int i = 0; i < 40; ++i)
@@ -234,7 +228,7 @@ TEST(HierarchyBuilder, EqualsTheReferenceOnDegenerateOutlines) {
 
 /// Segments about as long as decides how often they are halved, away from the origin, where midpoints are rounded.
 TEST(HierarchyBuilder, EqualsTheReferenceWhereRoundingDecidesOnHalves) {
-  test::Random random(38);
+  Random random(38);
   const auto near = [&](double value) {
     return static_cast<float>(value + random.uniform(-4, 4) * detail::rounding::unit_roundoff);
   };
@@ -248,7 +242,7 @@ TEST(HierarchyBuilder, EqualsTheReferenceWhereRoundingDecidesOnHalves) {
                       {near(x + 0.3), near(y + 0.1)}};
     if (i % 2 != 0) outline.points.pop_back();
     outline.contour_begin.push_back(static_cast<std::uint32_t>(outline.points.size()));
-    expect_as_reference(test::counter_clockwise(outline), static_cast<float>(threshold));
+    expect_as_reference(counter_clockwise(outline), static_cast<float>(threshold));
   }
 }
 
@@ -261,14 +255,14 @@ TEST(HierarchyBuilder, EndsAtTheDeepestDepth) {
     for (const std::uint32_t node : cut(hierarchy, depth)) all.push_back(hierarchy.nodes[node].disc);
     return all;
   };
-  for (const Shape& shape : test::synthetic_shapes(36, 60))
+  for (const Shape& shape : synthetic_shapes(36, 60))
     for (const float threshold : {0.0005f, 0.01f}) {
       builder.contour(shape.outline, threshold, detail::SplitRule::centroid, whole);
       for (std::uint32_t deepest = 0; deepest < detail::height(whole) + 2; ++deepest) {
         builder.contour(shape.outline, threshold, detail::SplitRule::centroid, limited, deepest);
         EXPECT_TRUE(limited.primitives.empty());
         builder.add_primitives(limited);
-        test::expect_sound(limited);
+        expect_sound(limited);
         EXPECT_EQ(detail::height(limited), std::min(deepest, detail::height(whole)));
         EXPECT_EQ(limited.reach, whole.reach);
         for (std::uint32_t depth = 0; depth <= deepest; ++depth)
@@ -280,7 +274,7 @@ TEST(HierarchyBuilder, EndsAtTheDeepestDepth) {
 TEST(HierarchyBuilder, LeavesNothingHalfDone) {
   detail::HierarchyBuilder builder;
   Hierarchy hierarchy;
-  const Outline outline = test::synthetic_shapes(33, 1)[0].outline;
+  const Outline outline = synthetic_shapes(33, 1)[0].outline;
   builder.contour(outline, 0.01f, detail::SplitRule::centroid, hierarchy);
   builder.add_primitives(hierarchy);
   EXPECT_THROW(builder.contour(outline, 1e-8f, detail::SplitRule::centroid, hierarchy), std::length_error);
@@ -288,7 +282,7 @@ TEST(HierarchyBuilder, LeavesNothingHalfDone) {
   EXPECT_TRUE(hierarchy.primitives.empty());
   builder.contour(outline, 0.01f, detail::SplitRule::centroid, hierarchy);
   builder.add_primitives(hierarchy);
-  test::expect_same_tree(hierarchy, test::reference_hierarchy(outline, 0.01f, detail::SplitRule::centroid));
+  expect_same_tree(hierarchy, reference_hierarchy(outline, 0.01f, detail::SplitRule::centroid));
   EXPECT_THROW(builder.contour(outline, std::numeric_limits<float>::quiet_NaN(), detail::SplitRule::centroid,
                                hierarchy),
                std::invalid_argument);
@@ -297,14 +291,14 @@ TEST(HierarchyBuilder, LeavesNothingHalfDone) {
 
 /// Hierarchies and their levels; twice, and a second time without allocating.
 TEST(HierarchyBuilder, ReusesItsMemory) {
-  const std::vector<Shape> shapes = test::synthetic_shapes(34, 64);
+  const std::vector<Shape> shapes = synthetic_shapes(34, 64);
   detail::HierarchyBuilder builder;
   detail::Flattener flattener;
   Hierarchy hierarchy;
   detail::Bvh8 tree;
   std::size_t before = 0;
   for (int round = 0; round < 2; ++round) {
-    before = test::allocation_count();
+    before = allocation_count();
     for (const Shape& shape : shapes) {
       builder.contour(shape.outline, 0.01f, detail::SplitRule::centroid, hierarchy);
       flattener.begin(hierarchy);
@@ -315,13 +309,13 @@ TEST(HierarchyBuilder, ReusesItsMemory) {
     }
   }
   EXPECT_GT(before, 0u);
-  EXPECT_EQ(test::allocation_count(), before);
+  EXPECT_EQ(allocation_count(), before);
 }
 
 TEST(Flattener, EqualsAFreshOne) {
   detail::Flattener flattener;
   detail::Bvh8 tree;
-  for (const Shape& shape : test::synthetic_shapes(35, 32)) {
+  for (const Shape& shape : synthetic_shapes(35, 32)) {
     flattener.begin(shape.hierarchy);
     for (const std::uint32_t depth : {all_depths, 0u, 6u, 3u}) {
       flattener.flatten(depth, tree);
@@ -347,7 +341,7 @@ TEST(Flattener, EqualsAFreshOne) {
 TEST(HierarchyBuilder, NumbersInMessagesAreWhatTheyAre) {
   const auto reason = [](float size, float threshold) {
     const Outline outline{{{0, 0}, {size, 0}, {0, size}}, {0, 3}, 0x1p-40f};
-    return test::complaint([&] { contour_hierarchy(outline, threshold); });
+    return complaint([&] { contour_hierarchy(outline, threshold); });
   };
   EXPECT_EQ(reason(1, 0.01f), "accepted");
   EXPECT_EQ(reason(1, -1e-9f), "hierarchy: threshold -1e-09 m is not positive and finite");
@@ -358,7 +352,7 @@ TEST(HierarchyBuilder, NumbersInMessagesAreWhatTheyAre) {
 TEST(Flattener, SupportsAreThoseOfTheCut) {
   detail::Flattener flattener;
   detail::Bvh8 tree;
-  for (const Shape& shape : test::synthetic_shapes(36, 32)) {
+  for (const Shape& shape : synthetic_shapes(36, 32)) {
     flattener.begin(shape.hierarchy);
     for (const std::uint32_t depth : {0u, 3u, 6u, all_depths}) {
       flattener.flatten(depth, tree);
@@ -385,4 +379,4 @@ TEST(Flattener, SupportsAreThoseOfTheCut) {
 }
 
 }  // namespace
-}  // namespace bch
+}  // namespace bch::test

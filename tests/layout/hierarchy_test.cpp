@@ -229,19 +229,17 @@ void expect_smallest(const std::vector<Vec2>& points) {
       << points.size() << " points";
 }
 
-TEST(EnclosingDisc, Examples) {
-  expect_smallest({{3, 4}});
-  expect_smallest({{0, 0}, {2, 0}});
-  expect_smallest({{0, 0}, {2, 0}, {1, 0.5f}});
-  expect_smallest({{0, 0}, {2, 0}, {1, 2}});
-  EXPECT_EQ(detail::smallest_enclosing_disc(std::vector<Vec2>{{0, 0}, {2, 0}}).radius, 1);
-}
-
-TEST(EnclosingDisc, DegeneratePointSets) {
-  expect_smallest(std::vector<Vec2>(5, {1, 2}));
-  expect_smallest({{0, 0}, {1, 1}, {2, 2}, {3, 3}, {0.5f, 0.5f}});
-  expect_smallest({{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 0}});
-  expect_smallest({{0, 0}, {1, 1e-7f}, {2, 0}, {1, -1e-7f}});
+TEST(EnclosingDisc, OfFewPointsAndOfSuchOnALineOrACircle) {
+  const std::vector<std::vector<Vec2>> sets = {{{3, 4}},
+                                               {{0, 0}, {2, 0}},
+                                               {{0, 0}, {2, 0}, {1, 0.5f}},
+                                               {{0, 0}, {2, 0}, {1, 2}},
+                                               std::vector<Vec2>(5, {1, 2}),
+                                               {{0, 0}, {1, 1}, {2, 2}, {3, 3}, {0.5f, 0.5f}},
+                                               {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 0}},
+                                               {{0, 0}, {1, 1e-7f}, {2, 0}, {1, -1e-7f}}};
+  for (const std::vector<Vec2>& points : sets) expect_smallest(points);
+  EXPECT_EQ(detail::smallest_enclosing_disc(sets[1]).radius, 1);
 }
 
 TEST(EnclosingDisc, RandomPointSets) {

@@ -235,6 +235,20 @@ TEST(MeshOutline, TextIsReadBack) {
   }
 }
 
+TEST(MeshOutline, GridFollowsTheSize) {
+  for (const float size : {1e-5f, 0.01f, 1.0f, 100.0f, 5e5f}) {
+    Soup soup;
+    add_rectangle(soup, {0, 0}, {size, size});
+    const Outline square = outline_of(soup);
+    EXPECT_NEAR(area(square) / (static_cast<double>(size) * static_cast<double>(size)), 1, 1e-6) << size;
+    EXPECT_GE(square.grid_step, size * 0x1p-24f);
+    EXPECT_LE(square.grid_step, size * 0x1p-22f);
+    if (size == 1) {
+      EXPECT_EQ(square.grid_step, 0x1p-22f);
+    }
+  }
+}
+
 TEST(MeshOutline, RefusesBadInput) {
   Soup soup = frame();
   const auto complaint_about = [&](const OutlineOptions& options) {
@@ -243,6 +257,13 @@ TEST(MeshOutline, RefusesBadInput) {
   EXPECT_EQ(complaint_about({.between = {1, 1}}), "outline: between 1 and 1 m there is nothing");
   EXPECT_EQ(complaint_about({.between = {std::numeric_limits<float>::quiet_NaN(), 1}}),
             "outline: between nan and 1 m there is nothing");
+  for (const auto& [size, reach] : {std::pair(0.0f, "0"), {1e-8f, "4e-08"}, {1e6f, "4e+06"}}) {
+    soup = frame();
+    for (Vec3& p : soup.positions) p = {size * p.x, size * p.y, p.z};
+    EXPECT_EQ(complaint_about({}), std::string("outline: reach ") + reach + " m is outside 1e-6 to 1e6 m");
+  }
+  soup = {};
+  EXPECT_EQ(complaint_about({}), "outline: no triangles");
   for (const bool holes : {false, true}) {
     soup = frame();
     soup.positions[2].y = std::numeric_limits<float>::infinity();

@@ -134,24 +134,6 @@ TEST(RealPoses, HaveTheOutlinesOfTheirUnions) {
   expect_right_outlines(test::real_characters(*data), 50);
 }
 
-TEST(Soups, HaveTheOutlinesOfTheirUnions) {
-  test::Random random(6);
-  int compared = 0;
-  for (int i = 0; i < 10000; ++i) {
-    const test::Soup soup = test::random_soup(random);
-    Outline outline;
-    try {
-      outline = bch::outline(soup.positions, soup.triangles);
-    } catch (const std::invalid_argument&) {
-      continue;  // a soup of points
-    }
-    ++compared;
-    expect_equals_inflated_union(outline, soup.positions, soup.triangles);
-    if (HasFailure()) FAIL() << "soup " << i;
-  }
-  EXPECT_GT(compared, 9900);
-}
-
 void expect_like_clipper(const Outline& found, const test::Soup& part) {
   expect_equals_inflated_union(found, part.positions, part.triangles);
   test::expect_covers(found, part.positions, part.triangles);

@@ -4,78 +4,10 @@
 #include "layout/hierarchy/builder.hpp"
 #include "layout/hierarchy/paper_hierarchies.hpp"
 #include "layout/outline/extreme_vertices.hpp"
-#include "tests/support/outline_checks.hpp"
 #include "tests/support/test.hpp"
 
 namespace bch {
 namespace {
-
-struct Mesh {
-  std::vector<Vec3> positions;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
-
-  void add(Vec3 a, Vec3 b, Vec3 c) {
-    const auto first = static_cast<std::uint32_t>(positions.size());
-    positions.insert(positions.end(), {a, b, c});
-    triangles.push_back({first, first + 1, first + 2});
-  }
-  void add_rectangle(float x0, float y0, float x1, float y1, float z = 0) {
-    add({x0, y0, z}, {x1, y0, z}, {x1, y1, z});
-    add({x0, y0, z}, {x0, y1, z}, {x1, y1, z});  // the other way round: orientation must not matter
-  }
-  Outline outline() const { return bch::outline(positions, triangles); }
-};
-
-TEST(UnionOutline, TwoTrianglesMakeASquare) {
-  Mesh mesh;
-  mesh.add_rectangle(0, 0, 1, 1);
-  const Outline outline = mesh.outline();
-  ASSERT_EQ(outline.contours(), 1u);
-  EXPECT_EQ(outline.points, (std::vector<Vec2>{{0, 0}, {1, 0}, {1, 1}, {0, 1}}));
-  EXPECT_EQ(area(outline), 1.0);
-  EXPECT_EQ(outline.grid_step, 0x1p-22f);
-}
-
-TEST(UnionOutline, KeepsTheTipOfANeedle) {
-  Mesh mesh;
-  mesh.add_rectangle(0, 0, 1, 1);
-  mesh.add({0.5f, 0.5f, 0}, {0.5f, 0.5f + 3e-6f, 0}, {3, 0.51f, 0});
-  const Outline outline = mesh.outline();
-  test::expect_covers(outline, mesh.positions, mesh.triangles);
-}
-
-TEST(UnionOutline, GridFollowsTheSize) {
-  for (const float size : {1e-5f, 0.01f, 1.0f, 100.0f, 5e5f}) {
-    Mesh mesh;
-    mesh.add_rectangle(0, 0, size, size);
-    const Outline outline = mesh.outline();
-    EXPECT_NEAR(area(outline), static_cast<double>(size) * static_cast<double>(size),
-                1e-6 * static_cast<double>(size) * static_cast<double>(size));
-    EXPECT_GE(outline.grid_step, size * 0x1p-24f);
-    EXPECT_LE(outline.grid_step, size * 0x1p-22f);
-  }
-}
-
-TEST(UnionOutline, RejectsBadInput) {
-  Mesh empty;
-  EXPECT_THROW(empty.outline(), std::invalid_argument);
-  const auto rejected = [](auto&& breakage) {
-    Mesh mesh;
-    mesh.add_rectangle(0, 0, 1, 1);
-    breakage(mesh);
-    EXPECT_THROW(mesh.outline(), std::invalid_argument);
-  };
-  rejected([](Mesh& mesh) { mesh.triangles[1][2] = 6; });
-  rejected([](Mesh& mesh) { mesh.positions[0].y = std::numeric_limits<float>::quiet_NaN(); });
-  rejected([](Mesh& mesh) { mesh.positions[0].x = std::numeric_limits<float>::infinity(); });
-  rejected([](Mesh& mesh) { mesh.positions[0].x = 2e6f; });
-  rejected([](Mesh& mesh) {
-    for (auto& p : mesh.positions) p = {0.5f, 0.5f, p.z};
-  });
-  rejected([](Mesh& mesh) {
-    for (auto& p : mesh.positions) p = {1e-8f * p.x, 1e-8f * p.y, 1e-8f * p.z};
-  });
-}
 
 Outline with_another(Outline outline, std::vector<Vec2> contour) {
   test::append(outline, test::polygon(std::move(contour)));

@@ -5,7 +5,7 @@
 #include <bch/characters.hpp>
 
 #include "tests/support/body_models.hpp"
-#include "tests/support/complaint.hpp"
+#include "tests/support/plane_geometry.hpp"
 #include "tests/support/test.hpp"
 
 // Bodies of capsules, of polygons with heights, of spheres of one's own, and of meshes without bones; sets that mix them.
@@ -90,29 +90,10 @@ TEST(OwnBodies, OfCapsulesHoldThemAndHardlyMore) {
   EXPECT_GT(largest_excess, 0.02);  // the error is made use of
 }
 
-/// Returns whether a point is in a polygon: where lines to the right of it cross its sides an odd number of times.
-bool is_in(const std::vector<Vec2>& polygon, double x, double y) {
-  bool inside = false;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec2 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-    if ((double{a.y} > y) == (double{b.y} > y)) continue;
-    const double share = (y - double{a.y}) / (double{b.y} - double{a.y});
-    inside ^= x < double{a.x} + share * (double{b.x} - double{a.x});
-  }
-  return inside;
-}
-
 /// Returns how far a point is from what stands on a polygon.
 double from_prism(const std::vector<Vec2>& polygon, const Heights& heights, const Point& p) {
   const double above = std::max({0.0, p.z - double{heights.top}, double{heights.bottom} - p.z});
-  if (is_in(polygon, p.x, p.y)) return above;
-  double aside = 1e9;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec2 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-    aside = std::min(
-        aside, from_segment({p.x, p.y, 0}, {double{a.x}, double{a.y}, 0}, {double{b.x}, double{b.y}, 0}));
-  }
-  return std::hypot(aside, above);
+  return std::hypot(std::max(0.0, -test::depth_in_contour<double>(polygon, p.x, p.y)), above);
 }
 
 void expect_held(const std::vector<Vec2>& polygon, const Heights& heights, float error, Random& random) {
@@ -121,7 +102,7 @@ void expect_held(const std::vector<Vec2>& polygon, const Heights& heights, float
   int inside = 0;
   for (int k = 0; k < 3000; ++k) {
     const Point p{random.uniform(-1, 1), random.uniform(-1, 1), height()};
-    if (!is_in(polygon, p.x, p.y)) continue;
+    if (test::depth_in_contour<double>(polygon, p.x, p.y) < 0) continue;
     ++inside;
     ASSERT_LE(outside(spheres, p), 0);
   }

@@ -38,19 +38,13 @@ std::vector<Affine3d> palette(const Character& character, std::vector<Affine3d> 
   return bones;
 }
 
-Affine3 narrowed(const Affine3d& map) {
-  Affine3 narrow;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 4; ++j) narrow.rows[i][j] = static_cast<float>(map.rows[i][j]);
-  return narrow;
-}
-
 std::vector<Affine3> narrowed(const std::vector<Affine3d>& maps) {
-  std::vector<Affine3> narrow;
-  for (const Affine3d& map : maps) narrow.push_back(narrowed(map));
+  std::vector<Affine3> narrow(maps.size());
+  for (std::size_t k = 0; k < maps.size(); ++k)
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 4; ++j) narrow[k].rows[i][j] = static_cast<float>(maps[k].rows[i][j]);
   return narrow;
 }
-
 /// The numbers of maps as a renderer keeps them: 4x4 matrices, column by column.
 template <class Number>
 std::vector<Number> columns(const std::vector<Affine3d>& maps) {
@@ -66,9 +60,13 @@ std::vector<Number> columns(const std::vector<Affine3d>& maps) {
 void expect_same(const Shape& shape, const Shape& expected) {
   EXPECT_EQ(shape.outline.points, expected.outline.points);
   EXPECT_EQ(shape.outline.contour_begin, expected.outline.contour_begin);
+  EXPECT_EQ(shape.outline.grid_step, expected.outline.grid_step);
   ASSERT_EQ(shape.hierarchy.nodes.size(), expected.hierarchy.nodes.size());
-  for (std::size_t i = 0; i < expected.hierarchy.nodes.size(); ++i)
-    ASSERT_EQ(shape.hierarchy.nodes[i].disc, expected.hierarchy.nodes[i].disc);
+  for (std::size_t i = 0; i < expected.hierarchy.nodes.size(); ++i) {
+    const Hierarchy::Node &node = shape.hierarchy.nodes[i], &other = expected.hierarchy.nodes[i];
+    ASSERT_EQ(node.disc, other.disc) << i;
+    ASSERT_EQ(node.second_child, other.second_child) << i;
+  }
 }
 
 /// Expects that every way to give a pose has its vertices and its shape.
@@ -280,18 +278,6 @@ TEST(Blend, RejectsWhatHasNoMean) {
   EXPECT_EQ(complaint_of({{{99, 0}, 1}, {{}, 1}}), "character 'default male' has no clip 99");
 }
 
-void expect_equal(const Shape& shape, const Shape& expected) {
-  EXPECT_EQ(shape.outline.points, expected.outline.points);
-  EXPECT_EQ(shape.outline.contour_begin, expected.outline.contour_begin);
-  EXPECT_EQ(shape.outline.grid_step, expected.outline.grid_step);
-  ASSERT_EQ(shape.hierarchy.nodes.size(), expected.hierarchy.nodes.size());
-  for (std::size_t i = 0; i < expected.hierarchy.nodes.size(); ++i) {
-    const Hierarchy::Node &node = shape.hierarchy.nodes[i], &other = expected.hierarchy.nodes[i];
-    ASSERT_EQ(node.disc, other.disc) << i;
-    ASSERT_EQ(node.second_child, other.second_child) << i;
-  }
-}
-
 /// A shape made by the functions that make one alone.
 Shape one_shape(detail::Skinner& skinner, PoseTime at, float threshold = 0.01f) {
   Shape shape{bch::outline(skinner.pose(at), skinner.character().triangles), {}};
@@ -305,7 +291,7 @@ TEST(PoseShaper, MakesTheShapesThatAreMadeOneByOne) {
       detail::Skinner skinner(character);
       PoseShaper shaper(character, {}, threshold);
       for (const PoseTime& time : sample_poses(character, 20))
-        expect_equal(shaper.shape(time), one_shape(skinner, time, threshold));
+        expect_same(shaper.shape(time), one_shape(skinner, time, threshold));
     }
 }
 
@@ -348,7 +334,7 @@ TEST(PoseShaper, RejectsWhatItsPartsReject) {
   PoseShaper shaper(man);
   EXPECT_THROW(shaper.shape({static_cast<std::uint32_t>(man.clips.size()), 0}), std::invalid_argument);
   detail::Skinner skinner(man);
-  expect_equal(shaper.shape({PoseTime::rest, 0}), one_shape(skinner, {PoseTime::rest, 0}));
+  expect_same(shaper.shape({PoseTime::rest, 0}), one_shape(skinner, {PoseTime::rest, 0}));
 }
 
 /// What its manual says of a program: the directions of its axes as a person who looks forwards sees them.
@@ -420,8 +406,7 @@ Character in_axes_of(const Manual& of, const Character& man) {
 
 void expect_near(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
   ASSERT_EQ(a.size(), b.size());
-  for (std::size_t v = 0; v < a.size(); ++v)
-    ASSERT_LT((detail::to_eigen(a[v]) - detail::to_eigen(b[v])).norm(), 3e-6f) << v;
+  EXPECT_LT(farthest(a, b), 3e-6f);
 }
 
 /// One pose as each program has it, of a character as that program has it and of our own.

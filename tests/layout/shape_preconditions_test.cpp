@@ -75,16 +75,9 @@ struct DamagedArrays {
   }
 };
 
-}  // namespace
-}  // namespace bch::test
-
-namespace bch::test {
-namespace {
-
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-using Arrays = DamagedArrays;
 using detail::Finding;
 using detail::verify;
 using detail::baked::Section;

@@ -27,6 +27,21 @@ std::size_t lines(const std::string& text) {
   return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
 }
 
+std::size_t count_of(const std::string& text, const std::string& word) {
+  std::size_t found = 0;
+  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++found;
+  return found;
+}
+
+std::string crooked_lattice(int side, int shapes, int levels) {
+  std::ostringstream csv;
+  csv << "id,shape,x,y,heading,level\n";
+  for (int i = 0; i < side * side; ++i)
+    csv << i << ',' << i % shapes << ',' << 0.43 * (i % side) + 0.01 * (i % 7) << ',' << 0.41 * (i / side)
+        << ',' << 0.7 * i << ',' << i % levels << '\n';
+  return csv.str();
+}
+
 nlohmann::json read_json(const std::filesystem::path& file) {
   return nlohmann::json::parse(read_text(file));
 }

@@ -19,6 +19,12 @@ void expect_failure(const Ending& run, int code, const Arguments& words);
 
 std::size_t lines(const std::string& text);
 
+/// Counts a word in a text.
+std::size_t count_of(const std::string& text, const std::string& word);
+
+/// A table of agents on a lattice, dense enough for many to collide, in so many shapes and levels by turns.
+std::string crooked_lattice(int side, int shapes = 1, int levels = 1);
+
 nlohmann::json read_json(const std::filesystem::path& file);
 
 /// A person-sized box, 0.5 m x 0.3 m on the ground, y up.

@@ -3,6 +3,7 @@
 
 #include "tests/support/gltf_file.hpp"
 
+#include "layout/base/base64.hpp"
 #include "tests/support/quoted.hpp"
 
 namespace bch {
@@ -15,19 +16,6 @@ std::string join(const std::vector<std::string>& parts) {
   std::string all;
   for (const std::string& part : parts) all += (all.empty() ? "" : ",") + part;
   return all;
-}
-
-std::string base64(const std::string& bytes) {
-  constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    std::uint32_t group = 0;
-    for (std::size_t b = 0; b < 3; ++b)
-      group = group << 8 | (i + b < bytes.size() ? static_cast<unsigned char>(bytes[i + b]) : 0u);
-    for (std::size_t d = 0; d < 4; ++d)
-      text += i + d > bytes.size() ? '=' : digits[group >> (18 - 6 * d) & 63];
-  }
-  return text;
 }
 
 std::string little_endian(std::size_t number) {
@@ -67,7 +55,7 @@ std::string GltfFile::json(const std::string& uri) const {
 }
 
 std::string GltfFile::text() const {
-  return json("'uri':'data:application/octet-stream;base64," + base64(buffer_) + "',");
+  return json("'uri':'data:application/octet-stream;base64," + detail::to_base64(buffer_) + "',");
 }
 
 std::string GltfFile::text(const std::string& buffer_uri) const {
@@ -87,9 +75,6 @@ GltfFile SkinnedStrip::file() const {
   std::string attributes = "'POSITION':" + gltf.add(positions, "VEC3");
   if (!joints.empty())
     attributes += ",'JOINTS_0':" + gltf.add(joints, "VEC4") + ",'WEIGHTS_0':" + gltf.add(weights, "VEC4");
-  if (!more_joints.empty())
-    attributes +=
-        ",'JOINTS_1':" + gltf.add(more_joints, "VEC4") + ",'WEIGHTS_1':" + gltf.add(more_weights, "VEC4");
   gltf.add_json("'meshes':[{'name':'strip','primitives':[{'mode':" + std::to_string(mode) +
                 ",'attributes':{" + attributes + "},'indices':" + gltf.add(indices, "SCALAR") + "}]}]");
   gltf.add_json("'skins':[{'joints':[1,2],'inverseBindMatrices':" + gltf.add(inverse_binds, "MAT4") + "}]");

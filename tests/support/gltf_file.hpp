@@ -52,8 +52,6 @@ struct SkinnedStrip {
   std::vector<std::uint16_t> indices = {0, 1, 3, 0, 3, 2};
   std::vector<std::uint16_t> joints = {0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0};
   std::vector<float> weights = {1, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0};
-  std::vector<std::uint16_t> more_joints;  ///< JOINTS_1, WEIGHTS_1
-  std::vector<float> more_weights;
   std::vector<float> inverse_binds = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -1,    0, 1,  //
                                       1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -1.5f, 0, 1};
   std::vector<float> times = {0, 1, 2};

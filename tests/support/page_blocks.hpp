@@ -7,31 +7,14 @@
 
 #include <nlohmann/json.hpp>
 
+#include "layout/base/base64.hpp"
 #include "tests/support/standard.hpp"
 
 namespace bch::test {
 
-/// The bytes of a base64 text.
-inline std::vector<std::uint8_t> decoded(const std::string& text) {
-  constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::vector<std::uint8_t> bytes;
-  std::uint32_t bits = 0, count = 0;
-  for (const char c : text) {
-    if (c == '=') break;
-    const std::size_t digit = digits.find(c);
-    if (digit == std::string_view::npos) throw std::runtime_error("not base64");
-    bits = bits << 6 | static_cast<std::uint32_t>(digit);
-    count += 6;
-    if (count < 8) continue;
-    count -= 8;
-    bytes.push_back(static_cast<std::uint8_t>(bits >> count));
-  }
-  return bytes;
-}
-
 /// The values of an array of one type.
 template <class Number>
-std::vector<double> numbers(const std::vector<std::uint8_t>& bytes) {
+std::vector<double> numbers(const std::string& bytes) {
   EXPECT_EQ(bytes.size() % sizeof(Number), 0u);
   std::vector<Number> values(bytes.size() / sizeof(Number));
   if (!values.empty()) std::memcpy(values.data(), bytes.data(), bytes.size());
@@ -45,7 +28,7 @@ class Blocks {
 
   std::string type(const std::string& name) const { return between("data-type=\"", "\"", at(name)); }
   std::vector<double> operator()(const std::string& name) const {
-    const auto bytes = decoded(between(">", "</script>", at(name)));
+    const auto bytes = detail::from_base64(between(">", "</script>", at(name)));
     const std::string kind = type(name);
     if (kind == "u8") return numbers<std::uint8_t>(bytes);
     if (kind == "i16") return numbers<std::int16_t>(bytes);

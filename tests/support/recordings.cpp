@@ -58,15 +58,6 @@ std::size_t root_of(const std::filesystem::path& file, const std::string& table)
   return static_cast<std::size_t>(root);
 }
 
-}  // namespace
-
-ReadRecording read_recording(const std::filesystem::path& file, const detail::TrajectoryOptions& options) {
-  const auto reader = detail::open_trajectory(file, options);
-  ReadRecording recording{reader->info(), {}};
-  for (RecordedFrame frame; reader->next(frame.number, frame.people);) recording.frames.push_back(frame);
-  return recording;
-}
-
 void expect_sound(const ReadRecording& recording) {
   const detail::TrajectoryInfo& info = recording.info;
   std::uint64_t rows = 0;
@@ -95,6 +86,16 @@ void expect_sound(const ReadRecording& recording) {
   EXPECT_FALSE(info.format.empty());
 }
 
+}  // namespace
+
+ReadRecording read_recording(const std::filesystem::path& file, const detail::TrajectoryOptions& options) {
+  const auto reader = detail::open_trajectory(file, options);
+  ReadRecording recording{reader->info(), {}};
+  for (RecordedFrame frame; reader->next(frame.number, frame.people);) recording.frames.push_back(frame);
+  expect_sound(recording);
+  return recording;
+}
+
 std::string text_of(const ReadRecording& recording) {
   std::string text;
   for (const RecordedFrame& frame : recording.frames)
@@ -105,6 +106,12 @@ std::string text_of(const ReadRecording& recording) {
   return text;
 }
 
+std::string assumptions_of(const ReadRecording& recording) {
+  std::string all;
+  for (const std::string& sentence : recording.info.assumptions) all += sentence + "\n";
+  return all;
+}
+
 std::string trajectory_complaint(const std::filesystem::path& file,
                                  const detail::TrajectoryOptions& options) {
   const std::string folder = file.parent_path().string() + "/",
@@ -113,11 +120,6 @@ std::string trajectory_complaint(const std::filesystem::path& file,
   EXPECT_EQ(message.find('\n'), std::string::npos) << message;
   EXPECT_TRUE(message.starts_with(file.string())) << message;
   return message.substr(message.starts_with(folder) ? folder.size() : 0);
-}
-
-std::string bytes_of(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
 }
 
 void write_sqlite(const std::filesystem::path& file, const std::string& sql) {
@@ -133,7 +135,7 @@ void write_sqlite(const std::filesystem::path& file, const std::string& sql) {
 }
 
 void make_graph(const std::filesystem::path& file, const std::string& table) {
-  std::string bytes = bytes_of(file);
+  std::string bytes = read_text(file);
   const std::size_t size = big_endian(bytes, 16, 2), root = root_of(file, table), head = root == 1 ? 100 : 0;
   const std::string old = bytes.substr((root - 1) * size, size);
   if (old[head] != 13) throw std::runtime_error(table + " has more than a page");

@@ -5,6 +5,7 @@
 
 #include "layout/recordings/trajectory.hpp"
 #include "tests/support/complaint.hpp"
+#include "tests/support/program_run.hpp"
 
 namespace bch::test {
 
@@ -20,20 +21,19 @@ struct ReadRecording {
   std::vector<RecordedFrame> frames;
 };
 
+/// Reads a recording, and expects what holds of every one: frames ascend, ids within them too, numbers are in range, and info() tells the
+/// truth.
 ReadRecording read_recording(const std::filesystem::path& file,
                              const detail::TrajectoryOptions& options = {});
 
-/// Expects what holds of every recording: frames ascend, ids within them too, numbers are in range, and info() tells the truth.
-void expect_sound(const ReadRecording& recording);
-
 /// A line for each person and frame: "frame id x y heading stature", with - for NaN.
 std::string text_of(const ReadRecording& recording);
+/// A line for each sentence on what was taken for granted.
+std::string assumptions_of(const ReadRecording& recording);
 
 /// Returns the message of the TrajectoryError that reading throws, the folder left out; "accepted" where there is none.
 std::string trajectory_complaint(const std::filesystem::path& file,
                                  const detail::TrajectoryOptions& options = {});
-
-std::string bytes_of(const std::filesystem::path& file);
 
 /// Makes a SQLite file by statements, in place of one that may be there.
 void write_sqlite(const std::filesystem::path& file, const std::string& sql);

@@ -66,7 +66,7 @@ class Table {
  private:
   static std::string escaped(const std::string& bytes) {
     std::string text;
-    for (const char c : bytes) text.append(c == '\\' ? "\\" : "").push_back(c);
+    for (const char c : bytes) text.append(c == '\\' || c == '\n' ? "\\" : "").push_back(c == '\n' ? 'n' : c);
     return text;
   }
   static std::vector<std::string> fields_of(const std::string& line) {

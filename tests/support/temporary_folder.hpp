@@ -27,6 +27,9 @@ class TemporaryFolder {
   const std::filesystem::path& path() const { return path_; }
   std::filesystem::path file(const std::string& name) const { return path_ / name; }
 
+  /// Returns how many files and folders it holds.
+  std::ptrdiff_t files() const { return std::distance(std::filesystem::directory_iterator(path_), {}); }
+
   /// Returns: the path of the file, now holding these bytes.
   std::filesystem::path write(const std::string& name, const std::string& bytes) const {
     std::ofstream stream(path_ / name, std::ios::binary);

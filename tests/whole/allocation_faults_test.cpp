@@ -3,8 +3,6 @@
 
 #include <bch/bch.h>
 
-#include <bch/bch.h>
-
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/baked_bytes.hpp"
 #include "tests/support/c_api.hpp"
@@ -87,17 +85,6 @@ void fail_each(std::size_t least, Round round, std::size_t step = 1) {
     }
 }
 
-}  // namespace
-}  // namespace bch::test
-
-namespace bch {
-namespace {
-
-using test::Attempt;
-using test::expect_ok;
-using test::fail_each;
-using test::made;
-
 const std::vector<std::uint32_t> depths = {0, 2, all_depths};
 constexpr float none = 77;
 
@@ -137,31 +124,31 @@ std::string bytes_of(const bch_shape_set* set) {
   static const TemporaryFolder folder;
   const std::string file = folder.file("set.bch");
   expect_ok(bch_shape_set_save(set, file.c_str()));
-  return test::read_text(file);
+  return read_text(file);
 }
 
 class AllocationFaults : public testing::Test {
  protected:
   AllocationFaults() {
-    test::Random random(91);
+    Random random(91);
     for (int i = 0; i < 100; ++i)
       crowd.add({random.below(shapes.shape_count()), random.uniform(0, 4), random.uniform(0, 4),
                  random.uniform(-4, 4), static_cast<std::uint8_t>(random.below(3))});
-    agents = test::c_agents(crowd);
+    agents = c_agents(crowd);
     options.threads = work.threads = 1;
   }
 
   /// A builder that has a shape already, which stays whatever happens to the next.
-  test::OwnedBuilder begun() const {
+  OwnedBuilder begun() const {
     auto builder = made<bch_shape_set_builder_free>(bch_shape_set_builder_create, &plan);
     add_discs(builder);
     return builder;
   }
-  static void add_discs(const test::OwnedBuilder& to) {
+  static void add_discs(const OwnedBuilder& to) {
     const bch_disc discs[] = {{0, 0, 0.25f}, {0, 0.25f, 0.125f}};
     expect_ok(bch_shape_set_builder_add_discs(to.get(), discs, 2, nullptr));
   }
-  static std::string finished(const test::OwnedBuilder& builder) {
+  static std::string finished(const OwnedBuilder& builder) {
     return bytes_of(made<bch_shape_set_free>(bch_shape_set_builder_finish, builder.get()).get());
   }
 
@@ -184,17 +171,17 @@ class AllocationFaults : public testing::Test {
         step);
   }
 
-  test::OwnedCharacter man() const { return made<bch_character_free>(bch_character_default, BCH_MALE); }
-  test::OwnedShaper standing(const test::OwnedCharacter& of) const {
+  OwnedCharacter man() const { return made<bch_character_free>(bch_character_default, BCH_MALE); }
+  OwnedShaper standing(const OwnedCharacter& of) const {
     auto shaper = made<bch_pose_shaper_free>(bch_pose_shaper_create, of.get(), &plan);
     expect_ok(bch_pose_shaper_make(shaper.get(), {BCH_REST_POSE, 0}));
     return shaper;
   }
 
-  const ShapeSet shapes{test::few_shapes(), {.depths = depths, .heights = true}};
-  const test::OwnedSet set = test::c_set(shapes);
+  const ShapeSet shapes{few_shapes(), {.depths = depths, .heights = true}};
+  const OwnedSet set = c_set(shapes);
   const bch_plan plan = c_plan();
-  test::Crowd crowd;
+  Crowd crowd;
   bch_agents agents;
   bch_query_options options = BCH_QUERY_OPTIONS_INIT;
   bch_work work = BCH_WORK_INIT;
@@ -207,17 +194,17 @@ TEST_F(AllocationFaults, Queries) {
   for (const bool at_heights : {false, true}) {
     crowd.z.assign(at_heights ? crowd.x.size() : 0, 0);
     if (at_heights) crowd.z[1] = 0.5;
-    test::CScene scene(shapes, crowd, test::candidate_pairs(shapes, crowd.agents()));
+    CScene scene(shapes, crowd, candidate_pairs(shapes, crowd.agents()));
     for (const std::uint32_t threads : {1, 2}) {
       scene.options.threads = threads;
       for (std::size_t q = 0; q < all_queries(scene).size(); ++q) {
-        const test::CQuery with_memory = all_queries(scene)[q];
+        const CQuery with_memory = all_queries(scene)[q];
         const std::string before = with_memory.answers();
         SCOPED_TRACE(with_memory.name);
         expect_ok(with_memory.ask());
         if (!with_memory.needs_memory && before.size() == with_memory.answers().size()) continue;
         fail_each(1, [&](Attempt& attempt) {
-          const test::CQuery query = all_queries(scene)[q];  // whose object has no memory yet
+          const CQuery query = all_queries(scene)[q];  // whose object has no memory yet
           attempt(query.ask, [&] { return query.answers() == before; });
           EXPECT_TRUE(query.answers() == with_memory.answers());
         });
@@ -275,8 +262,8 @@ TEST_F(AllocationFaults, NumbersThatFunctionsTell) {
 
 TEST_F(AllocationFaults, Files) {
   const TemporaryFolder folder;
-  const ShapeOrigins origins = test::origins_of(shapes.shape_count());
-  const auto file = folder.write("a.bch", test::BakedBytes(shapes, origins, test::few_clips()).text());
+  const ShapeOrigins origins = origins_of(shapes.shape_count());
+  const auto file = folder.write("a.bch", BakedBytes(shapes, origins, few_clips()).text());
   const std::string copy = folder.file("b.bch"), bytes = bytes_of(set.get());
   for (const std::int32_t access : {BCH_READ, BCH_MAP})
     fail_each_making<bch_shape_set>(
@@ -284,7 +271,7 @@ TEST_F(AllocationFaults, Files) {
         bch_shape_set_free);
   fail_each(5, [&](Attempt& attempt) {
     attempt([&] { return bch_shape_set_save(set.get(), copy.c_str()); });
-    EXPECT_EQ(test::read_text(copy), bytes);
+    EXPECT_EQ(read_text(copy), bytes);
   });
 }
 
@@ -322,7 +309,7 @@ TEST_F(AllocationFaults, BuildersAndWhatTheyAdd) {
 TEST_F(AllocationFaults, Finish) {
   const bch_vec2 corners[] = {{0, 0}, {1, 0}, {1, 1}};
   const std::uint64_t offsets[] = {0, 3};
-  const auto add = [&](const test::OwnedBuilder& to, std::size_t polygons) {
+  const auto add = [&](const OwnedBuilder& to, std::size_t polygons) {
     for (std::size_t i = 0; i < polygons; ++i)
       expect_ok(bch_shape_set_builder_add_polygons(to.get(), corners, offsets, 1, nullptr));
   };
@@ -396,7 +383,7 @@ TEST_F(AllocationFaults, DynamicSets) {
       for (std::uint32_t shape = 0; shape < shapes.shape_count(); ++shape) {
         std::size_t count = 0;
         expect_ok(bch_shape_set_get_discs(lent, shape, 2, of.data(), of.size(), &count));
-        all += test::bytes(std::span(of).first(count));
+        all += bytes(std::span(of).first(count));
       }
       return all;
     };
@@ -421,7 +408,7 @@ TEST_F(AllocationFaults, DynamicSets) {
 TEST_F(AllocationFaults, CharactersAndScenes) {
   fail_each_making<bch_character>(
       10'000, [](bch_character** to) { return bch_character_default(BCH_FEMALE, to); }, bch_character_free,
-      test::samples(8) == 8 ? 2'003 : 8'009);
+      samples(8) == 8 ? 2'003 : 8'009);
   const bch_vec3 positions[] = {{1, 0, 0}, {2, 0, 0}, {2, 1, 0}};
   const std::uint32_t triangles[] = {0, 1, 2};
   bch_character_arrays arrays = BCH_CHARACTER_ARRAYS_INIT;
@@ -443,10 +430,10 @@ TEST_F(AllocationFaults, CharactersAndScenes) {
 TEST_F(AllocationFaults, Messages) {
   for (const bool memory : {true, false}) {
     float radius = 0;
-    test::fail_allocations(memory ? test::Failing::none : test::Failing::all, 0);
+    fail_allocations(memory ? Failing::none : Failing::all, 0);
     const bch_status status = bch_shape_set_get_radius(nullptr, 0, &radius);
     const bch_status far = bch_shape_set_get_radius(set.get(), 1'000, &radius);
-    test::stop_failing_allocations();
+    stop_failing_allocations();
     EXPECT_TRUE(status == BCH_INVALID_ARGUMENT || (!memory && status == BCH_NO_MEMORY)) << status;
     EXPECT_EQ(far, memory ? BCH_OUT_OF_RANGE : BCH_NO_MEMORY);
   }
@@ -458,37 +445,37 @@ TEST_F(AllocationFaults, Messages) {
 class Allocations : public testing::TestWithParam<std::uint32_t> {
  protected:
   /// Of later calls, the first being over.
-  static std::size_t count(const test::CQuery& query) {
-    test::expect_ok(query.ask());
-    const std::size_t before = test::allocation_count();
-    for (int i = 0; i < 5; ++i) test::expect_ok(query.ask());
-    return test::allocation_count() - before;
+  static std::size_t count(const CQuery& query) {
+    expect_ok(query.ask());
+    const std::size_t before = allocation_count();
+    for (int i = 0; i < 5; ++i) expect_ok(query.ask());
+    return allocation_count() - before;
   }
 
   static void expect_none(const ShapeSet& set, double step) {
-    test::Random random(53);
-    test::Crowd crowd;
+    Random random(53);
+    Crowd crowd;
     for (int i = 0; i < 1'500; ++i) {
       crowd.add({random.below(16), random.uniform(0, 67), random.uniform(0, 67), random.uniform(-4, 4),
                  static_cast<std::uint8_t>(random.below(3))});
       if (step > 0) crowd.z.push_back(step * (i % 4));
     }
-    std::vector<Pair> pairs = test::candidate_pairs(set, crowd.agents());
+    std::vector<Pair> pairs = candidate_pairs(set, crowd.agents());
     ASSERT_GT(pairs.size(), 1'000u);
     pairs.resize(1'000);
-    test::CScene scene(set, crowd, pairs);
+    CScene scene(set, crowd, pairs);
     scene.options.threads = GetParam();
     for (const bool other : {false, true}) {
       scene.options.distance_leaves = other;
       scene.options.implementation = other ? "scalar" : nullptr;
-      for (const test::CQuery& query : all_queries(scene)) {
+      for (const CQuery& query : all_queries(scene)) {
         const std::size_t counted = count(query);
         EXPECT_EQ(counted > 0, query.needs_memory) << query.name << ": " << counted;
       }
     }
   }
 
-  const std::vector<Shape> bodies = test::synthetic_shapes(54, 16);
+  const std::vector<Shape> bodies = synthetic_shapes(54, 16);
 };
 
 TEST_P(Allocations, BodiesOnOneGround) {
@@ -505,4 +492,4 @@ INSTANTIATE_TEST_SUITE_P(Threads, Allocations, testing::Values(0, 1, 2, 4),
                          testing::PrintToStringParamName());
 
 }  // namespace
-}  // namespace bch
+}  // namespace bch::test

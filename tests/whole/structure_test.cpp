@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <regex>
 
+#include "tests/support/program_run.hpp"
 #include "tests/support/test.hpp"
 
 // What must hold of the sources and the object files themselves, and of what chapters show, which is what runs. BCH_OBJECTS: the libraries' objects,
@@ -12,13 +13,7 @@
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string read(const fs::path& file) {
-  std::ifstream stream(file);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
+using bch::test::read_text;
 
 std::string output_of(const std::string& command) {
   std::string output;
@@ -33,7 +28,7 @@ std::string output_of(const std::string& command) {
 
 std::vector<fs::path> objects() {
   std::vector<fs::path> paths;
-  std::istringstream list(read(BCH_OBJECTS));
+  std::istringstream list(read_text(BCH_OBJECTS));
   for (std::string path; std::getline(list, path);) paths.emplace_back(path);
   return paths;
 }
@@ -53,7 +48,7 @@ std::map<fs::path, std::vector<std::string>> includes_below(const std::string& f
   std::map<fs::path, std::vector<std::string>> includes;
   for (const auto& entry : fs::recursive_directory_iterator(fs::path(BCH_SOURCE) / folder)) {
     if (entry.path().extension() != ".cpp" && entry.path().extension() != ".hpp") continue;
-    const std::string text = read(entry.path());
+    const std::string text = read_text(entry.path());
     for (auto match = std::sregex_iterator(text.begin(), text.end(), include);
          match != std::sregex_iterator(); ++match) {
       std::string name = (*match)[1];
@@ -112,7 +107,7 @@ TEST(Layers, NumbersInHashTablesAreMixed) {
   std::size_t found = 0;
   for (const char* const top : {"layout", "kernel", "bench"})
     for (const auto& [path, includes] : includes_below(top)) {
-      const std::string text = read(path);
+      const std::string text = read_text(path);
       for (auto match = std::sregex_iterator(text.begin(), text.end(), table);
            match != std::sregex_iterator(); ++match) {
         EXPECT_NE(match->str().find("MixedHash"), std::string::npos) << path << ": " << match->str();
@@ -134,7 +129,7 @@ TEST(Layers, FewFilesKnowTheProcessor) {
   std::size_t found = 0;
   for (const char* const top : {"layout", "kernel", "baselines", "bench"})
     for (const auto& [path, includes] : includes_below(top)) {
-      const std::string file = fs::relative(path, BCH_SOURCE).string(), text = read(path);
+      const std::string file = fs::relative(path, BCH_SOURCE).string(), text = read_text(path);
       const bool names_instructions =
           has_any(text, {"_mm", "q_", "mmintrin", "arm_neon", "asm"}) && std::regex_search(text, instruction);
       const bool asks =
@@ -152,7 +147,8 @@ TEST(Layers, FewFilesKnowTheProcessor) {
 TEST(Layers, NumbersAreClassifiedByFunctionsOfOurs) {
   for (const char* const top : {"layout", "kernel"})
     for (const auto& [path, includes] : includes_below(top))
-      EXPECT_FALSE(std::regex_search(read(path), std::regex(R"re(std::is(finite|inf|nan)\()re"))) << path;
+      EXPECT_FALSE(std::regex_search(read_text(path), std::regex(R"re(std::is(finite|inf|nan)\()re")))
+          << path;
 }
 
 /// Folders include each other one way only: what is left when those that need no others are taken away, again and again, is a
@@ -201,7 +197,7 @@ std::map<std::string, std::string> public_headers(const std::vector<std::string>
   std::map<std::string, std::string> texts;
   for (const std::string& folder : folders)
     for (const auto& entry : fs::directory_iterator(fs::path(BCH_SOURCE) / folder / "bch"))
-      texts[entry.path().filename().string()] = read(entry.path());
+      texts[entry.path().filename().string()] = read_text(entry.path());
   return texts;
 }
 
@@ -238,7 +234,7 @@ TEST(PublicSurface, IsWhatIsWrittenDown) {
     }
     surface += "\n";
   }
-  EXPECT_EQ(surface, read(fs::path(BCH_SOURCE) / "tests/whole/public_surface.txt")) << surface;
+  EXPECT_EQ(surface, read_text(fs::path(BCH_SOURCE) / "tests/whole/public_surface.txt")) << surface;
   EXPECT_LE(public_headers({layout_headers, kernel_headers, mpi_headers}).size(), 22u);
   std::set<std::string> names;
   for (const auto& [header, text] : public_headers({layout_headers, kernel_headers}))
@@ -268,7 +264,7 @@ TEST(PublicSurface, IsAllThatIsInTheNamespace) {
     for (const auto& [file, includes] : includes_below(folder)) {
       if (file.extension() != ".hpp" || file.parent_path().filename() == "bch") continue;
       ++files;
-      const std::string text = read(file);
+      const std::string text = read_text(file);
       for (auto found = std::sregex_iterator(text.begin(), text.end(), block);
            found != std::sregex_iterator(); ++found) {
         std::istringstream lines((*found)[1]);
@@ -336,7 +332,7 @@ TEST(Objects, NothingThatComputesAnAnswerFusesMultiplyAndAdd) {
 #ifdef BCH_C_LIBRARY
 /// The functions that a header of the C interface declares.
 std::set<std::string> declared_in(const std::string& name) {
-  const std::string header = read(fs::path(BCH_SOURCE) / "kernel/c_api/include/bch" / name);
+  const std::string header = read_text(fs::path(BCH_SOURCE) / "kernel/c_api/include/bch" / name);
   static const std::regex function(R"(\nBCH_API [\w *]*?\b(bch_\w+)\()");
   std::set<std::string> declared;
   for (auto match = std::sregex_iterator(header.begin(), header.end(), function);
@@ -396,8 +392,8 @@ TEST(Objects, TheLibraryNeedsThreadsAlone) {
 const fs::path source = BCH_SOURCE;
 
 TEST(Readme, ShowsTheLinesThatCiRuns) {
-  const std::string ci = read(source / ".ci/run");
-  const std::string readme = read(source / "README.md");
+  const std::string ci = read_text(source / ".ci/run");
+  const std::string readme = read_text(source / "README.md");
   std::istringstream lines(ci);
   std::size_t found = 0;
   for (std::string line; std::getline(lines, line);)
@@ -409,7 +405,7 @@ TEST(Readme, ShowsTheLinesThatCiRuns) {
 }
 
 TEST(Readme, IsShort) {
-  const std::string readme = read(source / "README.md");
+  const std::string readme = read_text(source / "README.md");
   EXPECT_LE(std::count(readme.begin(), readme.end(), '\n'), 160);
   EXPECT_LE(readme.size(), 10'240u);
 }
@@ -419,8 +415,8 @@ TEST(Tutorial, ShowsPartsOfItsProgram) {
   const auto flush = [](const std::string& text) {
     return std::regex_replace(text, std::regex("\n +"), "\n");
   };
-  const std::string program = flush(read(source / "tests/examples/consumer/tutorial.cpp"));
-  const std::string chapter = read(source / "kernel/README.md");
+  const std::string program = flush(read_text(source / "tests/examples/consumer/tutorial.cpp"));
+  const std::string chapter = read_text(source / "kernel/README.md");
   const std::size_t end = chapter.find("\n## ", chapter.find("\n## Tutorial") + 1);
   const std::string begin_of_part = "```cpp", end_of_part = "\n```";
   int parts = 0;

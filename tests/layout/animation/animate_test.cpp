@@ -64,21 +64,10 @@ double excess_in(std::span<const Disc> cover, std::span<const Vec2> vertices, do
   return of_discs - of_vertices;
 }
 
-}  // namespace
-}  // namespace bch::test
-
-namespace bch {
-namespace {
-
-using test::cover_at;
-using test::excess_in;
-using test::left_out;
-using test::Random;
-
 /// The character with the first part of its first clip, which is shorter with sanitizers.
 Character with_short_clip(Character character, float seconds) {
   character.clips.resize(1);
-  character.clips[0].seconds = seconds * static_cast<float>(test::samples(8)) / 8;
+  character.clips[0].seconds = seconds * static_cast<float>(samples(8)) / 8;
   return character;
 }
 
@@ -164,17 +153,16 @@ void expect_held(const BodyModel& model, std::uint32_t times) {
 }
 
 TEST(Animate, HoldsCharactersAtEveryTime) {
-  const std::vector<Character> both = test::default_characters();  // one of them with sanitizers
-  for (const Character& character : std::span(both).first(test::samples(2)))
-    expect_held(make_body(with_short_clip(character, 0.8f), {.spheres = 96, .draft = true}),
-                test::samples(800));
+  const std::vector<Character> both = default_characters();  // one of them with sanitizers
+  for (const Character& character : std::span(both).first(samples(2)))
+    expect_held(make_body(with_short_clip(character, 0.8f), {.spheres = 96, .draft = true}), samples(800));
 }
 
 TEST(Animate, HoldsRealCharacters) {
-  const auto data = test::test_data();
+  const auto data = test_data();
   if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set";
-  for (const Character& character : test::real_characters(*data))
-    expect_held(test::plain_model(with_short_clip(character, 0.12f), 96), test::samples(200));
+  for (const Character& character : real_characters(*data))
+    expect_held(plain_model(with_short_clip(character, 0.12f), 96), samples(200));
 }
 
 /// A body of bars, each 0.4 m times 0.06 m, on joints of their own that turn from and to an angle about x and back, once a second.
@@ -215,16 +203,16 @@ Character bars(const std::vector<Bar>& of) {
 }
 
 BodyModel model_of(const Character& body) {
-  return test::plain_model(body, 8);
+  return plain_model(body, 8);
 }
 
 TEST(Animate, FollowsArcsBetweenDistantKeys) {
-  expect_held(model_of(bars({{0, 0, 2}})), test::samples(4000));
+  expect_held(model_of(bars({{0, 0, 2}})), samples(4000));
 }
 
 TEST(Animate, HoldsPartsThatComeOutFromUnderOthersAndPartsApart) {
-  expect_held(model_of(bars({{0, 0, 0}, {0, 0, 1.5f}, {0, 0, -1}})), test::samples(2000));
-  expect_held(model_of(bars({{0.1f, 0, 1}, {-0.9f, 0, 1}})), test::samples(1000));
+  expect_held(model_of(bars({{0, 0, 0}, {0, 0, 1.5f}, {0, 0, -1}})), samples(2000));
+  expect_held(model_of(bars({{0.1f, 0, 1}, {-0.9f, 0, 1}})), samples(1000));
 }
 
 TEST(Animate, KnowsLoops) {
@@ -257,7 +245,6 @@ TEST(Animate, FollowsItsError) {
 }
 
 TEST(Animate, RefusesWhatItCannotHold) {
-  using test::complaint;
   const Character body = bars({{0, 0, 1}});
   const auto message = [](const Character& of, std::uint32_t clip = 0, const AnimateOptions& options = {}) {
     return complaint([&] { animate(model_of(of), clip, options); });
@@ -280,4 +267,4 @@ TEST(Animate, RefusesWhatItCannotHold) {
 }
 
 }  // namespace
-}  // namespace bch
+}  // namespace bch::test

@@ -24,9 +24,10 @@ using detail::baked::Section;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
+const ShapeSetPlan full_plan{.depths = {0, 3, all_depths}, .outlines = true, .culling = true};
+
 BakedBytes sound_bytes() {
-  return BakedBytes(ShapeSet(few_shapes(), {.depths = {0, 3, all_depths}, .outlines = true}), origins_of(3),
-                    few_clips(), few_bodies());
+  return BakedBytes(ShapeSet(few_shapes(), full_plan), origins_of(3), few_clips(), few_bodies());
 }
 
 struct Crime {
@@ -241,11 +242,9 @@ TEST(BakedContent, AnythingThatLoadsCanBeQueried) {
 
 // ---- Baked files that were cut, changed or made up, and the checksum that tells.
 
-const ShapeSetPlan full_plan{.depths = {0, 3, all_depths}, .outlines = true, .culling = true};
-
 class SpoiledFile : public testing::Test {
  protected:
-  BakedBytes bytes{ShapeSet(few_shapes(), full_plan), origins_of(3), few_clips(), few_bodies()};
+  BakedBytes bytes = sound_bytes();
 
   void expect_error(const std::string& words) {
     EXPECT_TRUE(bytes.error().starts_with("file: ")) << bytes.error();

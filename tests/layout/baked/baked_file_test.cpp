@@ -6,6 +6,7 @@
 #include "layout/baked/checksum.hpp"
 #include "layout/baked/image.hpp"
 #include "tests/support/baked_bytes.hpp"
+#include "tests/support/program_run.hpp"
 #include "tests/support/test.hpp"
 
 namespace bch::test {
@@ -158,11 +159,6 @@ TEST(BakedFile, HasNoLoopsOfNextToNoTime) {
   EXPECT_EQ(bytes.error(), "file: clips 0: animated shape: a loop of 1e-12 s, which is shorter than 0.001 s");
 }
 
-std::string text_of_file(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
-
 TEST(SaveBaked, WritesTheBytesOfTheSetInPlaceOfAnotherFile) {
   const TemporaryFolder folder;
   const std::filesystem::path file = folder.path() / "people.bch";
@@ -170,8 +166,8 @@ TEST(SaveBaked, WritesTheBytesOfTheSetInPlaceOfAnotherFile) {
   const ShapeSet set(few_shapes(), full_plan);
   const ShapeOrigins origins = origins_of(set.shape_count());
   save_baked(file, set, origins, few_clips(), few_bodies());
-  EXPECT_EQ(text_of_file(file), BakedBytes(set, origins, few_clips(), few_bodies()).text());
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
+  EXPECT_EQ(read_text(file), BakedBytes(set, origins, few_clips(), few_bodies()).text());
+  EXPECT_EQ(folder.files(), 1);
   const BakedShapes loaded = load_baked(file, FileAccess::map);
   EXPECT_EQ(loaded.origins, origins);
   EXPECT_EQ(loaded.clips, few_clips());
@@ -197,10 +193,10 @@ TEST(SaveBaked, LeavesTheFileWhereItCannotWrite) {
   const std::filesystem::path file = folder.path() / "people.bch";
   std::ofstream(file) << "kept";
   EXPECT_THROW(save_baked(file, set, origins_of(7)), std::invalid_argument);
-  EXPECT_EQ(text_of_file(file), "kept");
+  EXPECT_EQ(read_text(file), "kept");
   std::filesystem::create_directories(folder.path() / "folder" / "full");
   EXPECT_THROW(save_baked(folder.path() / "folder", set), BakedFileError);
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2);
+  EXPECT_EQ(folder.files(), 2);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include "layout/import/guarded_import.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/gltf_file.hpp"
+#include "tests/support/program_run.hpp"
 #include "tests/support/test.hpp"
 
 // Damaged models by the thousand: each is a valid character, or a line.
@@ -44,8 +45,7 @@ std::vector<Model> real_models() {
     const std::string ending = entry.path().extension();
     const char* const known[] = {".glb", ".gltf", ".fbx", ".dae", ".md5mesh", ".iqm", ".obj", ".ply", ".stl"};
     if (std::find(std::begin(known), std::end(known), ending) == std::end(known)) continue;
-    std::ifstream stream(entry.path(), std::ios::binary);
-    models.push_back({entry.path().filename(), {std::istreambuf_iterator<char>(stream), {}}});
+    models.push_back({entry.path().filename(), test::read_text(entry.path())});
   }
   std::sort(models.begin(), models.end(), [](const Model& a, const Model& b) { return a.name < b.name; });
   return models;

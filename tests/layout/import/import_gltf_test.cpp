@@ -29,16 +29,13 @@ const std::vector<float> corners = {0, 0, 0, 1, 0, 0, 0, 2, 0};
 
 // ---- Extensions and morph targets
 
-TEST_F(ImportGltf, RequiredExtensionsAreReadOrRefusedByName) {
+TEST_F(ImportGltf, RequiredExtensionsAreRead) {
   const auto text = [](const std::string& extension) {
     GltfFile gltf;
     gltf.add_json("'extensionsRequired':['" + extension + "']");
     const std::string positions = gltf.add(corners, "VEC3");
     return triangle(std::move(gltf), positions);
   };
-  for (const char* name :
-       {"EXT_meshopt_compression", "EXT_mesh_gpu_instancing", "KHR_node_visibility", "EXT_foo"})
-    expect_error(text(name), std::string("requires the glTF extension '") + name + "'");
   for (const char* name : {"KHR_materials_unlit", "KHR_texture_transform", "KHR_mesh_quantization"})
     EXPECT_EQ(import(text(name)).report.triangles, 1u) << name;
 }
@@ -116,7 +113,7 @@ TEST_F(ImportGltf, AccessorsMayBeSparse) {
 }
 
 /// What stands there, and what in its place.
-TEST_F(ImportGltf, AccessorsThatAreNotWhatTheySay) {
+TEST_F(ImportGltf, FilesThatAreNotWhatTheySay) {
   GltfFile gltf;
   const std::string positions = gltf.add(corners, "VEC3"), text = triangle(gltf, positions);
   test::expect_table(__FILE__, "gltf_refusals.txt", [&](const auto& fields) {
@@ -164,17 +161,6 @@ TEST_F(ImportGltf, TheDefaultSceneIsRead) {
   expect_error(with(gltf.text(), "'scene':1", "'scene':2"), "scene is 2 of 2 elements of scenes");
 }
 
-TEST_F(ImportGltf, NodesAreATree) {
-  GltfFile gltf;
-  const std::string positions = gltf.add(corners, "VEC3");
-  const auto text = [&](const std::string& first, const std::string& second) {
-    return triangle(gltf, positions, "", "", "'children':[" + first + "]},{'children':[" + second + "]},{");
-  };
-  expect_error(text("1", "0"), "nodes[1].children[0] is 0, a node that has a place in the scene already");
-  expect_error(text("1,2", "2"), "is 2, a node that has a place in the scene already");
-  expect_error(text("9", ""), "nodes[0].children[0] is 9 of 3 elements of nodes");
-}
-
 TEST_F(ImportGltf, NodesMayNestDeeperThanAStack) {
   constexpr int depth = 100'000;
   GltfFile gltf;
@@ -184,9 +170,7 @@ TEST_F(ImportGltf, NodesMayNestDeeperThanAStack) {
   EXPECT_EQ(import(triangle(gltf, positions, "", "", nodes)).report.triangles, 1u);
 }
 
-// ---- What moves a mesh in a glTF file: weights and joints, and keys between which is interpolated.
-
-// ---- Weights and joints
+// ---- What moves a mesh in a glTF file: weights and joints, and keys between which is interpolated
 
 /// A strip whose skin is told by accessors of the test: JOINTS_0, WEIGHTS_0 and more.
 template <class AddAttributes>
@@ -253,15 +237,21 @@ TEST_F(ImportGltf, WeightsMayBeNormalisedIntegers) {
   expect_error(strip_of_weights(fifths<std::uint8_t>(255), false), "gives vertex 0 the weight 51");
 }
 
+/// Seven entries a vertex: 0.1 + 0.05 + 0.05 for the hips, the rest for the head.
 TEST_F(ImportGltf, SetsOfJointsMayBeOfDifferentTypes) {
-  const std::vector<float> some = {0.2f, 0.3f, 0, 0, 0.2f, 0.3f, 0, 0, 0.2f, 0.3f, 0, 0, 0.2f, 0.3f, 0, 0};
-  const std::vector<float> more = {0.5f, 0, 0, 0, 0.5f, 0, 0, 0, 0.5f, 0, 0, 0, 0.5f, 0, 0, 0};
-  const std::vector<std::uint16_t> second = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0};
-  expect_fifths(import(strip_with([&](GltfFile& gltf) {
-                  return "'JOINTS_0':" + gltf.add(both_joints, "VEC4") +
-                         ",'WEIGHTS_0':" + gltf.add(some, "VEC4") +
-                         ",'JOINTS_1':" + gltf.add(second, "VEC4") + ",'WEIGHTS_1':" + gltf.add(more, "VEC4");
-                })).character);
+  std::vector<float> some, more;
+  std::vector<std::uint16_t> second;
+  for (int vertex = 0; vertex < 4; ++vertex) {
+    some.insert(some.end(), {0.1f, 0.3f, 0.05f, 0.05f});
+    more.insert(more.end(), {0.2f, 0.2f, 0.1f, 0});
+    second.insert(second.end(), {1, 1, 1, 0});
+  }
+  const auto [character, report] = import(strip_with([&](GltfFile& gltf) {
+    return "'JOINTS_0':" + gltf.add(both_joints, "VEC4") + ",'WEIGHTS_0':" + gltf.add(some, "VEC4") +
+           ",'JOINTS_1':" + gltf.add(second, "VEC4") + ",'WEIGHTS_1':" + gltf.add(more, "VEC4");
+  }));
+  EXPECT_FALSE(has_note(report, "normalised"));
+  expect_fifths(character);
 }
 
 TEST_F(ImportGltf, WithoutInverseBindMatricesTheyAreIdentity) {
@@ -320,29 +310,6 @@ Posed posed(const Character& character, float seconds) {
 
 constexpr float right_angle = 1.57079633f;
 
-TEST_F(ImportGltf, LinearKeysAreBlended) {
-  SkinnedStrip strip;
-  strip.way = {0, 1, 0, 0, 2, 0, 0, 5, 0};
-  const Character c = import(strip.text()).character;
-  EXPECT_NEAR(posed(c, 0.25f).height, 0.25f, 1e-6f);
-  EXPECT_NEAR(posed(c, 1.5f).height, 2.5f, 1e-6f);
-  EXPECT_NEAR(posed(c, 0.5f).turn, 0.25f * right_angle, 1e-6f);
-}
-
-TEST_F(ImportGltf, StepKeysHold) {
-  SkinnedStrip strip;
-  strip.interpolation = "'interpolation':'STEP',";
-  strip.way = {0, 1, 0, 0, 2, 0, 0, 5, 0};
-  const Character c = import(strip.text()).character;
-  const struct {
-    float seconds, height, turn;
-  } expected[] = {{0, 0, 0}, {0.999f, 0, 0}, {1, 1, 0.5f}, {1.999f, 1, 0.5f}, {2, 4, 1}};
-  for (const auto& [seconds, height, turn] : expected) {
-    EXPECT_NEAR(posed(c, seconds).height, height, 1e-6f) << seconds;
-    EXPECT_NEAR(posed(c, seconds).turn, turn * right_angle, 1e-6f) << seconds;
-  }
-}
-
 /// Keys at 0 s and 2 s; the hips leave with 3 m/s upwards and arrive with -1 m/s.
 SkinnedStrip cubic_strip() {
   SkinnedStrip strip;
@@ -354,17 +321,37 @@ SkinnedStrip cubic_strip() {
   return strip;
 }
 
-TEST_F(ImportGltf, CubicKeysAreHermiteSplines) {
-  const Character c = import(cubic_strip().text()).character;
-  EXPECT_NEAR(posed(c, 0).height, 0, 1e-6f);
-  EXPECT_NEAR(posed(c, 2).height, 4, 1e-6f);
-  // At the middle, t = 1/2: 1/2 1 + 1/8 2 3 + 1/2 5 - 1/8 2 (-1) = 4, less the 1 of the rest pose.
-  EXPECT_NEAR(posed(c, 1).height, 3, 1e-6f);
-  // At t = 1/4: 27/32 1 + 9/64 2 3 + 5/32 5 - 3/64 2 (-1) = 2.5625.
-  EXPECT_NEAR(posed(c, 0.5f).height, 1.5625f, 1e-6f);
-  // At t = 1/2: y = 1/8 2 0.5 + 1/2 0.70710678 = 0.47855339, w = 1/2 1 + 1/2 0.70710678 = 0.85355339.
-  EXPECT_NEAR(posed(c, 1).turn, 2 * std::atan2(0.47855339f, 0.85355339f), 1e-6f);
-  EXPECT_NEAR(posed(c, 2).turn, right_angle, 1e-6f);
+TEST_F(ImportGltf, KeysAreBlendedAsTheirKindSays) {
+  SkinnedStrip linear;
+  linear.way = {0, 1, 0, 0, 2, 0, 0, 5, 0};
+  SkinnedStrip steps = linear;
+  steps.interpolation = "'interpolation':'STEP',";
+  const Character of_lines = import(linear.text()).character, of_steps = import(steps.text()).character,
+                  of_curves = import(cubic_strip().text()).character;
+  const struct {
+    const Character& character;
+    float seconds, height, turn;
+  } expected[] = {
+      {of_lines, 0.25f, 0.25f, 0.125f * right_angle},
+      {of_lines, 0.5f, 0.5f, 0.25f * right_angle},
+      {of_lines, 1.5f, 2.5f, 0.75f * right_angle},
+      {of_steps, 0, 0, 0},
+      {of_steps, 0.999f, 0, 0},
+      {of_steps, 1, 1, 0.5f * right_angle},
+      {of_steps, 1.999f, 1, 0.5f * right_angle},
+      {of_steps, 2, 4, right_angle},
+      {of_curves, 0, 0, 0},
+      // At t = 1/4: 27/32 1 + 9/64 2 3 + 5/32 5 - 3/64 2 (-1) = 2.5625, less the 1 of the rest pose.
+      // y = 9/64 2 0.5 + 5/32 0.70710678 = 0.25111043, w = 27/32 1 + 5/32 0.70710678 = 0.95423543.
+      {of_curves, 0.5f, 1.5625f, 2 * std::atan2(0.25111043f, 0.95423543f)},
+      // At the middle, t = 1/2: 1/2 1 + 1/8 2 3 + 1/2 5 - 1/8 2 (-1) = 4.
+      // y = 1/8 2 0.5 + 1/2 0.70710678 = 0.47855339, w = 1/2 1 + 1/2 0.70710678 = 0.85355339.
+      {of_curves, 1, 3, 2 * std::atan2(0.47855339f, 0.85355339f)},
+      {of_curves, 2, 4, right_angle}};
+  for (const auto& [character, seconds, height, turn] : expected) {
+    EXPECT_NEAR(posed(character, seconds).height, height, 1e-6f) << seconds << " s, turn " << turn;
+    EXPECT_NEAR(posed(character, seconds).turn, turn, 1e-6f) << seconds << " s, height " << height;
+  }
 }
 
 TEST_F(ImportGltf, CubicKeysThatLeadThroughNoRotationHold) {

@@ -144,27 +144,6 @@ TEST_F(Import, NormalisesWeightsAndSaysSo) {
   EXPECT_NEAR(character.influences[begin + 1].weight, 0.2f, 1e-6f);
 }
 
-TEST_F(Import, KeepsMoreThanFourWeights) {
-  // Eight entries a vertex: 0.3 + 0.1 for the hips, the rest for the head.
-  SkinnedStrip strip;
-  strip.joints.clear();
-  strip.weights.clear();
-  for (int vertex = 0; vertex < 4; ++vertex) {
-    strip.joints.insert(strip.joints.end(), {0, 1, 1, 1});
-    strip.weights.insert(strip.weights.end(), {0.3f, 0.2f, 0.1f, 0.1f});
-    strip.more_joints.insert(strip.more_joints.end(), {1, 0, 1, 0});
-    strip.more_weights.insert(strip.more_weights.end(), {0.1f, 0.1f, 0.1f, 0});
-  }
-  const auto [character, report] = import("strip.gltf", strip.text());
-  EXPECT_FALSE(has_note(report, "normalised"));
-  for (std::size_t v = 0; v < character.vertices.size(); ++v) {
-    const std::uint32_t begin = character.influence_begin[v];
-    ASSERT_EQ(character.influence_begin[v + 1] - begin, 2u);
-    EXPECT_NEAR(character.influences[begin].weight, 0.4f, 1e-6f);
-    EXPECT_NEAR(character.influences[begin + 1].weight, 0.6f, 1e-6f);
-  }
-}
-
 TEST_F(Import, VertexWithoutWeightsFollowsTheNearest) {
   SkinnedStrip strip;
   strip.weights[12] = strip.weights[13] = 0;  // at the top, nearest to vertex 2, which follows the head

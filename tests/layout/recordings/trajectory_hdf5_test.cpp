@@ -152,15 +152,6 @@ void ArchiveFile::write(const std::filesystem::path& file) const {
   H5Fclose(opened);
 }
 
-}  // namespace
-}  // namespace bch::test
-
-namespace bch {
-namespace {
-
-using test::ArchiveFile;
-using test::ReadRecording;
-using test::text_of;
 using Storage = ArchiveFile::Storage;
 
 class ArchiveFiles : public testing::Test {
@@ -169,13 +160,11 @@ class ArchiveFiles : public testing::Test {
 
   ReadRecording read(const ArchiveFile& file, const detail::TrajectoryOptions& options = {}) const {
     file.write(folder.file("f"));
-    ReadRecording recording = test::read_recording(folder.file("f"), options);
-    test::expect_sound(recording);
-    return recording;
+    return read_recording(folder.file("f"), options);
   }
   std::string complaint(const ArchiveFile& file) const {
     file.write(folder.file("f"));
-    return test::trajectory_complaint(folder.file("f"));
+    return trajectory_complaint(folder.file("f"));
   }
 };
 
@@ -260,7 +249,7 @@ TEST_F(ArchiveFiles, AreInflatedOnceForEachPass) {
   ArchiveFile file;
   file.storage = Storage::deflated;
   file.rows.clear();
-  test::Random random(1);
+  Random random(1);
   for (std::int64_t row = 0; row < 100'000; ++row)
     file.rows.push_back({row % 100, row / 100, random.uniform(-100, 100), random.uniform(-100, 100), 1.5});
   std::string text;
@@ -268,7 +257,7 @@ TEST_F(ArchiveFiles, AreInflatedOnceForEachPass) {
     file.chunk = chunk;
     file.write(folder.file("f"));
     const std::uint64_t before = bytes_read();
-    const ReadRecording recording = test::read_recording(folder.file("f"));
+    const ReadRecording recording = read_recording(folder.file("f"));
     const std::uint64_t pipes = 2 * 64 * file.rows.size();  // from the child
     EXPECT_LT(bytes_read() - before, 4 * std::filesystem::file_size(folder.file("f")) + pipes) << chunk;
     if (text.empty()) text = text_of(recording);
@@ -278,7 +267,7 @@ TEST_F(ArchiveFiles, AreInflatedOnceForEachPass) {
 
 TEST_F(ArchiveFiles, AreReadNoFurtherThanTheCallerLikes) {
   ArchiveFile().write(folder.file("f"));
-  EXPECT_EQ(test::trajectory_complaint(folder.file("f"), {.go_on = [] { return false; }}),
+  EXPECT_EQ(trajectory_complaint(folder.file("f"), {.go_on = [] { return false; }}),
             "f: reading it was cancelled");
 }
 
@@ -317,31 +306,30 @@ TEST_F(ArchiveFiles, AreRefusedByOneLine) {
 TEST_F(ArchiveFiles, ThatAreDamagedAreReadOrRefused) {
   ArchiveFile file;
   file.write(folder.file("f"));
-  const std::string bytes = test::bytes_of(folder.file("f"));
+  const std::string bytes = read_text(folder.file("f"));
   ASSERT_GT(bytes.size(), 2'000u);
   for (std::size_t size = 8; size < bytes.size(); size += 1 + bytes.size() / 40) {
-    const std::string message = test::trajectory_complaint(folder.write("g", bytes.substr(0, size)));
+    const std::string message = trajectory_complaint(folder.write("g", bytes.substr(0, size)));
     EXPECT_TRUE(message.starts_with("g: ")) << size << ": " << message;
   }
   // The library looks for ever at some heaps of texts.
   const detail::TrajectoryOptions hasty{.patience = std::chrono::milliseconds(300)};
-  test::Random random(1);
+  Random random(1);
   std::uint32_t refused = 0;
-  for (std::uint32_t i = 0; i < test::samples(800); ++i) {
+  for (std::uint32_t i = 0; i < samples(800); ++i) {
     std::string damaged = bytes;
     for (int flips = 0; flips < 4; ++flips)
       damaged[8 + random.below(static_cast<std::uint32_t>(bytes.size() - 8))] ^=
           static_cast<char>(1 << random.below(8));
-    refused += test::trajectory_complaint(folder.write("g", damaged), hasty) != "accepted";
+    refused += trajectory_complaint(folder.write("g", damaged), hasty) != "accepted";
   }
   EXPECT_GT(refused, 0u);
 }
 
 TEST_F(ArchiveFiles, OfTheArchiveAreRead) {
-  const auto data = test::test_data();
+  const auto data = test_data();
   if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set: no real files to read";
-  const ReadRecording recording = test::read_recording(*data / "trajectories/data_archive_00_01a.h5");
-  test::expect_sound(recording);
+  const ReadRecording recording = read_recording(*data / "trajectories/data_archive_00_01a.h5");
   EXPECT_EQ(recording.info.rows, 30'701u);
   EXPECT_EQ(recording.info.people, 46u);
   EXPECT_EQ(recording.info.fps, 25);
@@ -349,4 +337,4 @@ TEST_F(ArchiveFiles, OfTheArchiveAreRead) {
 }
 
 }  // namespace
-}  // namespace bch
+}  // namespace bch::test
