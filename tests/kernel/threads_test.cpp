@@ -139,12 +139,12 @@ TEST_F(CApiThreads, AnswersAreThoseOfOneThread) {
 
 /// Discs of a set that a thread builds by itself, of which it replaces nothing.
 std::vector<float> built(float radius) {
-  const auto builder = made<bch_shape_set_builder_free>(bch_shape_set_builder_create, nullptr);
+  const auto builder = test::c_builder();
   expect_ok(bch_shape_set_builder_add_cylinder(builder.get(), radius, nullptr));
   const bch_vec2 corners[] = {{-radius, 0}, {radius, 0}, {0, radius}};
   const std::uint64_t offsets[] = {0, 3};
   expect_ok(bch_shape_set_builder_add_polygons(builder.get(), corners, offsets, 1, nullptr));
-  const auto set = made<bch_shape_set_free>(bch_shape_set_builder_finish, builder.get());
+  const auto set = test::finished(builder);
   const auto dynamic = made<bch_dynamic_shape_set_free>(bch_dynamic_shape_set_create, set.get());
   const bch_shape_set* lent = nullptr;
   expect_ok(bch_dynamic_shape_set_get_shapes(dynamic.get(), &lent));

@@ -160,7 +160,7 @@ TEST_F(CApiRecordings, AreChecked) {
   expect_ok(bch_check_get_summary(checked(options).get(), &summary));
   EXPECT_GT(summary.in_walls, 0u);
   options.without_walls = 1;
-  const auto man = made<bch_character_free>(bch_character_default, BCH_MALE);
+  const auto man = test::c_person(BCH_MALE);
   const bch_character* const people[] = {man.get()};
   options.characters = people, options.character_count = 1;
   expect_ok(bch_check_get_summary(checked(options).get(), &summary));

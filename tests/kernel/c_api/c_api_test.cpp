@@ -199,13 +199,7 @@ TEST_P(CApi, TellsWhatASetHas) {
   float radius = 0;
   expect_ok(bch_shape_set_get_radius(in, shape, &radius));
   EXPECT_EQ(radius, set.bounding_radius(shape));
-  const std::vector<Disc> discs = set.discs(shape, level);
-  std::size_t count = 0;
-  expect_ok(bch_shape_set_get_discs(in, shape, level, nullptr, 0, &count));
-  ASSERT_EQ(discs.size(), count);
-  std::vector<bch_disc> c_discs(count);
-  expect_ok(bch_shape_set_get_discs(in, shape, level, c_discs.data(), count, &count));
-  EXPECT_EQ(bytes(discs), bytes(c_discs));
+  EXPECT_EQ(bytes(set.discs(shape, level)), bytes(test::discs_of(in, shape, level)));
   std::size_t findings = 9;
   expect_ok(bch_shape_set_verify(in, 10, nullptr, nullptr, &findings));
   EXPECT_EQ(findings, 0u);
