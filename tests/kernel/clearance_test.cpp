@@ -254,12 +254,7 @@ TEST_F(Within, OneDistanceServesAllPairs) {
 
 // ---- clearance() with exact leaves: the distance of the outlines.
 
-class SegmentClearance : public test::Differential {
- protected:
-  SegmentClearance() : Differential(2701, test::four_levels) {}
-};
-
-TEST_F(SegmentClearance, DeepestOverlapsAreThoseOfDiscs) {
+TEST_F(ClearanceDifferential, OfDeepestOverlapsIsThatOfDiscs) {
   const PairScene scene = tangent_scene(5'000);
   detail::AllOptions options = exact_leaves;
   options.overlap = Overlap::deepest;
