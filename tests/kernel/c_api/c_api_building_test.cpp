@@ -214,25 +214,17 @@ struct Post {
                                  {"turn", 1, &channels[2], 1},
                                  {nullptr, 1, &channels[3], 1}};
   const bch_affine3 to_ground{{{0.01f, 0, 0, 0}, {0, 0.01f, 0, 0}, {0, 0, 0.01f, 0}}};
-  bch_character_arrays arrays{sizeof(bch_character_arrays),
-                              0,
-                              "post",
-                              vertices,
-                              3,
-                              triangles,
-                              1,
-                              parents,
-                              rests,
-                              names,
-                              2,
-                              bones,
-                              binds,
-                              2,
-                              begin,
-                              influences,
-                              clips.data(),
-                              4,
-                              &to_ground};
+  bch_character_arrays arrays = BCH_CHARACTER_ARRAYS_INIT;
+
+  Post() {
+    arrays.root_joint = 0, arrays.name = "post";
+    arrays.vertices = vertices, arrays.vertex_count = 3, arrays.triangles = triangles,
+    arrays.triangle_count = 1;
+    arrays.parents = parents, arrays.rests = rests, arrays.joint_names = names, arrays.joint_count = 2;
+    arrays.bone_joints = bones, arrays.inverse_binds = binds, arrays.bone_count = 2;
+    arrays.influence_offsets = begin, arrays.influences = influences;
+    arrays.clips = clips.data(), arrays.clip_count = 4, arrays.to_ground = &to_ground;
+  }
 };
 
 TEST(CApiBuilding, CharactersOfArraysMoveAsTheseSay) {
