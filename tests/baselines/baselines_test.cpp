@@ -16,7 +16,7 @@
 // Every structure against every other, and a share of the answers against brute force. 1 of `brute_share`
 // placements goes to the brute force over triangles; outlines are small enough to check always.
 
-namespace bch::test {
+namespace bch {
 namespace {
 
 // What is true of two bodies, without trees: every facet that reaches into the other body's bounding box
@@ -124,13 +124,6 @@ bool projections_meet(const Body& a, const Body& b, const Placement& at) {
                   [&](const auto& s, const auto& t) { return baselines::triangles_meet(flat(s), flat(t)); });
 }
 
-}  // namespace
-}  // namespace bch::test
-
-namespace bch {
-namespace {
-
-using baselines::Body;
 using baselines::Kind;
 using baselines::Structure;
 using baselines::TestCounts;
@@ -208,7 +201,7 @@ class Suite {
     const Agents agents = scene_.crowd.agents();
     const auto crosses = [&](const Agents& at, Pair pair) {
       const auto [a, b] = std::minmax(pair.first, pair.second);
-      return test::outlines_meet(outline(at, a), outline(at, b), baselines::placement(at, pair));
+      return outlines_meet(outline(at, a), outline(at, b), baselines::placement(at, pair));
     };
     for (std::size_t i = 0; i < scene_.pairs.size(); ++i) {
       const bool expected = crosses(agents, scene_.pairs[i]);
@@ -235,9 +228,8 @@ class Suite {
       const auto [a, b] = std::minmax(scene_.pairs[i].first, scene_.pairs[i].second);
       const Body &body_a = bodies_[agents.shape[a]], &body_b = bodies_[agents.shape[b]];
       const baselines::Placement at = baselines::placement_in_space(agents, scene_.pairs[i]);
-      ASSERT_EQ(hits("obb_full")[i] == 1, test::meshes_meet(body_a, body_b, at))
-          << test::replay_line(scene_, i);
-      ASSERT_EQ(hits("obb_projected")[i] == 1, test::projections_meet(body_a, body_b, at))
+      ASSERT_EQ(hits("obb_full")[i] == 1, meshes_meet(body_a, body_b, at)) << test::replay_line(scene_, i);
+      ASSERT_EQ(hits("obb_projected")[i] == 1, projections_meet(body_a, body_b, at))
           << test::replay_line(scene_, i);
     }
   }
@@ -259,8 +251,8 @@ class Suite {
         const auto [a, b] = std::minmax(scene_.pairs[i].first, scene_.pairs[i].second);
         const Agents agents = scene_.crowd.agents();
         const baselines::Placement at = baselines::placement_in_space(agents, scene_.pairs[i]);
-        const bool expected = full ? test::meshes_meet(bodies_[agents.shape[a]], bodies_[agents.shape[b]], at)
-                                   : test::outlines_meet(outline(agents, a), outline(agents, b), at);
+        const bool expected = full ? meshes_meet(bodies_[agents.shape[a]], bodies_[agents.shape[b]], at)
+                                   : outlines_meet(outline(agents, a), outline(agents, b), at);
         ASSERT_EQ(hits(name)[i] == 1, expected) << name << ", " << test::replay_line(scene_, i);
       }
     }
@@ -278,32 +270,23 @@ class Suite {
 };
 
 TEST(DefaultCharacters, RandomPlacements) {
-  const auto characters = test::default_characters();
-  Suite(characters, 16).check_random(1996, 40'000);
+  Suite(test::default_characters(), 16).check_random(1996, 40'000);
 }
 
 TEST(DefaultCharacters, PlacementsAtHeights) {
-  const auto characters = test::default_characters();
-  Suite(characters, 16).check_at_heights(1998, 10'000);
+  Suite(test::default_characters(), 16).check_at_heights(1998, 10'000);
 }
 
 TEST(DefaultCharacters, TouchingPlacements) {
-  const auto characters = test::default_characters();
-  Suite(characters, 16).check_touching(1997, 10'000);
+  Suite(test::default_characters(), 16).check_touching(1997, 10'000);
 }
 
-TEST(RealCharacters, RandomPlacements) {
+TEST(RealCharacters, RandomAndTouchingPlacements) {
   const auto data = test::test_data();
   if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set: no real characters to test with";
-  const auto characters = test::real_characters(*data);
-  Suite(characters, 10).check_random(2012, 15'000);
-}
-
-TEST(RealCharacters, TouchingPlacements) {
-  const auto data = test::test_data();
-  if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set: no real characters to test with";
-  const auto characters = test::real_characters(*data);
-  Suite(characters, 10).check_touching(2014, 4'000);
+  Suite suite(test::real_characters(*data), 10);
+  suite.check_random(2012, 15'000);
+  suite.check_touching(2014, 4'000);
 }
 
 // ---- What theory says of limited depth: exact hits stay hits at every depth.
@@ -393,6 +376,10 @@ test::Crowd two(std::uint32_t a, std::uint32_t b, double x, double y, double hea
   return crowd;
 }
 
+bool by_truth(Truth exact, bool mesh, bool outline, bool projection) {
+  return exact == Truth::mesh ? mesh : exact == Truth::outline ? outline : projection;
+}
+
 TEST(Kinds, HaveTheirNames) {
   std::set<std::string_view> names;
   for (const Kind& kind : baselines::kinds()) names.insert(kind.name);
@@ -462,9 +449,7 @@ TEST(Kinds, TouchingSolidsHaveOneAnswer) {
     if (one.kind->exact == Truth::none || one.kind->name.starts_with("fcl_")) continue;
     for (const Case& c : cases) {
       const test::Crowd crowd = two(0, c.other, c.x, c.y, 0);
-      const bool expected = one.kind->exact == Truth::mesh      ? c.mesh
-                            : one.kind->exact == Truth::outline ? c.outline
-                                                                : c.projection;
+      const bool expected = by_truth(one.kind->exact, c.mesh, c.outline, c.projection);
       EXPECT_EQ(one.structure->query(crowd.agents(), {0, 1}, all_depths), expected)
           << one.kind->name << ", " << c.x << ", " << c.y << ", other " << c.other;
     }
@@ -494,10 +479,9 @@ TEST(Kinds, TakeDegenerateTriangles) {
     const baselines::Placement at = baselines::placement(crowd.agents(), {0, 1});
     for (const test::Answers& one : all) {
       if (one.kind->exact == Truth::none || one.kind->name.starts_with("fcl_")) continue;
-      const bool expected = one.kind->exact == Truth::mesh ? test::meshes_meet(bodies[a], bodies[b], at)
-                            : one.kind->exact == Truth::outline
-                                ? test::outlines_meet(bodies[a].shape.outline, bodies[b].shape.outline, at)
-                                : test::projections_meet(bodies[a], bodies[b], at);
+      const bool expected = by_truth(one.kind->exact, meshes_meet(bodies[a], bodies[b], at),
+                                     outlines_meet(bodies[a].shape.outline, bodies[b].shape.outline, at),
+                                     projections_meet(bodies[a], bodies[b], at));
       ASSERT_EQ(one.structure->query(crowd.agents(), {0, 1}, all_depths), expected)
           << one.kind->name << ", case " << i << ": " << a << " and " << b;
     }

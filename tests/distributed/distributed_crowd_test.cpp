@@ -20,8 +20,11 @@
 // Every rank runs these tests, all with the same random numbers: each knows the whole crowd and what one process answers. Tests
 // only EXPECT, because a rank that left one early would leave the others waiting.
 
-namespace bch::test {
+namespace bch::detail {
 namespace {
+
+using test::complaint;
+using test::Random;
 
 // A crowd on all ranks, and the same one on each of them.
 
@@ -62,13 +65,13 @@ Answers sorted(Answers answers) {
   return answers;
 }
 
-Answers collisions(DistributedCrowd& crowd, const detail::AllOptions& options = {}) {
+Answers collisions(DistributedCrowd& crowd, const AllOptions& options = {}) {
   Answers mine;
   for (const Pair& pair : crowd.collide_all(options)) mine.push_back({pair.first, pair.second, 0});
   return sorted(of_all_ranks(mine));
 }
 
-Answers clearances(DistributedCrowd& crowd, const detail::AllOptions& options) {
+Answers clearances(DistributedCrowd& crowd, const AllOptions& options) {
   Answers mine;
   for (const DistributedCrowd::Distance& one : crowd.clearances(options))
     mine.push_back({one.first, one.second, one.metres});
@@ -90,8 +93,8 @@ struct World {
     return mine;
   }
 
-  Crowd columns() const {
-    Crowd crowd;
+  test::Crowd columns() const {
+    test::Crowd crowd;
     for (const DistributedCrowd::Agent& agent : agents) {
       crowd.add({agent.shape, agent.x, agent.y, agent.heading, agent.level});
       if (has_heights) crowd.z.push_back(agent.z);
@@ -103,9 +106,9 @@ struct World {
     return {agents[pair.first].id, agents[pair.second].id, metres};
   }
 
-  Answers collisions(const ShapeSet& set, const detail::AllOptions& options = {}) const {
-    const Crowd crowd = columns();
-    const std::vector<Pair> pairs = candidate_pairs(set, crowd.agents());
+  Answers collisions(const ShapeSet& set, const AllOptions& options = {}) const {
+    const test::Crowd crowd = columns();
+    const std::vector<Pair> pairs = test::candidate_pairs(set, crowd.agents());
     std::vector<std::uint8_t> hits(pairs.size());
     collide(set, crowd.agents(), pairs, hits, options);
     Answers answers;
@@ -114,9 +117,9 @@ struct World {
     return sorted(answers);
   }
 
-  Answers clearances(const ShapeSet& set, const detail::AllOptions& options) const {
-    const Crowd crowd = columns();
-    const std::vector<Pair> pairs = candidate_pairs(set, crowd.agents(), options.max_distance);
+  Answers clearances(const ShapeSet& set, const AllOptions& options) const {
+    const test::Crowd crowd = columns();
+    const std::vector<Pair> pairs = test::candidate_pairs(set, crowd.agents(), options.max_distance);
     std::vector<float> metres(pairs.size());
     clearance(set, crowd.agents(), pairs, {.distance = metres}, options);
     Answers answers;
@@ -132,23 +135,6 @@ void move_all(World& world, DistributedCrowd& crowd, const Move& move) {
   for (DistributedCrowd::Agent& agent : world.agents) move(agent);
   for (DistributedCrowd::Agent& agent : crowd.agents()) move(agent);
 }
-
-}  // namespace
-}  // namespace bch::test
-
-namespace bch::detail {
-namespace {
-
-using test::Answers;
-using test::clearances;
-using test::collisions;
-using test::complaint;
-using test::move_all;
-using test::of_all_ranks;
-using test::Random;
-using test::rank;
-using test::ranks;
-using test::World;
 
 /// Random numbers of an agent's own.
 Random random_of(const DistributedCrowd::Agent& agent, std::uint64_t seed) {
@@ -180,7 +166,7 @@ class Distributed : public testing::Test {
     crowd.update(margin);
     EXPECT_EQ(collisions(crowd), world.collisions(set));
     EXPECT_EQ(collisions(crowd, {.leaves = Leaves::discs}), world.collisions(set, {.leaves = Leaves::discs}));
-    const detail::AllOptions near{.max_distance = margin};
+    const AllOptions near{.max_distance = margin};
     EXPECT_EQ(clearances(crowd, near), world.clearances(set, near));
     std::vector<std::uint32_t> ids, expected;
     for (const DistributedCrowd::Agent& agent : crowd.agents()) ids.push_back(agent.id);
@@ -309,6 +295,18 @@ TEST_F(Distributed, AgentsStandAtDifferentHeights) {
   EXPECT_LT(answers.size(), all.collisions(bodies).size());
 }
 
+/// Expects that all ranks have so many agents, and have sent so many bytes of each copy and of each agent that moved.
+void expect_sent(const DistributedCrowd::Counters& counters, std::uint64_t agents, std::uint64_t of_copy,
+                 std::uint64_t of_agent) {
+  std::uint64_t sums[] = {counters.agents, counters.halo_bytes, counters.halo * of_copy,
+                          counters.migration_bytes, counters.arrived * of_agent};
+  MPI_Allreduce(MPI_IN_PLACE, sums, 5, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
+  EXPECT_EQ(sums[0], agents);
+  EXPECT_EQ(sums[1], sums[2]);
+  EXPECT_EQ(sums[3], sums[4]);
+  EXPECT_EQ(sums[1] > 0, ranks() > 1);
+}
+
 TEST_F(Distributed, CountsWhatIsSent) {
   World all = world(60);
   DistributedCrowd crowd(MPI_COMM_WORLD, set, all.dealt());
@@ -317,20 +315,10 @@ TEST_F(Distributed, CountsWhatIsSent) {
   const DistributedCrowd::Counters& counters = crowd.counters();
   EXPECT_EQ(counters.agents, crowd.agents().size());
   EXPECT_EQ(counters.halo, crowd.halo().size());
-  std::uint64_t sums[] = {counters.agents,          counters.halo_bytes,   counters.halo * 33,
-                          counters.migration_bytes, counters.arrived * 41, counters.pairs};
-  MPI_Allreduce(MPI_IN_PLACE, sums, 6, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
-  EXPECT_EQ(sums[0], count);
-  EXPECT_EQ(sums[1], sums[2]);  // x, y, heading, id, shape, level
-  EXPECT_EQ(sums[3], sums[4]);  // and z
-  EXPECT_EQ(sums[5], test::candidate_pairs(set, all.columns().agents()).size());
-  EXPECT_EQ(sums[1] > 0, ranks() > 1);
-}
-
-/// What all ranks say where one of them, or all, cannot do as they are asked.
-template <class Call>
-std::string complaint_of_ranks(const Call& call) {
-  return test::complaint<RankError>(call);
+  expect_sent(counters, count, 33, 41);  // x, y, heading, id, shape, level, and z
+  std::uint64_t pairs = counters.pairs;
+  MPI_Allreduce(MPI_IN_PLACE, &pairs, 1, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
+  EXPECT_EQ(pairs, test::candidate_pairs(set, all.columns().agents()).size());
 }
 
 TEST_F(Distributed, WhatIsWrongOnOneRankIsAnErrorOnAll) {
@@ -341,7 +329,7 @@ TEST_F(Distributed, WhatIsWrongOnOneRankIsAnErrorOnAll) {
     DistributedCrowd crowd(MPI_COMM_WORLD, set, world(20, 100).dealt(), options);
     crowd.update();
     if (rank() == ranks() - 1) crowd.agents().push_back(agent);
-    return complaint_of_ranks([&] { crowd.update(); });
+    return complaint<RankError>([&] { crowd.update(); });
   };
   EXPECT_EQ(complaint_about({.x = nan, .id = 17}), last + "position (nan, 0) m is not within +-1e9");
   EXPECT_EQ(complaint_about({.y = -2e9, .id = 17}), last + "position (0, -2e+09) m is not within +-1e9");
@@ -353,8 +341,8 @@ TEST_F(Distributed, WhatIsWrongOnOneRankIsAnErrorOnAll) {
 
 TEST(Agreement, WhateverARankThrowsAllThrow) {
   const auto complaint_about = [](const auto& thrown) {
-    return complaint_of_ranks([&] {
-      detail::agree(MPI_COMM_WORLD, [&] {
+    return complaint<RankError>([&] {
+      agree(MPI_COMM_WORLD, [&] {
         if (rank() == ranks() - 1) throw thrown;
       });
     });
@@ -367,7 +355,7 @@ TEST(Agreement, WhateverARankThrowsAllThrow) {
 
 TEST_F(Distributed, WhatMakesNoSenseIsAnError) {
   const auto made_with = [&](const DistributedCrowdOptions& options) {
-    return complaint_of_ranks([&] { DistributedCrowd(MPI_COMM_WORLD, set, {}, options); });
+    return complaint<RankError>([&] { DistributedCrowd(MPI_COMM_WORLD, set, {}, options); });
   };
   EXPECT_EQ(made_with({.cell = -1}), "rank 0: the cell is not from 0 to 1e6 m");
   EXPECT_EQ(made_with({.imbalance = 0.5}), "rank 0: an imbalance below 1 cannot be");
@@ -376,10 +364,10 @@ TEST_F(Distributed, WhatMakesNoSenseIsAnError) {
             "rank 0: agents have heights, and the set does not know those of bodies");
   DistributedCrowd crowd(MPI_COMM_WORLD, set, {}, {.cell = 2});
   for (const double margin : {-1.0, 100.0, std::numeric_limits<double>::quiet_NaN()})
-    EXPECT_NE(complaint_of_ranks([&] { crowd.update(margin); }).find("rank 0: a margin of "),
+    EXPECT_NE(complaint<RankError>([&] { crowd.update(margin); }).find("rank 0: a margin of "),
               std::string::npos);
   crowd.update(0.5);
-  EXPECT_EQ(complaint_of_ranks([&] { crowd.clearances({.max_distance = 0.6}); }),
+  EXPECT_EQ(complaint<RankError>([&] { crowd.clearances({.max_distance = 0.6}); }),
             "rank 0: clearances beyond the margin of the last update()");
 }
 
@@ -425,7 +413,7 @@ class PosedCrowd : public testing::Test {
   }
 
   void expect_same(World world, const ShapeSetPlan& plan, DistributedCrowd& crowd) const {
-    constexpr detail::AllOptions by_discs{.leaves = Leaves::discs}, near{.max_distance = 0.4};
+    constexpr AllOptions by_discs{.leaves = Leaves::discs}, near{.max_distance = 0.4};
     crowd.update(0.4);
     const Answers found = collisions(crowd, by_discs), found_near = clearances(crowd, near);
     if (rank() != 0) return;  // one knows what is right: poses take long
@@ -463,15 +451,8 @@ TEST_F(PosedCrowd, PosesTravelAsTwelveBytes) {
   crowd.update();
   const DistributedCrowd::Counters& counters = crowd.counters();
   EXPECT_EQ(counters.poses, crowd.agents().size() + crowd.halo().size());
-  std::uint64_t sums[] = {counters.agents, counters.halo_bytes, counters.halo * (33 + 8),
-                          counters.migration_bytes, counters.arrived * (41 + 8)};
-  MPI_Allreduce(MPI_IN_PLACE, sums, 5, MPI_UINT64_T, MPI_SUM, MPI_COMM_WORLD);
-  EXPECT_EQ(sums[0], count);
-  EXPECT_EQ(
-      sums[1],
-      sums[2]);  // as of shapes of a set, of which the number of a shape is that of a character; clip and time
-  EXPECT_EQ(sums[3], sums[4]);
-  EXPECT_EQ(sums[1] > 0, ranks() > 1);
+  // As of shapes of a set, of which the number of a shape is that of a character; clip and time.
+  expect_sent(counters, count, 33 + 8, 41 + 8);
 }
 
 TEST_F(PosedCrowd, WhatIsWrongOnOneRankIsAnErrorOnAll) {

@@ -12,7 +12,7 @@
 #include "bench/base/text.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/recordings/trajectory.hpp"
-#include "tests/fuzz/memory_file.hpp"
+#include "tests/fuzz/files.hpp"
 #include "tests/fuzz/target.hpp"
 
 namespace bch::fuzz {

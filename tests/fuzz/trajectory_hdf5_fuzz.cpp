@@ -12,8 +12,8 @@
 #include <sanitizer/common_interface_defs.h>
 #endif
 
+#include "tests/fuzz/files.hpp"
 #include "tests/fuzz/recording_checks.hpp"
-#include "tests/fuzz/rewritten_file.hpp"
 
 namespace {
 

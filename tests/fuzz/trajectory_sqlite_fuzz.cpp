@@ -5,8 +5,8 @@
 
 #include <string>
 
+#include "tests/fuzz/files.hpp"
 #include "tests/fuzz/recording_checks.hpp"
-#include "tests/fuzz/rewritten_file.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace bch;

@@ -6,8 +6,7 @@
 
 #include <string>
 
-#include "tests/fuzz/bytes.hpp"
-#include "tests/fuzz/memory_file.hpp"
+#include "tests/fuzz/files.hpp"
 #include "tests/fuzz/recording_checks.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -17,6 +17,7 @@
 namespace bch {
 namespace {
 
+using test::bodies_of_all_kinds;
 using test::BodyCrowd;
 using test::Random;
 
@@ -96,10 +97,8 @@ void expect_distances(const BodySet& bodies, const Agents& agents, std::span<con
 /// Returns the reference's answers, and expects them of all implementations, and of pairs the other way round.
 Hits expect_reference(const BodySet& bodies, const BodyCrowd& crowd, const Agents& agents) {
   Expected expected(bodies, agents, crowd.pairs);
-  std::vector<Pair> swapped;
-  for (const Pair pair : crowd.pairs) swapped.push_back({pair.second, pair.first});
   Hits hits(crowd.pairs.size());
-  for (const auto& pairs : {crowd.pairs, swapped}) {
+  for (const auto& pairs : {crowd.pairs, test::exchanged(crowd.pairs)}) {
     for (const Implementation& implementation : test::supported()) {
       SCOPED_TRACE(implementation.name);
       std::fill(hits.begin(), hits.end(), std::uint8_t{2});
@@ -129,20 +128,9 @@ constexpr std::uint32_t crowd_size(std::uint32_t agents) {
   return test::samples(2) == 2 ? agents : agents / 2;
 }
 
-/// Makes bodies of standing and lying people, some of them off their origins, and far below.
-BodySet many_bodies(Random& random) {
-  std::vector<std::vector<Sphere>> bodies;
-  for (const std::uint32_t spheres : {1u, 2u, 5u, 16u, 63u, 128u, 256u, 385u})
-    for (const bool lies : {false, true}) bodies.push_back(test::random_body(random, spheres, lies));
-  for (const float up : {-2.0f, -0.7f, 0.3f})
-    for (Sphere& sphere : bodies.emplace_back(test::random_body(random, 100)))
-      sphere.z += up, sphere.x += 0.8f;
-  return BodySet(bodies);
-}
-
 TEST(BodyDifferential, CrowdsOnOneGroundAndOnMany) {
   Random random(5401);
-  const BodySet bodies = many_bodies(random);
+  const BodySet bodies = bodies_of_all_kinds(random);
   for (const double height : {0.0, 1e-5, 0.009, 0.0101, 0.17, 0.6, 2.5, 30.0}) {
     SCOPED_TRACE(height);
     expect_both(
@@ -152,7 +140,7 @@ TEST(BodyDifferential, CrowdsOnOneGroundAndOnMany) {
 
 TEST(BodyDifferential, AgentsWithoutHeights) {
   Random random(5402);
-  const BodySet bodies = many_bodies(random);
+  const BodySet bodies = bodies_of_all_kinds(random);
   const BodyCrowd crowd = test::random_body_crowd(random, 60, bodies.body_count(), 4, 0);
   Agents agents = crowd.agents();
   agents.z = {};
@@ -163,7 +151,7 @@ TEST(BodyDifferential, AgentsWithoutHeights) {
 
 TEST(BodyDifferential, FarFromTheOrigin) {
   Random random(5403);
-  const BodySet bodies = many_bodies(random);
+  const BodySet bodies = bodies_of_all_kinds(random);
   BodyCrowd crowd = test::random_body_crowd(random, 60, bodies.body_count(), 4, 1);
   for (std::size_t i = 0; i < crowd.x.size(); ++i) crowd.x[i] += 1e7, crowd.y[i] -= 1e7, crowd.z[i] += 1e7;
   expect_both(expect_reference(bodies, crowd));
@@ -171,7 +159,7 @@ TEST(BodyDifferential, FarFromTheOrigin) {
 
 TEST(BodyDifferential, FarFromEachOther) {
   Random random(5404);
-  const BodySet bodies = many_bodies(random);
+  const BodySet bodies = bodies_of_all_kinds(random);
   for (const double side : {1e3, 1e6, 1e9})
     for (const double height : {0.0, side}) {
       const Hits hits = expect_reference(
@@ -182,7 +170,7 @@ TEST(BodyDifferential, FarFromEachOther) {
 
 TEST(BodyDifferential, EqualPlacesAndAgentsWithThemselves) {
   Random random(5405);
-  const BodySet bodies = many_bodies(random);
+  const BodySet bodies = bodies_of_all_kinds(random);
   BodyCrowd crowd = test::random_body_crowd(random, 40, bodies.body_count(), 0, 0);
   for (std::uint32_t i = 0; i < 40; ++i) crowd.pairs.push_back({i, i});
   const Hits hits = expect_reference(bodies, crowd);
@@ -204,11 +192,7 @@ TEST(BodyDifferential, BodiesOfAnySize) {
   Random random(5407);
   for (const float scale : {1e-5f, 0.01f, 100.0f, 2e5f}) {
     SCOPED_TRACE(scale);
-    std::vector<std::vector<Sphere>> all;
-    for (const std::uint32_t spheres : {3u, 50u, 256u, 400u})
-      for (Sphere& s : all.emplace_back(test::random_body(random, spheres, spheres == 50)))
-        s = {scale * s.x, scale * s.y, scale * s.z, scale * s.radius};
-    const BodySet bodies(all);
+    const BodySet bodies = bodies_of_all_kinds(random, scale);
     const double side = 4 * static_cast<double>(scale);
     for (const double height : {0.0, 0.1 * side})
       expect_both(expect_reference(
@@ -218,7 +202,7 @@ TEST(BodyDifferential, BodiesOfAnySize) {
 
 TEST(BodyDifferential, AnySplitOfABatch) {
   Random random(5408);
-  const BodySet bodies = many_bodies(random);
+  const BodySet bodies = bodies_of_all_kinds(random);
   const BodyCrowd crowd = test::random_body_crowd(random, 50, bodies.body_count(), 4, 0.3);
   const Hits expected = expect_reference(bodies, crowd);
   for (const Implementation& implementation : test::supported())
@@ -256,7 +240,7 @@ void make_tangent(Random& random, const baselines::BodyReference& reference, Bod
 
 TEST(BodyDifferential, SpheresThatJustTouch) {
   Random random(5409);
-  const BodySet bodies = many_bodies(random);
+  const BodySet bodies = bodies_of_all_kinds(random);
   const baselines::BodyReference reference(bodies);
   constexpr std::uint32_t agents = 2 * test::samples(400);
   for (const bool level : {true, false})

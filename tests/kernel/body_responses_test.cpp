@@ -10,22 +10,17 @@
 #include <utility>
 
 #include "tests/support/body_scenes.hpp"
+#include "tests/support/crowd_pairs.hpp"
 #include "tests/support/implementations.hpp"
 #include "tests/support/test.hpp"
 
-// Contacts and penetrations of bodies of spheres.
+// Contacts and penetrations of bodies of spheres, and what a crowd of them finds.
 namespace bch {
 namespace {
 
 using test::BodyCrowd;
 using test::PlacedSphere;
 using test::Random;
-
-std::vector<Pair> turned(std::span<const Pair> pairs) {
-  std::vector<Pair> all;
-  for (const Pair pair : pairs) all.push_back({pair.second, pair.first});
-  return all;
-}
 
 std::vector<std::uint8_t> hits_of(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs) {
   std::vector<std::uint8_t> hits(pairs.size());
@@ -60,36 +55,20 @@ void expect_overlaps(std::span<const Crowd::SphereContact> contacts, const std::
 TEST(BodyContacts, AreTheSpheresThatOverlap) {
   Random random(5501);
   const BodySet bodies = test::random_bodies(random);
-  for (const double height : {0.0, 0.3}) {
+  for (const double height : {0.0, 0.005, 0.3, 3.0}) {
     const BodyCrowd crowd = test::random_body_crowd(random, 24, bodies.body_count(), 3, height);
     const auto placed = test::placed_spheres(bodies, crowd);
     const auto hits = hits_of(bodies, crowd.agents(), crowd.pairs);
     Crowd finder;
-    for (const auto& pairs : {crowd.pairs, turned(crowd.pairs)}) {
+    for (const auto& pairs : {crowd.pairs, test::exchanged(crowd.pairs)}) {
       const Rows<Crowd::SphereContact> rows = finder.contacts(bodies, crowd.agents(), pairs);
       ASSERT_EQ(rows.size(), pairs.size());
       for (std::size_t i = 0; i < pairs.size(); ++i) {
         ASSERT_EQ(!rows[i].empty(), hits[i] == 1) << "pair " << i;
+        ASSERT_TRUE(hits[i] == 1 || test::gap(placed[pairs[i].first], placed[pairs[i].second]) > 0);
         expect_overlaps(rows[i], placed[pairs[i].first], placed[pairs[i].second]);
       }
     }
-  }
-}
-
-TEST(BodyContacts, OfACrowdAreThoseOfItsPairs) {
-  Random random(5502);
-  const BodySet bodies = test::random_bodies(random);
-  const BodyCrowd people = test::random_body_crowd(random, 400, bodies.body_count(), 9, 1);
-  Crowd crowd, of_pairs;
-  const auto touching = crowd.collisions(bodies, people.agents());
-  const std::vector<Pair> expected(touching.begin(), touching.end());
-  const Crowd::BodyContacts found = crowd.contacts(bodies, people.agents());
-  ASSERT_FALSE(expected.empty());
-  EXPECT_TRUE(std::equal(found.pairs.begin(), found.pairs.end(), expected.begin(), expected.end()));
-  for (const Implementation& implementation : test::supported()) {
-    const auto rows = of_pairs.contacts(bodies, people.agents(), expected, &implementation);
-    EXPECT_TRUE(std::ranges::equal(found.contacts.offsets, rows.offsets)) << implementation.name;
-    EXPECT_TRUE(std::ranges::equal(found.contacts.values, rows.values)) << implementation.name;
   }
 }
 
@@ -128,23 +107,25 @@ bool collide_after(const BodySet& bodies, BodyCrowd crowd, Pair pair, const Pene
 TEST(BodyPenetration, IsTheLeastWayToWhereALineSeparates) {
   Random random(5504);
   const BodySet bodies = test::random_bodies(random);
-  const BodyCrowd crowd = test::random_body_crowd(random, 40, bodies.body_count(), 3, 0.5);
-  const auto placed = test::placed_spheres(bodies, crowd);
   constexpr std::uint32_t directions = 16;
-  std::vector<Penetration> ways(crowd.pairs.size()), others(ways.size());
-  penetration(bodies, crowd.agents(), turned(crowd.pairs), directions, others);
-  for (const Implementation& implementation : test::supported()) {
-    penetration(bodies, crowd.agents(), crowd.pairs, directions, ways, &implementation);
-    for (std::size_t i = 0; i < ways.size(); ++i) {
-      const auto [first, second] = crowd.pairs[i];
-      double least = 1e300;
-      for (std::uint32_t k = 0; k < directions; ++k) {
-        const double angle = 2 * std::numbers::pi * k / directions;
-        least = std::min(least, way_out(placed[first], placed[second], std::cos(angle), std::sin(angle)));
+  for (const double height : {0.5, 4.0}) {  // of which some are above each other
+    const BodyCrowd crowd = test::random_body_crowd(random, 40, bodies.body_count(), 3, height);
+    const auto placed = test::placed_spheres(bodies, crowd);
+    std::vector<Penetration> ways(crowd.pairs.size()), others(ways.size());
+    penetration(bodies, crowd.agents(), test::exchanged(crowd.pairs), directions, others);
+    for (const Implementation& implementation : test::supported()) {
+      penetration(bodies, crowd.agents(), crowd.pairs, directions, ways, &implementation);
+      for (std::size_t i = 0; i < ways.size(); ++i) {
+        const auto [first, second] = crowd.pairs[i];
+        double least = 1e300;
+        for (std::uint32_t k = 0; k < directions; ++k) {
+          const double angle = 2 * std::numbers::pi * k / directions;
+          least = std::min(least, way_out(placed[first], placed[second], std::cos(angle), std::sin(angle)));
+        }
+        ASSERT_NEAR(double{ways[i].depth}, least, 3e-5) << "pair " << i;
+        ASSERT_EQ(others[i], (Penetration{ways[i].depth, -ways[i].x, -ways[i].y})) << "pair " << i;
+        ASSERT_FALSE(collide_after(bodies, crowd, crowd.pairs[i], ways[i])) << "pair " << i;
       }
-      ASSERT_NEAR(double{ways[i].depth}, least, 3e-5) << "pair " << i;
-      ASSERT_EQ(others[i], (Penetration{ways[i].depth, -ways[i].x, -ways[i].y})) << "pair " << i;
-      ASSERT_FALSE(collide_after(bodies, crowd, crowd.pairs[i], ways[i])) << "pair " << i;
     }
   }
 }
@@ -169,32 +150,81 @@ TEST(BodyPenetration, AlongADirectionIsThatWay) {
   }
 }
 
-TEST(BodyPenetration, OfBodiesAboveEachOtherIsNone) {
-  const std::vector<std::vector<Sphere>> ball{{{0, 0, 0.5f, 0.5f}}};
-  const BodySet bodies(ball);
-  const std::vector<std::uint32_t> body{0, 0};
-  const std::vector<double> x{0, 0.2}, y{0, 0}, heading{0, 1};
-  const std::vector<Pair> pair{{0, 1}};
-  Penetration way{};
-  for (const double z : {0.0, 0.9, 1.1}) {
-    const std::vector<double> grounds{0, z};
-    penetration(bodies, {body, x, y, heading, {}, grounds}, pair, 16, {&way, 1});
-    EXPECT_NEAR(double{way.depth}, z > 1 ? 0 : 0.8, 1e-5) << z;
+TEST(BodiesOfACrowd, AreAnsweredAsTheirPairs) {
+  Random random(5502);
+  const BodySet bodies = test::random_bodies(random);
+  const BodyCrowd people = test::random_body_crowd(random, 300, bodies.body_count(), 8, 1);
+  const Agents agents = people.agents();
+  Crowd crowd, of_pairs;
+  const auto touching = crowd.collisions(bodies, agents);
+  const std::vector<Pair> pairs(touching.begin(), touching.end());
+  const auto hits = hits_of(bodies, agents, people.pairs);
+  std::vector<Pair> expected;
+  for (std::size_t i = 0; i < hits.size(); ++i)
+    if (hits[i]) expected.push_back(test::exchanged({&people.pairs[i], 1})[0]);  // the lower number first
+  ASSERT_FALSE(expected.empty());
+  EXPECT_EQ(test::sorted(pairs), test::sorted(expected));
+
+  const Crowd::BodyContacts found = crowd.contacts(bodies, agents);
+  EXPECT_TRUE(std::ranges::equal(found.pairs, pairs));
+  for (const Implementation& implementation : test::supported()) {
+    const auto rows = of_pairs.contacts(bodies, agents, pairs, &implementation);
+    EXPECT_TRUE(std::ranges::equal(found.contacts.offsets, rows.offsets)) << implementation.name;
+    EXPECT_TRUE(std::ranges::equal(found.contacts.values, rows.values)) << implementation.name;
+  }
+  std::vector<Penetration> ways(pairs.size());
+  penetration(bodies, agents, pairs, 32, ways);
+  const Crowd::Penetrations parted = crowd.penetrations(bodies, agents, 32);
+  EXPECT_TRUE(std::ranges::equal(parted.pairs, pairs));
+  EXPECT_TRUE(std::ranges::equal(parted.penetrations, ways));
+}
+
+TEST(BodiesOfACrowd, FindThoseThatAreNear) {
+  Random random(3);
+  const BodySet bodies = test::random_bodies(random);
+  const BodyCrowd crowd = test::random_body_crowd(random, 200, bodies.body_count(), 8, 4);
+  constexpr double limit = 0.5;
+  std::vector<float> distance(crowd.pairs.size());
+  clearance(bodies, crowd.agents(), crowd.pairs, {distance},
+            {.max_distance = limit, .overlap = Overlap::deepest});
+  std::map<std::pair<std::uint32_t, std::uint32_t>, float> expected, found;
+  for (std::size_t i = 0; i < distance.size(); ++i)
+    if (distance[i] <= static_cast<float>(limit))
+      expected[std::minmax(crowd.pairs[i].first, crowd.pairs[i].second)] = distance[i];
+  Crowd finder;
+  const bch::Crowd::BodyClearances near =
+      finder.clearances(bodies, crowd.agents(), {.max_distance = limit, .overlap = Overlap::deepest});
+  for (std::size_t i = 0; i < near.pairs.size(); ++i)
+    found[{near.pairs[i].first, near.pairs[i].second}] = near.distance[i];
+  EXPECT_EQ(found, expected);
+  const auto placed = test::placed_spheres(bodies, crowd);
+  const auto is_above = [&](const auto& each) {
+    return each.second > 0 && std::abs(crowd.z[each.first.first] - crowd.z[each.first.second]) > 2;
+  };
+  EXPECT_TRUE(std::any_of(expected.begin(), expected.end(), is_above)) << "some are near only in height";
+  for (std::size_t i = 0; i < near.pairs.size(); ++i) {
+    const auto [a, b] = near.pairs[i];
+    const auto [p, q] = near.points[i];
+    const Vec3 d = near.direction[i];
+    const float gap = near.distance[i];
+    EXPECT_NEAR(double{gap}, test::gap(placed[a], placed[b]), 2e-5);
+    EXPECT_NEAR(crowd.x[a] + double{p.x + gap * d.x}, crowd.x[b] + double{q.x}, 2e-5);
+    EXPECT_NEAR(crowd.y[a] + double{p.y + gap * d.y}, crowd.y[b] + double{q.y}, 2e-5);
+    EXPECT_NEAR(crowd.z[a] + double{p.z + gap * d.z}, crowd.z[b] + double{q.z}, 2e-5);
+    const test::PlacedSphere& sphere = placed[a][near.spheres[i].first];
+    EXPECT_NEAR(std::hypot(crowd.x[a] + double{p.x} - sphere.x, crowd.y[a] + double{p.y} - sphere.y,
+                           crowd.z[a] + double{p.z} - sphere.z),
+                sphere.radius, 2e-5);
   }
 }
 
-TEST(BodyPenetration, OfACrowdIsThatOfItsPairs) {
-  Random random(5506);
-  const BodySet bodies = test::random_bodies(random);
-  const BodyCrowd people = test::random_body_crowd(random, 300, bodies.body_count(), 8, 1);
-  Crowd crowd;
-  const auto touching = crowd.collisions(bodies, people.agents());
-  const std::vector<Pair> pairs(touching.begin(), touching.end());
-  std::vector<Penetration> expected(pairs.size());
-  penetration(bodies, people.agents(), pairs, 32, expected);
-  const Crowd::Penetrations found = crowd.penetrations(bodies, people.agents(), 32);
-  EXPECT_TRUE(std::equal(found.pairs.begin(), found.pairs.end(), pairs.begin(), pairs.end()));
-  EXPECT_TRUE(std::ranges::equal(found.penetrations, expected));
+TEST(Bodies, RefuseWhatIsNoBody) {
+  const std::vector<std::vector<Sphere>> none(1), negative{{{0, 0, 0, -1}}},
+      not_finite{{{0, 0, 0, 1}, {0, std::nanf(""), 0, 1}}}, a_point{{{0, 0, 0, 0}}};
+  EXPECT_THROW(BodySet{none}, std::invalid_argument);
+  EXPECT_THROW(BodySet{negative}, std::invalid_argument);
+  EXPECT_THROW(BodySet{not_finite}, std::invalid_argument);
+  EXPECT_THROW(BodySet{a_point}, std::invalid_argument);
 }
 
 }  // namespace

@@ -3,67 +3,39 @@
 
 #include "baselines/clearance_reference.hpp"
 #include "baselines/segment_clearance.hpp"
-#include "kernel/runtime/all_options.hpp"
 #include "kernel/simd/gaps.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/hierarchy/paper_hierarchies.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/differential.hpp"
 #include "tests/support/plane_geometry.hpp"
+#include "tests/support/query_answers.hpp"
 #include "tests/support/test.hpp"
 #include "tests/support/touching_scene.hpp"
 
-namespace bch::test {
+namespace bch {
 namespace {
 
-/// The results of clearance() for some pairs, with Overlap::deepest where nothing is said.
-struct Answers {
-  std::vector<float> distance;
-  std::vector<Vec2> direction;
-  std::vector<DiscPair> discs;
+using test::four_levels;
+using test::nearest_features;
+using test::NearestFeatures;
+using test::PairScene;
+using test::Random;
 
-  explicit Answers(std::size_t size = 0) : distance(size), direction(size), discs(size) {}
-  ClearanceAnswers spans() { return {distance, direction, discs}; }
-  /// Compares bits, not values: -0 is not 0.
-  bool same(std::size_t i, const Answers& other, std::size_t k) const {
-    const auto bits = [](float value) { return std::bit_cast<std::uint32_t>(value); };
-    return bits(distance[i]) == bits(other.distance[k]) &&
-           bits(direction[i].x) == bits(other.direction[k].x) &&
-           bits(direction[i].y) == bits(other.direction[k].y) && discs[i] == other.discs[k];
-  }
-};
-
-Answers answers(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs, double max_distance,
-                const Implementation* implementation = nullptr, Overlap overlap = Overlap::deepest) {
-  Answers all(pairs.size());
-  clearance(set, agents, pairs, all.spans(),
-            {.implementation = implementation, .max_distance = max_distance, .overlap = overlap});
-  return all;
-}
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr detail::AllOptions deepest{.overlap = Overlap::deepest},
+    exact_leaves{.distance_leaves = Leaves::segments};
+using Answers = std::vector<NearestFeatures>;
 
 /// Returns the way from the nearest point of a pair's first agent to that of the second, metres.
 struct Way {
   double x, y;
 };
-Way way_between(const NearestPoints& points, const Crowd& crowd, Pair pair) {
+Way way_between(const NearestPoints& points, const test::Crowd& crowd, Pair pair) {
   const auto& [first, second] = points;
   return {crowd.x[pair.second] - crowd.x[pair.first] + (double{second.x} - double{first.x}),
           crowd.y[pair.second] - crowd.y[pair.first] + (double{second.y} - double{first.y})};
 }
-
-}  // namespace
-}  // namespace bch::test
-
-namespace bch {
-namespace {
-
-using test::answers;
-using test::Answers;
-using test::four_levels;
-using test::PairScene;
-using test::Random;
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 class ClearanceDifferential : public test::Differential {
  protected:
@@ -84,12 +56,12 @@ TEST_F(ClearanceDifferential, BoundsTheDistanceOfTheOutlines) {
   std::size_t apart = 0;
   for (const PairScene& scene : scenes) {
     const Agents agents = scene.crowd.agents();
-    const Answers all = answers(finest, agents, scene.pairs, infinity);
+    const Answers all = nearest_features(finest, scene, deepest);
     for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
       const auto [a, b] = scene.pairs[i];
       const Shape &shape_a = shapes[agents.shape[a]], &shape_b = shapes[agents.shape[b]];
       const long double exact = test::oracle(shapes, agents, {a, b}).distance();
-      const long double found = all.distance[i];
+      const long double found = all[i].distance;
       EXPECT_LE(found, exact) << i;
       if (!(found > 0)) continue;
       ++apart;
@@ -97,7 +69,7 @@ TEST_F(ClearanceDifferential, BoundsTheDistanceOfTheOutlines) {
         return static_cast<long double>(
             shape.hierarchy.nodes[cut(shape.hierarchy, all_depths)[node]].disc.radius);
       };
-      const long double ra = radius(shape_a, all.discs[i].first), rb = radius(shape_b, all.discs[i].second);
+      const long double ra = radius(shape_a, all[i].discs.first), rb = radius(shape_b, all[i].discs.second);
       const long double centres = found + ra + rb, reach = shape_a.hierarchy.reach + shape_b.hierarchy.reach;
       EXPECT_LE(exact - found, ra + rb + (ra * ra + rb * rb) / (2 * centres) + 4e-6L * (reach + centres))
           << i;
@@ -122,9 +94,9 @@ TEST(Clearance, OfTipsIsTheDistanceOfTheOutlinesLessTheMargin) {
     scene.pairs.push_back({2 * i, 2 * i + 1});
     exact.push_back(test::oracle(shapes, scene.crowd.agents(), scene.pairs[i]).distance());
   }
-  const Answers all = answers(set, scene.crowd.agents(), scene.pairs, infinity);
+  const Answers all = nearest_features(set, scene, deepest);
   for (std::size_t i = 0; i < exact.size(); ++i) {
-    const long double found = all.distance[i];
+    const long double found = all[i].distance;
     EXPECT_LE(found, exact[i]) << i;
     EXPECT_GE(found, exact[i] - 4e-6L * (1 + exact[i])) << i;
   }
@@ -134,13 +106,10 @@ TEST(Clearance, OfTipsIsTheDistanceOfTheOutlinesLessTheMargin) {
 TEST_F(ClearanceDifferential, PointsAreThoseOfTheNearestFeatures) {
   const PairScene scene = random_scene(random, set, 5'000);
   const test::Crowd& crowd = scene.crowd;
-  Answers all(scene.pairs.size());
-  std::vector<NearestPoints> points(scene.pairs.size());
-  clearance(set, crowd.agents(), scene.pairs, {all.distance, all.direction, all.discs, points},
-            {.overlap = Overlap::deepest});
+  const Answers all = nearest_features(set, scene, deepest);
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
     const auto [a, b] = scene.pairs[i];
-    const double x = all.direction[i].x, y = all.direction[i].y;
+    const double x = all[i].direction.x, y = all[i].direction.y;
     const auto expect_edge = [&](std::uint32_t agent, std::uint32_t number, Vec2 point, double sign) {
       const Disc disc = set.discs(crowd.shape[agent], crowd.level[agent])[number];
       const double c = std::cos(crowd.heading[agent]), s = std::sin(crowd.heading[agent]),
@@ -148,10 +117,10 @@ TEST_F(ClearanceDifferential, PointsAreThoseOfTheNearestFeatures) {
       EXPECT_NEAR(point.x, c * disc_x - s * disc_y + r * x, 1e-6) << i;
       EXPECT_NEAR(point.y, s * disc_x + c * disc_y + r * y, 1e-6) << i;
     };
-    expect_edge(a, all.discs[i].first, points[i].first, 1);
-    expect_edge(b, all.discs[i].second, points[i].second, -1);
-    const auto [way_x, way_y] = test::way_between(points[i], crowd, scene.pairs[i]);
-    EXPECT_NEAR(way_x * x + way_y * y, all.distance[i], 32e-6) << i;
+    expect_edge(a, all[i].discs.first, all[i].points.first, 1);
+    expect_edge(b, all[i].discs.second, all[i].points.second, -1);
+    const auto [way_x, way_y] = way_between(all[i].points, crowd, scene.pairs[i]);
+    EXPECT_NEAR(way_x * x + way_y * y, all[i].distance, 32e-6) << i;
     EXPECT_NEAR(way_x * y - way_y * x, 0, 32e-6) << i;
   }
 }
@@ -159,16 +128,16 @@ TEST_F(ClearanceDifferential, PointsAreThoseOfTheNearestFeatures) {
 /// Along x from the first agent of a list to the other one.
 TEST(Clearance, OfDiscsInOnePlaceIsAlongX) {
   const std::vector<Shape> shapes = {{{}, detail::fixed_cylinder(0.25f)}, {{}, detail::fixed_cylinder(0.5f)}};
-  test::Crowd crowd;
-  for (const std::uint32_t shape : {0u, 1u}) crowd.add({shape, 1, 1, 0.7 + shape, 0});
-  const std::vector<Pair> pairs = {{0, 1}, {1, 0}, {0, 0}};
+  PairScene scene;
+  for (const std::uint32_t shape : {0u, 1u}) scene.crowd.add({shape, 1, 1, 0.7 + shape, 0});
+  scene.pairs = {{0, 1}, {1, 0}, {0, 0}};
   for (const ShapeSetPlan& levels : {ShapeSetPlan{{0}}, ShapeSetPlan{}}) {
-    const Answers of = answers(ShapeSet(shapes, levels), crowd.agents(), pairs, infinity);
+    const Answers of = nearest_features(ShapeSet(shapes, levels), scene, deepest);
     const float depths[] = {-0.75f, -0.75f, -0.5f}, along[] = {1, -1, 1};
     for (std::size_t i = 0; i < 3; ++i) {
-      EXPECT_NEAR(of.distance[i], depths[i], 1e-5);
-      EXPECT_EQ(of.direction[i], (Vec2{along[i], 0}));
-      EXPECT_EQ(of.discs[i], (DiscPair{0, 0}));
+      EXPECT_NEAR(of[i].distance, depths[i], 1e-5);
+      EXPECT_EQ(of[i].direction, (Vec2{along[i], 0}));
+      EXPECT_EQ(of[i].discs, (DiscPair{0, 0}));
     }
   }
 }
@@ -177,11 +146,11 @@ TEST(Clearance, AnswersThatAreNotAskedForChangeNoOthers) {
   const ShapeSet set(test::synthetic_shapes(6, 8), four_levels);
   Random random(7);
   const PairScene scene = random_scene(random, set, 3'000);
-  const Answers all = answers(set, scene.crowd.agents(), scene.pairs, 0.5);
+  const Answers all = nearest_features(set, scene, {.max_distance = 0.5, .overlap = Overlap::deepest});
   std::vector<float> distance(scene.pairs.size());
   clearance(set, scene.crowd.agents(), scene.pairs, {distance, {}, {}},
             {.max_distance = 0.5, .overlap = Overlap::deepest});
-  EXPECT_EQ(distance, all.distance);
+  EXPECT_TRUE(std::ranges::equal(distance, all, {}, {}, &NearestFeatures::distance));
 }
 
 using Hits = std::vector<std::uint8_t>;
@@ -206,10 +175,10 @@ class Within : public test::Differential {
 
   /// Draws distances of which many are as the pairs' clearances but for some bits, and some are none or infinite.
   std::vector<double> near_clearances(const PairScene& scene) {
-    const test::Answers apart = test::answers(set, scene.crowd.agents(), scene.pairs, infinity);
+    const Answers apart = nearest_features(set, scene, deepest);
     std::vector<double> distances;
     for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
-      const double clearance = std::max(0.0, static_cast<double>(apart.distance[i]));
+      const double clearance = std::max(0.0, static_cast<double>(apart[i].distance));
       switch (random.below(8)) {
         case 0:
           distances.push_back(random.uniform(0, 2));
@@ -241,14 +210,14 @@ class Within : public test::Differential {
 TEST_F(Within, AgreesWithClearanceButForItsMargin) {
   const PairScene scene = scene_of(40'000);
   const Agents agents = scene.crowd.agents();
-  const test::Answers apart = test::answers(set, agents, scene.pairs, infinity, nullptr, Overlap::zero);
+  const Answers apart = nearest_features(set, scene, {});
   std::vector<double> distances = near_clearances(scene);
   for (std::size_t i = 0; i < distances.size(); i += 4)
-    distances[i] = std::max(0.0, static_cast<double>(apart.distance[i]));  // just so far
+    distances[i] = std::max(0.0, static_cast<double>(apart[i].distance));  // just so far
   const Hits hits = hits_within(set, scene, distances);
   std::size_t misses = 0, beyond = 0;
   for (std::size_t i = 0; i < hits.size(); ++i) {
-    const double clearance = apart.distance[i];
+    const double clearance = apart[i].distance;
     if (clearance <= distances[i]) {
       ASSERT_EQ(hits[i], 1) << i;
     } else if (hits[i]) {
@@ -285,34 +254,13 @@ TEST_F(Within, OneDistanceServesAllPairs) {
 
 // ---- clearance() with exact leaves: the distance of the outlines.
 
-/// All outputs.
-struct Found : test::Answers {
-  explicit Found(std::size_t size) : Answers(size), points(size) {}
-  std::vector<NearestPoints> points;
-
-  bool same(std::size_t i, const Found& other, std::size_t k) const {
-    return Answers::same(i, other, k) && points[i] == other.points[k];
-  }
-};
-
-Found find(const ShapeSet& set, const PairScene& scene, detail::AllOptions options = {}) {
-  options.distance_leaves = Leaves::segments;
-  Found found(scene.pairs.size());
-  clearance(set, scene.crowd.agents(), scene.pairs,
-            {found.distance, found.direction, found.discs, found.points}, options);
-  return found;
-}
-
-class SegmentClearance : public test::Differential {
- protected:
-  SegmentClearance() : Differential(2701, test::four_levels) {}
-};
-
-TEST_F(SegmentClearance, DeepestOverlapsAreThoseOfDiscs) {
+TEST_F(ClearanceDifferential, OfDeepestOverlapsIsThatOfDiscs) {
   const PairScene scene = tangent_scene(5'000);
-  const Found found = find(set, scene, {.overlap = Overlap::deepest});
-  const test::Answers of_discs = test::answers(set, scene.crowd.agents(), scene.pairs, infinity);
-  for (std::size_t i = 0; i < scene.pairs.size(); ++i) ASSERT_TRUE(found.Answers::same(i, of_discs, i)) << i;
+  detail::AllOptions options = exact_leaves;
+  options.overlap = Overlap::deepest;
+  const Answers found = nearest_features(set, scene, options),
+                of_discs = nearest_features(set, scene, deepest);
+  for (std::size_t i = 0; i < scene.pairs.size(); ++i) ASSERT_TRUE(found[i] == of_discs[i]) << i;
 }
 
 /// Returns how far a point of an agent, as clearance() gives it, is from a segment of its outline.
@@ -332,32 +280,32 @@ double distance_from_outline(const Shape& shape, double heading, Vec2 point) {
 
 /// Never larger than the distance of the outlines, and below it by no more than pairs.hpp says; and all outputs belong together.
 void expect_distances_of_outlines(const std::vector<Shape>& shapes, const PairScene& scene,
-                                  const Found& found) {
+                                  const Answers& found) {
   std::size_t apart = 0;
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
     const Pair pair = scene.pairs[i];
     const Shape &a = shapes[scene.crowd.shape[pair.first]], &b = shapes[scene.crowd.shape[pair.second]];
     const baselines::Oracle truth = test::oracle(shapes, scene.crowd.agents(), pair);
     const long double exact = !truth.cross() && truth.nested() ? 0 : truth.distance();
-    ASSERT_LE(found.distance[i], exact) << i;
+    ASSERT_LE(found[i].distance, exact) << i;
     const bool segments = a.hierarchy.nodes.size() > 1 && b.hierarchy.nodes.size() > 1;
     if (!segments) continue;
     const long double reach = a.hierarchy.reach + b.hierarchy.reach,
                       steps = static_cast<long double>(a.outline.grid_step) + b.outline.grid_step,
                       most = 1.4e-6L * reach + detail::rounding::outline_grid_steps * steps + 0.9e-6L * exact;
-    ASSERT_LE(exact - found.distance[i], most) << i;
-    if (found.distance[i] == 0) {
-      EXPECT_EQ(found.discs[i], DiscPair::none);
-      EXPECT_EQ(found.direction[i], (Vec2{0, 0}));
-      EXPECT_EQ(found.points[i], NearestPoints{});
+    ASSERT_LE(exact - found[i].distance, most) << i;
+    if (found[i].distance == 0) {
+      EXPECT_EQ(found[i].discs, DiscPair::none);
+      EXPECT_EQ(found[i].direction, (Vec2{0, 0}));
+      EXPECT_EQ(found[i].points, NearestPoints{});
       continue;
     }
     ++apart;
     const auto slack = static_cast<double>(most);
-    EXPECT_LE(distance_from_outline(a, scene.crowd.heading[pair.first], found.points[i].first), slack) << i;
-    EXPECT_LE(distance_from_outline(b, scene.crowd.heading[pair.second], found.points[i].second), slack) << i;
-    const auto [way_x, way_y] = test::way_between(found.points[i], scene.crowd, pair);
-    const double x = found.direction[i].x, y = found.direction[i].y, distance = found.distance[i];
+    EXPECT_LE(distance_from_outline(a, scene.crowd.heading[pair.first], found[i].points.first), slack) << i;
+    EXPECT_LE(distance_from_outline(b, scene.crowd.heading[pair.second], found[i].points.second), slack) << i;
+    const auto [way_x, way_y] = way_between(found[i].points, scene.crowd, pair);
+    const double x = found[i].direction.x, y = found[i].direction.y, distance = found[i].distance;
     EXPECT_NEAR(std::hypot(x, y), 1, 1e-6) << i;
     EXPECT_NEAR(way_x * x + way_y * y, distance, slack) << i;
     EXPECT_NEAR(way_x * y - way_y * x, 0, slack) << i;
@@ -370,8 +318,8 @@ void expect_distances_of_outlines(const std::vector<Shape>& shapes, const PairSc
       const double from_x = c * px + s * py - double{disc.x}, from_y = c * py - s * px - double{disc.y};
       EXPECT_LE(std::hypot(from_x, from_y), double{disc.radius} + slack) << i;
     };
-    expect_in_disc(a, pair.first, found.discs[i].first, found.points[i].first);
-    expect_in_disc(b, pair.second, found.discs[i].second, found.points[i].second);
+    expect_in_disc(a, pair.first, found[i].discs.first, found[i].points.first);
+    expect_in_disc(b, pair.second, found[i].discs.second, found[i].points.second);
   }
   EXPECT_GT(apart, scene.pairs.size() / 10);
 }
@@ -381,7 +329,7 @@ TEST(SegmentClearanceOfOutlines, IsTheirDistanceForAnySize) {
   const std::vector<Shape> shapes = test::simple_shapes(random, 400);
   const ShapeSet set(shapes);
   const test::TouchingScene scene = test::touching_scene(random, shapes, test::samples(60'000));
-  expect_distances_of_outlines(shapes, scene, find(set, scene));
+  expect_distances_of_outlines(shapes, scene, nearest_features(set, scene, exact_leaves));
 }
 
 TEST(SegmentClearanceOfOutlines, IsTheirDistanceFarApart) {
@@ -397,7 +345,7 @@ TEST(SegmentClearanceOfOutlines, IsTheirDistanceFarApart) {
     scene.crowd.add({b, length * std::cos(angle), length * std::sin(angle), random.uniform(-4, 4), 0});
     scene.pairs.push_back(i % 2 == 0 ? Pair{2 * i, 2 * i + 1} : Pair{2 * i + 1, 2 * i});
   }
-  expect_distances_of_outlines(shapes, scene, find(set, scene));
+  expect_distances_of_outlines(shapes, scene, nearest_features(set, scene, exact_leaves));
 }
 
 TEST(SegmentClearanceOfOutlines, IsTheirDistanceForPeople) {
@@ -406,7 +354,7 @@ TEST(SegmentClearanceOfOutlines, IsTheirDistanceForPeople) {
   Random random(2704);
   PairScene scene = random_scene(random, set, 2'000);
   scene.crowd.level.clear();
-  expect_distances_of_outlines(shapes, scene, find(set, scene));
+  expect_distances_of_outlines(shapes, scene, nearest_features(set, scene, exact_leaves));
 }
 
 /// Equal distances: copies of one comb, at places on a grid. The first segments count, on every processor.
@@ -429,20 +377,22 @@ TEST(SegmentClearanceOfOutlines, NamesTheFirstOfEquallyNearSegments) {
     scene.crowd.add({0, at(), at(), quarter + 3.141592653589793 * random.below(2), 0});
     scene.pairs.push_back({2 * i, 2 * i + 1});
   }
-  const Found first = find(set, scene);
+  const Answers first = nearest_features(set, scene, exact_leaves);
   for (const Implementation& implementation : test::supported()) {
-    const Found found = find(set, scene, {.implementation = &implementation});
+    detail::AllOptions options = exact_leaves;
+    options.implementation = &implementation;
+    const Answers found = nearest_features(set, scene, options);
     for (std::size_t i = 0; i < scene.pairs.size(); ++i)
-      ASSERT_TRUE(found.same(i, first, i)) << implementation.name << ", pair " << i;
+      ASSERT_TRUE(found[i] == first[i]) << implementation.name << ", pair " << i;
   }
   for (std::size_t i = 0; i < scene.pairs.size(); ++i) {
     const auto nearest = reference.nearest(scene.crowd.agents(), scene.pairs[i]);
-    ASSERT_EQ(first.distance[i], nearest->distance) << i;
-    if (first.distance[i] == 0) continue;
+    ASSERT_EQ(first[i].distance, nearest->distance) << i;
+    if (first[i].distance == 0) continue;
     const auto [a, b] = scene.pairs[i];
-    EXPECT_LT(distance_from_segment(shapes[0], nearest->a, scene.crowd.heading[a], first.points[i].first),
+    EXPECT_LT(distance_from_segment(shapes[0], nearest->a, scene.crowd.heading[a], first[i].points.first),
               1e-6);
-    EXPECT_LT(distance_from_segment(shapes[0], nearest->b, scene.crowd.heading[b], first.points[i].second),
+    EXPECT_LT(distance_from_segment(shapes[0], nearest->b, scene.crowd.heading[b], first[i].points.second),
               1e-6);
   }
 }

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 the bch authors
 
 #include "tests/support/crowd_pairs.hpp"
+#include "tests/support/query_answers.hpp"
 #include "tests/support/test.hpp"
 
 namespace bch {
@@ -60,37 +61,27 @@ TEST(Crowd, FindsThePairsThatCollide) {
 
 TEST(Crowd, MeasuresThePairsThatItFinds) {
   Crowd crowd;
-  const test::Crowd in = people(600, 12, 12, 7);
-  const std::vector<Pair> all = all_pairs(600);
-  std::vector<float> distance(all.size());
-  std::vector<Vec2> direction(all.size());
-  std::vector<DiscPair> discs(all.size());
-  std::vector<NearestPoints> points(all.size());
+  const test::PairScene in{people(600, 12, 12, 7), all_pairs(600)};
+  const Agents agents = in.crowd.agents();
   for (const double within : {0.0, 0.25}) {
-    clearance(set, in.agents(), all, {distance, direction, discs, points},
-              {.max_distance = within, .overlap = Overlap::deepest});
-    std::vector<std::size_t> near;
-    for (std::size_t i = 0; i < all.size(); ++i)
-      if (double{distance[i]} <= within) near.push_back(i);
+    const auto all = nearest_features(set, in, {.max_distance = within, .overlap = Overlap::deepest});
+    const auto is_near = [&](const auto& each) { return double{each.distance} <= within; };
     const bch::Crowd::Clearances found =
-        crowd.clearances(set, in.agents(), {.max_distance = within, .overlap = Overlap::deepest});
-    ASSERT_EQ(found.pairs.size(), near.size());
-    EXPECT_GT(near.size(), 100u);
-    for (std::size_t k = 0; k < near.size(); ++k) {
-      const Pair pair = found.pairs[k];
-      const auto i =
-          static_cast<std::size_t>(std::lower_bound(all.begin(), all.end(), pair, precedes) - all.begin());
-      ASSERT_EQ(all[i], pair);
-      EXPECT_EQ(found.distance[k], distance[i]);
-      EXPECT_EQ(found.direction[k], direction[i]);
-      EXPECT_EQ(found.discs[k], discs[i]);
-      EXPECT_EQ(found.points[k], points[i]);
+        crowd.clearances(set, agents, {.max_distance = within, .overlap = Overlap::deepest});
+    EXPECT_EQ(std::ranges::count_if(all, is_near), std::ssize(found.distance));
+    EXPECT_GT(found.pairs.size(), 100u);
+    for (std::size_t k = 0; k < found.pairs.size(); ++k) {
+      const auto at = std::ranges::lower_bound(in.pairs, found.pairs[k], precedes) - in.pairs.begin();
+      ASSERT_EQ(in.pairs[static_cast<std::size_t>(at)], found.pairs[k]);
+      EXPECT_LE(double{found.distance[k]}, within);
+      EXPECT_TRUE((test::NearestFeatures{found.distance[k], found.direction[k], found.discs[k],
+                                         found.points[k]} == all[static_cast<std::size_t>(at)]));
     }
   }
-  const bch::Crowd::Penetrations apart = crowd.penetrations(set, in.agents(), 8);
-  EXPECT_EQ(sorted(apart.pairs.span()), colliding(in.agents(), all));
+  const bch::Crowd::Penetrations apart = crowd.penetrations(set, agents, 8);
+  EXPECT_EQ(sorted(apart.pairs.span()), colliding(agents, in.pairs));
   std::vector<Penetration> expected(apart.pairs.size());
-  penetration(set, in.agents(), apart.pairs.span(), 8, expected);
+  penetration(set, agents, apart.pairs.span(), 8, expected);
   EXPECT_TRUE(std::ranges::equal(apart.penetrations, expected));
 }
 
@@ -159,6 +150,17 @@ struct Periodic {
   }
 };
 
+/// What is said of each pair.
+using ByPair = std::map<std::pair<std::uint32_t, std::uint32_t>, float>;
+
+template <class Value>
+ByPair by_pair(const bch::Crowd::Pairs& pairs, Value value) {
+  ByPair all;
+  for (std::size_t k = 0; k < pairs.size(); ++k) all[{pairs[k].first, pairs[k].second}] = value(k);
+  EXPECT_EQ(all.size(), pairs.size());
+  return all;
+}
+
 TEST(Crowd, MeetsItselfAcrossTheBordersOfAPeriod) {
   const test::Crowd close = people(200, 1, 1, 1);
   Crowd small({.period = {1, 1}});
@@ -179,12 +181,11 @@ TEST(Crowd, MeetsItselfAcrossTheBordersOfAPeriod) {
     Crowd crowd({.period = period}), closed;
     const std::size_t inside = closed.collisions(set, expected.in.agents()).size();
     std::vector<Pair> hits;
-    std::vector<std::pair<Pair, float>> near;
-    std::vector<std::pair<Pair, Penetration>> ways;
+    ByPair near, depths;
     for (const Pair pair : all_pairs(250)) {
       const Periodic::Answer of = expected.answer(pair);
-      if (of.hit) hits.push_back(pair), ways.emplace_back(pair, of.way);
-      if (of.distance <= 0.25f) near.emplace_back(pair, of.distance);
+      if (of.hit) hits.push_back(pair), depths[{pair.first, pair.second}] = of.way.depth;
+      if (of.distance <= 0.25f) near[{pair.first, pair.second}] = of.distance;
     }
     EXPECT_GT(hits.size(), inside + 5);
     for (const test::Crowd* in : {&expected.in, &moved}) {
@@ -195,21 +196,9 @@ TEST(Crowd, MeetsItselfAcrossTheBordersOfAPeriod) {
       EXPECT_LE(sorted(crowd.contacts(set, in->agents()).pairs.span()).size(), hits.size());
 
       const bch::Crowd::Clearances found = crowd.clearances(set, in->agents(), {.max_distance = 0.25});
-      ASSERT_EQ(found.pairs.size(), near.size());
-      for (std::size_t k = 0; k < near.size(); ++k) {
-        const auto at =
-            std::ranges::lower_bound(near, found.pairs[k], precedes, &std::pair<Pair, float>::first);
-        ASSERT_TRUE(at != near.end() && at->first == found.pairs[k]);
-        EXPECT_EQ(found.distance[k], at->second);
-      }
+      EXPECT_EQ(by_pair(found.pairs, [&](std::size_t k) { return found.distance[k]; }), near);
       const bch::Crowd::Penetrations apart = crowd.penetrations(set, in->agents());
-      ASSERT_EQ(apart.pairs.size(), ways.size());
-      for (std::size_t k = 0; k < ways.size(); ++k) {
-        const auto at =
-            std::ranges::lower_bound(ways, apart.pairs[k], precedes, &std::pair<Pair, Penetration>::first);
-        ASSERT_TRUE(at != ways.end() && at->first == apart.pairs[k]);
-        EXPECT_EQ(apart.penetrations[k].depth, at->second.depth);
-      }
+      EXPECT_EQ(by_pair(apart.pairs, [&](std::size_t k) { return apart.penetrations[k].depth; }), depths);
     }
   }
 }

@@ -10,12 +10,13 @@
 #include "layout/base/floating_point_state.hpp"
 #include "tests/support/baked_bytes.hpp"
 #include "tests/support/crowd_pairs.hpp"
+#include "tests/support/query_answers.hpp"
 #include "tests/support/test.hpp"
 
 // The answers to one crowd as hashes, the same for every compiler, optimisation, processor, instruction set, number of
 // threads, split of the batch, and floating-point state of the threads. Where an answer changes on purpose, so do these.
 
-namespace bch::test {
+namespace bch {
 namespace {
 
 /// How a thread computes with floating point, as its processor's register says it.
@@ -48,12 +49,6 @@ std::vector<FloatState> odd_float_states() {
   return {{"down", FE_DOWNWARD}, {"up", FE_UPWARD}, {"towards zero", FE_TOWARDZERO}};
 #endif
 }
-
-}  // namespace
-}  // namespace bch::test
-
-namespace bch {
-namespace {
 
 using Hashes = std::vector<std::uint64_t>;
 
@@ -128,9 +123,12 @@ class Determinism : public testing::TestWithParam<Grounds> {
       crowd.z.push_back(random.below(2) == 0 ? 0 : random.uniform(-1, 1));
     pairs = test::candidate_pairs(set, crowd.agents());
     for (std::size_t i = 0; i < pairs.size(); ++i) {
-      x.push_back(random.uniform(-2, 2)), y.push_back(random.uniform(-2, 2));
+      questions.way_x.push_back(random.uniform(-2, 2)), questions.way_y.push_back(random.uniform(-2, 2));
       if (i % 2 == 0) std::swap(pairs[i].first, pairs[i].second);
     }
+    questions.limit = 1.5;
+    questions.distances.assign(pairs.size(), 0.1);
+    questions.directions.assign(pairs.size(), {1, 0});
   }
 
   Hashes hashes(const Implementation* isa, std::size_t batch) const {
@@ -160,9 +158,9 @@ class Determinism : public testing::TestWithParam<Grounds> {
 
   const bool has_heights = GetParam() == Grounds::many;
   const ShapeSet set{shapes(), {.depths = {0, 3, all_depths}, .heights = has_heights}};
-  test::Crowd crowd;
-  std::vector<Pair> pairs;
-  std::vector<double> x, y;
+  test::Questions questions;
+  test::Crowd& crowd = questions.crowd;
+  std::vector<Pair>& pairs = questions.pairs;
 
  private:
   /// Without what pads them, and rounded here, to nearest; penetration_test compares directions bit by bit.
@@ -173,48 +171,28 @@ class Determinism : public testing::TestWithParam<Grounds> {
   }
 
   void answer(const Implementation* isa, std::size_t begin, std::size_t size, AnswerBytes& bytes) const {
-    const Agents agents = crowd.agents();
-    const auto of = std::span(pairs).subspan(begin, size);
-    std::vector<std::uint8_t> hits(size);
-    collide(set, agents, of, hits, {isa, Leaves::discs});
-    bytes.add(AnswerBytes::hits, hits);
-    collide(set, agents, of, hits, {isa, Leaves::segments});
-    bytes.add(AnswerBytes::exact_hits, hits);
-    std::vector<float> values(size);
-    std::vector<Vec2> directions(size);
-    std::vector<DiscPair> nodes(size);
-    clearance(set, agents, of, {values, directions, nodes},
-              {.implementation = isa, .max_distance = 1.5, .overlap = Overlap::deepest});
-    bytes.add(AnswerBytes::distances, values);
-    bytes.add(AnswerBytes::directions, directions);
-    bytes.add(AnswerBytes::nodes, nodes);
-    std::vector<NearestPoints> points(size);
-    clearance(set, agents, of, {.distance = values, .points = points},
-              {.implementation = isa, .max_distance = 1.5});
-    bytes.add(AnswerBytes::nearest_points, points);
-    bytes.add(AnswerBytes::distances_or_zero, values);
-    clearance(set, agents, of, {values, directions, nodes, points},
-              {.implementation = isa, .max_distance = 1.5, .leaves = Leaves::segments});
-    bytes.add(AnswerBytes::exact_distances, values);
-    bytes.add(AnswerBytes::exact_directions, directions);
-    bytes.add(AnswerBytes::exact_nodes, nodes);
-    bytes.add(AnswerBytes::exact_points, points);
-    constexpr double personal_space = 0.1;
-    within(set, agents, of, {&personal_space, 1}, hits, isa);
-    bytes.add(AnswerBytes::within, hits);
-    time_of_impact(set, agents, of, {std::span(x).subspan(begin, size), std::span(y).subspan(begin, size)},
-                   values, isa);
-    bytes.add(AnswerBytes::times, values);
-    std::vector<Penetration> ways(size);
-    penetration(set, agents, of, 16, ways, isa);
+    const auto all = ask(set, questions.part(begin, size), isa != nullptr ? *isa : best_implementation());
+    std::vector<Penetration> ways;
+    for (const test::PairAnswers& of : all) {
+      bytes.add(AnswerBytes::hits, std::array{of.hit_of_discs});
+      bytes.add(AnswerBytes::exact_hits, std::array{of.hit});
+      bytes.add(AnswerBytes::distances, std::array{of.deepest.distance});
+      bytes.add(AnswerBytes::directions, std::array{of.deepest.direction});
+      bytes.add(AnswerBytes::nodes, std::array{of.deepest.discs});
+      bytes.add(AnswerBytes::nearest_points, std::array{of.nearest.points});
+      bytes.add(AnswerBytes::distances_or_zero, std::array{of.nearest.distance});
+      bytes.add(AnswerBytes::exact_distances, std::array{of.exact.distance});
+      bytes.add(AnswerBytes::exact_directions, std::array{of.exact.direction});
+      bytes.add(AnswerBytes::exact_nodes, std::array{of.exact.discs});
+      bytes.add(AnswerBytes::exact_points, std::array{of.exact.points});
+      bytes.add(AnswerBytes::within, std::array{of.within});
+      bytes.add(AnswerBytes::times, std::array{of.time});
+      bytes.add(AnswerBytes::contact_counts, std::array{std::uint64_t{of.contacts_of_discs.size()}});
+      bytes.add(AnswerBytes::contact_discs, of.contacts_of_discs);
+      bytes.add(AnswerBytes::exact_contacts, of.contacts);
+      ways.push_back(of.best);
+    }
     add_depths(ways, bytes);
-    bch::Crowd finder;
-    Rows<DiscPair> table = finder.contacts(set, agents, of, {.implementation = isa, .leaves = Leaves::discs});
-    for (std::size_t i = 0; i < size; ++i)
-      bytes.add(AnswerBytes::contact_counts, std::vector{table.offsets[i + 1] - table.offsets[i]});
-    bytes.add(AnswerBytes::contact_discs, table.values);
-    table = finder.contacts(set, agents, of, {.implementation = isa});
-    bytes.add(AnswerBytes::exact_contacts, table.values);
   }
 };
 
@@ -223,11 +201,8 @@ INSTANTIATE_TEST_SUITE_P(ManyGrounds, Determinism, testing::Values(Grounds::many
 
 TEST_P(Determinism, OfInstructionSets) {
   EXPECT_GT(pairs.size(), 5'000u);
-  for (const auto& isa : implementations()) {
-    if (isa.supported()) {
-      EXPECT_EQ(hashes(&isa, pairs.size()), expected()) << isa.name;
-    }
-  }
+  for (const Implementation& isa : test::supported())
+    EXPECT_EQ(hashes(&isa, pairs.size()), expected()) << isa.name;
 }
 
 TEST_P(Determinism, OfThreadsAndBatches) {
@@ -245,22 +220,20 @@ TEST_P(Determinism, OfThreadsAndBatches) {
 /// New arenas give the state of the thread that makes them to their workers.
 TEST_P(Determinism, OfTheThreadsFloatingPointState) {
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 4);
-  const unsigned before = test::float_state();
-  for (const test::FloatState& state : test::odd_float_states()) {
+  const unsigned before = float_state();
+  for (const FloatState& state : odd_float_states()) {
     Hashes here;
     unsigned after = 0;
-    test::set_float_state(state.bits);
+    set_float_state(state.bits);
     {
       tbb::task_arena arena(4);
-      arena.execute([&] { here = hashes(nullptr, pairs.size()), after = test::float_state(); });
+      arena.execute([&] { here = hashes(nullptr, pairs.size()), after = float_state(); });
     }
-    test::set_float_state(before);
+    set_float_state(before);
     EXPECT_EQ(here, expected()) << state.name;
     EXPECT_EQ(after, state.bits) << state.name;
   }
 }
-
-#define XXH_INLINE_ALL  // nothing is linked
 
 // What construction makes, as hashes of baked files: the same bytes for every compiler, optimisation and processor. Where
 // they change on purpose, so do these.
@@ -324,12 +297,12 @@ std::vector<std::uint64_t> hashes_of_all(std::vector<Shape> given) {
 TEST(ConstructionDeterminism, OfTheThreadsFloatingPointState) {
   const std::vector<Shape> given = test::synthetic_shapes(7, 16);
   const std::vector<std::uint64_t> expected = hashes_of_all(given);
-  const unsigned before = test::float_state();
-  for (const test::FloatState& state : test::odd_float_states()) {
-    test::set_float_state(state.bits);
+  const unsigned before = float_state();
+  for (const FloatState& state : odd_float_states()) {
+    set_float_state(state.bits);
     const std::vector<std::uint64_t> here = hashes_of_all(given);
-    const unsigned after = test::float_state();
-    test::set_float_state(before);
+    const unsigned after = float_state();
+    set_float_state(before);
     EXPECT_EQ(here, expected) << state.name;
     EXPECT_EQ(after, state.bits) << state.name;
   }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
+#include "tests/support/character_shapes.hpp"
 #include "tests/support/crowd_pairs.hpp"
-#include "tests/support/height_scenes.hpp"
 #include "tests/support/query_references.hpp"
 #include "tests/support/test.hpp"
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "tests/support/crowd_pairs.hpp"
 #include "tests/support/query_answers.hpp"
 #include "tests/support/test.hpp"
 #include "tests/support/touching_scene.hpp"
@@ -158,35 +157,6 @@ TEST_F(Lattice, AnswersAreThoseOfTheOutlines) {
   EXPECT_GT(nested, 300u);
   EXPECT_GT(apart, 5'000u);
   EXPECT_GT(meetings, 5'000u);
-}
-
-TEST_F(Lattice, NeighboursInACrowdAreThoseOfTheOutlines) {
-  test::Random random(401);
-  test::Crowd crowd;
-  constexpr std::uint32_t size = 240;  // of which some are inside others, also with sanitizers
-  for (std::uint32_t i = 0; i < size; ++i)
-    crowd.add({random.below(static_cast<std::uint32_t>(shapes.size())), static_cast<double>(random.below(60)),
-               static_cast<double>(random.below(60)) - 30, 0, 0});
-  std::vector<std::vector<std::uint32_t>> expected(size);
-  std::size_t nested = 0;
-  for (std::uint32_t i = 0; i < size; ++i)
-    for (std::uint32_t j = 0; j < size; ++j) {
-      if (i == j) continue;
-      const baselines::Oracle truth = test::oracle(shapes, crowd.agents(), {i, j});
-      const bool cross = truth.cross(), inside = !cross && truth.nested();
-      if (cross || inside) expected[i].push_back(j);
-      nested += inside;
-    }
-  EXPECT_GT(nested, 0u);
-  bch::Crowd collider;
-  for (const Implementation& implementation : test::supported()) {
-    for (const ShapeSet& set : sets) {
-      EXPECT_EQ(
-          test::neighbours(collider.collisions(set, crowd.agents(), {.implementation = &implementation})),
-          expected)
-          << implementation.name;
-    }
-  }
 }
 
 }  // namespace

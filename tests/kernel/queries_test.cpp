@@ -5,6 +5,7 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include "kernel/runtime/kernels.hpp"
+#include "layout/format/shape_arrays.hpp"
 #include "layout/hierarchy/paper_hierarchies.hpp"
 #include "layout/shape_set/bvh8.hpp"
 #include "tests/support/character_shapes.hpp"
@@ -372,6 +373,23 @@ TEST(DeepTrees, AreAsDeepAsStacksAllow) {
     most = std::max(most, depth_of(tree, tree.top));
   }
   EXPECT_EQ(most, detail::most_wide_levels);
+}
+
+/// Small ones alone, of which few pairs are answered in one pass, and larger ones alone; many of them near tangent.
+TEST(BodiesOfDiscs, EqualBruteForce) {
+  Random random(2706);
+  for (const std::uint32_t most : {8u, 40u}) {
+    std::vector<Shape> shapes;
+    while (shapes.size() < 40) shapes.push_back(test::body_of_discs(random, 1 + random.below(most)));
+    World world{shapes, plans[0].plan};
+    for (std::uint32_t i = 0, levels = world.set.level_count(); i < shapes.size(); ++i)
+      EXPECT_EQ(world.set.arrays().trees[i * levels + levels - 1].nodes_hold_discs, 1u) << i;
+    for (const PairScene& scene :
+         {anywhere(random, world, 1'500), at_contact(random, world, test::samples(20'000))}) {
+      const Questions questions = questions_about(random, world.set, scene);
+      expect_answers(world.set, questions, world.brute_force.answers(world.set, questions), "discs");
+    }
+  }
 }
 
 /// What does not change an answer.

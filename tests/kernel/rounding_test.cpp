@@ -15,12 +15,13 @@
 // The bound of layout/base/rounding.hpp, attacked where it matters: discs that touch, far from their agents' origins, judged by
 // exact arithmetic.
 
-namespace bch::test {
+namespace bch {
 namespace {
 
 using baselines::ExactDisc;
 using baselines::Quad;
 using baselines::QuadVector;
+using test::Random;
 
 /// A shape as it stands at a heading, with the exact discs of its cut at a level and of all nodes above.
 struct PosedShape {
@@ -88,7 +89,8 @@ Shape tangent_shape(Random& random) {
     const Outline outline = stroke(random);
     return {outline, contour_hierarchy(outline, 9.0f)};
   }
-  Outline outline = star(random, 3 + random.below(8), 0.1, 0.4, random.uniform(-1, 1), random.uniform(-1, 1));
+  Outline outline =
+      test::star(random, 3 + random.below(8), 0.1, 0.4, random.uniform(-1, 1), random.uniform(-1, 1));
   outline.grid_step = 0;
   return {outline, contour_hierarchy(outline, 0.03f)};
 }
@@ -228,17 +230,6 @@ NearTangent near_tangent(Random& random, const TangentShapes& shapes) {
   return pair;
 }
 
-}  // namespace
-}  // namespace bch::test
-
-namespace bch {
-namespace {
-
-using baselines::Quad;
-using baselines::QuadVector;
-using test::NearTangent;
-using test::Random;
-
 constexpr std::uint32_t block = 10'000;  ///< pairs
 
 struct Tally {
@@ -280,7 +271,7 @@ struct FloatTest {
         square_distance((x - a.x) * (x - a.x) + (y - a.y) * (y - a.y)) {}
 };
 
-Vec2 in_own_frame(const test::PosedShape& pose, std::uint32_t disc) {
+Vec2 in_own_frame(const PosedShape& pose, std::uint32_t disc) {
   const QuadVector centre = turned_back(pose.rotation, pose.cut.discs[disc].centre);
   return {static_cast<float>(centre.x), static_cast<float>(centre.y)};
 }
@@ -318,7 +309,7 @@ void count_bare(Tally& tally, const NearTangent& pair) {
 using Tallies = std::vector<Tally>;  ///< one an implementation
 
 /// The same pairs for all of them.
-void attack(const test::TangentShapes& shapes, std::uint64_t seed, Tallies& tallies) {
+void attack(const TangentShapes& shapes, std::uint64_t seed, Tallies& tallies) {
   Random random(seed);
   std::vector<NearTangent> near;
   test::PairScene scene;
@@ -338,7 +329,7 @@ void attack(const test::TangentShapes& shapes, std::uint64_t seed, Tallies& tall
 }
 
 Tallies attack(std::uint64_t pairs) {
-  const test::TangentShapes shapes(1968, 2000, 8000);
+  const TangentShapes shapes(1968, 2000, 8000);
   tbb::enumerable_thread_specific<Tallies> local([] { return Tallies(test::supported().size()); });
   tbb::parallel_for(std::uint64_t{0}, (pairs + block - 1) / block,
                     [&](std::uint64_t i) { attack(shapes, 0x5eed + i, local.local()); });
@@ -379,7 +370,7 @@ TEST(RoundingBound, NearTangentPairsAgainstExactArithmetic) {
 
 /// The attack is one: without the bound it breaks the test in float.
 TEST(RoundingBound, TheSamePairsBreakABareTest) {
-  const test::TangentShapes shapes(1968, 2000, 8000);
+  const TangentShapes shapes(1968, 2000, 8000);
   Random random(1969);
   Tally tally;
   for (std::uint32_t i = 0; i < test::samples(500'000); ++i) count_bare(tally, near_tangent(random, shapes));
@@ -435,7 +426,7 @@ class Steps {
 };
 
 TEST(RoundingBound, EveryStepStaysBelowItsOwnBound) {
-  const test::TangentShapes shapes(1970, 500, 2000);
+  const TangentShapes shapes(1970, 500, 2000);
   Random random(1971);
   Steps steps;
   for (std::uint32_t i = 0; i < test::samples(100'000); ++i) {

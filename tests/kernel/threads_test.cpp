@@ -9,7 +9,6 @@
 #include "kernel/runtime/pair_validation.hpp"
 #include "tests/support/c_api_queries.hpp"
 #include "tests/support/crowd_pairs.hpp"
-#include "tests/support/query_answers.hpp"
 #include "tests/support/test.hpp"
 
 // For ThreadSanitizer: the functions that tasks run, and whole calls, which then run on tests/support/plain_threads.
@@ -19,6 +18,22 @@ namespace {
 
 using test::expect_ok;
 using test::made;
+
+constexpr unsigned thread_count = 4;
+
+/// Calls work(t) on threads that begin together.
+template <class Work>
+void on_threads(Work work, unsigned threads = thread_count) {
+  std::atomic<unsigned> ready = 0;
+  std::vector<std::thread> running;
+  for (unsigned t = 0; t < threads; ++t)
+    running.emplace_back([&, t] {
+      ++ready;
+      while (ready < threads) std::this_thread::yield();
+      work(t);
+    });
+  for (std::thread& thread : running) thread.join();
+}
 
 class Threads : public testing::Test {
  protected:
@@ -32,13 +47,12 @@ class Threads : public testing::Test {
     std::vector<std::uint8_t> hits(scene.pairs.size());
     detail::Arguments arguments = detail::arguments_for(set.view(), agents, scene.pairs);
     arguments.codes = hits.data();
-    std::vector<std::thread> running;
-    for (unsigned t = 0; t < threads; ++t)
-      running.emplace_back([&, t] {
-        const std::size_t n = hits.size();
-        detail::answer(implementation, arguments, n * t / threads, n * (t + 1) / threads);
-      });
-    for (std::thread& thread : running) thread.join();
+    const std::size_t n = hits.size();
+    on_threads(
+        [&](unsigned t) {
+          detail::answer(implementation, arguments, n * t / threads, n * (t + 1) / threads);
+        },
+        threads);
     return hits;
   }
 };
@@ -51,99 +65,27 @@ TEST_F(Threads, RangesOfOneBatchDoNotMeet) {
   }
 }
 
-TEST_F(Threads, ASetIsReadWhileAnotherIsBuilt) {
-  const auto expected = answers(implementation("scalar"), 1);
-  std::vector<std::uint8_t> first, second;
-  std::thread reader([&] { first = answers(implementation("scalar"), 2); });
-  std::thread other_reader([&] { second = answers(best_implementation(), 2); });
-  std::size_t bytes = 0;
-  std::thread builder([&] { bytes = ShapeSet(shapes, {{0, all_depths}, true}).bytes(); });
-  reader.join();
-  other_reader.join();
-  builder.join();
-  EXPECT_EQ(first, expected);
-  EXPECT_EQ(second, expected);
-  EXPECT_GT(bytes, 0u);
-}
-
-/// All that can be asked of a crowd, in calls that share nothing but the shapes and the agents.
-struct Everything {
-  std::vector<test::PairAnswers> of_pairs;
-  std::vector<Pair> candidates;
-  std::vector<std::uint64_t> begin;
-  std::vector<bch::Crowd::Neighbour> neighbours;
-  std::vector<std::uint32_t> obstacles;
-  std::vector<float> from_walls;
-
-  Everything(const ShapeSet& set, const test::Questions& questions)
-      : of_pairs(ask(set, questions)), from_walls(questions.crowd.x.size()) {
-    const Agents agents = questions.crowd.agents();
-    candidates = test::candidate_pairs(set, agents);
-    bch::Crowd collider;
-    const Rows<bch::Crowd::Neighbour> all = collider.collisions(set, agents).by_agent();
-    begin.assign(all.offsets.begin(), all.offsets.end());
-    neighbours.assign(all.values.begin(), all.values.end());
-    static const ObstacleSet walls =
-        obstacles_from_wkt("LINESTRING(-20 0, 20 1) POLYGON((-2 -2, 2 -2, 2 2, -2 2))");
-    const Rows<std::uint32_t> at_walls = collider.obstacles(set, agents, walls);
-    obstacles.assign(at_walls.values.begin(), at_walls.values.end());
-    clearance(set, agents, walls, {from_walls});
-  }
-
-  void expect_same(const Everything& other) const {
-    test::expect_same(other.of_pairs, of_pairs, "at the same time");
-    EXPECT_EQ(candidates, other.candidates);
-    EXPECT_EQ(begin, other.begin);
-    EXPECT_EQ(neighbours, other.neighbours);
-    EXPECT_EQ(obstacles, other.obstacles);
-    EXPECT_EQ(from_walls, other.from_walls);
-  }
-};
-
-TEST_F(Threads, EveryQueryRunsWhileOthersRunAndASetIsBuilt) {
-  const test::Questions questions = questions_about(random, set, scene);
-  const Everything alone(set, questions);
-  EXPECT_GT(alone.neighbours.size(), scene.pairs.size() / 2);
-  std::optional<Everything> first, second;
-  std::thread reader([&] { first.emplace(set, questions); });
-  std::thread other_reader([&] { second.emplace(set, questions); });
-  std::thread builder([&] { EXPECT_GT(ShapeSet(shapes, {{0, 3, all_depths}, true}).bytes(), 0u); });
-  reader.join();
-  other_reader.join();
-  builder.join();
-  alone.expect_same(*first);
-  alone.expect_same(*second);
-}
-
 TEST_F(Threads, DifferentShapesAreReplacedAtTheSameTime) {
   DynamicShapeSet dynamic(set);
-  std::vector<std::thread> running;
-  for (std::uint32_t t = 0; t < 4; ++t)
-    running.emplace_back([&, t] {
-      PreparedShape prepared(set.plan());
-      for (std::uint32_t shape = t; shape < set.shape_count(); shape += 4) {
-        prepared.prepare(shapes[shape], shape);
-        EXPECT_TRUE(dynamic.try_replace(shape, prepared));
-      }
-    });
-  for (std::thread& thread : running) thread.join();
+  on_threads([&](unsigned t) {
+    PreparedShape prepared(set.plan());
+    for (std::uint32_t shape = t; shape < set.shape_count(); shape += thread_count) {
+      prepared.prepare(shapes[shape], shape);
+      EXPECT_TRUE(dynamic.try_replace(shape, prepared));
+    }
+  });
   const auto expected = answers(best_implementation(), 1);
   set = ShapeSet(dynamic.set().arrays(), nullptr);
   EXPECT_EQ(answers(best_implementation(), 1), expected);
 }
 
 TEST_F(Threads, RowsOfNeighboursAreFilledAtTheSameTime) {
-  std::vector<Pair> pairs;
-  for (std::uint32_t i = 0; i < 200; ++i)
-    for (std::uint32_t j = i + 1; j < 200; ++j) pairs.push_back({i, j});
+  const std::vector<Pair> pairs = test::all_pairs(200);
   std::vector<std::uint64_t> begin(201);
   std::vector<bch::Crowd::Neighbour> neighbours(200 * 199);
   const detail::NeighbourRows rows{pairs, begin, neighbours};
   const auto in_parts = [](std::size_t count, auto work) {
-    std::vector<std::thread> running;
-    for (std::size_t t = 0; t < 4; ++t)
-      running.emplace_back([=] { work(count * t / 4, count * (t + 1) / 4); });
-    for (std::thread& thread : running) thread.join();
+    on_threads([&](unsigned t) { work(count * t / thread_count, count * (t + 1) / thread_count); });
   };
   in_parts(pairs.size(), [&](std::size_t first, std::size_t last) { rows.count(first, last); });
   EXPECT_EQ(rows.accumulate(), neighbours.size());
@@ -160,28 +102,12 @@ TEST_F(Threads, RowsOfNeighboursAreFilledAtTheSameTime) {
 
 // ---- The C interface from several threads at once, for ThreadSanitizer. Threads are the caller's.
 
-constexpr unsigned thread_count = 4;
-
-/// Calls work(t) on threads that begin together.
-template <class Work>
-void on_threads(Work work) {
-  std::atomic<unsigned> ready = 0;
-  std::vector<std::thread> running;
-  for (unsigned t = 0; t < thread_count; ++t)
-    running.emplace_back([&, t] {
-      ++ready;
-      while (ready < thread_count) std::this_thread::yield();
-      work(t);
-    });
-  for (std::thread& thread : running) thread.join();
-}
-
 class CApiThreads : public testing::Test {
  protected:
   const ShapeSet shapes{test::synthetic_shapes(291, 8), {{0, 3, all_depths}, true}};
   test::Random random{292};
   const test::PairScene pairs = random_scene(random, shapes, 499);
-  const test::CScene scene{shapes, pairs.crowd, pairs.pairs};
+  test::CScene scene{shapes, pairs.crowd, pairs.pairs};
   const bch_shape_set* const set = scene.set.get();
 
   /// What a thread learns by objects of its own of a set that all share.
@@ -195,21 +121,30 @@ class CApiThreads : public testing::Test {
   }
 };
 
+/// Of either leaves and overlaps, while one of them builds a set.
 TEST_F(CApiThreads, AnswersAreThoseOfOneThread) {
-  const std::string alone = learn();
-  std::vector<std::string> learned(thread_count);
-  on_threads([&](unsigned t) { learned[t] = learn(); });
-  for (const std::string& one : learned) EXPECT_TRUE(one == alone);
+  for (const bool other : {false, true}) {
+    scene.options.leaves = other, scene.options.overlap = other, scene.options.distance_leaves = !other;
+    const std::string alone = learn();
+    std::vector<std::string> learned(thread_count);
+    on_threads([&](unsigned t) {
+      if (t == 0) {
+        EXPECT_GT(ShapeSet(test::synthetic_shapes(41, 16)).bytes(), 0u);
+      }
+      learned[t] = learn();
+    });
+    for (const std::string& one : learned) EXPECT_TRUE(one == alone);
+  }
 }
 
 /// Discs of a set that a thread builds by itself, of which it replaces nothing.
 std::vector<float> built(float radius) {
-  const auto builder = made<bch_shape_set_builder_free>(bch_shape_set_builder_create, nullptr);
+  const auto builder = test::c_builder();
   expect_ok(bch_shape_set_builder_add_cylinder(builder.get(), radius, nullptr));
   const bch_vec2 corners[] = {{-radius, 0}, {radius, 0}, {0, radius}};
   const std::uint64_t offsets[] = {0, 3};
   expect_ok(bch_shape_set_builder_add_polygons(builder.get(), corners, offsets, 1, nullptr));
-  const auto set = made<bch_shape_set_free>(bch_shape_set_builder_finish, builder.get());
+  const auto set = test::finished(builder);
   const auto dynamic = made<bch_dynamic_shape_set_free>(bch_dynamic_shape_set_create, set.get());
   const bch_shape_set* lent = nullptr;
   expect_ok(bch_dynamic_shape_set_get_shapes(dynamic.get(), &lent));

@@ -3,8 +3,8 @@
 
 #include "tests/support/all_queries.hpp"
 
-#include "kernel/runtime/all_options.hpp"
 #include "layout/shape_set/flat_shape.hpp"
+#include "tests/support/obstacle_scenes.hpp"
 
 namespace bch::test {
 namespace {
@@ -13,20 +13,12 @@ namespace {
 void ask_all_of_obstacles(const ShapeSet& set, const Agents& agents, const detail::AllOptions& options) {
   const ObstacleSet obstacles =
       obstacles_from_wkt("LINESTRING(-9 0.1, 9 0.2) POLYGON((-1 -1, 1 -1, 1 1, -1 1))");
-  std::vector<std::uint8_t> hits(agents.size());
-  std::vector<Penetration> ways(agents.size());
-  std::vector<float> values(agents.size());
-  std::vector<Vec2> directions(agents.size());
-  std::vector<DiscPair> discs(agents.size());
   const std::vector<double> way(agents.size(), 0.5);
-  collide(set, agents, obstacles, hits, options);
-  within(set, agents, obstacles, way, hits, options.distance_leaves, options.implementation);
-  clearance(set, agents, obstacles, {values, directions, discs}, options);
-  detail::AllOptions of_outlines = options;
-  of_outlines.distance_leaves = Leaves::segments;
-  clearance(set, agents, obstacles, {values, directions, discs}, of_outlines);
-  penetration(set, agents, obstacles, ways, options);
-  time_of_impact(set, agents, {way, way}, obstacles, values, options);
+  for (const Leaves leaves : {Leaves::discs, Leaves::segments}) {
+    detail::AllOptions how = options;
+    how.distance_leaves = leaves;
+    all_answers(set, agents, obstacles, how, way, {way, way});
+  }
   bch::Crowd crowd;
   crowd.obstacles(set, agents, obstacles, options);
 }

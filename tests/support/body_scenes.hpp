@@ -37,6 +37,18 @@ inline BodySet random_bodies(Random& random) {
   return BodySet(bodies);
 }
 
+/// Makes bodies of standing and lying people, some of them off their origins, and far below, all as large by a factor.
+inline BodySet bodies_of_all_kinds(Random& random, float scale = 1) {
+  std::vector<std::vector<Sphere>> bodies;
+  for (const std::uint32_t spheres : {1u, 2u, 5u, 16u, 63u, 128u, 256u, 385u})
+    for (const bool lies : {false, true}) bodies.push_back(random_body(random, spheres, lies));
+  for (const float up : {-2.0f, -0.7f, 0.3f})
+    for (Sphere& sphere : bodies.emplace_back(random_body(random, 100))) sphere.z += up, sphere.x += 0.8f;
+  for (auto& body : bodies)
+    for (Sphere& s : body) s = {scale * s.x, scale * s.y, scale * s.z, scale * s.radius};
+  return BodySet(bodies);
+}
+
 /// Holds a crowd in space.
 struct BodyCrowd {
   std::vector<std::uint32_t> body;
@@ -61,6 +73,13 @@ inline BodyCrowd random_body_crowd(Random& random, std::uint32_t agents, std::ui
   return crowd;
 }
 
+/// Returns pairs whose agents are exchanged.
+inline std::vector<Pair> exchanged(std::span<const Pair> pairs) {
+  std::vector<Pair> all;
+  for (const Pair pair : pairs) all.push_back({pair.second, pair.first});
+  return all;
+}
+
 /// Represents a sphere of an agent where it stands, and where the agent does.
 struct PlacedSphere {
   double x, y, z, radius;
@@ -68,11 +87,12 @@ struct PlacedSphere {
 };
 
 /// Returns the spheres of all agents where these stand, in double.
-inline std::vector<std::vector<PlacedSphere>> placed_spheres(const BodySet& bodies, const BodyCrowd& crowd) {
+inline std::vector<std::vector<PlacedSphere>> placed_spheres(std::span<const std::vector<Sphere>> bodies,
+                                                             const BodyCrowd& crowd) {
   std::vector<std::vector<PlacedSphere>> placed(crowd.body.size());
   for (std::size_t i = 0; i < placed.size(); ++i) {
     const double c = std::cos(crowd.heading[i]), s = std::sin(crowd.heading[i]);
-    for (const Sphere& sphere : bodies.spheres(crowd.body[i])) {
+    for (const Sphere& sphere : bodies[crowd.body[i]]) {
       const double x = double{sphere.x}, y = double{sphere.y};
       placed[i].push_back({crowd.x[i] + c * x - s * y, crowd.y[i] + s * x + c * y,
                            crowd.z[i] + double{sphere.z}, double{sphere.radius}, crowd.x[i], crowd.y[i],
@@ -80,6 +100,11 @@ inline std::vector<std::vector<PlacedSphere>> placed_spheres(const BodySet& bodi
     }
   }
   return placed;
+}
+inline std::vector<std::vector<PlacedSphere>> placed_spheres(const BodySet& bodies, const BodyCrowd& crowd) {
+  std::vector<std::vector<Sphere>> all;
+  for (std::uint32_t i = 0; i < bodies.body_count(); ++i) all.push_back(bodies.spheres(i));
+  return placed_spheres(all, crowd);
 }
 
 /// Returns the gap between two spheres; below 0 where they overlap.

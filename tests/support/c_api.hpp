@@ -40,6 +40,38 @@ auto made(bch_status (*make)(Parameters...), Arguments... arguments) {
   return Owned<Object, free>(object);
 }
 
+inline OwnedCharacter c_person(std::int32_t which) {
+  return made<bch_character_free>(bch_character_default, which);
+}
+inline OwnedBuilder c_builder(const bch_plan* plan = nullptr) {
+  return made<bch_shape_set_builder_free>(bch_shape_set_builder_create, plan);
+}
+inline OwnedSet finished(const OwnedBuilder& builder) {
+  return made<bch_shape_set_free>(bch_shape_set_builder_finish, builder.get());
+}
+
+/// Returns all values of a function that fills an array and says how many there are.
+template <class Value, class Get>
+std::vector<Value> all_of(Get get) {
+  std::size_t count = 0;
+  expect_ok(get(nullptr, 0, &count));
+  std::vector<Value> all(count + 1);  // room for more than there are
+  expect_ok(get(all.data(), all.size(), &count));
+  all.pop_back();
+  EXPECT_EQ(count, all.size());
+  return all;
+}
+inline std::vector<bch_disc> discs_of(const bch_shape_set* set, std::uint32_t shape,
+                                      std::uint32_t level = 0) {
+  return all_of<bch_disc>([=](auto... to) { return bch_shape_set_get_discs(set, shape, level, to...); });
+}
+
+/// Returns values as bytes.
+template <class Values>
+std::string bytes(const Values& values) {
+  return {reinterpret_cast<const char*>(std::data(values)), std::size(values) * sizeof *std::data(values)};
+}
+
 /// The same set for the C interface, by way of a file.
 inline OwnedSet c_set(const ShapeSet& set) {
   const TemporaryFolder folder;

@@ -32,10 +32,11 @@ CQuery into(const char* name, bool needs_memory, std::size_t count, std::functio
           }};
 }
 
-template <class Offsets, class Values>
-std::string row_bytes(std::size_t rows, const Offsets* offsets, const Values* values) {
-  if (offsets == nullptr) return {};
-  return bytes(std::span(offsets, rows + 1)) + bytes(std::span(values, offsets[rows]));
+template <class Rows>
+std::string row_bytes(const Rows& rows) {
+  if (rows.offsets == nullptr) return {};
+  return bytes(std::span(rows.offsets, rows.rows + 1)) +
+         bytes(std::span(rows.values, rows.offsets[rows.rows]));
 }
 
 /// A query that fills all arrays of a clearance.
@@ -96,9 +97,36 @@ void add_queries_of_crowds(const CScene& scene, std::vector<CQuery>& to) {
     const auto found = std::make_shared<Found>();
     to.push_back({name, needs_memory, [=] { return ask(*found); }, [=] { return answer(*found); }});
   };
+  /// A call whose answer is one view, of arguments beside crowd, set, agents and options.
+  const auto add_of = [&](const char* name, bool needs_memory, auto call, auto answer, auto to,
+                          auto... more) {
+    add(
+        name, needs_memory,
+        [=](Found& found) {
+          return call(found.crowd.get(), set, &all->agents, more..., &all->options, &(found.*to));
+        },
+        answer);
+  };
+  const auto pair_bytes = [](const Found& found) { return bytes(std::span(found.pairs, found.count)); };
   const auto contact_bytes = [](const Found& found) {
     const bch_contact_rows& rows = found.contacts;
-    return bytes(std::span(rows.pairs, rows.rows)) + row_bytes(rows.rows, rows.offsets, rows.values);
+    return bytes(std::span(rows.pairs, rows.rows)) + row_bytes(rows);
+  };
+  const auto near_bytes = [](const Found& found) {
+    const bch_crowd_clearance_view& near = found.near;
+    const auto part = [&](const auto* values) { return bytes(std::span(values, near.count)); };
+    return part(near.pairs) + part(near.distance) + part(near.direction) + part(near.discs) +
+           part(near.points);
+  };
+  const auto apart_bytes = [](const Found& found) {
+    const auto& [count, pairs, depths] = found.apart;
+    std::vector<bch_penetration_depth> all_depths(depths, depths + count);
+    clear_padding(all_depths);
+    return bytes(std::span(pairs, count)) + bytes(all_depths);
+  };
+  const auto collisions = [=](Found& found) {
+    return bch_crowd_collisions(found.crowd.get(), set, &all->agents, nullptr, &all->options, &found.pairs,
+                                &found.count);
   };
   add(
       "candidates", false,
@@ -106,74 +134,23 @@ void add_queries_of_crowds(const CScene& scene, std::vector<CQuery>& to) {
         return bch_crowd_candidates(found.crowd.get(), set, &all->agents, 0.4, nullptr, &all->options,
                                     &found.pairs, &found.count);
       },
-      [](const Found& found) { return bytes(std::span(found.pairs, found.count)); });
-  add(
-      "collisions", false,
-      [=](Found& found) {
-        return bch_crowd_collisions(found.crowd.get(), set, &all->agents, nullptr, &all->options,
-                                    &found.pairs, &found.count);
-      },
-      [](const Found& found) { return bytes(std::span(found.pairs, found.count)); });
+      pair_bytes);
+  add("collisions", false, collisions, pair_bytes);
   add(
       "collisions by agent", false,
       [=](Found& found) {
-        const bch_pair* pairs = nullptr;
-        std::size_t count = 0;
-        const bch_status status = bch_crowd_collisions(found.crowd.get(), set, &all->agents, nullptr,
-                                                       &all->options, &pairs, &count);
+        const bch_status status = collisions(found);
         return status != BCH_OK ? status : bch_crowd_by_agent(found.crowd.get(), &found.neighbours);
       },
-      [](const Found& found) {
-        const bch_neighbour_rows& rows = found.neighbours;
-        return row_bytes(rows.rows, rows.offsets, rows.values);
-      });
-  add(
-      "obstacles", true,
-      [=](Found& found) {
-        return bch_crowd_obstacles(found.crowd.get(), set, &all->agents, walls, &all->options,
-                                   &found.touched);
-      },
-      [](const Found& found) {
-        return row_bytes(found.touched.rows, found.touched.offsets, found.touched.values);
-      });
-  add(
-      "contacts of pairs", false,
-      [=](Found& found) {
-        return bch_crowd_contacts_of(found.crowd.get(), set, &all->agents, c_pairs(all->pairs),
-                                     all->pairs.size(), &all->options, &found.contacts);
-      },
-      contact_bytes);
-  add(
-      "contacts", false,
-      [=](Found& found) {
-        return bch_crowd_contacts(found.crowd.get(), set, &all->agents, nullptr, &all->options,
-                                  &found.contacts);
-      },
-      contact_bytes);
-  add(
-      "clearances", false,
-      [=](Found& found) {
-        return bch_crowd_clearances(found.crowd.get(), set, &all->agents, 0.2, nullptr, &all->options,
-                                    &found.near);
-      },
-      [](const Found& found) {
-        const bch_crowd_clearance_view& near = found.near;
-        const auto part = [&](const auto* values) { return bytes(std::span(values, near.count)); };
-        return part(near.pairs) + part(near.distance) + part(near.direction) + part(near.discs) +
-               part(near.points);
-      });
-  add(
-      "penetrations", false,
-      [=](Found& found) {
-        return bch_crowd_penetrations(found.crowd.get(), set, &all->agents, 16, nullptr, &all->options,
-                                      &found.apart);
-      },
-      [](const Found& found) {
-        const auto& [count, pairs, depths] = found.apart;
-        std::vector<bch_penetration_depth> all_depths(depths, depths + count);
-        clear_padding(all_depths);
-        return bytes(std::span(pairs, count)) + bytes(all_depths);
-      });
+      [](const Found& found) { return row_bytes(found.neighbours); });
+  add_of(
+      "obstacles", true, bch_crowd_obstacles, [](const Found& found) { return row_bytes(found.touched); },
+      &Found::touched, walls);
+  add_of("contacts of pairs", false, bch_crowd_contacts_of, contact_bytes, &Found::contacts,
+         c_pairs(all->pairs), all->pairs.size());
+  add_of("contacts", false, bch_crowd_contacts, contact_bytes, &Found::contacts, nullptr);
+  add_of("clearances", false, bch_crowd_clearances, near_bytes, &Found::near, 0.2, nullptr);
+  add_of("penetrations", false, bch_crowd_penetrations, apart_bytes, &Found::apart, 16u, nullptr);
 }
 
 void add_queries_of_obstacles(const CScene& scene, std::vector<CQuery>& to) {

@@ -36,10 +36,4 @@ struct CQuery {
 };
 std::vector<CQuery> all_queries(const CScene& scene);
 
-/// Returns values as bytes.
-template <class Values>
-std::string bytes(const Values& values) {
-  return {reinterpret_cast<const char*>(std::data(values)), std::size(values) * sizeof *std::data(values)};
-}
-
 }  // namespace bch::test

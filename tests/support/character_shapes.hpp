@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "tests/support/standard.hpp"
+#include "tests/support/scenes.hpp"
 
 namespace bch::test {
 
@@ -12,5 +12,11 @@ std::optional<std::filesystem::path> test_data();
 
 /// Builds contour hierarchies at 1 cm of poses spread over the character's clips; on all threads.
 std::vector<Shape> pose_shapes(const Character& character, std::uint32_t poses);
+
+/// Returns people in poses, and bodies of other kinds, some of them without a bottom and a top.
+std::vector<Shape> bodies_with_heights(Random& random);
+
+/// Gives half of the agents heights of their own.
+void raise(Random& random, Crowd& crowd);
 
 }  // namespace bch::test

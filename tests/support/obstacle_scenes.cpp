@@ -37,6 +37,20 @@ void ObstacleScene::end_obstacle(bool area) {
   open_ = {};
 }
 
+ObstacleScene ObstacleScene::part(std::span<const std::uint32_t> obstacles) const {
+  ObstacleScene some;
+  for (const std::uint32_t obstacle : obstacles) {
+    const bool area = is_area[obstacle] != 0;
+    for (auto path = obstacle_offsets[obstacle]; path < obstacle_offsets[obstacle + 1]; ++path) {
+      std::vector<Point> points;
+      for (auto i = path_offsets[path]; i < path_offsets[path + 1]; ++i) points.push_back({x[i], y[i]});
+      some.add_path(points, area);
+    }
+    some.end_obstacle(area);
+  }
+  return some;
+}
+
 ObstacleScene obstacle_scene(Random& random, std::uint32_t count, double half, double x, double y) {
   ObstacleScene scene;
   const auto coordinate = [&](double middle) {

@@ -2,7 +2,6 @@
 // Copyright (c) 2026 the bch authors
 
 #include "tests/support/query_answers.hpp"
-#include "kernel/runtime/all_options.hpp"
 
 #include <gtest/gtest.h>
 
@@ -18,20 +17,6 @@ std::vector<Answer> answers_of(std::size_t size, Answer marker, Query query) {
   query(std::span(all).subspan(1, size));
   EXPECT_TRUE(all.front() == marker && all.back() == marker);
   return {all.begin() + 1, all.end() - 1};
-}
-
-std::vector<NearestFeatures> nearest_features(const ShapeSet& set, const Questions& of,
-                                              const detail::AllOptions& options) {
-  const std::size_t size = of.pairs.size();
-  std::vector<Vec2> direction(size);
-  std::vector<DiscPair> discs(size);
-  std::vector<NearestPoints> points(size);
-  const auto distance = answers_of(size, -77.0f, [&](std::span<float> out) {
-    clearance(set, of.crowd.agents(), of.pairs, {out, direction, discs, points}, options);
-  });
-  std::vector<NearestFeatures> all;
-  for (std::size_t i = 0; i < size; ++i) all.push_back({distance[i], direction[i], discs[i], points[i]});
-  return all;
 }
 
 /// How far an agent's outermost discs extend from its position.
@@ -103,6 +88,20 @@ Questions questions_about(Random& random, const ShapeSet& set, PairScene scene) 
     const double length = std::min(1e9, random.uniform(0, 1.5) * (std::hypot(x, y) + both));
     all.way_x.push_back(length * std::cos(course)), all.way_y.push_back(length * std::sin(course));
   }
+  return all;
+}
+
+std::vector<NearestFeatures> nearest_features(const ShapeSet& set, const PairScene& of,
+                                              const detail::AllOptions& options) {
+  const std::size_t size = of.pairs.size();
+  std::vector<Vec2> direction(size);
+  std::vector<DiscPair> discs(size);
+  std::vector<NearestPoints> points(size);
+  const auto distance = answers_of(size, -77.0f, [&](std::span<float> out) {
+    clearance(set, of.crowd.agents(), of.pairs, {out, direction, discs, points}, options);
+  });
+  std::vector<NearestFeatures> all;
+  for (std::size_t i = 0; i < size; ++i) all.push_back({distance[i], direction[i], discs[i], points[i]});
   return all;
 }
 

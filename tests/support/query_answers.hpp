@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include "kernel/runtime/all_options.hpp"
 #include "tests/support/implementations.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -36,6 +37,10 @@ struct NearestFeatures {
   /// Compares bits: -0 is not 0.
   friend bool operator==(const NearestFeatures& a, const NearestFeatures& b);
 };
+
+/// Asks clearance() for all of it.
+std::vector<NearestFeatures> nearest_features(const ShapeSet& set, const PairScene& of,
+                                              const detail::AllOptions& options);
 
 /// What all queries say of a pair.
 struct PairAnswers {

@@ -7,7 +7,6 @@
 #include <bch/obstacles.hpp>
 #include <bch/pairs.hpp>
 
-#include <cstring>
 #include <set>
 #include <span>
 #include <vector>
@@ -22,6 +21,7 @@
 namespace bch {
 namespace {
 
+using test::bytes;
 using test::expect_ok;
 using test::made;
 
@@ -34,8 +34,7 @@ struct Models {
   std::vector<const bch_body_model*> all{man.get(), woman.get()};
 
   static OwnedModel model(std::int32_t which, std::uint32_t spheres) {
-    const auto character = made<bch_character_free>(bch_character_default, which);
-    return made<bch_body_model_free>(bch_body_model_default, character.get(), spheres);
+    return made<bch_body_model_free>(bch_body_model_default, test::c_person(which).get(), spheres);
   }
 };
 
@@ -54,27 +53,20 @@ void expect_baked(const std::vector<const bch_body_model*>& models) {
   expect_ok(bch_body_set_get_info(bodies.get(), &info));
   ASSERT_EQ(info.bodies, expected.body_count());
   for (std::uint32_t body = 0; body < info.bodies; ++body) {
-    const std::vector<Sphere> spheres = expected.spheres(body);
-    std::vector<bch_sphere> found(spheres.size());
-    std::size_t count = 0;
-    expect_ok(bch_body_set_get_spheres(bodies.get(), body, found.data(), found.size(), &count));
-    ASSERT_EQ(count, spheres.size());
-    EXPECT_EQ(std::memcmp(found.data(), spheres.data(), count * sizeof(Sphere)), 0) << body;
+    const auto found = test::all_of<bch_sphere>(
+        [&](auto... to) { return bch_body_set_get_spheres(bodies.get(), body, to...); });
+    EXPECT_TRUE(bytes(found) == bytes(expected.spheres(body))) << body;
   }
 }
 
-TEST(CApiBodies, AreBakedOfModelsOfTheLibrary) {
-  const Models models;
-  EXPECT_EQ(sphere_count(models.man.get()), default_body(default_male(), 64).sphere_count());
-  expect_baked(models.all);
-}
-
-TEST(CApiBodies, ComeFromFilesAsTheyWere) {
+TEST(CApiBodies, AreBakedOfModelsOfTheLibraryAndComeFromFilesAsTheyWere) {
   const TemporaryFolder folder;
   const std::string file = folder.file("people.bch");
   {
-    const Models models;
-    expect_ok(bch_body_models_save(models.all.data(), models.all.size(), file.c_str()));
+    const Models own;
+    EXPECT_EQ(sphere_count(own.man.get()), 64u);
+    expect_baked(own.all);
+    expect_ok(bch_body_models_save(own.all.data(), own.all.size(), file.c_str()));
   }
   std::vector<OwnedModel> models;
   std::vector<const bch_body_model*> all;
@@ -98,19 +90,14 @@ TEST(CApiBodies, OfCapsulesAndPolygonsAreThoseOfTheLibrary) {
   const std::vector<Vec2> triangle = {{0, 0}, {1, 0}, {0, 1}};
   const std::uint64_t offsets[] = {0, 3};
   const bch_heights heights{0, 0.5f};
-  std::vector<bch_sphere> found(4096);
-  std::size_t count = 0;
-  const auto expect = [&](const std::vector<Sphere>& expected) {
-    ASSERT_EQ(count, expected.size());
-    EXPECT_EQ(std::memcmp(found.data(), expected.data(), count * sizeof(Sphere)), 0);
-  };
-  expect_ok(bch_spheres_from_capsules(&capsule, 1, 0.01f, found.data(), found.size(), &count));
-  expect(spheres_from_capsules({&same, 1}, 0.01f));
-  expect_ok(
-      bch_spheres_from_polygons(corners, offsets, 1, &heights, 0.1f, found.data(), found.size(), &count));
-  expect(spheres_from_polygons({&triangle, 1}, {0, 0.5f}, 0.1f));
-  const auto model = made<bch_body_model_free>(bch_body_model_from_spheres, found.data(), count);
-  EXPECT_EQ(sphere_count(model.get()), count);
+  auto found = test::all_of<bch_sphere>(
+      [&](auto... to) { return bch_spheres_from_capsules(&capsule, 1, 0.01f, to...); });
+  EXPECT_EQ(bytes(found), bytes(spheres_from_capsules({&same, 1}, 0.01f)));
+  found = test::all_of<bch_sphere>(
+      [&](auto... to) { return bch_spheres_from_polygons(corners, offsets, 1, &heights, 0.1f, to...); });
+  EXPECT_EQ(bytes(found), bytes(spheres_from_polygons({&triangle, 1}, {0, 0.5f}, 0.1f)));
+  const auto model = made<bch_body_model_free>(bch_body_model_from_spheres, found.data(), found.size());
+  EXPECT_EQ(sphere_count(model.get()), found.size());
 
   std::size_t untouched = 7;
   EXPECT_EQ(
@@ -131,9 +118,12 @@ struct CrowdOfBodies {
   test::BodyCrowd crowd = test::random_body_crowd(random, 30, 2, 3, 0.5);
   ObstacleSet walls = obstacles_from_wkt(walls_text, Polygons::solid, 0, 0.4);
 
-  test::Owned<bch_body_set, bch_body_set_free> c_set;
-  bch_obstacles* c_walls = nullptr;
-  bch_crowd* c_crowd = nullptr;
+  OwnedBodies c_set;
+  const test::OwnedObstacles of_walls =
+      made<bch_obstacles_free>(bch_obstacles_from_wkt, walls_text, 0, 0, 0.4);
+  const test::OwnedCrowd of_crowd = made<bch_crowd_free>(bch_crowd_create, nullptr);
+  bch_obstacles* const c_walls = of_walls.get();
+  bch_crowd* const c_crowd = of_crowd.get();
   bch_agents agents = BCH_AGENTS_INIT;
 
   CrowdOfBodies() {
@@ -144,19 +134,11 @@ struct CrowdOfBodies {
       offsets.push_back(all.size());
     }
     c_set = made<bch_body_set_free>(bch_body_set_create, all.data(), offsets.data(), spheres.size());
-    expect_ok(bch_obstacles_from_wkt(walls_text, 0, 0, 0.4, &c_walls));
-    expect_ok(bch_crowd_create(nullptr, &c_crowd));
     agents.shape = crowd.body.data(), agents.x = crowd.x.data(), agents.y = crowd.y.data();
     agents.heading = crowd.heading.data(), agents.z = crowd.z.data(), agents.count = crowd.body.size();
   }
-  CrowdOfBodies(const CrowdOfBodies&) = delete;
-  CrowdOfBodies& operator=(const CrowdOfBodies&) = delete;
-  ~CrowdOfBodies() {
-    bch_crowd_free(c_crowd);
-    bch_obstacles_free(c_walls);
-  }
 
-  const bch_pair* pairs() const { return reinterpret_cast<const bch_pair*>(crowd.pairs.data()); }
+  const bch_pair* pairs() const { return test::c_pairs(crowd.pairs); }
   std::size_t pair_count() const { return crowd.pairs.size(); }
 };
 
@@ -164,9 +146,8 @@ struct CrowdOfBodies {
 template <class C, class Cpp>
 void expect_bytes(const C* found, std::size_t count, std::span<const Cpp> expected) {
   static_assert(sizeof(C) == sizeof(Cpp));
-  ASSERT_EQ(count, expected.size());
   ASSERT_GT(count, 0u);
-  EXPECT_EQ(std::memcmp(found, expected.data(), count * sizeof(C)), 0);
+  EXPECT_TRUE(bytes(std::span(found, count)) == bytes(expected));
 }
 
 TEST(CApiBodies, AnswerAboutPairsAsInCpp) {
@@ -268,7 +249,7 @@ TEST(CApiBodies, AnswerAboutObstaclesAsInCpp) {
 
 TEST(CApiBodies, AreRefusedWithAReason) {
   bch_body_model* model = nullptr;
-  const auto man = made<bch_character_free>(bch_character_default, BCH_MALE);
+  const auto man = test::c_person(BCH_MALE);
   EXPECT_EQ(bch_body_model_default(man.get(), 65, &model), BCH_INVALID_ARGUMENT);
   EXPECT_TRUE(test::has(bch_last_error(), "expected 64, 128, 256 or 512 spheres, found 65"));
   std::size_t count = 0;

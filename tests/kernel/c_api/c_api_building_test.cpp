@@ -12,19 +12,8 @@ namespace bch {
 namespace {
 
 using test::expect_ok;
+using test::finished;
 using test::made;
-
-test::OwnedCharacter person(std::int32_t which) {
-  return made<bch_character_free>(bch_character_default, which);
-}
-
-test::OwnedSet finished(const test::OwnedBuilder& builder) {
-  return made<bch_shape_set_free>(bch_shape_set_builder_finish, builder.get());
-}
-
-test::OwnedBuilder builder_of(const bch_plan* plan) {
-  return made<bch_shape_set_builder_free>(bch_shape_set_builder_create, plan);
-}
 
 std::string bytes_of(const bch_shape_set* set) {
   const TemporaryFolder folder;
@@ -68,7 +57,7 @@ TEST(CApiBuilding, SetsOfPosesHaveTheBytesOfTheLibrary) {
   }
   const std::string expected = bytes_of(ShapeSet(shapes, plan), origins);
 
-  const auto female = person(BCH_FEMALE);
+  const auto female = test::c_person(BCH_FEMALE);
   const bch_character* const people[] = {female.get()};
   std::vector<bch_pose> poses(20);
   expect_ok(bch_character_sample_poses(female.get(), 20, poses.data()));
@@ -78,7 +67,7 @@ TEST(CApiBuilding, SetsOfPosesHaveTheBytesOfTheLibrary) {
   c_plan.depths = plan.depths.data(), c_plan.depth_count = 3;
   c_plan.heights = 1;
   c_plan.threshold = 0.02f;
-  const auto builder = builder_of(&c_plan);
+  const auto builder = test::c_builder(&c_plan);
   for (const std::uint32_t threads : {0u, 1u, 2u}) {
     bch_work work = BCH_WORK_INIT;
     work.threads = threads;
@@ -117,7 +106,7 @@ TEST(CApiBuilding, BodiesOfOnesOwnAreThoseOfTheLibrary) {
 
   bch_plan plan = BCH_PLAN_INIT;
   plan.heights = 1;
-  const auto builder = builder_of(&plan);
+  const auto builder = test::c_builder(&plan);
   const bch_vec2 corners[] = {{-0.4f, -0.3f}, {0.4f, -0.3f}, {0.4f, 0.3f}, {-0.4f, 0.3f}};
   const std::uint64_t offsets[] = {0, 4};
   const bch_capsule c_limb{{-0.2f, 0}, {0.2f, 0.1f}, 0.1f};
@@ -131,7 +120,7 @@ TEST(CApiBuilding, BodiesOfOnesOwnAreThoseOfTheLibrary) {
 
   const bch_vec3 positions[] = {{1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 2}};
   const std::uint32_t triangles[] = {0, 1, 2, 0, 2, 3};
-  const auto other = builder_of(nullptr);
+  const auto other = test::c_builder();
   expect_ok(bch_shape_set_builder_add_mesh(other.get(), positions, 4, triangles, 2));
   const std::vector<std::pair<double, double>> square = {{1, 0}, {1, 1}, {2, 0}, {2, 1}};
   EXPECT_EQ(corners_of(finished(other).get(), 0), square);
@@ -139,10 +128,10 @@ TEST(CApiBuilding, BodiesOfOnesOwnAreThoseOfTheLibrary) {
 
 /// Each shape is replaced by another's pose, the last one by a shaper.
 TEST(CApiBuilding, ReplacedShapesAreThoseOfNewSets) {
-  const auto female = person(BCH_FEMALE);
+  const auto female = test::c_person(BCH_FEMALE);
   std::vector<bch_pose> poses(6);
   expect_ok(bch_character_sample_poses(female.get(), 6, poses.data()));
-  const auto builder = builder_of(nullptr);
+  const auto builder = test::c_builder();
   const auto of = [&](const bch_pose* some) {
     expect_ok(bch_shape_set_builder_add_poses(builder.get(), female.get(), some, 3, nullptr));
     return finished(builder);
@@ -158,18 +147,13 @@ TEST(CApiBuilding, ReplacedShapesAreThoseOfNewSets) {
   expect_ok(bch_dynamic_shape_set_replace(dynamic.get(), 2, shaper.get()));
   const bch_shape_set* present = nullptr;
   expect_ok(bch_dynamic_shape_set_get_shapes(dynamic.get(), &present));
-  for (std::uint32_t shape = 0; shape < 3; ++shape) {
-    bch_disc a[1000], b[1000];
-    std::size_t discs_a = 0, discs_b = 0;
-    expect_ok(bch_shape_set_get_discs(present, shape, 0, a, 1000, &discs_a));
-    expect_ok(bch_shape_set_get_discs(later.get(), shape, 0, b, 1000, &discs_b));
-    ASSERT_EQ(discs_a, discs_b);
-    EXPECT_EQ(std::memcmp(a, b, discs_a * sizeof *a), 0) << shape;
-  }
+  for (std::uint32_t shape = 0; shape < 3; ++shape)
+    EXPECT_EQ(test::bytes(test::discs_of(present, shape)), test::bytes(test::discs_of(later.get(), shape)))
+        << shape;
 }
 
 TEST(CApiBuilding, CallersHearOfProgressAndCancel) {
-  const auto character = person(BCH_FEMALE);
+  const auto character = test::c_person(BCH_FEMALE);
   std::vector<bch_pose> poses(400);
   expect_ok(bch_character_sample_poses(character.get(), 400, poses.data()));
   struct Heard {
@@ -184,14 +168,14 @@ TEST(CApiBuilding, CallersHearOfProgressAndCancel) {
     to.last = done;
     return static_cast<std::int32_t>(++to.calls >= to.cancel_at);
   };
-  const auto builder = builder_of(nullptr);
+  const auto builder = test::c_builder();
   expect_ok(bch_shape_set_builder_add_poses(builder.get(), character.get(), poses.data(), 400, &work));
   EXPECT_EQ(heard.last, 400u);
   finished(builder);
 
   // The shapes that were added before are there, as if nothing had been tried.
   for (const std::size_t before : {0, 2}) {
-    const auto other = builder_of(nullptr);
+    const auto other = test::c_builder();
     for (const auto& to : {builder.get(), other.get()})
       expect_ok(bch_shape_set_builder_add_poses(to, character.get(), poses.data(), before, nullptr));
     heard = {0, 0, 1};
@@ -230,25 +214,17 @@ struct Post {
                                  {"turn", 1, &channels[2], 1},
                                  {nullptr, 1, &channels[3], 1}};
   const bch_affine3 to_ground{{{0.01f, 0, 0, 0}, {0, 0.01f, 0, 0}, {0, 0, 0.01f, 0}}};
-  bch_character_arrays arrays{sizeof(bch_character_arrays),
-                              0,
-                              "post",
-                              vertices,
-                              3,
-                              triangles,
-                              1,
-                              parents,
-                              rests,
-                              names,
-                              2,
-                              bones,
-                              binds,
-                              2,
-                              begin,
-                              influences,
-                              clips.data(),
-                              4,
-                              &to_ground};
+  bch_character_arrays arrays = BCH_CHARACTER_ARRAYS_INIT;
+
+  Post() {
+    arrays.root_joint = 0, arrays.name = "post";
+    arrays.vertices = vertices, arrays.vertex_count = 3, arrays.triangles = triangles,
+    arrays.triangle_count = 1;
+    arrays.parents = parents, arrays.rests = rests, arrays.joint_names = names, arrays.joint_count = 2;
+    arrays.bone_joints = bones, arrays.inverse_binds = binds, arrays.bone_count = 2;
+    arrays.influence_offsets = begin, arrays.influences = influences;
+    arrays.clips = clips.data(), arrays.clip_count = 4, arrays.to_ground = &to_ground;
+  }
 };
 
 TEST(CApiBuilding, CharactersOfArraysMoveAsTheseSay) {
@@ -265,7 +241,7 @@ TEST(CApiBuilding, CharactersOfArraysMoveAsTheseSay) {
   const std::vector<std::pair<double, double>> corners[] = {
       {{0, 0}, {0, 2}, {1, 0}},       {{0.5, 2}, {1, 0}, {2, 0}}, {{0.5, 2}, {1, 0}, {2, 0}},
       {{-0.5, 0.5}, {1, -1}, {1, 0}}, {{0, 0}, {0, 2}, {1, 0}},   {{-2, 0}, {-1, 2}, {1, 0}}};
-  const auto builder = builder_of(nullptr);
+  const auto builder = test::c_builder();
   expect_ok(bch_shape_set_builder_add_poses(builder.get(), character.get(), poses, 6, nullptr));
   const auto set = finished(builder);
   for (std::uint32_t i = 0; i < 6; ++i) EXPECT_EQ(corners_of(set.get(), i), corners[i]) << i;
@@ -335,9 +311,9 @@ TEST(CApiBuilding, ScenesArePlanned) {
   EXPECT_EQ(sources[1].at.seconds, 0.5f);
   EXPECT_EQ(sources[2].character, 0u);
 
-  const auto male = person(BCH_MALE), female = person(BCH_FEMALE);
+  const auto male = test::c_person(BCH_MALE), female = test::c_person(BCH_FEMALE);
   const bch_character* const people[] = {male.get(), female.get()};
-  const auto builder = builder_of(&set_plan);
+  const auto builder = test::c_builder(&set_plan);
   expect_ok(bch_shape_set_builder_add_sources(builder.get(), people, 2, sources, count, nullptr));
   const auto set = finished(builder);
   for (const auto& [made, from, seconds] :
@@ -362,9 +338,9 @@ TEST(CApiBuilding, WhatIsWrongWithScenes) {
   EXPECT_EQ(bch_scene_plan_create(&of, &use, &none), BCH_INVALID_ARGUMENT);
   EXPECT_EQ(none, nullptr);
 
-  const auto male = person(BCH_MALE);
+  const auto male = test::c_person(BCH_MALE);
   const bch_character* const people[] = {male.get()};
-  const auto builder = builder_of(nullptr);
+  const auto builder = test::c_builder();
   const bch_shape_source beyond{1, pose}, late{0, {1'000, 0}};
   EXPECT_EQ(bch_shape_set_builder_add_sources(builder.get(), people, 1, &beyond, 1, nullptr),
             BCH_OUT_OF_RANGE);
@@ -373,7 +349,7 @@ TEST(CApiBuilding, WhatIsWrongWithScenes) {
 }
 
 TEST(CApiOutlines, AreThoseOfCpp) {
-  const auto female = person(BCH_FEMALE);
+  const auto female = test::c_person(BCH_FEMALE);
   const Character character = default_female();
   std::vector<bch_pose> poses(3);
   expect_ok(bch_character_sample_poses(female.get(), 3, poses.data()));
@@ -390,7 +366,7 @@ TEST(CApiOutlines, AreThoseOfCpp) {
     expect_ok(bch_outlines_get(found.get(), i, &one));
     ASSERT_EQ(one.point_count, points.size());
     EXPECT_EQ(one.offset_count, expected.contours() + 1);
-    EXPECT_EQ(std::memcmp(points.data(), expected.points.data(), points.size() * sizeof(bch_vec2)), 0);
+    EXPECT_EQ(test::bytes(points), test::bytes(expected.points));
     for (const auto& [format, text] :
          {std::pair(BCH_WKT, to_wkt(expected)), {BCH_GEOJSON, to_geojson(expected)}}) {
       std::string read(text.size() + 9, '#');

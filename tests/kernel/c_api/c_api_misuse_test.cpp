@@ -193,7 +193,7 @@ TEST_F(CApiMisuse, PlansAndBodies) {
   plan.threshold = -1;
   expect_invalid(bch_shape_set_builder_create(&plan, &none), "plan->threshold");
   EXPECT_EQ(none, nullptr);
-  const auto builder = made<bch_shape_set_builder_free>(bch_shape_set_builder_create, nullptr);
+  const auto builder = test::c_builder();
   const bch_vec2 corners[] = {{0, 0}, {1, 0}, {1, 1}};
   const std::uint64_t whole[] = {0, 3}, wrong[] = {3, 0}, second[] = {1, 4};
   const auto add = [&](const bch_vec2* points, const std::uint64_t* offsets, std::size_t polygons) {
@@ -205,7 +205,7 @@ TEST_F(CApiMisuse, PlansAndBodies) {
   expect_invalid(add(corners, whole, SIZE_MAX), "offsets has");
   expect_invalid(bch_shape_set_builder_add_cylinder(builder.get(), -1, nullptr), "-1");
 
-  const auto man = made<bch_character_free>(bch_character_default, BCH_MALE);
+  const auto man = test::c_person(BCH_MALE);
   bch_character* other = nullptr;
   expect_invalid(bch_character_default(7, &other), "which is 7");
   const char* name = nullptr;

@@ -5,6 +5,7 @@
 #include "kernel/runtime/all_options.hpp"
 #include "tests/support/c_api_queries.hpp"
 #include "tests/support/crowd_pairs.hpp"
+#include "tests/support/obstacle_scenes.hpp"
 #include "tests/support/test.hpp"
 
 // What the C interface answers is what the C++ library does, bit by bit.
@@ -109,16 +110,12 @@ std::map<std::string, std::string> answers_of(const test::CScene& scene, const d
       bytes(apart.pairs.span()) +
       bytes_of(std::vector<Penetration>(apart.penetrations.begin(), apart.penetrations.end()));
 
-  hits.resize(people), depths.resize(people), distance.resize(people);
-  direction.resize(people), discs.resize(people), points.resize(people);
-  collide(set, agents, walls, hits, by), all["walls: collide"] = bytes(hits);
-  within(set, agents, walls, nearer.first(people), hits, by.distance_leaves, by.implementation),
-      all["walls: within"] = bytes(hits);
-  penetration(set, agents, walls, depths), all["walls: penetration"] = bytes_of(depths);
-  time_of_impact(set, agents, {x.first(people), y.first(people)}, walls, distance);
-  all["walls: time of impact"] = bytes(distance);
-  clearance(set, agents, walls, {distance, direction, discs, points}, by);
-  all["walls: clearance"] = bytes(distance) + bytes(direction) + bytes(discs) + bytes(points);
+  const test::ObstacleAnswers at_walls =
+      test::all_answers(set, agents, walls, by, nearer.first(people), {x.first(people), y.first(people)});
+  all["walls: collide"] = bytes(at_walls.hits), all["walls: within"] = bytes(at_walls.near);
+  all["walls: penetration"] = bytes_of(at_walls.ways), all["walls: time of impact"] = bytes(at_walls.time);
+  all["walls: clearance"] =
+      bytes(at_walls.distance) + bytes(at_walls.direction) + bytes(at_walls.discs) + bytes(at_walls.points);
   return all;
 }
 
@@ -199,13 +196,7 @@ TEST_P(CApi, TellsWhatASetHas) {
   float radius = 0;
   expect_ok(bch_shape_set_get_radius(in, shape, &radius));
   EXPECT_EQ(radius, set.bounding_radius(shape));
-  const std::vector<Disc> discs = set.discs(shape, level);
-  std::size_t count = 0;
-  expect_ok(bch_shape_set_get_discs(in, shape, level, nullptr, 0, &count));
-  ASSERT_EQ(discs.size(), count);
-  std::vector<bch_disc> c_discs(count);
-  expect_ok(bch_shape_set_get_discs(in, shape, level, c_discs.data(), count, &count));
-  EXPECT_EQ(bytes(discs), bytes(c_discs));
+  EXPECT_EQ(bytes(set.discs(shape, level)), bytes(test::discs_of(in, shape, level)));
   std::size_t findings = 9;
   expect_ok(bch_shape_set_verify(in, 10, nullptr, nullptr, &findings));
   EXPECT_EQ(findings, 0u);

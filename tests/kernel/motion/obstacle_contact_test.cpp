@@ -20,13 +20,6 @@ using test::still_disc;
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-bool holds(const ReferenceObstacle& area, const test::WorldDisc& point) {
-  bool inside = false;
-  for (const auto& [ax, ay, bx, by] : area.segments)
-    if ((ay > point.y) != (by > point.y)) inside ^= point.x - ax < (bx - ax) * ((point.y - ay) / (by - ay));
-  return inside;
-}
-
 /// The gap of the nearest disc and segment, and whether an area holds a disc's centre.
 struct Meeting {
   double gap = never;
@@ -41,7 +34,7 @@ Meeting meeting_at(const MotionCase& motion, const ObstacleScene& scene, double 
       for (const auto& [ax, ay, bx, by] : obstacle.segments)
         meeting.gap =
             std::min(meeting.gap, test::distance_to_segment(disc.x, disc.y, ax, ay, bx, by) - disc.radius);
-      meeting.inside |= obstacle.is_area && holds(obstacle, disc);
+      meeting.inside |= obstacle.is_area && test::holds(obstacle, disc.x, disc.y);
     }
   }
   return meeting;

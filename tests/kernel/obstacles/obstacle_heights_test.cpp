@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "tests/support/height_scenes.hpp"
-#include "tests/support/obstacle_answers.hpp"
+#include "tests/support/character_shapes.hpp"
 #include "tests/support/obstacle_scenes.hpp"
 #include "tests/support/test.hpp"
 
@@ -30,48 +29,19 @@ void raise(Random& random, ObstacleScene& scene) {
 
 /// Obstacles of a scene that are level with a body, without heights.
 struct LevelObstacles {
-  LevelObstacles(const ObstacleScene& scene, const std::vector<bool>& kept) {
+  LevelObstacles(const ObstacleScene& scene, const std::function<bool(std::size_t)>& is_level) {
     std::uint32_t number = 0;
-    std::vector<std::uint64_t> obstacle_offsets{0}, path_offsets{0};
-    std::vector<std::uint8_t> is_area;
-    std::vector<double> x, y;
-    for (std::size_t o = 0; o < scene.is_area.size(); ++o) {
-      const std::size_t segments = scene.reference[o].segments.size();
-      for (std::size_t k = 0; k < segments; ++k, ++number)
-        if (kept[o]) numbers.push_back(number);
-      if (!kept[o]) continue;
-      obstacles.push_back(static_cast<std::uint32_t>(o)), reference.push_back(scene.reference[o]);
-      for (std::size_t p = scene.obstacle_offsets[o]; p < scene.obstacle_offsets[o + 1]; ++p) {
-        for (std::size_t i = scene.path_offsets[p]; i < scene.path_offsets[p + 1]; ++i)
-          x.push_back(scene.x[i]), y.push_back(scene.y[i]);
-        path_offsets.push_back(x.size());
-      }
-      obstacle_offsets.push_back(path_offsets.size() - 1), is_area.push_back(scene.is_area[o]);
+    for (std::uint32_t o = 0; o < scene.is_area.size(); ++o) {
+      const bool kept = is_level(o);
+      if (kept) obstacles.push_back(o);
+      for (std::size_t k = scene.reference[o].segments.size(); k > 0; --k, ++number)
+        if (kept) numbers.push_back(number);
     }
-    set = std::make_unique<ObstacleSet>(ObstacleArrays{x, y, path_offsets, obstacle_offsets, is_area});
+    part = scene.part(obstacles);
   }
 
-  std::unique_ptr<ObstacleSet> set;
   std::vector<std::uint32_t> numbers, obstacles;  ///< in the whole scene, of its segments and obstacles
-  std::vector<baselines::ReferenceObstacle> reference;
-};
-
-/// What all queries say of an agent.
-struct AgentAnswers {
-  std::uint8_t hit = 0, near = 0;
-  float distance = HUGE_VALF, deepest = HUGE_VALF, time = HUGE_VALF;
-  DiscPair discs{};
-  Penetration way_out{};
-
-  AgentAnswers() = default;
-  AgentAnswers(const test::ObstacleAnswers& all, std::size_t i)
-      : hit(all.hits[i]),
-        near(all.near[i]),
-        distance(all.distance[i]),
-        deepest(all.deepest[i]),
-        time(all.time[i]),
-        discs(all.deepest_discs[i]),
-        way_out(all.ways[i]) {}
+  ObstacleScene part;
 };
 
 /// What agents are asked: how near is near, and their ways, the same in x and y.
@@ -87,20 +57,22 @@ struct Question {
 class ObstaclesWithHeights : public testing::Test {
  protected:
   /// Returns what an agent says of the obstacles level with it. `touched`: those that it collides with.
-  AgentAnswers expected_of(const Crowd& crowd, std::uint32_t agent, const ObstacleScene& scene,
-                           const Question& question, std::vector<std::uint32_t>& touched) {
+  test::ObstacleAnswers expected_of(const Crowd& crowd, std::uint32_t agent, const ObstacleScene& scene,
+                                    const Question& question, std::vector<std::uint32_t>& touched) {
     const LevelObstacles level = level_with(scene, bodies[crowd.shape[agent]].heights, crowd.z[agent]);
     Crowd one;
     one.add({crowd.shape[agent], crowd.x[agent], crowd.y[agent], crowd.heading[agent], crowd.level[agent]});
     const Question its_own{
         question.options, {question.distances[agent]}, std::vector<double>(1, question.way[agent])};
-    AgentAnswers of(its_own.ask(flat, one.agents(), *level.set), 0);
-    EXPECT_EQ(of.hit, std::ranges::any_of(level.reference, [&](const auto& obstacle) {
+    const ObstacleSet obstacles = level.part.set();
+    test::ObstacleAnswers of = its_own.ask(flat, one.agents(), obstacles);
+    EXPECT_EQ(of.hits[0], std::ranges::any_of(level.part.reference, [&](const auto& obstacle) {
                 return reference.collides(one.agents(), 0, obstacle);
               }));
-    if (of.deepest < HUGE_VALF) of.discs.second = level.numbers[of.discs.second];
+    std::uint32_t& segment = of.deepest_discs[0].second;
+    if (of.deepest[0] < HUGE_VALF) segment = level.numbers[segment];
     const Rows<std::uint32_t> rows =
-        collider.obstacles(flat, one.agents(), *level.set, {.leaves = question.options.leaves});
+        collider.obstacles(flat, one.agents(), obstacles, {.leaves = question.options.leaves});
     for (const std::uint32_t obstacle : rows[0]) touched.push_back(level.obstacles[obstacle]);
     return of;
   }
@@ -113,13 +85,12 @@ class ObstaclesWithHeights : public testing::Test {
  private:
   /// In long double, with the slack of the definition.
   static LevelObstacles level_with(const ObstacleScene& scene, Heights body, double z) {
-    std::vector<bool> kept;
     const long double slack = 1e-9L + std::abs(z) * 0x1p-50L;
-    for (std::size_t o = 0; o < scene.is_area.size(); ++o)
-      kept.push_back(scene.bottom.empty() ||
+    return {scene, [&](std::size_t o) {
+              return scene.bottom.empty() ||
                      (scene.bottom[o] <= static_cast<long double>(body.top) + z + slack &&
-                      static_cast<long double>(body.bottom) + z <= scene.top[o] + slack));
-    return {scene, kept};
+                      static_cast<long double>(body.bottom) + z <= scene.top[o] + slack);
+            }};
   }
 
   const ShapeSet flat{bodies, {.depths = plan.depths}};
@@ -150,19 +121,19 @@ TEST_F(ObstaclesWithHeights, AreAsWithoutHeightsWhereLevelWithABody) {
           whole.obstacles(set, crowd.agents(), obstacles, {.leaves = question.options.leaves});
       for (std::uint32_t i = 0; i < agents; ++i) {
         std::vector<std::uint32_t> touched;
-        const AgentAnswers expected = expected_of(crowd, i, scene, question, touched), of(found, i);
-        ASSERT_EQ(of.hit, expected.hit) << k << ", agent " << i;
-        ASSERT_EQ(of.near, expected.near) << k << ", agent " << i;
-        ASSERT_EQ(of.distance, expected.distance) << k << ", agent " << i;
-        ASSERT_EQ(of.deepest, expected.deepest) << k << ", agent " << i;
-        if (expected.deepest < HUGE_VALF) {
-          ASSERT_EQ(of.discs, expected.discs) << k << ", agent " << i;
+        const test::ObstacleAnswers expected = expected_of(crowd, i, scene, question, touched);
+        ASSERT_EQ(found.hits[i], expected.hits[0]) << k << ", agent " << i;
+        ASSERT_EQ(found.near[i], expected.near[0]) << k << ", agent " << i;
+        ASSERT_EQ(found.distance[i], expected.distance[0]) << k << ", agent " << i;
+        ASSERT_EQ(found.deepest[i], expected.deepest[0]) << k << ", agent " << i;
+        if (expected.deepest[0] < HUGE_VALF) {
+          ASSERT_EQ(found.deepest_discs[i], expected.deepest_discs[0]) << k << ", agent " << i;
         }
-        ASSERT_EQ(of.time, expected.time) << k << ", agent " << i;
-        ASSERT_EQ(of.way_out, expected.way_out) << k << ", agent " << i;
+        ASSERT_EQ(found.time[i], expected.time[0]) << k << ", agent " << i;
+        ASSERT_EQ(found.ways[i], expected.ways[0]) << k << ", agent " << i;
         ASSERT_EQ(std::vector<std::uint32_t>(rows[i].begin(), rows[i].end()), touched);
-        hits += expected.hit;
-        passed += raised && hits_of_all[i] != 0 && expected.hit == 0;
+        hits += found.hits[i];
+        passed += raised && hits_of_all[i] != 0 && found.hits[i] == 0;
       }
       hits_of_all = found.hits;
     }
@@ -182,11 +153,8 @@ class BoxAtAWall : public testing::Test {
 
   /// Asks for a collision with an area from `bottom` to `top` that holds the agent.
   static bool hits(const ShapeSet& set, const std::vector<double>& z, double bottom, double top) {
-    const std::vector<double> x = {-50, 50, 50, -50}, y = {-50, -50, 50, 50};
-    const std::vector<std::uint64_t> paths = {0, 4};
-    const std::vector<std::uint8_t> area = {1};
-    const std::vector<double> bottoms = {bottom}, tops = {top};
-    const ObstacleSet obstacles({x, y, paths, {}, area, bottoms, tops});
+    const ObstacleSet obstacles =
+        obstacles_from_wkt("POLYGON((-50 -50, 50 -50, 50 50, -50 50))", Polygons::solid, bottom, top);
     Crowd crowd;
     crowd.add({0, 1, 2, 0.5, 0});
     crowd.z = z;

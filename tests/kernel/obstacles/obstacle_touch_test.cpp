@@ -194,13 +194,13 @@ TEST_F(Obstacles, OfEquallyNearOnesTheFirstCounts) {
   Crowd crowd;
   crowd.add({0, 0, 0, 0, 0});
   // Walls beside all four sides, each a metre away; the one above twice.
-  const std::vector<double> x = {-3, 3, -3, 3, 2, 2, -2, -2, -3, 3}, y = {2, 2, 2, 2, -3, 3, -3, 3, -2, -2};
-  const std::vector<std::uint64_t> paths = {0, 2, 4, 6, 8, 10};
+  const ObstacleSet walls = obstacles_from_wkt(
+      "MULTILINESTRING((-3 2, 3 2), (-3 2, 3 2), (2 -3, 2 3), (-2 -3, -2 3), (-3 -2, 3 -2))");
   for (const Implementation& each : test::supported()) {
     float distance = 0;
     DiscPair discs{};
     NearestPoints points{};
-    clearance(squares, crowd.agents(), ObstacleSet({x, y, paths}),
+    clearance(squares, crowd.agents(), walls,
               {.distance = {&distance, 1}, .discs = {&discs, 1}, .points = {&points, 1}},
               {.implementation = &each, .leaves = Leaves::segments});
     EXPECT_NEAR(distance, 1, 3e-6) << each.name;
@@ -217,15 +217,13 @@ TEST_F(Obstacles, OfLeavesWithTooManySegments) {
                                     test::contour_shape(test::star(random, 40, 0.2, 0.4))};
   const ShapeSet set_of_stars(stars);
   const baselines::ObstacleReference reference(stars, {}, Leaves::segments);
-  const std::vector<double> x = {-3, 3}, y = {0.5, 0.6};
-  const std::vector<std::uint64_t> paths = {0, 2};
-  const std::vector<baselines::ReferenceObstacle> walls = {{{{-3, 0.5, 3, 0.6}}, false}};
+  ObstacleScene wall;
+  wall.add({{-3, 0.5}, {3, 0.6}}, false);
   const Crowd crowd = test::crowd_about(random, set_of_stars, 20, 1);
   std::vector<float> distances(20);
-  clearance(set_of_stars, crowd.agents(), ObstacleSet({x, y, paths}), {.distance = distances},
-            {.leaves = Leaves::segments});
+  clearance(set_of_stars, crowd.agents(), wall.set(), {.distance = distances}, {.leaves = Leaves::segments});
   for (std::uint32_t i = 0; i < distances.size(); ++i) {
-    const double gap = reference.outline_gap(crowd.agents(), i, walls).gap;
+    const double gap = reference.outline_gap(crowd.agents(), i, wall.reference).gap;
     EXPECT_LE(double{distances[i]}, std::max(gap, 0.0)) << i;
     EXPECT_NEAR(double{distances[i]}, std::max(gap, 0.0), 1.2e-7) << i;
   }
@@ -237,11 +235,11 @@ TEST_F(Obstacles, InsideAnOutline) {
   const ShapeSet squares({&square, 1}), discs({&square, 1}, {.outlines = false});
   Crowd crowd;
   crowd.add({0, 5, 5, 0.2, 0});
-  const std::vector<double> x = {5.1, 5.2, 5.1, 4.5}, y = {5, 5, 5.1, 4.6};
-  const std::vector<std::uint64_t> paths = {0, 3, 4};
   for (const bool is_area : {false, true}) {
-    const std::vector<std::uint8_t> areas = {is_area, 0};
-    const ObstacleSet obstacles({x, y, paths, {}, areas});
+    ObstacleScene scene;
+    scene.add({{5.1, 5}, {5.2, 5}, {5.1, 5.1}}, is_area);
+    scene.add({{4.5, 4.6}}, false);
+    const ObstacleSet obstacles = scene.set();
     std::vector<std::uint8_t> hits(1);
     const double near = 0.01;
     for (const ShapeSet* const set : {&squares, &discs}) {
@@ -266,25 +264,15 @@ TEST_F(Obstacles, InsideAnOutline) {
 TEST_F(Obstacles, HoldWhatIsLevelWithTheirVertices) {
   const ShapeSet discs(std::vector<Shape>{{{}, detail::fixed_cylinder(0.125f)}});
   // A diamond; teeth whose tips are level with what stands before them; a notch.
-  const std::vector<double> x = {1, 0, -1, 0, 4, 5, 6, 7, 8, 8, 4, 4, 5, 5, 4},
-                            y = {0, 1, 0, -1, 1, 0, 1, 0, 1, 2, 2, -3, -3, -2, -2.5};
-  const std::vector<std::uint64_t> paths = {0, 4, 11, 15};
-  const std::vector<std::uint8_t> areas = {1, 1, 1};
+  const ObstacleSet areas = obstacles_from_wkt(
+      "POLYGON((1 0, 0 1, -1 0, 0 -1)) POLYGON((4 1, 5 0, 6 1, 7 0, 8 1, 8 2, 4 2))"
+      "POLYGON((4 -3, 5 -3, 5 -2, 4 -2.5))");
   Crowd crowd;
-  for (const auto& [at_x, at_y] : {std::pair{0.0, 0.0},
-                                   {-2.0, 0.0},
-                                   {2.0, 0.0},
-                                   {-2.0, 1.0},
-                                   {2.0, 1.0},
-                                   {5.0, 1.0},
-                                   {6.0, 1.5},
-                                   {-2.0, -3.0},
-                                   {3.0, -2.5},
-                                   {4.7, -2.5},
-                                   {9.0, 1.0}})
-    crowd.add({0, at_x, at_y, 0, 0});
+  const double at_x[] = {0, -2, 2, -2, 2, 5, 6, -2, 3, 4.7, 9},
+               at_y[] = {0, 0, 0, 1, 1, 1, 1.5, -3, -2.5, -2.5, 1};
+  for (std::size_t i = 0; i < std::size(at_x); ++i) crowd.add({0, at_x[i], at_y[i], 0, 0});
   std::vector<std::uint8_t> hits(crowd.x.size());
-  collide(discs, crowd.agents(), ObstacleSet({x, y, paths, {}, areas}), hits);
+  collide(discs, crowd.agents(), areas, hits);
   EXPECT_EQ(hits, (std::vector<std::uint8_t>{1, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0}));
 }
 
@@ -295,9 +283,7 @@ std::vector<Vec2> triangle(float x) {
 /// An area holds one of two contours: discs above it are inside, those below stick out of it, and the whole body is crossed.
 TEST_F(Obstacles, HoldAPartOfAnOutline) {
   const std::vector<std::vector<Vec2>> pair = {triangle(-1), triangle(1)};
-  std::vector<Shape> both = {shape_from_polygons(pair)};
-  // One leaf holds both.
-  both.push_back(shape_from_polygons(pair, 3));
+  const std::vector<Shape> both = {shape_from_polygons(pair), shape_from_polygons(pair, 3)};  // in one leaf
   const ShapeSet set_of_both(both, {.depths = {0, 1, 2, 3, 4, all_depths}});
   for (const double side : {-1.0, 1.0}) {
     ObstacleScene scene;
@@ -328,9 +314,8 @@ TEST_F(Obstacles, HoldAPartOfALeaf) {
   ASSERT_EQ(leaves.discs(0, 0).size(), 2u);
   for (const double middle : {-1.15, -0.85, 0.85, 1.15}) {
     ObstacleScene scene;
-    scene.add_path({{middle - 0.11, -0.1}, {middle + 0.11, -0.1}, {middle + 0.11, 0.1}, {middle - 0.11, 0.1}},
-                   true);
-    scene.end_obstacle(true);
+    scene.add({{middle - 0.11, -0.1}, {middle + 0.11, -0.1}, {middle + 0.11, 0.1}, {middle - 0.11, 0.1}},
+              true);
     Crowd crowd;
     crowd.add({0, 0, 0, 0, 0});
     std::uint8_t hit = 0;

@@ -14,25 +14,6 @@ namespace {
 using Obstacles = test::ObstacleTest;
 using test::Crowd;
 using test::ObstacleScene;
-using Obstacles = test::ObstacleTest;
-
-/// Returns the obstacles of a scene, each as a set of its own.
-std::vector<ObstacleSet> one_by_one(const ObstacleScene& scene) {
-  std::vector<ObstacleSet> sets;
-  for (std::size_t obstacle = 0; obstacle < scene.is_area.size(); ++obstacle) {
-    const bool is_area = scene.is_area[obstacle] != 0;
-    ObstacleScene alone;
-    for (auto path = scene.obstacle_offsets[obstacle]; path < scene.obstacle_offsets[obstacle + 1]; ++path) {
-      std::vector<ObstacleScene::Point> points;
-      for (auto i = scene.path_offsets[path]; i < scene.path_offsets[path + 1]; ++i)
-        points.push_back({scene.x[i], scene.y[i]});
-      alone.add_path(points, is_area);
-    }
-    alone.end_obstacle(is_area);
-    sets.push_back(alone.set());
-  }
-  return sets;
-}
 
 std::vector<ObstacleScene::Point> square(double half) {
   return {{-half, -half}, {half, -half}, {half, half}, {-half, half}};
@@ -49,8 +30,8 @@ TEST_F(Obstacles, AreLeftByTheLongestOfTheMoves) {
     std::vector<Penetration> ways(60), alone(60);
     std::vector<std::vector<Penetration>> by_obstacle(60);
     penetration(set, crowd.agents(), scene.set(), ways);
-    for (const ObstacleSet& obstacle : one_by_one(scene)) {
-      penetration(set, crowd.agents(), obstacle, alone);
+    for (std::uint32_t obstacle = 0; obstacle < scene.is_area.size(); ++obstacle) {
+      penetration(set, crowd.agents(), scene.part({&obstacle, 1}).set(), alone);
       for (std::size_t i = 0; i < alone.size(); ++i)
         if (alone[i].depth > 0) by_obstacle[i].push_back(alone[i]);
     }
@@ -146,21 +127,20 @@ TEST_F(Obstacles, HaveTheHullOfTheirEnds) {
 /// Repeated points are no sides, and a post is left the way that a disc is beside it.
 TEST_F(Obstacles, AreLeftAcrossRealSides) {
   const ShapeSet discs(std::vector<Shape>{{{}, detail::fixed_cylinder(0.3f)}});
-  const std::vector<double> x = {0, 1, 1, 0, 0, 5, 5, 5}, y = {0, 0, 1, 1, 1, 0, 0, 2};
-  const std::vector<std::uint64_t> paths = {0, 5, 8};
-  const std::vector<std::uint8_t> areas = {1, 0};
+  ObstacleScene scene, post;
+  scene.add({{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 1}}, true);
+  scene.add({{5, 0}, {5, 0}, {5, 2}}, false);
+  post.add({{0, 0}}, false);
   Crowd crowd;
   crowd.add({0, -0.1, 0.75, 0.5, 0}), crowd.add({0, 5.2, 0.1, 0.5, 0});
   std::vector<Penetration> ways(2);
-  penetration(discs, crowd.agents(), ObstacleSet({x, y, paths, {}, areas}), ways);
+  penetration(discs, crowd.agents(), scene.set(), ways);
   EXPECT_NEAR(ways[0].depth, 0.2, 1e-5);
   EXPECT_EQ(ways[0].x, -1);
   EXPECT_NEAR(ways[1].depth, 0.1, 1e-5);
   EXPECT_EQ(ways[1].x, 1);
-  const std::vector<double> post_x = {0}, post_y = {0};
-  const std::vector<std::uint64_t> post = {0, 1};
   for (std::size_t k = 0; k < 2; ++k) crowd.x[k] = 0.144 * (k == 0 ? 1 : -1), crowd.y[k] = 0.192;
-  penetration(discs, crowd.agents(), ObstacleSet({post_x, post_y, post}), ways);
+  penetration(discs, crowd.agents(), post.set(), ways);
   for (std::size_t k = 0; k < 2; ++k) {
     EXPECT_NEAR(ways[k].depth, 0.06, 1e-5);
     EXPECT_NEAR(ways[k].x, k == 0 ? 0.6 : -0.6, 1e-6);
@@ -177,15 +157,11 @@ TEST_F(Obstacles, AreLeftByMovingOut) {
     ObstacleScene scene;
     const double angle = random.uniform(-4, 4), c = std::cos(angle), s = std::sin(angle);
     const double radius = k % 4 == 0 ? 40 : random.uniform(0.05, 1);
+    const double rc = radius * c, rs = radius * s;
     if (is_pillar)
-      scene.add_path({{radius * c, radius * s},
-                      {-radius * s, radius * c},
-                      {-radius * c, -radius * s},
-                      {radius * s, -radius * c}},
-                     true);
+      scene.add({{rc, rs}, {-rs, rc}, {-rc, -rs}, {rs, -rc}}, true);
     else
-      scene.add_path({{-2 * c, -2 * s}, {random.uniform(0, 3) * c, 2 * s}}, false);
-    scene.end_obstacle(is_pillar);
+      scene.add({{-2 * c, -2 * s}, {random.uniform(0, 3) * c, 2 * s}}, false);
     const ObstacleSet obstacles = scene.set();
     Crowd crowd = test::crowd_about(random, set, 1, is_pillar ? radius + 0.2 : 2);
     std::vector<Penetration> way(1);

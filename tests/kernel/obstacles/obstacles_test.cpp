@@ -7,7 +7,6 @@
 #include "baselines/obstacle_reference.hpp"
 #include "kernel/runtime/all_options.hpp"
 #include "layout/hierarchy/paper_hierarchies.hpp"
-#include "tests/support/obstacle_answers.hpp"
 #include "tests/support/obstacle_scenes.hpp"
 #include "tests/support/plane_geometry.hpp"
 #include "tests/support/test.hpp"
@@ -210,10 +209,8 @@ TEST_F(Obstacles, MayBeLong) {
     crowd.add({0, 3, 0.25 + gap, 0.3, 0});
     crowd.add({0, far - 1, 0.25 + gap, 0.3, 0});
     crowd.add({0, -far - 0.25 - gap, 0, 0.3, 0});
-    const std::vector<double> x = {-far, far}, y = {0, 0};
-    const std::vector<std::uint64_t> paths = {0, 2};
     std::vector<std::uint8_t> hits(3);
-    collide(discs, crowd.agents(), ObstacleSet({x, y, paths}), hits);
+    collide(discs, crowd.agents(), obstacles_from_wkt("LINESTRING(-1e8 0, 1e8 0)"), hits);
     EXPECT_EQ(hits, std::vector<std::uint8_t>(3, gap < 0)) << gap;
   }
 }
@@ -239,8 +236,7 @@ TEST_F(Obstacles, OfTheWholeCrowd) {
 }
 
 TEST_F(Obstacles, MayBeNone) {
-  const std::vector<std::uint64_t> none = {0};
-  const ObstacleSet obstacles({{}, {}, none});
+  const ObstacleSet obstacles = ObstacleScene().set();
   EXPECT_EQ(obstacles.obstacle_count(), 0u);
   EXPECT_EQ(obstacles.segment_count(), 0u);
   const Crowd crowd = test::crowd_about(random, set, 10, 3);

@@ -9,8 +9,8 @@
 
 #include "tests/support/body_scenes.hpp"
 #include "tests/support/implementations.hpp"
-#include "tests/support/obstacle_answers.hpp"
 #include "tests/support/obstacle_scenes.hpp"
+#include "tests/support/plane_geometry.hpp"
 #include "tests/support/test.hpp"
 
 // Bodies of spheres and obstacles that stand upright, against the definition in long double.
@@ -25,25 +25,6 @@ using test::Random;
 constexpr double unlimited = std::numeric_limits<double>::infinity();
 constexpr long double rounding = 1e-8L;  ///< metres: headings are within 3e-10, times a reach
 
-/// Returns the distance of a point from a segment.
-long double distance(const std::array<double, 4>& segment, long double x, long double y) {
-  const long double ax = segment[0], ay = segment[1], way_x = segment[2] - ax, way_y = segment[3] - ay;
-  const long double square = way_x * way_x + way_y * way_y;
-  const long double share =
-      square > 0 ? std::clamp(((x - ax) * way_x + (y - ay) * way_y) / square, 0.0L, 1.0L) : 0.0L;
-  return std::hypot(x - ax - share * way_x, y - ay - share * way_y);
-}
-
-/// Returns whether an area holds a point, by the parity of the segments that a ray upwards meets.
-bool holds(const baselines::ReferenceObstacle& area, long double x, long double y) {
-  bool odd = false;
-  for (const auto& [ax, ay, bx, by] : area.segments) {
-    if ((ax <= x) == (bx <= x)) continue;
-    odd ^= ay + (x - ax) / (bx - ax) * (by - ay) > y;
-  }
-  return odd;
-}
-
 /// Returns the least gap between spheres and an obstacle.
 long double gap(const std::vector<Sphere>& spheres, const Agents& agents, std::uint32_t agent,
                 const ObstacleScene& scene, std::size_t obstacle) {
@@ -55,8 +36,9 @@ long double gap(const std::vector<Sphere>& spheres, const Agents& agents, std::u
     const long double x = agents.x[agent] + (c * sphere.x - s * sphere.y),
                       y = agents.y[agent] + (s * sphere.x + c * sphere.y),
                       z = static_cast<long double>(agents.z[agent]) + sphere.z;
-    long double aside = other.is_area && holds(other, x, y) ? 0 : unlimited, above = 0;
-    for (const auto& segment : other.segments) aside = std::min(aside, distance(segment, x, y));
+    long double aside = other.is_area && test::holds(other, x, y) ? 0 : unlimited, above = 0;
+    for (const auto& [ax, ay, bx, by] : other.segments)
+      aside = std::min(aside, test::distance_to_segment<long double>(x, y, ax, ay, bx, by));
     if (!scene.bottom.empty()) above = std::max({scene.bottom[obstacle] - z, z - scene.top[obstacle], 0.0L});
     least = std::min(least, std::hypot(aside, above) - sphere.radius);
   }

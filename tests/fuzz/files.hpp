@@ -3,8 +3,10 @@
 
 #pragma once
 
+#include <sys/mman.h>
 #include <unistd.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <span>
@@ -13,6 +15,23 @@
 #include "tests/fuzz/target.hpp"
 
 namespace bch::fuzz {
+
+/// A file without a folder.
+class MemoryFile {
+ public:
+  explicit MemoryFile(std::span<const char> bytes) : descriptor_(memfd_create("input", 0)) {
+    require(descriptor_ >= 0, "a file in memory can be made");
+    require(write(descriptor_, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()),
+            "a file in memory can be written");
+  }
+  ~MemoryFile() { close(descriptor_); }
+  MemoryFile(const MemoryFile&) = delete;
+  MemoryFile& operator=(const MemoryFile&) = delete;
+  std::string path() const { return "/proc/self/fd/" + std::to_string(descriptor_); }
+
+ private:
+  int descriptor_;
+};
 
 /// A file in a folder, for libraries that want one, which gets one content after the other.
 class RewrittenFile {
