@@ -186,6 +186,8 @@ void expect_as_reference(const Outline& outline, float threshold) {
     builder.add_primitives(hierarchy);
     expect_same_tree(hierarchy, reference_hierarchy(outline, threshold, rule));
     expect_sound(hierarchy);
+    expect_covers_outline(hierarchy, outline);
+    expect_leaves_below(hierarchy, threshold);
   }
 }
 
