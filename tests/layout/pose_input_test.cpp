@@ -312,12 +312,13 @@ TEST(PoseShaper, NeedsNoOutlineForTheRootAlone) {
 void expect_no_allocations_the_second_time(const ShapeSetPlan& plan) {
   const Character woman = default_female();
   PoseShaper shaper(woman, plan);
+  PreparedShape prepared(plan);
   const std::vector<PoseTime> times = sample_poses(woman, 20);
   const std::size_t before = test::allocation_count();
-  for (const PoseTime& time : times) shaper.shape(time);
+  for (const PoseTime& time : times) prepared.prepare(shaper.shape(time), 0);
   const std::size_t first = test::allocation_count();
   EXPECT_GT(first, before);
-  for (const PoseTime& time : times) shaper.shape(time);
+  for (const PoseTime& time : times) prepared.prepare(shaper.shape(time), 0);
   EXPECT_EQ(test::allocation_count(), first);
 }
 
@@ -325,6 +326,7 @@ TEST(PoseShaper, AllocatesNothingTheSecondTime) {
   expect_no_allocations_the_second_time({});
   expect_no_allocations_the_second_time({.depths = {0}});
   expect_no_allocations_the_second_time({.heights = true});
+  expect_no_allocations_the_second_time({.depths = {0, 3, 6, all_depths}});
 }
 
 TEST(PoseShaper, RejectsWhatItsPartsReject) {
