@@ -290,17 +290,6 @@ TEST(HierarchyBuilder, LeavesNothingHalfDone) {
   EXPECT_TRUE(hierarchy.nodes.empty());
 }
 
-/// A number just beyond a limit must not read as the limit.
-TEST(HierarchyBuilder, NumbersInMessagesAreWhatTheyAre) {
-  const auto reason = [](float size, float threshold) {
-    const Outline outline{{{0, 0}, {size, 0}, {0, size}}, {0, 3}, 0x1p-40f};
-    return complaint([&] { contour_hierarchy(outline, threshold); });
-  };
-  EXPECT_EQ(reason(1, 0.01f), "accepted");
-  EXPECT_EQ(reason(1, -1e-9f), "hierarchy: threshold -1e-09 m is not positive and finite");
-  EXPECT_EQ(reason(0x1p-21f, 0.01f).rfind("outline: reach 4.768371", 0), 0u) << reason(0x1p-21f, 0.01f);
-}
-
 /// Against the definition in double: rounding takes at most 8 of the margin's 320 units.
 TEST(Flattener, SupportsAreThoseOfTheCut) {
   detail::Flattener flattener;

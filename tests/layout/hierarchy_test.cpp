@@ -41,6 +41,8 @@ TEST(ContourHierarchy, RejectsBadInput) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   for (const float threshold : {0.0f, -1.0f, nan, std::numeric_limits<float>::infinity()})
     EXPECT_THROW(contour_hierarchy(good, threshold), std::invalid_argument);
+  EXPECT_EQ(test::complaint([&] { contour_hierarchy(good, -1e-9f); }),
+            "hierarchy: threshold -1e-09 m is not positive and finite");
   EXPECT_THROW(contour_hierarchy(good, 1e-8f), std::length_error);
   EXPECT_THROW(contour_hierarchy(Outline{}, 0.01f), std::invalid_argument);
   EXPECT_THROW(contour_hierarchy(polygon({{0, 0}, {nan, 0}, {0, 1}}), 0.01f), std::invalid_argument);
