@@ -45,8 +45,11 @@ class DynamicShapes : public testing::TestWithParam<ShapeSetPlan> {
   ShapeSet start{present, GetParam()};
   DynamicShapeSet dynamic{start};
 
+  PreparedShape prepared{GetParam()};  // of one shape after the other
+
   void replace(std::uint32_t shape, const Shape& by) {
-    dynamic.replace(shape, flat(by, GetParam()));
+    prepared.prepare(by, 0);
+    dynamic.replace(shape, prepared);
     present[shape] = by;
   }
 

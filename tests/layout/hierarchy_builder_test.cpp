@@ -8,7 +8,6 @@
 #include "layout/hierarchy/builder.hpp"
 #include "layout/hierarchy/paper_hierarchies.hpp"
 #include "layout/shape_set/bvh8.hpp"
-#include "tests/support/allocation_count.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/hierarchy_checks.hpp"
 #include "tests/support/test.hpp"
@@ -186,6 +185,8 @@ void expect_as_reference(const Outline& outline, float threshold) {
     builder.add_primitives(hierarchy);
     expect_same_tree(hierarchy, reference_hierarchy(outline, threshold, rule));
     expect_sound(hierarchy);
+    expect_covers_outline(hierarchy, outline);
+    expect_leaves_below(hierarchy, threshold);
   }
 }
 
@@ -287,65 +288,6 @@ TEST(HierarchyBuilder, LeavesNothingHalfDone) {
                                hierarchy),
                std::invalid_argument);
   EXPECT_TRUE(hierarchy.nodes.empty());
-}
-
-/// Hierarchies and their levels; twice, and a second time without allocating.
-TEST(HierarchyBuilder, ReusesItsMemory) {
-  const std::vector<Shape> shapes = synthetic_shapes(34, 64);
-  detail::HierarchyBuilder builder;
-  detail::Flattener flattener;
-  Hierarchy hierarchy;
-  detail::Bvh8 tree;
-  std::size_t before = 0;
-  for (int round = 0; round < 2; ++round) {
-    before = allocation_count();
-    for (const Shape& shape : shapes) {
-      builder.contour(shape.outline, 0.01f, detail::SplitRule::centroid, hierarchy);
-      flattener.begin(hierarchy);
-      for (const std::uint32_t depth : {0u, 3u, 6u, all_depths}) {
-        flattener.flatten(depth, tree);
-        EXPECT_GE(flattener.supports()[0], -1e6f);
-      }
-    }
-  }
-  EXPECT_GT(before, 0u);
-  EXPECT_EQ(allocation_count(), before);
-}
-
-TEST(Flattener, EqualsAFreshOne) {
-  detail::Flattener flattener;
-  detail::Bvh8 tree;
-  for (const Shape& shape : synthetic_shapes(35, 32)) {
-    flattener.begin(shape.hierarchy);
-    for (const std::uint32_t depth : {all_depths, 0u, 6u, 3u}) {
-      flattener.flatten(depth, tree);
-      const detail::Bvh8 fresh = detail::bvh8(shape.hierarchy, depth);
-      EXPECT_EQ(tree.root, fresh.root);
-      EXPECT_EQ(tree.is_single(), fresh.is_single());
-      ASSERT_EQ(tree.blocks.size(), fresh.blocks.size());
-      for (std::size_t i = 0; i < tree.blocks.size(); ++i)
-        EXPECT_EQ(std::memcmp(&tree.blocks[i], &fresh.blocks[i], sizeof(detail::Bvh8::Block)), 0);
-      EXPECT_EQ(tree.x, fresh.x);
-      EXPECT_EQ(tree.y, fresh.y);
-      EXPECT_EQ(tree.radius, fresh.radius);
-      EXPECT_EQ(tree.outer, fresh.outer);
-      ASSERT_EQ(tree.inner.size(), fresh.inner.size());
-      EXPECT_EQ(
-          std::memcmp(tree.inner.data(), fresh.inner.data(), tree.inner.size() * sizeof(detail::InnerNode)),
-          0);
-    }
-  }
-}
-
-/// A number just beyond a limit must not read as the limit.
-TEST(HierarchyBuilder, NumbersInMessagesAreWhatTheyAre) {
-  const auto reason = [](float size, float threshold) {
-    const Outline outline{{{0, 0}, {size, 0}, {0, size}}, {0, 3}, 0x1p-40f};
-    return complaint([&] { contour_hierarchy(outline, threshold); });
-  };
-  EXPECT_EQ(reason(1, 0.01f), "accepted");
-  EXPECT_EQ(reason(1, -1e-9f), "hierarchy: threshold -1e-09 m is not positive and finite");
-  EXPECT_EQ(reason(0x1p-21f, 0.01f).rfind("outline: reach 4.768371", 0), 0u) << reason(0x1p-21f, 0.01f);
 }
 
 /// Against the definition in double: rounding takes at most 8 of the margin's 320 units.

@@ -2,7 +2,6 @@
 // Copyright (c) 2026 the bch authors
 
 #include "baselines/welzl.hpp"
-#include "layout/base/rounding.hpp"
 #include "layout/enclosing_disc/enclosing_disc.hpp"
 #include "layout/enclosing_disc/enclosing_discs.hpp"
 #include "layout/format/contours.hpp"
@@ -16,67 +15,11 @@ namespace {
 
 using test::polygon;
 
-TEST(ContourHierarchy, KeepsItsPromisesOnManyShapes) {
-  for (const Shape& shape : test::synthetic_shapes(11, 80))
-    for (const detail::SplitRule rule : {detail::SplitRule::centroid, detail::SplitRule::centre}) {
-      const Hierarchy hierarchy = contour_hierarchy(shape.outline, 0.02f, rule);
-      test::expect_sound(hierarchy);
-      test::expect_covers_outline(hierarchy, shape.outline);
-      test::expect_leaves_below(hierarchy, 0.02f);
-    }
-}
-
-TEST(ContourHierarchy, RootIsTheSmallestEnclosingDiscOfTheOutline) {
-  for (const Shape& shape : test::synthetic_shapes(12, 40)) {
-    const double tight = detail::smallest_enclosing_disc(shape.outline.points).radius;
-    const double stored = shape.hierarchy.nodes[0].disc.radius;
-    EXPECT_GE(stored, tight);
-    const double margins =
-        detail::rounding::query_margin * shape.hierarchy.reach +
-        detail::rounding::outline_grid_steps * static_cast<double>(shape.outline.grid_step);
-    EXPECT_LE(stored - tight, margins + 0x1p-22 * stored);
-  }
-}
-
-/// A T of three segments: long bar, short stem of two. The centroid by length and the middle of the extent
-/// part them differently.
-TEST(ContourHierarchy, SplitRulesDivideWhereTheySay) {
-  const Outline outline =
-      polygon({{0, 0}, {4, 0}, {4, 0.25f}, {3.75f, 0.25f}, {3.5f, 0.25f}, {3.25f, 0.25f}});
-  // Midpoints: 2, 4, 3.875, 3.625, 3.375, 1.625; lengths 4, .25, .25, .25, .25, 3.26. Centroid 2.04, middle
-  // of the extent 2.
-  const Hierarchy centroid = contour_hierarchy(outline, 0.1f, detail::SplitRule::centroid);
-  const Hierarchy centre = contour_hierarchy(outline, 0.1f, detail::SplitRule::centre);
-  const auto left_sources = [](const Hierarchy& h) {
-    std::vector<std::uint32_t> sources(h.source.begin() + h.primitive_ranges[1].begin,
-                                       h.source.begin() + h.primitive_ranges[1].end);
-    std::sort(sources.begin(), sources.end());
-    sources.erase(std::unique(sources.begin(), sources.end()), sources.end());
-    return sources;
-  };
-  EXPECT_EQ(left_sources(centroid), (std::vector<std::uint32_t>{0, 5}));
-  EXPECT_EQ(left_sources(centre), (std::vector<std::uint32_t>{5}));
-}
-
-TEST(ContourHierarchy, HalvesALoneSegment) {
-  const Hierarchy hierarchy = contour_hierarchy(polygon({{0, 0}, {1, 0}}), 0.2f);
-  // Two segments (there and back), each 1 m, halved until at most 0.4 m: four pieces each.
-  EXPECT_EQ(cut(hierarchy, all_depths).size(), 8u);
-  test::expect_covers_outline(hierarchy, polygon({{0, 0}, {1, 0}}));
-}
-
 TEST(ContourHierarchy, TheLargestThresholdLeavesOneDisc) {
   const Hierarchy hierarchy =
       contour_hierarchy(polygon({{0, 0}, {1, 0}, {0, 1}}), std::numeric_limits<float>::max());
   EXPECT_EQ(hierarchy.nodes.size(), 1u);
   test::expect_sound(hierarchy);
-}
-
-TEST(ContourHierarchy, DividesSegmentsWithOneMidpoint) {
-  const Outline star = polygon({{-1, -1}, {1, 1}, {-1, 1}, {1, -1}});
-  const Hierarchy hierarchy = contour_hierarchy(star, 0.01f);
-  test::expect_sound(hierarchy);
-  test::expect_covers_outline(hierarchy, star);
 }
 
 TEST(ContourHierarchy, CutsGrowDownToTheLeaves) {
@@ -98,6 +41,8 @@ TEST(ContourHierarchy, RejectsBadInput) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   for (const float threshold : {0.0f, -1.0f, nan, std::numeric_limits<float>::infinity()})
     EXPECT_THROW(contour_hierarchy(good, threshold), std::invalid_argument);
+  EXPECT_EQ(test::complaint([&] { contour_hierarchy(good, -1e-9f); }),
+            "hierarchy: threshold -1e-09 m is not positive and finite");
   EXPECT_THROW(contour_hierarchy(good, 1e-8f), std::length_error);
   EXPECT_THROW(contour_hierarchy(Outline{}, 0.01f), std::invalid_argument);
   EXPECT_THROW(contour_hierarchy(polygon({{0, 0}, {nan, 0}, {0, 1}}), 0.01f), std::invalid_argument);
@@ -242,31 +187,7 @@ TEST(EnclosingDisc, OfFewPointsAndOfSuchOnALineOrACircle) {
   EXPECT_EQ(detail::smallest_enclosing_disc(sets[1]).radius, 1);
 }
 
-TEST(EnclosingDisc, RandomPointSets) {
-  test::Random random(1);
-  for (int i = 0; i < 2000; ++i) {
-    std::vector<Vec2> points(1 + random.below(12));
-    const double flat = random.below(3) == 0 ? 1e-4 : 1.0;
-    for (Vec2& p : points)
-      p = {static_cast<float>(random.uniform(-1, 1)), static_cast<float>(flat * random.uniform(-1, 1))};
-    expect_smallest(points);
-  }
-}
-
-TEST(EnclosingDisc, CocircularPointsOnTheGrid) {
-  test::Random random(2);
-  for (int i = 0; i < 500; ++i) {
-    std::vector<Vec2> points;
-    for (int k = 0; k < 12; ++k) {
-      const double angle = random.uniform(-4, 4);
-      points.push_back({static_cast<float>(std::round(1000 * std::cos(angle))),
-                        static_cast<float>(std::round(1000 * std::sin(angle)))});
-    }
-    expect_smallest(points);
-  }
-}
-
-/// Sets of every size and kind: on a line, on a circle, few distinct points, anywhere.
+/// Sets of every size and kind: on a line, on a circle, few distinct points, anywhere, and hardly off a line.
 struct PointSets {
   std::vector<Vec2> points;
   std::vector<detail::PointRange> ranges;
@@ -285,6 +206,7 @@ PointSets random_sets(test::Random& random, double scale) {
       if (i % 4 == 0) y = 0.5 * x;
       if (i % 4 == 1) x = std::cos(4 * x), y = std::sqrt(1 - x * x);
       if (i % 4 == 2) x = std::round(2 * x), y = std::round(2 * y);
+      if (i % 8 == 7) y *= 1e-4;
       sets.points.push_back({static_cast<float>(scale * x), static_cast<float>(scale * y)});
     }
     sets.ranges.push_back({begin, begin + size});
@@ -307,6 +229,7 @@ TEST(EnclosingDiscs, HoldTheirPointsAndAreAsSmallAsWelzls) {
       ASSERT_LE(radius, (1 + 1e-6) * smallest + 0x1p-24 * detail::reach(points))
           << points.size() << " points";
       EXPECT_NEAR(radius, detail::smallest_enclosing_disc(points).radius, 0x1p-24 * detail::reach(points));
+      if (points.size() <= 12) expect_smallest(points);
     }
   }
 }

@@ -33,7 +33,9 @@ Contour contour_of_most_area(const Outline& outline) {
 }
 
 /// How many there are; each is inside by what rounding.hpp asks for and not by much more.
-int expect_inside(const Outline& outline, double reach, const detail::Interior& found) {
+int expect_inside(const Outline& outline) {
+  const double reach = detail::reach(outline.points);
+  const detail::Interior found = detail::interior(outline, reach);
   const Contour contour = contour_of_most_area(outline);
   const long double margin = detail::rounding::query_margin * reach;
   int discs = 0;
@@ -51,11 +53,6 @@ int expect_inside(const Outline& outline, double reach, const detail::Interior& 
   return discs;
 }
 
-int expect_inside(const Outline& outline) {
-  const double size = detail::reach(outline.points);
-  return expect_inside(outline, size, detail::interior(outline, size));
-}
-
 Outline scaled(Outline outline, double factor, double x = 0, double y = 0) {
   for (Vec2& p : outline.points)
     p = {static_cast<float>(static_cast<double>(p.x) * factor + x),
@@ -69,21 +66,11 @@ bool same(const detail::Interior& a, const detail::Interior& b) {
 }
 
 TEST(Interior, DiscsAreInsideTheLargestContour) {
-  detail::InteriorBuilder builder;
   int discs = 0;
-  for (const Shape& shape : test::synthetic_shapes(51, 64))
-    discs += expect_inside(shape.outline, shape.hierarchy.reach,
-                           builder.build(shape.outline, shape.hierarchy.reach));
+  for (const Shape& shape : test::synthetic_shapes(51, 64)) discs += expect_inside(shape.outline);
   EXPECT_GE(discs, 500);  // of 512: the slender ones have room for fewer
-}
-
-TEST(Interior, DiscsAreInsidePoses) {
-  detail::InteriorBuilder builder;
   for (const Character& character : test::people())
-    for (const Shape& shape : test::pose_shapes(character, 20))
-      EXPECT_EQ(expect_inside(shape.outline, shape.hierarchy.reach,
-                              builder.build(shape.outline, shape.hierarchy.reach)),
-                static_cast<int>(detail::block_width));
+    for (const Shape& shape : test::pose_shapes(character, 20)) EXPECT_EQ(expect_inside(shape.outline), 8);
 }
 
 TEST(Interior, DiscsAreInsideContoursOfAnySize) {

@@ -152,33 +152,14 @@ TEST(MeshOutline, CoversWhatTrianglesCover) {
   EXPECT_GT(holes, 500u);
 }
 
-/// The outermost polygons of an outline with holes.
-Outline exteriors(const Outline& of) {
-  Outline result;
-  result.grid_step = of.grid_step;
-  for (std::size_t c = 0; c < of.contours(); ++c) {
-    const auto ring = of.contour(c);
-    bool near = false;
-    Outline others = of;
-    others.points.clear(), others.contour_begin.assign(1, 0);
-    for (std::size_t other = 0; other < of.contours(); ++other) {
-      if (other == c) continue;
-      others.points.insert(others.points.end(), of.contour(other).begin(), of.contour(other).end());
-      others.contour_begin.push_back(static_cast<std::uint32_t>(others.points.size()));
-    }
-    const Outline alone{{ring.begin(), ring.end()}, {0, static_cast<std::uint32_t>(ring.size())}};
-    // Nothing is around a hole's own exterior, and a hole is around an island.
-    bool in_hole = false;
-    for (std::size_t other = 0; other < others.contours(); ++other) {
-      const auto hole = others.contour(other);
-      const Outline one{{hole.begin(), hole.end()}, {0, static_cast<std::uint32_t>(hole.size())}};
-      in_hole |= area(one) < 0 && winding(one, double{ring[0].x}, double{ring[0].y}, 0, near) != 0;
-    }
-    if (area(alone) < 0 || in_hole) continue;
-    result.points.insert(result.points.end(), ring.begin(), ring.end());
-    result.contour_begin.push_back(static_cast<std::uint32_t>(result.points.size()));
+std::set<std::vector<std::pair<float, float>>> rings_of(const Outline& outline) {
+  std::set<std::vector<std::pair<float, float>>> rings;
+  for (std::size_t c = 0; c < outline.contours(); ++c) {
+    std::vector<std::pair<float, float>> ring;
+    for (const Vec2& p : outline.contour(c)) ring.emplace_back(p.x, p.y);
+    rings.insert(ring);
   }
-  return result;
+  return rings;
 }
 
 TEST(MeshOutline, HasTheSameExteriorsWithHolesAsWithout) {
@@ -189,7 +170,7 @@ TEST(MeshOutline, HasTheSameExteriorsWithHolesAsWithout) {
     const auto plain = outlines(woman, poses, {.between = between});
     const auto holed = outlines(woman, poses, {.between = between, .holes = true});
     for (std::size_t i = 0; i < poses.size(); ++i) {
-      EXPECT_EQ(to_wkt(exteriors(holed[i])), to_wkt(plain[i])) << i;
+      EXPECT_TRUE(std::ranges::includes(rings_of(holed[i]), rings_of(plain[i]))) << i;
       holes += area(holed[i]) < area(plain[i]);
     }
   }

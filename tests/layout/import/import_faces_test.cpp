@@ -328,49 +328,6 @@ TEST_F(ImportData, NativeClipsOntoTheirSkeleton) {
   }
 }
 
-/// The glTF file is the FBX character in metres, so a clip must look the same on both.
-TEST_F(ImportData, ClipIsIndependentOfTheUnitOfTheCharacter) {
-  ImportOptions options;
-  options.clip_files = {character("native/clip_walk.fbx")};
-  const auto box = [&](const char* name, float time) {
-    const Character c = import_character(character(name), options).character;
-    detail::Skinner skinner(c);
-    Eigen::AlignedBox3f all;
-    for (const Vec3& position : skinner.pose({static_cast<std::uint32_t>(c.clips.size() - 1), time}))
-      all.extend(detail::to_eigen(position));
-    return all;
-  };
-  for (const float time : {0.0f, 0.4f, 0.9f, 1.3f}) {
-    const Eigen::AlignedBox3f a = box("native/generic_man.fbx", time), b = box("generic_man_cmu.glb", time);
-    EXPECT_LT((a.min() - b.min()).norm(), 5e-3f) << time;
-    EXPECT_LT((a.max() - b.max()).norm(), 5e-3f) << time;
-  }
-}
-
-/// These captures are known to turn by more than a quarter: the shape must turn with them.
-TEST_F(ImportData, PosesKeepTheirYaw) {
-  const Character c = import_character(character("rocketbox_male_2847_cmu.glb")).character;
-  detail::Skinner skinner(c);
-  const auto clip = static_cast<std::uint32_t>(std::ranges::find(c.clips, "walk_turn_142_04", &Clip::name) -
-                                               c.clips.begin());
-  ASSERT_LT(clip, c.clips.size());
-  // Two vertices far apart across the body at rest.
-  const auto rest = skinner.pose({});
-  const auto [left, right] = std::ranges::minmax_element(rest, {}, &Vec3::x);
-  const auto from = static_cast<std::size_t>(left - rest.begin()),
-             to = static_cast<std::size_t>(right - rest.begin());
-  float most_turned = 1;
-  Eigen::Vector2f first = Eigen::Vector2f::Zero();
-  for (float time = 0; time < c.clips[clip].seconds; time += 0.25f) {
-    const auto pose = skinner.pose({clip, time});
-    const Eigen::Vector2f way =
-        (detail::to_eigen(pose[to]) - detail::to_eigen(pose[from])).head<2>().normalized();
-    if (time == 0) first = way;
-    most_turned = std::min(most_turned, first.dot(way));
-  }
-  EXPECT_LT(most_turned, -0.8f);
-}
-
 void expect_refused(const std::filesystem::path& file, const std::string& reason,
                     const ImportOptions& options = {}) {
   EXPECT_TRUE(test::has(test::complaint<ImportError>([&] { import_character(file, options); }), reason))
