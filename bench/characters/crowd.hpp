@@ -19,7 +19,7 @@ struct Crowd {
   double side = 0;  ///< metres
   std::vector<std::uint32_t> shape;
   std::vector<double> x, y, heading;
-  std::vector<double> z;  ///< heights of the grounds, or none
+  std::vector<double> z = {};  ///< heights of the grounds, or none
 
   std::size_t size() const { return shape.size(); }
   Agents agents() const { return {.shape = shape, .x = x, .y = y, .heading = heading, .z = z}; }
