@@ -98,7 +98,7 @@ void add_queries_of_crowds(const CScene& scene, std::vector<CQuery>& to) {
     to.push_back({name, needs_memory, [=] { return ask(*found); }, [=] { return answer(*found); }});
   };
   /// A call whose answer is one view, of arguments beside crowd, set, agents and options.
-  const auto add_of = [&](const char* name, bool needs_memory, auto call, auto answer, auto to,
+  const auto add_of = [&](const char* name, bool needs_memory, auto call, auto answer, auto view,
                           auto... more) {
     add(
         name, needs_memory,
