@@ -103,7 +103,7 @@ void add_queries_of_crowds(const CScene& scene, std::vector<CQuery>& to) {
     add(
         name, needs_memory,
         [=](Found& found) {
-          return call(found.crowd.get(), set, &all->agents, more..., &all->options, &(found.*to));
+          return call(found.crowd.get(), set, &all->agents, more..., &all->options, &(found.*view));
         },
         answer);
   };
