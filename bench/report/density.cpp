@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include <bch/crowd.hpp>
+#include <bch/pairs.hpp>
 #include <bch/scene_plan.hpp>
 
 #include "bench/report/subjects.hpp"
@@ -17,6 +18,7 @@ namespace bch::report {
 namespace {
 
 constexpr double loose = 0.4, shrinking = 0.99;    // people per square metre; of the area
+constexpr double margin = 1.6;                     // metres: as far as two people reach at each other
 constexpr float longest = 0.1f, beyond = 0.0005f;  // metres of a step
 constexpr int most_steps = 300;
 
@@ -41,24 +43,64 @@ class Packing {
   }
 
  private:
+  /// Copies of those near a side, beyond the other one.
+  void add_images() {
+    for (std::uint32_t i = 0; i < people_; ++i)
+      for (int across = -1; across <= 1; ++across)
+        for (int along = -1; along <= 1; ++along)
+          if (across != 0 || along != 0) add_image(i, across * crowd_.side, along * crowd_.side);
+  }
+
+  void add_image(std::uint32_t of, double x, double y) {
+    const auto near = [&](double at) { return at >= -margin && at < crowd_.side + margin; };
+    if (!near(crowd_.x[of] + x) || !near(crowd_.y[of] + y)) return;
+    crowd_.shape.push_back(crowd_.shape[of]);
+    crowd_.x.push_back(crowd_.x[of] + x);
+    crowd_.y.push_back(crowd_.y[of] + y);
+    crowd_.heading.push_back(crowd_.heading[of]);
+  }
+
+  void remove_images() {
+    crowd_.shape.resize(people_), crowd_.heading.resize(people_);
+    crowd_.x.resize(people_), crowd_.y.resize(people_);
+    for (std::uint32_t i = 0; i < people_; ++i) {
+      crowd_.x[i] -= crowd_.side * std::floor(crowd_.x[i] / crowd_.side);
+      crowd_.y[i] -= crowd_.side * std::floor(crowd_.y[i] / crowd_.side);
+    }
+  }
+
+  /// Who collides, each pair once; of a pair across a side, both ways, and each moves the one that is no image.
+  void find_pairs() {
+    const bch::Crowd::Pairs found = finder_.collisions(set_, crowd_.agents());
+    pairs_.clear();
+    for (const Pair& pair : found)
+      if (pair.first < people_) pairs_.push_back(pair);
+  }
+
   /// Each of two goes half of the shortest way apart, but no more than a short step, so that those who reach around each
   /// other stop as soon as they can. Returns: whether somebody overlapped somebody.
   bool step() {
-    bch::Crowd crowd({.period = {crowd_.side, crowd_.side}});
-    const auto [pairs, ways] = crowd.penetrations(set_, crowd_.agents(), 32);
-    for (std::size_t k = 0; k < pairs.size(); ++k) {
-      const double half = static_cast<double>(std::min(0.5f * ways[k].depth + beyond, longest));
-      const double x = half * ways[k].x, y = half * ways[k].y;
-      const auto [i, j] = pairs[k];
+    add_images();
+    find_pairs();
+    ways_.resize(pairs_.size());
+    penetration(set_, crowd_.agents(), pairs_, 32, ways_);
+    for (std::size_t k = 0; k < pairs_.size(); ++k) {
+      const double half = static_cast<double>(std::min(0.5f * ways_[k].depth + beyond, longest));
+      const double x = half * ways_[k].x, y = half * ways_[k].y;
+      const auto [i, j] = pairs_[k];
       crowd_.x[i] += x, crowd_.y[i] += y;
-      crowd_.x[j] -= x, crowd_.y[j] -= y;
+      crowd_.x[j] -= x, crowd_.y[j] -= y;  // an image's is forgotten
     }
-    return !pairs.empty();
+    remove_images();
+    return !pairs_.empty();
   }
 
   const ShapeSet& set_;
   std::uint32_t people_;
   cli::Crowd crowd_;
+  bch::Crowd finder_;
+  std::vector<Pair> pairs_;
+  std::vector<Penetration> ways_;
 };
 
 /// Measures how densely people can stand: so many of them, in poses and headings at random, on a square with
