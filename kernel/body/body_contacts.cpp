@@ -8,10 +8,9 @@
 #include <vector>
 
 #include "kernel/body/agent_sphere.hpp"
-#include "kernel/body/body_arguments.hpp"
+#include "kernel/body/body_hits.hpp"
 #include "kernel/body/near_spheres.hpp"
 #include "kernel/body/space_frame.hpp"
-#include "kernel/runtime/kernels.hpp"
 #include "kernel/runtime/pair_validation.hpp"
 #include "layout/base/floating_point_state.hpp"
 #include "layout/body/sphere_rounding.hpp"
@@ -72,9 +71,7 @@ Rows<Crowd::SphereContact> BodyContactRows::find(const BodySet& bodies, const Ag
   return rows_.collect(pairs.size(), contact_pairs_at_once, [&] {
     return [&](std::size_t begin, std::size_t end, const auto& add) {
       std::uint8_t hits[contact_pairs_at_once];
-      BodyArguments arguments{arguments_for(view.ground, agents, pairs.subspan(begin, end - begin)), &view};
-      arguments.pairs.codes = hits;
-      implementation.kernels->run_bodies(arguments, 0, end - begin);
+      find_hits(implementation, view, agents, pairs.subspan(begin, end - begin), hits);
       for (std::size_t i = begin; i < end; ++i)
         if (hits[i - begin] != 0) add(i, [&](auto& to) { append_contacts(view, agents, pairs[i], to); });
     };

@@ -6,12 +6,11 @@
 
 #include <bch/pairs.hpp>
 
-#include "kernel/body/body_arguments.hpp"
+#include "kernel/body/body_hits.hpp"
 #include "kernel/body/near_spheres.hpp"
 #include "kernel/body/space_frame.hpp"
 #include "kernel/body/sphere_impact.hpp"
 #include "kernel/distance/distance_input.hpp"
-#include "kernel/runtime/kernels.hpp"
 #include "kernel/runtime/pair_validation.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 #include "layout/base/floating_point_state.hpp"
@@ -68,9 +67,7 @@ void time_of_impact(const BodySet& bodies, const Agents& agents, std::span<const
   require_valid(implementation, view.ground, agents, pairs);
   for_pair_ranges(pairs.size(), impacts_at_once, [&](std::size_t begin, std::size_t size) {
     std::uint8_t hits[impacts_at_once];
-    BodyArguments arguments{arguments_for(view.ground, agents, pairs.subspan(begin, size)), &view};
-    arguments.pairs.codes = hits;
-    implementation.kernels->run_bodies(arguments, 0, size);
+    find_hits(implementation, view, agents, pairs.subspan(begin, size), hits);
     for (std::size_t k = 0; k < size; ++k) {
       const std::size_t i = begin + k;
       times[i] = 0;

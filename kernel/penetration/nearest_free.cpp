@@ -7,11 +7,10 @@
 
 #include <bch/pairs.hpp>
 
-#include "kernel/body/body_arguments.hpp"
+#include "kernel/body/body_hits.hpp"
 #include "kernel/body/space_frame.hpp"
 #include "kernel/penetration/free_search.hpp"
 #include "kernel/penetration/spread_axes.hpp"
-#include "kernel/runtime/kernels.hpp"
 #include "kernel/runtime/pair_validation.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 #include "layout/base/floating_point_state.hpp"
@@ -70,9 +69,7 @@ void nearest_free(const BodySet& bodies, const Agents& agents, std::span<const P
   for_pair_ranges(pairs.size(), pairs_at_once, [&](std::size_t begin, std::size_t size) {
     const auto search = std::make_unique<FreeSearch>();
     std::uint8_t hits[pairs_at_once];
-    BodyArguments arguments{arguments_for(view.ground, agents, pairs.subspan(begin, size)), &view};
-    arguments.pairs.codes = hits;
-    implementation.kernels->run_bodies(arguments, 0, size);
+    find_hits(implementation, view, agents, pairs.subspan(begin, size), hits);
     for (std::size_t k = 0; k < size; ++k) {
       const auto [first, second] = pairs[begin + k];
       const auto [a, b] = std::minmax(first, second);
