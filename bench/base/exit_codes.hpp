@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -45,5 +46,10 @@ class InputErrors : public std::runtime_error {
       : std::runtime_error(each.front()), lines(std::move(each)) {}
   std::vector<std::string> lines;
 };
+
+/// Runs a program. What it throws becomes a line on standard error, or one for each bad file, and an ExitCode.
+/// Standard streams that the caller closed stay unusable, but no file or pipe takes their numbers.
+/// Returns: the exit code.
+int run_main(const char* program, const std::function<int()>& run);
 
 }  // namespace bch::cli

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "bench/base/run_main.hpp"
+#include "bench/base/exit_codes.hpp"
 
 #include <fcntl.h>
 #include <sys/resource.h>
@@ -17,7 +17,6 @@
 #include <bch/files.hpp>
 #include <bch/import.hpp>
 
-#include "bench/base/exit_codes.hpp"
 #include "bench/base/text.hpp"
 #include "layout/recordings/trajectory.hpp"
 

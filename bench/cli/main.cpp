@@ -2,8 +2,8 @@
 // Copyright (c) 2026 the bch authors
 
 #include "bench/base/command_line.hpp"
+#include "bench/base/exit_codes.hpp"
 #include "bench/base/interrupt.hpp"
-#include "bench/base/run_main.hpp"
 #include "bench/cli/commands.hpp"
 #include "bench/recordings/recording_check.hpp"
 

@@ -14,7 +14,6 @@
 #include "bench/base/interrupt.hpp"
 #include "bench/base/options.hpp"
 #include "bench/base/output.hpp"
-#include "bench/base/run_main.hpp"
 #include "bench/report/report.hpp"
 #include "layout/base/base64.hpp"
 #include "layout/body/model/model_bytes.hpp"

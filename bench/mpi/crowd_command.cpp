@@ -87,31 +87,27 @@ class RankWalk {
 class PlainWalk {
  public:
   PlainWalk(const ShapeSet& shapes, std::vector<DistributedCrowd::Agent> agents)
-      : shapes_(shapes), agents_(std::move(agents)) {
-    for (const DistributedCrowd::Agent& agent : agents_) {
-      shape_.push_back(agent.shape), level_.push_back(agent.level);
-      heading_.push_back(agent.heading);
-    }
-    x_.resize(agents_.size()), y_.resize(agents_.size());
-    place();
+      : shapes_(shapes), agents_(std::move(agents)) {}
+  void step() {
+    using Agent = DistributedCrowd::Agent;
+    pairs_ = finder_.collisions(shapes_, {member(&Agent::shape), member(&Agent::x), member(&Agent::y),
+                                          member(&Agent::heading), member(&Agent::level)});
   }
-  void step() { pairs_ = finder_.collisions(shapes_, {shape_, x_, y_, heading_, level_}); }
-  void move() { walk_on(agents_), place(); }
+  void move() { walk_on(agents_); }
   DistributedCrowd::Counters counters() const { return {.agents = agents_.size()}; }
   void count(double& collisions, std::uint64_t& digest) const {
     for (const auto [i, j] : pairs_) ++collisions, digest += hash(i, j);
   }
 
  private:
-  void place() {
-    for (std::size_t i = 0; i < agents_.size(); ++i) x_[i] = agents_[i].x, y_[i] = agents_[i].y;
+  template <class Value>
+  Strided<Value> member(Value DistributedCrowd::Agent::*value) const {
+    if (agents_.empty()) return {};
+    return {&(agents_[0].*value), agents_.size(), sizeof(DistributedCrowd::Agent)};
   }
 
   const ShapeSet& shapes_;
   std::vector<DistributedCrowd::Agent> agents_;
-  std::vector<std::uint32_t> shape_;
-  std::vector<double> x_, y_, heading_;
-  std::vector<std::uint8_t> level_;
   bch::Crowd finder_;
   bch::Crowd::Pairs pairs_;
 };

@@ -9,8 +9,8 @@
 #include <bch/distributed_crowd.hpp>
 
 #include "bench/base/command_line.hpp"
+#include "bench/base/exit_codes.hpp"
 #include "bench/base/interrupt.hpp"
-#include "bench/base/run_main.hpp"
 #include "bench/mpi/crowd.hpp"
 #include "kernel/distributed/session.hpp"
 

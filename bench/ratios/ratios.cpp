@@ -9,7 +9,6 @@
 
 #include "bench/base/command_line.hpp"
 #include "bench/base/exit_codes.hpp"
-#include "bench/base/run_main.hpp"
 
 namespace bch::bench {
 namespace {

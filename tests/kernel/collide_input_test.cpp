@@ -195,7 +195,7 @@ TEST_F(QueryInput, ValuesAreNamed) {
     expect_refused("pair 1: direction (", [&] { penetration_along(set, agents, pairs, directions, depths); });
   }
   for (const std::uint32_t lines : {0u, 1u, 3u, 255u, 258u, ~0u})
-    expect_refused(std::to_string(lines) + " directions are not",
+    expect_refused("even number of directions from 2 to 256, found " + std::to_string(lines),
                    [&] { penetration(set, agents, pairs, lines, depths); });
   EXPECT_NO_THROW(penetration(set, agents, pairs, 256, depths));
 }
