@@ -180,4 +180,10 @@ Rows<std::uint32_t> Crowd::obstacles(const BodySet& bodies, const Agents& agents
       [&] { return memory_->obstacle_rows.find(bodies, agents, obstacles, implementation); });
 }
 
+Crowd::Resolved Crowd::resolve(const BodySet& bodies, const Agents& agents, const ResolveOptions& options,
+                               const PairFilter& filter) & {
+  return without_tasks_from_outside(
+      [&] { return detail::resolve(*memory_, bodies, agents, options, filter); });
+}
+
 }  // namespace bch

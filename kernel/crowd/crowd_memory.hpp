@@ -18,6 +18,7 @@
 #include "kernel/contact/disc_contacts.hpp"
 #include "kernel/crowd/kept_items.hpp"
 #include "kernel/crowd/periodic_agents.hpp"
+#include "kernel/crowd/resolution.hpp"
 #include "kernel/obstacles/obstacle_rows.hpp"
 #include "layout/body/body_record.hpp"
 #include "layout/body/sphere_rounding.hpp"
@@ -107,6 +108,7 @@ struct CrowdMemory {
     (beside.keep(kept), ...);
     return {pairs, *this};
   }
+  Crowd::Pairs kept_pairs() { return {pairs, *this}; }
   Rows<Crowd::Neighbour> by_agent(std::span<const Pair> pairs);
 
   CrowdOptions options;
@@ -129,6 +131,7 @@ struct CrowdMemory {
   AnswersOfPairs<BodyClearanceAnswers::Points> space_points;
   std::vector<Penetration> penetrations;
   ObstacleRows obstacle_rows;
+  Resolution resolution;
 
   std::size_t agents = 0;  ///< of the answer
   std::vector<std::uint64_t> begin;

@@ -16,7 +16,7 @@
 namespace bch::detail {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double beyond_all = std::numeric_limits<double>::infinity();
 constexpr double huge = 1e30;  // metres
 constexpr double cells_per_segment = 4, least_cells = 256;
 /// Cells are measured by squares of so many a side, because their nearest segments are few and soon found together.
@@ -43,7 +43,7 @@ class NearestSegments {
   }
 
   double distance(double x, double y) const noexcept {
-    double least = infinity;
+    double least = beyond_all;
     for (const std::uint32_t slot : found_) least = std::min(least, segments_[slot].square_distance(x, y));
     return std::sqrt(least);
   }

@@ -137,6 +137,27 @@ class Crowd {
     std::span<const Penetration> penetrations;  ///< one per pair
   };
 
+  /// Holds the options of resolve().
+  struct ResolveOptions {
+    std::uint32_t directions = 16;  ///< of nearest_free()
+    std::uint32_t sweeps = 100;     ///< at most
+    double gap = 0.001;             ///< metres, between two who are parted
+    double largest_step = 0.05;     ///< metres, of an agent in a sweep
+    double largest_shift =
+        std::numeric_limits<double>::infinity();  ///< metres, of an agent from where it was
+    /// Gives each agent a number from 0 to 1: of two who are parted, one with half of the other's goes half as far, and one with 0 stays.
+    std::span<const double> mobility = {};   ///< none: 1 each
+    const ObstacleSet* obstacles = nullptr;  ///< walls that bodies have to be free of, too
+    const Implementation* implementation = nullptr;
+  };
+  /// Holds where the agents of a crowd are after resolve(), and what it left.
+  struct Resolved {
+    std::span<const double> x, y;                ///< one per agent
+    Pairs left;                                  ///< those that collide
+    std::span<const std::uint32_t> touch_walls;  ///< agents, ascending
+    std::uint32_t sweeps;                        ///< that were made
+  };
+
   Crowd();
   /// Errors:  throws std::invalid_argument on a period outside of 0 .. 5e8 m.
   explicit Crowd(const CrowdOptions& options);
@@ -211,6 +232,13 @@ class Crowd {
                                 const CollideOptions& options = {}) &;
   Rows<std::uint32_t> obstacles(const BodySet& bodies, const Agents& agents, const ObstacleSet& obstacles,
                                 const Implementation* implementation = nullptr) &;
+
+  /// Moves agents on the ground, as little as it can, until no two bodies collide and nobody touches a wall. Each sweep moves all together:
+  /// pairs that collide by their shortest ways, nearest_free(), and no pair that is near into another. Agents do not turn. Where
+  /// there is no room, pairs are left after the last sweep. With a period, agents may leave it: positions count modulo the period.
+  /// Errors:  also on an odd number of directions, and on lengths and mobilities out of range.
+  Resolved resolve(const BodySet& bodies, const Agents& agents, const ResolveOptions& options,
+                   const PairFilter& filter = {}) &;
 
  private:
   std::unique_ptr<detail::CrowdMemory> memory_;

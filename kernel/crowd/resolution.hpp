@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <bch/crowd.hpp>
+
+#include "kernel/crowd/separation_solver.hpp"
+
+namespace bch::detail {
+
+struct CrowdMemory;
+
+/// Holds where the agents of a crowd are that is being resolved, and the memory of its sweeps.
+struct Resolution {
+  std::vector<double> x, y, first_x, first_y;
+  SeparationSolver solver;
+  std::vector<Penetration> ways;           ///< of pairs that collide
+  std::vector<float> wall_distance;        ///< of each agent
+  std::vector<Vec3> wall_direction;        ///< of each agent
+  std::vector<std::uint32_t> touch_walls;  ///< agents
+
+  void begin(const Agents& agents);
+  /// Moves all agents by what the solver found, within the limits of the options.
+  void move(const Crowd::ResolveOptions& options);
+};
+
+/// Does what Crowd::resolve() does.
+Crowd::Resolved resolve(CrowdMemory& memory, const BodySet& bodies, const Agents& agents,
+                        const Crowd::ResolveOptions& options, const PairFilter& filter);
+
+}  // namespace bch::detail

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include <bch/crowd.hpp>
+#include <bch/pairs.hpp>
+
+#include "kernel/crowd/crowd_memory.hpp"
+#include "kernel/crowd/resolution.hpp"
+#include "kernel/penetration/spread_axes.hpp"
+#include "kernel/runtime/pair_validation.hpp"
+#include "layout/base/floating_point_state.hpp"
+#include "layout/base/shortest.hpp"
+
+// A sweep is a step of a solver of contacts. Pairs that collide are to move by their shortest ways, nearest_free(); pairs that are near are
+// to stay apart along the direction of their clearances, so that nobody is pushed into somebody else. The displacements that do both, and
+// are the smallest, are found for all agents together. Along other ways than their own, bodies are farther or nearer than these lines say, and
+// so there are several sweeps.
+
+namespace bch::detail {
+namespace {
+
+constexpr double longest_step = 1000;  ///< metres
+/// A nearest point above or below says nothing of the ground: directions have at least this length there.
+constexpr double least_on_ground = 0.3;
+
+void require_length(const char* what, double length, double most) {
+  if (length >= 0 && length <= most) return;
+  throw std::invalid_argument(std::string("resolve: expected a ") + what + " of 0 to " + shortest(most) +
+                              " m, found " + shortest(length));
+}
+
+void require_valid(const Crowd::ResolveOptions& options, std::size_t agents) {
+  spread_axes("resolve", options.directions);
+  require_length("gap", options.gap, longest_step);
+  require_length("largest_step", options.largest_step, longest_step);
+  require_length("largest_shift", options.largest_shift, std::numeric_limits<double>::infinity());
+  if (!options.mobility.empty())
+    require_as_many({"resolve", "agent", agents}, options.mobility.size(), "mobilities");
+  for (std::size_t i = 0; i < options.mobility.size(); ++i)
+    if (!(options.mobility[i] >= 0 && options.mobility[i] <= 1))
+      throw std::invalid_argument("resolve: agent " + std::to_string(i) +
+                                  ": expected a mobility of 0 to 1, found " + shortest(options.mobility[i]));
+}
+
+/// Makes a vector shorter where it is longer than `most`.
+void shorten(double& x, double& y, double most) {
+  const double length = std::sqrt(x * x + y * y);
+  if (!(length > most)) return;
+  x *= most / length, y *= most / length;
+}
+
+/// Adds that an agent stays at a gap from another, or from nobody, which is a wall; or that it goes until it is. The direction leads to
+/// the other.
+void add_gap(SeparationSolver& solver, std::uint32_t first, std::uint32_t second, const Vec3& direction,
+             double distance, double gap) {
+  const double x{direction.x}, y{direction.y}, length = std::sqrt(x * x + y * y);
+  if (length < least_on_ground) return;
+  solver.add(first, second, -x / length, -y / length, (gap - distance) / length);
+}
+
+}  // namespace
+
+void Resolution::begin(const Agents& agents) {
+  x.resize(agents.size()), y.resize(agents.size());
+  for (std::size_t i = 0; i < agents.size(); ++i) x[i] = agents.x[i], y[i] = agents.y[i];
+  first_x = x, first_y = y;
+}
+
+void Resolution::move(const Crowd::ResolveOptions& options) {
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    auto [dx, dy] = solver.displacement(i);
+    shorten(dx, dy, options.largest_step);
+    double shift_x = x[i] + dx - first_x[i], shift_y = y[i] + dy - first_y[i];
+    shorten(shift_x, shift_y, options.largest_shift);
+    x[i] = first_x[i] + shift_x, y[i] = first_y[i] + shift_y;
+  }
+}
+
+namespace {
+
+/// Sweeps over the agents of a crowd.
+class Sweeps {
+ public:
+  Sweeps(CrowdMemory& memory, const BodySet& bodies, const Agents& agents,
+         const Crowd::ResolveOptions& options, const PairFilter& filter)
+      : memory_(memory),
+        of_(memory.resolution),
+        bodies_(bodies),
+        agents_(agents),
+        options_(options),
+        filter_(filter),
+        reach_(options.gap + 2 * options.largest_step) {
+    of_.begin(agents);
+    agents_.x = of_.x, agents_.y = of_.y;
+  }
+
+  Crowd::Resolved run() {
+    for (std::uint32_t sweep = 0;; ++sweep) {
+      of_.solver.begin(agents_.size(), options_.mobility);
+      add_walls();
+      add_pairs();
+      if (!is_open_ || sweep == options_.sweeps)
+        return {of_.x, of_.y, memory_.kept_pairs(), of_.touch_walls, sweep};
+      of_.solver.solve();
+      of_.move(options_);
+    }
+  }
+
+ private:
+  /// Keeps the pairs that collide.
+  void add_pairs() {
+    const CrowdMemory::Candidates candidates = memory_.find(bodies_, agents_, reach_, filter_);
+    const auto& distance = memory_.distance.of_candidates;
+    const auto& direction = memory_.space_direction.of_candidates;
+    memory_.distance.of_candidates.resize(candidates.pairs.size());
+    memory_.space_direction.of_candidates.resize(candidates.pairs.size());
+    clearance(bodies_, candidates.agents, candidates.pairs,
+              {memory_.distance.of_candidates, memory_.space_direction.of_candidates},
+              {.implementation = options_.implementation, .max_distance = reach_});
+    memory_.keep(candidates.pairs, [&](std::size_t i) { return distance[i] == 0; });
+    memory_.kept.gather(memory_.to_part, [&](std::size_t i) { return candidates.pairs[i]; });
+    of_.ways.resize(memory_.to_part.size());
+    nearest_free(bodies_, candidates.agents, memory_.to_part, options_.directions, of_.ways,
+                 options_.implementation);
+    for (std::size_t i = 0; i < of_.ways.size(); ++i) {
+      const auto [first, second] = memory_.pairs[i];
+      const auto [depth, x, y] = of_.ways[i];
+      of_.solver.add(first, second, x, y, double{depth} + options_.gap);
+      is_open_ |= of_.solver.mobility(first) + of_.solver.mobility(second) > 0;
+    }
+    for (std::size_t i = 0; i < candidates.pairs.size(); ++i) {
+      if (!(distance[i] > 0 && double{distance[i]} <= reach_)) continue;
+      const auto [first, second] = memory_.named(candidates.pairs[i]);
+      add_gap(of_.solver, first, second, direction[i], double{distance[i]}, 0);
+    }
+  }
+
+  /// Begins a sweep.
+  void add_walls() {
+    is_open_ = false;
+    of_.touch_walls.clear();
+    if (options_.obstacles == nullptr) return;
+    of_.wall_distance.resize(agents_.size()), of_.wall_direction.resize(agents_.size());
+    clearance(bodies_, agents_, *options_.obstacles, {of_.wall_distance, of_.wall_direction},
+              {options_.implementation, reach_, Overlap::deepest});
+    for (std::uint32_t i = 0; i < agents_.size(); ++i) {
+      const double distance{of_.wall_distance[i]};
+      if (!(distance <= reach_)) continue;
+      const bool touches = distance <= 0;
+      if (touches) of_.touch_walls.push_back(i);
+      is_open_ |= touches && of_.solver.mobility(i) > 0;
+      add_gap(of_.solver, i, SeparationSolver::nobody, of_.wall_direction[i], distance,
+              touches ? options_.gap : 0);
+    }
+  }
+
+  CrowdMemory& memory_;
+  Resolution& of_;
+  const BodySet& bodies_;
+  Agents agents_;
+  const Crowd::ResolveOptions& options_;
+  const PairFilter& filter_;
+  double reach_;
+  bool is_open_ = false;  ///< whether somebody who may move collides
+};
+
+}  // namespace
+
+Crowd::Resolved resolve(CrowdMemory& memory, const BodySet& bodies, const Agents& agents,
+                        const Crowd::ResolveOptions& options, const PairFilter& filter) {
+  const FloatingPointStateGuard floats;
+  require_valid_agents(bodies.view().ground, agents);
+  require_valid(options, agents.size());
+  return Sweeps(memory, bodies, agents, options, filter).run();
+}
+
+}  // namespace bch::detail

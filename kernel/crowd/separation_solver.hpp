@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace bch::detail {
+
+/// Finds small displacements of agents on the ground that part pairs and keep others apart, as physics engines solve contacts (projected
+/// Gauss-Seidel). Keeps its memory.
+///
+/// A constraint between two agents is (d_first - d_second) . (x, y) >= least. Each one pushes its agents apart, in proportion to their
+/// mobilities, and never pulls; it may take back what it pushed. The displacements converge to those with the least sum of squares.
+/// Constraints push in the order in which they were added, on one thread, so that the bits depend on nothing else.
+class SeparationSolver {
+ public:
+  static constexpr std::uint32_t nobody = 0xffffffff;  ///< the second agent of a constraint with a wall
+
+  struct Displacement {
+    double x = 0, y = 0;
+  };
+
+  /// Begins with agents that stay. `mobility`: one each, or none, which is 1; it has to stay there.
+  void begin(std::size_t agents, std::span<const double> mobility) {
+    mobility_ = mobility;
+    displacements_.assign(agents, {});
+    constraints_.clear();
+  }
+
+  /// Takes a constraint; (x, y) is a unit vector. One between agents that cannot move is left out.
+  void add(std::uint32_t first, std::uint32_t second, double x, double y, double least);
+  void solve();
+
+  double mobility(std::uint32_t agent) const {
+    if (agent == nobody) return 0;
+    return mobility_.empty() ? 1 : mobility_[agent];
+  }
+  Displacement displacement(std::size_t agent) const { return displacements_[agent]; }
+
+ private:
+  struct Constraint {
+    std::uint32_t first, second;
+    double x, y, least;
+    double share;       ///< of a metre that is missing, by which each agent goes times its mobility
+    double pushed = 0;  ///< in all
+  };
+
+  void push(Constraint& constraint);
+
+  std::span<const double> mobility_;
+  std::vector<Displacement> displacements_;
+  std::vector<Constraint> constraints_;
+};
+
+}  // namespace bch::detail
