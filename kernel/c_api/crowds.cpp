@@ -141,6 +141,17 @@ void hand_out_obstacles(bch_crowd* handle, const Handle* set, const bch_agents* 
   *touched = {rows.size(), rows.offsets.data(), rows.values.data()};
 }
 
+Crowd::ResolveOptions resolve_options_of(const bch_resolve_options* given, std::size_t agents) {
+  const auto options = sized(given, bch_resolve_options BCH_RESOLVE_OPTIONS_INIT, "resolve_options");
+  Crowd::ResolveOptions all{options.directions, options.sweeps, options.gap, options.largest_step,
+                            options.largest_shift};
+  if (options.mobility != nullptr)
+    all.mobility = array_of(options.mobility, agents, "resolve_options->mobility");
+  if (options.obstacles != nullptr)
+    all.obstacles = &object_of(options.obstacles, "resolve_options->obstacles").set;
+  return all;
+}
+
 }  // namespace
 
 bch_status bch_crowd_create(const bch_crowd_options* given, bch_crowd** crowd) {
@@ -288,6 +299,28 @@ bch_status bch_crowd_body_obstacles(bch_crowd* handle, const bch_body_set* set, 
                                     const bch_obstacles* obstacles, const bch_query_options* options,
                                     bch_index_rows* touched) {
   return guarded([&] { hand_out_obstacles(handle, set, agents, obstacles, options, touched); });
+}
+
+bch_status bch_crowd_body_resolve(bch_crowd* handle, const bch_body_set* set, const bch_agents* agents,
+                                  const bch_resolve_options* how, const bch_pair_filter* filter,
+                                  const bch_query_options* options, bch_resolved_view* resolved) {
+  return guarded([&] {
+    const BodyCrowdCall call(handle, set, agents, filter, options);
+    Crowd::ResolveOptions all = resolve_options_of(how, call.agents.size());
+    all.implementation = call.options;
+    required(resolved, "resolved");
+    const Crowd::Resolved found =
+        call.answer([&](Crowd& crowd) { return crowd.resolve(call.shapes, call.agents, all, call.filter); });
+    call.object.last = found.left;
+    *resolved = {found.x.size(),
+                 found.x.data(),
+                 found.y.data(),
+                 found.left.size(),
+                 c_pairs(found.left.span()),
+                 found.touch_walls.size(),
+                 found.touch_walls.data(),
+                 found.sweeps};
+  });
 }
 
 bch_status bch_crowd_free(bch_crowd* crowd) {

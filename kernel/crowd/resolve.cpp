@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -20,11 +21,13 @@
 // A sweep is a step of a solver of contacts. Pairs that collide are to move by their shortest ways, nearest_free(); pairs that are near are
 // to stay apart along the direction of their clearances, so that nobody is pushed into somebody else. The displacements that do both, and
 // are the smallest, are found for all agents together. Along other ways than their own, bodies are farther or nearer than these lines say, and
-// so there are several sweeps.
+// so there are several sweeps. Those who are entangled may push each other to and fro for ever: now and then pairs are to move until a
+// line separates them, as penetration() says, which costs them more room.
 
 namespace bch::detail {
 namespace {
 
+constexpr std::uint32_t sweeps_to_disentangle = 8;
 constexpr double longest_step = 1000;  ///< metres
 /// A nearest point above or below says nothing of the ground: directions have at least this length there.
 constexpr double least_on_ground = 0.3;
@@ -104,7 +107,7 @@ class Sweeps {
     for (std::uint32_t sweep = 0;; ++sweep) {
       of_.solver.begin(agents_.size(), options_.mobility);
       add_walls();
-      add_pairs();
+      add_pairs(sweep);
       if (!is_open_ || sweep == options_.sweeps)
         return {of_.x, of_.y, memory_.kept_pairs(), of_.touch_walls, sweep};
       of_.solver.solve();
@@ -114,7 +117,7 @@ class Sweeps {
 
  private:
   /// Keeps the pairs that collide.
-  void add_pairs() {
+  void add_pairs(std::uint32_t sweep) {
     const CrowdMemory::Candidates candidates = memory_.find(bodies_, agents_, reach_, filter_);
     const auto& distance = memory_.distance.of_candidates;
     const auto& direction = memory_.space_direction.of_candidates;
@@ -126,8 +129,14 @@ class Sweeps {
     memory_.keep(candidates.pairs, [&](std::size_t i) { return distance[i] == 0; });
     memory_.kept.gather(memory_.to_part, [&](std::size_t i) { return candidates.pairs[i]; });
     of_.ways.resize(memory_.to_part.size());
-    nearest_free(bodies_, candidates.agents, memory_.to_part, options_.directions, of_.ways,
-                 options_.implementation);
+    const auto measure = [&](auto query) {
+      query(bodies_, candidates.agents, memory_.to_part, options_.directions, of_.ways,
+            options_.implementation);
+    };
+    if (sweep % sweeps_to_disentangle == 0 && sweep > 0)
+      measure([](auto&&... of) { penetration(of...); });
+    else
+      measure(nearest_free);
     for (std::size_t i = 0; i < of_.ways.size(); ++i) {
       const auto [first, second] = memory_.pairs[i];
       const auto [depth, x, y] = of_.ways[i];

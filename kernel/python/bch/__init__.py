@@ -26,7 +26,7 @@ from ._arrays import DISC, PENETRATION, POSE, SOURCE, SPHERE, SPHERE_CONTACT
 from ._bake import bake
 from ._bodies import BodyModel, BodySet, LiveBodies, default_body, load_models, save_models, spheres_from_capsules, spheres_from_polygons
 from ._characters import Bone, Channel, Curve, Joint, Motion, make_character
-from ._crowds import Clearances, Contacts, Crowd, Neighbours, Penetrations, Rows
+from ._crowds import Clearances, Contacts, Crowd, Neighbours, Penetrations, Resolved, Rows
 from ._library import (
     ArgumentError,
     ArrayError,
@@ -133,6 +133,7 @@ __all__ = [
     "POSE",
     "Pairs",
     "Penetrations",
+    "Resolved",
     "Plan",
     "PoseShaper",
     "REST_POSE",

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import ctypes
+import math
 from ctypes import byref
 from typing import Any, Iterator, NamedTuple, Optional, Tuple, Union
 
@@ -16,12 +17,14 @@ from ._arrays import (
     PENETRATION,
     SPHERE_CONTACT,
     Float32,
+    Float64,
     Records,
     UInt32,
     UInt64,
     bounded,
     copied,
     f4,
+    f8,
     given,
     index,
     instance,
@@ -111,6 +114,16 @@ class Clearances(NamedTuple):
     direction: Float32  #: (n, 2), unit vectors from the first agent to the second; of bodies (n, 3)
     discs: UInt32  #: (n, 2), the nearest disc, or sphere, of each agent; 0xffffffff: none
     points: Float32  #: (n, 2, 2), the nearest point of each agent, relative to its own position, metres; of bodies (n, 2, 3)
+
+
+class Resolved(NamedTuple):
+    """The result of `Crowd.resolve`."""
+
+    x: Float64  #: (n,), where the agents are, metres
+    y: Float64  #: (n,)
+    left: UInt32  #: (m, 2), the pairs of agents that still collide
+    touch_walls: UInt32  #: (k,), the agents that still touch an obstacle
+    sweeps: int  #: how many were made
 
 
 class Penetrations(NamedTuple):
@@ -307,6 +320,65 @@ class Crowd:
             check(call(self._handle.pointer, *at, ways, chosen, how, byref(found)))
             n = found.count
             return Penetrations(copied(found.pairs, u4, (n, 2)), copied(found.depths, PENETRATION, (n,)))
+
+    def resolve(
+        self,
+        bodies: BodySet,
+        agents: Agents,
+        *,
+        directions: int = 16,
+        sweeps: int = 100,
+        gap: float = 0.001,
+        largest_step: float = 0.05,
+        largest_shift: float = math.inf,
+        mobility: Optional[Float64] = None,
+        obstacles: Optional[Obstacles] = None,
+        category: Optional[UInt32] = None,
+        mask: Optional[UInt32] = None,
+        excluded: Optional[UInt32] = None,
+        threads: int = 0,
+        implementation: Optional[str] = None,
+    ) -> Resolved:
+        """Move agents on the ground, as little as it can, until no two bodies collide and nobody touches an obstacle.
+
+        Each sweep moves all together: pairs that collide by their shortest ways, as `nearest_free` finds them, and no pair that is near
+        into another. Agents do not turn. Where there is no room, pairs are left after the last sweep.
+
+        Parameters
+        ----------
+        directions : int
+            Of `nearest_free`.
+        sweeps : int
+            At most so many.
+        gap : float
+            Between two who are parted, metres.
+        largest_step, largest_shift : float
+            Of an agent in a sweep, and from where it was, metres.
+        mobility : (n,) float64, optional
+            From 0, who stays, to 1; of two who are parted, one with half of the other's goes half as far.
+        """
+        how, _ = options(threads=threads, implementation=implementation)
+        at, found = pointers(instance(bodies, BodySet, "bodies"), agents, True), _library.ResolvedView()
+        most = 2**32 - 1
+        chosen = _library.ResolveOptions(
+            directions=bounded(directions, "directions", 0, most),
+            sweeps=bounded(sweeps, "sweeps", 0, most),
+            gap=number(gap, "gap"),
+            largest_step=number(largest_step, "largest_step"),
+            largest_shift=number(largest_shift, "largest_shift"),
+            mobility=None if mobility is None else given(mobility, f8, (len(agents),), "mobility"),
+            obstacles=None if obstacles is None else instance(obstacles, Obstacles, "obstacles")._pointer,
+        )
+        pairs = _filter(agents, category, mask, excluded)
+        with self._exclusive:
+            check(lib.bch_crowd_body_resolve(self._handle.pointer, *at, byref(chosen), pairs, how, byref(found)))
+            return Resolved(
+                copied(found.x, f8, (found.count,)),
+                copied(found.y, f8, (found.count,)),
+                copied(found.left, u4, (found.left_count, 2)),
+                copied(found.touch_walls, u4, (found.touch_count,)),
+                found.sweeps,
+            )
 
     def by_agent(self) -> Neighbours:
         """Return the pairs of the last answer by agent: one row per agent of the crowd, ascending."""

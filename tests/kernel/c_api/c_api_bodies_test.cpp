@@ -212,6 +212,26 @@ TEST(CApiBodies, AnswerAboutCrowdsAsInCpp) {
   for (std::size_t i = 0; i < view.count; ++i)
     EXPECT_EQ((Penetration{view.depths[i].depth, view.depths[i].x, view.depths[i].y}),
               parted.penetrations[i]);
+
+  std::vector<double> mobility(of.agents.count, 1);
+  mobility[0] = 0;
+  bch_resolve_options options = BCH_RESOLVE_OPTIONS_INIT;
+  options.directions = 8, options.gap = 0.01, options.mobility = mobility.data(),
+  options.obstacles = of.c_walls;
+  bch_resolved_view resolved;
+  for (const std::uint32_t sweeps : {0u, 1u}) {
+    options.sweeps = sweeps;
+    const Crowd::Resolved expected = crowd.resolve(
+        of.set, agents,
+        {.directions = 8, .sweeps = sweeps, .gap = 0.01, .mobility = mobility, .obstacles = &of.walls});
+    expect_ok(bch_crowd_body_resolve(of.c_crowd, of.c_set.get(), &of.agents, &options, nullptr, nullptr,
+                                     &resolved));
+    expect_bytes(resolved.x, resolved.count, expected.x);
+    expect_bytes(resolved.y, resolved.count, expected.y);
+    expect_bytes(resolved.left, resolved.left_count, expected.left.span());
+    expect_bytes(resolved.touch_walls, resolved.touch_count, expected.touch_walls);
+    EXPECT_EQ(resolved.sweeps, expected.sweeps);
+  }
 }
 
 TEST(CApiBodies, AnswerAboutObstaclesAsInCpp) {

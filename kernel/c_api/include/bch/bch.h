@@ -961,6 +961,35 @@ BCH_API bch_status bch_crowd_body_obstacles(bch_crowd* crowd, const bch_body_set
                                             const bch_obstacles* obstacles, const bch_query_options* options,
                                             bch_index_rows* touched);
 
+/** Holds how agents are moved. */
+typedef struct bch_resolve_options {
+  uint32_t size;         /**< sizeof(bch_resolve_options) */
+  uint32_t directions;   /**< of bch_nearest_free_bodies() */
+  uint32_t sweeps;       /**< at most */
+  double gap;            /**< metres, between two who are parted */
+  double largest_step;   /**< metres, of an agent in a sweep */
+  double largest_shift;  /**< metres, of an agent from where it was */
+  const double* mobility; /**< from 0, who stays, to 1, one per agent; NULL: 1 for all */
+  const bch_obstacles* obstacles; /**< that bodies have to be free of, too; may be NULL */
+} bch_resolve_options;
+#define BCH_RESOLVE_OPTIONS_INIT \
+  { sizeof(bch_resolve_options), 16, 100, 0.001, 0.05, HUGE_VAL, NULL, NULL }
+/** Views where the agents are then, and what is left. */
+typedef struct bch_resolved_view {
+  size_t count;        /**< of agents */
+  const double* x; /**< one per agent */
+  const double* y; /**< one per agent */
+  size_t left_count;
+  const bch_pair* left; /**< pairs that still collide */
+  size_t touch_count;
+  const uint32_t* touch_walls; /**< agents that still touch an obstacle, ascending */
+  uint32_t sweeps;             /**< that were made */
+} bch_resolved_view;
+/** Moves agents on the ground, as little as it can, until no two bodies collide and nobody touches an obstacle. `resolve_options` may be NULL. */
+BCH_API bch_status bch_crowd_body_resolve(bch_crowd* crowd, const bch_body_set* set, const bch_agents* agents,
+                                          const bch_resolve_options* resolve_options, const bch_pair_filter* filter,
+                                          const bch_query_options* options, bch_resolved_view* resolved);
+
 /* Motions ----------------------------------------------------------------------------------------------------------- */
 
 /** Represents a body that moves by itself: discs whose centres and radii are linear in time from key to key, or spheres, which have heights.
