@@ -114,6 +114,12 @@ TEST(Resolve, TwoGoHalfTheWayOrAsTheirMobilitiesSay) {
             (Answer{scene.crowd.x, scene.crowd.y, {{0, 1}}, {}, 0}));
 }
 
+TEST(Resolve, NobodyIsPushedIntoAnother) {
+  ThreeSpheres scene;
+  scene.crowd.x[2] = 1.01, scene.crowd.y[2] = 0;  // 1 cm behind the second one
+  EXPECT_TRUE(resolved(scene.bodies, scene.crowd, {.sweeps = 1, .largest_step = 1}).left.empty());
+}
+
 TEST(Resolve, KeepsItsLimits) {
   const Scene scene;
   const Answer step = resolved(scene.bodies, scene.crowd, {.sweeps = 1, .largest_step = 0.01}),
@@ -182,6 +188,7 @@ TEST(SeparationSolver, FindsTheLeastSumOfSquares) {
   const auto begin = [&] {
     solver.begin(4, {});
     for (std::uint32_t i = 0; i < 3; ++i) solver.add(i, i + 1, -1, 0, i < 2 ? 0.2 : -0.1);
+    solver.add(0, 1, -1, 0, -1);  // is so anyway
   };
   begin();
   expect_displacements({-0.225, -0.025, 0.175, 0.075});

@@ -236,6 +236,7 @@ class Crowd {
   /// Moves agents on the ground, as little as it can, until no two bodies collide and nobody touches a wall. Each sweep moves all together:
   /// pairs that collide by their shortest ways, nearest_free(), and no pair that is near into another. Agents do not turn. Where
   /// there is no room, pairs are left after the last sweep. With a period, agents may leave it: positions count modulo the period.
+  /// Memory:  allocates in every sweep, as nearest_free() does.
   /// Errors:  also on an odd number of directions, and on lengths and mobilities out of range.
   Resolved resolve(const BodySet& bodies, const Agents& agents, const ResolveOptions& options,
                    const PairFilter& filter = {}) &;
