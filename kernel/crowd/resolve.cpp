@@ -58,13 +58,12 @@ void shorten(double& x, double& y, double most) {
   x *= most / length, y *= most / length;
 }
 
-/// Adds that an agent stays at a gap from another, or from nobody, which is a wall; or that it goes until it is. The direction leads to
-/// the other.
-void add_gap(SeparationSolver& solver, std::uint32_t first, std::uint32_t second, const Vec3& direction,
-             double distance, double gap) {
+/// Adds that an agent comes nearer to another, or to nobody, which is a wall, by no more than there is room for; below 0 it has to go so far
+/// away. The direction leads to the other.
+void add_room(SeparationSolver& solver, std::uint32_t first, std::uint32_t second, const Vec3& direction,
+              double room) {
   const double x{direction.x}, y{direction.y}, length = std::sqrt(x * x + y * y);
-  if (length < least_on_ground) return;
-  solver.add(first, second, -x / length, -y / length, (gap - distance) / length);
+  if (length >= least_on_ground) solver.add(first, second, -x / length, -y / length, -room / length);
 }
 
 }  // namespace
@@ -146,7 +145,7 @@ class Sweeps {
     for (std::size_t i = 0; i < candidates.pairs.size(); ++i) {
       if (!(distance[i] > 0 && double{distance[i]} <= reach_)) continue;
       const auto [first, second] = memory_.named(candidates.pairs[i]);
-      add_gap(of_.solver, first, second, direction[i], double{distance[i]}, 0);
+      add_room(of_.solver, first, second, direction[i], std::max(0.0, double{distance[i]} - options_.gap));
     }
   }
 
@@ -164,8 +163,9 @@ class Sweeps {
       const bool touches = distance <= 0;
       if (touches) of_.touch_walls.push_back(i);
       is_open_ |= touches && of_.solver.mobility(i) > 0;
-      add_gap(of_.solver, i, SeparationSolver::nobody, of_.wall_direction[i], distance,
-              touches ? options_.gap : 0);
+      const double room = distance - options_.gap;
+      add_room(of_.solver, i, SeparationSolver::nobody, of_.wall_direction[i],
+               touches ? room : std::max(0.0, room));
     }
   }
 
