@@ -18,15 +18,19 @@ void SeparationSolver::add(std::uint32_t first, std::uint32_t second, double x, 
 }
 
 void SeparationSolver::push(Constraint& constraint) {
-  const auto [first, second, x, y, least, share, pushed] = constraint;
-  Displacement& a = displacements_[first];
-  const Displacement b = second == nobody ? Displacement{} : displacements_[second];
-  const double missing = least - ((a.x - b.x) * x + (a.y - b.y) * y);
-  constraint.pushed = std::max(0.0, pushed + share * missing);
-  const double change = constraint.pushed - pushed;
-  const auto go = [&](Displacement& d, double way) { d.x += way * x, d.y += way * y; };
-  go(a, mobility(first) * change);
-  if (second != nobody) go(displacements_[second], -mobility(second) * change);
+  const Constraint& of = constraint;
+  const Displacement a = displacements_[of.first],
+                     b = of.second == nobody ? Displacement{} : displacements_[of.second];
+  const double missing = of.least - ((a.x - b.x) * of.x + (a.y - b.y) * of.y);
+  const double before = of.pushed;
+  constraint.pushed = std::max(0.0, before + of.share * missing);
+  const auto go = [&](std::uint32_t agent, double way) {
+    if (agent == nobody) return;
+    displacements_[agent].x += way * mobility(agent) * of.x;
+    displacements_[agent].y += way * mobility(agent) * of.y;
+  };
+  go(of.first, of.pushed - before);
+  go(of.second, before - of.pushed);
 }
 
 void SeparationSolver::solve() {
