@@ -8,7 +8,11 @@
 #include <oneapi/tbb/task_group.h>
 
 #include <atomic>
+#include <thread>
+#include <tuple>
 
+#include "kernel/runtime/task_ranges.hpp"
+#include "tests/support/complaint.hpp"
 #include "tests/support/crowd_pairs.hpp"
 #include "tests/support/test.hpp"
 
@@ -138,6 +142,81 @@ TEST_F(TaskGroups, OneCrowdAThreadIsEnoughForContacts) {
   }
   expect_one_call_at_a_time<Crowd>(
       4, [&](Crowd& crowd, std::size_t k) { return crowd.contacts(set, crowds[k].agents(), pairs[k]); });
+}
+
+// ---- A caller's own task system in place of TBB.
+
+/// Runs tasks backwards, on two threads of its own where it is not in one of them, and counts.
+struct CountingExecutor {
+  std::atomic<std::size_t> tasks = 0, calls = 0;
+  bool on_threads = false;
+
+  static void run(void* context, std::size_t count, void (*task)(void*, std::size_t), void* data) {
+    auto& own = *static_cast<CountingExecutor*>(context);
+    own.tasks += count, ++own.calls;
+    const auto every_other = [=](std::size_t first, std::size_t step) {
+      for (std::size_t i = first; i < count; i += step) task(data, count - 1 - i);
+    };
+    if (!own.on_threads) return every_other(0, 1);
+    std::thread other(every_other, 1, 2);
+    every_other(0, 2);
+    other.join();
+  }
+  Executor executor() { return {run, this, 3}; }
+};
+
+class Executors : public TaskGroups {
+ protected:
+  void TearDown() override { Executor::set({}); }
+};
+
+TEST_F(Executors, ChangeNoAnswer) {
+  const test::Crowd crowd = people(20'000);
+  const Agents agents = crowd.agents();
+  const auto answers = [&] {
+    Crowd finder;
+    const Crowd::Pairs found = finder.collisions(set, agents);
+    const std::vector<Pair> pairs(found.begin(), found.end());
+    const Kept by_agent(found.by_agent());
+    std::vector<float> distance(pairs.size());
+    clearance(set, agents, pairs, {distance}, {.overlap = Overlap::deepest});
+    return std::tuple(pairs, by_agent.offsets, distance);
+  };
+  const auto expected = answers();
+  for (const bool on_threads : {false, true}) {
+    CountingExecutor own{.on_threads = on_threads};
+    Executor::set(own.executor());
+    EXPECT_EQ(answers(), expected);
+    EXPECT_GT(own.calls, 5u);
+    EXPECT_GT(own.tasks, 3 * own.calls);
+  }
+}
+
+TEST_F(Executors, CarryWhatTasksThrow) {
+  test::Crowd crowd = people(5'000);
+  std::vector<Pair> pairs = test::candidate_pairs(set, crowd.agents());
+  crowd.shape[pairs.back().second] = 99;
+  std::vector<std::uint8_t> hits(pairs.size());
+  const auto ask = [&] { collide(set, crowd.agents(), pairs, hits); };
+  const std::string expected = test::complaint(ask);
+  CountingExecutor own;
+  Executor::set(own.executor());
+  EXPECT_EQ(test::complaint(ask), expected);
+  const auto fail = [](std::size_t begin, std::size_t) {
+    if (begin != 0) throw std::runtime_error("a task fails");
+  };
+  EXPECT_EQ(test::complaint<std::runtime_error>([&] { detail::for_ranges(100, 1, fail); }), "a task fails");
+}
+
+TEST_F(Executors, AreRefusedWithoutThreads) {
+  CountingExecutor own;
+  for (const std::uint32_t threads : {0u, 1025u})
+    EXPECT_EQ(test::complaint([&] {
+                Executor::set({CountingExecutor::run, &own, threads});
+              }),
+              "executor: expected 1 to 1024 threads, found " + std::to_string(threads));
+  people(10);
+  EXPECT_EQ(own.calls, 0u);
 }
 
 }  // namespace

@@ -224,7 +224,7 @@ TEST(Pedestrians, FeetOnTheGroundStayWhereTheyAre) {
       const Channel& pelvis = character.clips[clip].channels[0];
       const float scale = character.to_ground.rows[0][0];
       const float way = scale * (pelvis.positions.back().value.x - pelvis.positions.front().value.x);
-      EXPECT_NEAR(way / pelvis.positions.back().time, pedestrian_speed_step * clip, 1e-4)
+      EXPECT_NEAR(way / pelvis.positions.back().time, detail::pedestrian_speed_step * clip, 1e-4)
           << character.clips[clip].name;
     }
   }
@@ -236,7 +236,7 @@ TEST(Pedestrians, StridesCanBeRepeated) {
     const Character character = default_pedestrian(sex, 1.7, sex == Sex::male ? 0.7 : 0);
     for (std::uint32_t clip = 0; clip < detail::pedestrian_speeds; ++clip) {
       const float seconds = character.clips[clip].seconds;
-      const double speed = pedestrian_speed_step * clip;
+      const double speed = detail::pedestrian_speed_step * clip;
       EXPECT_NEAR(static_cast<double>(seconds) * pedestrian_strides_per_second(speed), 1, 1e-6);
       const std::vector<Vec3> first = pose_vertices(character, {clip, 0}),
                               last = pose_vertices(character, {clip, seconds});

@@ -31,7 +31,7 @@ namespace bch {
 //
 // Threads: any number of queries may read one ShapeSet at once; nothing may replace its shapes meanwhile. The work runs in the
 //          caller's TBB arena: call from tbb::task_arena(n).execute() for n threads. Each thread needs 320 KiB of stack.
-//          While a query waits for its tasks, TBB may run other tasks on the thread, so hold no lock.
+//          While a query waits for its tasks, TBB may run other tasks on the thread, so hold no lock. With an Executor it runs there.
 
 /// Describes one compilation of the queries for an instruction set. All implementations give the same bits.
 struct Implementation {
@@ -51,6 +51,21 @@ const Implementation& best_implementation();
 /// Returns an implementation by its name.
 /// Errors:  throws std::invalid_argument on an unknown name, naming the known ones, or on one that this processor does not run.
 const Implementation& implementation(std::string_view name);
+
+/// Runs the tasks of queries: a caller's own task system in place of TBB. Answers are the same bits.
+struct Executor {
+  /// Calls task(data, i) once for each i from 0 to count, on any threads and in any order, and returns when all have ended. Tasks throw
+  /// nothing; a task may call it again. While it waits it may run other tasks on the thread, but no query by the same Crowd.
+  void (*run)(void* context, std::size_t count, void (*task)(void* data, std::size_t i),
+              void* data) = nullptr;
+  void* context = nullptr;    ///< given to run()
+  std::uint32_t threads = 1;  ///< how many tasks run at once: work is divided into up to 8 a thread
+
+  /// Makes an executor that of all queries from now on; one without run() brings back what the library was built with.
+  /// Errors:  throws std::invalid_argument on other than 1 to 1024 threads.
+  /// Threads: no query may run meanwhile.
+  static void set(const Executor& executor);
+};
 
 /// Selects what clearance() returns for pairs whose discs overlap.
 enum class Overlap {

@@ -129,11 +129,8 @@ Character default_bulky_male();
 /// Selects the sex of a pedestrian's body.
 enum class Sex { female, male };
 
-/// Gives the step of the speeds at which pedestrians walk, metres per second: clip k of a pedestrian walks at k steps, the last one at 2.19 m/s.
-constexpr double pedestrian_speed_step = 0.03;
-
 /// Returns a pedestrian for recorded and simulated crowds: the built-in man or woman of a given stature. The pedestrian walks at every
-/// speed, keeps the arms close, and stands under the head, which is what cameras track. Each clip is one stride at one speed: it
+/// speed, keeps the arms close, and stands under the head, which is what cameras track. Clip k is one stride at 0.03 k m/s, up to 2.19: it
 /// begins and ends with the left heel's contact, in the same pose, and can be repeated. Steps are taken at 1.3 Hz when people shuffle and at 0.5 Hz more for every metre per second:
 /// about 2 Hz and 0.7 m at 1.4 m/s. The step length goes to 0 with the speed. `shoulders` is the angle of the shoulders to the
 /// walking direction, counter-clockwise: people turn them when they pass each other closely.

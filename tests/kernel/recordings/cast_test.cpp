@@ -4,6 +4,7 @@
 #include "kernel/recordings/walker_cast.hpp"
 
 #include "kernel/recordings/baked_cast.hpp"
+#include "layout/default_character/pedestrian_speeds.hpp"
 #include "tests/support/made_up_recording.hpp"
 #include "tests/support/test.hpp"
 

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <algorithm>
+#include <atomic>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "kernel/runtime/executor_tasks.hpp"
+
+namespace bch::detail {
+namespace {
+
+/// Holds as many threads as the processor runs, but one, which is the caller's. They work for one call at a time; a call that comes meanwhile,
+/// also from a task, is the caller's alone.
+class ThreadPool {
+ public:
+  static ThreadPool& instance() {
+    static ThreadPool pool;
+    return pool;
+  }
+  std::uint32_t threads() const { return static_cast<std::uint32_t>(workers_.size()) + 1; }
+
+  void run(std::size_t count, void (*task)(void*, std::size_t), void* data) {
+    std::unique_lock<std::mutex> alone;
+    if (!is_working_) alone = std::unique_lock(call_, std::try_to_lock);
+    if (!alone) {
+      for (std::size_t i = 0; i < count; ++i) task(data, i);
+      return;
+    }
+    {
+      const std::lock_guard lock(mutex_);
+      task_ = task, data_ = data, count_ = count, next_ = 0, busy_ = workers_.size(), ++call_number_;
+    }
+    begins_.notify_all();
+    work();
+    std::unique_lock lock(mutex_);
+    ends_.wait(lock, [&] { return busy_ == 0; });
+  }
+
+ private:
+  ThreadPool() {
+    const std::uint32_t wanted = std::clamp(std::thread::hardware_concurrency(), 1u, 256u) - 1;
+    for (std::uint32_t i = 0; i < wanted; ++i) workers_.emplace_back([this] { serve(); });
+  }
+  ~ThreadPool() {
+    {
+      const std::lock_guard lock(mutex_);
+      ends_all_ = true;
+    }
+    begins_.notify_all();
+    for (std::thread& worker : workers_) worker.join();
+  }
+
+  void work() {
+    is_working_ = true;
+    for (std::size_t i; (i = next_.fetch_add(1, std::memory_order_relaxed)) < count_;) task_(data_, i);
+    is_working_ = false;
+  }
+
+  void serve() {
+    std::uint64_t served = 0;
+    for (;;) {
+      {
+        std::unique_lock lock(mutex_);
+        begins_.wait(lock, [&] { return ends_all_ || call_number_ != served; });
+        if (ends_all_) return;
+        served = call_number_;
+      }
+      work();
+      const std::lock_guard lock(mutex_);
+      if (--busy_ == 0) ends_.notify_one();
+    }
+  }
+
+  static thread_local bool is_working_;
+
+  std::mutex call_, mutex_;
+  std::condition_variable begins_, ends_;
+  void (*task_)(void*, std::size_t) = nullptr;
+  void* data_ = nullptr;
+  std::size_t count_ = 0, busy_ = 0;
+  std::atomic<std::size_t> next_ = 0;
+  std::uint64_t call_number_ = 0;
+  bool ends_all_ = false;
+  std::vector<std::thread> workers_;
+};
+
+thread_local bool ThreadPool::is_working_ = false;
+
+}  // namespace
+
+void run_ranges_by_default(std::size_t count, std::size_t grain, const RangeWork& work) {
+  ThreadPool& pool = ThreadPool::instance();
+  const Executor executor{[](void* of, std::size_t tasks, void (*task)(void*, std::size_t), void* data) {
+                            static_cast<ThreadPool*>(of)->run(tasks, task, data);
+                          },
+                          &pool, pool.threads()};
+  run_ranges_on(executor, count, grain, work);
+}
+
+void run_isolated_by_default(const RangeWork& work) {
+  work(0, 0);
+}
+
+}  // namespace bch::detail
