@@ -6,8 +6,6 @@
 
 #include <system_error>
 
-#include <bch/bodies.hpp>
-
 #include "tests/support/baked_bytes.hpp"
 #include "tests/support/body_models.hpp"
 #include "tests/support/test.hpp"

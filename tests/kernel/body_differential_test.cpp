@@ -1,16 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/pairs.hpp>
-
-#include <cmath>
-#include <limits>
-#include <utility>
-
 #include "baselines/body_reference.hpp"
 #include "kernel/runtime/all_options.hpp"
 #include "tests/support/body_scenes.hpp"
-#include "tests/support/implementations.hpp"
 #include "tests/support/test.hpp"
 
 // Bodies of spheres in every implementation and in the brute-force reference: the same bits.

@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/pairs.hpp>
-
-#include <cmath>
-#include <limits>
-
 #include "baselines/body_reference.hpp"
 #include "tests/support/body_scenes.hpp"
-#include "tests/support/implementations.hpp"
 #include "tests/support/test.hpp"
 
 // Times of impact of bodies of spheres: the brute-force reference's, never late, and not much too early.

@@ -1,30 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/bodies.hpp>
-
-#include <gtest/gtest.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/task_arena.h>
 #define XXH_INLINE_ALL  // nothing is linked
 #include <xxhash.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <filesystem>
-#include <limits>
-#include <map>
-#include <numbers>
-#include <string>
-#include <vector>
-
-#include <bch/characters.hpp>
-#include <bch/import.hpp>
-#include <bch/poses.hpp>
-
 #include "layout/base/build_implementation.hpp"
-#include "layout/base/random.hpp"
 #include "layout/body/body_layout.hpp"
 #include "layout/body/posing/posing_loops.hpp"
 #include "layout/body/sphere_rounding.hpp"
@@ -32,9 +14,8 @@
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/body_models.hpp"
 #include "tests/support/character_shapes.hpp"
-#include "tests/support/complaint.hpp"
 #include "tests/support/held_triangles.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/support/test.hpp"
 
 namespace bch {
 namespace {

@@ -1,17 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/crowd.hpp>
-#include <bch/pairs.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <utility>
-
 #include "tests/support/body_scenes.hpp"
 #include "tests/support/crowd_pairs.hpp"
-#include "tests/support/implementations.hpp"
 #include "tests/support/test.hpp"
 
 // Contacts and penetrations of bodies of spheres, and what a crowd of them finds.

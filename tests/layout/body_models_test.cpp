@@ -1,18 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <gtest/gtest.h>
-
-#include <string>
-#include <utility>
-#include <vector>
-
-#include <bch/bodies.hpp>
-#include <bch/characters.hpp>
-
-#include "layout/body/model/model_bytes.hpp"
 #include "tests/support/body_models.hpp"
-#include "tests/support/complaint.hpp"
+#include "layout/body/model/model_bytes.hpp"
+#include "tests/support/test.hpp"
 
 // Models as bytes, models that come with the library, and models that are refused.
 

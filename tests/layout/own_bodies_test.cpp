@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/bodies.hpp>
-#include <bch/characters.hpp>
-
 #include "tests/support/body_models.hpp"
 #include "tests/support/plane_geometry.hpp"
 #include "tests/support/test.hpp"

@@ -3,13 +3,6 @@
 
 #include "tests/support/body_models.hpp"
 
-#include <algorithm>
-#include <array>
-#include <map>
-#include <memory>
-#include <utility>
-#include <vector>
-
 namespace bch::test {
 namespace {
 

@@ -3,10 +3,7 @@
 
 #pragma once
 
-#include <cstdint>
-
-#include <bch/bodies.hpp>
-#include <bch/characters.hpp>
+#include "tests/support/standard.hpp"
 
 namespace bch::test {
 

@@ -3,17 +3,6 @@
 
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <span>
-#include <utility>
-#include <vector>
-
-#include <bch/agents.hpp>
-#include <bch/body_set.hpp>
-
 #include "tests/support/scenes.hpp"
 
 namespace bch::test {

@@ -5,11 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-
-#include <bch/poses.hpp>
-
 #include "layout/body/sphere_rounding.hpp"
 
 namespace bch::test {

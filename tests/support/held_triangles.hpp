@@ -3,14 +3,7 @@
 
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <map>
-#include <span>
-#include <utility>
-#include <vector>
-
-#include <bch/bodies.hpp>
+#include "tests/support/standard.hpp"
 
 namespace bch::test {
 

@@ -3,14 +3,6 @@
 
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <limits>
-#include <map>
-#include <string>
-#include <vector>
-
 #include "kernel/recordings/check.hpp"
 #include "tests/support/scenes.hpp"
 

@@ -3,9 +3,6 @@
 
 #include <cstdlib>
 #include <iostream>
-#include <optional>
-
-#include <bch/bodies.hpp>
 
 #include "layout/base/heading.hpp"
 #include "layout/character/affine_rows.hpp"

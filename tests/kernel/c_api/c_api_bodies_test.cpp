@@ -1,19 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/bodies.hpp>
-#include <bch/characters.hpp>
-#include <bch/crowd.hpp>
-#include <bch/obstacles.hpp>
-#include <bch/pairs.hpp>
-
-#include <set>
-#include <span>
-#include <vector>
-
 #include "tests/support/body_scenes.hpp"
 #include "tests/support/c_api.hpp"
-#include "tests/support/temporary_folder.hpp"
 #include "tests/support/test.hpp"
 
 // Models and bodies of spheres of the C interface are those of C++.

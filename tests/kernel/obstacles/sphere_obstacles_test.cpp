@@ -1,14 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <algorithm>
-#include <cmath>
-
-#include <bch/crowd.hpp>
-#include <bch/obstacles.hpp>
-
 #include "tests/support/body_scenes.hpp"
-#include "tests/support/implementations.hpp"
 #include "tests/support/obstacle_scenes.hpp"
 #include "tests/support/plane_geometry.hpp"
 #include "tests/support/test.hpp"
