@@ -8,7 +8,6 @@
 #include "tests/support/bch_run.hpp"
 #include "tests/support/table.hpp"
 #include "tests/support/test.hpp"
-#include "tests/support/two_who_meet.hpp"
 
 // What the program writes, word for word, as the files in golden/ have it:
 //   # a comment

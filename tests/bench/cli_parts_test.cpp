@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <signal.h>
+#include <sys/stat.h>
 
 #include <nlohmann/json.hpp>
 
@@ -249,6 +250,104 @@ TEST_F(CliParts, OfBadInputAreNotWritten) {
   folder.write("people.txt", crossing_people());
   EXPECT_EQ(part(2, 2).code, 0);
   EXPECT_EQ(bch({"merge", parts}).code, 0);
+}
+
+// ---- Files of parts and tables: what they may not overwrite, what is no part, what a signal leaves.
+
+/// Nested arrays or objects, deep enough to exhaust the stack of what recurses.
+std::string nested(const char* open, const char* middle, const char* close) {
+  std::string text;
+  for (int i = 0; i < 300'000; ++i) text += open;
+  text += middle;
+  for (int i = 0; i < 300'000; ++i) text += close;
+  return text;
+}
+
+class CliPartFiles : public CliParts {
+ protected:
+  Ending do_all() const { return part(1, 1); }
+  std::string part_file(const std::string& kind) const { return parts / ("part-1-of-1." + kind); }
+};
+
+TEST_F(CliPartFiles, OverwriteNoInput) {
+  fs::create_directory(parts);
+  const std::string agents = folder.write("agents.csv", four_agents),
+                    pairs = folder.write("pairs.csv", "first,second\na,b\n");
+  for (const std::string kind : {"frames.csv", "pairs.csv", "events.csv", "summary.json", "manifest.json"}) {
+    const std::string taken = part_file(kind);
+    const auto expect = [&] {
+      expect_failure(do_all(), 2, {"--into: " + taken, file + ", an input"});
+      EXPECT_EQ(read_text(file), crossing_people()) << kind;
+      fs::remove(taken);
+    };
+    fs::create_symlink(file, taken), expect();
+    fs::create_hard_link(file, taken), expect();
+    folder.write("parts/part-1-of-1." + kind, crossing_people());
+    expect_failure(bch({"check", taken, "--part", "1/1", "--into", parts}), 2, {"--into: " + taken});
+    EXPECT_EQ(read_text(taken), crossing_people());
+    fs::remove(taken);
+  }
+  for (const std::string kind : {"answers.csv", "manifest.json"}) {
+    fs::create_symlink(agents, part_file(kind));
+    expect_failure(bch({"query", "default:male", agents, pairs, "--part", "1/1", "--into", parts}), 2,
+                   {"--into: " + part_file(kind), agents + ", an input"});
+    EXPECT_EQ(read_text(agents), four_agents);
+    fs::remove(part_file(kind));
+  }
+  EXPECT_EQ(do_all().code, 0);
+}
+
+TEST_F(CliPartFiles, ThatNestDeeplyAreRefused) {
+  ASSERT_EQ(do_all().code, 0);
+  for (const std::string& deep : {nested("[", "", "]"), nested("{\"a\":", "1", "}")})
+    for (const char* const kind : {"manifest.json", "summary.json"}) {
+      const std::string before = read_text(part_file(kind));
+      folder.write(fmt::format("parts/part-1-of-1.{}", kind),
+                   "{\"bch_part\":1,\"part\":1,\"of\":1,\"files\":[],\"run\":" + deep + "}");
+      expect_failure(bch({"merge", parts}), 3, {part_file(kind)});
+      EXPECT_EQ(do_all().code, 0);
+      EXPECT_EQ(read_text(part_file(kind)), before);
+    }
+}
+
+TEST_F(CliPartFiles, AreWrittenToNoPipe) {
+  fs::create_directory(parts);
+  ASSERT_EQ(mkfifo(part_file("frames.csv").c_str(), 0600), 0);
+  expect_failure(do_all(), 3, {part_file("frames.csv"), "not a regular file"});
+}
+
+TEST_F(CliPartFiles, ThatAreNoneAreRefusedByALine) {
+  fs::create_directory(parts);
+  const std::string manifest = part_file("manifest.json");
+  ASSERT_EQ(mkfifo(part_file("answers.csv").c_str(), 0600), 0);
+  folder.write("parts/part-1-of-1.manifest.json",
+               R"({"bch_part":1,"part":1,"of":1,"share":{},"run":{"command":"query"},)"
+               R"("files":[{"file":"part-1-of-1.answers.csv","bytes":0,"xxh3":"0"}]})");
+  expect_failure(bch({"merge", parts}), 3, {part_file("answers.csv")});
+  fs::remove(manifest);
+  fs::create_directory(manifest);
+  expect_failure(bch({"merge", parts}), 3, {manifest});
+  fs::remove(manifest);
+  ASSERT_EQ(mkfifo(manifest.c_str(), 0600), 0);
+  expect_failure(bch({"merge", parts}), 3, {manifest, "not a regular file"});
+  fs::remove(manifest);
+  fs::create_symlink("/dev/zero", manifest);
+  expect_failure(bch({"merge", parts}), 3, {manifest, "not a regular file"});
+}
+
+TEST_F(CliPartFiles, AllGoWithASignal) {
+  folder.write("people.txt", crossing_people(30'000));
+  const fs::path out = folder.file("out");
+  fs::create_directory(out);
+  const auto files = [&] { return std::distance(fs::directory_iterator(out), {}); };
+  const Arguments tables{"check", file, "--events", out / "e", "--frames", out / "f", "--pairs", out / "p"},
+      part{"check", file, "--part", "1/1", "--into", out};
+  for (const int number : {SIGINT, SIGTERM, SIGHUP})
+    for (const Arguments& command : {tables, part}) {
+      const int many = command == tables ? 3 : 4;
+      EXPECT_EQ(run_until([&] { return files() >= many; }, number, BCH_PROGRAM, command), 128 + number);
+      EXPECT_EQ(files(), 0) << number;
+    }
 }
 
 }  // namespace

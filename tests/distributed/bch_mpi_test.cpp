@@ -115,18 +115,6 @@ std::string walking_people() {
   return text.str();
 }
 
-/// Two people who walk through each other, and two who stand in each other.
-std::string meeting_people() {
-  std::ostringstream text;
-  text << "# framerate: 10\n# id frame x/m y/m z/m\n";
-  for (int k = 0; k < 30; ++k)
-    text << 7 << " " << k << " " << -1.5 + 0.1 * k << " 0 1.8\n"
-         << 5 << " " << k << " " << 1.5 - 0.1 * k << " 0.1 1.7\n"
-         << 8 << " " << k << " 6 0 1.7\n"
-         << 9 << " " << k << " 6.1 0 1.8\n";
-  return text.str();
-}
-
 class BchMpiCheck : public testing::Test {
  protected:
   Arguments check(const std::string& ranks, const std::string& file, const Arguments& more = {}) const {
@@ -136,7 +124,7 @@ class BchMpiCheck : public testing::Test {
   }
 
   TemporaryFolder folder;
-  const std::string recording = folder.write("people.txt", meeting_people());
+  const std::string recording = folder.write("people.txt", test::two_who_meet());
   const std::string parts = folder.file("parts"), json = folder.file("check.json");
 };
 

@@ -3,6 +3,7 @@
 
 #include "tests/support/bch_run.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -40,6 +41,14 @@ std::string crooked_lattice(int side, int shapes, int levels) {
     csv << i << ',' << i % shapes << ',' << 0.43 * (i % side) + 0.01 * (i % 7) << ',' << 0.41 * (i / side)
         << ',' << 0.7 * i << ',' << i % levels << '\n';
   return csv.str();
+}
+
+std::string two_who_meet() {
+  std::string text = "# framerate: 25\n# id frame x/m y/m z/m\n";
+  for (int k = 0; k < 100; ++k)
+    text += fmt::format("7 {0} {1:.3f} 0 1.8\n5 {0} {2:.3f} 0.1 1.7\n12 {0} 3 {3:.3f} 1.6\n", k,
+                        -2.4 + 0.048 * k, 2.4 - 0.048 * k, 5 + 0.04 * k);
+  return text;
 }
 
 nlohmann::json read_json(const std::filesystem::path& file) {

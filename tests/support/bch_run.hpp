@@ -25,6 +25,9 @@ std::size_t count_of(const std::string& text, const std::string& word);
 /// A table of agents on a lattice, dense enough for many to collide, in so many shapes and levels by turns.
 std::string crooked_lattice(int side, int shapes = 1, int levels = 1);
 
+/// Two people who walk through each other in 4 s, and a third who is never near them: a recording.
+std::string two_who_meet();
+
 nlohmann::json read_json(const std::filesystem::path& file);
 
 /// A person-sized box, 0.5 m x 0.3 m on the ground, y up.
