@@ -8,7 +8,7 @@
 #include "layout/format/shape_set_view.hpp"
 #include "tests/support/baked_bytes.hpp"
 #include "tests/support/bch_run.hpp"
-#include "tests/support/island_soups.hpp"
+#include "tests/support/outline_soups.hpp"
 #include "tests/support/test.hpp"
 
 // `bch bake`, and the other commands on the files that it writes.

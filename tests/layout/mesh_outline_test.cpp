@@ -6,7 +6,6 @@
 #include "kernel/obstacles/segment.hpp"
 #include "layout/character/skinning.hpp"
 #include "tests/support/cut_soups.hpp"
-#include "tests/support/outline_soups.hpp"
 #include "tests/support/test.hpp"
 
 // outline(): meshes with holes, between heights, in many poses, and as text.

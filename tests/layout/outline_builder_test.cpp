@@ -5,8 +5,6 @@
 #include "layout/character/skinning.hpp"
 #include "layout/outline/grid_geometry.hpp"
 #include "tests/support/allocation_count.hpp"
-#include "tests/support/island_soups.hpp"
-#include "tests/support/outline_arrangement.hpp"
 #include "tests/support/outline_soups.hpp"
 #include "tests/support/table.hpp"
 #include "tests/support/test.hpp"

@@ -4,10 +4,7 @@
 #include <polyclipping/clipper.hpp>
 
 #include "layout/character/skinning.hpp"
-#include "tests/support/character_shapes.hpp"
 #include "tests/support/cut_soups.hpp"
-#include "tests/support/outline_checks.hpp"
-#include "tests/support/outline_soups.hpp"
 #include "tests/support/test.hpp"
 #include "tests/support/test_characters.hpp"
 
