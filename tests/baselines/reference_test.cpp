@@ -12,7 +12,6 @@
 #include "baselines/placement.hpp"
 #include "baselines/time_of_impact_reference.hpp"
 #include "tests/support/baseline_scene.hpp"
-#include "tests/support/character_shapes.hpp"
 #include "tests/support/test.hpp"
 #include "tests/support/test_characters.hpp"
 

@@ -267,17 +267,16 @@ TEST(BroadPhase, AnyNumberOfThreads) {
   }
 }
 
+/// Also where it has moved.
 TEST(BroadPhase, OneObjectServesManyCrowds) {
   Crowd one;
   for (const std::uint32_t agents : {3000u, 10u, 0u, 5000u, 1u, 2999u}) {
     const test::Crowd crowd = crowd_in(50, 50, agents, agents);
-    const bch::Crowd::Pairs found = one.candidates(set, crowd.agents());
-    EXPECT_EQ(std::vector<Pair>(found.begin(), found.end()), test::candidate_pairs(set, crowd.agents()))
-        << agents;
+    const std::vector<Pair> expected = test::candidate_pairs(set, crowd.agents());
+    EXPECT_TRUE(std::ranges::equal(one.candidates(set, crowd.agents()), expected)) << agents;
+    Crowd moved(std::move(one));
+    one = std::move(moved);
   }
-  Crowd moved(std::move(one));
-  const test::Crowd crowd = crowd_in(5, 5, 100, 1);
-  EXPECT_EQ(moved.candidates(set, crowd.agents()).size(), test::candidate_pairs(set, crowd.agents()).size());
 }
 
 }  // namespace

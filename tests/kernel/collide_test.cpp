@@ -8,7 +8,6 @@
 #include "layout/format/contours.hpp"
 #include "layout/format/shape_set_view.hpp"
 #include "layout/hierarchy/paper_hierarchies.hpp"
-#include "tests/support/character_shapes.hpp"
 #include "tests/support/differential.hpp"
 #include "tests/support/outline_checks.hpp"
 #include "tests/support/test.hpp"

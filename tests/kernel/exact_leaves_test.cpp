@@ -9,7 +9,6 @@
 #include "layout/base/rounding.hpp"
 #include "layout/format/shape_arrays.hpp"
 #include "layout/format/shape_set_view.hpp"
-#include "tests/support/character_shapes.hpp"
 #include "tests/support/query_references.hpp"
 #include "tests/support/test.hpp"
 #include "tests/support/test_characters.hpp"

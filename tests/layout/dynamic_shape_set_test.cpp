@@ -25,9 +25,8 @@ using test::Random;
 /// All that queries can say about a scene, on every instruction set.
 std::vector<std::vector<std::uint8_t>> answers(const ShapeSet& set, const PairScene& scene) {
   std::vector<std::vector<std::uint8_t>> all;
-  for (const Implementation& row : implementations())
-    if (row.supported())
-      collide(set, scene.crowd.agents(), scene.pairs, all.emplace_back(scene.pairs.size()), {&row});
+  for (const Implementation& row : test::supported())
+    collide(set, scene.crowd.agents(), scene.pairs, all.emplace_back(scene.pairs.size()), {&row});
   return all;
 }
 

@@ -8,7 +8,6 @@
 #include "layout/hierarchy/builder.hpp"
 #include "layout/hierarchy/paper_hierarchies.hpp"
 #include "layout/shape_set/bvh8.hpp"
-#include "tests/support/character_shapes.hpp"
 #include "tests/support/hierarchy_checks.hpp"
 #include "tests/support/test.hpp"
 #include "tests/support/test_characters.hpp"

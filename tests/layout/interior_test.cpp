@@ -8,7 +8,6 @@
 #include "layout/format/contours.hpp"
 #include "layout/format/shape_set_view.hpp"
 #include "tests/support/allocation_count.hpp"
-#include "tests/support/character_shapes.hpp"
 #include "tests/support/outline_checks.hpp"
 #include "tests/support/plane_geometry.hpp"
 #include "tests/support/test.hpp"

@@ -5,7 +5,6 @@
 #include "layout/character/eigen.hpp"
 #include "layout/character/skinning.hpp"
 #include "tests/support/allocation_count.hpp"
-#include "tests/support/character_shapes.hpp"
 #include "tests/support/test.hpp"
 #include "tests/support/test_characters.hpp"
 

@@ -8,7 +8,6 @@
 #include "layout/shape_set/shape_storage.hpp"
 #include "layout/shape_set/verify.hpp"
 #include "tests/support/baked_bytes.hpp"
-#include "tests/support/character_shapes.hpp"
 #include "tests/support/test.hpp"
 #include "tests/support/test_characters.hpp"
 

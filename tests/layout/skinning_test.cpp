@@ -7,7 +7,6 @@
 
 #include "layout/character/eigen.hpp"
 #include "layout/character/rotation_blend.hpp"
-#include "tests/support/character_shapes.hpp"
 #include "tests/support/test.hpp"
 #include "tests/support/test_characters.hpp"
 

@@ -3,7 +3,6 @@
 
 #include "layout/character/skinning.hpp"
 #include "tests/support/body_models.hpp"
-#include "tests/support/character_shapes.hpp"
 #include "tests/support/test.hpp"
 #include "tests/support/test_characters.hpp"
 
