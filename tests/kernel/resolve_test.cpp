@@ -5,9 +5,6 @@
 
 #include <oneapi/tbb/task_arena.h>
 
-#include <cmath>
-#include <numeric>
-
 #include "kernel/crowd/separation_solver.hpp"
 #include "tests/support/body_scenes.hpp"
 #include "tests/support/complaint.hpp"
@@ -54,15 +51,13 @@ struct Scene {
     moved.x = at.x, moved.y = at.y;
     std::vector<std::uint8_t> answers(moved.pairs.size());
     collide(bodies, moved.agents(), moved.pairs, answers);
-    return static_cast<std::size_t>(std::accumulate(answers.begin(), answers.end(), 0));
+    return static_cast<std::size_t>(std::ranges::count(answers, 1));
   }
-  double shift(const Answer& at, std::size_t i) const {
-    return std::hypot(at.x[i] - crowd.x[i], at.y[i] - crowd.y[i]);
-  }
-  double mean_shift(const Answer& at) const {
-    double sum = 0;
-    for (std::size_t i = 0; i < at.x.size(); ++i) sum += shift(at, i);
-    return sum / static_cast<double>(at.x.size());
+  double largest_shift(const Answer& at) const {
+    double largest = 0;
+    for (std::size_t i = 0; i < at.x.size(); ++i)
+      largest = std::max(largest, std::hypot(at.x[i] - crowd.x[i], at.y[i] - crowd.y[i]));
+    return largest;
   }
 };
 
@@ -81,7 +76,7 @@ TEST(Resolve, PartsACrowdAndMovesItLittle) {
   EXPECT_TRUE(after.left.empty());
   EXPECT_GT(after.sweeps, 2u);
   EXPECT_LT(after.sweeps, 60u);
-  EXPECT_LT(scene.mean_shift(after), 0.2);
+  EXPECT_LT(scene.largest_shift(after), 0.8);
   // Who is free stays where he is.
   EXPECT_EQ(
       resolved(scene.bodies, {scene.crowd.body, after.x, after.y, scene.crowd.z, scene.crowd.heading, {}}),
@@ -126,13 +121,8 @@ TEST(Resolve, KeepsItsLimits) {
                shift = resolved(scene.bodies, scene.crowd, {.largest_shift = 0.03});
   EXPECT_EQ(step.sweeps, 1u);
   EXPECT_EQ(shift.sweeps, 100u);
-  double largest_step = 0, largest_shift = 0;
-  for (std::size_t i = 0; i < scene.crowd.x.size(); ++i) {
-    largest_step = std::max(largest_step, scene.shift(step, i));
-    largest_shift = std::max(largest_shift, scene.shift(shift, i));
-  }
-  EXPECT_NEAR(largest_step, 0.01, 1e-12);
-  EXPECT_NEAR(largest_shift, 0.03, 1e-12);
+  EXPECT_NEAR(scene.largest_shift(step), 0.01, 1e-12);
+  EXPECT_NEAR(scene.largest_shift(shift), 0.03, 1e-12);
   for (const Answer& each : {step, shift}) {
     EXPECT_GT(each.left.size(), 0u);
     EXPECT_EQ(each.left.size(), scene.hits(each));

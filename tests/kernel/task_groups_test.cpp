@@ -202,21 +202,16 @@ TEST_F(Executors, CarryWhatTasksThrow) {
   CountingExecutor own;
   Executor::set(own.executor());
   EXPECT_EQ(test::complaint(ask), expected);
-  const auto fail = [](std::size_t begin, std::size_t) {
-    if (begin != 0) throw std::runtime_error("a task fails");
-  };
+  const auto fail = [](std::size_t, std::size_t) { throw std::runtime_error("a task fails"); };
   EXPECT_EQ(test::complaint<std::runtime_error>([&] { detail::for_ranges(100, 1, fail); }), "a task fails");
 }
 
 TEST_F(Executors, AreRefusedWithoutThreads) {
-  CountingExecutor own;
   for (const std::uint32_t threads : {0u, 1025u})
     EXPECT_EQ(test::complaint([&] {
-                Executor::set({CountingExecutor::run, &own, threads});
+                Executor::set({CountingExecutor::run, nullptr, threads});
               }),
               "executor: expected 1 to 1024 threads, found " + std::to_string(threads));
-  people(10);
-  EXPECT_EQ(own.calls, 0u);
 }
 
 }  // namespace
