@@ -16,6 +16,10 @@ int32_t bch_implementation_supported(uint32_t i) {
   return i < implementations().size() && implementations()[i].supported() ? 1 : 0;
 }
 
+bch_status bch_set_executor(bch_run_tasks run, void* user, uint32_t threads) {
+  return guarded([&] { Executor::set({run, user, threads}); });
+}
+
 bch_status bch_validate_agents(const bch_shape_set* set, const bch_agents* agents) {
   return guarded([&] { validate(object_of(set, "set").set, agents_of(agents)); });
 }

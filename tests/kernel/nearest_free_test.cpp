@@ -1,15 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/pairs.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <numbers>
-
 #include "tests/support/body_scenes.hpp"
-#include "tests/support/complaint.hpp"
-#include "tests/support/implementations.hpp"
 #include "tests/support/test.hpp"
 
 // The nearest free place of bodies of spheres.

@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <bch/crowd.hpp>
-
 #include <oneapi/tbb/task_arena.h>
 
 #include "kernel/crowd/separation_solver.hpp"
 #include "tests/support/body_scenes.hpp"
-#include "tests/support/complaint.hpp"
-#include "tests/support/implementations.hpp"
 #include "tests/support/test.hpp"
 
 // Crowds without overlaps: Crowd::resolve().

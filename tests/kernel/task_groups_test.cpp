@@ -9,10 +9,8 @@
 
 #include <atomic>
 #include <thread>
-#include <tuple>
 
 #include "kernel/runtime/task_ranges.hpp"
-#include "tests/support/complaint.hpp"
 #include "tests/support/crowd_pairs.hpp"
 #include "tests/support/test.hpp"
 

@@ -42,7 +42,8 @@ void run_on_threads(void*, std::size_t count, void (*task)(void*, std::size_t), 
   });
 }
 
-[[maybe_unused]] const bool is_set = (Executor::set({run_on_threads, nullptr, thread_count}), true);
+[[maybe_unused]] const bool is_set = (Executor::set({run_on_threads, nullptr, thread_count}),
+                                      bch_set_executor(run_on_threads, nullptr, thread_count) == BCH_OK);
 
 class Threads : public testing::Test {
  protected:
@@ -129,6 +130,20 @@ class CApiThreads : public testing::Test {
     return all;
   }
 };
+
+TEST_F(CApiThreads, AnExecutorIsCalled) {
+  std::atomic<std::size_t> calls = 0;
+  const auto count_calls = [](void* user, std::size_t count, bch_task task, void* data) {
+    ++*static_cast<std::atomic<std::size_t>*>(user);
+    run_on_threads(nullptr, count, task, data);
+  };
+  const std::string expected = learn();
+  expect_ok(bch_set_executor(count_calls, &calls, 2));
+  EXPECT_TRUE(learn() == expected);
+  EXPECT_GT(calls, 0u);
+  EXPECT_EQ(bch_set_executor(count_calls, &calls, 0), BCH_INVALID_ARGUMENT);
+  expect_ok(bch_set_executor(run_on_threads, nullptr, thread_count));
+}
 
 /// Of either leaves and overlaps, while one of them builds a set.
 TEST_F(CApiThreads, AnswersAreThoseOfOneThread) {

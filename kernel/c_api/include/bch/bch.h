@@ -536,6 +536,15 @@ BCH_API const char* bch_implementation_name(uint32_t i);
 /** Returns whether this processor runs the i-th implementation: 1 or 0. */
 BCH_API int32_t bch_implementation_supported(uint32_t i);
 
+/** Does the i-th task of a call of bch_run_tasks. */
+typedef void (*bch_task)(void* data, size_t i);
+/** Calls task(data, i) once for each i from 0 to count, on any threads and in any order, and returns when all have ended. A task may call
+ * it again. */
+typedef void (*bch_run_tasks)(void* user, size_t count, bch_task task, void* data);
+/** Makes a task system of the caller's run the tasks of all queries from now on, in place of the library's threads: as many at once as it
+ * has `threads`, 1 to 1024. `run` is NULL: the library's threads again. No query may run meanwhile. Answers are the same. */
+BCH_API bch_status bch_set_executor(bch_run_tasks run, void* user, uint32_t threads);
+
 /** Checks the agents of a query, with the errors of bch_collide(). */
 BCH_API bch_status bch_validate_agents(const bch_shape_set* set, const bch_agents* agents);
 
