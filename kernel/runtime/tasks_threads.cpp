@@ -13,6 +13,8 @@
 namespace bch::detail {
 namespace {
 
+thread_local bool is_in_task = false;
+
 /// Holds as many threads as the processor runs, but one, which is the caller's. They work for one call at a time; a call that comes meanwhile,
 /// also from a task, is the caller's alone.
 class ThreadPool {
@@ -25,7 +27,7 @@ class ThreadPool {
 
   void run(std::size_t count, void (*task)(void*, std::size_t), void* data) {
     std::unique_lock<std::mutex> alone;
-    if (!is_working_) alone = std::unique_lock(call_, std::try_to_lock);
+    if (!is_in_task) alone = std::unique_lock(call_, std::try_to_lock);
     if (!alone) {
       for (std::size_t i = 0; i < count; ++i) task(data, i);
       return;
@@ -55,9 +57,9 @@ class ThreadPool {
   }
 
   void work() {
-    is_working_ = true;
+    is_in_task = true;
     for (std::size_t i; (i = next_.fetch_add(1, std::memory_order_relaxed)) < count_;) task_(data_, i);
-    is_working_ = false;
+    is_in_task = false;
   }
 
   void serve() {
@@ -75,8 +77,6 @@ class ThreadPool {
     }
   }
 
-  static thread_local bool is_working_;
-
   std::mutex call_, mutex_;
   std::condition_variable begins_, ends_;
   void (*task_)(void*, std::size_t) = nullptr;
@@ -87,8 +87,6 @@ class ThreadPool {
   bool ends_all_ = false;
   std::vector<std::thread> workers_;
 };
-
-thread_local bool ThreadPool::is_working_ = false;
 
 }  // namespace
 
