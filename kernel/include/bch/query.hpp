@@ -61,7 +61,7 @@ struct Executor {
   void* context = nullptr;    ///< given to run()
   std::uint32_t threads = 1;  ///< how many tasks run at once: work is divided into up to 8 a thread
 
-  /// Makes an executor that of all queries from now on; one without run() brings back what the library was built with.
+  /// Runs the tasks of all queries from now on by an executor. One without run() brings back what the library was built with.
   /// Errors:  throws std::invalid_argument on other than 1 to 1024 threads.
   /// Threads: no query may run meanwhile.
   static void set(const Executor& executor);

@@ -541,8 +541,8 @@ typedef void (*bch_task)(void* data, size_t i);
 /** Calls task(data, i) once for each i from 0 to count, on any threads and in any order, and returns when all have ended. A task may call
  * it again. */
 typedef void (*bch_run_tasks)(void* user, size_t count, bch_task task, void* data);
-/** Makes a task system of the caller's run the tasks of all queries from now on, in place of the library's threads: as many at once as it
- * has `threads`, 1 to 1024. `run` is NULL: the library's threads again. No query may run meanwhile. Answers are the same. */
+/** Runs the tasks of all queries from now on by the caller's task system, which runs as many at once as it has `threads`, 1 to 1024. `run`
+ * is NULL: by the library's threads again. No query may run meanwhile. Answers are the same. */
 BCH_API bch_status bch_set_executor(bch_run_tasks run, void* user, uint32_t threads);
 
 /** Checks the agents of a query, with the errors of bch_collide(). */
