@@ -78,15 +78,22 @@ struct CrowdMemory {
     collide(set, candidates.agents, candidates.pairs, hits, options);
     return {keep(candidates.pairs, [&](std::size_t i) { return hits[i] != 0; }), *this};
   }
-  /// Measures the candidates that were kept.
+  /// Measures the candidates that were kept, by penetration() or nearest_free().
+  template <class Set, class Query>
+  void measure_kept(const Set& set, const Candidates& candidates, std::uint32_t directions,
+                    const Implementation* implementation, const Query& query) {
+    kept.gather(to_part, [&](std::size_t i) { return candidates.pairs[i]; });
+    penetrations.resize(to_part.size());
+    query(set, candidates.agents, to_part, directions, penetrations, implementation);
+  }
+  /// Measures the penetrations of those that were kept.
   template <class Set>
   Crowd::Penetrations penetrations_of_kept(const Set& set, const Candidates& candidates,
                                            std::uint32_t directions, const Implementation* implementation) {
-    kept.gather(to_part, [&](std::size_t i) { return candidates.pairs[i]; });
-    penetrations.resize(to_part.size());
-    penetration(set, candidates.agents, to_part, directions, penetrations, implementation);
-    return {{pairs, *this}, penetrations};
+    measure_kept(set, candidates, directions, implementation, by_penetration);
+    return {kept_pairs(), penetrations};
   }
+  static constexpr auto by_penetration = [](auto&&... of) { penetration(of...); };
   /// Keeps the candidates whose rows are not empty, and returns them with their rows.
   template <class Answer, class Value>
   Answer keep_rows(const Candidates& candidates, const Rows<Value>& rows) {
@@ -94,7 +101,7 @@ struct CrowdMemory {
     // Rows that are left out are empty, so only offsets move.
     kept.gather(contact_offsets, [&](std::size_t i) { return rows.offsets[i]; });
     contact_offsets.push_back(rows.values.size());
-    return {{pairs, *this}, {contact_offsets, rows.values}};
+    return {kept_pairs(), {contact_offsets, rows.values}};
   }
   /// Asks ask() for the distances of the candidates and what goes with them, and keeps those that are near.
   template <class Ask, class... Value>
@@ -106,7 +113,7 @@ struct CrowdMemory {
          [&](std::size_t i) { return distance.of_candidates[i] < std::numeric_limits<float>::infinity(); });
     distance.keep(kept);
     (beside.keep(kept), ...);
-    return {pairs, *this};
+    return kept_pairs();
   }
   Crowd::Pairs kept_pairs() { return {pairs, *this}; }
   Rows<Crowd::Neighbour> by_agent(std::span<const Pair> pairs);

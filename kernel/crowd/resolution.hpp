@@ -18,7 +18,6 @@ struct CrowdMemory;
 struct Resolution {
   std::vector<double> x, y, first_x, first_y;
   SeparationSolver solver;
-  std::vector<Penetration> ways;           ///< of pairs that collide
   std::vector<float> wall_distance;        ///< of each agent
   std::vector<Vec3> wall_direction;        ///< of each agent
   std::vector<std::uint32_t> touch_walls;  ///< agents

@@ -105,6 +105,7 @@ class Sweeps {
   Crowd::Resolved run() {
     for (std::uint32_t sweep = 0;; ++sweep) {
       of_.solver.begin(agents_.size(), options_.mobility);
+      is_open_ = false;
       add_walls();
       add_pairs(sweep);
       if (!is_open_ || sweep == options_.sweeps)
@@ -126,19 +127,16 @@ class Sweeps {
               {memory_.distance.of_candidates, memory_.space_direction.of_candidates},
               {.implementation = options_.implementation, .max_distance = reach_});
     memory_.keep(candidates.pairs, [&](std::size_t i) { return distance[i] == 0; });
-    memory_.kept.gather(memory_.to_part, [&](std::size_t i) { return candidates.pairs[i]; });
-    of_.ways.resize(memory_.to_part.size());
-    const auto measure = [&](auto query) {
-      query(bodies_, candidates.agents, memory_.to_part, options_.directions, of_.ways,
-            options_.implementation);
+    const auto measure = [&](const auto& query) {
+      memory_.measure_kept(bodies_, candidates, options_.directions, options_.implementation, query);
     };
     if (sweep % sweeps_to_disentangle == 0 && sweep > 0)
-      measure([](auto&&... of) { penetration(of...); });
+      measure(CrowdMemory::by_penetration);
     else
       measure(nearest_free);
-    for (std::size_t i = 0; i < of_.ways.size(); ++i) {
+    for (std::size_t i = 0; i < memory_.pairs.size(); ++i) {
       const auto [first, second] = memory_.pairs[i];
-      const auto [depth, x, y] = of_.ways[i];
+      const auto [depth, x, y] = memory_.penetrations[i];
       of_.solver.add(first, second, x, y, double{depth} + options_.gap);
       is_open_ |= of_.solver.mobility(first) + of_.solver.mobility(second) > 0;
     }
@@ -149,9 +147,7 @@ class Sweeps {
     }
   }
 
-  /// Begins a sweep.
   void add_walls() {
-    is_open_ = false;
     of_.touch_walls.clear();
     if (options_.obstacles == nullptr) return;
     of_.wall_distance.resize(agents_.size()), of_.wall_direction.resize(agents_.size());

@@ -3,7 +3,6 @@
 
 #include "kernel/runtime/tasks.hpp"
 
-#include <atomic>
 #include <optional>
 #include <stdexcept>
 #include <string>

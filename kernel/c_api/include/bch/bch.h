@@ -972,20 +972,20 @@ BCH_API bch_status bch_crowd_body_obstacles(bch_crowd* crowd, const bch_body_set
 
 /** Holds how agents are moved. */
 typedef struct bch_resolve_options {
-  uint32_t size;         /**< sizeof(bch_resolve_options) */
-  uint32_t directions;   /**< of bch_nearest_free_bodies() */
-  uint32_t sweeps;       /**< at most */
-  double gap;            /**< metres, between two who are parted */
-  double largest_step;   /**< metres, of an agent in a sweep */
-  double largest_shift;  /**< metres, of an agent from where it was */
-  const double* mobility; /**< from 0, who stays, to 1, one per agent; NULL: 1 for all */
+  uint32_t size;                  /**< sizeof(bch_resolve_options) */
+  uint32_t directions;            /**< of bch_nearest_free_bodies() */
+  uint32_t sweeps;                /**< at most */
+  double gap;                     /**< metres, between two who are parted */
+  double largest_step;            /**< metres, of an agent in a sweep */
+  double largest_shift;           /**< metres, of an agent from where it was */
+  const double* mobility;         /**< from 0, who stays, to 1, one per agent; NULL: 1 for all */
   const bch_obstacles* obstacles; /**< that bodies have to be free of, too; may be NULL */
 } bch_resolve_options;
 #define BCH_RESOLVE_OPTIONS_INIT \
   { sizeof(bch_resolve_options), 16, 100, 0.001, 0.05, HUGE_VAL, NULL, NULL }
 /** Views where the agents are then, and what is left. */
 typedef struct bch_resolved_view {
-  size_t count;        /**< of agents */
+  size_t count;    /**< of agents */
   const double* x; /**< one per agent */
   const double* y; /**< one per agent */
   size_t left_count;
