@@ -10,7 +10,6 @@
 namespace bch::detail {
 namespace {
 
-constexpr std::uint32_t none = 0xffffffff;
 constexpr int passes = 3;  ///< the first of which only do what is cheap
 
 class Gatherer {
@@ -158,6 +157,8 @@ class Gatherer {
     if (!is_piece(node))
       for (const std::uint32_t child : skin_.nodes[node].children) remember(child, owners);
   }
+
+  static constexpr std::uint32_t none = 0xffffffff;
 
   const SkinPieces& skin_;
   SphereFit& fit_;
