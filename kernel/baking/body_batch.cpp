@@ -43,16 +43,15 @@ std::span<const std::uint32_t> models_of(std::span<const std::uint32_t> model_of
 BodyBatch::BodyBatch(std::span<const BodyModel> models, std::span<const std::uint32_t> model_of_body)
     : set(layouts_of(models), models_of(model_of_body, models.size())),
       models_(models.begin(), models.end()),
-      model_of_body_(model_of_body.begin(), model_of_body.end()) {}
+      model_of_body_(model_of_body.begin(), model_of_body.end()),
+      posers_(models.size()) {}
 
 void BodyBatch::pose_one(std::uint32_t body, const Pose& pose) {
   const std::uint32_t model = model_of_body_[body];
-  auto& own = posers_.local();
-  if (own.empty()) own.resize(models_.size());
   try {
     const BodyLayout& layout = set.layout(body);
-    if (own[model] == nullptr) own[model] = std::make_unique<SpherePoser>(models_[model], layout);
-    write_record(layout, own[model]->pose(pose), set.record(body));
+    const auto poser = posers_[model].borrow([&] { return SpherePoser(models_[model], layout); });
+    write_record(layout, poser->pose(pose), set.record(body));
   } catch (...) {
     rethrow_for(body);
   }

@@ -3,22 +3,20 @@
 
 #pragma once
 
-#include <oneapi/tbb/enumerable_thread_specific.h>
-
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
 #include <bch/bodies.hpp>
 
+#include "kernel/runtime/spares.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 #include "layout/body/body_layout.hpp"
 #include "layout/body/posing/sphere_poser.hpp"
 
 namespace bch::detail {
 
-/// Poses many bodies of some models, with what each thread needs for that.
+/// Poses many bodies of some models.
 class BodyBatch {
  public:
   /// Copies models, which are valid. Body i is one of model model_of_body[i]; its record is still to be written.
@@ -27,7 +25,7 @@ class BodyBatch {
   BodyBatch(const BodyBatch&) = delete;  // because posers refer to models
   BodyBatch& operator=(const BodyBatch&) = delete;
 
-  /// Poses all bodies, body i as pose_of(i) says, on the threads of the caller's arena; any of them calls posed() after each one.
+  /// Poses all bodies, body i as pose_of(i) says, on all threads; any of them calls posed() after each one.
   /// Errors:  throws, naming the body, what SpherePoser::pose() throws.
   template <class PoseOf, class Posed>
   void pose(const PoseOf& pose_of, const Posed& posed) {
@@ -48,7 +46,7 @@ class BodyBatch {
 
   const std::vector<BodyModel> models_;
   const std::vector<std::uint32_t> model_of_body_;
-  tbb::enumerable_thread_specific<std::vector<std::unique_ptr<SpherePoser>>> posers_;  ///< by model
+  std::vector<Spares<SpherePoser>> posers_;  ///< by model
 };
 
 }  // namespace bch::detail

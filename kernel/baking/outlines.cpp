@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <oneapi/tbb/enumerable_thread_specific.h>
-
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -12,6 +10,7 @@
 #include <bch/outline_builder.hpp>
 
 #include "kernel/runtime/progress_report.hpp"
+#include "kernel/runtime/spares.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 #include "layout/base/number_class.hpp"
 #include "layout/character/skinning.hpp"
@@ -25,19 +24,19 @@ namespace {
 
 constexpr std::size_t poses_a_task = 8;
 
-/// Calls make(i, own) for every pose, with what its thread has of its own, and names the pose where that throws.
-template <class Own, class Make>
-std::vector<Outline> make_all(std::size_t count, const OutlineOptions& options, const Own& own,
+/// Calls make(i, own) for every pose, with what new_own() returns for each thread, and names the pose where that throws.
+template <class NewOwn, class Make>
+std::vector<Outline> make_all(std::size_t count, const OutlineOptions& options, const NewOwn& new_own,
                               const Make& make) {
   std::vector<Outline> outlines(count);
   ProgressReport progress(options.progress, count);
-  tbb::enumerable_thread_specific<decltype(own())> owned(own);
+  Spares<decltype(new_own())> spares;
   without_tasks_from_outside([&] {
     for_ranges(count, poses_a_task, [&](std::size_t begin, std::size_t end) {
       const FloatingPointStateGuard floats;
-      auto& mine = owned.local();
+      const auto own = spares.borrow(new_own);
       for (std::size_t i = begin; i < end; ++i) try {
-          outlines[i] = make(i, mine);
+          outlines[i] = make(i, *own);
           progress.part_done();
         } catch (const std::logic_error& error) {
           throw std::invalid_argument("pose " + std::to_string(i) + ": " + error.what());

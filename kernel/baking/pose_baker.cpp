@@ -18,7 +18,7 @@ PoseBaker::PoseBaker(std::vector<BakedCharacter> characters, const ShapeSetPlan&
       plan_(plan),
       threshold_(threshold),
       most_nodes_(most_nodes),
-      shapers_([count = characters_.size()] { return Shapers(count); }) {
+      shapers_(characters_.size()) {
   validate(plan);
 }
 
@@ -38,22 +38,25 @@ void PoseBaker::add(ShapeSetBuilder& to, std::size_t count,
       throw std::invalid_argument("shape " + std::to_string(i) + ": no character " +
                                   std::to_string(character) + " of " + std::to_string(characters_.size()));
   add_in_order(
-      to, plan_, count, [&](std::size_t i) -> const Shape& { return make(pose_of(i), i, steps); },
+      to, plan_, count, [&](PreparedShape& place, std::size_t i) { prepare(place, pose_of(i), i, steps); },
       [&](std::size_t i) {
         if (steps.added) steps.added(i);
       });
 }
 
-const Shape& PoseBaker::make(const PoseOfCharacter& source, std::size_t i, const BakeSteps& steps) {
-  std::optional<PoseShaper>& shaper = shapers_.local()[source.character];
+PoseShaper PoseBaker::shaper_of(std::uint32_t character) const {
+  PoseShaper shaper(*characters_[character].character, plan_, threshold_);
+  if (most_nodes_) shaper.limit_nodes(*most_nodes_);
+  return shaper;
+}
+
+void PoseBaker::prepare(PreparedShape& place, const PoseOfCharacter& source, std::size_t i,
+                        const BakeSteps& steps) {
   try {
-    if (!shaper) {
-      shaper.emplace(*characters_[source.character].character, plan_, threshold_);
-      if (most_nodes_) shaper->limit_nodes(*most_nodes_);
-    }
+    const auto shaper = shapers_[source.character].borrow([&] { return shaper_of(source.character); });
     const Shape& outline = shaper->make_outline(source.pose);
     if (steps.outlined) steps.outlined(i, outline);
-    return shaper->make_hierarchy();
+    place.prepare(shaper->make_hierarchy(), i);
   } catch (const std::length_error& error) {
     throw std::length_error(name_of(source, i) + error.what());
   } catch (const std::domain_error& error) {

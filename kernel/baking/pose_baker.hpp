@@ -3,8 +3,6 @@
 
 #pragma once
 
-#include <oneapi/tbb/enumerable_thread_specific.h>
-
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -15,6 +13,8 @@
 #include <bch/poses.hpp>
 #include <bch/scene_plan.hpp>
 #include <bch/shapes.hpp>
+
+#include "kernel/runtime/spares.hpp"
 
 namespace bch::detail {
 
@@ -37,8 +37,8 @@ struct BakeSteps {
   std::function<void(std::size_t i)> added = {};  ///< in order, one call at a time
 };
 
-/// Makes shapes of characters in poses, on the threads of the caller's arena, and adds them to a builder in the order of the poses: the same
-/// bytes for any number of threads. What threads learned of the meshes is kept for the next poses.
+/// Makes shapes of characters in poses, on all threads, and adds them to a builder in the order of the poses: the same
+/// bytes for any number of threads. What was learned of the meshes is kept for the next poses.
 class PoseBaker {
  public:
   /// Takes characters that are valid, and what PoseShaper takes.
@@ -54,17 +54,15 @@ class PoseBaker {
   void add(ShapeSetBuilder& to, std::span<const ShapeSource> sources, const BakeSteps& steps = {});
 
  private:
-  /// What a thread makes shapes with: a shaper of each character that it came across.
-  using Shapers = std::vector<std::optional<PoseShaper>>;
-
-  const Shape& make(const PoseOfCharacter& source, std::size_t i, const BakeSteps& steps);
+  void prepare(PreparedShape& place, const PoseOfCharacter& source, std::size_t i, const BakeSteps& steps);
+  PoseShaper shaper_of(std::uint32_t character) const;
   std::string name_of(const PoseOfCharacter& source, std::size_t i) const;
 
   std::vector<BakedCharacter> characters_;
   ShapeSetPlan plan_;
   float threshold_;
   std::optional<std::size_t> most_nodes_;
-  tbb::enumerable_thread_specific<Shapers> shapers_;
+  std::vector<Spares<PoseShaper>> shapers_;  ///< by character
 };
 
 }  // namespace bch::detail

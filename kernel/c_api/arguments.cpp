@@ -3,14 +3,13 @@
 
 #include "kernel/c_api/arguments.hpp"
 
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/task_arena.h>
 #include <sys/stat.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <memory>
 
+#include "kernel/runtime/tasks.hpp"
 #include "layout/base/shortest.hpp"
 
 namespace bch::c_api {
@@ -100,13 +99,6 @@ namespace {
 
 constexpr std::uint32_t most_threads = 1024;
 
-/// The arena that a thread asked for last. It is the thread's own, so that its calls do not wait for those of others.
-struct Arena {
-  std::uint32_t threads = 0;
-  std::unique_ptr<tbb::task_arena> arena;
-};
-thread_local Arena last;
-
 }  // namespace
 
 void on_threads(std::uint32_t threads, const std::function<void()>& work) {
@@ -114,15 +106,8 @@ void on_threads(std::uint32_t threads, const std::function<void()>& work) {
   if (threads > most_threads)
     throw Failure(BCH_INVALID_ARGUMENT,
                   "threads is " + std::to_string(threads) + ", more than " + std::to_string(most_threads));
-  // TBB would print a line about those that it does not have.
-  threads = std::min(threads, static_cast<std::uint32_t>(tbb::global_control::active_value(
-                                  tbb::global_control::max_allowed_parallelism)));
-  if (last.threads != threads) {
-    last.threads = 0;
-    last.arena = std::make_unique<tbb::task_arena>(static_cast<int>(threads));
-    last.threads = threads;
-  }
-  last.arena->execute(work);
+  const auto run = [&](std::size_t, std::size_t) { work(); };
+  detail::run_on_threads(threads, detail::RangeWork(run));
 }
 
 }  // namespace bch::c_api

@@ -142,7 +142,7 @@ struct CallOptions {
 };
 CallOptions options_of(const bch_query_options* options);
 
-/// Runs work on so many threads, with the caller's thread among them; 0: on those of TBB's arena that it is in.
+/// Runs work on so many threads, with the caller's thread among them; 0: on those that the library has.
 void on_threads(std::uint32_t threads, const std::function<void()>& work);
 
 }  // namespace bch::c_api

@@ -1,11 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <oneapi/tbb/concurrent_vector.h>
-#include <oneapi/tbb/enumerable_thread_specific.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include <list>
+#include <mutex>
 
 #include <bch/shapes.hpp>
 
@@ -13,12 +10,14 @@
 #include "kernel/c_api/objects.hpp"
 #include "kernel/c_api/posing.hpp"
 #include "kernel/c_api/work.hpp"
+#include "kernel/runtime/spares.hpp"
+#include "kernel/runtime/task_ranges.hpp"
 #include "layout/base/shortest.hpp"
 
 namespace bch::c_api {
 namespace {
 
-/// What a thread makes shapes with. It keeps what it learned of characters.
+/// Makes shapes for one thread at a time. It keeps what it learned of characters.
 class Workshop {
  public:
   explicit Workshop(const ShapeSetPlan& plan) : plan_(plan), prepared_(plan) {}
@@ -54,15 +53,12 @@ class Workshop {
 
 struct bch_dynamic_shape_set {
   explicit bch_dynamic_shape_set(const bch::ShapeSet& start)
-      : dynamic(start),
-        plan(dynamic.set().plan()),
-        lent(std::make_unique<bch_shape_set>(dynamic.set())),
-        workshops([this] { return bch::c_api::Workshop(plan); }) {}
+      : dynamic(start), plan(dynamic.set().plan()), lent(std::make_unique<bch_shape_set>(dynamic.set())) {}
 
   bch::DynamicShapeSet dynamic;
   const bch::ShapeSetPlan plan;
   std::unique_ptr<bch_shape_set> lent;
-  tbb::enumerable_thread_specific<bch::c_api::Workshop> workshops;
+  bch::detail::Spares<bch::c_api::Workshop> workshops;
 };
 
 namespace bch::c_api {
@@ -87,17 +83,25 @@ void replace_poses(bch_dynamic_shape_set& set, const bch_character& of, std::spa
   if (!(threshold > 0 && threshold <= 1e6f))
     throw Failure(BCH_INVALID_ARGUMENT, "threshold is " + detail::shortest(threshold));
   Work work(given, shapes.size());
-  const auto make = [&](std::size_t i) -> const PreparedShape& {
-    return set.workshops.local().make(of.character, threshold, pose_at(i), i, shapes[i]);
+  const auto make = [&](Workshop& by, std::size_t i) -> const PreparedShape& {
+    return by.make(of.character, threshold, pose_at(i), i, shapes[i]);
   };
-  tbb::concurrent_vector<std::size_t> outgrown;
-  on_threads(work.threads(), [&] {
-    tbb::parallel_for(std::size_t{0}, shapes.size(), [&](std::size_t i) {
-      if (!set.dynamic.try_replace(shapes[i], make(i))) outgrown.push_back(i);
+  const auto new_workshop = [&] { return Workshop(set.plan); };
+  std::vector<std::size_t> outgrown;
+  std::mutex of_outgrown;
+  const auto replace_range = [&](std::size_t begin, std::size_t end) {
+    const auto workshop = set.workshops.borrow(new_workshop);
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!set.dynamic.try_replace(shapes[i], make(*workshop, i))) {
+        const std::lock_guard lock(of_outgrown);
+        outgrown.push_back(i);
+      }
       work.part_done();
-    });
-  });
-  for (const std::size_t i : outgrown) set.dynamic.replace(shapes[i], make(i));
+    }
+  };
+  on_threads(work.threads(), [&] { detail::for_ranges(shapes.size(), 1, replace_range); });
+  const auto workshop = set.workshops.borrow(new_workshop);
+  for (const std::size_t i : outgrown) set.dynamic.replace(shapes[i], make(*workshop, i));
   work.all_done();
 }
 

@@ -3,9 +3,8 @@
 
 #include "kernel/recordings/check.hpp"
 
-#include <oneapi/tbb/task_group.h>
-
 #include <algorithm>
+#include <future>
 #include <memory>
 #include <optional>
 
@@ -157,33 +156,6 @@ CheckSummary Checker::finish(std::size_t people) {
   return std::move(summary_);
 }
 
-/// Work that goes on beside the caller's until it is waited for, or at the latest until this is destroyed.
-class Beside {
- public:
-  template <class Work>
-  explicit Beside(Work work) {
-    group_.run([work] {
-      const FloatingPointStateGuard floats;
-      work();
-    });
-  }
-  ~Beside() {
-    if (is_over_) return;
-    try {
-      group_.wait();
-    } catch (...) {  // what the caller threw comes first
-    }
-  }
-  void wait() {
-    is_over_ = true;
-    group_.wait();
-  }
-
- private:
-  tbb::task_group group_;
-  bool is_over_ = false;
-};
-
 }  // namespace
 
 OverlapCount& OverlapCount::operator+=(const OverlapCount& other) {
@@ -204,9 +176,12 @@ CheckSummary check(TrajectoryReader& reader, const CheckOptions& options,
   FrameBlock now, next;
   bool at_end = now.read(walkers, options.people_at_once, {});
   while (!at_end) {
-    Beside reading([&] { at_end = next.read(walkers, options.people_at_once, now); });
-    without_tasks_from_outside([&] { checker.check(now, false, fps); });
-    reading.wait();
+    std::future<bool> next_is_last = std::async(std::launch::async, [&] {
+      const FloatingPointStateGuard of_thread;
+      return next.read(walkers, options.people_at_once, now);
+    });
+    checker.check(now, false, fps);  // where this throws, the future waits for the thread
+    at_end = next_is_last.get();
     std::swap(now, next);
   }
   if (now.frames() > 0) checker.check(now, !walkers.is_behind(), fps);

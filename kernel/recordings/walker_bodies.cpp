@@ -3,14 +3,13 @@
 
 #include "kernel/recordings/walker_bodies.hpp"
 
-#include <oneapi/tbb/concurrent_queue.h>
-
 #include <algorithm>
 #include <numeric>
 #include <optional>
 #include <stdexcept>
 #include <utility>
 
+#include "kernel/runtime/spares.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 #include "layout/body/posing/model_layout.hpp"
 #include "layout/body/posing/sphere_poser.hpp"
@@ -52,32 +51,11 @@ std::vector<BodyModel> body_models(CastView cast, std::uint32_t spheres) {
   return models;
 }
 
-/// A model of one stature, and the posers of it that no thread has. They are few, because threads take bodies in their order.
+/// A model of one stature and its posers. They are few, because threads take bodies in their order.
 struct WalkerBodies::Body {
   BodyModel model;
   BodyLayout layout;
-  tbb::concurrent_queue<std::unique_ptr<SpherePoser>> posers;
-};
-
-/// What a thread poses with: the poser of a body, until it poses another.
-class WalkerBodies::Poser {
- public:
-  ~Poser() { leave(); }
-  SpherePoser& of(Body& wanted) {
-    if (body_ == &wanted) return *poser_;
-    leave();
-    body_ = &wanted;
-    if (!body_->posers.try_pop(poser_)) poser_ = std::make_unique<SpherePoser>(wanted.model, wanted.layout);
-    return *poser_;
-  }
-
- private:
-  void leave() {
-    if (poser_) body_->posers.push(std::move(poser_));
-  }
-
-  Body* body_ = nullptr;
-  std::unique_ptr<SpherePoser> poser_;
+  Spares<SpherePoser> posers;
 };
 
 WalkerBodies::WalkerBodies(std::span<const BodyModel> models, CastView cast) : models_(models), cast_(cast) {
@@ -116,10 +94,11 @@ BodySet WalkerBodies::pose(std::span<const WalkerPose> poses) const {
                    [&](std::uint32_t a, std::uint32_t b) { return poses[a].body() < poses[b].body(); });
   BodySet set(layouts_, model);
   for_ranges(order.size(), bodies_per_task, [&](std::size_t begin, std::size_t end) {
-    Poser poser;
     for (std::size_t k = begin; k < end; ++k) {
       const std::uint32_t i = order[k];
-      write_record(set.layout(i), poser.of(*body[i]).pose(poses[i].exact()), set.record(i));
+      Body& of = *body[i];
+      const auto poser = of.posers.borrow([&] { return SpherePoser(of.model, of.layout); });
+      write_record(set.layout(i), poser->pose(poses[i].exact()), set.record(i));
       set.publish(i);
     }
   });

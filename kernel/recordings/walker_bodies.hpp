@@ -36,7 +36,6 @@ class WalkerBodies {
 
  private:
   struct Body;
-  class Poser;
 
   const std::span<const BodyModel> models_;
   const CastView cast_;

@@ -3,9 +3,6 @@
 
 #include "kernel/recordings/walker_shapes.hpp"
 
-#include <oneapi/tbb/concurrent_queue.h>
-#include <oneapi/tbb/enumerable_thread_specific.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -13,6 +10,7 @@
 #include <bch/poses.hpp>
 
 #include "kernel/runtime/ordered_build.hpp"
+#include "kernel/runtime/spares.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 #include "layout/default_character/pedestrian_speeds.hpp"
 
@@ -88,29 +86,10 @@ Character WalkerPose::character(CastView cast) const {
                             turn[static_cast<std::size_t>(shoulders)]);
 }
 
-/// A character, and the shapers of it that no thread has. They are few, because threads take poses as they come, of many bodies.
+/// A character and its shapers. They are few, because threads take poses as they come, of many bodies.
 struct WalkerShapes::Body {
   std::unique_ptr<const Character> character;
-  tbb::concurrent_queue<std::unique_ptr<PoseShaper>> shapers;
-};
-
-/// What a thread makes shapes with: the shaper of a body, until it makes one of another.
-struct WalkerShapes::Workshop {
-  Body* body = nullptr;
-  std::unique_ptr<PoseShaper> shaper;
-
-  ~Workshop() { leave(); }
-  void leave() {
-    if (shaper) body->shapers.push(std::move(shaper));
-  }
-  PoseShaper& shaper_of(Body& wanted, const ShapeSetPlan& plan) {
-    if (body == &wanted) return *shaper;
-    leave();
-    body = &wanted;
-    if (!body->shapers.try_pop(shaper))
-      shaper = std::make_unique<PoseShaper>(*body->character, plan, threshold);
-    return *shaper;
-  }
+  Spares<PoseShaper> shapers;
 };
 
 WalkerShapes::WalkerShapes(const ShapeSetPlan& plan, CastView cast, const ShapeSet* baked)
@@ -142,11 +121,12 @@ std::vector<WalkerShapes::Body*> WalkerShapes::bodies_of(std::span<const WalkerP
 
 void WalkerShapes::build(std::span<const WalkerPose> poses) {
   const std::vector<Body*> bodies = bodies_of(poses);
-  tbb::enumerable_thread_specific<Workshop> workshops;
   add_in_order(
       builder_, plan_, poses.size(),
-      [&](std::size_t i) -> const Shape& {
-        return workshops.local().shaper_of(*bodies[i], plan_).shape(poses[i].at());
+      [&](PreparedShape& place, std::size_t i) {
+        const auto shaper =
+            bodies[i]->shapers.borrow([&] { return PoseShaper(*bodies[i]->character, plan_, threshold); });
+        place.prepare(shaper->shape(poses[i].at()), i);
       },
       [](std::size_t) {});
   set_ = &builder_.set();

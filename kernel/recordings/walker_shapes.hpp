@@ -72,7 +72,6 @@ class WalkerShapes {
 
  private:
   struct Body;
-  struct Workshop;
 
   void give_up();
   void build(std::span<const WalkerPose> poses);

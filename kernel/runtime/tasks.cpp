@@ -43,5 +43,10 @@ void run_isolated(const RangeWork& work) {
   run_isolated_by_default(work);
 }
 
+void run_on_threads(std::uint32_t threads, const RangeWork& work) {
+  if (executor_of_caller) return work(0, 0);
+  run_on_threads_by_default(threads, work);
+}
+
 }  // namespace detail
 }  // namespace bch

@@ -4,9 +4,10 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 // What runs the tasks of queries: the caller's Executor, or else what BCH_TASKS names: TBB (tasks_tbb.cpp), threads of our own
-// (tasks_threads.cpp), or the calling thread alone (tasks_none.cpp). No other file of the kernel names any of these.
+// (tasks_threads.cpp), or the calling thread alone (tasks_none.cpp). No other file of the library names any of these.
 
 namespace bch::detail {
 
@@ -30,9 +31,12 @@ class RangeWork {
 void run_ranges(std::size_t count, std::size_t grain, const RangeWork& work);
 /// Calls work(0, 0) so that this thread takes no task from outside while it waits for those of the work.
 void run_isolated(const RangeWork& work);
+/// Calls work(0, 0) so that what this thread runs meanwhile has at most `threads` threads; an Executor of the caller has as many as it has.
+void run_on_threads(std::uint32_t threads, const RangeWork& work);
 
 // The same by what BCH_TASKS names.
 void run_ranges_by_default(std::size_t count, std::size_t grain, const RangeWork& work);
 void run_isolated_by_default(const RangeWork& work);
+void run_on_threads_by_default(std::uint32_t threads, const RangeWork& work);
 
 }  // namespace bch::detail

@@ -13,4 +13,8 @@ void run_isolated_by_default(const RangeWork& work) {
   work(0, 0);
 }
 
+void run_on_threads_by_default(std::uint32_t, const RangeWork& work) {
+  work(0, 0);
+}
+
 }  // namespace bch::detail

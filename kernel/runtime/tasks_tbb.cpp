@@ -2,14 +2,28 @@
 // Copyright (c) 2026 the bch authors
 
 #include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
+
+#include <algorithm>
+#include <memory>
 
 #include "kernel/runtime/tasks.hpp"
 #include "layout/base/floating_point_state.hpp"
 
 namespace bch::detail {
+namespace {
+
+/// The arena that a thread needed last. It is the thread's own, so that its calls do not wait for those of others.
+struct ArenaOfThread {
+  std::uint32_t threads = 0;
+  std::unique_ptr<tbb::task_arena> arena;
+};
+thread_local ArenaOfThread last_arena;
+
+}  // namespace
 
 /// Tasks are a group of their own: where the caller's is cancelled meanwhile, because another of its tasks threw for instance, TBB would
 /// leave out these as well, and return as if they had run.
@@ -27,6 +41,18 @@ void run_ranges_by_default(std::size_t count, std::size_t grain, const RangeWork
 
 void run_isolated_by_default(const RangeWork& work) {
   tbb::this_task_arena::isolate([&] { work(0, 0); });
+}
+
+void run_on_threads_by_default(std::uint32_t threads, const RangeWork& work) {
+  // TBB would print a line about those that it does not have.
+  threads = std::min(threads, static_cast<std::uint32_t>(tbb::global_control::active_value(
+                                  tbb::global_control::max_allowed_parallelism)));
+  if (last_arena.threads != threads) {
+    last_arena.threads = 0;
+    last_arena.arena = std::make_unique<tbb::task_arena>(static_cast<int>(threads));
+    last_arena.threads = threads;
+  }
+  last_arena.arena->execute([&] { work(0, 0); });
 }
 
 }  // namespace bch::detail

@@ -14,6 +14,7 @@ namespace bch::detail {
 namespace {
 
 thread_local bool is_in_task = false;
+thread_local std::uint32_t most_threads = 0;  ///< for the calls of this thread; 0: all
 
 /// Holds as many threads as the processor runs, but one, which is the caller's. They work for one call at a time; a call that comes meanwhile,
 /// also from a task, is the caller's alone.
@@ -35,6 +36,7 @@ class ThreadPool {
     {
       const std::lock_guard lock(mutex_);
       task_ = task, data_ = data, count_ = count, next_ = 0, busy_ = workers_.size(), ++call_number_;
+      helpers_ = most_threads == 0 ? workers_.size() : most_threads - 1;
     }
     begins_.notify_all();
     work();
@@ -45,7 +47,7 @@ class ThreadPool {
  private:
   ThreadPool() {
     const std::uint32_t wanted = std::clamp(std::thread::hardware_concurrency(), 1u, 256u) - 1;
-    for (std::uint32_t i = 0; i < wanted; ++i) workers_.emplace_back([this] { serve(); });
+    for (std::uint32_t i = 0; i < wanted; ++i) workers_.emplace_back([this, i] { serve(i); });
   }
   ~ThreadPool() {
     {
@@ -62,16 +64,18 @@ class ThreadPool {
     is_in_task = false;
   }
 
-  void serve() {
+  void serve(std::uint32_t number) {
     std::uint64_t served = 0;
     for (;;) {
+      bool helps = false;
       {
         std::unique_lock lock(mutex_);
         begins_.wait(lock, [&] { return ends_all_ || call_number_ != served; });
         if (ends_all_) return;
         served = call_number_;
+        helps = number < helpers_;
       }
-      work();
+      if (helps) work();
       const std::lock_guard lock(mutex_);
       if (--busy_ == 0) ends_.notify_one();
     }
@@ -81,7 +85,7 @@ class ThreadPool {
   std::condition_variable begins_, ends_;
   void (*task_)(void*, std::size_t) = nullptr;
   void* data_ = nullptr;
-  std::size_t count_ = 0, busy_ = 0;
+  std::size_t count_ = 0, busy_ = 0, helpers_ = 0;
   std::atomic<std::size_t> next_ = 0;
   std::uint64_t call_number_ = 0;
   bool ends_all_ = false;
@@ -100,6 +104,15 @@ void run_ranges_by_default(std::size_t count, std::size_t grain, const RangeWork
 }
 
 void run_isolated_by_default(const RangeWork& work) {
+  work(0, 0);
+}
+
+void run_on_threads_by_default(std::uint32_t threads, const RangeWork& work) {
+  struct Restore {
+    const std::uint32_t before = most_threads;
+    ~Restore() { most_threads = before; }
+  } const restore;
+  most_threads = threads;
   work(0, 0);
 }
 
