@@ -3,6 +3,7 @@
 
 #include "kernel/baking/body_batch.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <string>
 
@@ -45,6 +46,21 @@ BodyBatch::BodyBatch(std::span<const BodyModel> models, std::span<const std::uin
       models_(models.begin(), models.end()),
       model_of_body_(model_of_body.begin(), model_of_body.end()),
       posers_(models.size()) {}
+
+/// Makes posers for all threads before they work, because a frame allocates nothing, whichever thread gets the bodies of a model.
+void BodyBatch::reserve_posers() {
+  const std::uint32_t threads = task_threads();
+  if (threads <= threads_) return;
+  std::vector<std::uint32_t> first(models_.size()), bodies(models_.size());
+  for (auto i = static_cast<std::uint32_t>(model_of_body_.size()); i-- > 0;)
+    first[model_of_body_[i]] = i, ++bodies[model_of_body_[i]];
+  for_ranges(models_.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t m = begin; m < end; ++m)
+      posers_[m].reserve(std::min(threads, bodies[m]),
+                         [&] { return SpherePoser(models_[m], set.layout(first[m])); });
+  });
+  threads_ = threads;
+}
 
 void BodyBatch::pose_one(std::uint32_t body, const Pose& pose) {
   const std::uint32_t model = model_of_body_[body];

@@ -30,6 +30,7 @@ class BodyBatch {
   template <class PoseOf, class Posed>
   void pose(const PoseOf& pose_of, const Posed& posed) {
     without_tasks_from_outside([&] {
+      reserve_posers();
       for_ranges(model_of_body_.size(), bodies_per_task, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
           pose_one(static_cast<std::uint32_t>(i), pose_of(i)), posed();
@@ -42,11 +43,13 @@ class BodyBatch {
  private:
   static constexpr std::size_t bodies_per_task = 16;
 
+  void reserve_posers();
   void pose_one(std::uint32_t body, const Pose& pose);
 
   const std::vector<BodyModel> models_;
   const std::vector<std::uint32_t> model_of_body_;
   std::vector<Spares<SpherePoser>> posers_;  ///< by model
+  std::uint32_t threads_ = 0;                ///< that there are posers for
 };
 
 }  // namespace bch::detail

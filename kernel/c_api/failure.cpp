@@ -30,9 +30,9 @@ constexpr const char* names[] = {"BCH_OK",        "BCH_INVALID_ARGUMENT", "BCH_O
 
 }  // namespace
 
-bch_status status_of_exception() noexcept {
+bch_status status_of_exception(const std::exception_ptr& exception) noexcept {
   try {
-    throw;
+    std::rethrow_exception(exception);
   } catch (const Failure& error) {
     return remember(error.status, error.what());
   } catch (const BakedFileError& error) {

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <exception>
 #include <stdexcept>
 #include <string>
 
@@ -17,9 +18,10 @@ class Failure : public std::runtime_error {
   const bch_status status;
 };
 
-/// Remembers the message of the exception that is being handled for bch_last_error(). Allocates nothing.
+/// Remembers the message of an exception for bch_last_error(). Allocates nothing. The exception is an argument, because the library of files
+/// may have a C++ library of its own, which knows another one as the present exception.
 /// Returns: its status.
-bch_status status_of_exception() noexcept;
+bch_status status_of_exception(const std::exception_ptr& exception) noexcept;
 
 /// Runs the body of a function: its exceptions become statuses.
 template <class Body>
@@ -28,7 +30,7 @@ bch_status guarded(Body body) noexcept {
     body();
     return BCH_OK;
   } catch (...) {
-    return status_of_exception();
+    return status_of_exception(std::current_exception());
   }
 }
 

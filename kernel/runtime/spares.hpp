@@ -9,7 +9,7 @@
 
 namespace bch::detail {
 
-/// Lends objects to threads. There are as many as were on loan at one time.
+/// Lends objects to threads. There are as many as were on loan at one time, or as were reserved.
 template <class T>
 class Spares {
   struct Return {
@@ -36,6 +36,13 @@ class Spares {
     const std::lock_guard lock(mutex_);
     here_.reserve(++count_);  // so that no memory is needed when it comes back
     return Loan(made.release(), {this});
+  }
+
+  /// Makes objects until there are `count`, so that no more are made for as many threads. None may be on loan.
+  template <class Make>
+  void reserve(std::size_t count, const Make& make) {
+    std::vector<Loan> loans;
+    while (loans.size() < count) loans.push_back(borrow(make));
   }
 
  private:

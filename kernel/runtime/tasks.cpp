@@ -48,5 +48,9 @@ void run_on_threads(std::uint32_t threads, const RangeWork& work) {
   run_on_threads_by_default(threads, work);
 }
 
+std::uint32_t task_threads() {
+  return executor_of_caller ? executor_of_caller->threads : task_threads_by_default();
+}
+
 }  // namespace detail
 }  // namespace bch

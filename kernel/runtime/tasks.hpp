@@ -33,10 +33,13 @@ void run_ranges(std::size_t count, std::size_t grain, const RangeWork& work);
 void run_isolated(const RangeWork& work);
 /// Calls work(0, 0) so that what this thread runs meanwhile has at most `threads` threads; an Executor of the caller has as many as it has.
 void run_on_threads(std::uint32_t threads, const RangeWork& work);
+/// Returns how many tasks run at once, at most.
+std::uint32_t task_threads();
 
 // The same by what BCH_TASKS names.
 void run_ranges_by_default(std::size_t count, std::size_t grain, const RangeWork& work);
 void run_isolated_by_default(const RangeWork& work);
 void run_on_threads_by_default(std::uint32_t threads, const RangeWork& work);
+std::uint32_t task_threads_by_default();
 
 }  // namespace bch::detail

@@ -17,4 +17,8 @@ void run_on_threads_by_default(std::uint32_t, const RangeWork& work) {
   work(0, 0);
 }
 
+std::uint32_t task_threads_by_default() {
+  return 1;
+}
+
 }  // namespace bch::detail

@@ -55,4 +55,8 @@ void run_on_threads_by_default(std::uint32_t threads, const RangeWork& work) {
   last_arena.arena->execute([&] { work(0, 0); });
 }
 
+std::uint32_t task_threads_by_default() {
+  return static_cast<std::uint32_t>(tbb::this_task_arena::max_concurrency());
+}
+
 }  // namespace bch::detail

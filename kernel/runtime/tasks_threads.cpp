@@ -4,9 +4,14 @@
 #include <algorithm>
 #include <atomic>
 #include <condition_variable>
+#include <memory>
 #include <mutex>
 #include <thread>
 #include <vector>
+
+#if defined(__unix__)
+#include <pthread.h>
+#endif
 
 #include "kernel/runtime/executor_tasks.hpp"
 
@@ -20,10 +25,19 @@ thread_local std::uint32_t most_threads = 0;  ///< for the calls of this thread;
 /// also from a task, is the caller's alone.
 class ThreadPool {
  public:
-  static ThreadPool& instance() {
-    static ThreadPool pool;
-    return pool;
+  ThreadPool() {
+    const std::uint32_t wanted = std::clamp(std::thread::hardware_concurrency(), 1u, 256u) - 1;
+    for (std::uint32_t i = 0; i < wanted; ++i) workers_.emplace_back([this, i] { serve(i); });
   }
+  ~ThreadPool() {
+    {
+      const std::lock_guard lock(mutex_);
+      ends_all_ = true;
+    }
+    begins_.notify_all();
+    for (std::thread& worker : workers_) worker.join();
+  }
+
   std::uint32_t threads() const { return static_cast<std::uint32_t>(workers_.size()) + 1; }
 
   void run(std::size_t count, void (*task)(void*, std::size_t), void* data) {
@@ -45,19 +59,6 @@ class ThreadPool {
   }
 
  private:
-  ThreadPool() {
-    const std::uint32_t wanted = std::clamp(std::thread::hardware_concurrency(), 1u, 256u) - 1;
-    for (std::uint32_t i = 0; i < wanted; ++i) workers_.emplace_back([this, i] { serve(i); });
-  }
-  ~ThreadPool() {
-    {
-      const std::lock_guard lock(mutex_);
-      ends_all_ = true;
-    }
-    begins_.notify_all();
-    for (std::thread& worker : workers_) worker.join();
-  }
-
   void work() {
     is_in_task = true;
     for (std::size_t i; (i = next_.fetch_add(1, std::memory_order_relaxed)) < count_;) task_(data_, i);
@@ -92,10 +93,37 @@ class ThreadPool {
   std::vector<std::thread> workers_;
 };
 
+/// The pool of this process. A process that was forked has none of the threads of its parent, and makes a pool of its own.
+class PoolOfProcess {
+ public:
+  PoolOfProcess() {
+#if defined(__unix__)
+    pthread_atfork(nullptr, nullptr, [] {
+      static_cast<void>(instance().pool_.release());  // whose threads and locks are the parent's
+      new (&instance().mutex_) std::mutex;
+      is_in_task = false;
+    });
+#endif
+  }
+  static PoolOfProcess& instance() {
+    static PoolOfProcess all;
+    return all;
+  }
+  ThreadPool& pool() {
+    const std::lock_guard lock(mutex_);
+    if (pool_ == nullptr) pool_ = std::make_unique<ThreadPool>();
+    return *pool_;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::unique_ptr<ThreadPool> pool_;
+};
+
 }  // namespace
 
 void run_ranges_by_default(std::size_t count, std::size_t grain, const RangeWork& work) {
-  ThreadPool& pool = ThreadPool::instance();
+  ThreadPool& pool = PoolOfProcess::instance().pool();
   const Executor executor{[](void* of, std::size_t tasks, void (*task)(void*, std::size_t), void* data) {
                             static_cast<ThreadPool*>(of)->run(tasks, task, data);
                           },
@@ -114,6 +142,11 @@ void run_on_threads_by_default(std::uint32_t threads, const RangeWork& work) {
   } const restore;
   most_threads = threads;
   work(0, 0);
+}
+
+std::uint32_t task_threads_by_default() {
+  const std::uint32_t all = PoolOfProcess::instance().pool().threads();
+  return most_threads == 0 ? all : std::min(all, most_threads);
 }
 
 }  // namespace bch::detail

@@ -6,6 +6,8 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <thread>
@@ -141,6 +143,26 @@ TEST_F(TaskGroups, OneCrowdAThreadIsEnoughForContacts) {
   expect_one_call_at_a_time<Crowd>(
       4, [&](Crowd& crowd, std::size_t k) { return crowd.contacts(set, crowds[k].agents(), pairs[k]); });
 }
+
+#if !defined(BCH_SANITIZED)
+/// A forked process has none of its parent's threads.
+TEST_F(TaskGroups, AForkedProcessAnswers) {
+  const test::Crowd crowd = people(20'000);
+  const std::vector<Pair> pairs = test::candidate_pairs(set, crowd.agents());
+  std::vector<std::uint8_t> expected(pairs.size()), answers(pairs.size());
+  collide(set, crowd.agents(), pairs, expected);
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    alarm(60);
+    collide(set, crowd.agents(), pairs, answers);
+    _exit(answers == expected ? 0 : 1);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_EQ(status, 0);
+}
+#endif
 
 // ---- A caller's own task system in place of TBB.
 

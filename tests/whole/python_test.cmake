@@ -3,9 +3,9 @@
 # Usage: cmake -DBUILD=... -DSOURCE=... -DWORK=... -DPYTHON=... -P python_test.cmake
 include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 
-execute_process(COMMAND ${PYTHON} -c "import ensurepip, numpy, setuptools, venv, wheel" RESULT_VARIABLE missing OUTPUT_QUIET ERROR_QUIET)
+execute_process(COMMAND ${PYTHON} -c "import ensurepip, numpy, venv" RESULT_VARIABLE missing OUTPUT_QUIET ERROR_QUIET)
 if(missing)
-  message(STATUS "SKIPPED: ${PYTHON} has no numpy, venv, setuptools or wheel")
+  message(STATUS "SKIPPED: ${PYTHON} has no numpy or venv")
   return()
 endif()
 file(REMOVE_RECURSE ${WORK})
@@ -23,7 +23,7 @@ set(python ${WORK}/bch-python/bin/python3)
 set(in_work ${CMAKE_COMMAND} -E chdir ${WORK} ${CMAKE_COMMAND} -E env --unset=PYTHONPATH --unset=BCH_LIBRARY MPLBACKEND=Agg)
 
 # Nothing is left in the sources, and the package is that of the environment.
-foreach(left build dist bch.egg-info)
+foreach(left build dist bch.egg-info __pycache__)
   if(EXISTS ${SOURCE}/kernel/python/${left})
     message(FATAL_ERROR "installing leaves kernel/python/${left}")
   endif()
@@ -70,7 +70,7 @@ message(STATUS "${output}")
 
 find_program(mypy mypy PATHS /usr/bin NO_DEFAULT_PATH)
 if(mypy)
-  run(${mypy} --cache-dir ${WORK}/mypy --config-file ${SOURCE}/kernel/python/setup.cfg ${SOURCE}/kernel/python/bch)
+  run(${mypy} --cache-dir ${WORK}/mypy --config-file ${SOURCE}/kernel/python/pyproject.toml ${SOURCE}/kernel/python/bch)
 else()
   message(STATUS "no mypy: types are not checked")
 endif()
