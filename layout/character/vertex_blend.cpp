@@ -4,7 +4,6 @@
 #include "layout/character/vertex_blend.hpp"
 
 #include <algorithm>
-#include <compare>
 #include <numeric>
 
 #include "layout/base/build_implementation.hpp"
@@ -44,23 +43,19 @@ VertexBlend::VertexBlend(std::span<const std::uint32_t> begin, std::span<const P
   maps_.resize(3 * row * bones_.size());
 
   const auto of = [&](std::uint32_t v) { return influences.subspan(begin[v], begin[v + 1] - begin[v]); };
-  const auto compare_bones = [&](std::uint32_t v, std::uint32_t w) {
+  const auto has_less_bones = [&](std::uint32_t v, std::uint32_t w) {
     const auto of_v = of(v), of_w = of(w);
-    if (of_v.size() != of_w.size()) return of_v.size() <=> of_w.size();
-    return std::lexicographical_compare_three_way(
+    if (of_v.size() != of_w.size()) return of_v.size() < of_w.size();
+    return std::lexicographical_compare(
         of_v.begin(), of_v.end(), of_w.begin(), of_w.end(),
-        [](const PointInfluence& a, const PointInfluence& b) { return a.bone <=> b.bone; });
+        [](const PointInfluence& a, const PointInfluence& b) { return a.bone < b.bone; });
   };
   std::vector<std::uint32_t> order(begin.size() - 1);
   std::iota(order.begin(), order.end(), 0);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t v, std::uint32_t w) {
-    const auto compared = compare_bones(v, w);
-    return compared != 0 ? compared < 0 : v < w;
-  });
-
+  std::stable_sort(order.begin(), order.end(), has_less_bones);
   for (std::size_t i = 0; i < order.size(); i += pairs_.back().number[0] == pairs_.back().number[1] ? 1 : 2) {
     const std::uint32_t v = order[i];
-    const std::uint32_t w = i + 1 < order.size() && compare_bones(v, order[i + 1]) == 0 ? order[i + 1] : v;
+    const std::uint32_t w = i + 1 < order.size() && !has_less_bones(v, order[i + 1]) ? order[i + 1] : v;
     pairs_.push_back({{v, w}});
     const auto count = static_cast<std::uint32_t>(of(v).size());
     if (runs_.empty() || runs_.back().bones != count) runs_.push_back({count, 0});

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace bch::detail {
 
@@ -111,10 +112,20 @@ std::vector<std::array<std::uint32_t, 3>> triangulated(const BodySurface& surfac
   const auto length = [&](std::uint32_t a, std::uint32_t b) {
     return (surface.positions[a] - surface.positions[b]).squaredNorm();
   };
+  const auto out_of_lower_end = [&](std::uint32_t a, std::uint32_t b) {
+    const Eigen::Vector3d &p = surface.positions[a], &q = surface.positions[b];
+    return std::abs(p.z() < q.z() ? p.y() : q.y());
+  };
+  // Where both are as long but for rounding, which libm's last bits decide, it is the one from the lower corner that is farther out.
+  const auto is_cut_from_first = [&](const BodySurface::Face& f) {
+    const double first = length(f[0], f[2]), second = length(f[1], f[3]);
+    if (std::abs(first - second) > 1e-14 * first) return first < second;
+    return out_of_lower_end(f[0], f[2]) > out_of_lower_end(f[1], f[3]);
+  };
   for (const BodySurface::Face& f : surface.faces) {
     if (f[2] == f[3]) {
       triangles.push_back({f[0], f[1], f[2]});
-    } else if (length(f[0], f[2]) <= length(f[1], f[3])) {
+    } else if (is_cut_from_first(f)) {
       triangles.push_back({f[0], f[1], f[2]});
       triangles.push_back({f[0], f[2], f[3]});
     } else {

@@ -96,8 +96,9 @@ class Gatherer {
   bool is_last_of_some(std::uint32_t node, std::uint32_t all) const {
     if (const std::uint32_t of = owner_[node]; of != none)
       return fit_.balls[of].pieces.size() == count(all, of);
-    return std::ranges::any_of(skin_.nodes[node].children,
-                               [&](std::uint32_t child) { return is_last_of_some(child, all); });
+    const auto& children = skin_.nodes[node].children;
+    return std::any_of(children.begin(), children.end(),
+                       [&](std::uint32_t child) { return is_last_of_some(child, all); });
   }
 
   /// Returns the highest node of which all is one sphere's when that of `node` is.
