@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
+#include <algorithm>
+#include <memory>
+#include <span>
+#include <utility>
+
 #include <bch/files.hpp>
 
 #include "kernel/c_api/arguments.hpp"
 #include "kernel/c_api/objects.hpp"
 #include "kernel/c_api/outlines.hpp"
+#include "layout/base/aligned_vector.hpp"
 #include "layout/format/shape_set_view.hpp"
 #include "layout/shape_set/verify.hpp"
 
@@ -50,6 +56,19 @@ bch_status bch_shape_set_load(const char* path, int32_t access, bch_shape_set** 
     const FileAccess how = one_of(access, FileAccess::map, "access");
     require_file(path);
     hand_out(std::make_unique<bch_shape_set>(load_baked(path, how)), set);
+  });
+}
+
+bch_status bch_shape_set_load_bytes(const void* bytes, size_t size, const char* name, bch_shape_set** set) {
+  return guarded([&] {
+    if (size > 0) required(static_cast<const char*>(bytes), "bytes");
+    required(name, "name");
+    required(set, "set");
+    detail::AlignedVector<char> own(size);
+    std::copy_n(static_cast<const char*>(bytes), size, own.begin());
+    const auto memory = std::make_shared<const detail::AlignedVector<char>>(std::move(own));
+    hand_out(std::make_unique<bch_shape_set>(load_baked(std::as_bytes(std::span(*memory)), name, memory)),
+             set);
   });
 }
 

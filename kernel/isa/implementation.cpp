@@ -12,7 +12,8 @@
 
 namespace bch::detail {
 
-extern const Kernels avx512_kernels, avx2_kernels, sse2_kernels, neon_kernels, scalar_kernels;
+extern const Kernels avx512_kernels, avx2_kernels, sse2_kernels, neon_kernels, simd128_kernels,
+    scalar_kernels;
 
 }  // namespace bch::detail
 
@@ -23,10 +24,14 @@ constexpr Implementation row(const detail::InstructionSet& set, const detail::Ke
   return {set.name, set.supported, &kernels};
 }
 
-constexpr Implementation table[] = {
-    BCH_ON_X86(row(detail::avx512, detail::avx512_kernels), row(detail::avx2, detail::avx2_kernels),
-               row(detail::sse2, detail::sse2_kernels), )
-        BCH_ON_NEON(row(detail::neon, detail::neon_kernels), ) row(detail::scalar, detail::scalar_kernels)};
+#if defined(__wasm_simd128__)  // a module does not start where its instructions are missing
+constexpr Implementation last = row(detail::simd128, detail::simd128_kernels);
+#else
+constexpr Implementation last = row(detail::scalar, detail::scalar_kernels);
+#endif
+constexpr Implementation table[] = {BCH_ON_X86(
+    row(detail::avx512, detail::avx512_kernels), row(detail::avx2, detail::avx2_kernels),
+    row(detail::sse2, detail::sse2_kernels), ) BCH_ON_NEON(row(detail::neon, detail::neon_kernels), ) last};
 
 const Implementation& choose() {
   if (const char* name = std::getenv("BCH_ISA")) return implementation(name);

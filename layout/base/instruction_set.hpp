@@ -31,6 +31,9 @@ constexpr InstructionSet base = sse2;
 #elif BCH_NEON
 constexpr InstructionSet neon{"neon", everywhere};
 constexpr InstructionSet base = neon;
+#elif defined(__wasm_simd128__)
+constexpr InstructionSet simd128{"simd128", everywhere};
+constexpr InstructionSet base = simd128;
 #else
 constexpr InstructionSet base = scalar;
 #endif

@@ -52,7 +52,9 @@ VertexBlend::VertexBlend(std::span<const std::uint32_t> begin, std::span<const P
   };
   std::vector<std::uint32_t> order(begin.size() - 1);
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(), has_less_bones);
+  std::sort(order.begin(), order.end(), [&](std::uint32_t v, std::uint32_t w) {
+    return has_less_bones(v, w) || (!has_less_bones(w, v) && v < w);
+  });
   for (std::size_t i = 0; i < order.size(); i += pairs_.back().number[0] == pairs_.back().number[1] ? 1 : 2) {
     const std::uint32_t v = order[i];
     const std::uint32_t w = i + 1 < order.size() && !has_less_bones(v, order[i + 1]) ? order[i + 1] : v;

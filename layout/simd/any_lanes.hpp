@@ -143,6 +143,9 @@ struct AnyLanes {
   /// Returns the bits of the lanes that are set.
   template <class T>
   static std::uint32_t bits(xsimd::batch_bool<T, Arch> mask) noexcept {
+#if defined(__wasm_simd128__)
+    if constexpr (sizeof(T) == 4) return __builtin_wasm_bitmask_i32x4(mask.data);
+#endif
     bool lane[Batch<T>::size];
     mask.store_unaligned(lane);
     std::uint32_t set = 0;

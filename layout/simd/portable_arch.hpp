@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <type_traits>
+#include <utility>
 
 namespace xsimd {
 template <class T, class Arch>
@@ -61,11 +62,19 @@ namespace kernel {
 
 using portable = bch::detail::PortableArch;
 
+/// Returns a register whose lane i is of(i). Without a loop: compilers that do not unroll one would write and read memory lane by lane.
+template <class Register, class Lane, std::size_t... I>
+inline Register portable_lanes(std::index_sequence<I...>, const Lane& of) noexcept {
+  return Register{of(I)...};
+}
+template <class Batch, class Lane>
+inline typename Batch::register_type portable_lanes(const Lane& of) noexcept {
+  return portable_lanes<typename Batch::register_type>(std::make_index_sequence<Batch::size>{}, of);
+}
+
 template <class A, class T>
 inline batch<T, A> broadcast(T value, requires_arch<portable>) noexcept {
-  typename batch<T, A>::register_type all;
-  for (std::size_t i = 0; i < batch<T, A>::size; ++i) all[i] = value;
-  return all;
+  return portable_lanes<batch<T, A>>([&](std::size_t) { return value; });
 }
 template <class A, class T, class... Lane>
 inline batch<T, A> set(batch<T, A> const&, requires_arch<portable>, Lane... lane) noexcept {
@@ -120,15 +129,20 @@ inline batch<T, A> neg(batch<T, A> const& v, requires_arch<portable>) noexcept {
 }
 template <class A, class T>
 inline batch<T, A> abs(batch<T, A> const& v, requires_arch<portable>) noexcept {
-  typename batch<T, A>::register_type to;
-  for (std::size_t i = 0; i < batch<T, A>::size; ++i) to[i] = std::abs(v.data[i]);
-  return to;
+#if defined(__wasm_simd128__)
+  if constexpr (std::is_same_v<T, float>) return __builtin_wasm_abs_f32x4(v.data);
+  if constexpr (std::is_same_v<T, double>) return __builtin_wasm_abs_f64x2(v.data);
+#endif
+  return portable_lanes<batch<T, A>>([&](std::size_t i) { return static_cast<T>(std::abs(v.data[i])); });
 }
 template <class A, class T>
 inline batch<T, A> sqrt(batch<T, A> const& v, requires_arch<portable>) noexcept {
-  typename batch<T, A>::register_type to;
-  for (std::size_t i = 0; i < batch<T, A>::size; ++i) to[i] = std::sqrt(v.data[i]);
-  return to;
+#if defined(__wasm_simd128__)
+  if constexpr (sizeof(T) == 4) return __builtin_wasm_sqrt_f32x4(v.data);
+  if constexpr (sizeof(T) == 8) return __builtin_wasm_sqrt_f64x2(v.data);
+#else
+  return portable_lanes<batch<T, A>>([&](std::size_t i) { return std::sqrt(v.data[i]); });
+#endif
 }
 
 template <class A, class T>
@@ -202,9 +216,14 @@ inline batch_bool<T, A> bitwise_not(batch_bool<T, A> const& v, requires_arch<por
 }
 template <class A, class T>
 inline bool any(batch_bool<T, A> const& v, requires_arch<portable>) noexcept {
+#if defined(__wasm_simd128__)  // whose compiler finds no instruction for the loop
+  typedef signed char bytes __attribute__((vector_size(16)));
+  return __builtin_wasm_any_true_v128((bytes)v.data);
+#else
   bool set = false;
   for (std::size_t i = 0; i < batch_bool<T, A>::size; ++i) set |= v.data[i] != 0;
   return set;
+#endif
 }
 
 // Never called: xsimd's functions name them, and no processor that it does not know declares any.
@@ -240,23 +259,17 @@ inline batch<To, A> bitwise_cast(batch<T, A> const& v, batch<To, A> const&,
 }
 template <class A>
 inline batch<std::int32_t, A> nearbyint_as_int(batch<float, A> const& v, requires_arch<portable>) noexcept {
-  typename batch<std::int32_t, A>::register_type to;
-  for (std::size_t i = 0; i < batch<float, A>::size; ++i)
-    to[i] = static_cast<std::int32_t>(__builtin_nearbyintf(v.data[i]));
-  return to;
+  return portable_lanes<batch<std::int32_t, A>>(
+      [&](std::size_t i) { return static_cast<std::int32_t>(__builtin_nearbyintf(v.data[i])); });
 }
 template <class A, class T>
 inline batch<T, A> zip_lo(batch<T, A> const& a, batch<T, A> const& b, requires_arch<portable>) noexcept {
-  typename batch<T, A>::register_type to;
-  for (std::size_t i = 0; i < batch<T, A>::size; ++i) to[i] = (i % 2 == 0 ? a : b).data[i / 2];
-  return to;
+  return portable_lanes<batch<T, A>>([&](std::size_t i) { return (i % 2 == 0 ? a : b).data[i / 2]; });
 }
 template <class A, class T>
 inline batch<T, A> zip_hi(batch<T, A> const& a, batch<T, A> const& b, requires_arch<portable>) noexcept {
   constexpr std::size_t half = batch<T, A>::size / 2;
-  typename batch<T, A>::register_type to;
-  for (std::size_t i = 0; i < batch<T, A>::size; ++i) to[i] = (i % 2 == 0 ? a : b).data[half + i / 2];
-  return to;
+  return portable_lanes<batch<T, A>>([&](std::size_t i) { return (i % 2 == 0 ? a : b).data[half + i / 2]; });
 }
 template <class A>
 inline double hadd(batch<double, A> const& v, requires_arch<portable>) noexcept {

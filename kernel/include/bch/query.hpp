@@ -35,7 +35,7 @@ namespace bch {
 
 /// Describes one compilation of the queries for an instruction set. All implementations give the same bits.
 struct Implementation {
-  const char* name;              ///< "avx512", "avx2", "sse2", "neon" or "scalar"
+  const char* name;              ///< "avx512", "avx2", "sse2", "neon", "simd128" or "scalar"
   bool (*supported)() noexcept;  ///< returns whether this processor and its operating system run it
   const detail::Kernels* kernels;
 };

@@ -179,6 +179,8 @@ TEST_F(CApiMisuse, ValuesAndTheirPlaces) {
                "/nowhere/a.bch: no such");
   expect_error(bch_shape_set_load("/nowhere/a\nb", BCH_READ, &none), BCH_FILE_NOT_FOUND, "/nowhere/a b");
   expect_error(bch_shape_set_load("/", BCH_READ, &none), BCH_BAD_FILE, "/");
+  expect_error(bch_shape_set_load_bytes("bch", 3, "people", &none), BCH_BAD_FILE, "people");
+  expect_error(bch_shape_set_load_bytes(nullptr, 1, "people", &none), BCH_INVALID_ARGUMENT, "bytes is NULL");
   expect_error(bch_shape_set_save(set.get(), "/nowhere/a.bch"), BCH_BAD_FILE, "/nowhere/a.bch");
   EXPECT_EQ(none, nullptr);
 }

@@ -4,6 +4,7 @@
 #include "tests/support/baked_bytes.hpp"
 #include "tests/support/c_api.hpp"
 #include "tests/support/moving_bodies.hpp"
+#include "tests/support/program_run.hpp"
 #include "tests/support/test.hpp"
 
 // Bodies that move by themselves, and poses of one's own, by the C interface: they and their answers are those of the C++ library.
@@ -117,6 +118,11 @@ TEST(CApiMotions, SetsKeepThem) {
   EXPECT_EQ(baked.clips[1].clip, ShapeOrigin::rest_pose);
   const auto loaded = made<bch_shape_set_free>(bch_shape_set_load, file.c_str(), BCH_READ);
   expect_ok(bch_shape_set_get_clip_count(loaded.get(), &count));
+  EXPECT_EQ(count, 2u);
+  const std::string bytes = test::read_text(file);
+  const auto of_bytes =
+      made<bch_shape_set_free>(bch_shape_set_load_bytes, bytes.data(), bytes.size(), "people");
+  expect_ok(bch_shape_set_get_clip_count(of_bytes.get(), &count));
   EXPECT_EQ(count, 2u);
   const char *character = nullptr, *clip = nullptr;
   const auto shape =

@@ -285,6 +285,8 @@ enum {
 };
 /** Loads a set from a baked file. */
 BCH_API bch_status bch_shape_set_load(const char* path, int32_t access, bch_shape_set** set);
+/** Loads a set from the bytes of a baked file, which are copied. Errors call them `name`. */
+BCH_API bch_status bch_shape_set_load_bytes(const void* bytes, size_t size, const char* name, bch_shape_set** set);
 /** Writes a set as a baked file, whole or not at all. */
 BCH_API bch_status bch_shape_set_save(const bch_shape_set* set, const char* path);
 

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include "kernel/isa/row.hpp"
+
+namespace bch::detail {
+namespace {
+
+struct Simd128Lanes : Lanes<PortableArch, Simd128Lanes> {};
+
+}  // namespace
+
+extern const Kernels simd128_kernels;
+constinit const Kernels simd128_kernels = Row<Simd128Lanes>::kernels;
+
+}  // namespace bch::detail
