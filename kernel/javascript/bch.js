@@ -32,9 +32,9 @@ function made(Class, create, ...given) {
   return new Class(callPointer(create, ...given));
 }
 
-/** The numbers or texts of a call that take a place of their own: kinds of poses, layouts of transforms. */
+/** What poses of one's own are given by. */
 export const kinds = { jointsInParents: 0, jointsInWorld: 1, boneMatrices: 2, vertices: 3 };
-const columns = { 12: [0, 12], 16: [1, 16] };
+const layouts = { 12: 0, 16: 1 }; // of transforms, by their numbers: float rows, float columns
 
 /** A mesh on a skeleton, with clips. */
 export class Character extends Handle {
@@ -223,12 +223,14 @@ export class LiveBodies extends Handle {
   /** Poses all bodies by transforms, one pose after the other: 16 floats each in columns, as three.js and glTF have them, or 12 in rows. */
   pose(transforms, { kind = kinds.boneMatrices, numbers = 16, origins } = {}) {
     withScratch(() => {
-      const [layout, size] = columns[numbers];
+      const count = transforms.length / numbers / this.count;
+      if (!(numbers in layouts) || !Number.isInteger(count))
+        throw new RangeError(`pose: expected transforms of 12 or 16 numbers for each of ${this.count} bodies, found ${transforms.length} numbers`);
       const poses = new Struct("bch_pose_arrays", {
         kind,
-        layout,
+        layout: layouts[numbers],
         data: array(Float32Array, transforms),
-        count: transforms.length / size / this.count,
+        count,
         origins: origins ? array(Float64Array, origins) : 0,
       });
       call("bch_live_bodies_pose_own", this.pointer, poses.pointer, 0);
@@ -327,11 +329,11 @@ const of = (set, shapes, bodies) => (set instanceof BodySet ? bodies : shapes);
 
 /** Finds who is near whom among all agents, and keeps its memory from call to call. */
 export class Crowd extends Handle {
-  constructor({ period = [Infinity, Infinity] } = {}) {
+  /** The ground repeats after `period` metres along x and y; 0: never. */
+  constructor({ period: [period_x, period_y] = [0, 0] } = {}) {
     const make = () => {
-      const [period_x, period_y] = period;
-      const options = new Struct("bch_crowd_options", { period_x, period_y, most_pairs: 0xffffffffn });
-      return callPointer("bch_crowd_create", period.every((p) => p === Infinity) ? 0 : options.pointer);
+      const options = new Struct("bch_crowd_options", { period_x, period_y, most_pairs: 2n ** 64n - 1n });
+      return callPointer("bch_crowd_create", options.pointer);
     };
     super(withScratch(make), "bch_crowd_free");
   }

@@ -59,6 +59,7 @@ export function withScratch(use) {
 }
 /** Copies numbers to the library's memory, or makes room for so many there, for the present call. */
 export function array(Type, values) {
+  if (values.buffer === wasm.memory.buffer) values = values.slice(); // which would be lost where memory grows
   const count = typeof values === "number" ? values : values.length;
   const pointer = memory.allocate(Math.max(1, count) * Type.BYTES_PER_ELEMENT);
   scratch.push(pointer);

@@ -20,8 +20,8 @@ using Progress = std::function<bool(std::size_t done, std::size_t total)>;
 /// Expects that a call tells how far it is in so many steps, and that it can be cancelled.
 void expect_progress(std::size_t steps, const std::function<void(const Progress&)>& bake) {
   // The calling thread tells it, which has to do some of the work itself.
-  Executor::set({.run = [](void*, std::size_t count, void (*task)(void*, std::size_t), void* data) {
-    for (std::size_t i = 0; i < count; ++i) task(data, i);
+  Executor::set({[](void*, std::size_t count, void (*task)(void*, std::size_t), void* data) {
+    while (count-- > 0) task(data, count);
   }});
   std::size_t last = 0, calls = 0;
   bake([&](std::size_t done, std::size_t total) {
