@@ -12,7 +12,7 @@ interface Freed {
   free(): void;
 }
 
-export const kinds: { jointsInParents: 0; jointsInWorld: 1; boneMatrices: 2; vertices: 3 };
+export const kinds: { jointsInParents: 0; jointsInWorld: 1; boneMatrices: 2 };
 
 export interface CharacterArrays {
   vertices: Numbers;

@@ -7,7 +7,6 @@ import { Struct, call, callPointer, array, text, view, withScratch, memory } fro
 
 export { BchError, version } from "./wasm.js";
 
-const pair = 8; // bytes of bch_pair
 const freed = new FinalizationRegistry(({ pointer, free }) => call(free, pointer));
 
 /** An object of the library. It is freed when it is collected, or by free(). */
@@ -32,8 +31,17 @@ function made(Class, create, ...given) {
   return new Class(callPointer(create, ...given));
 }
 
+/** Copies structs of a number and a float each. */
+function numbersAndFloats(numbers, floats) {
+  const count = numbers.length;
+  const to = array(Uint32Array, 2 * count);
+  const asNumbers = view(Uint32Array, to, 2 * count), asFloats = view(Float32Array, to, 2 * count);
+  for (let i = 0; i < count; ++i) (asNumbers[2 * i] = numbers[i]), (asFloats[2 * i + 1] = floats[i]);
+  return to;
+}
+
 /** What poses of one's own are given by. */
-export const kinds = { jointsInParents: 0, jointsInWorld: 1, boneMatrices: 2, vertices: 3 };
+export const kinds = { jointsInParents: 0, jointsInWorld: 1, boneMatrices: 2 };
 const layouts = { 12: 0, 16: 1 }; // of transforms, by their numbers: float rows, float columns
 
 /** A mesh on a skeleton, with clips. */
@@ -47,12 +55,6 @@ export class Character extends Handle {
     return withScratch(() => {
       const { vertices, triangles, parents = [], rests, boneJoints = [], inverseBinds } = given;
       const { influenceOffsets, bones = [], weights = [], rootJoint = -1, toGround } = given;
-      const influences = bones.length > 0 ? array(Uint32Array, 2 * bones.length) : 0;
-      if (influences) {
-        const as = view(Uint32Array, influences, 2 * bones.length);
-        const floats = view(Float32Array, influences, 2 * bones.length);
-        for (let i = 0; i < bones.length; ++i) (as[2 * i] = bones[i]), (floats[2 * i + 1] = weights[i]);
-      }
       const arrays = new Struct("bch_character_arrays", {
         root_joint: rootJoint,
         vertices: array(Float32Array, vertices),
@@ -66,7 +68,7 @@ export class Character extends Handle {
         inverse_binds: inverseBinds ? array(Float32Array, inverseBinds) : 0,
         bone_count: boneJoints.length,
         influence_offsets: influenceOffsets ? array(BigUint64Array, Array.from(influenceOffsets, BigInt)) : 0,
-        influences,
+        influences: bones.length > 0 ? numbersAndFloats(bones, weights) : 0,
         to_ground: toGround ? array(Float32Array, toGround) : 0,
       });
       return made(Character, "bch_character_create", arrays.pointer);
@@ -202,23 +204,15 @@ export class LiveBodies extends Handle {
       callPointer("bch_live_bodies_create", pointers(models), models.length, array(Uint32Array, modelOfBody), modelOfBody.length);
     super(withScratch(make), "bch_live_bodies_free");
     this.count = modelOfBody.length;
-    const set = new BodySet(callPointer("bch_live_bodies_get_set", this.pointer), true);
-    set.owner = this; // which frees it
-    this._set = set;
-  }
-  /** The bodies in their last poses. */
-  get set() {
-    return this._set;
+    /** The bodies in their last poses. */
+    this.set = new BodySet(callPointer("bch_live_bodies_get_set", this.pointer), true);
+    this.set.owner = this; // which frees it
   }
   /** Poses all bodies by times of clips. */
   poseByClips(clips, seconds) {
-    withScratch(() => {
-      const poses = array(Uint32Array, 2 * this.count);
-      const numbers = view(Uint32Array, poses, 2 * this.count);
-      const floats = view(Float32Array, poses, 2 * this.count);
-      for (let i = 0; i < this.count; ++i) (numbers[2 * i] = clips[i]), (floats[2 * i + 1] = seconds[i]);
-      call("bch_live_bodies_pose", this.pointer, poses, 0);
-    });
+    for (const [name, given] of Object.entries({ clips, seconds }))
+      if (given.length !== this.count) throw new RangeError(`${name}: expected ${this.count} values, one a body, found ${given.length}`);
+    withScratch(() => call("bch_live_bodies_pose", this.pointer, numbersAndFloats(clips, seconds), 0));
   }
   /** Poses all bodies by transforms, one pose after the other: 16 floats each in columns, as three.js and glTF have them, or 12 in rows. */
   pose(transforms, { kind = kinds.boneMatrices, numbers = 16, origins } = {}) {
@@ -298,11 +292,20 @@ function filterOf({ category, mask, excluded = [] }) {
   }).pointer;
 }
 
-const leavesOf = { discs: 0, segments: 1 };
-const overlaps = { zero: 0, deepest: 1 };
+/** The number of one of some words. */
+function numberOf(words, option, given) {
+  const number = words.indexOf(given);
+  if (number < 0) throw new RangeError(`${option}: expected ${words.join(" or ")}, found ${given}`);
+  return number;
+}
+const leafWords = ["discs", "segments"];
 function optionsOf({ leaves = "segments", distanceLeaves = "discs", overlap = "zero", maxDistance = Infinity } = {}) {
-  const values = { leaves: leavesOf[leaves], distance_leaves: leavesOf[distanceLeaves], overlap: overlaps[overlap], max_distance: maxDistance };
-  return new Struct("bch_query_options", values).pointer;
+  return new Struct("bch_query_options", {
+    leaves: numberOf(leafWords, "leaves", leaves),
+    distance_leaves: numberOf(leafWords, "distanceLeaves", distanceLeaves),
+    overlap: numberOf(["zero", "deepest"], "overlap", overlap),
+    max_distance: maxDistance,
+  }).pointer;
 }
 
 /** Pairs of agents: `array` has two numbers a pair. Answers of a Crowd are views, valid until its next call; copy() keeps them. */
@@ -318,10 +321,8 @@ export class Pairs {
     return this.array.slice();
   }
   *[Symbol.iterator]() {
-    for (let i = 0; i < this.length; ++i) {
-      const [first, second] = view(Uint32Array, this.pointer + pair * i, 2);
-      yield [first, second];
-    }
+    const kept = this.copy(); // memory may grow meanwhile
+    for (let i = 0; i < kept.length; i += 2) yield [kept[i], kept[i + 1]];
   }
 }
 

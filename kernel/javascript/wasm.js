@@ -26,10 +26,11 @@ const host = {
   environ_get: () => 0,
   emscripten_notify_memory_growth: () => {},
 };
-const module = new WebAssembly.Module(await bytesOf("bch.wasm"));
+// Not at once: browsers refuse that for large modules on the page's own thread.
+const module = await WebAssembly.compile(await bytesOf("bch.wasm"));
 const imports = {};
 for (const { module: from, name } of WebAssembly.Module.imports(module)) (imports[from] ??= {})[name] = host[name] ?? none;
-const wasm = new WebAssembly.Instance(module, imports).exports;
+const wasm = (await WebAssembly.instantiate(module, imports)).exports;
 wasm._initialize?.();
 
 /** Views numbers in the library's memory, until that grows. */

@@ -79,6 +79,8 @@ const corridor = new bch.Crowd({ period: [10, 10] });
 assert.equal(corridor.collisions(squares, { shape: [0, 0], x: [0.5, 9.5], y: [0, 0], heading: [0, 0] }).length, 1);
 assert.throws(() => bch.collide(people, agents, [0, n]), { message: `pair 0: agent ${n} of ${n}` });
 assert.throws(() => crowd.collisions(people, { ...agents, y: [1] }), RangeError);
+assert.throws(() => crowd.collisions(people, own, { leaves: "disks" }), { message: "leaves: expected discs or segments, found disks" });
+assert.throws(() => live.poseByClips([0], [0]), RangeError);
 assert.throws(() => boxes.pose([1, 2, 3]), RangeError);
 assert.throws(() => boxes.pose([...at(0), ...at(5), ...at(0), ...at(5)]), bch.BchError);
 assert.deepEqual(crowd.collisions(people, { shape: own.shape, x: own.x, y: own.y, heading: own.heading }).copy(), pairs);

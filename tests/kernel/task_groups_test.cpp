@@ -21,14 +21,15 @@ namespace bch {
 namespace {
 
 /// An answer, kept.
+template <class Value>
 struct Kept {
   std::vector<std::uint64_t> offsets;
-  std::vector<Crowd::Neighbour> values;
+  std::vector<std::remove_const_t<Value>> values;
 
-  explicit Kept(const Rows<Crowd::Neighbour>& found)
+  explicit Kept(const Rows<Value>& found)
       : offsets(found.offsets.begin(), found.offsets.end()),
         values(found.values.begin(), found.values.end()) {}
-  bool operator==(const Rows<Crowd::Neighbour>& found) const {
+  bool operator==(const Rows<Value>& found) const {
     return std::ranges::equal(offsets, found.offsets) && std::ranges::equal(values, found.values);
   }
 };
@@ -99,27 +100,47 @@ TEST_F(TaskGroups, ATaskBesideAQueryMayThrow) {
 }
 
 /// An object for each thread, as TBB's users have it: a thread that waits within a call does not begin another with it.
-TEST_F(TaskGroups, OneCrowdAThreadIsEnough) {
-  std::vector<test::Crowd> crowds;
-  std::vector<Kept> expected;
-  for (std::uint32_t k = 0; k < 4; ++k) {
-    crowds.push_back(people(2'500 + 500 * k));
-    Crowd alone;
-    expected.emplace_back(alone.collisions(set, crowds[k].agents()).by_agent());
+template <class Object, class Ask>
+void expect_one_call_at_a_time(std::size_t questions, Ask ask) {
+  using Answer = Kept<typename decltype(ask(std::declval<Object&>(), 0).values)::value_type>;
+  std::vector<Answer> expected;
+  for (std::size_t k = 0; k < questions; ++k) {
+    Object object;
+    expected.emplace_back(ask(object, k));
   }
   const tbb::global_control more_than_processors(tbb::global_control::max_allowed_parallelism, 4);
-  tbb::enumerable_thread_specific<Crowd> objects;
+  tbb::task_arena arena(4);
+  tbb::enumerable_thread_specific<Object> objects;
   tbb::enumerable_thread_specific<int> inside;
   std::atomic<int> nested = 0, wrong = 0;
-  tbb::task_arena(4).execute([&] {
+  arena.execute([&] {
     tbb::parallel_for(std::size_t{0}, std::size_t{test::samples(1'200)}, [&](std::size_t i) {
+      const std::size_t k = i % questions;
       nested += inside.local()++ != 0;
-      wrong += !(expected[i % 4] == objects.local().collisions(set, crowds[i % 4].agents()).by_agent());
+      wrong += !(expected[k] == ask(objects.local(), k));
       --inside.local();
     });
   });
   EXPECT_EQ(nested, 0);
   EXPECT_EQ(wrong, 0);
+}
+
+TEST_F(TaskGroups, OneCrowdAThreadIsEnough) {
+  std::vector<test::Crowd> crowds;
+  for (std::uint32_t k = 0; k < 4; ++k) crowds.push_back(people(2'500 + 500 * k));
+  expect_one_call_at_a_time<Crowd>(
+      4, [&](Crowd& crowd, std::size_t k) { return crowd.collisions(set, crowds[k].agents()).by_agent(); });
+}
+
+TEST_F(TaskGroups, OneCrowdAThreadIsEnoughForContacts) {
+  std::vector<test::Crowd> crowds;
+  std::vector<std::vector<Pair>> pairs;
+  for (std::uint32_t k = 0; k < 4; ++k) {
+    crowds.push_back(people(500 + 100 * k));
+    pairs.push_back(test::candidate_pairs(set, crowds.back().agents()));
+  }
+  expect_one_call_at_a_time<Crowd>(
+      4, [&](Crowd& crowd, std::size_t k) { return crowd.contacts(set, crowds[k].agents(), pairs[k]); });
 }
 
 #if !defined(BCH_SANITIZED)
