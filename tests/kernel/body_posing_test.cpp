@@ -20,10 +20,8 @@
 namespace bch {
 namespace {
 
-using detail::Random;
-
 /// Turns all joints of a pose at random by up to half a turn.
-std::vector<Affine3d> bent(std::vector<Affine3d> joints, Random& random, double most) {
+std::vector<Affine3d> bent(std::vector<Affine3d> joints, detail::Random& random, double most) {
   for (Affine3d& joint : joints) {
     const double angle = random.between(-most, most), c = std::cos(angle), s = std::sin(angle);
     const std::uint32_t a = random.below(3), b = (a + 1) % 3;
@@ -56,7 +54,7 @@ void expect_held_in_poses(const BodyModel& model, std::uint32_t poses) {
   const Character& character = *model.character;
   const test::HeldTriangles held(model);
   BodyPoser poser(model);
-  Random random(54);
+  detail::Random random(54);
   test::expect_held(held, poser, character, Pose());
   for (const PoseTime& at : sample_poses(character, poses)) {
     test::expect_held(held, poser, character, at);
@@ -121,7 +119,7 @@ TEST(BodyPosing, GivesTheSameBitsForAllKindsOfTransforms) {
 
 TEST(BodyPosing, MeasuresTheSameBitsByAllInstructionSets) {
   constexpr std::uint32_t spheres = 16, points = 200;
-  Random random(7);
+  detail::Random random(7);
   std::vector<float> at(std::size_t{4} * points), centres(std::size_t{4} * spheres);
   for (std::vector<float>* const some : {&at, &centres})
     for (float& number : *some) number = static_cast<float>(random.between(-1, 1));
@@ -148,7 +146,7 @@ TEST(BodyPosing, MeasuresTheSameBitsByAllInstructionSets) {
 TEST(BodyPosing, BlendsTheSameBitsByAllInstructionSets) {
   constexpr std::uint32_t most_bones = 6,
                           pairs_of_each = 5;  // of 5 bones and more by the loop for any number
-  Random random(8);
+  detail::Random random(8);
   std::vector<float> maps, weighted;
   for (std::uint32_t row = 0; row < 3 * most_bones; ++row) {
     for (int i = 0; i < 4; ++i) maps.push_back(static_cast<float>(random.between(-1, 1)));
@@ -221,13 +219,13 @@ TEST(BodyPosing, RefusesWhatItCannotPose) {
 }
 
 /// Two models, whose bodies take turns.
-struct Crowd {
+struct PosedCrowd {
   std::vector<BodyModel> models = {test::plain_model(default_male(), 100),
                                    test::plain_model(default_female(), 500)};
   std::vector<std::uint32_t> model_of_body;
   std::vector<Pose> poses;
 
-  explicit Crowd(std::uint32_t bodies) {
+  explicit PosedCrowd(std::uint32_t bodies) {
     for (std::uint32_t i = 0; i < bodies; ++i) {
       model_of_body.push_back(i % 2);
       poses.emplace_back(0u, 0.013f * static_cast<float>(i));
@@ -250,7 +248,7 @@ std::uint64_t hash_of(const BodySet& set) {
 
 TEST(LiveBodies, HaveTheSpheresOfTheirPosesForAnyNumberOfThreads) {
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 4);
-  const Crowd crowd(101);
+  const PosedCrowd crowd(101);
   std::vector<std::uint64_t> hashes;
   for (const int threads : {1, 2, 4})
     tbb::task_arena(threads).execute([&] {
@@ -270,7 +268,7 @@ TEST(LiveBodies, HaveTheSpheresOfTheirPosesForAnyNumberOfThreads) {
 
 TEST(LiveBodies, AllocateNothingAfterTheFirstFrame) {
   tbb::task_arena(1).execute([] {
-    const Crowd crowd(40);
+    const PosedCrowd crowd(40);
     LiveBodies live(crowd.models, crowd.model_of_body);
     live.pose(crowd.poses);
     const std::size_t before = test::allocation_count();
@@ -280,7 +278,7 @@ TEST(LiveBodies, AllocateNothingAfterTheFirstFrame) {
 }
 
 TEST(LiveBodies, NameTheBodyThatCannotBePosed) {
-  Crowd crowd(20);
+  PosedCrowd crowd(20);
   LiveBodies live(crowd.models, crowd.model_of_body);
   crowd.poses[7] = Pose(99, 0.0f);
   EXPECT_TRUE(test::has(test::complaint([&] { live.pose(crowd.poses); }), "body 7: "));

@@ -22,7 +22,7 @@ using test::NearestFeatures;
 using test::PairScene;
 using test::Random;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using test::infinity;
 constexpr detail::AllOptions deepest{.overlap = Overlap::deepest},
     exact_leaves{.distance_leaves = Leaves::segments};
 using Answers = std::vector<NearestFeatures>;

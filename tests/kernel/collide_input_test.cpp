@@ -10,7 +10,7 @@ namespace bch {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using test::infinity;
 
 class TwoAgents : public testing::Test {
  protected:

@@ -12,8 +12,7 @@ using test::all_pairs;
 using test::precedes;
 using test::sorted;
 
-const std::vector<Shape> shapes = test::synthetic_shapes(771, 12);
-const ShapeSet set(shapes, {.depths = {0, 3, all_depths}});
+const ShapeSet walkers(test::synthetic_shapes(771, 12), {.depths = {0, 3, all_depths}});
 
 /// Coordinates are multiples of 2^-20 m, so shifts by a period are exact.
 test::Crowd people(std::uint32_t count, double width, double height, std::uint64_t seed) {
@@ -21,14 +20,14 @@ test::Crowd people(std::uint32_t count, double width, double height, std::uint64
   const auto at = [&](double length) { return std::round(random.uniform(0, length) * 0x1p20) * 0x1p-20; };
   test::Crowd crowd;
   for (std::uint32_t i = 0; i < count; ++i)
-    crowd.add({random.below(set.shape_count()), at(width), at(height), random.uniform(-4, 4),
-               static_cast<std::uint8_t>(random.below(set.level_count()))});
+    crowd.add({random.below(walkers.shape_count()), at(width), at(height), random.uniform(-4, 4),
+               static_cast<std::uint8_t>(random.below(walkers.level_count()))});
   return crowd;
 }
 
 std::vector<Pair> colliding(const Agents& agents, std::span<const Pair> pairs) {
   std::vector<std::uint8_t> hits(pairs.size());
-  collide(set, agents, pairs, hits);
+  collide(walkers, agents, pairs, hits);
   std::vector<Pair> found;
   for (std::size_t i = 0; i < pairs.size(); ++i)
     if (hits[i] != 0) found.push_back(pairs[i]);
@@ -45,7 +44,7 @@ TEST(Crowd, FindsThePairsThatCollide) {
   for (const std::uint32_t count : {0u, 1u, 300u, 20u, 900u}) {
     const test::Crowd in = people(count, 12, 12, count);
     const std::vector<Pair> expected = colliding(in.agents(), all_pairs(count));
-    const bch::Crowd::Pairs found = crowd.collisions(set, in.agents());
+    const bch::Crowd::Pairs found = crowd.collisions(walkers, in.agents());
     EXPECT_EQ(sorted(found.span()), expected);
     EXPECT_EQ(expected.empty(), count < 2);
     std::vector<std::vector<std::uint32_t>> neighbours(count);
@@ -64,10 +63,10 @@ TEST(Crowd, MeasuresThePairsThatItFinds) {
   const test::PairScene in{people(600, 12, 12, 7), all_pairs(600)};
   const Agents agents = in.crowd.agents();
   for (const double within : {0.0, 0.25}) {
-    const auto all = nearest_features(set, in, {.max_distance = within, .overlap = Overlap::deepest});
+    const auto all = nearest_features(walkers, in, {.max_distance = within, .overlap = Overlap::deepest});
     const auto is_near = [&](const auto& each) { return double{each.distance} <= within; };
     const bch::Crowd::Clearances found =
-        crowd.clearances(set, agents, {.max_distance = within, .overlap = Overlap::deepest});
+        crowd.clearances(walkers, agents, {.max_distance = within, .overlap = Overlap::deepest});
     EXPECT_EQ(std::ranges::count_if(all, is_near), std::ssize(found.distance));
     EXPECT_GT(found.pairs.size(), 100u);
     for (std::size_t k = 0; k < found.pairs.size(); ++k) {
@@ -78,10 +77,10 @@ TEST(Crowd, MeasuresThePairsThatItFinds) {
                                          found.points[k]} == all[static_cast<std::size_t>(at)]));
     }
   }
-  const bch::Crowd::Penetrations apart = crowd.penetrations(set, agents, 8);
+  const bch::Crowd::Penetrations apart = crowd.penetrations(walkers, agents, 8);
   EXPECT_EQ(sorted(apart.pairs.span()), colliding(agents, in.pairs));
   std::vector<Penetration> expected(apart.pairs.size());
-  penetration(set, agents, apart.pairs.span(), 8, expected);
+  penetration(walkers, agents, apart.pairs.span(), 8, expected);
   EXPECT_TRUE(std::ranges::equal(apart.penetrations, expected));
 }
 
@@ -102,17 +101,18 @@ TEST(Crowd, FiltersAsPhysicsEnginesDo) {
   ASSERT_GT(expected.size(), 20u);
   Crowd crowd;
   const PairFilter filter{category, mask, excluded};
-  EXPECT_EQ(sorted(crowd.collisions(set, in.agents(), {}, filter).span()), expected);
-  EXPECT_EQ(colliding(in.agents(), sorted(crowd.candidates(set, in.agents(), 0, filter).span())), expected);
-  EXPECT_EQ(sorted(crowd.penetrations(set, in.agents(), 16, {}, filter).pairs.span()), expected);
+  EXPECT_EQ(sorted(crowd.collisions(walkers, in.agents(), {}, filter).span()), expected);
+  EXPECT_EQ(colliding(in.agents(), sorted(crowd.candidates(walkers, in.agents(), 0, filter).span())),
+            expected);
+  EXPECT_EQ(sorted(crowd.penetrations(walkers, in.agents(), 16, {}, filter).pairs.span()), expected);
 
-  EXPECT_EQ(sorted(crowd.collisions(set, in.agents()).span()), unfiltered);
+  EXPECT_EQ(sorted(crowd.collisions(walkers, in.agents()).span()), unfiltered);
   category.pop_back();
   expect_refused("filter: expected 400 values of category, one per agent, or none, found 399",
-                 [&] { crowd.collisions(set, in.agents(), {}, {.category = category}); });
+                 [&] { crowd.collisions(walkers, in.agents(), {}, {.category = category}); });
   const Pair beyond{3, 400};
   expect_refused("filter: excluded pair 0 names agent 400 of 400", [&] {
-    crowd.candidates(set, in.agents(), 0, {.excluded = {&beyond, 1}});
+    crowd.candidates(walkers, in.agents(), 0, {.excluded = {&beyond, 1}});
   });
 }
 
@@ -138,13 +138,13 @@ struct Periodic {
         two.x[1] += i * period.x, two.y[1] += j * period.y;
         const Pair both{0, 1};
         std::uint8_t hit = 0;
-        collide(set, two.agents(), {&both, 1}, {&hit, 1});
+        collide(walkers, two.agents(), {&both, 1}, {&hit, 1});
         float distance = 0;
-        clearance(set, two.agents(), {&both, 1}, {{&distance, 1}}, {.max_distance = 0.25});
+        clearance(walkers, two.agents(), {&both, 1}, {{&distance, 1}}, {.max_distance = 0.25});
         all.distance = std::min(all.distance, distance);
         if (hit == 0) continue;
         all.hit = true;
-        penetration(set, two.agents(), {&both, 1}, 16, {&all.way, 1});
+        penetration(walkers, two.agents(), {&both, 1}, 16, {&all.way, 1});
       }
     return all;
   }
@@ -165,7 +165,7 @@ TEST(Crowd, MeetsItselfAcrossTheBordersOfAPeriod) {
   const test::Crowd close = people(200, 1, 1, 1);
   Crowd small({.period = {1, 1}});
   const std::string words = "crowd: expected a period along x of more than ",
-                    said = test::complaint([&] { small.collisions(set, close.agents()); });
+                    said = test::complaint([&] { small.collisions(walkers, close.agents()); });
   ASSERT_TRUE(said.starts_with(words)) << said;
   const double least = std::stod(said.substr(words.size()));
   ASSERT_GT(least, 1);
@@ -179,7 +179,7 @@ TEST(Crowd, MeetsItselfAcrossTheBordersOfAPeriod) {
       if (period.y > 0) moved.y[i] -= side * static_cast<double>(i % 5);
     }
     Crowd crowd({.period = period}), closed;
-    const std::size_t inside = closed.collisions(set, expected.in.agents()).size();
+    const std::size_t inside = closed.collisions(walkers, expected.in.agents()).size();
     std::vector<Pair> hits;
     ByPair near, depths;
     for (const Pair pair : all_pairs(250)) {
@@ -189,15 +189,15 @@ TEST(Crowd, MeetsItselfAcrossTheBordersOfAPeriod) {
     }
     EXPECT_GT(hits.size(), inside + 5);
     for (const test::Crowd* in : {&expected.in, &moved}) {
-      EXPECT_EQ(sorted(crowd.collisions(set, in->agents()).span()), hits);
-      const std::vector<Pair> candidates = sorted(crowd.candidates(set, in->agents()).span());
+      EXPECT_EQ(sorted(crowd.collisions(walkers, in->agents()).span()), hits);
+      const std::vector<Pair> candidates = sorted(crowd.candidates(walkers, in->agents()).span());
       EXPECT_TRUE(std::includes(candidates.begin(), candidates.end(), hits.begin(), hits.end(), precedes));
       EXPECT_EQ(std::adjacent_find(candidates.begin(), candidates.end()), candidates.end());
-      EXPECT_LE(sorted(crowd.contacts(set, in->agents()).pairs.span()).size(), hits.size());
+      EXPECT_LE(sorted(crowd.contacts(walkers, in->agents()).pairs.span()).size(), hits.size());
 
-      const bch::Crowd::Clearances found = crowd.clearances(set, in->agents(), {.max_distance = 0.25});
+      const bch::Crowd::Clearances found = crowd.clearances(walkers, in->agents(), {.max_distance = 0.25});
       EXPECT_EQ(by_pair(found.pairs, [&](std::size_t k) { return found.distance[k]; }), near);
-      const bch::Crowd::Penetrations apart = crowd.penetrations(set, in->agents());
+      const bch::Crowd::Penetrations apart = crowd.penetrations(walkers, in->agents());
       EXPECT_EQ(by_pair(apart.pairs, [&](std::size_t k) { return apart.penetrations[k].depth; }), depths);
     }
   }
@@ -211,11 +211,11 @@ TEST(Crowd, RefusesPeriodsAndPairsThatDoNotFit) {
   const Pair pair{0, 1};
   Crowd crowd({.period = {500, 0}});
   expect_refused("contacts: expected a crowd without a period", [&] {
-    crowd.contacts(set, in.agents(), {&pair, 1});
+    crowd.contacts(walkers, in.agents(), {&pair, 1});
   });
   for (const double bad : {-0.1, 3e9, std::numeric_limits<double>::quiet_NaN()})
     expect_refused("candidates: expected a margin from 0 to 2e9 m",
-                   [&] { crowd.candidates(set, in.agents(), bad); });
+                   [&] { crowd.candidates(walkers, in.agents(), bad); });
 }
 
 /// Answers may not outlive the crowd that holds them.

@@ -55,14 +55,14 @@ double least_way(const Spheres& a, const Spheres& b, double grown) {
 }
 
 /// People who stand close, at several heights.
-struct Scene {
+struct CloseCrowd {
   Random random{5601};
   BodySet bodies = test::random_bodies(random);
   BodyCrowd crowd = test::random_body_crowd(random, 40, bodies.body_count(), 2.5, 0.4);
 };
 
 TEST(NearestFree, IsTheLeastWayOutOfAllSpheres) {
-  const Scene scene;
+  const CloseCrowd scene;
   const auto placed = test::placed_spheres(scene.bodies, scene.crowd);
   const auto hits = hits_of(scene.bodies, scene.crowd);
   const auto ways = ways_of(scene.bodies, scene.crowd, scene.crowd.pairs);
@@ -88,7 +88,7 @@ TEST(NearestFree, IsTheLeastWayOutOfAllSpheres) {
 }
 
 TEST(NearestFree, LeavesNoCollision) {
-  const Scene scene;
+  const CloseCrowd scene;
   const auto ways = ways_of(scene.bodies, scene.crowd, scene.crowd.pairs);
   for (std::size_t i = 0; i < ways.size(); ++i) {
     BodyCrowd moved = scene.crowd;
@@ -100,7 +100,7 @@ TEST(NearestFree, LeavesNoCollision) {
 }
 
 TEST(NearestFree, IsTheSameOnEveryImplementationAndFromEitherSide) {
-  const Scene scene;
+  const CloseCrowd scene;
   const auto ways = ways_of(scene.bodies, scene.crowd, scene.crowd.pairs);
   std::vector<Pair> turned;
   for (const Pair pair : scene.crowd.pairs) turned.push_back({pair.second, pair.first});
@@ -114,7 +114,7 @@ TEST(NearestFree, IsTheSameOnEveryImplementationAndFromEitherSide) {
 }
 
 TEST(NearestFree, RefusesWhatIsInvalid) {
-  const Scene scene;
+  const CloseCrowd scene;
   std::vector<Penetration> ways(1);
   const auto said = [&](std::span<const Pair> pairs, std::uint32_t number) {
     return test::complaint([&] { nearest_free(scene.bodies, scene.crowd.agents(), pairs, number, ways); });

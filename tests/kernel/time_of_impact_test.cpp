@@ -15,7 +15,7 @@ using test::four_levels;
 using test::PairScene;
 using test::Random;
 
-constexpr float never = std::numeric_limits<float>::infinity();
+constexpr float no_impact = std::numeric_limits<float>::infinity();
 
 /// Pairs that move.
 struct Motion : PairScene {
@@ -154,7 +154,7 @@ TEST_F(TimeOfImpactDifferential, WithoutAWayItIsCollide) {
   std::vector<std::uint8_t> hits(motion.pairs.size());
   collide(set, motion.crowd.agents(), motion.pairs, hits, {.leaves = Leaves::discs});
   const std::vector<float> all = times(set, motion);
-  for (std::size_t i = 0; i < hits.size(); ++i) ASSERT_EQ(all[i], hits[i] ? 0 : never) << i;
+  for (std::size_t i = 0; i < hits.size(); ++i) ASSERT_EQ(all[i], hits[i] ? 0 : no_impact) << i;
   // As floats these are 0, and a way whose length cannot be divided by.
   for (const double length : {1e-300, 1e-17}) {
     motion.x.assign(motion.pairs.size(), length);

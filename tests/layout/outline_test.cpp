@@ -99,15 +99,15 @@ TEST(OutlineFromPolygons, RejectsWhatIsNone) {
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-struct Soup {
+struct FlatSoup {
   std::vector<Vec2> positions;
   Triangles triangles;
 };
 
 /// Of kinds: anywhere, on a line, on a circle, on few points of a grid, flat and away from the origin, where others decide
 /// the reach than the disc. The last vertex is far and in no triangle.
-Soup random_soup(test::Random& random, int kind) {
-  Soup soup;
+FlatSoup random_flat_soup(test::Random& random, int kind) {
+  FlatSoup soup;
   const std::uint32_t count = 3 + random.below(40);
   for (std::uint32_t i = 0; i < count; ++i) {
     double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
@@ -129,7 +129,7 @@ TEST(ExtremeVertices, DecideTheDiscAroundTheOutline) {
   Hierarchy root, expected;
   Outline outline;
   for (int i = 0; i < 2000; ++i) {
-    const Soup soup = random_soup(random, i % 5);
+    const FlatSoup soup = random_flat_soup(random, i % 5);
     detail::ExtremeVertices extremes(soup.triangles, soup.positions.size());
     extremes.find(soup.positions);
     OutlineBuilder outlines(soup.triangles, soup.positions.size());
@@ -151,7 +151,7 @@ TEST(ExtremeVertices, DecideTheDiscAroundTheOutline) {
 
 TEST(ExtremeVertices, AreFewOfManyVertices) {
   test::Random random(82);
-  Soup soup;
+  FlatSoup soup;
   for (std::uint32_t i = 0; i < 3000; ++i)
     soup.positions.push_back(
         {static_cast<float>(random.uniform(-1, 1)), static_cast<float>(random.uniform(-0.3, 0.3))});

@@ -17,6 +17,9 @@ std::vector<BakedClip> few_clips();
 /// Returns bytes in the place of models, none of which a file reads: three, nothing, and one.
 std::vector<BakedBody> few_bodies();
 
+/// All that a set can keep.
+inline const ShapeSetPlan full_plan{.depths = {0, 3, all_depths}, .outlines = true, .culling = true};
+
 /// A baked file in memory, for tests that corrupt it.
 class BakedBytes {
  public:

@@ -10,6 +10,9 @@
 
 namespace bch::test {
 
+/// The time of a contact that never comes.
+inline constexpr double never = std::numeric_limits<double>::infinity();
+
 /// Returns a body whose discs stand round one that swings its limbs: chunks with different discs, at uneven keys.
 AnimatedDiscs swinging_body(Random& random, std::uint32_t chunks = 2, std::uint32_t discs = 24);
 

@@ -8,8 +8,6 @@
 namespace bch::test {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
 /// Calls a query with room for `size` answers, and expects that it leaves what is beside them.
 template <class Answer, class Query>
 std::vector<Answer> answers_of(std::size_t size, Answer marker, Query query) {

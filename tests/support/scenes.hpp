@@ -8,6 +8,8 @@
 
 namespace bch::test {
 
+inline constexpr double infinity = std::numeric_limits<double>::infinity();
+
 /// The same numbers everywhere for a seed.
 class Random : public detail::Random {
  public:

@@ -16,7 +16,7 @@ using test::MotionCase;
 using test::Random;
 using test::still_disc;
 
-constexpr double never = std::numeric_limits<double>::infinity();
+using test::never;
 
 MotionCase disc_on(float radius, std::vector<PathKey> path) {
   return {still_disc(radius), std::move(path)};

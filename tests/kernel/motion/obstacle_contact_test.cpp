@@ -18,7 +18,7 @@ using test::ObstacleScene;
 using test::Random;
 using test::still_disc;
 
-constexpr double never = std::numeric_limits<double>::infinity();
+using test::never;
 
 /// The gap of the nearest disc and segment, and whether an area holds a disc's centre.
 struct Meeting {

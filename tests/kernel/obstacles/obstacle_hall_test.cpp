@@ -19,7 +19,7 @@ using test::Crowd;
 using test::ObstacleScene;
 using test::Random;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using test::infinity;
 
 class ObstacleHall : public test::ObstacleTest {
  protected:

@@ -17,7 +17,7 @@ using Obstacles = test::ObstacleTest;
 using test::Crowd;
 using test::ObstacleScene;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using test::infinity;
 
 using baselines::Quad;
 using baselines::QuadVector;

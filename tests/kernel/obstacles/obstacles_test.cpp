@@ -23,7 +23,7 @@ using test::ObstacleScene;
 using test::Random;
 using test::rounded_down;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+using test::infinity;
 const ShapeSetPlan four_levels{.depths = {0, 3, 6, all_depths}};
 
 using Obstacles = test::ObstacleTest;

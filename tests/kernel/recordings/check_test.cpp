@@ -155,7 +155,7 @@ TEST(Check, WallsAreMet) {
 }
 
 /// All that is told of a recording, as text.
-std::string told(MadeUp& recording, const CheckOptions& options) {
+std::string text_of_all(MadeUp& recording, const CheckOptions& options) {
   std::ostringstream text;
   recording.rewind();
   const CheckSummary summary =
@@ -181,13 +181,14 @@ TEST(Check, IsTheSameForAnyNumberOfThreadsAndFramesAtOnce) {
   add_crowd(recording, 60, static_cast<int>(test::samples(80)));
   CheckOptions options;
   options.max_distance = 0.3;
-  const std::string expected = told(recording, options);
+  const std::string expected = text_of_all(recording, options);
   EXPECT_GT(expected.size(), 10'000u);
   for (const std::size_t at_once : {std::size_t{1}, std::size_t{500}, std::size_t{1'000'000}})
     for (const int threads : {1, 2}) {
       options.people_at_once = at_once;
       tbb::task_arena arena(threads);
-      arena.execute([&] { EXPECT_TRUE(told(recording, options) == expected) << at_once << " " << threads; });
+      arena.execute(
+          [&] { EXPECT_TRUE(text_of_all(recording, options) == expected) << at_once << " " << threads; });
     }
 }
 

@@ -24,8 +24,6 @@ using detail::baked::Section;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 
-const ShapeSetPlan full_plan{.depths = {0, 3, all_depths}, .outlines = true, .culling = true};
-
 BakedBytes sound_bytes() {
   return BakedBytes(ShapeSet(few_shapes(), full_plan), origins_of(3), few_clips(), few_bodies());
 }

@@ -14,8 +14,6 @@ namespace {
 
 using detail::baked::Section;
 
-const ShapeSetPlan full_plan{.depths = {0, 3, all_depths}, .outlines = true, .culling = true};
-
 void expect_same(const detail::ShapeArrays& loaded, const detail::ShapeArrays& expected) {
   detail::baked::Arrays a{loaded, {}, {}, {}, {}}, b{expected, {}, {}, {}, {}};
   std::vector<std::span<const std::byte>> sections;
