@@ -42,13 +42,4 @@ void answer(const Implementation& implementation, const Arguments& arguments, st
   decide_containment(arguments, begin, end);
 }
 
-bool answer_if_valid(const Implementation& implementation, const Arguments& arguments,
-                     std::size_t count) noexcept {
-  if (count == 0 || count > chunk_size || arguments.agent_z.first != nullptr ||
-      !implementation.kernels->run_if_valid(arguments, static_cast<std::uint32_t>(count)))
-    return false;
-  decide_containment(arguments, 0, count);
-  return true;
-}
-
 }  // namespace bch::detail

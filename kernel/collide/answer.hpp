@@ -17,9 +17,4 @@ namespace bch::detail {
 void answer(const Implementation& implementation, const Arguments& arguments, std::size_t begin,
             std::size_t end) noexcept;
 
-/// Answers all pairs, at most a chunk, when nothing but sizes was validated. Returns false, and writes
-/// nothing, where something may be invalid, or where there are more pairs or none.
-bool answer_if_valid(const Implementation& implementation, const Arguments& arguments,
-                     std::size_t count) noexcept;
-
 }  // namespace bch::detail

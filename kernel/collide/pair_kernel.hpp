@@ -41,15 +41,6 @@ class PairKernel {
     kernel.traversal_.run(0);
   }
 
-  /// Answers `count` pairs, at most a chunk, unless they may be invalid; see Kernels.
-  static bool run_if_valid(const Arguments& arguments, std::uint32_t count) noexcept {
-    PairKernel kernel(arguments);
-    if (!kernel.at_.place_if_valid(arguments, count)) return false;
-    kernel.answer_chunk(0);
-    kernel.traversal_.run(0);
-    return true;
-  }
-
  private:
   using Float = typename Simd::Float;
   /// The most traversals that are open at once: those of a chunk, and as many unfinished pairs besides as fit

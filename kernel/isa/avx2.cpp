@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "kernel/isa/row.hpp"
+#include "kernel/isa/kernel_table.hpp"
 
 namespace bch::detail {
 namespace {
@@ -11,6 +11,6 @@ struct Avx2Lanes : Lanes<xsimd::avx2, Avx2Lanes> {};
 }  // namespace
 
 extern const Kernels avx2_kernels;
-constinit const Kernels avx2_kernels = Row<Avx2Lanes>::kernels;
+constinit const Kernels avx2_kernels = kernel_table<Avx2Lanes>;
 
 }  // namespace bch::detail

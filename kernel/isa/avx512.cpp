@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "kernel/isa/row.hpp"
+#include "kernel/isa/kernel_table.hpp"
 
 namespace bch::detail {
 namespace {
@@ -11,6 +11,6 @@ struct Avx512Lanes : Lanes<xsimd::avx512f, Avx512Lanes> {};
 }  // namespace
 
 extern const Kernels avx512_kernels;
-constinit const Kernels avx512_kernels = Row<Avx512Lanes>::kernels;
+constinit const Kernels avx512_kernels = kernel_table<Avx512Lanes>;
 
 }  // namespace bch::detail

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "kernel/isa/row.hpp"
+#include "kernel/isa/kernel_table.hpp"
 
 namespace bch::detail {
 namespace {
@@ -23,6 +23,6 @@ struct ScalarLanes : Lanes<Scalar, ScalarLanes> {
 }  // namespace
 
 extern const Kernels scalar_kernels;
-constinit const Kernels scalar_kernels = Row<ScalarLanes>::kernels;
+constinit const Kernels scalar_kernels = kernel_table<ScalarLanes>;
 
 }  // namespace bch::detail

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "kernel/isa/row.hpp"
+#include "kernel/isa/kernel_table.hpp"
 
 namespace bch::detail {
 namespace {
@@ -11,6 +11,6 @@ struct Simd128Lanes : Lanes<PortableArch, Simd128Lanes> {};
 }  // namespace
 
 extern const Kernels simd128_kernels;
-constinit const Kernels simd128_kernels = Row<Simd128Lanes>::kernels;
+constinit const Kernels simd128_kernels = kernel_table<Simd128Lanes>;
 
 }  // namespace bch::detail

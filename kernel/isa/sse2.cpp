@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "kernel/isa/row.hpp"
+#include "kernel/isa/kernel_table.hpp"
 
 namespace bch::detail {
 namespace {
@@ -11,6 +11,6 @@ struct Sse2Lanes : Lanes<xsimd::sse2, Sse2Lanes> {};
 }  // namespace
 
 extern const Kernels sse2_kernels;
-constinit const Kernels sse2_kernels = Row<Sse2Lanes>::kernels;
+constinit const Kernels sse2_kernels = kernel_table<Sse2Lanes>;
 
 }  // namespace bch::detail

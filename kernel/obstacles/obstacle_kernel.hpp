@@ -21,6 +21,20 @@ namespace bch::detail {
 template <class Simd>
 class ObstacleKernel {
  public:
+  /// Returns whether a disc of the cut and all nodes above it touch the segments, and the outline in that disc does where
+  /// exact leaves decide.
+  static bool touches(const ObstacleArguments& in) noexcept { return ObstacleKernel(in).meets_any(); }
+
+  /// Finds the least gap between a disc of the cut and a segment, or between the outline and a segment where exact leaves decide. The
+  /// search ends at one of at most `enough`. The segment that is nearest to the root comes first: few others improve on it.
+  ///
+  /// Gaps of discs bound those of outlines: some leaf holds the nearest point of an outline, and its radius was enlarged by the same grid steps
+  /// as the margin of exact leaves, and by query_margin, which is more than that margin and what halving moves. So its gap is below that of the outline.
+  static void find_gap(const ObstacleArguments& in, double enough, ObstacleGap& best) noexcept {
+    ObstacleKernel(in).search_all(enough, best);
+  }
+
+ private:
   explicit ObstacleKernel(const ObstacleArguments& in) noexcept
       : in_(in),
         own_(*in.shapes, in.root),
@@ -28,9 +42,7 @@ class ObstacleKernel {
         tree_(own_.tree),
         exact_(in.exact_leaves && tree_.segments != no_segments) {}
 
-  /// Returns whether a disc of the cut and all nodes above it touch the segments, and the outline in that disc does where
-  /// exact leaves decide.
-  bool touches() noexcept {
+  bool meets_any() noexcept {
     if (in_.shapes->inscribed != nullptr && any_goes_in()) return true;
     std::uint32_t open = 0;
     nodes_open_[open++] = tree_.top;
@@ -51,24 +63,18 @@ class ObstacleKernel {
     return false;
   }
 
-  /// Finds the least gap between a disc of the cut and a segment, or between the outline and a segment where exact leaves decide. The
-  /// search ends at one of at most `enough`. The segment that is nearest to the root comes first: few others improve on it.
-  ///
-  /// Gaps of discs bound those of outlines: some leaf holds the nearest point of an outline, and its radius was enlarged by the same grid steps
-  /// as the margin of exact leaves, and by query_margin, which is more than that margin and what halving moves. So its gap is below that of the outline.
-  void find_gap(double enough, ObstacleGap& best) noexcept {
+  void search_all(double enough, ObstacleGap& best) noexcept {
     std::uint32_t first = 0;
     double least = __builtin_inf();
     for (std::uint32_t i = 0; i < in_.count; ++i) {
       const double square = square_from_root(in_.segments[i]);
       if (square < least) least = square, first = i;
     }
-    if (in_.count != 0) find_gap(in_.segments[first], enough, best);
+    if (in_.count != 0) search(in_.segments[first], enough, best);
     for (std::uint32_t i = 0; i < in_.count && !is_enough(enough, best); ++i)
-      if (i != first) find_gap(in_.segments[i], enough, best);
+      if (i != first) search(in_.segments[i], enough, best);
   }
 
- private:
   using Double = typename Simd::Double;
   // What is said of find_gap(): a disc has more room than outlines have margin, and halving takes.
   static_assert(rounding::query_margin >=
@@ -182,7 +188,7 @@ class ObstacleKernel {
   }
 
   /// Visits what has the least bound first.
-  void find_gap(const LocalSegment& segment, double enough, ObstacleGap& best) noexcept {
+  void search(const LocalSegment& segment, double enough, ObstacleGap& best) noexcept {
     double limit = limit_of(segment, best);
     const double reach = double{tree_.outer} + limit;
     if (reach < 0 || square_from_root(segment) > reach * reach) return;

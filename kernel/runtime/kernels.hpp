@@ -48,11 +48,6 @@ struct Kernels {
   /// Writes the nearest spheres of those pairs, with as much stack; see BodyClearanceArguments.
   void (*body_clearance)(const BodyClearanceArguments& arguments, std::size_t begin,
                          std::size_t end) noexcept;
-  /// Writes the codes of the first `count` pairs, one or more and at most a
-  /// chunk, when neither pairs nor agents were validated. Returns false, and
-  /// writes nothing, unless they are surely valid. It is meant for small
-  /// batches, for which a separate validation takes longer.
-  bool (*run_if_valid)(const Arguments& arguments, std::uint32_t count) noexcept;
   /// Writes how many contacts each of pairs begin .. end has, to counts[begin]
   /// .. counts[end].
   void (*count_contacts)(const Arguments& arguments, std::size_t begin, std::size_t end,

@@ -27,18 +27,9 @@ class Placements {
   /// Places the pairs from `begin` on, at most a chunk, and none from `end` on.
   void place(const Arguments& in, std::size_t begin, std::size_t end) noexcept {
     size = end - begin < chunk_size ? static_cast<std::uint32_t>(end - begin) : chunk_size;
-    name_agents<false>(in, begin);
-    in.prefetch_agents ? find_roots<true, false>(in) : find_roots<false, false>(in);
-    turn<false>(in);
-  }
-
-  /// Places pairs that were not validated. Returns false unless everything is surely valid; then no other
-  /// member may be called. The check is stricter than require_valid(): it tests what is in registers anyway,
-  /// with the fewest operations.
-  bool place_if_valid(const Arguments& in, std::uint32_t count) noexcept {
-    size = count;
-    if (in.agent_heading_y.first != nullptr || !name_agents<true>(in, 0)) return false;
-    return (in.prefetch_agents ? find_roots<true, true>(in) : find_roots<false, true>(in)) && turn<true>(in);
+    name_agents(in, begin);
+    in.prefetch_agents ? find_roots<true>(in) : find_roots<false>(in);
+    turn(in);
   }
 
   Transform transform(std::uint32_t pair) const noexcept { return {c[pair], s[pair], tx[pair], ty[pair]}; }
@@ -88,35 +79,28 @@ class Placements {
   static constexpr std::uint32_t doubles = Simd::doubles;        ///< a register
   static constexpr std::uint32_t parts = Simd::width / doubles;  ///< registers of them for one of floats
 
-  // With `check`, what these return tells whether the next one may read what this one names.
-
   /// Reads the agents of each pair. The lower index is A, so that the order within a pair does not matter.
-  template <bool check>
-  bool name_agents(const Arguments& in, std::size_t begin) noexcept {
+  void name_agents(const Arguments& in, std::size_t begin) noexcept {
     const Pair* const __restrict pairs = in.pairs + begin;
-    const std::uint32_t count = size, whole = count / Simd::width * Simd::width, agents = in.agent_count;
-    std::uint32_t beyond = 0;
+    const std::uint32_t count = size, whole = count / Simd::width * Simd::width;
     const auto name = [&](std::uint32_t k) {
       const auto [first, second] = pairs[k];
       a_[k] = second < first ? second : first;
       b_[k] = second < first ? first : second;
-      if (check) beyond |= b_[k] >= agents;
     };
     for_whole_registers<Simd>(whole, name);
     for (std::uint32_t k = whole; k < count; ++k) name(k);
     for (std::uint32_t k = count; k < whole_registers(); ++k) a_[k] = a_[count - 1], b_[k] = b_[count - 1];
-    return beyond == 0;
   }
 
   /// Finds the root of each agent's shape at its level. With `prefetch`, it also prefetches all that turn()
   /// needs of agents.
-  template <bool prefetch, bool check>
-  bool find_roots(const Arguments& in) noexcept {
+  template <bool prefetch>
+  void find_roots(const Arguments& in) noexcept {
     // What this writes might be these pointers, for all the compiler knows of `in`.
     const AgentColumn shape = in.agent_shape, level = in.agent_level;
-    const std::uint32_t levels = in.shapes->level_count, shapes = in.shapes->shape_count;
+    const std::uint32_t levels = in.shapes->level_count;
     const std::uint32_t count = whole_registers();
-    std::uint32_t beyond = 0;
     for (std::uint32_t k = 0; k < count; k += Simd::width) {
       // This is not a function of its own: GCC 12 drops the call of one that only prefetches.
       if (prefetch && k + pairs_ahead < count)
@@ -137,46 +121,23 @@ class Placements {
     for_whole_registers<Simd>(count, [&](std::uint32_t k) {
       root_a[k] = shape_a[k] * levels + levels - 1;
       root_b[k] = shape_b[k] * levels + levels - 1;
-      if (check) beyond |= (shape_a[k] >= shapes) | (shape_b[k] >= shapes);
     });
-    if (level.first == nullptr) return beyond == 0;
+    if (level.first == nullptr) return;
     for (std::uint32_t k = 0; k < count; ++k) {
       const std::uint32_t level_a = Columns::template at<std::uint8_t>(level, a_[k]),
                           level_b = Columns::template at<std::uint8_t>(level, b_[k]);
       root_a[k] -= levels - 1 - level_a;
       root_b[k] -= levels - 1 - level_b;
-      if (check) beyond |= (level_a >= levels) | (level_b >= levels);
     }
-    return beyond == 0;
   }
 
   struct UnitVectors {
     Float cosine, sine;
   };
 
-  /// Sums up the magnitudes of all that was read for a lane's pair, if `check` is set.
-  template <bool check>
-  class Magnitudes {
-   public:
-    void add(std::uint32_t part, Double value) noexcept {
-      if constexpr (check) sum_[part] = sum_[part] + xsimd::abs(value);
-    }
-
-    /// Returns half of what is valid, to make up for rounding; not a number is beyond.
-    std::uint32_t within() const noexcept {
-      static_assert(rounding::largest_position == rounding::largest_heading);
-      return Simd::bits(Simd::rounded(sum_) <= Float(static_cast<float>(0.5 * rounding::largest_position)));
-    }
-
-   private:
-    Double sum_[parts] = {};
-  };
-
   /// Does what layout/base/heading.cpp does, in lanes.
-  template <bool check>
   [[gnu::always_inline]] static UnitVectors unit_vectors(const AgentColumn& heading,
-                                                         const std::uint32_t* agent,
-                                                         Magnitudes<check>& magnitudes) noexcept {
+                                                         const std::uint32_t* agent) noexcept {
     namespace h = heading_constants;
     const auto round_to_integer = [](Double x) {
       return (x + Double(h::round_to_integer)) - Double(h::round_to_integer);
@@ -185,7 +146,6 @@ class Placements {
 #pragma GCC unroll 2
     for (std::uint32_t part = 0; part < parts; ++part) {
       const Double angle = Columns::numbers(heading, agent + part * doubles);
-      magnitudes.add(part, angle);
       const Double quarters = round_to_integer(angle * Double(h::two_over_pi));
       Double r = angle - quarters * Double(h::half_pi[0]);
       r = r - quarters * Double(h::half_pi[1]);
@@ -222,48 +182,37 @@ class Placements {
     return {Simd::rounded(cosines), Simd::rounded(sines)};
   }
 
-  template <bool check>
-  [[gnu::always_inline]] static UnitVectors unit_vectors(const Arguments& in, const std::uint32_t* agent,
-                                                         Magnitudes<check>& magnitudes) noexcept {
+  [[gnu::always_inline]] static UnitVectors unit_vectors(const Arguments& in,
+                                                         const std::uint32_t* agent) noexcept {
     if (in.agent_heading_y.first == nullptr) [[likely]]
-      return unit_vectors(in.agent_heading, agent, magnitudes);
+      return unit_vectors(in.agent_heading, agent);
     return unit_vectors(in.agent_heading, in.agent_heading_y, agent);
   }
 
   /// Returns the distance from A to B in one coordinate.
-  template <bool check>
-  static Float distance(const AgentColumn& x, const std::uint32_t* a, const std::uint32_t* b,
-                        Magnitudes<check>& magnitudes) noexcept {
+  static Float distance(const AgentColumn& x, const std::uint32_t* a, const std::uint32_t* b) noexcept {
     Double between[parts];
 #pragma GCC unroll 2
     for (std::uint32_t part = 0; part < parts; ++part) {
       const Double to = Columns::numbers(x, b + part * doubles),
                    from = Columns::numbers(x, a + part * doubles);
-      magnitudes.add(part, to), magnitudes.add(part, from);
       between[part] = to - from;
     }
     return Simd::rounded(between);
   }
 
   /// Computes B's rotation and position in A's frame.
-  template <bool check>
-  bool turn(const Arguments& in) noexcept {
-    constexpr std::uint32_t all = (std::uint32_t{1} << Simd::width) - 1;
-    std::uint32_t within = all;
+  void turn(const Arguments& in) noexcept {
     for (std::uint32_t k = 0; k < whole_registers(); k += Simd::width) {
-      Magnitudes<check> magnitudes;
-      const auto [ca, sa] = unit_vectors(in, a_ + k, magnitudes);
-      const auto [cb, sb] = unit_vectors(in, b_ + k, magnitudes);
-      const Float dx = distance(in.agent_x, a_ + k, b_ + k, magnitudes),
-                  dy = distance(in.agent_y, a_ + k, b_ + k, magnitudes);
-      if constexpr (check) within &= magnitudes.within();
+      const auto [ca, sa] = unit_vectors(in, a_ + k);
+      const auto [cb, sb] = unit_vectors(in, b_ + k);
+      const Float dx = distance(in.agent_x, a_ + k, b_ + k), dy = distance(in.agent_y, a_ + k, b_ + k);
       Simd::store(cosine_ + k, ca), Simd::store(sine_ + k, sa);
       Simd::store(c + k, ca * cb + sa * sb);
       Simd::store(s + k, ca * sb - sa * cb);
       Simd::store(tx + k, ca * dx + sa * dy);
       Simd::store(ty + k, ca * dy - sa * dx);
     }
-    return within == all;
   }
 
   alignas(64) std::uint32_t a_[chunk_size], b_[chunk_size];  ///< agents, padded as above

@@ -126,6 +126,33 @@ TEST(Agents, MayHaveDirections) {
   }
 }
 
+/// Agents of a crowd that is larger than a cache are fetched ahead.
+TEST(Agents, MayHaveDirectionsInALargeCrowd) {
+  const ShapeSet set(test::synthetic_shapes(783, 10));
+  test::Random random(785);
+  std::vector<std::uint32_t> shape(150'000);
+  std::vector<double> at(shape.size()), x(shape.size()), y(shape.size());
+  std::vector<Pair> pairs(2000);
+  for (std::size_t i = 0; i < shape.size(); ++i) {
+    const detail::Rotation heading = detail::rotation(random.uniform(-4, 4));
+    shape[i] = random.below(10), at[i] = random.uniform(0, 2), x[i] = heading.cosine, y[i] = heading.sine;
+  }
+  for (Pair& pair : pairs) pair = {random.below(150'000), random.below(150'000)};
+  for (const Implementation& implementation : test::supported()) {
+    std::vector<std::uint8_t> hits(pairs.size());
+    collide(set, {shape, at, at, {x, y}}, pairs, hits, {.implementation = &implementation});
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      const auto [a, b] = pairs[i];
+      const std::array<std::uint32_t, 2> both = {shape[a], shape[b]};
+      const std::array<double, 2> place = {at[a], at[b]}, to_x = {x[a], x[b]}, to_y = {y[a], y[b]};
+      const Pair only{0, 1};
+      std::uint8_t hit = 2;
+      collide(set, {both, place, place, {to_x, to_y}}, {&only, 1}, {&hit, 1});
+      ASSERT_EQ(hits[i], hit) << implementation.name << " " << i;
+    }
+  }
+}
+
 TEST(Agents, AreRefusedWhereDirectionsAreNone) {
   const std::vector<Shape> shapes = test::synthetic_shapes(783, 1);
   const ShapeSet set(shapes);
@@ -142,6 +169,13 @@ TEST(Agents, AreRefusedWhereDirectionsAreNone) {
             "agent 1: heading (0.9, nan) is no direction, expected a length from 0.999 to 1.001");
   std::vector<std::uint8_t> hit(1);
   const Pair pair{0, 1};
+  const std::vector<double> long_x = {1, 0.9}, long_y = {0, 0.5};
+  for (const Implementation& implementation : test::supported())
+    EXPECT_EQ(test::complaint([&] {
+                collide(set, {shape, at, at, {long_x, long_y}}, {&pair, 1}, hit,
+                        {.implementation = &implementation});
+              }),
+              "pair 0: agent 1: heading (0.9, 0.5) is no direction, expected a length from 0.999 to 1.001");
   EXPECT_EQ(test::complaint([&] {
               collide(set, {shape, at, at, {x, y}}, {&pair, 1}, hit);
             }),

@@ -184,7 +184,7 @@ TEST(Layers, IsaFilesIncludeOnlyKernelTemplates) {
   const std::set<std::string> stems{"avx512", "avx2", "sse2", "neon", "scalar", "base"};
   std::size_t found = 0;
   for (const auto& [top, templates] :
-       {std::pair("kernel", "kernel/isa/row.hpp"), {"layout", "layout/isa/build_loops.hpp"}})
+       {std::pair("kernel", "kernel/isa/kernel_table.hpp"), {"layout", "layout/isa/build_loops.hpp"}})
     for (const auto& [file, includes] : includes_below(top)) {
       if (file.extension() != ".cpp" || !stems.contains(file.stem().string())) continue;
       ++found;
