@@ -6,7 +6,7 @@
 /// Gives the version of these headers. Until 1.0, a change of the public surface raises the minor number; CHANGELOG.md lists the
 /// changes. The build reads the numbers from here.
 #define BCH_VERSION_MAJOR 0
-#define BCH_VERSION_MINOR 3
+#define BCH_VERSION_MINOR 4
 #define BCH_VERSION_PATCH 0
 
 /// Holds all that the library declares for its users.

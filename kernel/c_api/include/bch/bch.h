@@ -46,7 +46,7 @@ extern "C" {
 
 /** Returns the version of the binary interface of the library that is loaded. */
 BCH_API uint32_t bch_abi_version(void);
-/** Returns the version of the library that is loaded, such as "0.3.0". */
+/** Returns the version of the library that is loaded, such as "0.4.0". */
 BCH_API const char* bch_version(void);
 
 /** Tells whether a function succeeded, and if not, why. Functions return it. */
