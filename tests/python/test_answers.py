@@ -102,6 +102,37 @@ class Pairs(unittest.TestCase):
             thread.join()
         self.assertEqual([bool(hit) for hit in hits], [True, False, False] * 8)
 
+class AgentArrays(unittest.TestCase):
+    def test_are_taken_as_they_are(self):
+        random = np.random.default_rng(3)
+        n = 60
+        shape, x, y, heading = random.integers(len(SHAPES), size=n), 4 * random.random(n), 4 * random.random(n), 6 * random.random(n)
+        x, y, heading = (np.float32(values).astype(float) for values in (x, y, heading))
+        found = bch.Crowd().collisions(SHAPES, bch.Agents(shape.astype(np.uint32), x, y, heading))
+        self.assertGreater(len(found), 10)
+        table = np.zeros(n, np.dtype([("who", "u1"), ("x", "f4"), ("shape", "u4"), ("y", "f4"), ("heading", "f4"), ("pad", "f4")], align=True))
+        doubles = np.zeros((n, 5))
+        for name, values in (("shape", shape), ("x", x), ("y", y), ("heading", heading)):
+            table[name] = values
+        doubles[:, 4], doubles[:, 1], doubles[:, 2] = x, y, heading
+        tall = bch.ShapeSet.from_polygons(SQUARES, plan=bch.Plan(depths=(0, bch.ALL_DEPTHS), heights=True))
+        ones, zero = np.ones(n, np.int64), np.zeros(1)
+        for agents in (
+            bch.Agents(table["shape"], table["x"], table["y"], table["heading"]),
+            bch.Agents(shape, doubles[:, 4], doubles[:, 1], doubles[:, 2]),
+            bch.Agents(shape.astype(np.int8), doubles[:, 4], y, heading, ones, 0 * ones),
+            bch.Agents(shape.tolist(), x.tolist(), y.tolist(), heading.tolist()),
+            bch.Agents(shape[::-1][::-1], x[::-1][::-1], y, heading, z=np.broadcast_to(zero, n)),
+        ):
+            np.testing.assert_array_equal(bch.Crowd().collisions(tall, agents), found)
+        directions = np.zeros((n, 3), np.float32)
+        directions[:, 1], directions[:, 2] = np.cos(heading), np.sin(heading)
+        np.testing.assert_array_equal(bch.Crowd().collisions(SHAPES, bch.Agents(table["shape"], table["x"], table["y"], directions[:, 1:])), found)
+        viewed = bch.Agents(table["shape"], table["x"], table["y"], table["heading"])
+        table["x"] += 100 * np.arange(n)
+        self.assertEqual(len(bch.Crowd().collisions(SHAPES, viewed)), 0)
+
+
 class Crowds(unittest.TestCase):
     def test_candidates(self):
         self.assertEqual(bch.Crowd().candidates(SHAPES, LINE).tolist(), [[0, 1]])

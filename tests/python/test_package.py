@@ -61,6 +61,10 @@ class Errors(unittest.TestCase):
         x = np.zeros(2)
         self.expect(TypeError, ["heading", "float32"], bch.Agents, self.agents.shape, x, x, x.astype(np.float32))
         self.expect(TypeError, ["y", "(3,)", "(2,)"], bch.Agents, self.agents.shape, x, np.zeros(3), x)
+        for shape, words in (([0.5, 1], "integers with shape (n,)"), ([0, -1], "shape[1] is -1; expected an index from 0 to 4294967295"), ([2**32, 0], "shape[0] is 4294967296")):
+            self.expect((TypeError, IndexError), [words], bch.Agents, shape, x, x, x)
+        self.expect(IndexError, ["level[0] is 256; expected an index from 0 to 255"], bch.Agents, [0, 0], x, x, x, [256, 0])
+        self.expect(TypeError, ["x is a list; wanted is numbers with shape (2,)"], bch.Agents, [0, 0], ["a", "b"], x, x)
 
     def test_values(self):
         collide = lambda **more: bch.collide(self.shapes, self.agents, self.pairs, **more)

@@ -10,7 +10,7 @@ Make or load a set of shapes, describe a crowd by arrays, and ask:
 >>> n = 1000
 >>> random = np.random.default_rng(1)
 >>> agents = bch.Agents(
-...     random.integers(len(people), size=n, dtype=np.uint32),
+...     random.integers(len(people), size=n),
 ...     random.uniform(0, 20, n), random.uniform(0, 20, n), random.uniform(-3, 3, n))
 >>> crowd = bch.Crowd()
 >>> for a, b in crowd.collisions(people, agents): print(a, "collides with", b)

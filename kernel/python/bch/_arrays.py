@@ -104,6 +104,48 @@ def result(out: Optional[npt.NDArray[Any]], dtype: np.dtype[Any], shape: Tuple[i
     return out
 
 
+def indices(values: Any, dtype: np.dtype[Any], shape: Shape, name: str) -> npt.NDArray[Any]:
+    """Return an array of indices where it is, if it has that dtype; other integers are copied, if they fit."""
+    array = values if isinstance(values, np.ndarray) else np.asarray(values)
+    if array.size == 0 and not isinstance(values, np.ndarray):
+        array = array.astype(dtype)
+    if array.dtype.kind not in "iu" or isinstance(array, np.ma.MaskedArray) or not _has_shape(array, shape):
+        raise rejected(values, name, f"integers with shape {_shape_words(shape)}")
+    if array.dtype == dtype:
+        return _strided(array)
+    most = np.iinfo(dtype).max
+    wrong = np.flatnonzero((array < 0) | (array > most))
+    if wrong.size > 0:
+        raise RangeError(f"{name}[{wrong[0]}] is {array[wrong[0]]}; expected an index from 0 to {most}")
+    return array.astype(dtype)
+
+
+def numbers(named: Dict[str, Any], shapes: Dict[str, Shape]) -> Dict[str, npt.NDArray[Any]]:
+    """Return arrays of float or of double where they are. Other numbers are copied, to double if no array is of floats."""
+    kinds = {name: values.dtype for name, values in named.items() if isinstance(values, np.ndarray) and values.dtype in (f4, f8)}
+    dtype = next(iter(kinds.values()), f8)
+    arrays = {}
+    for name, values in named.items():
+        array = values if isinstance(values, np.ndarray) else np.asarray(values)
+        if array.dtype.kind not in "fiu" or isinstance(array, np.ma.MaskedArray) or not _has_shape(array, shapes[name]):
+            raise rejected(values, name, f"numbers with shape {_shape_words(shapes[name])}")
+        if kinds.get(name, dtype) != dtype:
+            raise ArrayError(f"{name} is {_words(values)}; wanted is {dtype.name}, as {next(iter(kinds))} has")
+        arrays[name] = _strided(array if name in kinds else array.astype(dtype))
+    return arrays
+
+
+def _has_shape(array: npt.NDArray[Any], shape: Shape) -> bool:
+    return len(array.shape) == len(shape) and all(want is None or want == has for want, has in zip(shape, array.shape))
+
+
+def _strided(array: npt.NDArray[Any]) -> npt.NDArray[Any]:
+    """Return an array of values that the library can step through, each aligned: the same one, or where it runs backwards or repeats, a copy."""
+    size = array.dtype.itemsize
+    steps = array.flags.aligned and all(stride > 0 and stride % size == 0 for stride in array.strides)
+    return array if steps or array.shape[0] < 2 and array.flags.aligned else np.ascontiguousarray(array)
+
+
 def rejected(value: Any, name: str, wanted: str) -> ArrayError:
     """Return the error about an argument of a wrong type."""
     return ArrayError(f"{name} is {_words(value)}; wanted is {wanted}")

@@ -11,6 +11,7 @@ import math
 from typing import Any, Callable, Dict, List, Literal, NamedTuple, Optional, Tuple, Union
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _library
 from ._arrays import (
@@ -27,8 +28,10 @@ from ._arrays import (
     f4,
     f8,
     given,
+    indices,
     instance,
     number,
+    numbers,
     one_of,
     rejected,
     result,
@@ -44,21 +47,22 @@ from ._shapes import ShapeSet
 class Agents:
     """A crowd as a simulation holds it: one entry per agent in each array.
 
-    The arrays are viewed, not copied. The next query sees what is written into them later, as in `agents.x[:] += dx`.
+    Arrays of these types are viewed where they are, also fields of structured arrays. The next query sees what is written into them
+    later, as in `agents.x[:] += dx`. Numbers of other types, and lists, are copied.
 
     Parameters
     ----------
-    shape : (n,) uint32
+    shape : (n,) uint32, or other integers
         Index of each agent's shape in the set.
-    x, y : (n,) float64
+    x, y : (n,) float64, or float32 like heading and z
         Positions, metres, within 1e9 m.
-    heading : (n,) or (n, 2) float64
+    heading : (n,) or (n, 2) float64, or float32
         Angles by which shapes are turned about their positions, radians, counter-clockwise. At 0 the built-in characters face
         +x, and those of files stand as in their files. Or directions (cos, sin): where an agent's +x points, of a length of 1
         within 1e-3.
-    level : (n,) uint8, optional
+    level : (n,) uint8, or other integers, optional
         Index into the set's depths; by default every agent uses the last level.
-    z : (n,) float64, optional
+    z : (n,) float64, or float32, optional
         Heights of the grounds that agents stand on, metres; by default all stand on one ground.
     """
 
@@ -66,37 +70,36 @@ class Agents:
 
     def __init__(
         self,
-        shape: UInt32,
-        x: Float64,
-        y: Float64,
-        heading: Float64,
-        level: Optional[UInt8] = None,
-        z: Optional[Float64] = None,
+        shape: npt.ArrayLike,
+        x: npt.ArrayLike,
+        y: npt.ArrayLike,
+        heading: npt.ArrayLike,
+        level: Optional[npt.ArrayLike] = None,
+        z: Optional[npt.ArrayLike] = None,
     ) -> None:
-        shapes = given(shape, u4, (None,), "shape")
-        n = len(shape)
-        self._arrays = (shape, x, y, heading, level, z)
-        directions = getattr(heading, "ndim", 1) == 2
-        headings = given(heading, f8, (n, 2) if directions else (n,), "heading")
-        self._struct = _library.Agents(
-            shape=shapes,
-            x=given(x, f8, (n,), "x"),
-            y=given(y, f8, (n,), "y"),
-            heading=headings,
-            heading_stride=16 if directions else 0,
-            heading_y=headings + 8 if directions and n > 0 else None,
-            heading_y_stride=16,
-            level=None if level is None else given(level, u1, (n,), "level"),
-            z=None if z is None else given(z, f8, (n,), "z"),
-            count=n,
-        )
+        shapes = indices(shape, u4, (None,), "shape")
+        n = len(shapes)
+        directions = np.ndim(heading) == 2
+        given_numbers = {"x": x, "y": y, "heading": heading, **({} if z is None else {"z": z})}
+        columns: Dict[str, npt.NDArray[Any]] = numbers(given_numbers, {name: (n, 2) if directions and name == "heading" else (n,) for name in given_numbers})
+        levels = None if level is None else indices(level, u1, (n,), "level")
+        self._arrays = (shapes, columns["x"], columns["y"], columns["heading"], levels, columns.get("z"))
+        columns["shape"] = shapes
+        if levels is not None:
+            columns["level"] = levels
+        if directions:
+            columns["heading"], columns["heading_y"] = columns["heading"].T
+        self._struct = _library.Agents(count=n, numbers=int(columns["x"].dtype == f4))
+        for name, column in columns.items():
+            setattr(self._struct, name, address(column) if n > 0 else None)
+            setattr(self._struct, f"{name}_stride", 0 if column.flags.c_contiguous else column.strides[0])
         self._pointer: int = ctypes.addressof(self._struct)
 
     # The arrays themselves: write into them to move people.
 
     @property
     def shape(self) -> UInt32:
-        """Index of each agent's shape in the set, (n,) uint32."""
+        """Index of each agent's shape in the set, (n,) uint32, as it is viewed."""
         return self._arrays[0]
 
     @property

@@ -14,7 +14,7 @@ people = bch.bake(
 n = 40
 random = np.random.default_rng(2014)
 agents = bch.Agents(
-    shape=random.integers(len(people), size=n, dtype=np.uint32),
+    shape=random.integers(len(people), size=n),
     x=random.uniform(0, 5, n),
     y=random.uniform(0, 4, n),
     heading=random.uniform(-np.pi, np.pi, n),

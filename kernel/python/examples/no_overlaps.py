@@ -39,7 +39,7 @@ for density, least in ((3, 0.45), (3, 0.35), (3, 0), (4, 0.4)):
     side = np.sqrt(n / density)
     x, y = spaced(random, n, side, least)
     heading = random.uniform(-np.pi, np.pi, n)
-    agents = bch.Agents(random.integers(len(people), size=n, dtype=np.uint32), x, y, heading)
+    agents = bch.Agents(random.integers(len(people), size=n), x, y, heading)
     crowd = bch.Crowd(period=(side, side))
     pairs = crowd.collisions(people, agents)
     found = crowd.resolve(people, agents, sweeps=300)

@@ -16,7 +16,7 @@ column, row = np.divmod(np.arange(n), 3)
 x, y = -9.0 + 0.9 * column, 1.1 * (row - 1.0) + random.uniform(-0.1, 0.1, n)
 velocity = np.zeros((n, 2))
 heading = np.zeros(n)
-agents = bch.Agents(random.integers(len(people), size=n, dtype=np.uint32), x, y, heading)
+agents = bch.Agents(random.integers(len(people), size=n), x, y, heading)
 crowd = bch.Crowd()
 
 mass, relaxation, strength, reach, step = 80.0, 0.5, 800.0, 0.15, 0.02  # kg, s, N, m, s
