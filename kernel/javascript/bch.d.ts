@@ -36,6 +36,7 @@ export interface CharacterArrays {
 export class Character implements Freed {
   static from(arrays: CharacterArrays): Character;
   readonly info: { joints: number; clips: number; vertices: number; name: string };
+  readonly clips: { name: string; seconds: number }[];
   transforms(clip: number, seconds: number, kind?: 0 | 1): Float64Array;
   free(): void;
 }
@@ -54,10 +55,16 @@ export interface Plan {
 export class ShapeSet implements Freed {
   static load(bytes: Uint8Array, name?: string): ShapeSet;
   static fromPolygons(bodies: [number, number][][][]): ShapeSet;
+  /** Bodies of capsules: two ends and a radius each. */
+  static fromCapsules(bodies: [number, number, number, number, number][][], options?: { tolerance?: number }): ShapeSet;
+  static fromCylinders(radii: number[]): ShapeSet;
   readonly length: number;
   free(): void;
 }
 export function bake(characters: Character[], options?: { poses?: number } & Plan): ShapeSet;
+
+/** Poses of one's choice: of characters[character[i]] at seconds[i] of its clip[i]. */
+export function bakePoses(characters: Character[], poses: { character: Numbers; clip: Numbers; seconds: Numbers }, plan?: Plan): ShapeSet;
 
 /** Spheres on a skeleton that hold the skin in every pose. */
 export class BodyModel implements Freed {

@@ -81,6 +81,16 @@ export class Character extends Handle {
       return { joints: info.get("joints"), clips: info.get("clips"), vertices: Number(info.get("vertices")), name: text(info.get("name")) };
     });
   }
+  /** The names of all clips, and how long they are. */
+  get clips() {
+    return withScratch(() =>
+      Array.from({ length: this.info.clips }, (_, clip) => {
+        const name = array(Uint32Array, 2); // and the length
+        call("bch_character_get_clip", this.pointer, clip, name, name + 4);
+        return { name: text(view(Uint32Array, name, 1)[0]), seconds: view(Float32Array, name + 4, 1)[0] };
+      }),
+    );
+  }
   /** The transforms of all joints at a time of a clip, 12 numbers each. */
   transforms(clip, seconds, kind = kinds.jointsInWorld) {
     return withScratch(() => {
@@ -115,16 +125,23 @@ export class ShapeSet extends Handle {
   }
   /** Makes a set of polygons, a body each: lists of contours, whose corners are [x, y]. */
   static fromPolygons(bodies) {
-    return withScratch(() => {
-      const plan = new Struct("bch_plan", plans());
-      const builder = made(Builder, "bch_shape_set_builder_create", plan.pointer);
+    return built({}, (builder) => {
       for (const contours of bodies) {
         const offsets = [0n];
         for (const contour of contours) offsets.push(offsets.at(-1) + BigInt(contour.length));
-        call("bch_shape_set_builder_add_polygons", builder.pointer, array(Float32Array, contours.flat(2)), array(BigUint64Array, offsets), contours.length, 0);
+        call("bch_shape_set_builder_add_polygons", builder, array(Float32Array, contours.flat(2)), array(BigUint64Array, offsets), contours.length, 0);
       }
-      return made(ShapeSet, "bch_shape_set_builder_finish", builder.pointer);
     });
+  }
+  /** Makes a set of bodies of capsules seen from above: lists of [x, y, x, y, radius], two ends and a radius. */
+  static fromCapsules(bodies, { tolerance = 0.001 } = {}) {
+    return built({}, (builder) => {
+      for (const capsules of bodies) call("bch_shape_set_builder_add_capsules", builder, array(Float32Array, capsules.flat()), capsules.length, tolerance, 0);
+    });
+  }
+  /** Makes a set of cylinders about the agents' positions. */
+  static fromCylinders(radii) {
+    return built({}, (builder) => radii.forEach((radius) => call("bch_shape_set_builder_add_cylinder", builder, radius, 0)));
   }
   get length() {
     return withScratch(() => {
@@ -139,6 +156,13 @@ class Builder extends Handle {
     super(pointer, "bch_shape_set_builder_free");
   }
 }
+function built(plan, add) {
+  return withScratch(() => {
+    const builder = made(Builder, "bch_shape_set_builder_create", new Struct("bch_plan", plans(plan)).pointer);
+    add(builder.pointer);
+    return made(ShapeSet, "bch_shape_set_builder_finish", builder.pointer);
+  });
+}
 const plans = ({ outlines = true, culling = true, heights = false, threshold = 0.01 } = {}) => ({
   outlines: +outlines, culling: +culling, heights: +heights, threshold,
 });
@@ -148,6 +172,15 @@ export function bake(characters, { poses = 100, ...plan } = {}) {
   return withScratch(() => {
     const how = new Struct("bch_plan", plans(plan));
     return made(ShapeSet, "bch_bake", pointers(characters), characters.length, poses, how.pointer, 0);
+  });
+}
+/** Makes a set of chosen poses: of characters[character[i]] at seconds[i] of its clip[i]. */
+export function bakePoses(characters, { character, clip, seconds }, plan = {}) {
+  return built(plan, (builder) => {
+    const sources = array(Uint32Array, 3 * clip.length);
+    const numbers = view(Uint32Array, sources, 3 * clip.length), floats = view(Float32Array, sources, 3 * clip.length);
+    for (let i = 0; i < clip.length; ++i) (numbers[3 * i] = character[i]), (numbers[3 * i + 1] = clip[i]), (floats[3 * i + 2] = seconds[i]);
+    call("bch_shape_set_builder_add_sources", builder, pointers(characters), characters.length, sources, clip.length, 0);
   });
 }
 
