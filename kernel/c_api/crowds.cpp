@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
+#include <optional>
+#include <span>
+#include <stdexcept>
+
 #include <bch/crowd.hpp>
 
 #include "kernel/c_api/calls.hpp"
@@ -10,7 +14,8 @@ struct bch_crowd {
   explicit bch_crowd(const bch::CrowdOptions& options) : crowd(options) {}
 
   bch::Crowd crowd;
-  bch::Crowd::Pairs last;  ///< what bch_crowd_by_agent() is about
+  bch::Crowd::Pairs last;                           ///< what bch_crowd_by_agent() is about
+  std::optional<std::span<const float>> distances;  ///< of its pairs, where they were measured
 };
 
 using namespace bch;
@@ -30,6 +35,10 @@ PairFilter filter_of(const bch_pair_filter* given, std::size_t agents) {
 
 const bch_pair* c_pairs(std::span<const Pair> pairs) {
   return reinterpret_cast<const bch_pair*>(pairs.data());
+}
+
+bch_neighbour_rows neighbour_rows(const Rows<Crowd::Neighbour>& rows) {
+  return {rows.size(), rows.offsets.data(), reinterpret_cast<const bch_neighbour*>(rows.values.data())};
 }
 
 bch_contact_rows contact_rows(std::span<const Pair> pairs, const Rows<DiscPair>& rows) {
@@ -55,7 +64,7 @@ struct CrowdCallOn : CallOn<Handle> {
   /// Asks ask(crowd) for an answer with pairs, and returns it.
   template <class Ask>
   auto answer(Ask ask) const {
-    object.last = {};
+    object.last = {}, object.distances.reset();
     decltype(ask(object.crowd)) found;
     this->run([&] { found = ask(object.crowd); });
     return found;
@@ -231,7 +240,7 @@ bch_status bch_crowd_clearances(bch_crowd* handle, const bch_shape_set* set, con
     const Crowd::Clearances found = call.answer([&](Crowd& crowd) {
       return crowd.clearances(call.shapes, call.agents, call.options.within(within), call.filter);
     });
-    call.object.last = found.pairs;
+    call.object.last = found.pairs, call.object.distances = found.distance;
     *clearances = {found.pairs.size(),
                    c_pairs(found.pairs.span()),
                    found.distance.data(),
@@ -251,7 +260,7 @@ bch_status bch_crowd_body_clearances(bch_crowd* handle, const bch_body_set* set,
     const Crowd::BodyClearances found = call.answer([&](Crowd& crowd) {
       return crowd.clearances(call.shapes, call.agents, call.options.within(within), call.filter);
     });
-    call.object.last = found.pairs;
+    call.object.last = found.pairs, call.object.distances = found.distance;
     *clearances = {found.pairs.size(),
                    c_pairs(found.pairs.span()),
                    found.distance.data(),
@@ -283,9 +292,18 @@ bch_status bch_crowd_by_agent(bch_crowd* handle, bch_neighbour_rows* neighbours)
   return guarded([&] {
     const bch_crowd& crowd = object_of(handle, "crowd");
     required(neighbours, "neighbours");
-    const Rows<Crowd::Neighbour> rows = crowd.last.by_agent();
-    *neighbours = {rows.size(), rows.offsets.data(),
-                   reinterpret_cast<const bch_neighbour*>(rows.values.data())};
+    *neighbours = neighbour_rows(crowd.last.by_agent());
+  });
+}
+
+bch_status bch_crowd_nearest(bch_crowd* handle, uint32_t most, bch_neighbour_rows* neighbours) {
+  return guarded([&] {
+    const bch_crowd& crowd = object_of(handle, "crowd");
+    required(neighbours, "neighbours");
+    if (!crowd.distances)
+      throw std::invalid_argument("crowd: expected clearances as its last answer, found none");
+    *neighbours =
+        neighbour_rows(Crowd::Clearances{.pairs = crowd.last, .distance = *crowd.distances}.nearest(most));
   });
 }
 

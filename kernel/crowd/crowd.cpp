@@ -35,6 +35,11 @@ Rows<Crowd::Neighbour> Crowd::Pairs::by_agent() const {
   return without_tasks_from_outside([&] { return memory_->by_agent(pairs_); });
 }
 
+Rows<Crowd::Neighbour> Crowd::Pairs::nearest(std::span<const float> distance, std::uint32_t most) const {
+  if (memory_ == nullptr) return {};
+  return without_tasks_from_outside([&] { return memory_->nearest(pairs_, distance, most); });
+}
+
 Crowd::Crowd() : Crowd(CrowdOptions{}) {}
 Crowd::Crowd(const CrowdOptions& options) : memory_(std::make_unique<CrowdMemory>()) {
   require_period(options.period.x, "x");

@@ -3,6 +3,7 @@
 
 #include "kernel/crowd/crowd_memory.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -63,6 +64,34 @@ Rows<Crowd::Neighbour> CrowdMemory::by_agent(std::span<const Pair> of) {
   for_pairs(&NeighbourRows::fill);
   for_ranges(agents, crowd_grain, [&](std::size_t first, std::size_t last) { rows.sort(first, last); });
   return {begin, neighbours};
+}
+
+/// Sorts the rows of by_agent() by distance, and keeps the first of each.
+Rows<Crowd::Neighbour> CrowdMemory::nearest(std::span<const Pair> of, std::span<const float> distances,
+                                            std::uint32_t most) {
+  by_agent(of);
+  const auto is_nearer = [&](const Crowd::Neighbour& a, const Crowd::Neighbour& b) {
+    const float of_a = distances[a.pair], of_b = distances[b.pair];
+    return of_a < of_b || (of_a == of_b && a.agent < b.agent);
+  };
+  const auto row_of = [&](std::size_t agent) {
+    return std::span(neighbours).subspan(begin[agent], begin[agent + 1] - begin[agent]);
+  };
+  for_ranges(agents, crowd_grain, [&](std::size_t first, std::size_t last) {
+    for (std::size_t agent = first; agent < last; ++agent) {
+      const auto row = row_of(agent);
+      const auto kept = static_cast<std::ptrdiff_t>(std::min<std::size_t>(most, row.size()));
+      std::partial_sort(row.begin(), row.begin() + kept, row.end(), is_nearer);
+    }
+  });
+  nearest_begin.assign(1, 0);
+  for (std::size_t agent = 0, to = 0; agent < agents; ++agent) {
+    const auto kept = row_of(agent).first(std::min<std::size_t>(most, row_of(agent).size()));
+    std::copy(kept.begin(), kept.end(), neighbours.begin() + static_cast<std::ptrdiff_t>(to));
+    nearest_begin.push_back(to += kept.size());
+  }
+  neighbours.resize(nearest_begin.back());
+  return {nearest_begin, neighbours};
 }
 
 }  // namespace bch::detail

@@ -117,6 +117,8 @@ struct CrowdMemory {
   }
   Crowd::Pairs kept_pairs() { return {pairs, *this}; }
   Rows<Crowd::Neighbour> by_agent(std::span<const Pair> pairs);
+  Rows<Crowd::Neighbour> nearest(std::span<const Pair> pairs, std::span<const float> distances,
+                                 std::uint32_t most);
 
   CrowdOptions options;
   PairTest test;
@@ -141,7 +143,7 @@ struct CrowdMemory {
   Resolution resolution;
 
   std::size_t agents = 0;  ///< of the answer
-  std::vector<std::uint64_t> begin;
+  std::vector<std::uint64_t> begin, nearest_begin;
   std::vector<Crowd::Neighbour> neighbours;
 };
 

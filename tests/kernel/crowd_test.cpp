@@ -58,6 +58,34 @@ TEST(Crowd, FindsThePairsThatCollide) {
   }
 }
 
+/// Returns the nearest of each agent, by all distances of a crowd.
+template <class Clearances>
+void expect_nearest(const Clearances& found, std::uint32_t agents, std::uint32_t most) {
+  std::vector<std::vector<std::pair<float, std::uint32_t>>> expected(agents);
+  for (std::size_t k = 0; k < found.pairs.size(); ++k) {
+    const auto [a, b] = found.pairs[k];
+    expected[a].emplace_back(found.distance[k], b), expected[b].emplace_back(found.distance[k], a);
+  }
+  const Rows<bch::Crowd::Neighbour> rows = found.nearest(most);
+  ASSERT_EQ(rows.size(), agents);
+  for (std::uint32_t i = 0; i < agents; ++i) {
+    std::sort(expected[i].begin(), expected[i].end());
+    expected[i].resize(std::min<std::size_t>(most, expected[i].size()));
+    std::vector<std::pair<float, std::uint32_t>> row;
+    for (const auto& [agent, pair] : rows[i]) row.emplace_back(found.distance[pair], agent);
+    ASSERT_EQ(row, expected[i]) << i;
+  }
+}
+
+TEST(Crowd, TellsTheNearestOfEach) {
+  Crowd crowd;
+  const test::Crowd in = people(900, 12, 12, 8);
+  for (const std::uint32_t most : {3u, 0u, 1000u})
+    expect_nearest(crowd.clearances(walkers, in.agents(), {.max_distance = 0.5, .overlap = Overlap::deepest}),
+                   900, most);
+  EXPECT_EQ(bch::Crowd::Clearances{}.nearest(5).size(), 0u);
+}
+
 TEST(Crowd, MeasuresThePairsThatItFinds) {
   Crowd crowd;
   const test::PairScene in{people(600, 12, 12, 7), all_pairs(600)};

@@ -258,11 +258,14 @@ class Scenes(unittest.TestCase):
         of_pair = {tuple(pair): i for i, pair in enumerate(apart.pairs.tolist())}
         self.assertEqual(set(of_pair), {(0, 1), (0, 2), (0, 3), (2, 3)})
         kept = of_pair[(0, 3)]
+        self.assertEqual([len(row) for row in crowd.nearest(2)], [2, 1, 2, 2])
+        self.assertEqual(crowd.nearest(1)[3].tolist(), [2])
         for name in ("distance", "direction", "discs", "points"):
             np.testing.assert_array_equal(getattr(apart, name)[kept], getattr(nearest, name)[2])
         found = {tuple(pair) for pair in crowd.collisions(bodies, agents).tolist()}
         self.assertEqual(found, {(0, 1), (0, 2), (2, 3)})
         self.assertEqual(crowd.by_agent()[0].tolist(), [1, 2])
+        self.assertRaisesRegex(ValueError, "expected clearances as its last answer", crowd.nearest, 2)
         mask = np.array([1, 1, 2, 2], np.uint32)
         self.assertEqual(len(crowd.collisions(bodies, agents, mask=mask)), 1)
         with self.assertRaisesRegex(bch.ArgumentError, "body 0: expected finite spheres"):

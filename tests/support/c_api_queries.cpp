@@ -150,6 +150,14 @@ void add_queries_of_crowds(const CScene& scene, std::vector<CQuery>& to) {
          c_pairs(all->pairs), all->pairs.size());
   add_of("contacts", false, bch_crowd_contacts, contact_bytes, &Found::contacts, nullptr);
   add_of("clearances", false, bch_crowd_clearances, near_bytes, &Found::near, 0.2, nullptr);
+  add(
+      "nearest", false,
+      [=](Found& found) {
+        const bch_status status = bch_crowd_clearances(found.crowd.get(), set, &all->agents, 0.2, nullptr,
+                                                       &all->options, &found.near);
+        return status != BCH_OK ? status : bch_crowd_nearest(found.crowd.get(), 3, &found.neighbours);
+      },
+      [](const Found& found) { return row_bytes(found.neighbours); });
   add_of("penetrations", false, bch_crowd_penetrations, apart_bytes, &Found::apart, 16u, nullptr);
 }
 

@@ -87,6 +87,8 @@ class Crowd {
     Pairs(std::span<const Pair> pairs, detail::CrowdMemory& memory) noexcept
         : pairs_(pairs), memory_(&memory) {}
 
+    Rows<Neighbour> nearest(std::span<const float> distance, std::uint32_t most) const;
+
     std::span<const Pair> pairs_;
     detail::CrowdMemory* memory_ = nullptr;
   };
@@ -120,6 +122,11 @@ class Crowd {
     std::span<const Vec2> direction;
     std::span<const DiscPair> discs;
     std::span<const NearestPoints> points;
+
+    /// Returns for each agent the nearest others, at most so many, the nearest first; of equal distances the lower agent first. With
+    /// Overlap::deepest the deepest overlap is the nearest. Crowd models avoid these (ORCA's neighbours), by bodies in place of discs.
+    /// Errors:  throws std::length_error beyond 2^32 - 1 pairs.
+    Rows<Neighbour> nearest(std::uint32_t most) const { return pairs.nearest(distance, most); }
   };
 
   /// Holds the bodies of spheres that are near each other. The meaning of arrays is that of BodyClearanceAnswers.
@@ -129,6 +136,9 @@ class Crowd {
     std::span<const Vec3> direction;
     std::span<const DiscPair> spheres;
     std::span<const BodyClearanceAnswers::Points> points;
+
+    /// As Clearances::nearest().
+    Rows<Neighbour> nearest(std::uint32_t most) const { return pairs.nearest(distance, most); }
   };
 
   /// Holds the pairs that collide, and how far the first agent of each has to move to be free of the second.

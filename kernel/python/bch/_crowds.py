@@ -382,9 +382,19 @@ class Crowd:
 
     def by_agent(self) -> Neighbours:
         """Return the pairs of the last answer by agent: one row per agent of the crowd, ascending."""
+        return self._neighbours(lib.bch_crowd_by_agent)
+
+    def nearest(self, most: int) -> Neighbours:
+        """Return for each agent of the last answer, which has to be of `clearances`, the nearest others, at most so many, the nearest first.
+
+        These are the people that crowd models avoid (ORCA's neighbours), by bodies in place of discs.
+        """
+        return self._neighbours(lib.bch_crowd_nearest, bounded(most, "most", 0, 2**32 - 1))
+
+    def _neighbours(self, call: Any, *most: int) -> Neighbours:
         found = _library.NeighbourRows()
         with self._exclusive:
-            check(lib.bch_crowd_by_agent(self._handle.pointer, byref(found)))
+            check(call(self._handle.pointer, *most, byref(found)))
             rows = _rows(found, (2,))
         return Neighbours(rows.offsets, rows.values[:, 0].copy(), rows.values[:, 1].copy())
 

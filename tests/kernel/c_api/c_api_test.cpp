@@ -105,6 +105,7 @@ std::map<std::string, std::string> answers_of(const test::CScene& scene, const d
       crowd.clearances(set, agents, ClearanceOptions{by.implementation, 0.2, by.overlap, by.distance_leaves});
   all["clearances"] = bytes(near.pairs.span()) + bytes(near.distance) + bytes(near.direction) +
                       bytes(near.discs) + bytes(near.points);
+  all["nearest"] = bytes_of(near.nearest(3));
   const bch::Crowd::Penetrations apart = crowd.penetrations(set, agents, 16, by);
   all["penetrations"] =
       bytes(apart.pairs.span()) +

@@ -702,6 +702,9 @@ BCH_API bch_status bch_crowd_penetrations(bch_crowd* crowd, const bch_shape_set*
                                           bch_crowd_penetration_view* penetrations);
 /** Returns the pairs of the last answer by agent, one row per agent of the crowd. */
 BCH_API bch_status bch_crowd_by_agent(bch_crowd* crowd, bch_neighbour_rows* neighbours);
+/** Returns for each agent of the last answer, which has to be of bch_crowd_clearances() or bch_crowd_body_clearances(), the nearest others,
+ * at most so many, the nearest first: what crowd models avoid (ORCA's neighbours), by bodies in place of discs. */
+BCH_API bch_status bch_crowd_nearest(bch_crowd* crowd, uint32_t most, bch_neighbour_rows* neighbours);
 /** Finds the obstacles that each agent collides with, one row per agent, ascending. */
 BCH_API bch_status bch_crowd_obstacles(bch_crowd* crowd, const bch_shape_set* set, const bch_agents* agents,
                                        const bch_obstacles* obstacles, const bch_query_options* options,
