@@ -3,24 +3,14 @@
 
 """Prints answers of the Python package, which answers.mjs prints with the one for JavaScript: the same bits are the same lines."""
 
+import sys
+from pathlib import Path
+
 import bch
 import numpy as np
 
-state = 12345
-
-
-def random():
-    global state
-    state = (state * 1103515245 + 12345) & 0x7FFFFFFF
-    return state / 0x7FFFFFFF
-
-
-def fnv(numbers):
-    h = 0x811C9DC5
-    for byte in np.ascontiguousarray(numbers).tobytes():
-        h = (h ^ byte) * 0x01000193 & 0xFFFFFFFF
-    return f"{h:x}"
-
+sys.path.append(str(Path(__file__).resolve().parents[1] / "support"))
+from repeatable_numbers import fnv, random
 
 n = 600
 people = bch.bake([bch.default_male(), bch.default_female(), bch.default_bulky_male()], poses=20)

@@ -78,10 +78,7 @@ def fits(array: Any, dtype: np.dtype[Any], shape: Shape) -> bool:
     """Return whether the library can take an array without a copy."""
     if not isinstance(array, np.ndarray) or array.dtype != dtype or isinstance(array, np.ma.MaskedArray):
         return False
-    if not (array.flags.c_contiguous and array.flags.aligned):
-        return False
-    found = array.shape
-    return len(found) == len(shape) and all(want is None or want == has for want, has in zip(shape, found))
+    return array.flags.c_contiguous and array.flags.aligned and _has_shape(array, shape)
 
 
 def given(array: Any, dtype: np.dtype[Any], shape: Shape, name: str) -> int:
