@@ -137,7 +137,7 @@ class Crowd {
     std::span<const DiscPair> spheres;
     std::span<const BodyClearanceAnswers::Points> points;
 
-    /// As Clearances::nearest().
+    /// Returns the nearest others of each agent, as Clearances::nearest() does.
     Rows<Neighbour> nearest(std::uint32_t most) const { return pairs.nearest(distance, most); }
   };
 
