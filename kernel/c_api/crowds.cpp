@@ -302,8 +302,9 @@ bch_status bch_crowd_nearest(bch_crowd* handle, uint32_t most, bch_neighbour_row
     required(neighbours, "neighbours");
     if (!crowd.distances)
       throw std::invalid_argument("crowd: expected clearances as its last answer, found none");
-    *neighbours =
-        neighbour_rows(Crowd::Clearances{.pairs = crowd.last, .distance = *crowd.distances}.nearest(most));
+    const Crowd::Clearances clearances{
+        .pairs = crowd.last, .distance = *crowd.distances, .direction = {}, .discs = {}, .points = {}};
+    *neighbours = neighbour_rows(clearances.nearest(most));
   });
 }
 
