@@ -13,6 +13,7 @@
 #include <bch/crowd.hpp>
 
 #include "layout/base/heading.hpp"
+#include "layout/base/plane_point.hpp"
 #include "layout/base/random.hpp"
 
 namespace bch::bench {
@@ -23,12 +24,8 @@ constexpr std::string_view names[] = {"colliding",  "near_miss", "no_hit",      
 constexpr double world = 100;                         ///< metres: where pairs with agents of their own stand
 constexpr std::uint32_t most_candidates = 1'000'000;  ///< without one that is wanted
 
-struct Point {
-  double x, y;
-};
-
 /// Returns the offset of a shape's root disc, turned by a heading.
-Point root_offset(const Shape& shape, double heading) {
+detail::PlanePoint root_offset(const Shape& shape, double heading) {
   const Disc& disc = shape.hierarchy.nodes[0].disc;
   const double x = static_cast<double>(disc.x), y = static_cast<double>(disc.y);
   const detail::Rotation turn = detail::rotation(heading);
@@ -40,13 +37,13 @@ void add_candidate(detail::Random& random, std::span<const Shape> shapes, cli::C
   const std::uint32_t a = random.below(count), b = random.below(count);
   const double heading_a = random.uniform(2 * std::numbers::pi);
   const double heading_b = random.uniform(2 * std::numbers::pi);
-  const Point at{random.uniform(world), random.uniform(world)};
+  const detail::PlanePoint at{random.uniform(world), random.uniform(world)};
   const double angle = random.uniform(2 * std::numbers::pi);
   const double most = static_cast<double>(shapes[a].hierarchy.nodes[0].disc.radius) +
                       static_cast<double>(shapes[b].hierarchy.nodes[0].disc.radius);
   const double distance = most * std::sqrt(random.uniform(1));  // uniform over the area
   const detail::Rotation turn = detail::rotation(angle);
-  const Point from = root_offset(shapes[a], heading_a), to = root_offset(shapes[b], heading_b);
+  const detail::PlanePoint from = root_offset(shapes[a], heading_a), to = root_offset(shapes[b], heading_b);
   add_agent(crowd, a, at.x, at.y, heading_a);
   add_agent(crowd, b, at.x + from.x + distance * turn.cosine - to.x,
             at.y + from.y + distance * turn.sine - to.y, heading_b);

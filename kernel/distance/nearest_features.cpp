@@ -14,20 +14,17 @@
 namespace bch::detail {
 namespace {
 
-template <class Vector>
-Vector turned(Rotation by, Vector v) {
+PlanePoint turned(Rotation by, PlanePoint v) {
   const auto [c, s] = by;
   return {c * v.x - s * v.y, s * v.x + c * v.y};
 }
 
-template <class Vector>
-Vec2 rounded(Vector v) {
+Vec2 rounded(PlanePoint v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y)};
 }
 
 /// Returns the share of a way at which it is nearest to a point, from where it begins.
-template <class Vector>
-double nearest_share(Vector way, Vector to_point) {
+double nearest_share(PlanePoint way, PlanePoint to_point) {
   const double square = way.x * way.x + way.y * way.y;
   return square > 0 ? std::clamp((to_point.x * way.x + to_point.y * way.y) / square, 0.0, 1.0) : 0;
 }
@@ -72,36 +69,36 @@ FoundFeatures::Segments FoundFeatures::segments() const {
   const auto [first, second] = pair_;
   Segments found{segment(nearest_.a), segment(nearest_.b), {}};
   const Rotation of_a = rotation(agents_.heading[first]), of_b = rotation(agents_.heading[second]);
-  const Vector way_a = turned(of_a, found.a.way), way_b = turned(of_b, found.b.way);
-  const Vector from_a = turned(of_a, found.a.from), from_b = turned(of_b, found.b.from);
-  const Vector apart{agents_.x[second] - agents_.x[first] + (from_b.x - from_a.x),
-                     agents_.y[second] - agents_.y[first] + (from_b.y - from_a.y)};
+  const PlanePoint way_a = turned(of_a, found.a.way), way_b = turned(of_b, found.b.way);
+  const PlanePoint from_a = turned(of_a, found.a.from), from_b = turned(of_b, found.b.from);
+  const PlanePoint apart{agents_.x[second] - agents_.x[first] + (from_b.x - from_a.x),
+                         agents_.y[second] - agents_.y[first] + (from_b.y - from_a.y)};
   const auto between = [&](double share_a, double share_b) {
-    return Vector{apart.x + share_b * way_b.x - share_a * way_a.x,
-                  apart.y + share_b * way_b.y - share_a * way_a.y};
+    return PlanePoint{apart.x + share_b * way_b.x - share_a * way_a.x,
+                      apart.y + share_b * way_b.y - share_a * way_a.y};
   };
   double least = std::numeric_limits<double>::infinity();
   const auto take = [&](double share_a, double share_b) {
-    const Vector at = between(share_a, share_b);
+    const PlanePoint at = between(share_a, share_b);
     const double square = at.x * at.x + at.y * at.y;
     if (square >= least) return;
     least = square, found.a.share = share_a, found.b.share = share_b, found.between = at;
   };
   for (const double end : {0.0, 1.0}) {
-    const Vector to_b = between(0, end), to_a = between(end, 0);
+    const PlanePoint to_b = between(0, end), to_a = between(end, 0);
     take(nearest_share(way_a, to_b), end);
-    take(end, nearest_share(way_b, Vector{-to_a.x, -to_a.y}));
+    take(end, nearest_share(way_b, PlanePoint{-to_a.x, -to_a.y}));
   }
   return found;
 }
 
-FoundFeatures::Vector FoundFeatures::between() const {
+PlanePoint FoundFeatures::between() const {
   if (nearest_.are_segments) return segments().between;
   return turned({double{nearest_.cosine}, double{nearest_.sine}},
-                Vector{double{nearest_.x}, double{nearest_.y}});
+                PlanePoint{double{nearest_.x}, double{nearest_.y}});
 }
 
-FoundFeatures::Vector FoundFeatures::along(double sign) const {
+PlanePoint FoundFeatures::along(double sign) const {
   const auto [x, y] = between();
   if (x == 0 && y == 0) return {sign, 0};
   const double scale = sign / std::sqrt(x * x + y * y);
@@ -113,10 +110,10 @@ Vec2 FoundFeatures::direction(double sign) const {
 }
 
 /// Returns where an agent's disc goes as far as it does along a unit vector.
-Vec2 FoundFeatures::end(std::uint32_t agent, std::uint32_t place, Vector unit) const {
+Vec2 FoundFeatures::end(std::uint32_t agent, std::uint32_t place, PlanePoint unit) const {
   const Disc of = disc(agent, place);
-  const auto [x, y] = turned(rotation(agents_.heading[agent]), Vector{of.x, of.y});
-  return rounded(Vector{x + of.radius * unit.x, y + of.radius * unit.y});
+  const auto [x, y] = turned(rotation(agents_.heading[agent]), PlanePoint{of.x, of.y});
+  return rounded(PlanePoint{x + of.radius * unit.x, y + of.radius * unit.y});
 }
 
 NearestPoints FoundFeatures::points() const {
@@ -126,7 +123,7 @@ NearestPoints FoundFeatures::points() const {
     return {rounded(turned(rotation(agents_.heading[first]), of.a.nearest())),
             rounded(turned(rotation(agents_.heading[second]), of.b.nearest()))};
   }
-  const Vector unit = along(1);
+  const PlanePoint unit = along(1);
   return {end(first, nearest_.a, unit), end(second, nearest_.b, {-unit.x, -unit.y})};
 }
 
@@ -134,7 +131,7 @@ DiscPair FoundFeatures::numbers() const {
   const auto [first, second] = pair_;
   if (nearest_.are_segments) {
     const Segments of = segments();
-    const auto leaf = [this](std::uint32_t agent, std::uint32_t point, Vector at) {
+    const auto leaf = [this](std::uint32_t agent, std::uint32_t point, PlanePoint at) {
       return leaf_that_holds(shapes_, root(agent), point, at.x, at.y);
     };
     return {leaf(first, nearest_.a, of.a.nearest()), leaf(second, nearest_.b, of.b.nearest())};

@@ -9,6 +9,7 @@
 #include <bch/pairs.hpp>
 
 #include "kernel/distance/clearance_arguments.hpp"
+#include "layout/base/plane_point.hpp"
 #include "layout/format/shape_set_view.hpp"
 
 namespace bch::detail {
@@ -41,30 +42,27 @@ class FoundFeatures {
   NearestPoints points() const;
 
  private:
-  struct Vector {
-    double x, y;
-  };
   struct Disc {
     double x, y, radius;
   };
   /// Represents a segment of an agent, in its frame, and the share of its length at which it is nearest to the other one.
   struct Segment {
-    Vector from, way;
+    PlanePoint from, way;
     double share;
-    Vector nearest() const noexcept { return {from.x + share * way.x, from.y + share * way.y}; }
+    PlanePoint nearest() const noexcept { return from + share * way; }
   };
   struct Segments {
     Segment a, b;
-    Vector between;  ///< from one nearest point to the other, in the world's axes
+    PlanePoint between;  ///< from one nearest point to the other, in the world's axes
   };
 
   std::size_t root(std::uint32_t agent) const noexcept { return agents_.root(agent, shapes_.level_count); }
   Disc disc(std::uint32_t agent, std::uint32_t place) const noexcept;
-  Vector between() const;
-  Vector along(double sign) const;
+  PlanePoint between() const;
+  PlanePoint along(double sign) const;
   Segment segment(std::uint32_t point) const noexcept;
   Segments segments() const;
-  Vec2 end(std::uint32_t agent, std::uint32_t place, Vector unit) const;
+  Vec2 end(std::uint32_t agent, std::uint32_t place, PlanePoint unit) const;
 
   const ShapeSetView& shapes_;
   const Agents& agents_;

@@ -25,6 +25,9 @@ inline PlanePoint plane_point(const Vec2& p) {
 inline double dot(const PlanePoint& a, const PlanePoint& b) {
   return a.x * b.x + a.y * b.y;
 }
+inline double cross(const PlanePoint& a, const PlanePoint& b) {
+  return a.x * b.y - a.y * b.x;
+}
 inline double squared_length(const PlanePoint& v) {
   return dot(v, v);
 }

@@ -9,6 +9,7 @@
 #include <limits>
 #include <span>
 
+#include "layout/base/plane_point.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/culling/contour_lanes.hpp"
 #include "layout/culling/cut_lanes.hpp"
@@ -37,25 +38,11 @@ static_assert(margin >= (along + across + sums) * rounding::unit_roundoff);
 static_assert(rounding::support_margin >=
               (rounding::terms::query_error + along + across + sums) * rounding::unit_roundoff);
 
-struct Point {
-  double x, y;
-};
-
-double cross(Point a, Point b) {
-  return a.x * b.y - a.y * b.x;
-}
-double dot(Point a, Point b) {
-  return a.x * b.x + a.y * b.y;
-}
-Point minus(Vec2 p, Point q) {
-  return {static_cast<double>(p.x) - q.x, static_cast<double>(p.y) - q.y};
-}
-
 constexpr std::uint32_t quadrant = profile_sectors / 4;
 
 /// Unit vectors between sectors: the one before sector k, and after the last one the first again.
 struct Boundaries {
-  std::array<Point, profile_sectors + 1> at;
+  std::array<PlanePoint, profile_sectors + 1> at;
   std::array<double, profile_sectors + 1> x, y;
   std::array<float, quadrant> cosine, sine;  ///< of the first quadrant
   /// The cosine of the angle of sector k, and one over the square of its sine.
@@ -64,8 +51,8 @@ struct Boundaries {
   Boundaries() {
     for (std::uint32_t k = 0; k <= profile_sectors; ++k) {
       const double b = k % quadrant, a = quadrant - b, length = std::sqrt(a * a + b * b);
-      const Point turned[] = {{a, b}, {-b, a}, {-a, -b}, {b, -a}};
-      const Point& p = turned[k / quadrant % 4];
+      const PlanePoint turned[] = {{a, b}, {-b, a}, {-a, -b}, {b, -a}};
+      const PlanePoint& p = turned[k / quadrant % 4];
       at[k] = {p.x / length, p.y / length};
       x[k] = at[k].x, y[k] = at[k].y;
     }
@@ -84,11 +71,11 @@ const Boundaries& boundaries() {
 }
 
 /// Returns the centroid of the contour's area, or its first point where it has no area.
-Point centroid(Polygon contour) {
-  const Point origin = minus(contour[0], {0, 0});
+PlanePoint centroid(Polygon contour) {
+  const PlanePoint origin = plane_point(contour[0]);
   double area = 0, x = 0, y = 0;
   for (std::size_t i = 2; i < contour.size(); ++i) {
-    const Point a = minus(contour[i - 1], origin), b = minus(contour[i], origin);
+    const PlanePoint a = plane_point(contour[i - 1]) - origin, b = plane_point(contour[i]) - origin;
     area += cross(a, b), x += cross(a, b) * (a.x + b.x), y += cross(a, b) * (a.y + b.y);
   }
   if (!(area > 0)) return origin;
@@ -108,17 +95,17 @@ struct Clip {
 
 /// A segment, seen from the origin.
 struct Segment {
-  Point a, b;
+  PlanePoint a, b;
   double foot;  ///< where its line comes nearest: share of the way from a to b
 
   /// Square of the distance of what lies between two boundaries, each moved out by `wider`.
-  double square_distance_in(Point right, Point left, double wider) const {
+  double square_distance_in(PlanePoint right, PlanePoint left, double wider) const {
     Clip clip;
     clip.keep_positive(cross(right, a) + wider, cross(right, b) + wider);
     clip.keep_positive(cross(a, left) + wider, cross(b, left) + wider);
     if (clip.from > clip.to) return infinity;
     const double share = std::clamp(foot, clip.from, clip.to);
-    const Point there{a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)};
+    const PlanePoint there{a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)};
     return dot(there, there);
   }
 };
@@ -126,7 +113,7 @@ struct Segment {
 /// How far the contour's inside goes on from the centre, sector by sector.
 class Inside {
  public:
-  Inside(Polygon contour, Point centre, double reach) : to_(boundaries()), wider_(margin * reach) {
+  Inside(Polygon contour, PlanePoint centre, double reach) : to_(boundaries()), wider_(margin * reach) {
     square_.fill(infinity);
     bool inside = false;
     Vec2 begin = contour.back();
@@ -179,11 +166,11 @@ class Inside {
 
 /// The least that the contour extends to in directions opposite to each sector: its farthest points do at either end,
 /// and what is positive there is no less between.
-std::array<double, profile_sectors> extents(const Interior& interior, Point centre) {
+std::array<double, profile_sectors> extents(const Interior& interior, PlanePoint centre) {
   const Boundaries& to = boundaries();
   std::array<double, profile_sectors> most{};
   for (std::uint32_t i = 0; i < extreme_directions; ++i) {
-    const Point p = minus({interior.extreme_x[i], interior.extreme_y[i]}, centre);
+    const PlanePoint p = plane_point({interior.extreme_x[i], interior.extreme_y[i]}) - centre;
     std::array<double, profile_sectors + 1> behind;
     for (std::uint32_t k = 0; k <= profile_sectors; ++k) behind[k] = -(p.x * to.x[k] + p.y * to.y[k]);
     for (std::uint32_t k = 0; k < profile_sectors; ++k) {
@@ -201,9 +188,9 @@ Profile profile(const Outline& outline, const Interior& interior, double reach) 
   for (Sector& each : result.sectors) each = {-infinity, infinity, -infinity, infinity};
   if (outline.contours() == 0) return result;
   const Polygon contour = largest_contour(outline);
-  const Point exact = centroid(contour);
+  const PlanePoint exact = centroid(contour);
   result.x = static_cast<float>(exact.x), result.y = static_cast<float>(exact.y);
-  const Point centre = minus({result.x, result.y}, {0, 0});
+  const PlanePoint centre = plane_point({result.x, result.y});
   const Inside inside(contour, centre, reach);
   for (std::uint32_t k = 0; k < profile_sectors; ++k) result.sectors[k].inner = inside.inner(k);
   if (outline.contours() > 1) return result;

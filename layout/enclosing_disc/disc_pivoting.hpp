@@ -5,54 +5,46 @@
 
 #include <cmath>
 
+#include "layout/base/plane_point.hpp"
 #include "layout/enclosing_disc/disc_sets.hpp"
 
 namespace bch::detail::pivoting {
 
-/// Represents a point in the precision that pivoting works with.
-struct Point {
-  double x, y;
-};
-
-inline double square_distance(Point a, Point b) {
-  return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y);
-}
-
 /// Holds the two or three points on the boundary, and the smallest disc that holds them.
 struct Basis {
-  Point points[3];
+  PlanePoint points[3];
   int size;
-  Point centre;
+  PlanePoint centre;
   double square_radius;
 };
 
-inline Basis basis(Point a, Point b) {
-  return {{a, b, b}, 2, {0.5 * (a.x + b.x), 0.5 * (a.y + b.y)}, 0.25 * square_distance(a, b)};
+inline Basis basis(PlanePoint a, PlanePoint b) {
+  return {{a, b, b}, 2, {0.5 * (a.x + b.x), 0.5 * (a.y + b.y)}, 0.25 * squared_length(a - b)};
 }
 
 /// Returns the longest side's disc unless the triangle is acute.
-inline Basis basis(Point a, Point b, Point c) {
-  const double ab = square_distance(a, b), bc = square_distance(b, c), ca = square_distance(c, a);
+inline Basis basis(PlanePoint a, PlanePoint b, PlanePoint c) {
+  const double ab = squared_length(a - b), bc = squared_length(b - c), ca = squared_length(c - a);
   if (ab >= bc + ca) return basis(a, b);
   if (bc >= ab + ca) return basis(b, c);
   if (ca >= ab + bc) return basis(c, a);
   const double bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y;
   const double scale = 0.5 / (bx * cy - by * cx);
-  const Point offset{(cy * ab - by * ca) * scale, (bx * ca - cx * ab) * scale};
+  const PlanePoint offset{(cy * ab - by * ca) * scale, (bx * ca - cx * ab) * scale};
   return {{a, b, c}, 3, {a.x + offset.x, a.y + offset.y}, offset.x * offset.x + offset.y * offset.y};
 }
 
 /// Returns the smallest disc over q, which is outside, and what stays on the boundary: both points of a pair; of
 /// three the one farthest from q, and that beyond the diameter through it.
-inline Basis pivot(const Basis& old, Point q) {
+inline Basis pivot(const Basis& old, PlanePoint q) {
   const auto& p = old.points;
   if (old.size == 2) return basis(q, p[0], p[1]);
   int far = 0;
   for (int i = 1; i < 3; ++i)
-    if (square_distance(p[i], q) > square_distance(p[far], q)) far = i;
+    if (squared_length(p[i] - q) > squared_length(p[far] - q)) far = i;
   const int next = far == 2 ? 0 : far + 1, last = far == 0 ? 2 : far - 1;
   const double x = old.centre.x - p[far].x, y = old.centre.y - p[far].y;
-  const auto is_left = [&](Point at) { return x * (at.y - p[far].y) > y * (at.x - p[far].x); };
+  const auto is_left = [&](PlanePoint at) { return x * (at.y - p[far].y) > y * (at.x - p[far].x); };
   return basis(q, p[far], is_left(q) != is_left(p[next]) ? p[next] : p[last]);
 }
 
@@ -60,14 +52,14 @@ inline Basis pivot(const Basis& old, Point q) {
 /// Source:  J. Elzinga, D. W. Hearn, "Geometrical solutions for some minimax location problems",
 ///          Transportation Science 6, 1972.
 template <class Farthest>
-Point smallest_centre(Point first, Farthest farthest) {
-  const Point a = farthest(first);
+PlanePoint smallest_centre(PlanePoint first, Farthest farthest) {
+  const PlanePoint a = farthest(first);
   Basis now = basis(a, farthest(a));
-  Point best = now.centre;
+  PlanePoint best = now.centre;
   double least = HUGE_VAL;
   for (int i = 0; i < most_disc_pivots; ++i) {
-    const Point q = farthest(now.centre);
-    const double square = square_distance(q, now.centre);
+    const PlanePoint q = farthest(now.centre);
+    const double square = squared_length(q - now.centre);
     if (square < least) least = square, best = now.centre;
     if (square <= now.square_radius * disc_slack) break;
     const Basis next = pivot(now, q);

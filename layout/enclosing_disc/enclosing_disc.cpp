@@ -13,33 +13,26 @@
 namespace bch::detail {
 namespace {
 
-using pivoting::Point;
-
-Point widened(Vec2 p) {
-  return {p.x, p.y};
-}
-
-Point farthest(std::span<const Vec2> points, Point from) {
+PlanePoint farthest(std::span<const Vec2> points, PlanePoint from) {
   std::size_t index = 0;
   double largest = -1;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double d = pivoting::square_distance(widened(points[i]), from);
+    const double d = squared_length(plane_point(points[i]) - from);
     index = d > largest ? i : index;
     largest = d > largest ? d : largest;
   }
-  return widened(points[index]);
+  return plane_point(points[index]);
 }
 
 }  // namespace
 
 EnclosingDisc smallest_enclosing_disc(std::span<const Vec2> points) {
   assert(!points.empty());
-  const Point best =
-      pivoting::smallest_centre(widened(points[0]), [&](Point from) { return farthest(points, from); });
+  const PlanePoint best = pivoting::smallest_centre(plane_point(points[0]),
+                                                    [&](PlanePoint from) { return farthest(points, from); });
   const Vec2 centre{static_cast<float>(best.x), static_cast<float>(best.y)};
   double square = 0;
-  for (const Vec2 p : points)
-    square = std::max(square, pivoting::square_distance(widened(p), widened(centre)));
+  for (const Vec2 p : points) square = std::max(square, squared_length(plane_point(p) - plane_point(centre)));
   return {centre, std::sqrt(square)};
 }
 

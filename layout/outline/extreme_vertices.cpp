@@ -55,8 +55,8 @@ void ExtremeVertices::find(std::span<const Vec2> positions) {
   step_ = snap_to_grid(positions, used_, std::span(grid_).first(used_.size()));
   std::fill(grid_.begin() + static_cast<std::ptrdiff_t>(used_.size()), grid_.end(), grid_[used_.size() - 1]);
   const std::size_t first = farthest_from(0, 0, from_origin_);
-  const auto point = [&](std::size_t i) { return pivoting::Point{1.0 * grid_[i].x, 1.0 * grid_[i].y}; };
-  const pivoting::Point a = point(first), b = point(farthest_from(a.x, a.y, from_middle_));
+  const auto point = [&](std::size_t i) { return PlanePoint{1.0 * grid_[i].x, 1.0 * grid_[i].y}; };
+  const PlanePoint a = point(first), b = point(farthest_from(a.x, a.y, from_middle_));
   pivoting::Basis now = pivoting::basis(a, b);
   double at_most = 0;
   for (int look = 0; look < most_looks; ++look) {

@@ -7,6 +7,7 @@
 #include <map>
 #include <numbers>
 
+#include "layout/base/plane_point.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/culling/profile.hpp"
 #include "layout/culling/supports.hpp"
@@ -22,33 +23,16 @@ namespace {
 
 constexpr std::uint32_t no_level = Finding::no_level;
 
-struct Point {
-  double x, y;
-};
-Point operator-(Point a, Point b) {
-  return {a.x - b.x, a.y - b.y};
-}
-double dot(Point a, Point b) {
-  return a.x * b.x + a.y * b.y;
-}
-Point point(Vec2 p) {
-  return {static_cast<double>(p.x), static_cast<double>(p.y)};
-}
-
-double length(Point p) {
-  return std::hypot(p.x, p.y);
-}
-
-Point direction(std::uint32_t k, std::uint32_t of) {
+PlanePoint direction(std::uint32_t k, std::uint32_t of) {
   const double angle = 2 * std::numbers::pi * k / of;
   return {std::cos(angle), std::sin(angle)};
 }
 
 /// The share of a segment's way up to which a disc holds it, if it holds the point at `from`; else `from`.
-double held_up_to(const Disc& disc, Point a, Point way, double from) {
-  const Point centre{static_cast<double>(disc.x), static_cast<double>(disc.y)};
+double held_up_to(const Disc& disc, PlanePoint a, PlanePoint way, double from) {
+  const PlanePoint centre{static_cast<double>(disc.x), static_cast<double>(disc.y)};
   const double radius = disc.radius, square = dot(way, way);
-  const Point to_a = a - centre, at{to_a.x + from * way.x, to_a.y + from * way.y};
+  const PlanePoint to_a = a - centre, at{to_a.x + from * way.x, to_a.y + from * way.y};
   const double beyond = radius * radius - dot(at, at);
   if (beyond < 0) return from;
   if (square == 0) return 1;
@@ -56,14 +40,14 @@ double held_up_to(const Disc& disc, Point a, Point way, double from) {
   return from + (std::sqrt(along * along + square * beyond) - along) / square;
 }
 
-bool is_covered(const CutDiscs& discs, Point a, Point b) {
-  const Point way = b - a;
+bool is_covered(const CutDiscs& discs, PlanePoint a, PlanePoint b) {
+  const PlanePoint way = b - a;
   const double half = 0.5 * length(way);
-  const Point middle{0.5 * (a.x + b.x), 0.5 * (a.y + b.y)};
+  const PlanePoint middle{0.5 * (a.x + b.x), 0.5 * (a.y + b.y)};
   std::vector<Disc> near;
   for (std::uint32_t i = 0; i < discs.count; ++i) {
     const Disc disc{discs.x[i], discs.y[i], discs.radius[i]};
-    const Point to{static_cast<double>(disc.x) - middle.x, static_cast<double>(disc.y) - middle.y};
+    const PlanePoint to{static_cast<double>(disc.x) - middle.x, static_cast<double>(disc.y) - middle.y};
     const double limit = half + static_cast<double>(disc.radius);
     if (dot(to, to) <= limit * limit) near.push_back(disc);
   }
@@ -81,11 +65,11 @@ struct Depth {
 };
 
 /// Computes the depth of a point in a contour.
-Depth depth_in(std::span<const Vec2> contour, Point p) {
+Depth depth_in(std::span<const Vec2> contour, PlanePoint p) {
   Depth depth{HUGE_VAL, false};
-  Point a = point(contour.back()) - p;
+  PlanePoint a = plane_point(contour.back()) - p;
   for (const Vec2 end : contour) {
-    const Point b = point(end) - p, way = b - a;
+    const PlanePoint b = plane_point(end) - p, way = b - a;
     const double square = dot(way, way), share = square > 0 ? std::clamp(-dot(a, way) / square, 0.0, 1.0) : 0;
     depth.distance = std::min(depth.distance, length({a.x + share * way.x, a.y + share * way.y}));
     if ((a.y > 0) != (b.y > 0)) depth.inside ^= (a.x * b.y - a.y * b.x > 0) == (b.y > a.y);
@@ -100,9 +84,9 @@ Interior extremes_of(const Outline& outline) {
   if (outline.contours() == 0) return interior;
   const auto contour = largest_contour(outline);
   for (std::uint32_t k = 0; k < extreme_directions; ++k) {
-    const Point along = direction(k, extreme_directions);
+    const PlanePoint along = direction(k, extreme_directions);
     const Vec2 farthest = *std::max_element(contour.begin(), contour.end(), [&](Vec2 p, Vec2 q) {
-      return dot(point(p), along) < dot(point(q), along);
+      return dot(plane_point(p), along) < dot(plane_point(q), along);
     });
     interior.extreme_x[k] = farthest.x, interior.extreme_y[k] = farthest.y;
   }
@@ -150,7 +134,7 @@ void verify_cover(const Look& look, const Outline& outline, std::uint32_t level)
     const auto contour = outline.contour(c);
     Vec2 before = contour.back();
     for (std::size_t i = 0; i < contour.size(); before = contour[i++])
-      if (!is_covered(discs, point(before), point(contour[i])))
+      if (!is_covered(discs, plane_point(before), plane_point(contour[i])))
         look.say("nodes", level,
                  "no discs cover the outline at point " + std::to_string(i) + " of contour " +
                      std::to_string(c) + ", (" + shortest(contour[i].x) + ", " + shortest(contour[i].y) +
@@ -179,7 +163,7 @@ void verify_segments(const Look& look) {
       for (const std::uint32_t k : leaves[i])
         x.push_back(cut.x[k]), y.push_back(cut.y[k]), radius.push_back(cut.radius[k]);
       const CutDiscs naming{x.data(), y.data(), radius.data(), static_cast<std::uint32_t>(x.size())};
-      if (!is_covered(naming, point(arrays.points[i]), point(arrays.points[i + 1])))
+      if (!is_covered(naming, plane_point(arrays.points[i]), plane_point(arrays.points[i + 1])))
         look.say("leaf_segments", level, "no leaves that name segment " + std::to_string(i) + " cover it");
     }
 }
@@ -190,7 +174,7 @@ void verify_contours(const Look& look, const Outline& outline) {
         look.arrays().shape_contours[look.shape].begin + static_cast<std::uint32_t>(c);
     const Disc& stored = look.arrays().contours[place].disc;
     const EnclosingDisc smallest = smallest_enclosing_disc(outline.contour(c));
-    const Point off = point({stored.x, stored.y}) - point(smallest.centre);
+    const PlanePoint off = plane_point({stored.x, stored.y}) - plane_point(smallest.centre);
     const double larger = std::abs(static_cast<double>(stored.radius) - smallest.radius);
     if (larger > look.tolerance() || length(off) > look.tolerance())
       look.say(
@@ -210,7 +194,7 @@ void verify_profile(const Look& look, const Outline& outline) {
   // Made from the reach before it was rounded up.
   const float reach = std::nextafter(static_cast<float>(look.reach), 0.0f);
   const Profile expected = profile(outline, extremes_of(outline), static_cast<double>(reach));
-  const double off = length(point({stored.x, stored.y}) - point({expected.x, expected.y}));
+  const double off = length(plane_point({stored.x, stored.y}) - plane_point({expected.x, expected.y}));
   if (off > look.tolerance())
     return look.say(
         "profiles", no_level,
@@ -224,7 +208,7 @@ void verify_inside(const Look& look, const Outline& outline) {
   for (std::uint32_t i = 0; i < block_width; ++i) {
     if (!(discs.x[i] < infinity)) continue;
     const Disc disc{discs.x[i], discs.y[i], discs.radius[i]};
-    const Depth depth = contour.empty() ? Depth{0, false} : depth_in(contour, point({disc.x, disc.y}));
+    const Depth depth = contour.empty() ? Depth{0, false} : depth_in(contour, plane_point({disc.x, disc.y}));
     const double room = depth.distance - 24 * rounding::unit_roundoff * look.reach;
     if (!depth.inside || static_cast<double>(disc.radius) > room)
       look.say("inscribed", no_level,
