@@ -11,8 +11,8 @@
 namespace bch::baselines {
 
 constexpr std::uint32_t capsule_lanes = 8;
-constexpr std::uint32_t most_capsules = 32;  // as many as a mask has bits
-constexpr std::uint32_t whole_box = 8;       // floats
+constexpr std::uint32_t max_capsules = 32;  // as many as a mask has bits
+constexpr std::uint32_t whole_box = 8;      // floats
 
 /// Orders the fields of posed capsules, each of them an array of whole lanes, behind a box about the whole ragdoll (its low corner, its
 /// high corner, two numbers without meaning): one end, the way to the other end, the radius, and a box about the capsule. Lanes behind the

@@ -62,7 +62,7 @@ struct Box {
 
 /// Holds the second ragdoll in the first one's frame.
 struct Placed {
-  alignas(sizeof(Lanes)) float fields[Field::count][most_capsules];
+  alignas(sizeof(Lanes)) float fields[Field::count][max_capsules];
   Box box;
 };
 
@@ -166,7 +166,7 @@ class Candidates {
   std::uint32_t mask = 0;
   for (std::uint32_t at = 0; at < lane_count(capsules); at += capsule_lanes)
     mask |= near(box, low_x + at, stride) << at;
-  return mask & (~0u >> (most_capsules - capsules));
+  return mask & (~0u >> (max_capsules - capsules));
 }
 
 [[gnu::always_inline]] inline bool meet(const CapsulePair& pair) {
@@ -176,7 +176,7 @@ class Candidates {
   place(pair, lane_count(pair.count_b), b);
   const float* const boxes_b = b.fields[Field::low_x];
   const std::uint32_t candidates_b =
-      all_near({{pair.a[0], pair.a[1], pair.a[2]}, {pair.a[3], pair.a[4], pair.a[5]}}, boxes_b, most_capsules,
+      all_near({{pair.a[0], pair.a[1], pair.a[2]}, {pair.a[3], pair.a[4], pair.a[5]}}, boxes_b, max_capsules,
                pair.count_b);
   if (candidates_b == 0) return false;
   Candidates candidates(of_a, stride_a, b);
@@ -186,7 +186,7 @@ class Candidates {
     const auto at = [&](std::uint32_t field) { return of_a[field * stride_a + i]; };
     const Box box{{at(Field::low_x), at(Field::low_y), at(Field::low_z)},
                   {at(Field::high_x), at(Field::high_y), at(Field::high_z)}};
-    for (std::uint32_t left = all_near(box, boxes_b, most_capsules, pair.count_b) & candidates_b; left != 0;
+    for (std::uint32_t left = all_near(box, boxes_b, max_capsules, pair.count_b) & candidates_b; left != 0;
          left &= left - 1)
       if (candidates.add(i, static_cast<std::uint32_t>(__builtin_ctz(left)))) return true;
   }

@@ -97,7 +97,7 @@ bool LeafSegments::meet(const FloatPlacement& place, const Agents& agents, Pair 
   const double margin = margin_of(a) + margin_of(b);
   const auto [begin_a, end_a] = a.hierarchy.primitive_ranges[node_a];
   const auto [begin_b, end_b] = b.hierarchy.primitive_ranges[node_b];
-  if (std::max(end_a - begin_a, end_b - begin_b) > detail::most_leaf_segments) return true;
+  if (std::max(end_a - begin_a, end_b - begin_b) > detail::max_leaf_segments) return true;
   for (std::uint32_t i = begin_a; i < end_a; ++i)
     for (std::uint32_t j = begin_b; j < end_b; ++j) {
       Segment of_b = segment(b.outline, b.hierarchy.source[j]);
@@ -110,7 +110,7 @@ bool LeafSegments::meet(const FloatPlacement& place, const Agents& agents, Pair 
 std::vector<std::array<Point2, 2>> LeafSegments::segments_of(const Shape& shape, std::uint32_t node) {
   std::vector<Segment> segments;
   const auto [begin, end] = shape.hierarchy.primitive_ranges[node];
-  if (end - begin > detail::most_leaf_segments) return segments;
+  if (end - begin > detail::max_leaf_segments) return segments;
   for (std::uint32_t i = begin; i < end; ++i)
     segments.push_back(segment(shape.outline, shape.hierarchy.source[i]));
   return segments;

@@ -16,7 +16,7 @@
 namespace bch::baselines {
 namespace {
 
-constexpr std::size_t most_facets = std::size_t{1} << 22;
+constexpr std::size_t max_facets = std::size_t{1} << 22;
 
 /// A facet on its way down, with the integrals of 1, p and p p^T over its area or length.
 struct Item {
@@ -136,7 +136,7 @@ std::size_t divide(std::span<Item> items, const ObbNode& box, const Eigen::Vecto
 
 double checked_reach(std::span<const Facet> facets) {
   if (facets.empty()) throw std::invalid_argument("box tree: no facets");
-  if (facets.size() > most_facets)
+  if (facets.size() > max_facets)
     throw std::length_error("box tree: " + std::to_string(facets.size()) + " facets, more than 2^22");
   double reach = 0;
   for (std::size_t i = 0; i < facets.size(); ++i)

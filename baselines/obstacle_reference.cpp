@@ -176,7 +176,7 @@ ObstacleReference::Gap ObstacleReference::outline_gap(const Agents& agents, std:
   std::vector<std::uint32_t> coarse;  // leaves of which discs decide
   for (std::uint32_t i = 0; i < list.discs.size(); ++i) {
     const auto [begin, end] = shape.hierarchy.primitive_ranges[list.nodes[i]];
-    if (end - begin > detail::most_leaf_segments) {
+    if (end - begin > detail::max_leaf_segments) {
       coarse.push_back(i);
       continue;
     }

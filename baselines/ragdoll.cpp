@@ -89,9 +89,9 @@ class Ragdolls final : public Structure {
 
 void pose_ragdoll(const Character& character, std::span<const Capsule> capsules,
                   std::span<const Affine3d> joints, float grown, PosedRagdoll& posed) {
-  if (capsules.empty() || capsules.size() > most_capsules)
+  if (capsules.empty() || capsules.size() > max_capsules)
     throw std::invalid_argument("a ragdoll of " + std::to_string(capsules.size()) + " capsules, not 1 to " +
-                                std::to_string(most_capsules));
+                                std::to_string(max_capsules));
   const std::size_t stride = lanes_of(capsules.size());
   posed.capsules = static_cast<std::uint32_t>(capsules.size());
   posed.lanes.resize(whole_box + Field::count * stride);

@@ -21,7 +21,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr int most_exchanges = 20, reassignments = 4;
+constexpr int max_exchanges = 20, reassignments = 4;
 constexpr std::size_t fewest_vertices = 4;  // of a group
 
 /// Holds vertices that share a capsule, and the joint that moves it.
@@ -39,7 +39,7 @@ class Fit {
     split_by_joints();
     while (groups_.size() > count) merge();
     while (groups_.size() < count) halve();
-    for (int i = 0; i < most_exchanges; ++i) {
+    for (int i = 0; i < max_exchanges; ++i) {
       const std::vector<Group> before = groups_;
       const double error = total_error();
       halve(), merge();

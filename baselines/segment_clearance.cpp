@@ -21,7 +21,7 @@ SegmentClearance::SegmentClearance(std::span<const Shape> shapes, const ShapeSet
     const std::vector<std::uint32_t> nodes = cut(shape.hierarchy, all_depths);
     for (std::uint32_t leaf = 0; leaf < nodes.size(); ++leaf) {
       const auto [begin, end] = shape.hierarchy.primitive_ranges[nodes[leaf]];
-      if (end - begin > detail::most_leaf_segments)
+      if (end - begin > detail::max_leaf_segments)
         of.coarse.push_back(leaf);
       else
         held.insert(shape.hierarchy.source.begin() + begin, shape.hierarchy.source.begin() + end);

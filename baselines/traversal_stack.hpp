@@ -16,17 +16,17 @@ template <class T>
 class Scratch {
  public:
   explicit Scratch(std::size_t size) {
-    if (size > most_inside) heap_.resize(size);
+    if (size > max_inside) heap_.resize(size);
   }
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
 
   T* data() noexcept { return heap_.empty() ? inside_ : heap_.data(); }
-  std::size_t size() const noexcept { return heap_.empty() ? most_inside : heap_.size(); }
+  std::size_t size() const noexcept { return heap_.empty() ? max_inside : heap_.size(); }
 
  private:
-  static constexpr std::size_t most_inside = 128;
-  T inside_[most_inside];
+  static constexpr std::size_t max_inside = 128;
+  T inside_[max_inside];
   std::vector<T> heap_;
 };
 

@@ -30,11 +30,11 @@ struct Unfinished {
   enum : int { free, filling, named };
   std::atomic<int> state{free};
   int folder;
-  char name[RemovedOnSignal::longest_name + 1];
+  char name[RemoveOnSignal::longest_name + 1];
 };
 static_assert(std::atomic<int>::is_always_lock_free);
 /// Never freed: a handler on another thread may still look at one when its owner has gone.
-Unfinished unfinished[RemovedOnSignal::most_files];
+Unfinished unfinished[RemoveOnSignal::max_files];
 
 OnRequest on_request = OnRequest::say_so;
 
@@ -88,13 +88,13 @@ void clean_up_on_signals(OnRequest what) {
   signal(SIGXFSZ, SIG_IGN);
 }
 
-void leave_at_once(int code, const std::string& line) {
+void exit_now(int code, const std::string& line) {
   leave_saying(code, "bch: " + printable_line(line) + "\n");
 }
 
-RemovedOnSignal::RemovedOnSignal(int folder, std::string_view name) {
+RemoveOnSignal::RemoveOnSignal(int folder, std::string_view name) {
   if (name.size() > longest_name) throw std::length_error("name too long: " + std::string(name));
-  for (place_ = 0; place_ < most_files; ++place_) {
+  for (place_ = 0; place_ < max_files; ++place_) {
     Unfinished& place = unfinished[place_];
     int expected = Unfinished::free;
     if (!place.state.compare_exchange_strong(expected, Unfinished::filling)) continue;
@@ -106,7 +106,7 @@ RemovedOnSignal::RemovedOnSignal(int folder, std::string_view name) {
   throw std::length_error("too many files at a time");
 }
 
-RemovedOnSignal::~RemovedOnSignal() {
+RemoveOnSignal::~RemoveOnSignal() {
   unfinished[place_].state = Unfinished::free;
 }
 

@@ -22,18 +22,18 @@ void clean_up_on_signals(OnRequest on_request);
 
 /// Ends the program at once, from any thread, whatever the others do: removes all files under construction, writes a line
 /// to standard error, and leaves with that code.
-[[noreturn]] void leave_at_once(int code, const std::string& line);
+[[noreturn]] void exit_now(int code, const std::string& line);
 
 /// Names a file that such a signal removes during this object's lifetime: a name in an open folder.
-class RemovedOnSignal {
+class RemoveOnSignal {
  public:
-  static constexpr std::size_t longest_name = 31, most_files = 64;
+  static constexpr std::size_t longest_name = 31, max_files = 64;
 
   /// Takes an open folder and a name. Errors: throws std::length_error on a longer name, or more files at a time.
-  RemovedOnSignal(int folder, std::string_view name);
-  ~RemovedOnSignal();
-  RemovedOnSignal(const RemovedOnSignal&) = delete;
-  RemovedOnSignal& operator=(const RemovedOnSignal&) = delete;
+  RemoveOnSignal(int folder, std::string_view name);
+  ~RemoveOnSignal();
+  RemoveOnSignal(const RemoveOnSignal&) = delete;
+  RemoveOnSignal& operator=(const RemoveOnSignal&) = delete;
 
  private:
   std::size_t place_;  ///< where handlers look for it

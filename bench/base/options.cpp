@@ -131,7 +131,7 @@ ImportOptions ShapeOptions::import_options() const {
   if (scale > 0) options.scale = static_cast<float>(scale);
   options.clip_files.assign(clips.begin(), clips.end());
   options.force_clips = force_clips;
-  options.most_triangles = limits.triangles;
+  options.max_triangles = limits.triangles;
   return options;
 }
 

@@ -50,7 +50,7 @@ class OutputFile {
   std::string name_;       ///< in the folder, behind symbolic links
   std::string temporary_;  ///< in the folder; empty where the output is not replaced
   Descriptor folder_, file_;
-  std::optional<RemovedOnSignal> removed_;
+  std::optional<RemoveOnSignal> removed_;
 };
 
 /// Writes a file in pieces of a megabyte, and computes its checksum meanwhile; without a name, it writes nothing.

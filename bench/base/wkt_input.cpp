@@ -19,7 +19,7 @@
 namespace bch::cli {
 
 std::string read_wkt(const std::string& name) {
-  constexpr std::size_t most_of_a_pipe = std::size_t{256} << 20;
+  constexpr std::size_t max_of_a_pipe = std::size_t{256} << 20;
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(name.c_str(), "re"), std::fclose);
   if (!file) throw InputError(fmt::format("{}: cannot be opened: {}", name, std::strerror(errno)));
   std::error_code none;
@@ -29,7 +29,7 @@ std::string read_wkt(const std::string& name) {
   while (const std::size_t size = std::fread(buffer, 1, sizeof buffer, file.get())) {
     text.append(buffer, size);
     if (std::memchr(buffer, '\0', size) != nullptr) return text;
-    if (!ends && text.size() > most_of_a_pipe)
+    if (!ends && text.size() > max_of_a_pipe)
       throw InputError(name + ": is not a regular file, and has more than 256 MiB");
   }
   if (std::ferror(file.get()) != 0)

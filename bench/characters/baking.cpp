@@ -19,7 +19,7 @@
 #include "layout/baked/image.hpp"
 
 namespace bch::cli {
-ShapeSet bake_shapes(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,
+ShapeSet bake_shapes(std::span<const LoadedCharacter> characters, std::span<const PoseId> sources,
                      double threshold, const ShapeSetPlan& plan, const CostLimits& limits) {
   std::vector<detail::BakedCharacter> named;
   for (const LoadedCharacter& each : characters) named.push_back({&each.character, each.source});
@@ -74,7 +74,7 @@ std::vector<BakedClip> bake_clips(std::span<const LoadedCharacter> characters,
   return baked;
 }
 
-ShapeOrigins origins_of(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,
+ShapeOrigins origins_of(std::span<const LoadedCharacter> characters, std::span<const PoseId> sources,
                         double threshold) {
   ShapeOrigins origins{threshold, {}, {}};
   std::vector<std::uint32_t> first_name;  // of a character: its own, then those of its clips
@@ -92,7 +92,7 @@ ShapeOrigins origins_of(std::span<const LoadedCharacter> characters, std::span<c
 }
 
 BakedShapes bake_file(const std::string& file, std::span<const LoadedCharacter> characters,
-                      std::span<const ShapeSource> sources, double threshold, const ShapeSetPlan& plan,
+                      std::span<const PoseId> sources, double threshold, const ShapeSetPlan& plan,
                       const CostLimits& limits, std::span<const ClipOf> animated, std::uint32_t spheres) {
   OutputFile output(file);  // before hours of work
   BakedShapes baked{bake_shapes(characters, sources, threshold, plan, limits),

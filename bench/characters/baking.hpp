@@ -24,7 +24,7 @@ namespace bch::cli {
 /// Builds a set of all sources' shapes in parallel, with a progress bar. No more than some dozens of shapes a
 /// thread are in memory beside the set. The bytes are the same for any number of threads.
 /// Errors:  as build_shapes() throws.
-ShapeSet bake_shapes(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,
+ShapeSet bake_shapes(std::span<const LoadedCharacter> characters, std::span<const PoseId> sources,
                      double threshold, const ShapeSetPlan& plan, const CostLimits& limits = {});
 
 /// Names a clip of one of several characters, by their indices.
@@ -67,14 +67,14 @@ std::vector<BakedClip> bake_clips(std::span<const LoadedCharacter> characters, s
 
 /// Returns what a baked file says about the origins of its shapes. Characters go by their sources' file
 /// names.
-ShapeOrigins origins_of(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,
+ShapeOrigins origins_of(std::span<const LoadedCharacter> characters, std::span<const PoseId> sources,
                         double threshold);
 
 /// Writes the results of bake_shapes(), origins_of() and, of clips that are to be moving spheres as well, bake_clips() into a file, and
 /// models of bodies of so many spheres, unless that is 0.
 /// Errors:  as these, BakedImage and OutputFile throw.
 BakedShapes bake_file(const std::string& file, std::span<const LoadedCharacter> characters,
-                      std::span<const ShapeSource> sources, double threshold, const ShapeSetPlan& plan,
+                      std::span<const PoseId> sources, double threshold, const ShapeSetPlan& plan,
                       const CostLimits& limits = {}, std::span<const ClipOf> animated = {},
                       std::uint32_t spheres = 0);
 

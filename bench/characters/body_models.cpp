@@ -31,12 +31,12 @@ bool BodyKind::are_spheres(const CLI::App& command) const {
 
 void add_spheres_option(CLI::App& command, std::uint32_t& spheres) {
   OptionAdder{command}("--spheres", spheres, "N", fmt::format("Spheres of a body [{}]", spheres),
-                       whole_between(1, detail::most_spheres));
+                       whole_between(1, detail::max_spheres));
 }
 
-BodySet posed_bodies(std::span<const BodyModel> models, std::span<const ShapeSource> sources) {
+BodySet posed_bodies(std::span<const BodyModel> models, std::span<const PoseId> sources) {
   std::vector<PoseOfBody> bodies;
-  for (const ShapeSource& source : sources) bodies.push_back({source.character, source.at});
+  for (const PoseId& source : sources) bodies.push_back({source.character, source.at});
   return bake(models, {.bodies = bodies});
 }
 

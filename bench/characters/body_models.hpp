@@ -30,7 +30,7 @@ struct BodyKind {
 void add_spheres_option(CLI::App& command, std::uint32_t& spheres);
 
 /// Poses a body a source, of the models of its character.
-BodySet posed_bodies(std::span<const BodyModel> models, std::span<const ShapeSource> sources);
+BodySet posed_bodies(std::span<const BodyModel> models, std::span<const PoseId> sources);
 
 /// Makes models of bodies of so many spheres, one a character, with a progress bar. Those that come with the library are taken from it,
 /// and others are drafts unless they are to be kept.

@@ -65,7 +65,7 @@ LoadedCharacter built_in(const std::string& source, const ImportOptions& options
 
 /// The library's message with this program's name of the limit.
 std::string with_own_option(std::string message) {
-  constexpr std::string_view name = "ImportOptions::most_triangles";
+  constexpr std::string_view name = "ImportOptions::max_triangles";
   if (const std::size_t at = message.rfind(name); at != std::string::npos)
     message.replace(at, name.size(), "--max-triangles");
   return message;

@@ -59,14 +59,13 @@ void CostGuard::watch() {
   while (!over_.wait_for(lock, between_looks, [this] { return is_over_; })) {
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin_;
     if (taken.count() > seconds_)
-      leave_at_once(exit_bad_input, fmt::format("{}: building and writing its shapes takes more than {:g} s; "
-                                                "--max-seconds raises the limit",
-                                                files_, seconds_));
+      exit_now(exit_bad_input, fmt::format("{}: building and writing its shapes takes more than {:g} s; "
+                                           "--max-seconds raises the limit",
+                                           files_, seconds_));
     if (own_memory() > memory_)
-      leave_at_once(exit_bad_input,
-                    fmt::format("{}: building and writing its shapes takes more than {:g} GiB of "
-                                "memory; --max-memory raises the limit",
-                                files_, memory_));
+      exit_now(exit_bad_input, fmt::format("{}: building and writing its shapes takes more than {:g} GiB of "
+                                           "memory; --max-memory raises the limit",
+                                           files_, memory_));
   }
 }
 

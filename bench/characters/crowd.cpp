@@ -38,7 +38,7 @@ WalkingCrowd::WalkingCrowd(std::span<const LoadedCharacter> characters, std::uin
   std::iota(crowd_.shape.begin(), crowd_.shape.end(), 0u);
   detail::Random random(seed + 1);
   for (std::uint32_t i = 0; i < agents; ++i) {
-    ShapeSource pose{random.below(static_cast<std::uint32_t>(characters.size())), {}};
+    PoseId pose{random.below(static_cast<std::uint32_t>(characters.size())), {}};
     if (const auto& clips = clips_of(pose); !clips.empty()) {
       pose.at.clip = random.below(static_cast<std::uint32_t>(clips.size()));
       pose.at.seconds = static_cast<float>(random.uniform(double{clips[pose.at.clip].seconds}));
@@ -47,7 +47,7 @@ WalkingCrowd::WalkingCrowd(std::span<const LoadedCharacter> characters, std::uin
   }
 }
 
-const std::vector<Clip>& WalkingCrowd::clips_of(const ShapeSource& pose) const {
+const std::vector<Clip>& WalkingCrowd::clips_of(const PoseId& pose) const {
   return characters_[pose.character].character.clips;
 }
 

@@ -42,14 +42,14 @@ class WalkingCrowd {
   void step();
 
   const Crowd& crowd() const { return crowd_; }
-  std::span<const ShapeSource> poses() const { return poses_; }  ///< one an agent
+  std::span<const PoseId> poses() const { return poses_; }  ///< one an agent
 
  private:
-  const std::vector<Clip>& clips_of(const ShapeSource& pose) const;
+  const std::vector<Clip>& clips_of(const PoseId& pose) const;
 
   std::span<const LoadedCharacter> characters_;
   Crowd crowd_;
-  std::vector<ShapeSource> poses_;
+  std::vector<PoseId> poses_;
 };
 
 }  // namespace bch::cli

@@ -20,7 +20,7 @@
 namespace bch::cli {
 namespace {
 
-constexpr double most_shapes = 1e7;
+constexpr double max_shapes = 1e7;
 
 using Clock = std::chrono::steady_clock;
 
@@ -30,18 +30,18 @@ double seconds_between(Clock::time_point begin, Clock::time_point end) {
 
 }  // namespace
 
-std::vector<ShapeSource> list_shapes(std::span<const LoadedCharacter> characters, std::uint32_t poses) {
-  std::vector<ShapeSource> sources;
+std::vector<PoseId> list_shapes(std::span<const LoadedCharacter> characters, std::uint32_t poses) {
+  std::vector<PoseId> sources;
   for (std::uint32_t c = 0; c < characters.size(); ++c)
     for (const PoseTime at : sample_poses(characters[c].character, poses)) sources.push_back({c, at});
   return sources;
 }
 
-std::vector<ShapeSource> list_random_shapes(std::span<const LoadedCharacter> characters, std::uint32_t poses,
-                                            std::uint64_t seed) {
+std::vector<PoseId> list_random_shapes(std::span<const LoadedCharacter> characters, std::uint32_t poses,
+                                       std::uint64_t seed) {
   constexpr std::uint32_t finer = 100;  // a random time is one of so many even ones a pose
   detail::Random random(seed);
-  std::vector<ShapeSource> sources;
+  std::vector<PoseId> sources;
   for (std::uint32_t c = 0; c < characters.size(); ++c) {
     const Character& character = characters[c].character;
     const std::vector<PoseTime> even = sample_poses(character, finer * poses);
@@ -52,23 +52,23 @@ std::vector<ShapeSource> list_random_shapes(std::span<const LoadedCharacter> cha
   return sources;
 }
 
-std::vector<ShapeSource> list_shapes_at_rate(std::span<const LoadedCharacter> characters, double rate) {
-  std::vector<ShapeSource> sources;
+std::vector<PoseId> list_shapes_at_rate(std::span<const LoadedCharacter> characters, double rate) {
+  std::vector<PoseId> sources;
   for (std::uint32_t c = 0; c < characters.size(); ++c) {
     const auto& clips = characters[c].character.clips;
     if (clips.empty()) sources.push_back({c, {}});
     for (std::uint32_t k = 0; k < clips.size(); ++k) {
       const double poses = std::max(1.0, std::floor(static_cast<double>(clips[k].seconds) * rate));
-      if (static_cast<double>(sources.size()) + poses > most_shapes)
+      if (static_cast<double>(sources.size()) + poses > max_shapes)
         throw InputError(
-            fmt::format("{}: more than {} poses at {} a second", characters[c].source, most_shapes, rate));
+            fmt::format("{}: more than {} poses at {} a second", characters[c].source, max_shapes, rate));
       for (double i = 0; i < poses; ++i) sources.push_back({c, {k, static_cast<float>(i / rate)}});
     }
   }
   return sources;
 }
 
-ShapeSource source_at(const LoadedCharacter& from, const std::string& name, double seconds) {
+PoseId source_at(const LoadedCharacter& from, const std::string& name, double seconds) {
   const auto& clips = from.character.clips;
   for (std::uint32_t i = 0; i < clips.size(); ++i) {
     if (clips[i].name != name) continue;
@@ -119,7 +119,7 @@ struct ShapeMaker {
   const CostLimits& limits;
   std::vector<std::optional<PoseShaper>> shapers{characters.size()};
 
-  ShapeTiming make(const ShapeSource& source, Shape& made) {
+  ShapeTiming make(const PoseId& source, Shape& made) {
     const LoadedCharacter& from = characters[source.character];
     auto& shaper = shapers[source.character];
     try {
@@ -146,7 +146,7 @@ struct ShapeMaker {
 
 }  // namespace
 
-BuiltShapes build_shapes(std::span<const LoadedCharacter> characters, std::span<const ShapeSource> sources,
+BuiltShapes build_shapes(std::span<const LoadedCharacter> characters, std::span<const PoseId> sources,
                          double threshold, const ShapeSetPlan& plan, const CostLimits& limits) {
   BuiltShapes built;
   built.shapes.resize(sources.size());

@@ -69,7 +69,7 @@ std::string text_of(const AnimatedFacts& facts) {
 
 Json json_of(const AnimatedFacts& facts) {
   return {{"seconds", facts.seconds}, {"loops", facts.loops},         {"chunks", facts.chunks},
-          {"keys", facts.keys},       {"fewest_discs", facts.fewest}, {"most_discs", facts.most},
+          {"keys", facts.keys},       {"fewest_discs", facts.fewest}, {"max_discs", facts.most},
           {"mean_discs", facts.mean}, {"bytes", facts.bytes}};
 }
 

@@ -40,7 +40,7 @@ void run_bake(const BakeOptions& options) {
   // Before there are threads: see import_in_child().
   const auto characters = load_characters(options.characters, options.shapes.import_options());
   const Threads threads(options.answer.threads);
-  const auto sources = !options.shapes_too ? std::vector<ShapeSource>()
+  const auto sources = !options.shapes_too ? std::vector<PoseId>()
                        : options.rate > 0  ? list_shapes_at_rate(characters, options.rate)
                                            : list_shapes(characters, options.shapes.poses);
   const auto animated = find_clips<LoadedCharacter>(options.animated, characters, "--animated");
@@ -77,7 +77,7 @@ Examples:
       ->allow_extra_args(false);
   add("--spheres", options->spheres, "N",
       "Keep bodies of N spheres, up to a minute each; shapes only with --poses or --rate",
-      whole_between(1, detail::most_spheres));
+      whole_between(1, detail::max_spheres));
   options->answer.add_levels_to(command);
   return [options, &command] {
     options->shapes_too = options->spheres == 0 || command.count("--poses") + command.count("--rate") > 0;

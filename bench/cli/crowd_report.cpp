@@ -21,7 +21,7 @@
 namespace bch::cli {
 namespace {
 
-constexpr std::uint32_t most_runs = 15;
+constexpr std::uint32_t max_runs = 15;
 constexpr std::uint32_t least_runs = 3;
 constexpr double enough_seconds = 0.5;  ///< for one level, once there were least_runs
 
@@ -32,7 +32,7 @@ void answer_level(const ShapeSet& set, const Agents& agents, std::span<const Pai
   collide(set, agents, pairs, level.hits, options);
   std::vector<double> seconds;
   double total = 0;
-  while (seconds.size() < least_runs || (seconds.size() < most_runs && total < enough_seconds)) {
+  while (seconds.size() < least_runs || (seconds.size() < max_runs && total < enough_seconds)) {
     const auto begin = Clock::now();
     collide(set, agents, pairs, level.hits, options);
     seconds.push_back(std::chrono::duration<double>(Clock::now() - begin).count());

@@ -47,14 +47,14 @@ void require_consistent(const InspectOptions& options) {
                   options.shapes.inputs({options.character}));
 }
 
-ShapeSource at_index(const LoadedCharacter& from, std::span<const ShapeSource> sources, std::uint32_t index) {
+PoseId at_index(const LoadedCharacter& from, std::span<const PoseId> sources, std::uint32_t index) {
   if (index >= sources.size())
     throw InputError(
         fmt::format("{}: has no shape {}, only 0 to {}", from.source, index, sources.size() - 1));
   return sources[index];
 }
 
-void inspect_shape(const InspectOptions& options, const LoadedCharacter& from, const ShapeSource& source) {
+void inspect_shape(const InspectOptions& options, const LoadedCharacter& from, const PoseId& source) {
   const CostLimits& limits = options.shapes.limits;
   const CostGuard guard(limits, {&from, 1}, 1);
   const BuiltShapes built = build_shapes({&from, 1}, {&source, 1}, options.shapes.threshold, {}, limits);
@@ -68,7 +68,7 @@ void inspect_shape(const InspectOptions& options, const LoadedCharacter& from, c
   write_standard_output(text_of(from) + text_of(from, facts));
 }
 
-void inspect_body(const InspectOptions& options, const LoadedCharacter& from, const ShapeSource& source) {
+void inspect_body(const InspectOptions& options, const LoadedCharacter& from, const PoseId& source) {
   const std::vector<BodyModel> models = make_models({&from, 1}, options.kind.spheres);
   const BodyFacts facts = examine(models.front(), source);
   write_json(options.json, {{"character", json_of(from)}, {"body", json_of(from, facts)}});
@@ -84,7 +84,7 @@ void show(const InspectOptions& options, const std::string& head, const Json& he
 }
 
 /// Shows a clip of a character as moving spheres.
-void inspect_animated(const InspectOptions& options, const LoadedCharacter& from, const ShapeSource& source) {
+void inspect_animated(const InspectOptions& options, const LoadedCharacter& from, const PoseId& source) {
   const CostLimits& limits = options.shapes.limits;
   const Clip& clip = from.character.clips[source.at.clip];
   const BuiltShapes built = build_shapes({&from, 1}, {&source, 1}, options.shapes.threshold, {}, limits);
@@ -95,7 +95,7 @@ void inspect_animated(const InspectOptions& options, const LoadedCharacter& from
 }
 
 void inspect_table(const InspectOptions& options, const LoadedCharacter& from,
-                   std::span<const ShapeSource> sources) {
+                   std::span<const PoseId> sources) {
   const CostLimits& limits = options.shapes.limits;
   const CostGuard guard(limits, {&from, 1}, sources.size());
   const BuiltShapes built = build_shapes({&from, 1}, sources, options.shapes.threshold, {}, limits);
@@ -159,7 +159,7 @@ void run_inspect(const CLI::App& command, const InspectOptions& options) {
   const auto sources = list_shapes({&from, 1}, options.shapes.poses);
   const auto named = [&] {
     if (options.clip) return source_at(from, *options.clip, *options.time);
-    return options.shape ? at_index(from, sources, *options.shape) : ShapeSource{};
+    return options.shape ? at_index(from, sources, *options.shape) : PoseId{};
   };
   if (spheres)
     inspect_body(options, from, named());

@@ -59,7 +59,7 @@ Json contours_json(const Outline& outline) {
 
 }  // namespace
 
-ShapeFacts examine(const Shape& shape, const ShapeSource& source, std::optional<std::uint32_t> index) {
+ShapeFacts examine(const Shape& shape, const PoseId& source, std::optional<std::uint32_t> index) {
   ShapeFacts facts{index, source, shape, area(shape.outline), {}};
   const std::uint32_t deepest = detail::height(shape.hierarchy);
   for (std::uint32_t depth = 0; depth <= deepest; ++depth) {
@@ -195,7 +195,7 @@ std::vector<bool> BodyFacts::are_core() const {
   return are;
 }
 
-BodyFacts examine(const BodyModel& model, const ShapeSource& source) {
+BodyFacts examine(const BodyModel& model, const PoseId& source) {
   const BodySet set = posed_bodies({&model, 1}, {&source, 1});
   return {source, model, set.spheres(0), set.heights(0), set.bytes()};
 }

@@ -29,17 +29,17 @@ struct DepthFacts {
 /// Describes one shape in detail.
 struct ShapeFacts {
   std::optional<std::uint32_t> index;  ///< in the table; none for a free choice of time
-  ShapeSource source;
+  PoseId source;
   const Shape& shape;
   double outline_area = 0;
   std::vector<DepthFacts> depths;  ///< 0 to the height
 };
 
 /// Returns the facts of a shape.
-ShapeFacts examine(const Shape& shape, const ShapeSource& source, std::optional<std::uint32_t> index);
+ShapeFacts examine(const Shape& shape, const PoseId& source, std::optional<std::uint32_t> index);
 
 struct ShapeTable {
-  std::span<const ShapeSource> sources;
+  std::span<const PoseId> sources;
   std::span<const Shape> shapes;
 };
 
@@ -61,7 +61,7 @@ std::string shape_title(const LoadedCharacter& character, const ShapeFacts& fact
 
 /// Holds a body of spheres in a pose.
 struct BodyFacts {
-  ShapeSource source;
+  PoseId source;
   const BodyModel& model;
   std::vector<Sphere> spheres;
   Heights heights;
@@ -70,7 +70,7 @@ struct BodyFacts {
   std::vector<bool> are_core() const;  ///< which spheres a query tests first
 };
 
-BodyFacts examine(const BodyModel& model, const ShapeSource& source);
+BodyFacts examine(const BodyModel& model, const PoseId& source);
 
 std::string text_of(const LoadedCharacter& character, const BodyFacts& facts);
 nlohmann::ordered_json json_of(const LoadedCharacter& character, const BodyFacts& facts);

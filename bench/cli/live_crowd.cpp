@@ -32,9 +32,9 @@ constexpr double compared_spheres = 2e9;  ///< pairs of spheres that a check com
 /// Metres: nearer to touching, float and double may differ.
 constexpr double rounding_band = 1e-5;
 
-void pose(LiveBodies& bodies, std::span<const ShapeSource> sources, std::vector<Pose>& poses) {
+void pose(LiveBodies& bodies, std::span<const PoseId> sources, std::vector<Pose>& poses) {
   poses.clear();
-  for (const ShapeSource& source : sources) poses.emplace_back(source.at);
+  for (const PoseId& source : sources) poses.emplace_back(source.at);
   bodies.pose(poses);
 }
 
@@ -94,7 +94,7 @@ CrowdPicture picture_of(const LiveRun& run) {
   const auto shapers = std::make_shared<std::vector<PoseShaper>>();
   for (const LoadedCharacter& loaded : run.characters) shapers->emplace_back(loaded.character);
   picture.body = [&run, &bodies, shapers, cylinder](std::uint32_t agent) {
-    const ShapeSource& pose = run.crowd.poses()[agent];
+    const PoseId& pose = run.crowd.poses()[agent];
     return DrawnBody{(*shapers)[pose.character].make_outline(pose.at).outline, cylinder(agent),
                      bodies.spheres(agent)};
   };
@@ -124,7 +124,7 @@ void run_live_crowd(const CrowdOptions& options) {
   const Threads threads(options.answer.threads);
   WalkingCrowd crowd(characters, options.agents, options.density, options.seed);
   std::vector<std::uint32_t> model_of_agent;
-  for (const ShapeSource& pose : crowd.poses()) model_of_agent.push_back(pose.character);
+  for (const PoseId& pose : crowd.poses()) model_of_agent.push_back(pose.character);
   LiveBodies bodies(make_models(characters, options.spheres), model_of_agent);
   const Implementation* const implementation = options.answer.query_options().implementation;
   LiveRun run{options, characters, crowd, bodies, {}, {}, {}, 0, implementation->name, threads.count};

@@ -29,16 +29,16 @@ namespace bch::cli {
 namespace {
 
 /// Returns how fast a clip of a character goes, 0 where it does not walk straight on.
-double speed_of(const detail::CastMember& member, std::uint32_t clip) {
+double speed_of(const detail::CharacterEntry& member, std::uint32_t clip) {
   return clip < member.clips.size() ? member.clips[clip].speed : 0;
 }
 
 /// Characters without a walk stand where they are.
-detail::CastMember member_of(const LoadedCharacter& loaded) {
+detail::CharacterEntry member_of(const LoadedCharacter& loaded) {
   try {
     return detail::cast_member(loaded.character, file_name(loaded));
   } catch (const std::invalid_argument&) {
-    detail::CastMember member{};
+    detail::CharacterEntry member{};
     member.name = file_name(loaded);
     member.character = loaded.character;
     return member;
@@ -46,7 +46,7 @@ detail::CastMember member_of(const LoadedCharacter& loaded) {
 }
 
 /// A clip that is too short is played over and over.
-bench::PlacedClip placed_clip(const PlaceOptions& options, const detail::CastMember& member,
+bench::PlacedClip placed_clip(const PlaceOptions& options, const detail::CharacterEntry& member,
                               const BodyModel& model, std::uint32_t clip) {
   const Clip& played = member.character.clips[clip];
   AnimateOptions how;
@@ -70,9 +70,10 @@ std::vector<bench::PlacedClip> clips_of(const PlaceOptions& options, std::string
           "clip; give --character the characters that it was made of");
   const std::vector<LoadedCharacter> characters = load_characters(options.characters, {});
   notes += notes_text(characters);
-  std::vector<detail::CastMember> members;
+  std::vector<detail::CharacterEntry> members;
   for (const LoadedCharacter& loaded : characters) members.push_back(member_of(loaded));
-  const std::vector<ClipOf> wanted = find_clips<detail::CastMember>(options.clip_names, members, "--clip");
+  const std::vector<ClipOf> wanted =
+      find_clips<detail::CharacterEntry>(options.clip_names, members, "--clip");
   const std::vector<BodyModel> models = make_models(characters, animated_spheres);
   std::vector<std::optional<bench::PlacedClip>> built(wanted.size());
   Progress progress("animating clips", wanted.size());

@@ -45,7 +45,7 @@ std::string hit_rows(const QueryInput& input, const std::vector<std::uint8_t>& h
 
 /// Asks query(set, about) about obstacles, where there are some, or pairs.
 template <class Query>
-void ask(const QueryInput& input, const Query& query) {
+void run_query(const QueryInput& input, const Query& query) {
   std::visit(
       [&](const auto* set) {
         if (input.obstacles != nullptr) return query(*set, *input.obstacles);
@@ -56,7 +56,7 @@ void ask(const QueryInput& input, const Query& query) {
 
 std::string collide_rows(const QueryInput& input) {
   std::vector<std::uint8_t> hits(input.size());
-  ask(input, [&](const auto& set, const auto& about) {
+  run_query(input, [&](const auto& set, const auto& about) {
     collide(set, input.table.agents(), about, hits, input.options);
   });
   return hit_rows(input, hits);
@@ -99,7 +99,7 @@ constexpr bool of_pairs_alone = std::is_same_v<Set, BodySet>&& std::is_same_v<Ab
 std::string penetration_rows(const QueryInput& input) {
   std::vector<Penetration> ways(input.size());
   const Agents agents = input.table.agents();
-  ask(input, [&]<class Set, class About>(const Set& set, const About& about) {
+  run_query(input, [&]<class Set, class About>(const Set& set, const About& about) {
     if constexpr (std::is_same_v<About, ObstacleSet>) {
       if constexpr (!of_pairs_alone<Set, About>) penetration(set, agents, about, ways, input.options);
     } else if (input.direction) {
@@ -135,7 +135,7 @@ std::string clearance_lines(const QueryInput& input, const Measure& measure) {
 std::string clearance_rows(const QueryInput& input) {
   const auto lines = [&]<class Set, class Vector, class Points, class Answers>() {
     return clearance_lines<Vector, Points>(input, [&](auto& distance, auto& direction, auto& points) {
-      ask(input, [&](const auto& set, const auto& about) {
+      run_query(input, [&](const auto& set, const auto& about) {
         if constexpr (std::is_same_v<decltype(set), const Set&>)
           clearance(set, input.table.agents(), about,
                     Answers{.distance = distance, .direction = direction, .points = points}, input.options);
@@ -151,7 +151,7 @@ std::string within_rows(const QueryInput& input) {
   std::vector<std::uint8_t> hits(input.size());
   const Agents agents = input.table.agents();
   const std::span<const double> distance(&input.options.max_distance, 1);
-  ask(input, [&]<class Set, class About>(const Set& set, const About& about) {
+  run_query(input, [&]<class Set, class About>(const Set& set, const About& about) {
     if constexpr (std::is_same_v<Set, ShapeSet> && std::is_same_v<About, ObstacleSet>)
       within(set, agents, about, distance, hits, input.options.distance_leaves, input.options);
     else
@@ -166,7 +166,7 @@ std::string time_of_impact_rows(const QueryInput& input) {
   std::vector<double> x, y;
   for (const auto [first, second] : input.pairs)
     x.push_back(table.dx[first] - table.dx[second]), y.push_back(table.dy[first] - table.dy[second]);
-  ask(input, [&]<class Set, class About>(const Set& set, const About& about) {
+  run_query(input, [&]<class Set, class About>(const Set& set, const About& about) {
     if constexpr (!std::is_same_v<About, ObstacleSet>)
       time_of_impact(set, table.agents(), about, {x, y}, time, input.options);
     else if constexpr (!of_pairs_alone<Set, About>)
@@ -218,7 +218,7 @@ std::vector<Pair> all_pairs_of(const Bodies& set, const AgentTable& table, const
                                const detail::AllOptions& options, std::size_t most) {
   const Agents agents = table.agents();
   const bool of_distance = std::isfinite(options.max_distance);
-  bch::Crowd crowd({.most_pairs = most});
+  bch::Crowd crowd({.max_pairs = most});
   std::vector<Pair> pairs = sorted(crowd.candidates(set, agents, of_distance ? options.max_distance : 0));
   std::vector<std::uint8_t> kept(pairs.size());
   if (!of_distance)

@@ -36,8 +36,8 @@ namespace bch::cli {
 namespace {
 
 /// Renumbers the agents' shapes to those in use. Returns: where these come from; no other is built.
-std::vector<ShapeSource> keep_used(std::span<const ShapeSource> sources, AgentTable& table) {
-  std::vector<ShapeSource> used;
+std::vector<PoseId> keep_used(std::span<const PoseId> sources, AgentTable& table) {
+  std::vector<PoseId> used;
   std::unordered_map<std::uint32_t, std::uint32_t, detail::MixedHash> index_of;
   for (std::uint32_t& shape : table.shape) {
     const auto [entry, added] = index_of.emplace(shape, static_cast<std::uint32_t>(used.size()));

@@ -19,7 +19,7 @@ namespace {
 
 constexpr double key_step = 0.25;   // seconds between two keys of a path
 constexpr double fastest_turn = 1;  // radians a second
-constexpr int most_arcs = 10'000;   // drawn for a candidate until one stays inside
+constexpr int max_arcs = 10'000;    // drawn for a candidate until one stays inside
 
 /// Draws candidates.
 class Candidates {
@@ -48,7 +48,7 @@ class Candidates {
 
  private:
   std::vector<PathKey> arc_inside(std::uint32_t clip) {
-    for (int i = 0; i < most_arcs; ++i) {
+    for (int i = 0; i < max_arcs; ++i) {
       std::vector<PathKey> path = arc(clips_[clip].speed);
       if (is_inside(path)) return path;
     }

@@ -69,8 +69,8 @@ double union_area(std::span<const Vec2> positions, std::span<const std::array<st
 
 /// The union of all triangles by libpolyclipping. Its holes are the outline's too, so that areas differ by them.
 Contender by_clipper(const Built& built) {
-  constexpr std::size_t most_poses = 3;  // it takes tens of milliseconds for one
-  const std::size_t poses = std::min(most_poses, built.stages.poses());
+  constexpr std::size_t max_poses = 3;  // it takes tens of milliseconds for one
+  const std::size_t poses = std::min(max_poses, built.stages.poses());
   const auto area_of = [&built](std::size_t pose) {
     return union_area(built.stages.positions_of(pose), built.character.triangles,
                       built.stages.outline_of(pose).grid_step);

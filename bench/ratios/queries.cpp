@@ -24,7 +24,7 @@
 #include "layout/base/heading.hpp"
 
 // Each query beside collide() is a struct with the same members:
-//   ask()            asks the kernel for all pairs
+//   run_query()            asks the kernel for all pairs
 //   search(i, ...)   asks the reference for a pair: a scalar search with the same pruning, or brute force
 //   is_right(i, ...) compares the kernel's last answer for a pair with that
 
@@ -61,7 +61,7 @@ struct ClearanceQuery : Question {
   std::vector<Vec2> direction = std::vector<Vec2>(pairs.size());
   baselines::ClearanceReference reference{scene.shapes(), {}};
 
-  void ask(detail::AllOptions options) {
+  void run_query(detail::AllOptions options) {
     options.max_distance = clearance_limit;
     clearance(scene.set(), agents, pairs, {distance, direction}, options);
   }
@@ -86,9 +86,9 @@ struct ExactClearanceQuery : ClearanceQuery {
     clearance(scene.set(), agents, pairs, {all, direction});
     return all;
   }
-  void ask(detail::AllOptions options) {
+  void run_query(detail::AllOptions options) {
     options.distance_leaves = Leaves::segments;
-    ClearanceQuery::ask(options);
+    ClearanceQuery::run_query(options);
   }
   bool is_right(std::size_t i, Method) {
     const float least = of_discs[i], most = least + of_leaf_discs;
@@ -105,7 +105,7 @@ struct WithinQuery : Question {
   Hits hits = Hits(pairs.size());
   baselines::ClearanceReference reference{scene.shapes(), {}};
 
-  void ask(const detail::AllOptions& options) {
+  void run_query(const detail::AllOptions& options) {
     within(scene.set(), agents, pairs, {&personal_space, 1}, hits, options);
   }
   bool search(std::size_t i, Method method) {
@@ -128,7 +128,7 @@ struct TimeOfImpactQuery : Question {
       y.push_back(walking_speed * walking_time * (a.sine - b.sine));
     }
   }
-  void ask(const detail::AllOptions& options) {
+  void run_query(const detail::AllOptions& options) {
     time_of_impact(scene.set(), agents, pairs, {x, y}, times, options);
   }
   float search(std::size_t i, Method method) { return reference.query(agents, pairs[i], x[i], y[i], method); }
@@ -141,7 +141,7 @@ struct ContactsQuery : Question {
   Rows<DiscPair> rows;
   baselines::CutLists cuts{scene.shapes(), {}};
 
-  void ask(const detail::AllOptions& options) {
+  void run_query(const detail::AllOptions& options) {
     rows = finder.contacts(scene.set(), agents, pairs,
                            {.implementation = options.implementation, .leaves = Leaves::discs});
   }
@@ -158,7 +158,7 @@ struct PenetrationQuery : Question {
   std::vector<Penetration> ways = std::vector<Penetration>(pairs.size());
   baselines::CutLists cuts{scene.shapes(), {}};
 
-  void ask(const detail::AllOptions& options) {
+  void run_query(const detail::AllOptions& options) {
     penetration(scene.set(), agents, pairs, penetration_directions, ways, options);
   }
   auto search(std::size_t i, Method) {
@@ -178,7 +178,7 @@ struct CollisionsQuery : Question {
   const Hits& hits = scene.expected(Leaves::discs, workload);
   std::size_t neighbours = 2 * static_cast<std::size_t>(std::ranges::count(hits, 1));
 
-  void ask(const detail::AllOptions& options) {
+  void run_query(const detail::AllOptions& options) {
     rows = finder
                .collisions(scene.set(), agents,
                            {.implementation = options.implementation, .leaves = Leaves::discs})
@@ -207,7 +207,7 @@ template <class Query>
 Contender by_kernel(Scene& scene, const Workload& workload, const Implementation& implementation) {
   const auto query = std::make_shared<Query>(scene, workload);
   const auto call = [query, options = detail::AllOptions{.implementation = &implementation}] {
-    query->ask(options);
+    query->run_query(options);
   };
   call();
   require_right(*query, Method::brute_force);
@@ -217,7 +217,7 @@ Contender by_kernel(Scene& scene, const Workload& workload, const Implementation
 template <class Query>
 Contender by_search(Scene& scene, const Workload& workload) {
   const auto query = std::make_shared<Query>(scene, workload);
-  query->ask({});
+  query->run_query({});
   require_right(*query, Method::depth_first);
   const auto call = [query] {
     for (std::size_t i = 0; i < query->pairs.size(); ++i)

@@ -26,7 +26,7 @@ namespace {
 /// A set of poses by a plan, and what makes it anew.
 class Baked {
  public:
-  Baked(Scene& scene, const ShapeSetPlan& plan, std::vector<ShapeSource> sources)
+  Baked(Scene& scene, const ShapeSetPlan& plan, std::vector<PoseId> sources)
       : plan_(plan), sources_(std::move(sources)), prepared_(plan) {
     for (const cli::LoadedCharacter& character : scene.characters())
       shapers_.emplace_back(character.character, plan, leaf_threshold);
@@ -52,9 +52,9 @@ class Baked {
 
  private:
   ShapeSetPlan plan_;
-  std::vector<ShapeSource> sources_;
+  std::vector<PoseId> sources_;
   std::vector<PoseShaper> shapers_;
-  PreparedShape prepared_;
+  BuiltShape prepared_;
   std::optional<ShapeSet> set_;
 };
 

@@ -41,7 +41,7 @@ void check_whole(const CheckCommandOptions& options) {
       });
   tables.finish(opened.recording, summary);
   if (page) write_file(options.html, std::move(*page).finish(summary));
-  tell(opened.recording, summary, options.outputs);
+  report(opened.recording, summary, options.outputs);
 }
 
 void run_check(const CLI::App& command, const CheckCommandOptions& options) {

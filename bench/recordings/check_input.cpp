@@ -231,7 +231,7 @@ detail::CheckOptions OpenedCheck::options(const CheckInput& input) {
   how.baked = baked ? &baked->set : nullptr;
   how.facing = input.facing * std::numbers::pi / 180;
   how.max_distance = input.max_distance;
-  how.most_pairs = input.max_pairs;
+  how.max_pairs = input.max_pairs;
   how.walls = walls ? &*walls : nullptr;
   // Bodies of spheres are posed in the exact time, and not kept.
   how.coarse = recording.spheres > 0 || recording.info.rows < detail::coarse_from ? 1 : 3;

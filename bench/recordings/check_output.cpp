@@ -277,7 +277,7 @@ void write_check_json(const std::string& file, const CheckedRecording& recording
   json.commit();
 }
 
-void tell(const CheckedRecording& recording, const CheckSummary& summary, const CheckOutputs& outputs) {
+void report(const CheckedRecording& recording, const CheckSummary& summary, const CheckOutputs& outputs) {
   write_standard_output(check_text(recording, summary));
   if (percent_in_overlap(summary) > outputs.fail_above)
     throw CheckFailed(fmt::format("{}: {:.2f} % of person-seconds in overlap, more than {:g} %",

@@ -41,9 +41,9 @@ float depth_of(const detail::OverlapEvent& event) {
 std::vector<std::size_t> listed(std::span<const detail::OverlapEvent> events) {
   std::vector<std::size_t> order(events.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  if (order.size() <= CheckPage::most_events) return order;
+  if (order.size() <= CheckPage::max_events) return order;
   std::ranges::stable_sort(order, std::greater(), [&](std::size_t i) { return depth_of(events[i]); });
-  order.resize(CheckPage::most_events);
+  order.resize(CheckPage::max_events);
   std::ranges::sort(order);
   return order;
 }
@@ -113,8 +113,8 @@ std::string filled(std::string_view text,
 
 }  // namespace
 
-CheckPage::CheckPage(PageFacts facts, PageShapeSource shapes, std::size_t most_bytes)
-    : facts_(std::move(facts)), source_(std::move(shapes)), most_bytes_(most_bytes) {}
+CheckPage::CheckPage(PageFacts facts, PageShapeSource shapes, std::size_t max_bytes)
+    : facts_(std::move(facts)), source_(std::move(shapes)), max_bytes_(max_bytes) {}
 
 /// What does not become less by dropping frames.
 std::string CheckPage::fixed_blocks() const {
@@ -153,7 +153,7 @@ void CheckPage::add_frame(const detail::CheckedFrame& frame) {
   if (!frames_.add(frame)) return;
   for (std::size_t i = shapes_.size(); i < frames_.shapes().size(); ++i)
     shapes_.add(source_(frames_.shapes()[i]));
-  while (frames_.block_size() + shapes_.block_size() > most_bytes_ && frames_.halve()) {
+  while (frames_.block_size() + shapes_.block_size() > max_bytes_ && frames_.halve()) {
   }
 }
 
@@ -161,7 +161,7 @@ std::string CheckPage::finish(std::span<const detail::OverlapEvent> events) && {
   const std::string fixed = fixed_blocks();
   std::string meta = meta_block(events);
   const std::size_t rest = fixed.size() + meta.size() + html("").size();
-  while (rest + frames_.block_size() > most_bytes_ && frames_.halve()) {
+  while (rest + frames_.block_size() > max_bytes_ && frames_.halve()) {
   }
   meta = meta_block(events);  // tells the step
   return html(meta + frames_.blocks() + fixed);

@@ -36,14 +36,14 @@ struct PageFacts {
 /// Collects the frames of a recording for a page. Where the page would become too large, every second frame that was
 /// kept is dropped, and from then on only frames of twice the step are kept: which ones depends on nothing but the
 /// frames. The timeline of the page, and its list of events, tell of all frames.
-/// Memory:  at most a small multiple of `most_bytes`, whatever the number of frames.
+/// Memory:  at most a small multiple of `max_bytes`, whatever the number of frames.
 class CheckPage {
  public:
   static constexpr std::size_t default_most_bytes = 30'000'000;
   /// The most events that the page lists: the deepest.
-  static constexpr std::size_t most_events = 5000;
+  static constexpr std::size_t max_events = 5000;
 
-  CheckPage(PageFacts facts, PageShapeSource shapes, std::size_t most_bytes = default_most_bytes);
+  CheckPage(PageFacts facts, PageShapeSource shapes, std::size_t max_bytes = default_most_bytes);
 
   /// Adds the next frame. Shapes that it is the first to show are asked for.
   void add_frame(const detail::CheckedFrame& frame);
@@ -61,7 +61,7 @@ class CheckPage {
 
   PageFacts facts_;
   PageShapeSource source_;
-  std::size_t most_bytes_;
+  std::size_t max_bytes_;
   KeptFrames frames_;
   PageShapes shapes_;
   OverlapSeries series_;

@@ -234,7 +234,7 @@ void merge_check(const WholeRun& whole, const CheckOutputs& outputs) {
   }
   const CheckSummary summary = join(summaries);
   tables.finish(*recording, summary);
-  tell(*recording, summary, outputs);
+  report(*recording, summary, outputs);
 }
 
 }  // namespace bch::cli

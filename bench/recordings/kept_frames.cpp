@@ -160,14 +160,14 @@ void OverlapSeries::add(double seconds, std::uint32_t overlapping, std::uint32_t
     people_.back() = std::max(people_.back(), people);
     return;
   }
-  if (seconds_.size() == most_stretches) {
-    for (std::size_t i = 0; i < most_stretches / 2; ++i) {
+  if (seconds_.size() == max_stretches) {
+    for (std::size_t i = 0; i < max_stretches / 2; ++i) {
       seconds_[i] = seconds_[2 * i];
       overlapping_[i] = std::max(overlapping_[2 * i], overlapping_[2 * i + 1]);
       people_[i] = std::max(people_[2 * i], people_[2 * i + 1]);
     }
-    for (auto* const column : {&overlapping_, &people_}) column->resize(most_stretches / 2);
-    seconds_.resize(most_stretches / 2);
+    for (auto* const column : {&overlapping_, &people_}) column->resize(max_stretches / 2);
+    seconds_.resize(max_stretches / 2);
     length_ *= 2;
   }
   in_last_ = 1;

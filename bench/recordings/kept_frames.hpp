@@ -109,7 +109,7 @@ inline constexpr std::uint32_t wall_number = 0xffffffff;
 /// stretches of frames, which become longer as frames are added.
 class OverlapSeries {
  public:
-  static constexpr std::size_t most_stretches = 4096;  // even
+  static constexpr std::size_t max_stretches = 4096;  // even
 
   void add(double seconds, std::uint32_t overlapping, std::uint32_t people);
   std::string blocks() const;

@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr int manifest_version = 1;
-constexpr std::uint32_t most_parts = 1'000'000;
+constexpr std::uint32_t max_parts = 1'000'000;
 constexpr const char* manifest_ending = ".manifest.json";
 /// Options that say who does the work and where it goes.
 constexpr std::string_view without_answers[] = {"--part", "--into",      "--parts",  "--threads",
@@ -33,11 +33,11 @@ constexpr std::string_view without_answers[] = {"--part", "--into",      "--part
                                                 "--json", "--fail-above"};
 constexpr int deepest = 5;  ///< levels of nesting: a summary, its counts by density, each of these, its discs
 
-/// Reads a number from 1 to most_parts, or 0 where it is none.
+/// Reads a number from 1 to max_parts, or 0 where it is none.
 std::uint32_t part_number(std::string_view text) {
   std::uint32_t number = 0;
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc() && stop == text.data() + text.size() && number <= most_parts ? number : 0;
+  return error == std::errc() && stop == text.data() + text.size() && number <= max_parts ? number : 0;
 }
 
 /// A pipe may have nobody at its other end for ever, and a device no end.
@@ -74,7 +74,7 @@ Json read_manifest(const std::string& file) {
 
 /// Reads the number of a part, or of all; 0 where it is none. A conversion would round and wrap others.
 std::uint32_t checked_number(const Json& number) {
-  return number.is_number_unsigned() && number <= most_parts ? number.get<std::uint32_t>() : 0;
+  return number.is_number_unsigned() && number <= max_parts ? number.get<std::uint32_t>() : 0;
 }
 
 /// Checks that a part has the files of its command, with the bytes that its manifest says.

@@ -79,8 +79,8 @@ double percent_in_overlap(const detail::CheckSummary& summary);
 
 /// Writes the summary to standard output.
 /// Errors:  throws CheckFailed where more person-seconds are in overlap than outputs.fail_above.
-void tell(const CheckedRecording& recording, const detail::CheckSummary& summary,
-          const CheckOutputs& outputs);
+void report(const CheckedRecording& recording, const detail::CheckSummary& summary,
+            const CheckOutputs& outputs);
 
 /// Holds what is checked, and how: all that the answers depend on.
 struct CheckInput {

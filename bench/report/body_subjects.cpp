@@ -22,7 +22,7 @@ constexpr std::uint32_t fitted_poses = 12;
 /// Makes shapes of one character ready for a set, pose by pose.
 struct ShapeWorkshop {
   PoseShaper shaper;
-  PreparedShape prepared{ShapeSetPlan{}};
+  BuiltShape prepared{ShapeSetPlan{}};
 
   explicit ShapeWorkshop(const Character& character)
       : shaper(character, {}, static_cast<float>(shape_threshold)) {}
@@ -48,7 +48,7 @@ Capsules capsules_of(const Character& character, std::uint32_t count) {
 }  // namespace
 
 BodySubjects::BodySubjects(bench::Scene& scene) : scene_(scene) {
-  for (const ShapeSource& source : scene.sources())
+  for (const PoseId& source : scene.sources())
     joints_.push_back(
         joint_transforms(scene.characters()[source.character].character, source.at, JointFrame::world));
 }
@@ -71,10 +71,10 @@ void BodySubjects::add_meshes() {
   all_.push_back({subject_of("OBB full mesh", scene_.structure("obb_full")), {}});
 }
 
-void BodySubjects::add_ragdolls_and_spheres(std::uint32_t most_spheres) {
+void BodySubjects::add_ragdolls_and_spheres(std::uint32_t max_spheres) {
   for (const std::uint32_t capsules : {15u, 32u}) add_ragdolls(capsules);
   for (const std::uint32_t spheres : {64u, 128u, 256u, 512u})
-    if (spheres <= most_spheres) add_spheres(spheres);
+    if (spheres <= max_spheres) add_spheres(spheres);
 }
 
 void BodySubjects::add_spheres(std::uint32_t spheres) {
@@ -156,7 +156,7 @@ Table pose_times(const std::vector<BodySubject>& all, std::size_t shapes, std::u
 void run_bodies(Run& run) {
   BodySubjects bodies(run.scene);
   bodies.add_outlines();
-  bodies.add_ragdolls_and_spheres(run.sizes().most_spheres);
+  bodies.add_ragdolls_and_spheres(run.sizes().max_spheres);
   bodies.add_meshes();
   std::vector<Subject> subjects;
   for (const BodySubject& body : bodies.all()) subjects.push_back(body.subject);

@@ -37,7 +37,7 @@ class BodySubjects {
   void add_outlines();
   /// Adds ragdolls of 15 and 32 capsules, each thin, holding all vertices in the poses of the fit, and halfway between; and 64 to 512
   /// spheres.
-  void add_ragdolls_and_spheres(std::uint32_t most_spheres);
+  void add_ragdolls_and_spheres(std::uint32_t max_spheres);
   /// Adds the meshes themselves.
   void add_meshes();
 

@@ -20,7 +20,7 @@ namespace {
 constexpr double loose = 0.4, shrinking = 0.99;    // people per square metre; of the area
 constexpr double margin = 1.6;                     // metres: as far as two people reach at each other
 constexpr float longest = 0.1f, beyond = 0.0005f;  // metres of a step
-constexpr int most_steps = 300;
+constexpr int max_steps = 300;
 
 class Packing {
  public:
@@ -37,7 +37,7 @@ class Packing {
 
   /// Returns: whether no two people overlap in the end.
   bool settle() {
-    for (int i = 0; i < most_steps; ++i)
+    for (int i = 0; i < max_steps; ++i)
       if (!step()) return true;
     return false;
   }

@@ -12,7 +12,7 @@ namespace bch::report {
 namespace {
 
 /// What points are asked.
-constexpr std::string_view asked_workloads[] = {"crowd", "near_miss", "colliding"};
+constexpr std::string_view requested_workloads[] = {"crowd", "near_miss", "colliding"};
 
 std::vector<std::uint32_t> depths_of(const Run& run) {
   if (run.sizes().poses < full_sizes.poses) return {0, 3, 6, 9, all_depths};
@@ -31,7 +31,7 @@ void add_kernel(Run& run, std::deque<ShapeSet>& sets, std::vector<Subject>& poin
       const Subject& kernel = points.emplace_back(
           subject_of(segments ? exact_leaves_name : kernel_name, set, {nullptr, leaves}, depth));
       const baselines::Reference reference(shapes, {{depth}}, leaves);
-      for (const std::string_view name : asked_workloads) {
+      for (const std::string_view name : requested_workloads) {
         const bench::Workload& workload = run.scene.workload(name);
         bench::require_right(
             kernel_name, workload,
@@ -50,7 +50,7 @@ void add_others(Run& run, Structures& structures, std::vector<Subject>& points) 
       continue;
     for (const std::uint32_t depth :
          contestant.has_depth ? depths_of(run) : std::vector{contestant.is_disc() ? 0 : all_depths}) {
-      for (const std::string_view name : asked_workloads)
+      for (const std::string_view name : requested_workloads)
         structures.require_right(contestant, run.scene.workload(name), depth);
       points.push_back(subject_of(contestant.name, structures.of(contestant), depth));
       points.back().arithmetic = contestant.is_disc() ? "single" : "exact";
@@ -66,7 +66,7 @@ void run_error_time(Run& run) {
   Structures structures(run.scene);
   add_kernel(run, sets, points);
   BodySubjects in_space(run.scene);
-  in_space.add_ragdolls_and_spheres(run.sizes().most_spheres);
+  in_space.add_ragdolls_and_spheres(run.sizes().max_spheres);
   for (const BodySubject& body : in_space.all()) points.push_back(body.subject);
   add_others(run, structures, points);
 

@@ -32,7 +32,7 @@ void measure_detail(Run& run, const Character& character, SubjectTables& tables,
   std::vector<baselines::Body> bodies;
   detail::Skinner skinner(character);
   PoseShaper shaper(character);
-  for (const PoseTime& at : sample_poses(character, std::min(run.sizes().poses, most_costly_poses))) {
+  for (const PoseTime& at : sample_poses(character, std::min(run.sizes().poses, max_costly_poses))) {
     const auto positions = skinner.pose(at);
     const bench::Stopwatch watch(1);
     const Shape& shape = shaper.shape(at);

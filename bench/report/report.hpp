@@ -30,16 +30,16 @@ struct Sizes {
   std::uint32_t runs = 9;         ///< of what is timed
   std::uint32_t people = 1'000;   ///< that are packed
   std::uint32_t packings = 3;
-  std::uint32_t contacts = 400;      ///< that are near, of a row of the stability tables
-  std::uint32_t most_spheres = 512;  ///< of a body
-  bool drafts = false;               ///< models of spheres that nobody improved
+  std::uint32_t contacts = 400;     ///< that are near, of a row of the stability tables
+  std::uint32_t max_spheres = 512;  ///< of a body
+  bool drafts = false;              ///< models of spheres that nobody improved
 };
 constexpr Sizes full_sizes;
 constexpr Sizes quick_sizes{20, 2'000, 2'000, 100, 3, 200, 2, 40, 256, true};
 constexpr Sizes smallest_sizes{2, 60, 80, 6, 1, 10, 1, 4, 64, true};
 
 /// Limits the poses of a character in experiments that take up to a hundred megabytes, or long, for these.
-constexpr std::uint32_t most_costly_poses = 40;
+constexpr std::uint32_t max_costly_poses = 40;
 
 struct Options {
   std::filesystem::path folder;

@@ -16,8 +16,8 @@ namespace bch::report {
 namespace {
 
 constexpr double step = 0.001, resolution = 1e-6;  // metres
-constexpr double most_beside = 0.5;                // metres, of the paper
-constexpr int most_draws = 100;
+constexpr double max_beside = 0.5;                 // metres, of the paper
+constexpr int max_draws = 100;
 constexpr double not_detected = std::numeric_limits<double>::quiet_NaN();
 
 /// A pair of agents that stands anywhere on the way.
@@ -54,7 +54,7 @@ SlideCases::SlideCases(std::span<const Shape> shapes, std::uint32_t cases, std::
   crowd_.y.resize(2 * cases, 0), crowd_.heading.resize(2 * cases);
   for (std::size_t i = 0; i < cases; ++i) draw(random, i);
   const ShapeSet leaves(shapes);
-  for (int drawn = 1, left = 1; left > 0 && drawn < most_draws; ++drawn) {
+  for (int drawn = 1, left = 1; left > 0 && drawn < max_draws; ++drawn) {
     const std::vector<double> places = contacts([&](const Agents& agents, auto pairs, auto hits) {
       collide(leaves, agents, pairs, hits, {.leaves = Leaves::discs});
     });
@@ -67,7 +67,7 @@ SlideCases::SlideCases(std::span<const Shape> shapes, std::uint32_t cases, std::
 void SlideCases::draw(detail::Random& random, std::size_t of) {
   crowd_.heading[2 * of] = random.uniform(2 * std::numbers::pi);
   crowd_.heading[2 * of + 1] = random.uniform(2 * std::numbers::pi);
-  crowd_.y[2 * of] = random.uniform(2 * most_beside) - most_beside;
+  crowd_.y[2 * of] = random.uniform(2 * max_beside) - max_beside;
 }
 
 std::vector<double> SlideCases::contacts(const Answer& answer) const {

@@ -53,13 +53,13 @@ double enclosed_volume(std::span<const Vec3> positions,
 }
 
 /// Adds, of each pose, the single cylinder, the area of the leaf discs over all projected triangles, and the volume of the mesh.
-void add_paper_volumes(const cli::LoadedCharacter& loaded, std::span<const ShapeSource> poses, Table& table) {
+void add_paper_volumes(const cli::LoadedCharacter& loaded, std::span<const PoseId> poses, Table& table) {
   const Character& character = loaded.character;
   detail::Skinner skinner(character);
   const bool closed = is_closed(character.triangles);
   std::vector<std::vector<Vec2>> from_above;
   std::vector<double> volumes, leaves(poses.size());
-  for (const ShapeSource& pose : poses) {
+  for (const PoseId& pose : poses) {
     const auto positions = skinner.pose(pose.at);
     auto& points = from_above.emplace_back();
     for (const Vec3& p : positions) points.push_back({p.x, p.y});
@@ -81,9 +81,9 @@ void run_volume(Run& run) {
   Table table({"character", "pose", "height (m)", "radius (m)", "leaf discs (m2)", "mesh volume (m3)"});
   const auto& characters = run.scene.characters();
   for (std::uint32_t c = 0; c < characters.size(); ++c) {
-    std::vector<ShapeSource> poses;
+    std::vector<PoseId> poses;
     std::ranges::copy_if(run.scene.sources(), std::back_inserter(poses),
-                         [&](const ShapeSource& source) { return source.character == c; });
+                         [&](const PoseId& source) { return source.character == c; });
     add_paper_volumes(characters[c], poses, table);
   }
   const auto is = [&](const char* source) {

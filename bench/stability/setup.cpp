@@ -79,7 +79,7 @@ class Runner {
       : setup_(setup), row_(row), random_(seed), stock_(setup, random_), set_(stock_.set(setup.plan)) {}
 
   void run(std::uint32_t pairs) {
-    if (setup_.outside) return ask_outside();
+    if (setup_.outside) return query_outside();
     const bool outlines = setup_.placing == Placing::contact;
     const std::uint32_t to_outlines = outlines ? pairs / 2 : 0;
     for (std::uint32_t i = 0; i < pairs; ++i) add(i < to_outlines);
@@ -97,7 +97,7 @@ class Runner {
   }
 
   /// Nothing is asked about what is true there.
-  void ask_outside() {
+  void query_outside() {
     for (int i = 0; i < 2; ++i)
       batch_.add({&stock_.specimens[0], setup_.x, setup_.y, heading(), setup_.z}, 0);
     batch_.add_pair();
@@ -120,9 +120,9 @@ class Runner {
     } else if (setup_.placing == Placing::stacked) {
       trial.put_on_top(gap(trial.reaches() / 4, trial.reaches()));
     } else if (setup_.placing == Placing::contact && outlines) {
-      trial.put_outlines_in_contact(x, y, gap(trial.reaches() / 4, trial.reaches()));
+      trial.store_outlines_in_contact(x, y, gap(trial.reaches() / 4, trial.reaches()));
     } else if (setup_.placing == Placing::contact) {
-      trial.put_discs_in_contact(x, y, [&](double radii) { return gap(radii, trial.reaches()); });
+      trial.store_discs_in_contact(x, y, [&](double radii) { return gap(radii, trial.reaches()); });
     }
   }
 

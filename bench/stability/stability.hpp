@@ -69,7 +69,7 @@ struct StiffRow {
   std::uint32_t bounces = 0;  ///< of two who fly into each other at 1 m/s, without drive and friction
   double onset = 0, largest_onset = 0;  ///< metres of depth in the first step of a bounce: mean, largest
   double energy = 0,
-         most_energy = 0;  ///< that a bounce creates, parts of what was there: mean of the size, largest
+         max_energy = 0;  ///< that a bounce creates, parts of what was there: mean of the size, largest
   /// Seconds: of the steps that were tried, the largest up to which all were stable; 0: not even the first, 2 ms.
   /// Two press against each other; up to 20 in a corridor, one behind the other, against a wall; all through a door.
   double two_step = 0, row_step = 0, door_step = 0;

@@ -156,7 +156,7 @@ void bounce(StiffRow& row, World world, Random& random) {
   const double energy = (std::norm(world.velocity[0]) + std::norm(world.velocity[1])) / 0.5 - 1;
   ++row.bounces, row.onset += onset, row.energy += std::abs(energy);
   row.largest_onset = std::max(row.largest_onset, onset);
-  row.most_energy = std::max(row.most_energy, energy);
+  row.max_energy = std::max(row.max_energy, energy);
 }
 
 }  // namespace

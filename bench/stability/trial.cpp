@@ -248,7 +248,7 @@ baselines::Oracle oracle(const PlacedSpecimen& a, const PlacedSpecimen& b, doubl
 Trial::Trial(const PlacedSpecimen& first, const PlacedSpecimen& second)
     : a(first), b(second), cut_a_(posed(first)), cut_b_(posed(second)) {}
 
-void Trial::put_discs_in_contact(double x, double y, const std::function<double(double)>& gap) {
+void Trial::store_discs_in_contact(double x, double y, const std::function<double(double)>& gap) {
   const OverlapInterval last = last_overlap(cut_a_, cut_b_, x, y);
   const ExactDisc &p = cut_a_.discs[last.i], &q = cut_b_.discs[last.j];
   const QuadVector line{x * last.along - y * last.across, y * last.along + x * last.across};
@@ -259,7 +259,7 @@ void Trial::put_discs_in_contact(double x, double y, const std::function<double(
   b.y = static_cast<double>(Quad{a.y} + between.y + line.y * stretch);
 }
 
-void Trial::put_outlines_in_contact(double x, double y, double gap) {
+void Trial::store_outlines_in_contact(double x, double y, double gap) {
   const double far = 1.01 * reaches();
   PlacedSpecimen away = b;
   away.x = a.x + far * x, away.y = a.y + far * y;

@@ -64,9 +64,9 @@ class Trial {
   /// Moves b along the direction (x, y), a unit vector, to where the two collide last by their discs. From there it moves b along the line of the centres of the two discs that separate the agents
   /// there, which may be discs above the cuts, by the gap for the sum of their radii. Correct to the rounding
   /// of b's position.
-  void put_discs_in_contact(double x, double y, const std::function<double(double radii)>& gap);
+  void store_discs_in_contact(double x, double y, const std::function<double(double radii)>& gap);
   /// Moves b along the direction to where the outlines touch last, and by `gap` further.
-  void put_outlines_in_contact(double x, double y, double gap);
+  void store_outlines_in_contact(double x, double y, double gap);
   /// Moves b up to where it stands on a's top, and by `gap` further. Both have heights.
   void put_on_top(double gap);
 

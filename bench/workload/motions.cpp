@@ -61,11 +61,11 @@ double gap_at(const Motion& a, const Motion& b, double time) {
 }
 
 AnimatedClip animated_clip(const Character& character, BodyModel model, std::uint32_t clip,
-                           double most_seconds) {
+                           double max_seconds) {
   Character shorter = character;
   float& seconds = shorter.clips[clip].seconds;
   constexpr auto least = static_cast<float>(least_clip_seconds);
-  seconds = least * std::floor(std::min(seconds, static_cast<float>(most_seconds)) / least);
+  seconds = least * std::floor(std::min(seconds, static_cast<float>(max_seconds)) / least);
   const double lasts = seconds;
   model.character = std::make_shared<const Character>(std::move(shorter));
   return {&character, clip, lasts, AnimatedShape(animate(model, clip, {.loops = true}))};
@@ -74,7 +74,7 @@ AnimatedClip animated_clip(const Character& character, BodyModel model, std::uin
 }  // namespace
 
 std::vector<AnimatedClip> animated_clips(std::span<const cli::LoadedCharacter> characters,
-                                         std::string_view name, double most_seconds) {
+                                         std::string_view name, double max_seconds) {
   const auto is_named = [&](const Clip& clip) { return clip.name == name; };
   const bool all =
       std::none_of(characters.begin(), characters.end(), [&](const cli::LoadedCharacter& loaded) {
@@ -89,7 +89,7 @@ std::vector<AnimatedClip> animated_clips(std::span<const cli::LoadedCharacter> c
   tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t i) {
     try {
       const auto [of, clip] = wanted[i];
-      made[i].emplace(animated_clip(characters[of].character, models[of], clip, most_seconds));
+      made[i].emplace(animated_clip(characters[of].character, models[of], clip, max_seconds));
     } catch (const std::invalid_argument&) {
       // Left out.
     }

@@ -34,7 +34,7 @@ struct AnimatedClip {
 /// shorter ones than least_clip_seconds, are left out. The characters must outlive them.
 /// Errors:  throws std::runtime_error where none is left.
 std::vector<AnimatedClip> animated_clips(std::span<const cli::LoadedCharacter> characters,
-                                         std::string_view name, double most_seconds);
+                                         std::string_view name, double max_seconds);
 
 /// Represents ten seconds of people who walk along arcs and play clips, and the pairs of them that come within a metre, having
 /// begun farther apart.

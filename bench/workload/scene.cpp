@@ -32,7 +32,7 @@ const std::vector<cli::LoadedCharacter>& Scene::characters() {
   return characters_;
 }
 
-const std::vector<ShapeSource>& Scene::sources() {
+const std::vector<PoseId>& Scene::sources() {
   if (sources_.empty())
     sources_ = options_.pose_seed ? cli::list_random_shapes(characters(), options_.poses, *options_.pose_seed)
                                   : cli::list_shapes(characters(), options_.poses);

@@ -47,7 +47,7 @@ class Scene {
   const std::vector<cli::LoadedCharacter>& characters();
   std::uint32_t poses() const { return options_.poses; }          ///< of a character
   std::uint32_t agents() const { return options_.sizes.agents; }  ///< of a crowd
-  const std::vector<ShapeSource>& sources();
+  const std::vector<PoseId>& sources();
   const std::vector<Shape>& shapes();
   const std::vector<baselines::Body>& bodies();
   /// Returns models of so many spheres, one a character.
@@ -72,7 +72,7 @@ class Scene {
 
   SceneOptions options_;
   std::vector<cli::LoadedCharacter> characters_;
-  std::vector<ShapeSource> sources_;
+  std::vector<PoseId> sources_;
   std::vector<Shape> shapes_;
   std::vector<baselines::Body> bodies_;
   std::map<std::uint32_t, std::vector<BodyModel>> models_;

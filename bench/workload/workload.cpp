@@ -21,8 +21,8 @@ namespace {
 
 constexpr std::string_view names[] = {"colliding",  "near_miss", "no_hit",         "crowd",
                                       "candidates", "paper500",  "paper500_cached"};
-constexpr double world = 100;                         ///< metres: where pairs with agents of their own stand
-constexpr std::uint32_t most_candidates = 1'000'000;  ///< without one that is wanted
+constexpr double world = 100;                        ///< metres: where pairs with agents of their own stand
+constexpr std::uint32_t max_candidates = 1'000'000;  ///< without one that is wanted
 
 /// Returns the offset of a shape's root disc, turned by a heading.
 detail::PlanePoint root_offset(const Shape& shape, double heading) {
@@ -66,10 +66,10 @@ Workload random_pairs(std::string_view name, std::uint64_t seed, std::span<const
   workload.crowd.side = world;
   detail::Random random(seed);
   for (std::uint32_t in_vain = 0; workload.pairs.size() < pairs;) {
-    if (in_vain++ == most_candidates)
+    if (in_vain++ == max_candidates)
       throw std::runtime_error(
           fmt::format("workload {}: of {} pairs at random after the first {} none is wanted", name,
-                      most_candidates, workload.pairs.size()));
+                      max_candidates, workload.pairs.size()));
     const auto agent = static_cast<std::uint32_t>(workload.crowd.size());
     const Pair pair{agent, agent + 1};
     add_candidate(random, shapes, workload.crowd);

@@ -16,7 +16,7 @@ using namespace detail;
 
 ShapeSet bake(std::span<const Character> characters, const BakeOptions& options) {
   std::vector<BakedCharacter> named;
-  std::vector<ShapeSource> sampled;
+  std::vector<PoseId> sampled;
   for (const Character& character : characters) {
     validate(character);
     if (options.shapes.empty())
@@ -24,7 +24,7 @@ ShapeSet bake(std::span<const Character> characters, const BakeOptions& options)
         sampled.push_back({static_cast<std::uint32_t>(named.size()), at});
     named.push_back({&character, character.name});
   }
-  const std::span<const ShapeSource> sources = options.shapes.empty() ? sampled : options.shapes;
+  const std::span<const PoseId> sources = options.shapes.empty() ? sampled : options.shapes;
 
   ShapeSetBuilder builder(options.plan, sources.size());
   PoseBaker baker(std::move(named), options.plan, options.threshold);

@@ -13,16 +13,16 @@
 namespace bch::detail {
 
 PoseBaker::PoseBaker(std::vector<BakedCharacter> characters, const ShapeSetPlan& plan, float threshold,
-                     std::optional<std::size_t> most_nodes)
+                     std::optional<std::size_t> max_nodes)
     : characters_(std::move(characters)),
       plan_(plan),
       threshold_(threshold),
-      most_nodes_(most_nodes),
+      max_nodes_(max_nodes),
       shapers_(characters_.size()) {
   validate(plan);
 }
 
-void PoseBaker::add(ShapeSetBuilder& to, std::span<const ShapeSource> sources, const BakeSteps& steps) {
+void PoseBaker::add(ShapeSetBuilder& to, std::span<const PoseId> sources, const BakeSteps& steps) {
   add(
       to, sources.size(),
       [&](std::size_t i) {
@@ -38,7 +38,7 @@ void PoseBaker::add(ShapeSetBuilder& to, std::size_t count,
       throw std::invalid_argument("shape " + std::to_string(i) + ": no character " +
                                   std::to_string(character) + " of " + std::to_string(characters_.size()));
   add_in_order(
-      to, plan_, count, [&](PreparedShape& place, std::size_t i) { prepare(place, pose_of(i), i, steps); },
+      to, plan_, count, [&](BuiltShape& place, std::size_t i) { prepare(place, pose_of(i), i, steps); },
       [&](std::size_t i) {
         if (steps.added) steps.added(i);
       });
@@ -46,11 +46,11 @@ void PoseBaker::add(ShapeSetBuilder& to, std::size_t count,
 
 PoseShaper PoseBaker::shaper_of(std::uint32_t character) const {
   PoseShaper shaper(*characters_[character].character, plan_, threshold_);
-  if (most_nodes_) shaper.limit_nodes(*most_nodes_);
+  if (max_nodes_) shaper.limit_nodes(*max_nodes_);
   return shaper;
 }
 
-void PoseBaker::prepare(PreparedShape& place, const PoseOfCharacter& source, std::size_t i,
+void PoseBaker::prepare(BuiltShape& place, const PoseOfCharacter& source, std::size_t i,
                         const BakeSteps& steps) {
   try {
     const auto shaper = shapers_[source.character].borrow([&] { return shaper_of(source.character); });

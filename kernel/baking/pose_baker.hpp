@@ -44,24 +44,24 @@ class PoseBaker {
   /// Takes characters that are valid, and what PoseShaper takes.
   /// Errors:  throws std::invalid_argument on a bad plan.
   PoseBaker(std::vector<BakedCharacter> characters, const ShapeSetPlan& plan, float threshold,
-            std::optional<std::size_t> most_nodes = {});
+            std::optional<std::size_t> max_nodes = {});
 
   /// Adds the shapes of `count` poses. After an exception only some of them have been added.
   /// Errors:  throws what PoseShaper::shape() and `steps` throw, the former with the names of the character and of the clip and time or
   ///          the pose's number, and std::invalid_argument on a character that is not there.
   void add(ShapeSetBuilder& to, std::size_t count, const std::function<PoseOfCharacter(std::size_t)>& pose_of,
            const BakeSteps& steps = {});
-  void add(ShapeSetBuilder& to, std::span<const ShapeSource> sources, const BakeSteps& steps = {});
+  void add(ShapeSetBuilder& to, std::span<const PoseId> sources, const BakeSteps& steps = {});
 
  private:
-  void prepare(PreparedShape& place, const PoseOfCharacter& source, std::size_t i, const BakeSteps& steps);
+  void prepare(BuiltShape& place, const PoseOfCharacter& source, std::size_t i, const BakeSteps& steps);
   PoseShaper shaper_of(std::uint32_t character) const;
   std::string name_of(const PoseOfCharacter& source, std::size_t i) const;
 
   std::vector<BakedCharacter> characters_;
   ShapeSetPlan plan_;
   float threshold_;
-  std::optional<std::size_t> most_nodes_;
+  std::optional<std::size_t> max_nodes_;
   std::vector<Spares<PoseShaper>> shapers_;  ///< by character
 };
 

@@ -28,9 +28,9 @@ struct Reach {
 template <class Simd>
 class BandTest {
  public:
-  static constexpr std::uint32_t most_pairs = body_bands * body_bands;
+  static constexpr std::uint32_t max_pairs = body_bands * body_bands;
 
-  explicit BandTest(const Placements<Simd>& at) noexcept : directions_(at), at_(at) {}
+  explicit BandTest(const RelativeTransforms<Simd>& at) noexcept : directions_(at), at_(at) {}
 
   /// Finds the directions of all pairs of the chunk.
   void place() noexcept { directions_.place(); }
@@ -70,9 +70,9 @@ class BandTest {
     find_all_supports(bodies.a, a), find_all_supports(bodies.b, b);
     const float across = find_axes(pair, bodies, a, b, of_a, of_b);
     const BodyHeader &header_a = header_of(bodies.a), &header_b = header_of(bodies.b);
-    const float rise = bodies.b_in_a.tz;
-    of_a.low = header_b.bottom + rise, of_a.high = header_b.top + rise;
-    of_b.low = header_a.bottom - rise, of_b.high = header_a.top - rise;
+    const float dz = bodies.b_in_a.tz;
+    of_a.low = header_b.bottom + dz, of_a.high = header_b.top + dz;
+    of_b.low = header_a.bottom - dz, of_b.high = header_a.top - dz;
     const float below = of_a.low - header_a.top, above = header_a.bottom - of_a.high;
     const float up = below < above ? above : below;
     return across < up ? up : across;
@@ -95,13 +95,13 @@ class BandTest {
     // Half of the directions are enough: axes are 22.5 degrees apart.
     alignas(64) float from_b[half], overlap[half];
     Float least(__builtin_inff());
-    directions_.look_along(pair, 0, directions_.rows(pair, 0, a, b),
-                           [&](unsigned k, Float distance, Float by_a, Float by_b) {
-                             const Float begin = distance - by_b, both = by_a - begin;
-                             Simd::store(from_b + k, begin);
-                             Simd::store(overlap + k, both);
-                             least = xsimd::min(least, both);
-                           });
+    directions_.search_along(pair, 0, directions_.rows(pair, 0, a, b),
+                             [&](unsigned k, Float distance, Float by_a, Float by_b) {
+                               const Float begin = distance - by_b, both = by_a - begin;
+                               Simd::store(from_b + k, begin);
+                               Simd::store(overlap + k, both);
+                               least = xsimd::min(least, both);
+                             });
     const unsigned middle = first_at_most(overlap, Simd::least(least));
     const auto [c, s, tx, ty] = bodies.b_in_a.ground;
     for (unsigned i = 0; i < Reach::axes; ++i) {
@@ -135,13 +135,13 @@ class BandTest {
 
   /// Returns the pairs of bands in which spheres may overlap. (Rounding matters only to bodies that reach a plane, and then it is within
   /// their margin.)
-  static std::uint32_t may_meet(float rise, float margin) noexcept {
-    if (__builtin_fabsf(rise) + margin <= band_overlap) [[likely]]
+  static std::uint32_t may_meet(float dz, float margin) noexcept {
+    if (__builtin_fabsf(dz) + margin <= band_overlap) [[likely]]
       return equal_bands;
     std::uint32_t pairs = 0;
     for (std::uint32_t i = 0; i < body_bands; ++i)
       for (std::uint32_t j = 0; j < body_bands; ++j)
-        pairs |= std::uint32_t{low[i] <= high[j] + rise + margin && low[j] + rise <= high[i] + margin}
+        pairs |= std::uint32_t{low[i] <= high[j] + dz + margin && low[j] + dz <= high[i] + margin}
                  << (body_bands * i + j);
     return pairs;
   }
@@ -153,10 +153,10 @@ class BandTest {
     const Float gap(bodies.wide_gap());
     Mask separated = Float(1.0f) < Float(0.0f);
     for (unsigned odd = 0; odd < 2; ++odd)
-      directions_.look_along(pair, odd, directions_.rows(pair, odd, a, b),
-                             [&](unsigned, Float distance, Float by_a, Float by_b) {
-                               separated = separated | (by_a + by_b + gap < distance);
-                             });
+      directions_.search_along(pair, odd, directions_.rows(pair, odd, a, b),
+                               [&](unsigned, Float distance, Float by_a, Float by_b) {
+                                 separated = separated | (by_a + by_b + gap < distance);
+                               });
     return Simd::bits(separated) == 0;
   }
 
@@ -168,7 +168,7 @@ class BandTest {
   }
 
   SupportDirections<Simd> directions_;
-  const Placements<Simd>& at_;
+  const RelativeTransforms<Simd>& at_;
 };
 
 }  // namespace bch::detail

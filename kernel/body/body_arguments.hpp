@@ -18,14 +18,14 @@ struct BodyArguments {
 
 /// Returns the bodies of a pair of a chunk.
 template <class Simd>
-[[gnu::always_inline]] inline PlacedBodies placed_bodies(const BodyArguments& in, const Placements<Simd>& at,
+[[gnu::always_inline]] inline PlacedBodies placed_bodies(const BodyArguments& in,
+                                                         const RelativeTransforms<Simd>& at,
                                                          std::uint32_t pair) noexcept {
   const AgentColumn& z = in.pairs.agent_z;
-  const float rise = z.first == nullptr ? 0
-                                        : static_cast<float>(AgentColumns<Simd>::number(z, at.agent_b(pair)) -
-                                                             AgentColumns<Simd>::number(z, at.agent_a(pair)));
-  return {
-      in.bodies->record(at.shape_a[pair]), in.bodies->record(at.shape_b[pair]), {at.transform(pair), rise}};
+  const float dz = z.first == nullptr ? 0
+                                      : static_cast<float>(AgentColumns<Simd>::number(z, at.agent_b(pair)) -
+                                                           AgentColumns<Simd>::number(z, at.agent_a(pair)));
+  return {in.bodies->record(at.shape_a[pair]), in.bodies->record(at.shape_b[pair]), {at.transform(pair), dz}};
 }
 
 }  // namespace bch::detail

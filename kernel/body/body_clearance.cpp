@@ -31,9 +31,9 @@ struct Writer {
   const BodyClearanceAnswers& answers;
   float enough;
 
-  void put(std::size_t i, Pair pair, const NearestSpheres& nearest) const {
-    if (nearest.a == no_slot) return put_alone(answers, i, std::numeric_limits<float>::infinity());
-    if (nearest.distance <= enough) return put_alone(answers, i, 0);
+  void store(std::size_t i, Pair pair, const NearestSpheres& nearest) const {
+    if (nearest.a == no_slot) return store_alone(answers, i, std::numeric_limits<float>::infinity());
+    if (nearest.distance <= enough) return store_alone(answers, i, 0);
     answers.distance[i] = nearest.distance;
     if (answers.direction.empty() && answers.spheres.empty() && answers.points.empty()) return;
     const auto [a, b] = std::minmax(pair.first, pair.second);
@@ -76,7 +76,7 @@ void clearance(const BodySet& bodies, const Agents& agents, std::span<const Pair
     part.in.pairs.pairs += begin;
     part.nearest = nearest;
     implementation.kernels->body_clearance(part, 0, size);
-    for (std::size_t i = 0; i < size; ++i) writer.put(begin + i, pairs[begin + i], nearest[i]);
+    for (std::size_t i = 0; i < size; ++i) writer.store(begin + i, pairs[begin + i], nearest[i]);
   });
 }
 

@@ -47,7 +47,7 @@ class BodyClearanceKernel {
   }
 
   const BodyClearanceArguments& arguments_;
-  Placements<Simd> at_;
+  RelativeTransforms<Simd> at_;
   BandTest<Simd> bands_;
   NearestLeaves<Simd> leaves_;
 };

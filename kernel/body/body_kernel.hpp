@@ -96,7 +96,7 @@ class BodyKernel {
 
   std::uint8_t search(std::uint32_t pair) noexcept {
     const PlacedBodies placed = bodies(pair);
-    Reach of_a[BandTest<Simd>::most_pairs], of_b[BandTest<Simd>::most_pairs];
+    Reach of_a[BandTest<Simd>::max_pairs], of_b[BandTest<Simd>::max_pairs];
     std::uint32_t count = 0;
     for (std::uint32_t open = open_bands_[pair]; open != 0; open &= open - 1, ++count)
       bands_.find_reach(pair, placed, static_cast<std::uint32_t>(__builtin_ctz(open)), of_a[count],
@@ -108,7 +108,7 @@ class BodyKernel {
 
   const BodyArguments& in_;
   const float* gaps_ = nullptr;  ///< of the chunk
-  Placements<Simd> at_;
+  RelativeTransforms<Simd> at_;
   BandTest<Simd> bands_;
   std::uint16_t open_bands_[chunk_size];
   List open_;

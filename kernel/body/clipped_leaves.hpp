@@ -17,7 +17,7 @@ template <class Simd>
 struct ClippedLeaves {
   using Float = typename Simd::Float;
   using Mask = typename Simd::Mask;
-  static constexpr std::uint32_t most_leaves = most_spheres / 4, padding = 16;
+  static constexpr std::uint32_t max_leaves = max_spheres / 4, padding = 16;
 
   /// Lists the leaves. `reach_a` and `reach_b` hold, for each of `count` pairs of bands, what may take part. Returns whether both have some.
   bool list(const PlacedBodies& bodies, const Reach* reach_a, const Reach* reach_b,
@@ -37,12 +37,12 @@ struct ClippedLeaves {
   /// Places the nodes of B's leaves that are listed.
   void place_columns(const PlacedBodies& bodies) noexcept {
     const std::uint32_t stride = header_of(bodies.b).node_stride;
-    const float rise = bodies.b_in_a.tz;
+    const float dz = bodies.b_in_a.tz;
     for (std::uint32_t i = 0; i < columns; ++i) {
       const float* const node = bodies.b + record_nodes + leaf_b[i];
       const auto at = bodies.b_in_a.ground.apply(node[0], node[stride]);
       x[i] = at.x, y[i] = at.y, radius[i] = node[2 * stride];
-      bottom[i] = node[3 * stride] + rise, top[i] = node[4 * stride] + rise;
+      bottom[i] = node[3 * stride] + dz, top[i] = node[4 * stride] + dz;
     }
     for (std::uint32_t i = columns; i < columns + Simd::width; ++i)
       x[i] = __builtin_inff(), y[i] = radius[i] = bottom[i] = top[i] = 0;
@@ -60,10 +60,10 @@ struct ClippedLeaves {
   }
 
   std::uint32_t rows, columns;  ///< leaves of A, and of B
-  std::uint16_t leaf_a[most_leaves + padding], leaf_b[most_leaves + padding];
+  std::uint16_t leaf_a[max_leaves + padding], leaf_b[max_leaves + padding];
   /// B's nodes, without a margin. Nodes behind the last one are infinitely far away.
-  alignas(64) float x[most_leaves + padding], y[most_leaves + padding], radius[most_leaves + padding],
-      bottom[most_leaves + padding], top[most_leaves + padding];
+  alignas(64) float x[max_leaves + padding], y[max_leaves + padding], radius[max_leaves + padding],
+      bottom[max_leaves + padding], top[max_leaves + padding];
 
  private:
   static std::uint32_t registers(const float* record) noexcept {
@@ -93,11 +93,11 @@ struct ClippedLeaves {
                             std::uint16_t* leaves) noexcept {
     std::uint32_t size = 0;
     for (std::uint32_t i = 0; i < registers; ++i)
-      size += Simd::write_set(kept[i], i * Simd::width, leaves + size);
+      size += Simd::compress_indices(kept[i], i * Simd::width, leaves + size);
     return size;
   }
 
-  std::uint32_t kept_a_[most_leaves], kept_b_[most_leaves];  ///< bits of registers of nodes
+  std::uint32_t kept_a_[max_leaves], kept_b_[max_leaves];  ///< bits of registers of nodes
 };
 
 }  // namespace bch::detail

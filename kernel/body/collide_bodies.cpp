@@ -18,7 +18,7 @@ using namespace detail;
 void collide(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs,
              std::span<std::uint8_t> hits, const Implementation* wanted) {
   const FloatingPointStateGuard floats;
-  require_as_many({"collide", "pair", pairs.size()}, hits.size(), "hits");
+  check_size({"collide", "pair", pairs.size()}, hits.size(), "hits");
   const Implementation& implementation = chosen(wanted, "collide");
   const BodySetView& view = bodies.view();
   require_valid(implementation, view.ground, agents, pairs);

@@ -30,7 +30,7 @@ class LeafSearch {
  private:
   using Float = typename Simd::Float;
   using Mask = typename Simd::Mask;
-  static constexpr std::uint32_t most_leaves = ClippedLeaves<Simd>::most_leaves;
+  static constexpr std::uint32_t max_leaves = ClippedLeaves<Simd>::max_leaves;
   static constexpr std::uint32_t rows_at_once = 4;
 
   /// Compares rows begin .. end of A's nodes with B's, then the spheres of the leaves that may meet.
@@ -45,12 +45,12 @@ class LeafSearch {
                     sum = Simd::load(leaves_.radius + k) + node.radius;
         const Mask meet = (dx * dx + dy * dy <= sum * sum) & (node.bottom <= Simd::load(leaves_.top + k)) &
                           (Simd::load(leaves_.bottom + k) <= node.top);
-        size += Simd::write_set(Simd::bits(meet), (row - begin) * most_leaves + k, meeting_ + size);
+        size += Simd::compress_indices(Simd::bits(meet), (row - begin) * max_leaves + k, meeting_ + size);
       }
     }
     for (std::uint32_t i = 0; i < size; ++i)
-      if (leaves_meet(bodies, leaves_.leaf_a[begin + meeting_[i] / most_leaves],
-                      leaves_.leaf_b[meeting_[i] % most_leaves]))
+      if (leaves_meet(bodies, leaves_.leaf_a[begin + meeting_[i] / max_leaves],
+                      leaves_.leaf_b[meeting_[i] % max_leaves]))
         return true;
     return false;
   }
@@ -63,8 +63,8 @@ class LeafSearch {
   }
 
   ClippedLeaves<Simd> leaves_;
-  /// Pairs of nodes that meet: a row after `begin`, times most_leaves, and the place of one of B's.
-  std::uint16_t meeting_[rows_at_once * most_leaves + ClippedLeaves<Simd>::padding];
+  /// Pairs of nodes that meet: a row after `begin`, times max_leaves, and the place of one of B's.
+  std::uint16_t meeting_[rows_at_once * max_leaves + ClippedLeaves<Simd>::padding];
 };
 
 }  // namespace bch::detail

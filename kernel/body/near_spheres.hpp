@@ -57,8 +57,8 @@ class NearSpheres {
 
   const float *a_, *b_;
   const SpaceFrame& frame_;
-  std::array<Cylinder, most_spheres / 4> nodes_;  ///< of B, placed
-  std::array<std::uint32_t, most_spheres / 4> leaves_;
+  std::array<Cylinder, max_spheres / 4> nodes_;  ///< of B, placed
+  std::array<std::uint32_t, max_spheres / 4> leaves_;
 };
 
 }  // namespace bch::detail

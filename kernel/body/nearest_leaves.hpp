@@ -53,14 +53,15 @@ class NearestLeaves {
 
   /// Bounds the distance by that of 8 x 8 spheres, which need not be exact. Returns whether some overlap.
   [[gnu::noinline]] bool bound_by(Balls a, Balls b) noexcept {
-    constexpr float longer = (1 + 2 * Simd::rough) * (1 + 0x1p-20f);  // than the root, and far_centres
+    constexpr float longer =
+        (1 + 2 * Simd::approximation_error) * (1 + 0x1p-20f);  // than the root, and far_centres
     Float least(bodies_.gap);
     Mask overlap = Float(1.0f) < Float(0.0f);
     visit_ball_pairs<Simd, 8>(
         bodies_.b_in_a, a, b, [&](unsigned, const SpheresOf<Float>& of_a, const SpheresOf<Float>& of_b) {
           const Float square = square_between(of_a, of_b), radii = of_a.radius + of_b.radius;
           overlap = overlap | (square <= radii * radii);
-          least = xsimd::min(least, rough_root<Simd>(square) * Float(longer) - radii);
+          least = xsimd::min(least, approximate_sqrt<Simd>(square) * Float(longer) - radii);
         });
     bodies_.gap = Simd::least(least);
     return Simd::bits(overlap) != 0;
@@ -72,7 +73,7 @@ class NearestLeaves {
   std::uint32_t measure_rows(std::uint32_t begin) noexcept {
     const auto shift =
         static_cast<std::uint32_t>(32 - __builtin_clz((leaves_.columns - 1) | (Simd::width - 1) | 1));
-    const std::uint32_t rows = std::uint32_t{most_bounds} >> shift, left = leaves_.rows - begin;
+    const std::uint32_t rows = std::uint32_t{max_bounds} >> shift, left = leaves_.rows - begin;
     const std::uint32_t end = begin + (left < rows ? left : rows);
     float least = 0;
     const std::uint32_t size = list_near(begin, end, shift, least);
@@ -96,12 +97,12 @@ class NearestLeaves {
     constexpr unsigned axis = Reach::axes / 2;
     const float x = -reach_a.x[axis], y = -reach_a.y[axis];
     origins_apart_ = bodies_.b_in_a.ground.tx * x + bodies_.b_in_a.ground.ty * y;
-    const float most_a = find_extents(bodies_.a, leaves_.leaf_a, leaves_.rows, x, y, extent_a_);
-    const float most_b = find_extents(bodies_.b, leaves_.leaf_b, leaves_.columns, -reach_b.x[axis],
-                                      -reach_b.y[axis], extent_b_);
+    const float max_a = find_extents(bodies_.a, leaves_.leaf_a, leaves_.rows, x, y, extent_a_);
+    const float max_b = find_extents(bodies_.b, leaves_.leaf_b, leaves_.columns, -reach_b.x[axis],
+                                     -reach_b.y[axis], extent_b_);
     const float least = origins_apart_ - bodies_.margin();
-    leaves_.rows = drop(leaves_.leaf_a, extent_a_, leaves_.rows, least - most_b);
-    leaves_.columns = drop(leaves_.leaf_b, extent_b_, leaves_.columns, least - most_a);
+    leaves_.rows = drop(leaves_.leaf_a, extent_a_, leaves_.rows, least - max_b);
+    leaves_.columns = drop(leaves_.leaf_b, extent_b_, leaves_.columns, least - max_a);
     for (std::uint32_t i = leaves_.columns; i < leaves_.columns + Simd::width; ++i) extent_b_[i] = 0;
     return leaves_.rows != 0 && leaves_.columns != 0;
   }
@@ -162,7 +163,7 @@ class NearestLeaves {
         // Nodes behind the last one are infinitely far away, or NaN.
         const Mask near = (across <= most) & (bound <= most);
         nearest = xsimd::min(nearest, Simd::select(near, bound, nearest));
-        size += Simd::write_set(Simd::bits(near), first + k, near_ + size);
+        size += Simd::compress_indices(Simd::bits(near), first + k, near_ + size);
       }
     }
     least = Simd::least(nearest);
@@ -171,7 +172,7 @@ class NearestLeaves {
 
   /// Returns the root of a square, or a little less.
   static Float rough_length(Float square) noexcept {
-    return rough_root<Simd>(square) * Float(1 - Simd::rough);
+    return approximate_sqrt<Simd>(square) * Float(1 - Simd::approximation_error);
   }
 
   void measure(std::uint32_t leaf_a, std::uint32_t leaf_b) noexcept {
@@ -231,12 +232,12 @@ class NearestLeaves {
   float enough_;
   NearestSpheres nearest_;
   Leaves leaves_;
-  static constexpr std::uint32_t most_bounds = 2 * Leaves::most_leaves;
+  static constexpr std::uint32_t max_bounds = 2 * Leaves::max_leaves;
   float origins_apart_;  ///< along the axis of extents
-  float extent_a_[Leaves::most_leaves], extent_b_[Leaves::most_leaves + Leaves::padding];
-  float bound_[most_bounds + Leaves::padding];         ///< of pairs of nodes, row by row
-  std::uint16_t near_[most_bounds + Leaves::padding];  ///< indices of bounds
-  alignas(64) float gaps_[64];                         ///< of two blocks
+  float extent_a_[Leaves::max_leaves], extent_b_[Leaves::max_leaves + Leaves::padding];
+  float bound_[max_bounds + Leaves::padding];         ///< of pairs of nodes, row by row
+  std::uint16_t near_[max_bounds + Leaves::padding];  ///< indices of bounds
+  alignas(64) float gaps_[64];                        ///< of two blocks
 };
 
 }  // namespace bch::detail

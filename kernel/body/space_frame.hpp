@@ -26,10 +26,10 @@ class SpaceFrame {
   SpaceFrame(const Agents& agents, std::uint32_t a, std::uint32_t b) : of_a_(unit_vector(agents.heading[a])) {
     const auto [cosine, sine] = unit_vector(agents.heading[b]);
     const Vec2 at = turned(agents.x[b] - agents.x[a], agents.y[b] - agents.y[a]);
-    const double rise = agents.z.empty() ? 0 : agents.z[b] - agents.z[a];
+    const double dz = agents.z.empty() ? 0 : agents.z[b] - agents.z[a];
     b_in_a_ = {
         {of_a_.cosine * cosine + of_a_.sine * sine, of_a_.cosine * sine - of_a_.sine * cosine, at.x, at.y},
-        static_cast<float>(rise)};
+        static_cast<float>(dz)};
   }
 
   SpacePoint way(double x, double y, double z) const {

@@ -45,8 +45,8 @@ template <class Simd, unsigned count, bool called = Simd::width == 1, class Visi
   constexpr unsigned parts = Simd::width < count ? count / Simd::width : 1;
   constexpr unsigned rows = Simd::width > count ? Simd::width / count : 1;
   const SpaceTransformOf<Float> to_a{b_in_a.ground.template in_lanes<Float>(), Float(b_in_a.tz)};
-  const auto ax = Simd::eight(a.field(0)), ay = Simd::eight(a.field(1)), az = Simd::eight(a.field(2)),
-             ar = Simd::eight(a.field(3));
+  const auto ax = Simd::load_eight(a.field(0)), ay = Simd::load_eight(a.field(1)),
+             az = Simd::load_eight(a.field(2)), ar = Simd::load_eight(a.field(3));
   SpheresOf<Float> column[parts];
 #pragma GCC unroll 8
   for (unsigned part = 0; part < parts; ++part)

@@ -65,7 +65,7 @@ void BroadPhase::find_in_block(const CrowdGrid& grid, std::size_t begin, std::si
     find_in_class(grid, c, from, to, list, count);
     find_larger(grid, c, from, to, list, count);
   }
-  list.tell(count);
+  list.report(count);
 }
 
 /// Half of the neighbourhood, so that each pair is seen once: the rest of a cell and the one beside it are a
@@ -126,13 +126,13 @@ void BroadPhase::gather_pairs(std::size_t blocks) {
 }
 
 std::span<const Pair> BroadPhase::find_valid(const ShapeSetView& shapes, const Agents& agents, double margin,
-                                             std::size_t most_pairs, const PairTest* test,
+                                             std::size_t max_pairs, const PairTest* test,
                                              double height_margin) {
   const CrowdGrid grid(bounds(shapes, agents, margin));
   sort_discs(grid, shapes, agents, margin);
   const std::size_t blocks = (agents.size() + block_discs - 1) / block_discs;
   if (found_.size() < blocks) found_.resize(blocks);
-  PairCount count(most_pairs);
+  PairCount count(max_pairs);
   const Arguments in = arguments_for(shapes, agents, {});
   for_ranges(blocks, 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t b = first; b < last; ++b) {
@@ -153,13 +153,13 @@ void require_margin(double margin) {
 }
 
 std::span<const Pair> BroadPhase::find(const ShapeSetView& shapes, const Agents& agents, double margin,
-                                       std::size_t most_pairs, const PairTest* test, double height_margin) {
+                                       std::size_t max_pairs, const PairTest* test, double height_margin) {
   const FloatingPointStateGuard floats;
   require_valid_agents(shapes, agents);
   require_margin(margin);
   if (agents.size() == 0) return {};
   return without_tasks_from_outside(
-      [&] { return find_valid(shapes, agents, margin, most_pairs, test, height_margin); });
+      [&] { return find_valid(shapes, agents, margin, max_pairs, test, height_margin); });
 }
 
 }  // namespace bch::detail

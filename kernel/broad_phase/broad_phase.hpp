@@ -34,14 +34,14 @@ class BroadPhase {
   /// Order:   by place, along the rows of a grid; the same for any number of threads.
   /// Memory:  the pairs are valid until the next call; the object keeps 72 bytes an agent and up to 24 a pair.
   /// Errors:  throws std::invalid_argument like require_valid_agents(), and on a margin outside of 0 .. 2e9;
-  ///          std::length_error as soon as there are more pairs than `most_pairs`, before `test` is asked.
+  ///          std::length_error as soon as there are more pairs than `max_pairs`, before `test` is asked.
   std::span<const Pair> find(const ShapeSetView& shapes, const Agents& agents, double margin = 0,
-                             std::size_t most_pairs = std::numeric_limits<std::size_t>::max(),
+                             std::size_t max_pairs = std::numeric_limits<std::size_t>::max(),
                              const PairTest* test = nullptr, double height_margin = 0);
 
  private:
   std::span<const Pair> find_valid(const ShapeSetView& shapes, const Agents& agents, double margin,
-                                   std::size_t most_pairs, const PairTest* test, double height_margin);
+                                   std::size_t max_pairs, const PairTest* test, double height_margin);
   void sort_discs(const CrowdGrid& grid, const ShapeSetView& shapes, const Agents& agents, double margin);
   void find_in_block(const CrowdGrid& grid, std::size_t begin, std::size_t end, PairList& list,
                      PairCount& count) const;
@@ -54,9 +54,9 @@ class BroadPhase {
   std::vector<GridDisc> placed_;
   RadixSort<GridDisc> radix_sort_;
   SortedDiscs discs_;
-  std::array<std::size_t, CrowdGrid::most_classes + 1> class_begin_ = {};  ///< discs of a class
-  std::vector<PairList> found_;                                            ///< by block
-  std::vector<std::size_t> found_begin_;                                   ///< among all
+  std::array<std::size_t, CrowdGrid::max_classes + 1> class_begin_ = {};  ///< discs of a class
+  std::vector<PairList> found_;                                           ///< by block
+  std::vector<std::size_t> found_begin_;                                  ///< among all
   std::vector<Pair> pairs_;
 };
 

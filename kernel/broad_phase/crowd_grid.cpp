@@ -57,13 +57,13 @@ PruningDisc pruning_disc(const ShapeSetView& shapes, const Agents& agents, std::
 }  // namespace
 
 void CrowdBounds::add(const CrowdBounds& other) noexcept {
-  least_x = std::min(least_x, other.least_x);
-  most_x = std::max(most_x, other.most_x);
-  least_y = std::min(least_y, other.least_y);
-  most_y = std::max(most_y, other.most_y);
+  min_x = std::min(min_x, other.min_x);
+  max_x = std::max(max_x, other.max_x);
+  min_y = std::min(min_y, other.min_y);
+  max_y = std::max(max_y, other.max_y);
   offset = std::max(offset, other.offset);
   least_radius = std::min(least_radius, other.least_radius);
-  most_radius = std::max(most_radius, other.most_radius);
+  max_radius = std::max(max_radius, other.max_radius);
 }
 
 CrowdBounds bounds(const ShapeSetView& shapes, const Agents& agents, double margin, std::size_t begin,
@@ -80,28 +80,28 @@ CrowdBounds bounds(const ShapeSetView& shapes, const Agents& agents, double marg
 CrowdGrid::CrowdGrid(const CrowdBounds& crowd) noexcept {
   // Turning lengthens an offset by its rounding; the corner's own counts far from the origin.
   const double margin =
-      crowd.offset * (1 + 0x1p-20) + 0x1p-50 * std::max(std::abs(crowd.least_x), std::abs(crowd.least_y));
-  corner_x_ = crowd.least_x - margin;
-  corner_y_ = crowd.least_y - margin;
-  const double width = crowd.most_x - corner_x_ + margin, height = crowd.most_y - corner_y_ + margin;
+      crowd.offset * (1 + 0x1p-20) + 0x1p-50 * std::max(std::abs(crowd.min_x), std::abs(crowd.min_y));
+  corner_x_ = crowd.min_x - margin;
+  corner_y_ = crowd.min_y - margin;
+  const double width = crowd.max_x - corner_x_ + margin, height = crowd.max_y - corner_y_ + margin;
   const double extent = std::max(width, height), off_by = centre_rounding * extent;
-  double cell = std::max((crowd.most_radius + off_by) / radius_of_cell, least_cell * extent);
+  double cell = std::max((crowd.max_radius + off_by) / radius_of_cell, least_cell * extent);
   units_ = static_cast<double>(1u << cell_bits) / cell;
   slack_ = off_by + 2 / units_;
 
   const auto units_wide = static_cast<std::uint64_t>(width * units_);
   const auto units_high = static_cast<std::uint64_t>(height * units_);
   std::uint64_t end = 0;
-  double most_radius = crowd.most_radius;
+  double max_radius = crowd.max_radius;
   do {
     const std::uint32_t shift = cell_bits - class_bits * class_count_;
     const std::uint64_t columns = (units_wide >> shift) + 2, rows = (units_high >> shift) + 2;
     const std::uint64_t stride = columns + 1, first = end + stride + 1;
     end = first + (rows + 1) * stride;
-    classes_[class_count_++] = {most_radius, first, stride, end};
+    classes_[class_count_++] = {max_radius, first, stride, end};
     cell /= 1u << class_bits;
-    most_radius = cell * radius_of_cell - off_by;
-  } while (class_count_ < most_classes && cell >= least_cell * extent && most_radius >= crowd.least_radius);
+    max_radius = cell * radius_of_cell - off_by;
+  } while (class_count_ < max_classes && cell >= least_cell * extent && max_radius >= crowd.least_radius);
 }
 
 void CrowdGrid::place(const ShapeSetView& shapes, const Agents& agents, double margin, std::size_t begin,
@@ -115,7 +115,7 @@ void CrowdGrid::place(const ShapeSetView& shapes, const Agents& agents, double m
     const auto at_x = static_cast<std::uint64_t>(((agents.x[i] - corner_x_) + offset_x) * units_);
     const auto at_y = static_cast<std::uint64_t>(((agents.y[i] - corner_y_) + offset_y) * units_);
     std::uint32_t c = class_count_ - 1;
-    while (radius > classes_[c].most_radius) --c;
+    while (radius > classes_[c].max_radius) --c;
     const std::uint32_t shift = cell_bits - class_bits * c;
     // No rounding up, whose branch nothing foretells: 2^-20 holds the rounding to float too.
     discs[i] = {classes_[c].first + (at_y >> shift) * classes_[c].stride + (at_x >> shift),

@@ -18,10 +18,10 @@ namespace bch::detail {
 struct CrowdBounds {
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
-  double least_x = infinity, most_x = -infinity;  ///< of the agents' positions, metres
-  double least_y = infinity, most_y = -infinity;
-  double offset = 0;                                ///< no root's centre is farther from its agent
-  double least_radius = infinity, most_radius = 0;  ///< of their root discs, enlarged
+  double min_x = infinity, max_x = -infinity;  ///< of the agents' positions, metres
+  double min_y = infinity, max_y = -infinity;
+  double offset = 0;                               ///< no root's centre is farther from its agent
+  double least_radius = infinity, max_radius = 0;  ///< of their root discs, enlarged
 
   void add(const CrowdBounds& other) noexcept;
 };
@@ -51,7 +51,7 @@ struct GridDisc {
 /// its discs by 2^-10, which is more than all that: a unit is at most 2^-17 of any class's cell.
 class CrowdGrid {
  public:
-  static constexpr std::uint32_t most_classes = 7;
+  static constexpr std::uint32_t max_classes = 7;
 
   explicit CrowdGrid(const CrowdBounds& bounds) noexcept;
 
@@ -73,7 +73,7 @@ class CrowdGrid {
   /// Holds the cells of a class of sizes. There are empty cells about every row and class, so that no cell
   /// has another row's beside it.
   struct Class {
-    double most_radius;                ///< metres
+    double max_radius;                 ///< metres
     std::uint64_t first, stride, end;  ///< cells
   };
 
@@ -81,7 +81,7 @@ class CrowdGrid {
   double units_;  ///< a metre
   double slack_;  ///< metres
   std::uint32_t class_count_ = 0;
-  std::array<Class, most_classes> classes_;
+  std::array<Class, max_classes> classes_;
 };
 
 }  // namespace bch::detail

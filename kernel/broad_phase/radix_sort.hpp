@@ -22,7 +22,7 @@ class RadixSort {
   /// Sorts values by their keys, which are below 2^bits. May exchange the vector's memory for its own.
   template <class Key>
   void sort(std::vector<Value>& values, unsigned bits, Key key) {
-    const unsigned passes = (bits + most_digit_bits - 1) / most_digit_bits;
+    const unsigned passes = (bits + max_digit_bits - 1) / max_digit_bits;
     sorted_.resize(values.size());
     for (unsigned pass = 0, shift = 0; pass < passes; ++pass) {
       const unsigned digit_bits = (bits - shift) / (passes - pass);
@@ -36,14 +36,14 @@ class RadixSort {
   }
 
  private:
-  static constexpr unsigned most_digit_bits = 11;  ///< a block's places stay in a first-level cache
-  static constexpr std::size_t least_block = 2048, most_blocks = 64;
+  static constexpr unsigned max_digit_bits = 11;  ///< a block's places stay in a first-level cache
+  static constexpr std::size_t least_block = 2048, max_blocks = 64;
 
   /// Makes two passes over blocks of values: how many have which digit, and, with that known, to their places.
   template <class Digit>
   void move_by_digit(const std::vector<Value>& values, std::size_t digits, Digit digit) {
     const std::size_t size = values.size();
-    const std::size_t blocks = std::clamp<std::size_t>(size / least_block, 1, most_blocks);
+    const std::size_t blocks = std::clamp<std::size_t>(size / least_block, 1, max_blocks);
     places_.assign(blocks * digits, 0);
     const auto each_block = [&](auto visit) {
       for_ranges(blocks, 1, [&](std::size_t first, std::size_t last) {

@@ -117,10 +117,10 @@ class PairList {
     size_ = static_cast<std::size_t>(discs.write_overlapping(i, begin, end, pairs_.data() + size_) -
                                      pairs_.data());
     if (size_ - counted_ > uncounted) [[unlikely]]
-      tell(count);
+      report(count);
   }
   /// Counts what was not counted yet.
-  void tell(PairCount& count) {
+  void report(PairCount& count) {
     count.add(size_ - counted_);
     counted_ = size_;
   }

@@ -97,15 +97,15 @@ CallOptions options_of(const bch_query_options* given) {
 
 namespace {
 
-constexpr std::uint32_t most_threads = 1024;
+constexpr std::uint32_t max_threads = 1024;
 
 }  // namespace
 
 void on_threads(std::uint32_t threads, const std::function<void()>& work) {
   if (threads == 0) return work();
-  if (threads > most_threads)
+  if (threads > max_threads)
     throw Failure(BCH_INVALID_ARGUMENT,
-                  "threads is " + std::to_string(threads) + ", more than " + std::to_string(most_threads));
+                  "threads is " + std::to_string(threads) + ", more than " + std::to_string(max_threads));
   const auto run = [&](std::size_t, std::size_t) { work(); };
   detail::run_on_threads(threads, detail::RangeWork(run));
 }

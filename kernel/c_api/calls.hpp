@@ -30,9 +30,9 @@ struct CallOn {
   std::uint32_t threads;
 
   /// Asks on the threads that the options want.
-  template <class Ask>
-  void run(Ask ask) const {
-    threads == 0 ? ask() : on_threads(threads, std::ref(ask));  // which needs no memory
+  template <class RunQuery>
+  void run(RunQuery run_query) const {
+    threads == 0 ? run_query() : on_threads(threads, std::ref(run_query));  // which needs no memory
   }
 };
 
@@ -87,24 +87,24 @@ class Kept {
   std::vector<Value> answers_;
 };
 
-/// Asks `ask(answers)` for answers, and delivers all of them or none.
-template <class Value, class Ask>
-void all_or_none(std::span<Value> to, Ask ask) {
+/// Asks `run_query(answers)` for answers, and delivers all of them or none.
+template <class Value, class RunQuery>
+void all_or_none(std::span<Value> to, RunQuery run_query) {
   Kept kept(to);
-  ask(kept.answers());
+  run_query(kept.answers());
   kept.deliver();
 }
 
 /// Does the same for a distance and what goes with it: ClearanceAnswers, or BodyClearanceAnswers.
-template <class Answers, class Ask>
+template <class Answers, class RunQuery>
 requires std::is_aggregate_v<Answers>
-void all_or_none(const Answers& to, Ask ask) {
+void all_or_none(const Answers& to, RunQuery run_query) {
   const auto& [to_distance, to_direction, to_discs, to_points] = to;
   Kept distance(to_distance);
   Kept direction(to_direction);
   Kept discs(to_discs);
   Kept points(to_points);
-  ask(Answers{distance.answers(), direction.answers(), discs.answers(), points.answers()});
+  run_query(Answers{distance.answers(), direction.answers(), discs.answers(), points.answers()});
   distance.deliver(), direction.deliver(), discs.deliver(), points.deliver();
 }
 

@@ -136,7 +136,7 @@ std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check
   if (!(given.max_distance >= 0 && given.max_distance <= 10))
     throw Failure(BCH_INVALID_ARGUMENT, "options->max_distance is " + std::to_string(given.max_distance));
   options.max_distance = given.max_distance;
-  options.most_pairs = given.max_pairs;
+  options.max_pairs = given.max_pairs;
   const Cast cast = cast_of(given);
   options.cast = cast;
   options.draws = false;
@@ -153,7 +153,7 @@ std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check
   options.coarse = given.spheres > 0 || trajectory.reader->info().rows < coarse_from ? 1 : 3;
   auto made = std::make_unique<bch_check>();
   made->assumptions = trajectory.assumptions;
-  for (const CastMember& member : cast)
+  for (const CharacterEntry& member : cast)
     for (const std::string& line : member.assumptions) made->assumptions += line + "\n";
   const TrajectoryInfo& info = trajectory.reader->info();
   trajectory.is_read = true;

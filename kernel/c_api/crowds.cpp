@@ -61,12 +61,12 @@ struct CrowdCallOn : CallOn<Handle> {
         object(object_of(handle, "crowd")),
         filter(filter_of(given, this->agents.size())) {}
 
-  /// Asks ask(crowd) for an answer with pairs, and returns it.
-  template <class Ask>
-  auto answer(Ask ask) const {
+  /// Asks run_query(crowd) for an answer with pairs, and returns it.
+  template <class RunQuery>
+  auto answer(RunQuery run_query) const {
     object.last = {}, object.distances.reset();
-    decltype(ask(object.crowd)) found;
-    this->run([&] { found = ask(object.crowd); });
+    decltype(run_query(object.crowd)) found;
+    this->run([&] { found = run_query(object.crowd); });
     return found;
   }
 
@@ -76,11 +76,12 @@ struct CrowdCallOn : CallOn<Handle> {
 using CrowdCall = CrowdCallOn<bch_shape_set>;
 using BodyCrowdCall = CrowdCallOn<bch_body_set>;
 
-template <class Ask, class Handle>
-void hand_out_pairs(const CrowdCallOn<Handle>& call, Ask ask, const bch_pair** pairs, size_t* count) {
+template <class RunQuery, class Handle>
+void hand_out_pairs(const CrowdCallOn<Handle>& call, RunQuery run_query, const bch_pair** pairs,
+                    size_t* count) {
   required(pairs, "pairs");
   required(count, "count");
-  const Crowd::Pairs found = call.answer(ask);
+  const Crowd::Pairs found = call.answer(run_query);
   call.object.last = found;
   *pairs = c_pairs(found.span());
   *count = found.size();
@@ -89,18 +90,18 @@ void hand_out_pairs(const CrowdCallOn<Handle>& call, Ask ask, const bch_pair** p
 template <class Handle>
 void hand_out_candidates(const CrowdCallOn<Handle>& call, double margin, const bch_pair** pairs,
                          size_t* count) {
-  const auto ask = [&](Crowd& crowd) {
+  const auto run_query = [&](Crowd& crowd) {
     return crowd.candidates(call.shapes, call.agents, margin, call.filter);
   };
-  hand_out_pairs(call, ask, pairs, count);
+  hand_out_pairs(call, run_query, pairs, count);
 }
 
 template <class Handle>
 void hand_out_collisions(const CrowdCallOn<Handle>& call, const bch_pair** pairs, size_t* count) {
-  const auto ask = [&](Crowd& crowd) {
+  const auto run_query = [&](Crowd& crowd) {
     return crowd.collisions(call.shapes, call.agents, call.options, call.filter);
   };
-  hand_out_pairs(call, ask, pairs, count);
+  hand_out_pairs(call, run_query, pairs, count);
 }
 
 /// Hands out the pairs of a crowd that collide, and the contacts of each.
@@ -168,9 +169,9 @@ bch_status bch_crowd_create(const bch_crowd_options* given, bch_crowd** crowd) {
     const bch_crowd_options defaults = BCH_CROWD_OPTIONS_INIT;
     const bch_crowd_options options = given == nullptr ? defaults : sized(given, defaults, "options");
     required(crowd, "crowd");
-    const auto most = std::min<std::uint64_t>(options.most_pairs, std::numeric_limits<std::size_t>::max());
+    const auto most = std::min<std::uint64_t>(options.max_pairs, std::numeric_limits<std::size_t>::max());
     hand_out(std::make_unique<bch_crowd>(CrowdOptions{.period = {options.period_x, options.period_y},
-                                                      .most_pairs = static_cast<std::size_t>(most)}),
+                                                      .max_pairs = static_cast<std::size_t>(most)}),
              crowd);
   });
 }

@@ -22,8 +22,8 @@ class Workshop {
  public:
   explicit Workshop(const ShapeSetPlan& plan) : plan_(plan), prepared_(plan) {}
 
-  const PreparedShape& make(const std::shared_ptr<const Character>& character, float threshold,
-                            const Pose& pose, std::size_t i, uint32_t shape) {
+  const BuiltShape& make(const std::shared_ptr<const Character>& character, float threshold, const Pose& pose,
+                         std::size_t i, uint32_t shape) {
     prepared_.prepare(shape_of_pose(shaper(character, threshold), pose, i), shape);
     return prepared_;
   }
@@ -38,7 +38,7 @@ class Workshop {
     PoseShaper shaper;
   };
   const ShapeSetPlan plan_;
-  PreparedShape prepared_;
+  BuiltShape prepared_;
   std::list<Learned> learned_;
 
   PoseShaper& shaper(const std::shared_ptr<const Character>& character, float threshold) {
@@ -83,7 +83,7 @@ void replace_poses(bch_dynamic_shape_set& set, const bch_character& of, std::spa
   if (!(threshold > 0 && threshold <= 1e6f))
     throw Failure(BCH_INVALID_ARGUMENT, "threshold is " + detail::shortest(threshold));
   Work work(given, shapes.size());
-  const auto make = [&](Workshop& by, std::size_t i) -> const PreparedShape& {
+  const auto make = [&](Workshop& by, std::size_t i) -> const BuiltShape& {
     return by.make(of.character, threshold, pose_at(i), i, shapes[i]);
   };
   const auto new_workshop = [&] { return Workshop(set.plan); };
@@ -131,7 +131,7 @@ bch_status bch_dynamic_shape_set_replace(bch_dynamic_shape_set* handle, uint32_t
                                          const bch_pose_shaper* shaper) {
   return guarded([&] {
     bch_dynamic_shape_set& set = object_of(handle, "set");
-    PreparedShape prepared(set.plan);
+    BuiltShape prepared(set.plan);
     prepared.prepare(made_by(object_of(shaper, "shaper")), shape);
     set.dynamic.replace(shape, prepared);
   });

@@ -22,7 +22,7 @@ ImportOptions import_options_of(const bch_import_options& given) {
   for (const char* file : array_of(given.clip_files, given.clip_file_count, "options->clip_files"))
     options.clip_files.emplace_back(&required(file, "a path of options->clip_files"));
   options.force_clips = given.force_clips != 0;
-  options.most_triangles = given.most_triangles;
+  options.max_triangles = given.max_triangles;
   return options;
 }
 

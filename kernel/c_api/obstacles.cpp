@@ -40,9 +40,9 @@ struct ObstacleCallOn : CallOn<Handle> {
       : CallOn<Handle>(set, of, wanted), obstacles(object_of(given, "obstacles").set) {}
 
   /// Asks for answers about all agents, which come whole or not at all.
-  template <class To, class Ask>
-  void ask(To to, Ask ask_into) const {
-    all_or_none(to, [&](const auto& answers) { this->run([&] { ask_into(answers); }); });
+  template <class To, class RunQuery>
+  void run_query(To to, RunQuery query_into) const {
+    all_or_none(to, [&](const auto& answers) { this->run([&] { query_into(answers); }); });
   }
 
   const ObstacleSet& obstacles;
@@ -96,7 +96,8 @@ bch_status bch_obstacles_collide(const bch_shape_set* set, const bch_agents* age
   return guarded([&] {
     const ObstacleCall call(set, agents, obstacles, options);
     const auto to = array_of(hits, call.agents.size(), "hits");
-    call.ask(to, [&](auto into) { collide(call.shapes, call.agents, call.obstacles, into, call.options); });
+    call.run_query(to,
+                   [&](auto into) { collide(call.shapes, call.agents, call.obstacles, into, call.options); });
   });
 }
 
@@ -107,7 +108,7 @@ bch_status bch_obstacles_within(const bch_shape_set* set, const bch_agents* agen
     const ObstacleCall call(set, agents, obstacles, options);
     const auto near = array_of(distances, distance_count, "distances");
     const auto to = array_of(answers, call.agents.size(), "answers");
-    call.ask(to, [&](auto into) {
+    call.run_query(to, [&](auto into) {
       within(call.shapes, call.agents, call.obstacles, near, into, call.options.distance_leaves,
              call.options.implementation);
     });
@@ -120,7 +121,7 @@ bch_status bch_obstacles_clearance(const bch_shape_set* set, const bch_agents* a
   return guarded([&] {
     const ObstacleCall call(set, agents, obstacles, options);
     const ClearanceAnswers to = clearance_answers(out, call.agents.size());
-    call.ask(to, [&](const auto& into) {
+    call.run_query(to, [&](const auto& into) {
       clearance(call.shapes, call.agents, call.obstacles, into, call.options);
     });
   });
@@ -132,8 +133,8 @@ bch_status bch_obstacles_penetration(const bch_shape_set* set, const bch_agents*
   return guarded([&] {
     const ObstacleCall call(set, agents, obstacles, options);
     const auto to = penetrations(depths, call.agents.size());
-    call.ask(to,
-             [&](auto into) { penetration(call.shapes, call.agents, call.obstacles, into, call.options); });
+    call.run_query(
+        to, [&](auto into) { penetration(call.shapes, call.agents, call.obstacles, into, call.options); });
   });
 }
 
@@ -145,7 +146,7 @@ bch_status bch_obstacles_time_of_impact(const bch_shape_set* set, const bch_agen
     const std::size_t count = call.agents.size();
     const Displacements ways{array_of(x, count, "x"), array_of(y, count, "y")};
     const auto to = array_of(times, count, "times");
-    call.ask(to, [&](auto into) {
+    call.run_query(to, [&](auto into) {
       time_of_impact(call.shapes, call.agents, ways, call.obstacles, into, call.options);
     });
   });
@@ -157,7 +158,8 @@ bch_status bch_obstacles_collide_bodies(const bch_body_set* set, const bch_agent
   return guarded([&] {
     const ObstacleCallOn<bch_body_set> call(set, agents, obstacles, options);
     const auto to = array_of(hits, call.agents.size(), "hits");
-    call.ask(to, [&](auto into) { collide(call.shapes, call.agents, call.obstacles, into, call.options); });
+    call.run_query(to,
+                   [&](auto into) { collide(call.shapes, call.agents, call.obstacles, into, call.options); });
   });
 }
 
@@ -169,8 +171,8 @@ bch_status bch_obstacles_within_bodies(const bch_body_set* set, const bch_agents
     const ObstacleCallOn<bch_body_set> call(set, agents, obstacles, options);
     const auto near = array_of(distances, distance_count, "distances");
     const auto to = array_of(answers, call.agents.size(), "answers");
-    call.ask(to,
-             [&](auto into) { within(call.shapes, call.agents, call.obstacles, near, into, call.options); });
+    call.run_query(
+        to, [&](auto into) { within(call.shapes, call.agents, call.obstacles, near, into, call.options); });
   });
 }
 
@@ -180,7 +182,7 @@ bch_status bch_obstacles_clearance_bodies(const bch_body_set* set, const bch_age
   return guarded([&] {
     const ObstacleCallOn<bch_body_set> call(set, agents, obstacles, options);
     const BodyClearanceAnswers to = clearance_answers(out, call.agents.size());
-    call.ask(to, [&](const auto& into) {
+    call.run_query(to, [&](const auto& into) {
       clearance(call.shapes, call.agents, call.obstacles, into, call.options);
     });
   });

@@ -43,7 +43,7 @@ std::unique_ptr<bch_scene_plan> plan_of(const bch_scene_agents& agents, const bc
     use.density_depth = [&](double agent) { return agents.depth[static_cast<std::size_t>(agent)]; };
   auto made = std::make_unique<bch_scene_plan>();
   made->plan = plan_scene(scene_agents_of(agents), use);
-  for (const ShapeSource& shape : made->plan.shapes)
+  for (const PoseId& shape : made->plan.shapes)
     made->shapes.push_back({shape.character, {shape.at.clip, shape.at.seconds}});
   return made;
 }

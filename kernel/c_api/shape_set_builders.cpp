@@ -15,7 +15,7 @@
 #include "layout/base/number_class.hpp"
 #include "layout/base/shortest.hpp"
 #include "layout/hierarchy/paper_hierarchies.hpp"
-#include "layout/shape_set/builder_end.hpp"
+#include "layout/shape_set/builder_mark.hpp"
 
 struct bch_shape_set_builder {
   explicit bch_shape_set_builder(const bch_plan* given)
@@ -25,7 +25,7 @@ struct bch_shape_set_builder {
 
   const bch::ShapeSetPlan plan;
   const float threshold;
-  bch::PreparedShape prepared;
+  bch::BuiltShape prepared;
   std::unique_ptr<bch::ShapeSetBuilder> builder;
   bch::ShapeOrigins origins;
 
@@ -76,12 +76,12 @@ ShapeOrigin origin_of(ShapeOrigins& origins, const bch_character& of, PoseTime a
 /// Adds shapes, all of them or, where that fails, none.
 template <class Add>
 void all_or_none(bch_shape_set_builder& to, Add add) {
-  const detail::BuilderEnd end = to.builder->end();
+  const detail::BuilderMark end = to.builder->mark();
   const std::size_t names = to.origins.names.size(), origins = to.origins.origins.size();
   try {
     add();
   } catch (...) {
-    to.builder->go_back(end);
+    to.builder->rollback(end);
     to.origins.names.resize(names);
     to.origins.origins.resize(origins);
     throw;
@@ -132,7 +132,7 @@ void add_baked(bch_shape_set_builder& to, std::span<const bch_character* const> 
 
 /// Adds the shapes of sources.
 void add_sources(bch_shape_set_builder& to, std::span<const bch_character* const> characters,
-                 std::span<const ShapeSource> sources, const bch_work* given) {
+                 std::span<const PoseId> sources, const bch_work* given) {
   add_baked(
       to, characters, sources.size(), given, [&](detail::PoseBaker& baker, const detail::BakeSteps& steps) {
         baker.add(*to.builder, sources, steps);
@@ -192,7 +192,7 @@ bch_status bch_shape_set_builder_add_poses(bch_shape_set_builder* handle, const 
     const bch_character& of = object_of(character, "character");
     const auto all = array_of(poses, count, "poses");
     check_poses(*of.character, all);
-    std::vector<ShapeSource> sources;
+    std::vector<PoseId> sources;
     for (const bch_pose& pose : all) sources.push_back({0, {pose.clip, pose.seconds}});
     const bch_character* const characters[] = {&of};
     add_sources(builder, characters, sources, work);
@@ -227,7 +227,7 @@ bch_status bch_shape_set_builder_add_sources(bch_shape_set_builder* handle,
     const auto of = array_of(characters, character_count, "characters");
     const auto all = array_of(sources, count, "sources");
     check_sources(of, all);
-    std::vector<ShapeSource> shapes;
+    std::vector<PoseId> shapes;
     for (const auto& [character, at] : all) shapes.push_back({character, {at.clip, at.seconds}});
     add_sources(builder, of, shapes, work);
   });
@@ -313,7 +313,7 @@ bch_status bch_bake(const bch_character* const* characters, size_t character_cou
   return guarded([&] {
     const auto of = array_of(characters, character_count, "characters");
     required(set, "set");
-    std::vector<ShapeSource> sources;
+    std::vector<PoseId> sources;
     for (std::uint32_t i = 0; i < of.size(); ++i)
       for (const PoseTime at : sample_poses(*object_of(of[i], "a character of characters").character, poses))
         sources.push_back({i, at});

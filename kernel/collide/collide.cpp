@@ -16,7 +16,7 @@ using namespace detail;
 void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
              std::span<std::uint8_t> hits, const CollideOptions& options) {
   const FloatingPointStateGuard floats;
-  require_as_many({"collide", "pair", pairs.size()}, hits.size(), "hits");
+  check_size({"collide", "pair", pairs.size()}, hits.size(), "hits");
   const bool exact = exact_leaves(shapes, options.leaves, "collide");
   const Implementation& implementation = chosen(options.implementation, "collide");
   const ShapeSetView& view = shapes.view();

@@ -60,8 +60,8 @@ class OverlapTraversal {
   static constexpr std::uint32_t tests_ahead = 6;
   static constexpr std::uint32_t verified_together = 32;
   /// The most frames of a pair: every test descends on one side at least, and no tree has more than
-  /// most_wide_levels levels.
-  static constexpr std::uint32_t most_frames = 2 * most_wide_levels;
+  /// max_wide_levels levels.
+  static constexpr std::uint32_t max_frames = 2 * max_wide_levels;
 
   struct NoGaps {};
 
@@ -150,7 +150,7 @@ class OverlapTraversal {
     std::uint64_t near[verified_together];
     std::uint32_t is_sure = 0, is_compared = 0;
     static_assert(verified_together <= 32);
-    const auto hear = [&](std::uint32_t owner, Meeting meeting) {
+    const auto on_meeting = [&](std::uint32_t owner, Meeting meeting) {
       const std::uint32_t i = owner / block_pairs;
       is_sure |= std::uint32_t{meeting == Meeting::sure} << i;
       near[i] |= std::uint64_t{meeting == Meeting::near} << owner % block_pairs;
@@ -173,10 +173,10 @@ class OverlapTraversal {
       for (std::uint64_t hits = hits_[which[i]]; hits != 0; hits &= hits - 1) {
         const auto [disc_a, disc_b] = first_hit(at, hits);
         const std::uint32_t owner = i * block_pairs + static_cast<unsigned>(__builtin_ctzll(hits));
-        segments_.add(slots_[which[i]], a, disc_a, b, disc_b, owner, hear);
+        segments_.add(slots_[which[i]], a, disc_a, b, disc_b, owner, on_meeting);
       }
     });
-    segments_.finish(hear);
+    segments_.finish(on_meeting);
     std::uint32_t left = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
       const std::uint16_t k = which[i];
@@ -282,7 +282,7 @@ class OverlapTraversal {
   AncestorPath<Simd> above_a_[verified_together],
       above_b_[verified_together];  ///< of those that are verified
   SegmentTest<Simd, Open> segments_;
-  Frame frames_[capacity][most_frames + 2];
+  Frame frames_[capacity][max_frames + 2];
 };
 
 }  // namespace bch::detail

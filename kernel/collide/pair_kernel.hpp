@@ -233,7 +233,7 @@ class PairKernel {
   const ShapeSetView shapes_;
   const std::uint8_t miss_;
   std::uint8_t* codes_ = nullptr;  ///< of the chunk
-  Placements<Simd> at_;
+  RelativeTransforms<Simd> at_;
   SeparatingAxisTest<Simd> axis_test_;
   ProfileTest<Simd> profiles_;
   alignas(64) std::uint32_t row_a_[chunk_size], row_b_[chunk_size];  ///< supports; set by test_roots()

@@ -98,14 +98,14 @@ class ContactKernel {
     }
   }
 
-  /// Looks at one pair of agents, of which the lower index is A; see Placements.
+  /// Looks at one pair of agents, of which the lower index is A; see RelativeTransforms.
   void look_at(std::size_t begin, std::uint32_t k) noexcept {
     const Pair pair = in_.pairs[begin + k];
     swapped_ = pair.second < pair.first;
     placed_.b_in_a = at_.transform(k);
     const std::uint32_t rows = swapped_ ? at_.root_b[k] : at_.root_a[k];
     const std::uint32_t columns = swapped_ ? at_.root_a[k] : at_.root_b[k];
-    if (shapes_.trees == nullptr) return look_at_single_discs(shapes_.roots[rows], shapes_.roots[columns]);
+    if (shapes_.trees == nullptr) return visit_single_discs(shapes_.roots[rows], shapes_.roots[columns]);
     nodes_ = shapes_.nodes;
     const float reach_a = shapes_.reach[at_.shape_a[k]], reach_b = shapes_.reach[at_.shape_b[k]];
     reach_ = reach_a + reach_b;
@@ -118,7 +118,7 @@ class ContactKernel {
   }
 
   /// Looks at a pair of single discs in windows of its own, because the set has none.
-  void look_at_single_discs(const Root& row_disc, const Root& column_disc) noexcept {
+  void visit_single_discs(const Root& row_disc, const Root& column_disc) noexcept {
     for (DiscBlock& single : singles_)
       for (unsigned i = 0; i < block_width; ++i)
         single.x[i] = __builtin_inff(), single.y[i] = single.radius[i] = 0;
@@ -235,14 +235,14 @@ class ContactKernel {
   /// Returns: one past the last that was placed.
   DiscPair* place_rows(std::uint32_t rows, std::uint64_t mask, const Nodes& columns,
                        DiscPair* out) const noexcept {
-    constexpr std::uint32_t most_kept = 16;
-    std::uint32_t count[block_width] = {}, windows = 0, kept[most_kept];
-    std::uint64_t kept_hits[most_kept];
+    constexpr std::uint32_t max_kept = 16;
+    std::uint32_t count[block_width] = {}, windows = 0, kept[max_kept];
+    std::uint64_t kept_hits[max_kept];
     for_column_windows(rows, mask, columns, [&](std::uint32_t window, std::uint64_t hits) {
       for (unsigned i = 0; i < block_width; ++i)
         count[i] +=
             static_cast<std::uint32_t>(__builtin_popcountll(hits >> (i * block_width) & first_row_of_pairs));
-      if (windows < most_kept) kept[windows] = window, kept_hits[windows] = hits;
+      if (windows < max_kept) kept[windows] = window, kept_hits[windows] = hits;
       ++windows;
     });
     DiscPair* end[block_width];
@@ -255,7 +255,7 @@ class ContactKernel {
                                      (window & ~leaf_window) - first_column_ + bit % block_width};
       }
     };
-    if (windows > most_kept)
+    if (windows > max_kept)
       for_column_windows(rows, mask, columns, place);
     else
       for (std::uint32_t k = 0; k < windows; ++k) place(kept[k], kept_hits[k]);
@@ -291,10 +291,10 @@ class ContactKernel {
   bool segments_meet(const Tree& a, std::uint32_t disc_a, const Tree& b,
                      std::uint32_t disc_b) const noexcept {
     bool meet = false;
-    const auto hear = [&](std::uint32_t, Meeting meeting) { meet |= meeting != Meeting::none; };
+    const auto on_meeting = [&](std::uint32_t, Meeting meeting) { meet |= meeting != Meeting::none; };
     SegmentTest<Simd, Placed> test(shapes_, &placed_);
-    test.add(0, a, disc_a, b, disc_b, 0, hear);
-    test.finish(hear);
+    test.add(0, a, disc_a, b, disc_b, 0, on_meeting);
+    test.finish(on_meeting);
     return meet;
   }
 
@@ -326,7 +326,7 @@ class ContactKernel {
 
   const Arguments& in_;
   const ShapeSetView shapes_;
-  Placements<Simd> at_;
+  RelativeTransforms<Simd> at_;
 
   // State of the current pair.
   bool swapped_;  ///< the first agent is B

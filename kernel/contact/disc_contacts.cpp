@@ -20,10 +20,10 @@ constexpr std::size_t contact_grain = 256;  ///< pairs a task; each may have tho
 
 /// Bodies of eight discs or less have so many floats of nodes, beside padding at the end of all; and one thread answers so many of their
 /// pairs before others would have begun.
-constexpr std::size_t light_floats = 64, most_light_pairs = 2048;
+constexpr std::size_t light_floats = 64, max_light_pairs = 2048;
 bool is_light(const ShapeSet& shapes, std::size_t pairs) {
   const ShapeArrays& arrays = shapes.arrays();
-  return pairs <= most_light_pairs && arrays.nodes.size() <= light_floats * (arrays.trees.size() + 1);
+  return pairs <= max_light_pairs && arrays.nodes.size() <= light_floats * (arrays.trees.size() + 1);
 }
 
 }  // namespace

@@ -126,13 +126,13 @@ Crowd::Clearances Crowd::clearances(const ShapeSet& shapes, const Agents& agents
     const double margin =
         options.max_distance >= 0 ? std::max(options.max_distance, least_margin) : options.max_distance;
     const CrowdMemory::Candidates candidates = of.find(shapes, agents, margin, filter);
-    const auto ask = [&] {
+    const auto run_query = [&] {
       clearance(shapes, candidates.agents, candidates.pairs,
                 {of.distance.of_candidates, of.direction.of_candidates, of.discs.of_candidates,
                  of.points.of_candidates},
                 options);
     };
-    const Crowd::Pairs near = of.keep_near(candidates.pairs, ask, of.direction, of.discs, of.points);
+    const Crowd::Pairs near = of.keep_near(candidates.pairs, run_query, of.direction, of.discs, of.points);
     return {near, of.distance.kept, of.direction.kept, of.discs.kept, of.points.kept};
   });
 }
@@ -142,14 +142,14 @@ Crowd::BodyClearances Crowd::clearances(const BodySet& bodies, const Agents& age
   return without_tasks_from_outside([&]() -> Crowd::BodyClearances {
     CrowdMemory& of = *memory_;
     const CrowdMemory::Candidates candidates = of.find(bodies, agents, options.max_distance, filter);
-    const auto ask = [&] {
+    const auto run_query = [&] {
       clearance(bodies, candidates.agents, candidates.pairs,
                 {of.distance.of_candidates, of.space_direction.of_candidates, of.discs.of_candidates,
                  of.space_points.of_candidates},
                 options);
     };
     const Crowd::Pairs near =
-        of.keep_near(candidates.pairs, ask, of.space_direction, of.discs, of.space_points);
+        of.keep_near(candidates.pairs, run_query, of.space_direction, of.discs, of.space_points);
     return {near, of.distance.kept, of.space_direction.kept, of.discs.kept, of.space_points.kept};
   });
 }

@@ -34,7 +34,7 @@ CrowdMemory::Candidates CrowdMemory::find(const ShapeSetView& shapes, const Agen
   test.set(
       filter, given.size(),
       found.agents.shape.size() > agents ? periodic.origin_of_image() : std::span<const std::uint32_t>());
-  found.pairs = broad_phase.find(shapes, found.agents, margin, options.most_pairs,
+  found.pairs = broad_phase.find(shapes, found.agents, margin, options.max_pairs,
                                  test.accepts_all() ? nullptr : &test, height_margin);
   return found;
 }

@@ -103,12 +103,13 @@ struct CrowdMemory {
     contact_offsets.push_back(rows.values.size());
     return {kept_pairs(), {contact_offsets, rows.values}};
   }
-  /// Asks ask() for the distances of the candidates and what goes with them, and keeps those that are near.
-  template <class Ask, class... Value>
-  Crowd::Pairs keep_near(std::span<const Pair> candidates, const Ask& ask, AnswersOfPairs<Value>&... beside) {
+  /// Asks run_query() for the distances of the candidates and what goes with them, and keeps those that are near.
+  template <class RunQuery, class... Value>
+  Crowd::Pairs keep_near(std::span<const Pair> candidates, const RunQuery& run_query,
+                         AnswersOfPairs<Value>&... beside) {
     distance.of_candidates.resize(candidates.size());
     (beside.of_candidates.resize(candidates.size()), ...);
-    ask();
+    run_query();
     keep(candidates,
          [&](std::size_t i) { return distance.of_candidates[i] < std::numeric_limits<float>::infinity(); });
     distance.keep(kept);

@@ -25,7 +25,7 @@ double wrapped(double at, double period) noexcept {
 /// Returns how far from its position an agent is looked for at most, beside the rounding of the broad phase.
 double farthest_reach(const ShapeSetView& shapes, const Agents& agents, double margin) noexcept {
   const CrowdBounds all = bounds(shapes, agents, margin, 0, agents.size());
-  return (all.offset + all.most_radius) * (1 + 0x1p-18);
+  return (all.offset + all.max_radius) * (1 + 0x1p-18);
 }
 
 /// Holds the shifts from a coordinate to those of its images, 0 among them.

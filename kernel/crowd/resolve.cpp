@@ -44,7 +44,7 @@ void require_valid(const Crowd::ResolveOptions& options, std::size_t agents) {
   require_length("largest_step", options.largest_step, longest_step);
   require_length("largest_shift", options.largest_shift, std::numeric_limits<double>::infinity());
   if (!options.mobility.empty())
-    require_as_many({"resolve", "agent", agents}, options.mobility.size(), "mobilities");
+    check_size({"resolve", "agent", agents}, options.mobility.size(), "mobilities");
   for (std::size_t i = 0; i < options.mobility.size(); ++i)
     if (!(options.mobility[i] >= 0 && options.mobility[i] <= 1))
       throw std::invalid_argument("resolve: agent " + std::to_string(i) +

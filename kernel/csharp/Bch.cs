@@ -323,7 +323,7 @@ namespace Bch
         public Crowd(double periodX = 0, double periodY = 0) : base(Made(periodX, periodY), Native.bch_crowd_free) { }
         private static IntPtr Made(double periodX, double periodY)
         {
-            var options = new CrowdOptions { period_x = periodX, period_y = periodY, most_pairs = ulong.MaxValue };
+            var options = new CrowdOptions { period_x = periodX, period_y = periodY, max_pairs = ulong.MaxValue };
             options.size = (uint)Marshal.SizeOf(options);
             IntPtr made;
             Native.Check(Native.bch_crowd_create(ref options, out made));
@@ -511,7 +511,7 @@ namespace Bch
         public UIntPtr heading_y_stride;
     }
     [StructLayout(LayoutKind.Sequential)]
-    internal struct CrowdOptions { public uint size; public double period_x, period_y; public ulong most_pairs; }
+    internal struct CrowdOptions { public uint size; public double period_x, period_y; public ulong max_pairs; }
     [StructLayout(LayoutKind.Sequential)]
     internal struct PenetrationView { public UIntPtr count; public IntPtr pairs, depths; }
 

@@ -106,8 +106,8 @@ class BestFirstTraversal {
  private:
   using Float = typename Simd::Float;
   /// The most frames of a pair: every step descends on one side at least, and no tree has more than
-  /// most_wide_levels levels.
-  static constexpr std::uint32_t most_frames = 2 * most_wide_levels;
+  /// max_wide_levels levels.
+  static constexpr std::uint32_t max_frames = 2 * max_wide_levels;
 
   void take(NodePairBounds& frame, unsigned k, std::uint32_t& a, std::uint32_t& b) const noexcept {
     const unsigned i = k / block_width, j = k % block_width;
@@ -121,7 +121,7 @@ class BestFirstTraversal {
   }
 
   const float* nodes_;
-  NodePairBounds frames_[most_frames + 1];
+  NodePairBounds frames_[max_frames + 1];
 };
 
 }  // namespace bch::detail

@@ -40,7 +40,7 @@ class RangeAnswers {
     // A set of roots alone is as quickly searched. Segments are measured only of pairs that do not collide.
     if (arguments_.enough == 0 && shapes_.trees != nullptr) {
       open_.take_apart(implementation_, arguments_.in, pairs_);
-      for (std::size_t i = 0; i < pairs_.size(); ++i) put_alone(answers_, i, 0);
+      for (std::size_t i = 0; i < pairs_.size(); ++i) store_alone(answers_, i, 0);
     } else {
       open_.take_all(pairs_);
     }
@@ -57,9 +57,9 @@ class RangeAnswers {
     for (std::size_t k = 0; k < open_.size(); ++k) {
       const Pair pair = open_.pairs()[k];
       if (heights_meet(arguments_.in, pair))
-        put(k, {shapes_, agents_, in_order(pair), nearest[k]});
+        store(k, {shapes_, agents_, in_order(pair), nearest[k]});
       else
-        put_alone(answers_, open_.index(k), std::numeric_limits<float>::infinity());
+        store_alone(answers_, open_.index(k), std::numeric_limits<float>::infinity());
     }
   }
 
@@ -68,11 +68,11 @@ class RangeAnswers {
   }
 
   /// Writes the answer for an open pair.
-  void put(std::size_t k, const FoundFeatures& found) noexcept {
+  void store(std::size_t k, const PlacedFeatures& found) noexcept {
     const std::size_t i = open_.index(k);
     const NearestFeatures& nearest = found.nearest();
-    if (nearest.a == no_node) return put_alone(answers_, i, std::numeric_limits<float>::infinity());
-    if (nearest.distance <= arguments_.enough) return put_alone(answers_, i, 0);
+    if (nearest.a == no_node) return store_alone(answers_, i, std::numeric_limits<float>::infinity());
+    if (nearest.distance <= arguments_.enough) return store_alone(answers_, i, 0);
     const bool is_turned = open_.pairs()[k].second < open_.pairs()[k].first;
     answers_.distance[i] = nearest.distance;
     if (!answers_.direction.empty()) answers_.direction[i] = found.direction(is_turned ? -1 : 1);

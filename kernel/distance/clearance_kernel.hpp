@@ -134,12 +134,12 @@ class ClearanceKernel {
 
   const ClearanceArguments& arguments_;
   const ShapeSetView shapes_;
-  Placements<Simd> at_;
+  RelativeTransforms<Simd> at_;
   RecordFields<Simd> of_a_, of_b_;
   alignas(64) float root_bound_[chunk_size];
   std::uint32_t searched_[Search::capacity];  ///< pairs of the chunk
   typename Measure::Segments segments_;
-  static_assert(Measure::Segments::most_searches == Search::capacity);
+  static_assert(Measure::Segments::max_searches == Search::capacity);
   Search search_;
 };
 

@@ -30,7 +30,7 @@ namespace bch::detail {
 /// S), and 9 u S + 4 u D for what follows (R_A + R_B <= D' + S, or v' is below any v), with 3 u S + u D more
 /// where the slack is added to the sum of radii; v falls short of D - (r_A + r_B) by 15.7 u S + 26.6 u D. All
 /// together: 45.4 u S, for which `slack` = 64 u S is taken off beside, and 39.2 u D, for which nearer takes
-/// 64. So v' <= v, and leaving out what is above the best never loses a tie. Its root is rough_root(),
+/// 64. So v' <= v, and leaving out what is above the best never loses a tie. Its root is approximate_sqrt(),
 /// shortened by more than that is off. These sums are static_asserts in clearance_terms.hpp. A test sees the
 /// slack: without it, tests/kernel/queries_test.cpp finds other discs than brute force does, where a
 /// tiny shape lies in a disc of one that is far from its own origin. Only the proof needs that `nearer` is
@@ -45,7 +45,7 @@ class ClearanceMeasure {
   /// Takes the limit and the reach: `reach` is S, metres. A gap at or below `enough` ends the search; nothing is nearer.
   ClearanceMeasure(float limit, float enough, float reach) noexcept
       : enough_(enough), slack_(slack_per_reach * reach) {
-    look_within({limit, false, no_node, no_node});
+    search_within({limit, false, no_node, no_node});
   }
   ClearanceMeasure() = default;
 
@@ -54,7 +54,7 @@ class ClearanceMeasure {
                     double margin) noexcept {
     segments_ = segments, number_ = number, tree_a_ = &a, tree_b_ = &b;
     margin_ = static_cast<float>(margin);
-    look_within(nearest_);
+    search_within(nearest_);
   }
 
   /// Names discs by where they stand among the nodes, segments by where they begin among the points; or no_node.
@@ -119,7 +119,7 @@ class ClearanceMeasure {
 
   static Float rough_gap(Float x, Float y, Float r) noexcept {
     const Float square = x * x + y * y;
-    const Float root = rough_root<Simd>(square) * Float(nearer * (1 - Simd::rough));
+    const Float root = approximate_sqrt<Simd>(square) * Float(nearer * (1 - Simd::approximation_error));
     // The square of padding is infinite or NaN.
     return Simd::select(square <= Float(far_beyond), root - r, Float(far_beyond));
   }
@@ -135,7 +135,7 @@ class ClearanceMeasure {
     });
     if (!(least_value<Simd>(gaps) <= best_)) return;
     const float most = __builtin_sqrtf(least_value<Simd>(squares)) * longer + slack_;
-    if (most_gap(most) < best_) bound_by(most_gap(most));
+    if (max_gap(most) < best_) bound_by(max_gap(most));
     for (std::uint64_t left = all_within<Simd>(gaps, best_); left != 0; left &= left - 1) {
       const auto k = static_cast<unsigned>(__builtin_ctzll(left));
       segments_->add(number_, *this, first_a + k / block_width, first_b + k % block_width, gaps[k]);
@@ -153,21 +153,21 @@ class ClearanceMeasure {
 
   void set(const Nearest& nearest) noexcept {
     nearest_ = nearest;
-    const float gap = most_gap(nearest.distance);
+    const float gap = max_gap(nearest.distance);
     if (gap < best_) bound_by(gap);
     // No comparison with these holds.
     if (nearest.distance <= enough_)
       nearest_.distance = best_ = -__builtin_inff(), most_ = __builtin_nanf("");
   }
 
-  void look_within(const Nearest& nearest) noexcept {
+  void search_within(const Nearest& nearest) noexcept {
     nearest_ = nearest;
-    bound_by(most_gap(nearest.distance));
+    bound_by(max_gap(nearest.distance));
   }
 
   /// Returns the largest gap of leaf discs that may hold what is as near.
-  float most_gap(float distance) const noexcept {
-    return segments_ == nullptr ? distance : Segments::most_gap(margin_, distance);
+  float max_gap(float distance) const noexcept {
+    return segments_ == nullptr ? distance : Segments::max_gap(margin_, distance);
   }
 
   void bound_by(float gap) noexcept {

@@ -14,20 +14,20 @@ namespace bch::detail {
 namespace {
 
 /// Begins the message about one of what is asked.
-std::string place(const Asked& asked, std::size_t i) {
+std::string place(const QueryName& asked, std::size_t i) {
   return std::string(asked.query) + ": " + asked.one + " " + std::to_string(i) + ": ";
 }
 
-void require_none_or_as_many(const Asked& asked, std::size_t size, const char* what) {
-  if (size != 0) require_as_many(asked, size, what);
+void check_size_or_none(const QueryName& asked, std::size_t size, const char* what) {
+  if (size != 0) check_size(asked, size, what);
 }
 
 /// Requires the sizes of all answers but the discs or spheres, and the options.
 template <class Answers, class Options>
-void require_valid_answers(const Asked& asked, const Answers& answers, const Options& options) {
-  require_as_many(asked, answers.distance.size(), "distances");
-  require_none_or_as_many(asked, answers.direction.size(), "directions");
-  require_none_or_as_many(asked, answers.points.size(), "points");
+void require_valid_answers(const QueryName& asked, const Answers& answers, const Options& options) {
+  check_size(asked, answers.distance.size(), "distances");
+  check_size_or_none(asked, answers.direction.size(), "directions");
+  check_size_or_none(asked, answers.points.size(), "points");
   if (!(options.max_distance >= 0))
     throw std::invalid_argument(std::string(asked.query) + ": a max_distance of " +
                                 shortest(options.max_distance) + " m");
@@ -35,7 +35,7 @@ void require_valid_answers(const Asked& asked, const Answers& answers, const Opt
 }
 
 template <class Answers>
-void put_distance(const Answers& answers, std::size_t i, float distance) noexcept {
+void store_distance(const Answers& answers, std::size_t i, float distance) noexcept {
   answers.distance[i] = distance;
   if (!answers.direction.empty()) answers.direction[i] = {};
   if (!answers.points.empty()) answers.points[i] = {};
@@ -43,31 +43,31 @@ void put_distance(const Answers& answers, std::size_t i, float distance) noexcep
 
 }  // namespace
 
-void require_valid(const Asked& asked, const ClearanceAnswers& answers, const ClearanceOptions& options) {
-  require_none_or_as_many(asked, answers.discs.size(), "discs");
+void require_valid(const QueryName& asked, const ClearanceAnswers& answers, const ClearanceOptions& options) {
+  check_size_or_none(asked, answers.discs.size(), "discs");
   require_valid_answers(asked, answers, options);
 }
 
-void require_valid(const Asked& asked, const BodyClearanceAnswers& answers,
+void require_valid(const QueryName& asked, const BodyClearanceAnswers& answers,
                    const BodyClearanceOptions& options) {
-  require_none_or_as_many(asked, answers.spheres.size(), "spheres");
+  check_size_or_none(asked, answers.spheres.size(), "spheres");
   require_valid_answers(asked, answers, options);
 }
 
-void require_distances(const Asked& asked, std::span<const double> distances) {
+void require_distances(const QueryName& asked, std::span<const double> distances) {
   const bool one_for_all = distances.size() == 1;
-  if (!one_for_all) require_as_many(asked, distances.size(), "distances");
+  if (!one_for_all) check_size(asked, distances.size(), "distances");
   for (std::size_t i = 0; i < distances.size(); ++i)
     if (!(distances[i] >= 0))
       throw std::invalid_argument((one_for_all ? std::string(asked.query) + ": " : place(asked, i)) +
                                   "a distance of " + shortest(distances[i]) + " m");
 }
 
-void require_valid(const Asked& asked, const Displacements& displacements, std::size_t times) {
-  require_as_many(asked, displacements.x.size(), "displacements in x");
-  require_as_many(asked, displacements.y.size(), "displacements in y");
-  require_none_or_as_many(asked, displacements.z.size(), "displacements in z");
-  require_as_many(asked, times, "times");
+void require_valid(const QueryName& asked, const Displacements& displacements, std::size_t times) {
+  check_size(asked, displacements.x.size(), "displacements in x");
+  check_size(asked, displacements.y.size(), "displacements in y");
+  check_size_or_none(asked, displacements.z.size(), "displacements in z");
+  check_size(asked, times, "times");
   const auto good = [](double length) { return std::abs(length) <= rounding::largest_position; };
   for (std::size_t i = 0; i < displacements.x.size(); ++i)
     if (!good(displacements.x[i]) || !good(displacements.y[i]))
@@ -79,20 +79,20 @@ void require_valid(const Asked& asked, const Displacements& displacements, std::
                                   " m is not within +-1e9");
 }
 
-void require_on_ground(const Asked& asked, const Displacements& displacements) {
+void require_on_ground(const QueryName& asked, const Displacements& displacements) {
   if (!displacements.z.empty())
     throw std::invalid_argument(std::string(asked.query) +
                                 ": expected no displacements in z of outlines, found " +
                                 std::to_string(displacements.z.size()));
 }
 
-void put_alone(const ClearanceAnswers& answers, std::size_t i, float distance) noexcept {
-  put_distance(answers, i, distance);
+void store_alone(const ClearanceAnswers& answers, std::size_t i, float distance) noexcept {
+  store_distance(answers, i, distance);
   if (!answers.discs.empty()) answers.discs[i] = DiscPair::none;
 }
 
-void put_alone(const BodyClearanceAnswers& answers, std::size_t i, float distance) noexcept {
-  put_distance(answers, i, distance);
+void store_alone(const BodyClearanceAnswers& answers, std::size_t i, float distance) noexcept {
+  store_distance(answers, i, distance);
   if (!answers.spheres.empty()) answers.spheres[i] = DiscPair::none;
 }
 

@@ -50,7 +50,7 @@ std::uint32_t leaf_that_holds(const ShapeSetView& shapes, std::size_t root, std:
   return found;
 }
 
-FoundFeatures::Disc FoundFeatures::disc(std::uint32_t agent, std::uint32_t place) const noexcept {
+PlacedFeatures::Disc PlacedFeatures::disc(std::uint32_t agent, std::uint32_t place) const noexcept {
   const Root& alone = shapes_.roots[root(agent)];
   if (shapes_.trees == nullptr) return {double{alone.x}, double{alone.y}, double{alone.radius}};
   const std::size_t stride = shapes_.trees[root(agent)].stride;
@@ -58,14 +58,14 @@ FoundFeatures::Disc FoundFeatures::disc(std::uint32_t agent, std::uint32_t place
   return {double{x[0]}, double{x[stride]}, double{x[2 * stride]}};
 }
 
-FoundFeatures::Segment FoundFeatures::segment(std::uint32_t point) const noexcept {
+PlacedFeatures::Segment PlacedFeatures::segment(std::uint32_t point) const noexcept {
   const Vec2 from = shapes_.points[point], to = shapes_.points[point + 1];
   return {
       {double{from.x}, double{from.y}}, {double{to.x} - double{from.x}, double{to.y} - double{from.y}}, 0};
 }
 
 /// Segments that do not meet are nearest at an end of one.
-FoundFeatures::Segments FoundFeatures::segments() const {
+PlacedFeatures::Segments PlacedFeatures::segments() const {
   const auto [first, second] = pair_;
   Segments found{segment(nearest_.a), segment(nearest_.b), {}};
   const Rotation of_a = rotation(agents_.heading[first]), of_b = rotation(agents_.heading[second]);
@@ -92,31 +92,31 @@ FoundFeatures::Segments FoundFeatures::segments() const {
   return found;
 }
 
-PlanePoint FoundFeatures::between() const {
+PlanePoint PlacedFeatures::between() const {
   if (nearest_.are_segments) return segments().between;
   return turned({double{nearest_.cosine}, double{nearest_.sine}},
                 PlanePoint{double{nearest_.x}, double{nearest_.y}});
 }
 
-PlanePoint FoundFeatures::along(double sign) const {
+PlanePoint PlacedFeatures::along(double sign) const {
   const auto [x, y] = between();
   if (x == 0 && y == 0) return {sign, 0};
   const double scale = sign / std::sqrt(x * x + y * y);
   return {scale * x, scale * y};
 }
 
-Vec2 FoundFeatures::direction(double sign) const {
+Vec2 PlacedFeatures::direction(double sign) const {
   return rounded(along(sign));
 }
 
 /// Returns where an agent's disc goes as far as it does along a unit vector.
-Vec2 FoundFeatures::end(std::uint32_t agent, std::uint32_t place, PlanePoint unit) const {
+Vec2 PlacedFeatures::end(std::uint32_t agent, std::uint32_t place, PlanePoint unit) const {
   const Disc of = disc(agent, place);
   const auto [x, y] = turned(rotation(agents_.heading[agent]), PlanePoint{of.x, of.y});
   return rounded(PlanePoint{x + of.radius * unit.x, y + of.radius * unit.y});
 }
 
-NearestPoints FoundFeatures::points() const {
+NearestPoints PlacedFeatures::points() const {
   const auto [first, second] = pair_;
   if (nearest_.are_segments) {
     const Segments of = segments();
@@ -127,7 +127,7 @@ NearestPoints FoundFeatures::points() const {
   return {end(first, nearest_.a, unit), end(second, nearest_.b, {-unit.x, -unit.y})};
 }
 
-DiscPair FoundFeatures::numbers() const {
+DiscPair PlacedFeatures::numbers() const {
   const auto [first, second] = pair_;
   if (nearest_.are_segments) {
     const Segments of = segments();

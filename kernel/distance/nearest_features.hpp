@@ -21,11 +21,11 @@ std::uint32_t leaf_that_holds(const ShapeSetView& shapes, std::size_t root, std:
 
 /// Holds what a kernel found of two agents, and all outputs of it. What is computed here is so in double, where squares do not underflow,
 /// and from the positions themselves.
-class FoundFeatures {
+class PlacedFeatures {
  public:
   /// Takes the pair, the lower index first. Everything has to outlive this.
-  FoundFeatures(const ShapeSetView& shapes, const Agents& agents, Pair pair,
-                const NearestFeatures& nearest) noexcept
+  PlacedFeatures(const ShapeSetView& shapes, const Agents& agents, Pair pair,
+                  const NearestFeatures& nearest) noexcept
       : shapes_(shapes), agents_(agents), pair_(pair), nearest_(nearest) {}
 
   const NearestFeatures& nearest() const noexcept { return nearest_; }

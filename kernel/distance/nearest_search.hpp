@@ -41,7 +41,7 @@ class NearestSearch {
   void run() noexcept {
     descend();
     inner_.size = 0;
-    for (std::uint32_t depth = most_kept; depth-- > 0;) {
+    for (std::uint32_t depth = max_kept; depth-- > 0;) {
       for (std::uint32_t pair = 0; pair < size_; ++pair)
         if (depth < pairs_[pair].frames) collect(pair, frames_[pair][depth]);
       expand_inner();
@@ -53,7 +53,7 @@ class NearestSearch {
  private:
   using Float = typename Simd::Float;
   using Frame = NodePairBounds;
-  static constexpr std::uint32_t most_kept = 2;  ///< frames of a descent; deeper ones are traversed at once
+  static constexpr std::uint32_t max_kept = 2;  ///< frames of a descent; deeper ones are traversed at once
   static constexpr std::uint32_t list_capacity = 1024;
 
   /// Holds two agents.
@@ -84,7 +84,7 @@ class NearestSearch {
         Searched& pair = pairs_[step.pair];
         if ((step.a & step.b) >= leaf_window) {
           meet(step);
-        } else if (depth == most_kept) {
+        } else if (depth == max_kept) {
           traversal_.run(pair.at, step.a, step.b, pair.stride_a, pair.stride_b, pair.measure);
         } else {
           traversal_.bound(pair.at, step.a, step.b, pair.stride_a, pair.stride_b, pair.measure,
@@ -171,7 +171,7 @@ class NearestSearch {
   std::uint32_t size_ = 0;
   Step steps_[capacity];
   Searched pairs_[capacity];
-  Frame frames_[capacity][most_kept];
+  Frame frames_[capacity][max_kept];
   List inner_;
   BestFirstTraversal<Simd, Measure> traversal_;
 };

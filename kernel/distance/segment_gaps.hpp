@@ -34,7 +34,7 @@ struct PlacedSegments {
 /// Below D by no more than m, 8.9 u S, the grids, and (4.6 + 8 + 1) u D: (segment_price), and 0.9 um per metre of D.
 ///
 /// Which leaves have to be looked at. The nearest points of two outlines lie in two leaves that hold their segments. The gap of the
-/// discs of these is at most D, see ClearanceMeasure, and so at most w + 2 m + 14 u D: most_gap(). And some pair of leaves has a w of at most
+/// discs of these is at most D, see ClearanceMeasure, and so at most w + 2 m + 14 u D: max_gap(). And some pair of leaves has a w of at most
 /// sqrt(D'^2 + r_A^2 + r_B^2), where D' is the distance of the centres: half of a smallest disc, whichever, has a point of what it holds on
 /// its edge, and so one that is no farther from a point at D' than sqrt(D'^2 + r^2). So what is nearest is sought among discs
 /// alone, and the leaves that may hold it are put by until the search ends, when few of them are left.
@@ -48,7 +48,7 @@ struct PlacedSegments {
 template <class Simd, class Search>
 class SegmentGaps : private SegmentBatch<Simd, PlacedSegments> {
  public:
-  static constexpr std::uint32_t most_searches = 32;  ///< whose leaves are put by at a time
+  static constexpr std::uint32_t max_searches = 32;  ///< whose leaves are put by at a time
 
   explicit SegmentGaps(const ShapeSetView& shapes) noexcept
       : SegmentBatch<Simd, PlacedSegments>(shapes, places_) {}
@@ -59,7 +59,7 @@ class SegmentGaps : private SegmentBatch<Simd, PlacedSegments> {
   }
 
   /// Returns the largest gap of discs whose segments may have a gap of at most `best`.
-  static float most_gap(float margin, float best) noexcept {
+  static float max_gap(float margin, float best) noexcept {
     return best * (1 + of_distance) + margin * 2.001f;
   }
 
@@ -122,11 +122,11 @@ class SegmentGaps : private SegmentBatch<Simd, PlacedSegments> {
       const auto& pair = pairs[part];
       gaps[part] = xsimd::max(xsimd::sqrt(pair.square_of_ends()) * Double(near) - pair.margin, Double(0.0));
     }
-    Simd::store(gap, Simd::rounded(gaps));
+    Simd::store(gap, Simd::to_float(gaps));
     return ~std::uint32_t{0} >> (32 - Simd::width);
   }
 
-  PlacedSegments places_[most_searches];
+  PlacedSegments places_[max_searches];
   std::uint32_t open_size_ = 0;
   Leaves open_[open_capacity];
 };

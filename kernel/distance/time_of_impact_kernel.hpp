@@ -118,7 +118,7 @@ class TimeOfImpactKernel {
   const TimeOfImpactArguments& arguments_;
   const ShapeSetView shapes_;
   alignas(64) float x_[chunk_size], y_[chunk_size];  ///< the chunk's ways
-  Placements<Simd> at_;
+  RelativeTransforms<Simd> at_;
   SeparatingAxisTest<Simd> axis_test_;
   std::uint32_t row_a_[chunk_size], row_b_[chunk_size];  ///< of the supports, where they are not in order
   ChunkPairs<Simd, chunk_size> open_;

@@ -34,7 +34,7 @@ constexpr double root_reach = 19, root_distance = 7, difference_reach = 15, diff
 constexpr double bound_reach = 94, bound_distance = 35;
 static_assert(bound_reach >= at_contact_reach + root_reach + difference_reach);
 static_assert(bound_distance >= at_contact_distance + root_distance + difference_distance);
-constexpr double inexact_way = 6;  // of S, where rough_root() is exact
+constexpr double inexact_way = 6;  // of S, where approximate_sqrt() is exact
 constexpr double slack = 256;      // of F
 static_assert(slack >= bound_reach + bound_distance + inexact_way);
 
@@ -74,7 +74,7 @@ static_assert(slack >= bound_reach + bound_distance + inexact_way);
 /// u S + 35 u D' makes up for all, and `slack` is 256 u F, with S <= F and D' <= F: enough beside for the
 /// squares of discs that touch on the way to differ by far more than their rounding, so that a root of what
 /// is not above 0, NaN, is that of discs that never touch. As radii are not made shorter, the root is longer
-/// than its part of the way by more than rough_root() is off; where that is exact, (w_x, w_y) is off by as
+/// than its part of the way by more than approximate_sqrt() is off; where that is exact, (w_x, w_y) is off by as
 /// much as 3 u R' <= 6 u S, for which slack has room. A time T is compared as T |v|, shorter as lengths are
 /// and then a 2^18th longer, for what |v| and the products are off by. Bounds below 0 only have to stay
 /// there.
@@ -92,9 +92,9 @@ class TimeOfImpactMeasure {
       : x_(x), y_(y), slack_(slack_per_length * farthest), time_(__builtin_inff()) {
     const float square = x * x + y * y, length = __builtin_sqrtf(square);
     // No bound of a way that is shorter than that is above 0.
-    const float per_length = square < 1e-30f ? 0 : (1 - Simd::rough) / length;
+    const float per_length = square < 1e-30f ? 0 : (1 - Simd::approximation_error) / length;
     unit_x_ = x * per_length, unit_y_ = y * per_length;
-    length_ = length * ((1 - Simd::rough) * (1 + 0x1p-18f));
+    length_ = length * ((1 - Simd::approximation_error) * (1 + 0x1p-18f));
   }
 
   float x() const noexcept { return x_; }
@@ -126,7 +126,7 @@ class TimeOfImpactMeasure {
                            unit_x_ * at.tx + unit_y_ * at.ty, unit_x_ * at.ty - unit_y_ * at.tx};
     visit_disc_pairs<Simd>(on_way, Discs{turned, stride, 2 * stride}, b,
                            [=](unsigned k, Float along, Float aside, Float radius) {
-                             const Float half = Simd::rough_root(radius * radius - aside * aside);
+                             const Float half = Simd::approximate_sqrt(radius * radius - aside * aside);
                              // Pairs whose root is NaN never touch.
                              visit(k, Simd::select(along + half >= zero, along - half, never));
                            });

@@ -60,8 +60,8 @@ class TimeOfImpactTraversal {
   using Nodes = TreeNodes<Simd>;
   using Slots = ChunkPairs<Simd, capacity>;
   /// The most frames of a pair: every step descends on one side at least, and no tree has more than
-  /// most_wide_levels levels.
-  static constexpr std::uint32_t most_frames = 2 * most_wide_levels;
+  /// max_wide_levels levels.
+  static constexpr std::uint32_t max_frames = 2 * max_wide_levels;
 
   /// Holds two nodes and the bounds of their pairs of discs, far_beyond where they were followed.
   struct Frame {
@@ -201,7 +201,7 @@ class TimeOfImpactTraversal {
   alignas(64) double x_[capacity] = {}, y_[capacity] = {}, r_[capacity] = {};
   double way_x_[capacity] = {}, way_y_[capacity] = {}, time_[capacity];
   Open open_[capacity];
-  Frame frames_[capacity][most_frames + 1];
+  Frame frames_[capacity][max_frames + 1];
 };
 
 }  // namespace bch::detail

@@ -41,8 +41,8 @@ void for_within_tasks(const Implementation& implementation, const ShapeSetView& 
 /// Requires the sizes, and the distances.
 inline void require_within(std::span<const Pair> pairs, std::span<const double> distances,
                            std::span<const std::uint8_t> answers) {
-  const Asked asked{"within", "pair", pairs.size()};
-  require_as_many(asked, answers.size(), "answers");
+  const QueryName asked{"within", "pair", pairs.size()};
+  check_size(asked, answers.size(), "answers");
   require_distances(asked, distances);
 }
 

@@ -17,7 +17,7 @@ namespace {
 
 /// What a pair weighs, and an agent 1 more than the pairs that it counts for: those who meet nobody are to be shared out as well.
 constexpr std::uint64_t pair_weight = 32;
-constexpr double most_squares = 16;  ///< that a reach may span
+constexpr double max_squares = 16;  ///< that a reach may span
 
 std::vector<double> radii_of(const ShapeSet& shapes) {
   std::vector<double> radii;
@@ -99,14 +99,14 @@ void CrowdState::prepare(bool has_heights) {
 }
 
 void CrowdState::require_margin(double wanted) const {
-  if (wanted >= 0 && largest(radii) * 2 + wanted <= most_squares * side) return;
+  if (wanted >= 0 && largest(radii) * 2 + wanted <= max_squares * side) return;
   std::ostringstream message;
   message << "a margin of " << wanted << " m: not positive, or with the largest radii more than "
-          << most_squares << " squares of " << side << " m";
+          << max_squares << " squares of " << side << " m";
   throw std::invalid_argument(message.str());
 }
 
-void CrowdState::look_at_agents() const {
+void CrowdState::visit_agents() const {
   for (const DistributedCrowd::Agent& agent : agents) {
     require_valid(agent, options.heights);
     if (posed)
@@ -124,7 +124,7 @@ void CrowdState::sort_agents() {
 void CrowdState::update(double apart) {
   counters.cut_seconds = counters.migration_seconds = counters.halo_seconds = counters.poses_seconds = 0;
   agree(comm.get(), [&] {
-    look_at_agents(), sort_agents();
+    visit_agents(), sort_agents();
     if (!posed) learn_reach(apart);
   });
   cut_where_unbalanced();

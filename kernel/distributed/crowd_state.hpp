@@ -43,7 +43,7 @@ struct CrowdState {
 
   void prepare(bool has_heights);
   const ShapeSet& shapes() const { return posed ? posed->set() : *baked; }
-  void look_at_agents() const;
+  void visit_agents() const;
   void sort_agents();
   void require_margin(double metres) const;
   std::int32_t ring() const;

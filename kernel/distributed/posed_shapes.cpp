@@ -6,7 +6,7 @@
 #include <algorithm>
 
 #include "kernel/runtime/task_ranges.hpp"
-#include "layout/shape_set/builder_end.hpp"
+#include "layout/shape_set/builder_mark.hpp"
 
 namespace bch::detail {
 namespace {
@@ -30,12 +30,12 @@ PosedShapes::PosedShapes(std::span<const Character> characters, const ShapeSetPl
       set_(&builder_.set()) {}
 
 void PosedShapes::clear() {
-  builder_.go_back({});
+  builder_.rollback({});
   set_ = &builder_.set();
 }
 
 void PosedShapes::add(std::span<const DistributedCrowd::Agent> agents) {
-  std::vector<ShapeSource> sources;
+  std::vector<PoseId> sources;
   for (const DistributedCrowd::Agent& agent : agents) sources.push_back({agent.shape, agent.pose});
   baker_.add(builder_, sources);
   set_ = &builder_.set();

@@ -12,12 +12,12 @@ struct ScalarLanes : Lanes<Scalar, ScalarLanes> {
   static std::uint32_t gather(const std::uint32_t* p, const std::uint32_t* index) noexcept {
     return p[*index];
   }
-  static float rounded(const double (&v)[1]) noexcept { return static_cast<float>(v[0]); }
-  static void widened(float v, double (&to)[1]) noexcept { to[0] = static_cast<double>(v); }
+  static float to_float(const double (&v)[1]) noexcept { return static_cast<float>(v[0]); }
+  static void to_double(float v, double (&to)[1]) noexcept { to[0] = static_cast<double>(v); }
   static std::uint32_t bits(bool hit) noexcept { return hit; }
   static float least(float values) noexcept { return values; }
-  static constexpr float rough = 0;
-  static float rough_root(float x) noexcept { return __builtin_sqrtf(x); }
+  static constexpr float approximation_error = 0;
+  static float approximate_sqrt(float x) noexcept { return __builtin_sqrtf(x); }
 };
 
 }  // namespace

@@ -366,7 +366,7 @@ export class Crowd extends Handle {
   /** The ground repeats after `period` metres along x and y; 0: never. */
   constructor({ period: [period_x, period_y] = [0, 0] } = {}) {
     const make = () => {
-      const options = new Struct("bch_crowd_options", { period_x, period_y, most_pairs: 2n ** 64n - 1n });
+      const options = new Struct("bch_crowd_options", { period_x, period_y, max_pairs: 2n ** 64n - 1n });
       return callPointer("bch_crowd_create", options.pointer);
     };
     super(withScratch(make), "bch_crowd_free");

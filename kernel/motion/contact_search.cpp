@@ -17,7 +17,7 @@
 namespace bch::detail {
 namespace {
 
-constexpr double most_slack_of_bands = hull_overlap / 4;  ///< metres
+constexpr double max_slack_of_bands = hull_overlap / 4;  ///< metres
 
 /// Slopes of the lines along which bands are looked at: tangents of eighths of half a round.
 constexpr double asides[] = {0, 0.4142, -0.4142, 1, -1, 2.4142, -2.4142};
@@ -150,7 +150,7 @@ bool ContactSearch::hulls_are_apart(double from, double end, unsigned level) con
   std::array<std::optional<LineBetween>, std::size(asides)> lines;
   lines[0].emplace(along(asides[0]));
   if (lines[0]->separates(a_->hull(level).extents, b_->hull(level).extents)) return true;
-  if (!in_space_ || slack_ > most_slack_of_bands) return false;
+  if (!in_space_ || slack_ > max_slack_of_bands) return false;
   const auto are_apart = [&](const HullWindow::Extents& of_a, const HullWindow::Extents& of_b) {
     for (std::size_t i = 0; i < lines.size(); ++i) {
       if (!lines[i]) lines[i].emplace(along(asides[i]));

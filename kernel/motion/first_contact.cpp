@@ -36,7 +36,7 @@ void first_contact(std::span<const Motion> motions, std::span<const Pair> pairs,
                    std::span<double> times, double tolerance) {
   constexpr const char* query = "first_contact";
   const FloatingPointStateGuard floats;
-  require_as_many({query, "pair", pairs.size()}, times.size(), "times");
+  check_size({query, "pair", pairs.size()}, times.size(), "times");
   require_valid(query, interval, tolerance);
   const std::vector<MotionFacts> facts = valid_motions(query, motions);
   require_valid(query, pairs, facts.size());

@@ -22,7 +22,7 @@ void first_contact(std::span<const Motion> motions, const ObstacleSet& obstacles
   constexpr const char* query = "first_contact";
   constexpr std::size_t grain = 16;
   const FloatingPointStateGuard floats;
-  require_as_many({query, "motion", motions.size()}, times.size(), "times");
+  check_size({query, "motion", motions.size()}, times.size(), "times");
   require_valid(query, interval, tolerance);
   const std::vector<MotionFacts> facts = valid_motions(query, motions);
   const Implementation& implementation = chosen(nullptr, query);

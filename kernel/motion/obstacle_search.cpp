@@ -35,7 +35,7 @@ double ObstacleSearch::first(const MotionFacts& motion, double from, double to) 
 /// Where the path goes straight on: halves ways that are long, but not where nothing is near.
 double ObstacleSearch::first_on_way(double from, double end, double to) {
   limit_.count(1);
-  if (from > to || !look_about(from, end)) return never;
+  if (from > to || !search_about(from, end)) return never;
   const double half = from + (end - from) / 2;
   const PathKey a = body_->pose(from), b = body_->pose(end);
   const double x = b.x - a.x, y = b.y - a.y;
@@ -45,7 +45,7 @@ double ObstacleSearch::first_on_way(double from, double end, double to) {
 }
 
 /// Finds what is near on a way. Returns: whether something is.
-bool ObstacleSearch::look_about(double from, double end) {
+bool ObstacleSearch::search_about(double from, double end) {
   const PathKey a = body_->pose(from), b = body_->pose(end);
   const std::span<const LocalSegment> found =
       near_.find_on_way({a.x, a.y, {1, 0}}, {0, 0}, reach_ + slack_, {b.x - a.x, b.y - a.y});

@@ -40,7 +40,7 @@ class ObstacleSearch {
   double first_near(double from, double end, double to);
   double first_between(double from, double end);
   double first_of_nodes();
-  bool look_about(double from, double end);
+  bool search_about(double from, double end);
   void place(double from, double end);
   void open(std::uint32_t node, std::uint32_t segment, double last);
   bool is_inside_where_a_chunk_begins(double time);

@@ -114,7 +114,7 @@ bool BodyQuery::area_holds(const PlacedBody& body, std::span<const LocalSegment>
   const bool has_segments = exact_leaves && tree.segments != no_segments;
   const Root& root = body.root();
   if (!is_touched(segments, root.x, root.y, root.radius)) return area.holds(body.centre());
-  std::uint32_t open[7 * most_wide_levels + 1], count = 0;
+  std::uint32_t open[7 * max_wide_levels + 1], count = 0;
   open[count++] = tree.top;
   while (count != 0) {
     const std::uint32_t node = open[--count];

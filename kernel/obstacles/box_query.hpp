@@ -38,7 +38,7 @@ class BoxQuery {
     for (std::uint32_t k = 0; k < count; ++k) {
       const std::uint32_t bits = overlapping(blocks[in[k].place], queries[in[k].query]);
       for (std::uint32_t i = 0; i < 8; i += Simd::width)
-        size += Simd::write_set(bits >> i, 8 * k + i, found + size);
+        size += Simd::compress_indices(bits >> i, 8 * k + i, found + size);
     }
     for (std::uint32_t i = 0; i < size; ++i) {
       const auto [query, block] = in[found[i] / 8];

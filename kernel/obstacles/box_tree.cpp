@@ -51,7 +51,7 @@ BoxBlock empty_block() {
   return block;
 }
 
-void put(BoxBlock& block, std::size_t i, const Box& box) {
+void store(BoxBlock& block, std::size_t i, const Box& box) {
   block.low_x[i] = box.low_x, block.low_y[i] = box.low_y;
   block.high_x[i] = box.high_x, block.high_y[i] = box.high_y;
 }
@@ -75,7 +75,7 @@ BoxTreeMemory::BoxTreeMemory(std::span<const Box> boxes) : order(boxes.size()) {
     std::vector<Box> above;
     for (std::size_t i = 0; i < level.size(); i += 8) {
       BoxBlock& block = blocks.emplace_back(empty_block());
-      for (std::size_t k = i; k < std::min(i + 8, level.size()); ++k) put(block, k - i, level[k]);
+      for (std::size_t k = i; k < std::min(i + 8, level.size()); ++k) store(block, k - i, level[k]);
       above.push_back(box_of(block));
     }
     level = std::move(above);

@@ -13,13 +13,13 @@ struct BoxBlock {
   double low_x[8], low_y[8], high_x[8], high_y[8];
 };
 
-constexpr std::uint32_t most_box_levels = 11;  ///< 8^11 is 2^33 boxes
+constexpr std::uint32_t max_box_levels = 11;  ///< 8^11 is 2^33 boxes
 
 /// Represents a tree of boxes in the order of its leaves, eight children a node: child i of block b is block 8 b + i of the level below, of
 /// level 0 box 8 b + i of what the tree was made of.
 struct BoxTreeView {
   const BoxBlock* blocks;
-  std::uint32_t level_begin[most_box_levels];
+  std::uint32_t level_begin[max_box_levels];
   std::uint32_t levels;  ///< 0: there are no boxes
 };
 

@@ -33,7 +33,7 @@ class NearestSegments {
     x_ = x, y_ = y, twice_radius_ = 2 * radius, blocks_ = 0;
     found_.clear();
     nearest_ = first_bound();
-    look_into(tree_.levels - 1, 0);
+    search_into(tree_.levels - 1, 0);
     if (is_too_much()) return false;
     const auto last = std::remove_if(found_.begin(), found_.end(), [this](std::uint32_t slot) {
       return !is_near(segments_[slot].square_distance(x_, y_));
@@ -82,13 +82,13 @@ class NearestSegments {
     return std::sqrt(segments_[place].square_distance(x_, y_));
   }
 
-  void look_into(std::uint32_t level, std::uint32_t block) {
+  void search_into(std::uint32_t level, std::uint32_t block) {
     ++blocks_;
     const Squares square = squares(level, block);
     for (unsigned i = 0; i < 8 && !is_too_much(); ++i) {
       if (!is_near(square.of[i])) continue;
       if (level > 0)
-        look_into(level - 1, 8 * block + i);
+        search_into(level - 1, 8 * block + i);
       else
         take(8 * block + i);
     }

@@ -55,8 +55,8 @@ Vec2 to_float(Vector v) noexcept {
 
 }  // namespace
 
-void put(const ShapeSetView& shapes, const ClearanceAnswers& answers, std::size_t i,
-         const NearestObstacle& nearest) {
+void store(const ShapeSetView& shapes, const ClearanceAnswers& answers, std::size_t i,
+           const NearestObstacle& nearest) {
   answers.distance[i] = rounding::round_down(nearest.gap);
   if (answers.direction.empty() && answers.discs.empty() && answers.points.empty()) return;
   const bool is_disc = nearest.point == no_point;

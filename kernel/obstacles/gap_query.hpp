@@ -27,8 +27,8 @@ struct NearestObstacle {
 };
 
 /// Writes what is asked for of an agent's nearest obstacle.
-void put(const ShapeSetView& shapes, const ClearanceAnswers& answers, std::size_t i,
-         const NearestObstacle& nearest);
+void store(const ShapeSetView& shapes, const ClearanceAnswers& answers, std::size_t i,
+           const NearestObstacle& nearest);
 
 /// Measures the distances of agents from obstacles: what clearance() and within() share.
 class GapQuery {

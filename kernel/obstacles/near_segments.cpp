@@ -248,7 +248,7 @@ std::span<LocalSegment> NearSegments::sorted(std::span<LocalSegment> segments) {
 
 std::span<const std::uint32_t> NearSegments::areas_that_hold(const ObstaclePlace& place, Vec2 point) {
   const Vector from = place.turned(point.x, point.y);
-  const Asked asked{place.x, place.y, from.x, from.y};
+  const QueryName asked{place.x, place.y, from.x, from.y};
   if (asked == asked_) return areas_;
   asked_ = asked;
   areas_.clear(), about_.clear();

@@ -127,16 +127,16 @@ class NearSegments {
   };
 
   /// Represents a point that was asked about: the agent's position, and the way from there.
-  struct Asked {
+  struct QueryName {
     double x, y, way_x, way_y;
-    friend bool operator==(const Asked&, const Asked&) = default;
+    friend bool operator==(const QueryName&, const QueryName&) = default;
   };
 
   const Implementation& implementation_;
   const ObstacleView& obstacles_;
   std::vector<std::uint32_t> slots_, about_, areas_;
-  std::vector<double> squares_;  ///< by area
-  std::optional<Asked> asked_;   ///< what areas_ hold
+  std::vector<double> squares_;     ///< by area
+  std::optional<QueryName> asked_;  ///< what areas_ hold
   std::vector<Box> boxes_;
   std::vector<BoxHit> hits_, next_;
   std::vector<OpenBlock> open_;                  ///< a heap: the nearest first

@@ -81,7 +81,7 @@ class ObstacleKernel {
                 rounding::segment_margin +
                     (rounding::terms::halving + 2 * rounding::terms::higher) * rounding::unit_roundoff);
   /// The most nodes that wait: a step leaves at most seven siblings behind.
-  static constexpr std::uint32_t most_open = 7 * most_wide_levels + 1;
+  static constexpr std::uint32_t max_open = 7 * max_wide_levels + 1;
 
   static Double square_distance(const LocalSegment& segment, Double x, Double y) noexcept {
     const Double along = segment.along(x, y), across = segment.across(x, y);
@@ -293,8 +293,8 @@ class ObstacleKernel {
   const float* const nodes_;
   const Tree& tree_;
   const bool exact_;  ///< segments of the outline decide where leaves have them
-  std::uint32_t nodes_open_[most_open];
-  Frame frames_[most_wide_levels];
+  std::uint32_t nodes_open_[max_open];
+  Frame frames_[max_wide_levels];
 };
 
 }  // namespace bch::detail

@@ -44,13 +44,13 @@ WorldHeights heights_of(const ObstacleArrays& in, std::size_t obstacle) {
 }
 
 void require_heights(const ObstacleArrays& in, std::size_t obstacles) {
-  const auto require_as_many = [&](std::span<const double> heights, const char* name) {
+  const auto check_size = [&](std::span<const double> heights, const char* name) {
     if (!heights.empty() && heights.size() != obstacles)
       reject(std::to_string(obstacles) + " obstacles but " + std::to_string(heights.size()) + " values of " +
              name);
   };
-  require_as_many(in.bottom, "bottom");
-  require_as_many(in.top, "top");
+  check_size(in.bottom, "bottom");
+  check_size(in.top, "top");
   if (in.bottom.empty() && in.top.empty()) return;
   for (std::size_t i = 0; i < obstacles; ++i) {
     const auto [bottom, top] = heights_of(in, i);

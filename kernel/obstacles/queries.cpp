@@ -17,7 +17,7 @@ using namespace detail;
 void collide(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
              std::span<std::uint8_t> hits, const CollideOptions& options) {
   const FloatingPointStateGuard floats;
-  require_as_many({"collide", "agent", agents.size()}, hits.size(), "hits");
+  check_size({"collide", "agent", agents.size()}, hits.size(), "hits");
   const bool exact = exact_leaves(shapes, options.leaves, "collide");
   const Implementation& implementation = chosen(options.implementation, "collide");
   validate(shapes, agents);
@@ -34,8 +34,8 @@ void within(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obs
             std::span<const double> distances, std::span<std::uint8_t> answers, Leaves leaves,
             const Implementation* wanted) {
   const FloatingPointStateGuard floats;
-  const Asked asked{"within", "agent", agents.size()};
-  require_as_many(asked, answers.size(), "answers");
+  const QueryName asked{"within", "agent", agents.size()};
+  check_size(asked, answers.size(), "answers");
   require_distances(asked, distances);
   const bool exact = exact_leaves(shapes, leaves, "within");
   const Implementation& implementation = chosen(wanted, "within");
@@ -64,10 +64,10 @@ void clearance(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& 
   for_agents(implementation, shapes, agents, obstacles, options.max_distance, Look::nearest,
              [&](BodyQuery& body, std::uint32_t agent) {
                const NearestObstacle nearest = query.find(body, agent, options.max_distance, enough, zero);
-               if (nearest.is_near_enough) return put_alone(answers, agent, 0);
+               if (nearest.is_near_enough) return store_alone(answers, agent, 0);
                if (!nearest.is_found)
-                 return put_alone(answers, agent, std::numeric_limits<float>::infinity());
-               put(shapes.view(), answers, agent, nearest);
+                 return store_alone(answers, agent, std::numeric_limits<float>::infinity());
+               store(shapes.view(), answers, agent, nearest);
              });
 }
 

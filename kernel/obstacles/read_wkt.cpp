@@ -68,7 +68,7 @@ class WktReader {
 
  private:
   /// More than anybody nests; a call of geometry() takes a hundred bytes of stack.
-  static constexpr int most_nested = 100;
+  static constexpr int max_nested = 100;
   static constexpr const char* known =
       "POLYGON, MULTIPOLYGON, LINESTRING, MULTILINESTRING or GEOMETRYCOLLECTION";
 
@@ -171,7 +171,7 @@ class WktReader {
     } else if (name == "MULTILINESTRING") {
       list("lines", [&] { line(); });
     } else if (name == "GEOMETRYCOLLECTION") {
-      if (depth == most_nested) reject_at(begin, "fewer collections in each other");
+      if (depth == max_nested) reject_at(begin, "fewer collections in each other");
       list("geometries", [&] { geometry(depth + 1); });
     } else {
       reject_at(begin, known);

@@ -62,7 +62,7 @@ bool passes(const LocalSegment& segment, const Disc& disc, Vector way, double ti
 /// Finds when a body touches a segment, if that is before `best`.
 void find_time(const PlacedBody& body, const LocalSegment& segment, Vector way, double& best) {
   const ShapeTree<void> own(body.shapes, body.root_index());
-  std::uint32_t open[7 * most_wide_levels + 1], count = 0;
+  std::uint32_t open[7 * max_wide_levels + 1], count = 0;
   open[count++] = own.tree.top;
   while (count != 0 && best > 0) {
     const std::uint32_t node = open[--count];
@@ -97,7 +97,7 @@ double impact(BodyQuery& query, const PlacedBody& body, Vector way_in_world) {
 void penetration(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
                  std::span<Penetration> out, const Implementation* wanted) {
   const FloatingPointStateGuard floats;
-  require_as_many({"penetration", "agent", agents.size()}, out.size(), "answers");
+  check_size({"penetration", "agent", agents.size()}, out.size(), "answers");
   const Implementation& implementation = chosen(wanted, "penetration");
   validate(shapes, agents);
   for_agents(implementation, shapes, agents, obstacles, 0, Look::touching,

@@ -45,8 +45,8 @@ class FoundObstacle {
   SpacePoint at_, unit_;
 };
 
-void put(const BodySetView& bodies, const Agents& agents, std::uint32_t agent, const ObstacleView& obstacles,
-         const SphereGap& nearest, const BodyClearanceAnswers& answers) {
+void store(const BodySetView& bodies, const Agents& agents, std::uint32_t agent,
+           const ObstacleView& obstacles, const SphereGap& nearest, const BodyClearanceAnswers& answers) {
   answers.distance[agent] = rounding::round_down(nearest.gap);
   if (answers.direction.empty() && answers.spheres.empty() && answers.points.empty()) return;
   const FoundObstacle found(bodies, agents, agent, obstacles, nearest);
@@ -62,7 +62,7 @@ void put(const BodySetView& bodies, const Agents& agents, std::uint32_t agent, c
 void collide(const BodySet& bodies, const Agents& agents, const ObstacleSet& obstacles,
              std::span<std::uint8_t> hits, const Implementation* wanted) {
   const FloatingPointStateGuard floats;
-  require_as_many({"collide", "agent", agents.size()}, hits.size(), "hits");
+  check_size({"collide", "agent", agents.size()}, hits.size(), "hits");
   const Implementation& implementation = chosen(wanted, "collide");
   require_valid_agents(bodies.view().ground, agents);
   for_agents(implementation, bodies.view(), agents, obstacles, 0, Look::touching,
@@ -77,8 +77,8 @@ void within(const BodySet& bodies, const Agents& agents, const ObstacleSet& obst
             std::span<const double> distances, std::span<std::uint8_t> answers,
             const Implementation* wanted) {
   const FloatingPointStateGuard floats;
-  const Asked asked{"within", "agent", agents.size()};
-  require_as_many(asked, answers.size(), "answers");
+  const QueryName asked{"within", "agent", agents.size()};
+  check_size(asked, answers.size(), "answers");
   require_distances(asked, distances);
   const Implementation& implementation = chosen(wanted, "within");
   require_valid_agents(bodies.view().ground, agents);
@@ -101,9 +101,9 @@ void clearance(const BodySet& bodies, const Agents& agents, const ObstacleSet& o
              [&](SphereQuery& query, std::uint32_t agent) {
                const SphereGap nearest = query.find(agent, options.max_distance);
                if (!nearest.is_found)
-                 return put_alone(answers, agent, std::numeric_limits<float>::infinity());
-               if (zero && nearest.gap <= 0) return put_alone(answers, agent, 0);
-               put(view, agents, agent, obstacles.view(), nearest, answers);
+                 return store_alone(answers, agent, std::numeric_limits<float>::infinity());
+               if (zero && nearest.gap <= 0) return store_alone(answers, agent, 0);
+               store(view, agents, agent, obstacles.view(), nearest, answers);
              });
 }
 

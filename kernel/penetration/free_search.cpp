@@ -88,7 +88,7 @@ void FreeSearch::begin(const float* a, const float* b, const SpaceFrame& frame) 
   overlapping_.clear();
   visit(0, [&](std::uint32_t leaf_a, std::uint32_t leaf_b) { overlapping_.push_back({leaf_a, leaf_b}); });
   samples_ = 0;
-  const std::size_t step = overlapping_.size() / most_samples + 1;
+  const std::size_t step = overlapping_.size() / max_samples + 1;
   for (std::size_t i = 0; i < overlapping_.size(); i += step)
     keep_sample(overlapping_[i].of_a, overlapping_[i].of_b);
 }
@@ -109,7 +109,7 @@ std::uint32_t FreeSearch::list(const Body& of, const Body& other, std::uint32_t 
                 r = Simd::load(&of.nodes.radius[i]) + radius;
     const Simd::Mask near =
         (m * m + w * w <= r * r) & (Simd::load(&of.nodes.z[i]) <= top) & (bottom <= Simd::load(&of.top[i]));
-    count += Simd::write_set(Simd::bits(near), i, leaves + count);
+    count += Simd::compress_indices(Simd::bits(near), i, leaves + count);
   }
   while (count != 0 && leaves[count - 1] >= of.leaves) --count;
   return count;
@@ -134,7 +134,7 @@ void FreeSearch::visit_spheres(std::uint32_t leaf_a, std::uint32_t leaf_b, float
   for (std::uint32_t j = b_.first(leaf_b); j < b_.first(leaf_b + 1); j += Simd::width) {
     const Spheres b = load(b_.spheres, j);
     const Float m = b.along - along, w = b.across - across, r = b.radius + radius;
-    count += Simd::write_set(Simd::bits(m * m + w * w <= r * r), j, &slots[count]);
+    count += Simd::compress_indices(Simd::bits(m * m + w * w <= r * r), j, &slots[count]);
   }
   for (std::uint32_t i = 0; i < count; ++i) use(slots[i]);
 }

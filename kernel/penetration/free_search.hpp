@@ -44,7 +44,7 @@ class FreeSearch {
   static_assert(slack >= (rounding::terms::sphere_error + 7 + 4.4 + 6 + 1.5) * rounding::unit_roundoff);
 
   static constexpr std::uint32_t padding = 16;  ///< floats, at least a register
-  static constexpr std::uint32_t most_leaves = most_spheres / 4, most_samples = 64;
+  static constexpr std::uint32_t max_leaves = max_spheres / 4, max_samples = 64;
 
   /// Holds spheres, or nodes as seen from above, and where they are along a direction and across it.
   template <std::uint32_t most>
@@ -56,9 +56,9 @@ class FreeSearch {
   /// Holds a body in A's frame.
   struct Body {
     std::uint32_t leaves, leaf_size;
-    Rounds<most_spheres> spheres;
-    Rounds<most_leaves> nodes;  ///< of the leaves, and behind them that of the whole; z is their bottom
-    std::array<float, most_leaves + padding> top;
+    Rounds<max_spheres> spheres;
+    Rounds<max_leaves> nodes;  ///< of the leaves, and behind them that of the whole; z is their bottom
+    std::array<float, max_leaves + padding> top;
 
     /// Takes a record. `placed` takes nodes and spheres into the frame; radii of spheres grow by so much.
     template <class Placed>
@@ -83,12 +83,12 @@ class FreeSearch {
 
   Body a_, b_;
   float node_slack_;
-  std::array<std::uint16_t, most_leaves + padding> leaves_a_, leaves_b_;
+  std::array<std::uint16_t, max_leaves + padding> leaves_a_, leaves_b_;
   struct Leaves {
     std::uint32_t of_a, of_b;
   };
   std::vector<Leaves> overlapping_;
-  Rounds<most_samples> sample_a_, sample_b_;
+  Rounds<max_samples> sample_a_, sample_b_;
   std::uint32_t samples_;
 };
 

@@ -35,7 +35,7 @@ Penetration best_way(const BodySetView& view, const Agents& agents, std::uint32_
                      const Axes& axes, FreeSearch& search) {
   const SpaceFrame frame(agents, a, b);
   search.begin(view.record(agents.shape[a]), view.record(agents.shape[b]), frame);
-  std::array<Way, most_directions> ways;
+  std::array<Way, max_directions> ways;
   const std::uint32_t count = 2 * axes.count;
   for (std::uint32_t i = 0; i < count; ++i) {
     const double sign = i % 2 == 0 ? 1 : -1, x = sign * axes.x[i / 2], y = sign * axes.y[i / 2];
@@ -61,7 +61,7 @@ constexpr std::size_t pairs_at_once = 64;
 void nearest_free(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs,
                   std::uint32_t directions, std::span<Penetration> out, const Implementation* wanted) {
   const FloatingPointStateGuard floats;
-  require_as_many({"nearest_free", "pair", pairs.size()}, out.size(), "answers");
+  check_size({"nearest_free", "pair", pairs.size()}, out.size(), "answers");
   const Implementation& implementation = chosen(wanted, "nearest_free");
   const BodySetView& view = bodies.view();
   require_valid(implementation, view.ground, agents, pairs);

@@ -45,13 +45,13 @@ static_assert(lengthening - 1 >= 0.75 * rounding::unit_roundoff + 4e-10);
 
 /// The intervals that an agent takes along axes, about its position.
 struct Extents {
-  float low[most_axes], high[most_axes];
+  float low[max_axes], high[max_axes];
   double reach;  ///< as in rounding.hpp
 };
 
 /// How far A has to move along each axis, or against it, until no disc of B is in its way.
 struct Depths {
-  double along[most_axes], against[most_axes];
+  double along[max_axes], against[max_axes];
   double reach;  ///< of both
 
   explicit Depths(std::uint32_t axes) {
@@ -92,7 +92,7 @@ class AgentSpheres {
     }
   }
 
-  float x_[most_spheres], y_[most_spheres], radius_[most_spheres];
+  float x_[max_spheres], y_[max_spheres], radius_[max_spheres];
 };
 
 /// A query of shapes, whose agents have discs, or of bodies.
@@ -111,7 +111,7 @@ struct Query {
 template <class Set, class Discs>
 void Query<Set, Discs>::measure(std::uint32_t agent, const Axes& axes, Extents& extents) const noexcept {
   const Rotation turn = rotation(agents.heading[agent]);
-  float x[most_axes], y[most_axes];
+  float x[max_axes], y[max_axes];
   for (std::uint32_t i = 0; i < axes.count; ++i) {
     x[i] = static_cast<float>(turn.cosine * axes.x[i] + turn.sine * axes.y[i]);
     y[i] = static_cast<float>(turn.cosine * axes.y[i] - turn.sine * axes.x[i]);
@@ -156,7 +156,7 @@ template <class Discs, class Set>
 Query<Set, Discs> checked_query(const Set& set, const ShapeSetView& ground, const Agents& agents,
                                 std::span<const Pair> pairs, std::span<Penetration> out,
                                 const Implementation* wanted) {
-  require_as_many({"penetration", "pair", pairs.size()}, out.size(), "answers");
+  check_size({"penetration", "pair", pairs.size()}, out.size(), "answers");
   const Implementation& implementation = chosen(wanted, "penetration");
   require_valid(implementation, ground, agents, pairs);
   return {set, agents, implementation, arguments_for(ground, agents, {})};
@@ -173,7 +173,7 @@ auto query_of(const BodySet& bodies, const Agents& agents, std::span<const Pair>
 }
 
 void require_directions(std::span<const Vec2> directions, std::size_t pairs) {
-  require_as_many({"penetration", "pair", pairs}, directions.size(), "directions");
+  check_size({"penetration", "pair", pairs}, directions.size(), "directions");
   for (std::size_t i = 0; i < pairs; ++i) {
     const auto [x, y] = directions[i];
     if (is_finite(x) && is_finite(y) && (x != 0 || y != 0)) continue;

@@ -12,21 +12,21 @@
 
 namespace bch::detail {
 
-constexpr std::uint32_t most_directions = 256;
-constexpr std::uint32_t most_axes = most_directions / 2;
+constexpr std::uint32_t max_directions = 256;
+constexpr std::uint32_t max_axes = max_directions / 2;
 
 /// Holds directions of the world, as unit vectors within 1e-9.
 struct Axes {
-  double x[most_axes], y[most_axes];
+  double x[max_axes], y[max_axes];
   std::uint32_t count;
 };
 
 /// Returns half of a number of directions, evenly spread from the x axis on; the others are opposite.
 /// Errors:  throws std::invalid_argument naming the query, on a number that is odd, below 2 or above 256.
 inline Axes spread_axes(const char* query, std::uint32_t directions) {
-  if (directions < 2 || directions > most_directions || directions % 2 != 0)
+  if (directions < 2 || directions > max_directions || directions % 2 != 0)
     throw std::invalid_argument(std::string(query) + ": expected an even number of directions from 2 to " +
-                                std::to_string(most_directions) + ", found " + std::to_string(directions));
+                                std::to_string(max_directions) + ", found " + std::to_string(directions));
   Axes axes;
   axes.count = directions / 2;
   for (std::uint32_t i = 0; i < axes.count; ++i) {

@@ -11,7 +11,7 @@
 namespace bch::detail {
 namespace {
 
-constexpr std::size_t most_poses = 65'535, most_baked_clips = 65'535;
+constexpr std::size_t max_poses = 65'535, max_baked_clips = 65'535;
 
 using ClipPoses = std::map<std::uint32_t, std::vector<BakedPose>>;  // by the clip's name
 
@@ -36,7 +36,7 @@ CastClip clip_of(const std::string& name, std::vector<BakedPose> poses) {
 }
 
 /// Says what clips are for. A clip's speed is negative where none was told.
-std::string use_of(const CastMember& member, std::span<const double> speeds) {
+std::string use_of(const CharacterEntry& member, std::span<const double> speeds) {
   std::ostringstream walks, stands, others;
   for (std::size_t k = 0; k < speeds.size(); ++k) {
     const std::string& name = member.clips[k].name;
@@ -54,7 +54,7 @@ std::string use_of(const CastMember& member, std::span<const double> speeds) {
 }
 
 /// Divides the clips of a member into those that walk, stand and neither.
-void take_speeds(CastMember& member, const std::string& file, std::span<const ClipSpeed> speeds) {
+void take_speeds(CharacterEntry& member, const std::string& file, std::span<const ClipSpeed> speeds) {
   std::vector<double> told(member.clips.size(), -1);
   std::string all;
   for (std::uint32_t k = 0; k < told.size(); ++k) {
@@ -81,7 +81,7 @@ void validate(const BakedShapes& baked, const std::string& file) {
 
 void require_all_there(const Cast& cast, const std::string& file, std::span<const ClipSpeed> speeds) {
   for (const ClipSpeed& speed : speeds) {
-    const bool is_there = std::any_of(cast.begin(), cast.end(), [&](const CastMember& member) {
+    const bool is_there = std::any_of(cast.begin(), cast.end(), [&](const CharacterEntry& member) {
       return std::any_of(member.clips.begin(), member.clips.end(),
                          [&](const CastClip& clip) { return clip.name == speed.clip; });
     });
@@ -92,7 +92,7 @@ void require_all_there(const Cast& cast, const std::string& file, std::span<cons
 /// The longest time between two poses that follow each other in a clip that walks or stands.
 double longest_step(const Cast& cast) {
   double longest = 0;
-  for (const CastMember& member : cast)
+  for (const CharacterEntry& member : cast)
     for (const CastClip& clip : member.clips)
       for (std::size_t i = 1; i < clip.baked.size(); ++i)
         longest = std::max(longest, static_cast<double>(clip.baked[i].seconds - clip.baked[i - 1].seconds));
@@ -106,17 +106,17 @@ Cast baked_cast(const BakedShapes& baked, const std::string& file, std::span<con
   const std::vector<std::string>& names = baked.origins.names;
   Cast cast;
   for (auto& [character, clips] : poses_of(baked.origins)) {
-    CastMember& member = cast.emplace_back(CastMember{names[character], {}, 0, {}, {}, {}, {}});
+    CharacterEntry& member = cast.emplace_back(CharacterEntry{names[character], {}, 0, {}, {}, {}, {}});
     for (auto& [clip, poses] : clips)
       member.clips.push_back(clip_of(clip == ShapeOrigin::rest_pose ? "rest pose" : names[clip], poses));
-    const bool fits = member.clips.size() <= most_baked_clips &&
+    const bool fits = member.clips.size() <= max_baked_clips &&
                       std::all_of(member.clips.begin(), member.clips.end(),
-                                  [](const CastClip& clip) { return clip.baked.size() <= most_poses; });
+                                  [](const CastClip& clip) { return clip.baked.size() <= max_poses; });
     if (!fits)
       throw std::invalid_argument(file + ": has more than 65535 clips of a character, or poses of a clip");
   }
   require_all_there(cast, file, speeds);
-  for (CastMember& member : cast) take_speeds(member, file, speeds);
+  for (CharacterEntry& member : cast) take_speeds(member, file, speeds);
   std::ostringstream text;
   text.precision(3);
   text << file << ": people are as tall as they were baked, and in the pose nearest in time, at most "

@@ -22,13 +22,13 @@ std::string names_of(const Named& all) {
   return names;
 }
 
-bool is_called(const CastMember& member, const std::string& name) {
+bool is_called(const CharacterEntry& member, const std::string& name) {
   return member.name == name || member.name.substr(0, member.name.rfind('.')) == name;
 }
 
 std::optional<std::uint32_t> member_of(const NamedMotion& motion, CastView cast) {
   if (motion.character.empty()) return std::nullopt;
-  const auto has_name = [&](const CastMember& member) { return is_called(member, motion.character); };
+  const auto has_name = [&](const CharacterEntry& member) { return is_called(member, motion.character); };
   const auto found = std::find_if(cast.begin(), cast.end(), has_name);
   if (found == cast.end())
     reject(motion, "character " + shown(motion.character) + " is none of " + names_of(cast));
@@ -37,7 +37,7 @@ std::optional<std::uint32_t> member_of(const NamedMotion& motion, CastView cast)
   return static_cast<std::uint32_t>(found - cast.begin());
 }
 
-std::uint32_t clip_of(const NamedMotion& motion, const CastMember& member) {
+std::uint32_t clip_of(const NamedMotion& motion, const CharacterEntry& member) {
   const auto found = std::find_if(member.clips.begin(), member.clips.end(),
                                   [&](const CastClip& clip) { return clip.name == motion.clip; });
   if (found == member.clips.end())

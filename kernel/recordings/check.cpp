@@ -40,9 +40,9 @@ class Checker {
  private:
   std::size_t look(const FrameBlock& block, std::size_t frames);
   void pose(std::size_t runs);
-  std::size_t asked_at_once(std::size_t first, std::size_t end) const;
-  void ask(FrameRun& run);
-  void tell(const FrameBlock& block, const FrameRun& run, double fps);
+  std::size_t queried_at_once(std::size_t first, std::size_t end) const;
+  void run_query(FrameRun& run);
+  void report(const FrameBlock& block, const FrameRun& run, double fps);
 
   const CheckOptions options_;
   const std::vector<CastMotion> motions_;
@@ -89,17 +89,18 @@ void Checker::pose(std::size_t runs) {
     if (!bodies_) summary_.poses.insert(pose.key());
 }
 
-void Checker::ask(FrameRun& run) {
+void Checker::run_query(FrameRun& run) {
   const std::span<const std::uint32_t> shapes = run.with_next(shape_);
   if (!bodies_)
-    return run.ask(RunOutlines(shapes_.set(), options_.leaves, shapes), shapes, shapes_.given_up());
+    return run.run_query(RunOutlines(shapes_.set(), options_.leaves, shapes), shapes, shapes_.given_up());
   // Bodies take memory, so a thread has those of one run at a time.
-  without_tasks_from_outside(
-      [&] { run.ask(RunSpheres(*bodies_, run.with_next(poses_), run.size()), shapes, shapes_.given_up()); });
+  without_tasks_from_outside([&] {
+    run.run_query(RunSpheres(*bodies_, run.with_next(poses_), run.size()), shapes, shapes_.given_up());
+  });
 }
 
 /// Tells the frames of a run, and joins its overlaps to events.
-void Checker::tell(const FrameBlock& block, const FrameRun& run, double fps) {
+void Checker::report(const FrameBlock& block, const FrameRun& run, double fps) {
   std::span<const CheckedPair> pairs = run.pairs();
   for (std::size_t i = run.first(); i < run.last(); ++i) {
     const std::int64_t frame = block.frame(i);
@@ -126,19 +127,19 @@ void Checker::check(const FrameBlock& block, bool at_end, double fps) {
   pose(looked_at);
   const std::size_t runs = at_end ? looked_at : looked_at - 1;
   for (std::size_t first = 0; first < runs;) {
-    const std::size_t last = asked_at_once(first, runs);
+    const std::size_t last = queried_at_once(first, runs);
     for_ranges(last - first, 1, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k) ask(*runs_[first + k]);
+      for (std::size_t k = begin; k < end; ++k) run_query(*runs_[first + k]);
     });
     for (; first < last; ++first) {
-      tell(block, *runs_[first], fps);
+      report(block, *runs_[first], fps);
       runs_[first]->let_go();
     }
   }
 }
 
 /// Returns the end of the runs that are asked together: mostly all, but no more than memory is wanted for.
-std::size_t Checker::asked_at_once(std::size_t first, std::size_t end) const {
+std::size_t Checker::queried_at_once(std::size_t first, std::size_t end) const {
   double pairs = runs_[first]->expected_pairs();
   std::size_t last = first + 1;
   for (; last < end; ++last) {

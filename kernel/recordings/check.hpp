@@ -43,7 +43,7 @@ struct CheckOptions {
   double facing = 0;  ///< radians: where the shapes of baked people face, which others do to 0
   std::size_t people_at_once =
       100'000;  ///< about so many, of many frames; the answers are the same for any number
-  std::size_t most_pairs =
+  std::size_t max_pairs =
       0;  ///< of neighbours, in some 4 096 person-frames, or in one frame; 0: usual_most_pairs()
 };
 

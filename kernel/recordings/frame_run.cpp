@@ -73,18 +73,19 @@ CheckedPair FrameRun::checked(Pair pair) const {
           0};
 }
 
-void FrameRun::ask(const RunBodies& bodies, std::span<const std::uint32_t> shapes, std::uint32_t given_up) {
+void FrameRun::run_query(const RunBodies& bodies, std::span<const std::uint32_t> shapes,
+                         std::uint32_t given_up) {
   const Agents all = agents(bodies.numbers().first(size()));
   checked_.clear();
-  ask_pairs(bodies, all);
-  ask_depths(bodies, all);
-  ask_between(bodies, agents(bodies.numbers()));
-  ask_walls(bodies, all);
+  query_pairs(bodies, all);
+  query_depths(bodies, all);
+  query_between(bodies, agents(bodies.numbers()));
+  query_walls(bodies, all);
   std::sort(checked_.begin(), checked_.end(), [](const CheckedPair& a, const CheckedPair& b) {
     return std::tie(a.frame, a.first, a.is_wall, a.second, a.passing) <
            std::tie(b.frame, b.first, b.is_wall, b.second, b.passing);
   });
-  tell_people(shapes, given_up);
+  report_people(shapes, given_up);
   count_overlaps();
 }
 
@@ -103,7 +104,7 @@ void FrameRun::let_go() {
 /// Finds the neighbours among the people, as if each frame stood far from the others.
 std::span<const Pair> FrameRun::find(BroadPhase& phase, const ShapeSetView& shapes,
                                      Strided<std::uint32_t> shape_of, double margin) const {
-  const std::size_t most = options_.most_pairs > 0 ? options_.most_pairs : usual_most_pairs(size());
+  const std::size_t most = options_.max_pairs > 0 ? options_.max_pairs : usual_most_pairs(size());
   try {
     return phase.find(shapes, {shape_of, own(block_->apart_x()), own(block_->y()), own(block_->heading())},
                       margin, most);
@@ -118,7 +119,7 @@ std::span<const Pair> FrameRun::find(BroadPhase& phase, const ShapeSetView& shap
 }
 
 /// Finds who overlaps, and who does not but may be within the largest distance or touch before the next frame.
-void FrameRun::ask_pairs(const RunBodies& bodies, const Agents& all) {
+void FrameRun::query_pairs(const RunBodies& bodies, const Agents& all) {
   const std::span<const Pair> found = find(body_phase_, bodies.roots(), all.shape, margin_);
   answers_.resize(found.size());
   bodies.collide(all, found, answers_);
@@ -131,7 +132,7 @@ void FrameRun::ask_pairs(const RunBodies& bodies, const Agents& all) {
 }
 
 /// Measures how deep people overlap, and how far others are apart.
-void FrameRun::ask_depths(const RunBodies& bodies, const Agents& all) {
+void FrameRun::query_depths(const RunBodies& bodies, const Agents& all) {
   const std::vector<Penetration> depths = bodies.depths(all, hits_);
   overlaps_.assign(size(), 0);
   for (std::size_t i = 0; i < hits_.size(); ++i) {
@@ -148,7 +149,7 @@ void FrameRun::ask_depths(const RunBodies& bodies, const Agents& all) {
 }
 
 /// Finds who passes through whom between two frames: people who do not overlap in either.
-void FrameRun::ask_between(const RunBodies& bodies, const Agents& with_next) {
+void FrameRun::query_between(const RunBodies& bodies, const Agents& with_next) {
   const auto next_of = own(block_->next_of());
   std::vector<Pair> moving, later;
   std::vector<double> x, y;
@@ -194,7 +195,7 @@ void FrameRun::add_pass(Pair people, std::size_t next, float time, float gap) {
   pair.way_y = until_then(block_->y()[now], block_->y()[next]);
 }
 
-void FrameRun::ask_walls(const RunBodies& bodies, const Agents& all) {
+void FrameRun::query_walls(const RunBodies& bodies, const Agents& all) {
   in_wall_.assign(size(), 0);
   if (options_.walls == nullptr) return;
   bodies.collide(all, *options_.walls, in_wall_);
@@ -216,7 +217,7 @@ void FrameRun::ask_walls(const RunBodies& bodies, const Agents& all) {
   }
 }
 
-void FrameRun::tell_people(std::span<const std::uint32_t> shapes, std::uint32_t given_up) {
+void FrameRun::report_people(std::span<const std::uint32_t> shapes, std::uint32_t given_up) {
   const auto people = own(block_->people());
   checked_people_.clear();
   for (std::size_t i = 0; i < size(); ++i)

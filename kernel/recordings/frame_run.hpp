@@ -33,11 +33,11 @@ class FrameRun {
   /// are in.
   void look(const FrameBlock& block, std::size_t first, std::size_t last);
   std::span<const WalkerPose> poses() const noexcept { return poses_; }
-  /// Returns about how many pairs of neighbours ask() will hold, or more.
+  /// Returns about how many pairs of neighbours run_query() will hold, or more.
   double expected_pairs() const;
   /// Finds who overlaps or passes whom, and counts. `bodies` are those of with_next(); `shapes` show people, and `given_up` is what
   /// WalkerShapes says of them.
-  void ask(const RunBodies& bodies, std::span<const std::uint32_t> shapes, std::uint32_t given_up);
+  void run_query(const RunBodies& bodies, std::span<const std::uint32_t> shapes, std::uint32_t given_up);
 
   std::size_t first() const noexcept { return first_; }
   std::size_t last() const noexcept { return last_; }
@@ -78,12 +78,12 @@ class FrameRun {
                              double margin) const;
   void find_near();
   void turn_shoulders();
-  void ask_pairs(const RunBodies& bodies, const Agents& all);
-  void ask_depths(const RunBodies& bodies, const Agents& all);
-  void ask_between(const RunBodies& bodies, const Agents& with_next);
+  void query_pairs(const RunBodies& bodies, const Agents& all);
+  void query_depths(const RunBodies& bodies, const Agents& all);
+  void query_between(const RunBodies& bodies, const Agents& with_next);
   void add_pass(Pair people, std::size_t next, float time, float gap);
-  void ask_walls(const RunBodies& bodies, const Agents& all);
-  void tell_people(std::span<const std::uint32_t> shapes, std::uint32_t given_up);
+  void query_walls(const RunBodies& bodies, const Agents& all);
+  void report_people(std::span<const std::uint32_t> shapes, std::uint32_t given_up);
   std::uint8_t class_of(Pair pair) const;
   void count_near();
   void count_overlaps();

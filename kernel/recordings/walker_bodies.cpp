@@ -32,7 +32,7 @@ std::optional<BodyModel> model_of_library(const Character& character, std::uint3
   return std::nullopt;
 }
 
-BodyModel model_of_member(const CastMember& member, std::uint32_t spheres) try {
+BodyModel model_of_member(const CharacterEntry& member, std::uint32_t spheres) try {
   if (auto model = model_of_library(member.character, spheres)) return std::move(*model);
   return make_body(member.character, {.spheres = spheres, .draft = true});
 } catch (const std::invalid_argument& error) {
@@ -47,7 +47,7 @@ std::vector<BodyModel> body_models(CastView cast, std::uint32_t spheres) {
   if (cast.empty())
     for (const Sex sex : {Sex::female, Sex::male})
       models.push_back(default_body(default_pedestrian(sex, any_stature), spheres));
-  for (const CastMember& member : cast) models.push_back(model_of_member(member, spheres));
+  for (const CharacterEntry& member : cast) models.push_back(model_of_member(member, spheres));
   return models;
 }
 

@@ -24,7 +24,7 @@ constexpr double same_way = 0.95;         ///< the least cosine between a walk a
 constexpr double still =
     0.02;  ///< metres a second of any vertex: a clip without motion, often of arms spread out
 constexpr double half_step = 0.01;  ///< metres: no vertex moves by more
-constexpr std::uint32_t most_phases = 65'535, most_clips = 65'535;
+constexpr std::uint32_t max_phases = 65'535, max_clips = 65'535;
 constexpr double standing = 0.15;  ///< metres a second: who is slower stands
 
 /// How a clip moves.
@@ -84,7 +84,7 @@ Movement movement_of(Skinner& skinner, std::uint32_t clip) {
 CastClip clip_of(const Clip& clip, const Movement& movement) {
   const double seconds = static_cast<double>(clip.seconds);
   const double phases = std::ceil(seconds * movement.fastest / (2 * half_step));
-  return {clip.name, seconds, 0, static_cast<std::uint32_t>(std::clamp(phases, 1.0, double{most_phases}))};
+  return {clip.name, seconds, 0, static_cast<std::uint32_t>(std::clamp(phases, 1.0, double{max_phases}))};
 }
 
 double speed_of(const Movement& movement) {
@@ -107,7 +107,7 @@ void turn(Affine3& to_ground, double c, double s, double factor) {
   }
 }
 
-std::vector<std::string> assumptions_of(const CastMember& member, std::size_t left_out) {
+std::vector<std::string> assumptions_of(const CharacterEntry& member, std::size_t left_out) {
   std::ostringstream speeds;
   speeds.setf(std::ios::fixed);
   speeds.precision(2);
@@ -128,17 +128,17 @@ std::vector<std::string> assumptions_of(const CastMember& member, std::size_t le
 
 }  // namespace
 
-void sort_walks(CastMember& member) {
+void sort_walks(CharacterEntry& member) {
   std::stable_sort(member.walks.begin(), member.walks.end(), [&](std::uint32_t a, std::uint32_t b) {
     return member.clips[a].speed < member.clips[b].speed;
   });
 }
 
-CastMember cast_member(Character character, const std::string& name) {
-  CastMember member{name, std::move(character), 0, {}, {}, {}, {}};
+CharacterEntry cast_member(Character character, const std::string& name) {
+  CharacterEntry member{name, std::move(character), 0, {}, {}, {}, {}};
   Skinner skinner(member.character);
   const auto clips =
-      static_cast<std::uint32_t>(std::min<std::size_t>(member.character.clips.size(), most_clips));
+      static_cast<std::uint32_t>(std::min<std::size_t>(member.character.clips.size(), max_clips));
   std::vector<Movement> movements;
   double x = 0, y = 0;
   for (std::uint32_t k = 0; k < clips; ++k) {
@@ -172,7 +172,7 @@ std::uint32_t member_by_id(std::int64_t id, CastView cast) {
 namespace {
 
 /// The clip of a walker whose row names none.
-std::uint32_t clip_by_speed(const CastMember& member, const Walker& walker, double size) {
+std::uint32_t clip_by_speed(const CharacterEntry& member, const Walker& walker, double size) {
   if (walker.speed < standing && !member.idles.empty())
     return member
         .idles[static_cast<std::size_t>(static_cast<std::uint64_t>(walker.id) % member.idles.size())];
@@ -212,7 +212,7 @@ CastPose cast_pose(CastView cast, std::span<const CastMotion> motions, const Wal
       walker.motion == TrackedPerson::no_motion ? nullptr : &motions[walker.motion];
   const std::uint32_t member =
       motion != nullptr && motion->member ? *motion->member : member_by_id(walker.id, cast);
-  const CastMember& body = cast[member];
+  const CharacterEntry& body = cast[member];
   const double size = body.height > 0 ? walker.stature / body.height : 1;
   const bool is_named = motion != nullptr && !motion->clips.empty();
   const std::uint32_t at = is_named ? motion->clips[member] : clip_by_speed(body, walker, size);
@@ -229,7 +229,7 @@ CastPose cast_pose(CastView cast, std::span<const CastMotion> motions, const Wal
   return {member, at, phase, static_cast<float>((phase + 0.5) / phases * clip.seconds), exact};
 }
 
-Character scaled(const CastMember& member, double stature) {
+Character scaled(const CharacterEntry& member, double stature) {
   Character character = member.character;
   turn(character.to_ground, 1, 0, stature / member.height);
   return character;

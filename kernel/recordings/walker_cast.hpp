@@ -32,7 +32,7 @@ struct CastClip {
 
 /// Represents a character of one's own as the people of a recording have it: it walks along +x, but for those of a baked set, which have
 /// the size and the direction that they were baked with.
-struct CastMember {
+struct CharacterEntry {
   std::string name;
   Character character;               ///< empty where it is baked
   double height;                     ///< in its first walk, metres; 0 where it is baked
@@ -48,14 +48,14 @@ struct CastMember {
 /// at 0.3 m/s or more, is a walk; one in which it hardly moves and something else does is an idle; the others, which turn, are
 /// left out, and so are walks of another direction than most.
 /// Errors:  throws std::invalid_argument, naming the character, where no clip is a walk.
-CastMember cast_member(Character character, const std::string& name);
+CharacterEntry cast_member(Character character, const std::string& name);
 
 /// Sorts the walks of a member by ascending speed.
-void sort_walks(CastMember& member);
+void sort_walks(CharacterEntry& member);
 
 /// Holds the characters of one's own in a recording, and a view of them, which they outlive.
-using Cast = std::vector<CastMember>;
-using CastView = std::span<const CastMember>;
+using Cast = std::vector<CharacterEntry>;
+using CastView = std::span<const CharacterEntry>;
 
 /// Returns which of them a person has, by the id: the same in every run.
 std::uint32_t member_by_id(std::int64_t id, CastView cast);
@@ -87,6 +87,6 @@ CastPose cast_pose(CastView cast, std::span<const CastMotion> motions, const Wal
                    std::uint32_t coarse);
 
 /// Returns a character of a stature in metres.
-Character scaled(const CastMember& member, double stature);
+Character scaled(const CharacterEntry& member, double stature);
 
 }  // namespace bch::detail

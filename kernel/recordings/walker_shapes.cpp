@@ -123,7 +123,7 @@ void WalkerShapes::build(std::span<const WalkerPose> poses) {
   const std::vector<Body*> bodies = bodies_of(poses);
   add_in_order(
       builder_, plan_, poses.size(),
-      [&](PreparedShape& place, std::size_t i) {
+      [&](BuiltShape& place, std::size_t i) {
         const auto shaper =
             bodies[i]->shapers.borrow([&] { return PoseShaper(*bodies[i]->character, plan_, threshold); });
         place.prepare(shaper->shape(poses[i].at()), i);
@@ -141,7 +141,7 @@ void WalkerShapes::give_up() {
 
 std::span<const WalkerPose> WalkerShapes::find(std::span<const WalkerPose> poses,
                                                std::span<std::uint32_t> shapes) {
-  if (baked_ == nullptr && set_->bytes() > most_bytes) give_up();
+  if (baked_ == nullptr && set_->bytes() > max_bytes) give_up();
   constexpr std::uint32_t none = 0xffff'ffff;
   for_ranges(poses.size(), lookups, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {

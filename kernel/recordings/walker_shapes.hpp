@@ -56,7 +56,7 @@ struct WalkerPose {
 class WalkerShapes {
  public:
   /// The most bytes that are kept from one call of find() to the next: some 23 000 shapes of whole bodies.
-  static constexpr std::size_t most_bytes = std::size_t{256} << 20;
+  static constexpr std::size_t max_bytes = std::size_t{256} << 20;
 
   /// Takes the plan and the cast. `baked`: the shapes of a cast that is baked, which live as long as this, or nullptr.
   WalkerShapes(const ShapeSetPlan& plan, CastView cast, const ShapeSet* baked = nullptr);

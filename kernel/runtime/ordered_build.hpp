@@ -23,8 +23,8 @@ namespace bch::detail {
 template <class Prepare, class Added>
 void add_in_order(ShapeSetBuilder& builder, const ShapeSetPlan& plan, std::size_t count,
                   const Prepare& prepare, const Added& added) {
-  Spares<PreparedShape> places;
-  std::map<std::size_t, typename Spares<PreparedShape>::Loan> waiting;  // for shapes before them
+  Spares<BuiltShape> places;
+  std::map<std::size_t, typename Spares<BuiltShape>::Loan> waiting;  // for shapes before them
   std::mutex of_waiting;
   std::atomic<std::size_t> next = 0;
   std::size_t in = 0;
@@ -32,7 +32,7 @@ void add_in_order(ShapeSetBuilder& builder, const ShapeSetPlan& plan, std::size_
   const auto prepare_next = [&] {
     // Tasks take shapes in their order, whatever ranges they get, so that few have to wait.
     const std::size_t i = next.fetch_add(1);
-    auto place = places.borrow([&] { return PreparedShape(plan); });
+    auto place = places.borrow([&] { return BuiltShape(plan); });
     prepare(*place, i);
     std::unique_lock lock(of_waiting);
     waiting.emplace(i, std::move(place));

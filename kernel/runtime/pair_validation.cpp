@@ -88,7 +88,7 @@ const Implementation& chosen(const Implementation* wanted, const char* query) {
   return *wanted;
 }
 
-void require_as_many(const Asked& asked, std::size_t size, const char* what) {
+void check_size(const QueryName& asked, std::size_t size, const char* what) {
   if (size != asked.count)
     throw std::invalid_argument(std::string(asked.query) + ": " + std::to_string(asked.count) + " " +
                                 asked.one + "s but " + std::to_string(size) + " " + what);

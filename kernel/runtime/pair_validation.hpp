@@ -23,7 +23,7 @@ constexpr std::size_t pairs_per_task = 2048;
 const Implementation& chosen(const Implementation* wanted, const char* query);
 
 /// Holds what a query answers, and how many of them.
-struct Asked {
+struct QueryName {
   const char* query;
   const char* one;  ///< "pair" or "agent"
   std::size_t count;
@@ -31,7 +31,7 @@ struct Asked {
 
 /// Requires that a query was given as many values as it answers, and that an option is 0 or 1.
 /// Errors of both: throw std::invalid_argument naming the query, what is wrong, and in `words` the two that there are.
-void require_as_many(const Asked& asked, std::size_t size, const char* what);
+void check_size(const QueryName& asked, std::size_t size, const char* what);
 void require_choice(const char* query, const char* what, int value, const char* words);
 
 /// Returns whether segments decide at some leaves: `leaves` selects them, and the set has them.

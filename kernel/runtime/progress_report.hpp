@@ -29,18 +29,18 @@ class ProgressReport {
     const auto now = Clock::now();
     if (now < next_) return;
     next_ = now + std::chrono::milliseconds(50);
-    tell(done);
+    report(done);
   }
 
   /// Tells the caller that all is ready, with the same errors.
   void all_done() {
-    if (report_) tell(total_);
+    if (report_) report(total_);
   }
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  void tell(std::size_t done) {
+  void report(std::size_t done) {
     if (!report_(done, total_))
       throw std::system_error(std::make_error_code(std::errc::operation_canceled), "cancelled by the caller");
   }

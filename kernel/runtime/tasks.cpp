@@ -17,7 +17,7 @@ using namespace detail;
 
 namespace {
 
-constexpr std::uint32_t most_threads_of_executor = 1024;
+constexpr std::uint32_t max_threads_of_executor = 1024;
 
 std::optional<Executor> executor_of_caller;
 
@@ -25,8 +25,8 @@ std::optional<Executor> executor_of_caller;
 
 void Executor::set(const Executor& executor) {
   if (executor.run == nullptr) return executor_of_caller.reset();
-  if (executor.threads < 1 || executor.threads > most_threads_of_executor)
-    throw std::invalid_argument("executor: expected 1 to " + std::to_string(most_threads_of_executor) +
+  if (executor.threads < 1 || executor.threads > max_threads_of_executor)
+    throw std::invalid_argument("executor: expected 1 to " + std::to_string(max_threads_of_executor) +
                                 " threads, found " + std::to_string(executor.threads));
   executor_of_caller = executor;
 }

@@ -19,7 +19,7 @@ namespace bch::detail {
 namespace {
 
 thread_local bool is_in_task = false;
-thread_local std::uint32_t most_threads = 0;  ///< for the calls of this thread; 0: all
+thread_local std::uint32_t max_threads = 0;  ///< for the calls of this thread; 0: all
 
 /// Holds as many threads as the processor runs, but one, which is the caller's. They work for one call at a time; a call that comes meanwhile,
 /// also from a task, is the caller's alone.
@@ -50,7 +50,7 @@ class ThreadPool {
     {
       const std::lock_guard lock(mutex_);
       task_ = task, data_ = data, count_ = count, next_ = 0, busy_ = workers_.size(), ++call_number_;
-      helpers_ = most_threads == 0 ? workers_.size() : most_threads - 1;
+      helpers_ = max_threads == 0 ? workers_.size() : max_threads - 1;
     }
     begins_.notify_all();
     work();
@@ -137,16 +137,16 @@ void run_isolated_by_default(const RangeWork& work) {
 
 void run_on_threads_by_default(std::uint32_t threads, const RangeWork& work) {
   struct Restore {
-    const std::uint32_t before = most_threads;
-    ~Restore() { most_threads = before; }
+    const std::uint32_t before = max_threads;
+    ~Restore() { max_threads = before; }
   } const restore;
-  most_threads = threads;
+  max_threads = threads;
   work(0, 0);
 }
 
 std::uint32_t task_threads_by_default() {
   const std::uint32_t all = PoolOfProcess::instance().pool().threads();
-  return most_threads == 0 ? all : std::min(all, most_threads);
+  return max_threads == 0 ? all : std::min(all, max_threads);
 }
 
 }  // namespace bch::detail

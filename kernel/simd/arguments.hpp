@@ -45,7 +45,7 @@ struct Arguments {
 };
 
 /// Tells the result of a kernel for a pair.
-enum Code : std::uint8_t {
+enum PairState : std::uint8_t {
   apart = 0,        ///< the cuts do not overlap, and neither outline holds the other
   overlap = 1,      ///< discs of the cuts overlap, or come within the distance of the pair
   may_contain = 2,  ///< the cuts do not overlap, and one outline might hold the other

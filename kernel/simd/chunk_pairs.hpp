@@ -23,7 +23,7 @@ struct ChunkPairs {
 
   /// Adds those of the pairs from `first` on whose bits are set.
   void add(std::uint32_t bits, std::uint32_t first) noexcept {
-    size += Simd::write_set(bits, first, pair + size);
+    size += Simd::compress_indices(bits, first, pair + size);
   }
 
   /// Forgets the pairs that pass a test; the rest go to a list, which may be this one. No branch depends on an

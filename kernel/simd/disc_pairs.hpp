@@ -52,7 +52,7 @@ template <class Simd, unsigned count = block_width, bool called = Simd::width ==
   constexpr unsigned parts = Simd::width < count ? count / Simd::width : 1;
   constexpr unsigned rows = Simd::width > count ? Simd::width / count : 1;
   const auto placed = b_in_a.in_lanes<Float>();
-  const auto ax = Simd::eight(a.x), ay = Simd::eight(a.y()), ar = Simd::eight(a.radius());
+  const auto ax = Simd::load_eight(a.x), ay = Simd::load_eight(a.y()), ar = Simd::load_eight(a.radius());
   Float bx[parts], by[parts], br[parts];
 #pragma GCC unroll 8
   for (unsigned part = 0; part < parts; ++part) {

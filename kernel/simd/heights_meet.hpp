@@ -11,9 +11,9 @@ namespace bch::detail {
 /// is for the rounding of the sums: heights of bodies are within 1e6 m or infinite. (Inlined for certain, so that instruction sets share no
 /// function.)
 [[gnu::always_inline]] inline bool heights_meet(double bottom, double top, const Heights& body,
-                                                double rise) noexcept {
-  const double slack = 1e-9 + 0x1p-50 * __builtin_fabs(rise);
-  return bottom <= double{body.top} + rise + slack && double{body.bottom} + rise <= top + slack;
+                                                double dz) noexcept {
+  const double slack = 1e-9 + 0x1p-50 * __builtin_fabs(dz);
+  return bottom <= double{body.top} + dz + slack && double{body.bottom} + dz <= top + slack;
 }
 
 }  // namespace bch::detail

@@ -22,7 +22,7 @@ namespace bch::detail {
 /// Computes the placements of the agents of a chunk of pairs: B seen from A, side by side. This is the first stage of
 /// the pair kernel.
 template <class Simd>
-class Placements {
+class RelativeTransforms {
  public:
   /// Places the pairs from `begin` on, at most a chunk, and none from `end` on.
   void place(const Arguments& in, std::size_t begin, std::size_t end) noexcept {
@@ -160,8 +160,8 @@ class Placements {
       left_quarters[part] = quarters - Double(4.0) * round_to_integer(quarters * Double(0.25));
     }
     // The quarters that remain turn by 0 and +-1: rounded before or after, that is the same.
-    const Float c = Simd::rounded(all_cosines), s = Simd::rounded(all_sines),
-                left = Simd::rounded(left_quarters);
+    const Float c = Simd::to_float(all_cosines), s = Simd::to_float(all_sines),
+                left = Simd::to_float(left_quarters);
     const Float turn_c = Float(1.0f) - xsimd::abs(left), turn_s = left * (Float(2.0f) - xsimd::abs(left));
     return {c * turn_c - s * turn_s, s * turn_c + c * turn_s};
   }
@@ -179,7 +179,7 @@ class Placements {
       }
       cosines[part] = c, sines[part] = s;
     }
-    return {Simd::rounded(cosines), Simd::rounded(sines)};
+    return {Simd::to_float(cosines), Simd::to_float(sines)};
   }
 
   [[gnu::always_inline]] static UnitVectors unit_vectors(const Arguments& in,
@@ -198,7 +198,7 @@ class Placements {
                    from = Columns::numbers(x, a + part * doubles);
       between[part] = to - from;
     }
-    return Simd::rounded(between);
+    return Simd::to_float(between);
   }
 
   /// Computes B's rotation and position in A's frame.

@@ -24,7 +24,7 @@ class ProfileTest {
     std::uint32_t near = 0;      ///< they will probably collide
   };
 
-  ProfileTest(const ShapeSetView& shapes, const Placements<Simd>& at, bool prefetch) noexcept
+  ProfileTest(const ShapeSetView& shapes, const RelativeTransforms<Simd>& at, bool prefetch) noexcept
       : shapes_(shapes), at_(at), prefetch_(prefetch) {}
 
   /// Finds, for all pairs of the chunk, the line of the centres, and the sectors of both profiles along it.
@@ -124,7 +124,7 @@ class ProfileTest {
   }
 
   const ShapeSetView& shapes_;
-  const Placements<Simd>& at_;
+  const RelativeTransforms<Simd>& at_;
   const bool prefetch_;
   alignas(64) std::uint32_t record_a_[chunk_size], record_b_[chunk_size];
   alignas(64) float distance_[chunk_size], sector_a_[chunk_size], sector_b_[chunk_size];

@@ -147,9 +147,9 @@ class SegmentBatch {
     Simd::template load_records<sizeof(Placed) / sizeof(float)>(&placed_->b_in_a.c, index_ + k, place);
     Double of_p[4][parts], of_q[4][parts], of_place[4][parts];
     for (unsigned i = 0; i < 4; ++i) {
-      Simd::widened(p[i], of_p[i]);
-      Simd::widened(q[i], of_q[i]);
-      Simd::widened(place[i], of_place[i]);
+      Simd::to_double(p[i], of_p[i]);
+      Simd::to_double(q[i], of_q[i]);
+      Simd::to_double(place[i], of_place[i]);
     }
     for (std::uint32_t part = 0; part < parts; ++part) {
       const TransformOf<Double> b_in_a{of_place[0][part], of_place[1][part], of_place[2][part],

@@ -74,7 +74,7 @@ class SegmentTest : private SegmentBatch<Simd, Placed> {
       Simd::store(apart_ + k + part * Simd::doubles, apart[part]);
       Simd::store(sure_ + k + part * Simd::doubles, xsimd::min(of_p.across(), of_q.across()));
     }
-    return Simd::bits(Simd::rounded(apart) <= Float(0.0f));
+    return Simd::bits(Simd::to_float(apart) <= Float(0.0f));
   }
 
   Meeting meeting(std::uint32_t k, std::uint32_t lane) noexcept {

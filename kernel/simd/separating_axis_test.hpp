@@ -18,7 +18,7 @@ namespace bch::detail {
 template <class Simd>
 class SeparatingAxisTest {
  public:
-  SeparatingAxisTest(const ShapeSetView& shapes, const Placements<Simd>& at) noexcept
+  SeparatingAxisTest(const ShapeSetView& shapes, const RelativeTransforms<Simd>& at) noexcept
       : shapes_(shapes),
         at_(at),
         rows_(shapes.support),
@@ -42,11 +42,12 @@ class SeparatingAxisTest {
     std::uint32_t separated = 0;
     Float gap(0.0f);
     if constexpr (KnowsGaps<Simd>) gap = Float(at_.bound_gap[pair]);
-    directions_.look_along(pair, odd, rows(pair, odd), [&](unsigned, Float distance, Float of_a, Float of_b) {
-      Float reach = of_a + of_b;
-      if constexpr (KnowsGaps<Simd>) reach = reach + gap;
-      separated |= Simd::bits(reach < distance);
-    });
+    directions_.search_along(pair, odd, rows(pair, odd),
+                             [&](unsigned, Float distance, Float of_a, Float of_b) {
+                               Float reach = of_a + of_b;
+                               if constexpr (KnowsGaps<Simd>) reach = reach + gap;
+                               separated |= Simd::bits(reach < distance);
+                             });
     return separated != 0;
   }
 
@@ -64,11 +65,11 @@ class SeparatingAxisTest {
   std::uint32_t apart_on_the_way(std::uint32_t pair, unsigned odd, float x, float y,
                                  float slack) const noexcept {
     std::uint32_t separated = 0;
-    directions_.look_along(pair, odd, rows(pair, odd),
-                           [&](unsigned k, Float distance, Float of_a, Float of_b) {
-                             const Float way = xsimd::max(Directions::along(x, y, odd, k), Float(0.0f));
-                             separated |= Simd::bits(of_a + of_b < distance - way - Float(slack));
-                           });
+    directions_.search_along(pair, odd, rows(pair, odd),
+                             [&](unsigned k, Float distance, Float of_a, Float of_b) {
+                               const Float way = xsimd::max(Directions::along(x, y, odd, k), Float(0.0f));
+                               separated |= Simd::bits(of_a + of_b < distance - way - Float(slack));
+                             });
     return separated != 0;
   }
 
@@ -85,7 +86,7 @@ class SeparatingAxisTest {
   }
 
   const ShapeSetView& shapes_;
-  const Placements<Simd>& at_;
+  const RelativeTransforms<Simd>& at_;
   const float* rows_;
   const std::uint32_t *row_a_, *row_b_;  ///< per pair
   Directions directions_;

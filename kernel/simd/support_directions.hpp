@@ -27,7 +27,7 @@ class SupportDirections {
  public:
   using Float = typename Simd::Float;
 
-  explicit SupportDirections(const Placements<Simd>& at) noexcept : at_(at) {}
+  explicit SupportDirections(const RelativeTransforms<Simd>& at) noexcept : at_(at) {}
 
   /// Computes offset, lower and upper for all pairs of the chunk, lane = pair.
   void place() noexcept {
@@ -80,8 +80,8 @@ class SupportDirections {
   /// Calls visit(k, distance, of_a, of_b) for every register: along A's directions from k on, how far B is and how
   /// far either extends towards the other.
   template <class Visit>
-  [[gnu::always_inline]] void look_along(std::uint32_t pair, unsigned odd, const Rows& of,
-                                         Visit visit) const noexcept {
+  [[gnu::always_inline]] void search_along(std::uint32_t pair, unsigned odd, const Rows& of,
+                                           Visit visit) const noexcept {
     const Float lower(lower_[pair]), upper(upper_[pair]);
     for (unsigned k = 0; k < support_directions / 2; k += Simd::width)
       visit(k, along(at_.tx[pair], at_.ty[pair], odd, k), Simd::load(of.a + k),
@@ -105,7 +105,7 @@ class SupportDirections {
   using Mask = typename Simd::Mask;
   static constexpr unsigned half = support_stride / 2;
 
-  const Placements<Simd>& at_;
+  const RelativeTransforms<Simd>& at_;
   alignas(64) std::int32_t offset_[chunk_size];
   alignas(64) float lower_[chunk_size], upper_[chunk_size];
 };

@@ -169,9 +169,9 @@ std::vector<BakedBody> bodies_of(const baked::BodyArrays& arrays) {
 
 BakedShapes load_baked(const std::filesystem::path& file, FileAccess access) {
   const std::string name = file.string();
-  const FirstLook look{baked::sections_offset, [&](std::span<const std::byte> first, std::uint64_t size) {
-                         read_preamble(first, size, name);
-                       }};
+  const HeaderCheck look{baked::sections_offset, [&](std::span<const std::byte> first, std::uint64_t size) {
+                           read_preamble(first, size, name);
+                         }};
   FileBytes from;
   try {
     from = access == FileAccess::map ? map_file(file, look) : read_file(file, look);

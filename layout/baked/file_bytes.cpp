@@ -23,7 +23,7 @@
 namespace bch::detail {
 namespace {
 
-constexpr std::size_t most_at_once = std::size_t{1} << 30;  ///< bytes; Linux reads no more than 2 GiB
+constexpr std::size_t max_at_once = std::size_t{1} << 30;  ///< bytes; Linux reads no more than 2 GiB
 
 /// An open regular file.
 class OpenFile {
@@ -52,7 +52,7 @@ class OpenFile {
   /// Reads the first bytes of the file, as many as there is room for and not more than size().
   void read(std::span<std::byte> bytes) const {
     for (std::size_t done = 0; done < bytes.size();) {
-      const ssize_t got = pread(descriptor_, bytes.data() + done, std::min(bytes.size() - done, most_at_once),
+      const ssize_t got = pread(descriptor_, bytes.data() + done, std::min(bytes.size() - done, max_at_once),
                                 static_cast<off_t>(done));
       if (got < 0 && errno == EINTR) continue;
       if (got < 0) reject(std::strerror(errno));
@@ -79,7 +79,7 @@ std::uint64_t all_memory() {
   return (std::uint64_t{system.totalram} + system.totalswap) * system.mem_unit;
 }
 
-void accept(const OpenFile& from, const FirstLook& look) {
+void accept(const OpenFile& from, const HeaderCheck& look) {
   if (!look.accept) return;
   std::vector<std::byte> first(std::min(look.bytes, from.size()));
   from.read(first);
@@ -88,7 +88,7 @@ void accept(const OpenFile& from, const FirstLook& look) {
 
 }  // namespace
 
-FileBytes read_file(const std::filesystem::path& file, const FirstLook& look) {
+FileBytes read_file(const std::filesystem::path& file, const HeaderCheck& look) {
   const OpenFile from(file);
   accept(from, look);
   // A system that promises more memory than it has would end some process later.
@@ -100,7 +100,7 @@ FileBytes read_file(const std::filesystem::path& file, const FirstLook& look) {
   return {bytes, memory};
 }
 
-FileBytes map_file(const std::filesystem::path& file, const FirstLook& look) {
+FileBytes map_file(const std::filesystem::path& file, const HeaderCheck& look) {
   const OpenFile from(file);
   accept(from, look);
   if (from.size() == 0) return {};

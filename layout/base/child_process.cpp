@@ -51,7 +51,7 @@ void set_limits(const ChildLimits& limits) {
 
 /// Gives signals their default effect again, for a child that has none of what its parent's handlers need. Those that
 /// terminals send to both are for the parent.
-void forget_signals() {
+void reset_signal_handlers() {
   for (int number = 1; number <= SIGRTMAX; ++number)
     if (number != SIGKILL && number != SIGSTOP) signal(number, SIG_DFL);
   for (const int number : {SIGINT, SIGHUP, SIGTSTP, SIGXFSZ}) signal(number, SIG_IGN);
@@ -59,7 +59,7 @@ void forget_signals() {
 
 [[noreturn]] void run_child(const ChildLimits& limits, const std::function<void(int to)>& run, int to) {
   if (limits.ends_with_thread) prctl(PR_SET_PDEATHSIG, SIGKILL);
-  forget_signals();
+  reset_signal_handlers();
   // The parent speaks for both.
   const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
   dup2(nowhere, STDOUT_FILENO);

@@ -18,8 +18,8 @@ void require_spheres(std::span<const Sphere> spheres, const std::string& whose) 
   const auto refuse = [&](const std::string& expected, const std::string& found) {
     throw std::invalid_argument(whose + ": expected " + expected + ", found " + found);
   };
-  if (spheres.empty() || spheres.size() > most_spheres)
-    refuse("1 to " + std::to_string(most_spheres) + " spheres", std::to_string(spheres.size()));
+  if (spheres.empty() || spheres.size() > max_spheres)
+    refuse("1 to " + std::to_string(max_spheres) + " spheres", std::to_string(spheres.size()));
   for (std::size_t i = 0; i < spheres.size(); ++i) {
     const Sphere& s = spheres[i];
     if (!is_finite(s.x) || !is_finite(s.y) || !is_finite(s.z) || !is_finite(s.radius) || s.radius < 0)

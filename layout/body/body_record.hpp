@@ -22,7 +22,7 @@ constexpr float empty_support = -1e30f;
 
 /// Arrays of a record are padded to this many floats, a cache line.
 constexpr std::uint32_t record_line = 16;
-constexpr std::uint32_t most_spheres = 4096;
+constexpr std::uint32_t max_spheres = 4096;
 
 /// Begins a record. All bounds are rounded outward; margins for what a query rounds are the query's own.
 struct BodyHeader {

@@ -45,9 +45,9 @@ void add_row(const BodySet::Capsule& capsule, std::size_t number, float error, s
     refuse_capsule(number, "expected an error above " + shortest(2 * cover_rounding * reach) + " m, found " +
                                shortest(error));
   const double parts = std::max(1.0, std::ceil(length / (2 * std::sqrt(room * (2 * radius + room)))));
-  if (parts + 1 + static_cast<double>(spheres.size()) > most_spheres)
-    refuse_capsule(number, "expected an error that " + std::to_string(most_spheres) +
-                               " spheres keep, found " + shortest(error) + " m");
+  if (parts + 1 + static_cast<double>(spheres.size()) > max_spheres)
+    refuse_capsule(number, "expected an error that " + std::to_string(max_spheres) + " spheres keep, found " +
+                               shortest(error) + " m");
   const double half = length / parts / 2;
   const float held_by = static_cast<float>(std::sqrt(radius * radius + half * half) + spare);
   for (double i = 0; i <= parts; ++i) {

@@ -26,7 +26,7 @@ using namespace detail;
 
 namespace {
 
-constexpr std::size_t most_pieces = 1 << 16;
+constexpr std::size_t max_pieces = 1 << 16;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Holds a part of a prism: the corners of a convex hull about it as seen from above, and its heights.
@@ -95,7 +95,7 @@ class PrismCover {
   std::vector<Sphere> run() {
     if (!(error_ > 0)) return {};
     std::deque<Piece> open = {{sides_, bottom_, top_}};
-    while (!open.empty() && balls_.size() <= most_ && open.size() <= most_pieces) {
+    while (!open.empty() && balls_.size() <= most_ && open.size() <= max_pieces) {
       const Piece piece = std::move(open.front());
       open.pop_front();
       if (piece.corners.empty() || is_held(piece) || hold(piece)) continue;
@@ -208,9 +208,9 @@ std::vector<Sphere> spheres_from_polygons(std::span<const std::vector<Vec2>> pol
   std::vector<Sphere> spheres;
   for (std::size_t i = 0; i < outline.contours(); ++i) {
     const std::vector<Sphere> part =
-        PrismCover(outline.contour(i), heights, double{error}, most_spheres - spheres.size()).run();
+        PrismCover(outline.contour(i), heights, double{error}, max_spheres - spheres.size()).run();
     if (part.empty())
-      refuse("an error that " + std::to_string(most_spheres) + " spheres keep",
+      refuse("an error that " + std::to_string(max_spheres) + " spheres keep",
              shortest(error) + " m at polygon " + std::to_string(i));
     spheres.insert(spheres.end(), part.begin(), part.end());
   }

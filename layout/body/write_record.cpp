@@ -136,8 +136,8 @@ void write_supports(const SphereSlots& spheres, std::uint32_t slots, std::uint32
   const Float high(band + 1 == body_bands ? infinity : band_planes[band] + band_overlap);
   const Float slack(4 * unit * (1 + reach)), error(clip_error), zero(0.0f);
   // The parts of spheres in the band are discs as seen from above; whole registers may be read behind them.
-  alignas(64) float x[most_spheres + record_line], y[most_spheres + record_line],
-      radius[most_spheres + record_line];
+  alignas(64) float x[max_spheres + record_line], y[max_spheres + record_line],
+      radius[max_spheres + record_line];
   std::uint32_t count = 0;
   for (std::uint32_t i = 0; i < slots; i += group) {
     const Group s = load(spheres, i);

@@ -16,7 +16,7 @@
 
 namespace bch::detail {
 
-/// Takes all that a Passage comes across as bytes.
+/// Takes all that a CharacterFields comes across as bytes.
 class ByteWriter {
  public:
   void bytes(const void* from, std::size_t size) { bytes_.append(static_cast<const char*>(from), size); }
@@ -63,9 +63,9 @@ class ByteReader {
 
 /// Passes a character, or numbers, texts and lists of these, to an archive or from one: says once, for both directions, what it holds.
 template <class Archive>
-class Passage {
+class CharacterFields {
  public:
-  explicit Passage(Archive& archive) : archive_(archive) {}
+  explicit CharacterFields(Archive& archive) : archive_(archive) {}
 
   template <class... Parts>
   void all(Parts&... parts) {

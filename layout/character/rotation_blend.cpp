@@ -32,7 +32,7 @@ Double shares(Double t, double missing) {
 struct Four {
   Double half[2];
 
-  explicit Four(const Quaternion& q) { Simd::widened(Simd::load(&q.x), half); }
+  explicit Four(const Quaternion& q) { Simd::to_double(Simd::load(&q.x), half); }
   Four(Double low, Double high) : half{low, high} {}
 };
 

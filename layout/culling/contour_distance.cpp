@@ -38,7 +38,7 @@ void measure_depths(const InteriorLoops& loops, std::span<const Vec2> contour, c
 
 void estimate_depths(const InteriorLoops& loops, const ContourPoints& contour, const CandidateDiscs& discs,
                      ContourDepths& depths) {
-  alignas(64) std::array<float, most_touches> square, turns;
+  alignas(64) std::array<float, max_touches> square, turns;
   loops.estimate(contour, centres(discs), square.data(), turns.data());
   for (std::uint32_t k = 0; k < discs.count; ++k) {
     depths.distance[k] = static_cast<double>(std::sqrt(square[k]));
@@ -48,8 +48,8 @@ void estimate_depths(const InteriorLoops& loops, const ContourPoints& contour, c
 
 void nearest_touches(const InteriorLoops& loops, const ContourPoints& contour, const CandidateDiscs& discs,
                      Touches& touches) {
-  alignas(64) std::array<float, most_touches> square;
-  alignas(64) std::array<std::int32_t, most_touches> edge;
+  alignas(64) std::array<float, max_touches> square;
+  alignas(64) std::array<std::int32_t, max_touches> edge;
   loops.find_nearest(contour, centres(discs), square.data(), edge.data());
   touches.count = discs.count;
   for (std::uint32_t k = 0; k < discs.count; ++k) {

@@ -13,10 +13,10 @@ namespace bch::detail {
 
 /// Represents a contour's distances from points, and its winding numbers about them.
 struct ContourDepths {
-  alignas(64) std::array<double, most_touches> distance;
+  alignas(64) std::array<double, max_touches> distance;
   /// The number of times that the contour goes round the point, counter-clockwise: 1 inside. It has no
   /// meaning on the contour.
-  alignas(64) std::array<double, most_touches> winding;
+  alignas(64) std::array<double, max_touches> winding;
 };
 
 /// Measures the depths of the discs' centres, exact but for the rounding of double.

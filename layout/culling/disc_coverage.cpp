@@ -18,12 +18,12 @@ void DiscCoverage::offer(const InteriorLoops& loops, const CandidateDiscs& discs
 }
 
 std::int32_t DiscCoverage::promise(std::uint32_t disc, int gain) {
-  return gain * static_cast<std::int32_t>(most_touches) + static_cast<std::int32_t>(most_touches - 1 - disc);
+  return gain * static_cast<std::int32_t>(max_touches) + static_cast<std::int32_t>(max_touches - 1 - disc);
 }
 
 std::uint32_t DiscCoverage::choose() {
   const auto named = [](std::int32_t value) {
-    return most_touches - 1 - static_cast<std::uint32_t>(value) % most_touches;
+    return max_touches - 1 - static_cast<std::uint32_t>(value) % max_touches;
   };
   const auto renew = [&](std::uint32_t disc) {
     return promise_[disc] = promise(disc, loops_->count_new(mask_[disc].data(), covered_.data()));
@@ -33,7 +33,7 @@ std::uint32_t DiscCoverage::choose() {
   assert(best != gone);
   best = renew(named(best));
   // No other disc is worth a count unless it promises more than that.
-  for (std::uint32_t k = 0; k < most_touches; ++k)
+  for (std::uint32_t k = 0; k < max_touches; ++k)
     if (promise_[k] > best) best = std::max(best, renew(k));
   const std::uint32_t disc = named(best);
   for (std::uint32_t j = 0; j < cells; ++j) covered_[j] |= mask_[disc][j];

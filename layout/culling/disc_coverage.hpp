@@ -28,11 +28,11 @@ class DiscCoverage {
   static std::int32_t promise(std::uint32_t disc, int gain);
 
   const InteriorLoops* loops_ = nullptr;
-  alignas(64) std::array<Mask, most_touches> mask_;
+  alignas(64) std::array<Mask, max_touches> mask_;
   alignas(64) Mask covered_;
   /// The cells that a disc would add, at most: gains only shrink as others are chosen. In the low bits the
   /// disc, so that the largest of these numbers names it.
-  alignas(64) std::array<std::int32_t, most_touches> promise_;
+  alignas(64) std::array<std::int32_t, max_touches> promise_;
 };
 
 }  // namespace bch::detail

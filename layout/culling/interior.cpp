@@ -123,14 +123,14 @@ bool InteriorBuilder::is_sound(const CandidateDiscs& discs, std::uint32_t k, dou
 std::uint32_t InteriorBuilder::offer_measured() {
   constexpr std::uint32_t row = 8;
   constexpr float spacing = static_cast<float>(longer_side) / row;
-  static_assert(row * row == most_touches);
+  static_assert(row * row == max_touches);
   CandidateDiscs sound, grid;
   const auto keep = [&](const CandidateDiscs& discs, std::uint32_t k) {
     sound.x[sound.count] = discs.x[k], sound.y[sound.count] = discs.y[k];
     sound.radius[sound.count++] = static_cast<float>(depths_.distance[k]);
   };
   estimate_depths(*loops_, corners(), candidates_, depths_);
-  for (std::uint32_t k = 0; k < most_touches; ++k) {
+  for (std::uint32_t k = 0; k < max_touches; ++k) {
     if (is_sound(candidates_, k, 1)) {
       keep(candidates_, k);
       continue;

@@ -18,7 +18,7 @@ struct ContourPoints {
 };
 
 /// Holds points that each have a lane: whole registers are read and written, of which only the first `count` lanes
-/// matter. Their arrays have room for most_touches.
+/// matter. Their arrays have room for max_touches.
 struct PointLanes {
   const float *x, *y;
   std::uint32_t count;

@@ -57,16 +57,16 @@ void ContourSamples::take(std::span<const float> x, std::span<const float> y) {
     touches_.normal_y[k / 2] = dx * one_over_length;
   }
   // A pair of samples shares a touch: the second one's place and normal.
-  for (std::uint32_t k = 0; k < most_touches; ++k)
+  for (std::uint32_t k = 0; k < max_touches; ++k)
     touches_.x[k] = x_[2 * k + 1], touches_.y[k] = y_[2 * k + 1];
-  touches_.count = most_touches;
+  touches_.count = max_touches;
 }
 
 void ContourSamples::largest_discs(const InteriorLoops& loops, const Touches& touches,
                                    const ContourPoints& corners, CandidateDiscs& discs) const {
   const TouchLanes lanes{touches.x.data(), touches.y.data(), touches.normal_x.data(), touches.normal_y.data(),
                          touches.count};
-  alignas(64) std::array<float, most_touches> half_curvature;
+  alignas(64) std::array<float, max_touches> half_curvature;
   half_curvature.fill(0.5f * smallest_curvature);
   loops.keep_out({x_.data(), y_.data(), count}, lanes, half_curvature.data());
   loops.keep_out(corners, lanes, half_curvature.data());

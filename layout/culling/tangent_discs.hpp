@@ -15,15 +15,15 @@
 namespace bch::detail {
 
 /// Points where a disc is to touch a contour, and the unit normals there that point inward.
-constexpr std::uint32_t most_touches = 64;
+constexpr std::uint32_t max_touches = 64;
 struct Touches {
-  alignas(64) std::array<float, most_touches> x{}, y{}, normal_x{}, normal_y{};
+  alignas(64) std::array<float, max_touches> x{}, y{}, normal_x{}, normal_y{};
   std::uint32_t count = 0;
 };
 
 /// Holds discs as arrays, room for one a touch.
 struct CandidateDiscs {
-  alignas(64) std::array<float, most_touches> x{}, y{}, radius{};
+  alignas(64) std::array<float, max_touches> x{}, y{}, radius{};
   std::uint32_t count = 0;
 };
 
@@ -46,7 +46,7 @@ class ContourSamples {
                      CandidateDiscs& discs) const;
 
  private:
-  static constexpr std::uint32_t count = 2 * most_touches;
+  static constexpr std::uint32_t count = 2 * max_touches;
   alignas(64) std::array<float, count> x_, y_;
   Touches touches_;
   std::vector<float> length_;  ///< of the edge that ends at each corner

@@ -69,7 +69,7 @@ void add_clips(Character& character, const Manner& m) {
   add("side-step left", 12, Travel::authored, side_stepping(m, 1));
   add("side-step right", 12, Travel::authored, side_stepping(m, -1));
   add("idle shift", 14, Travel::authored, idling(m, Idle::shift));
-  add("idle look around", 10, Travel::authored, idling(m, Idle::look_around));
+  add("idle look around", 10, Travel::authored, idling(m, Idle::search_around));
   add("idle akimbo", 15, Travel::authored, idling(m, Idle::akimbo));
   add("idle arms crossed", 7, Travel::authored, idling(m, Idle::arms_crossed));
   add("idle phone", 14, Travel::authored, idling(m, Idle::phone));

@@ -111,7 +111,7 @@ Arms arms(const Manner& manner, Idle kind, double t) {
       return {reach(0.215 * s, -0.06 * s, 0.640, {-0.1, 1, -0.8}, 0.2, 0.1, 0.4),
               reach(0.165 * s, 0.070 * s, 0.808, {0.35, 0.25, -1}, 0.9, 0.0, 0.9)};
     case Idle::shift:
-    case Idle::look_around:
+    case Idle::search_around:
       break;
   }
   return {hang, hang};
@@ -127,7 +127,7 @@ Motion idling(const Manner& manner, Idle kind) {
     stand(pose, manner, seconds, kind == Idle::shift ? shift : 0.6 * shift);
     double yaw = 0.2 * wander(seconds, 7.3, 1 + static_cast<double>(kind));
     double pitch = 0.08 + 0.08 * wander(seconds, 8.9, 0.5);
-    if (kind == Idle::look_around) {
+    if (kind == Idle::search_around) {
       yaw = 1.05 * std::tanh(1.8 * wander(seconds, 6.1, 0.3));
       pitch = 0.12 * wander(seconds, 5.3, 0.9);
       pose[BodyJoint::chest] = about_z(0.2 * yaw) * pose[BodyJoint::chest];

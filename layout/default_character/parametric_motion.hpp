@@ -43,7 +43,7 @@ Motion striding(const Manner& manner, const Stride& stride);
 Motion turning(const Manner& manner, double direction);
 Motion side_stepping(const Manner& manner, double direction);
 
-enum class Idle { shift, look_around, akimbo, arms_crossed, phone, wave, talk, think };
+enum class Idle { shift, search_around, akimbo, arms_crossed, phone, wave, talk, think };
 Motion idling(const Manner& manner, Idle kind);
 
 /// Returns a natural stance for arms, common to all standing motions.

@@ -143,7 +143,7 @@ class DiscLanes {
       Point best = now.centre;
       Batch least(HUGE_VAL);
       Mask open = now.is_pair;
-      for (int i = 0; i < most_disc_pivots; ++i) {
+      for (int i = 0; i < max_disc_pivots; ++i) {
         const Point centre{rounded(now.centre.x), rounded(now.centre.y)};
         const Farthest q = farthest(centre);
         const Mask better = open & (q.square < least);

@@ -57,7 +57,7 @@ PlanePoint smallest_centre(PlanePoint first, Farthest farthest) {
   Basis now = basis(a, farthest(a));
   PlanePoint best = now.centre;
   double least = HUGE_VAL;
-  for (int i = 0; i < most_disc_pivots; ++i) {
+  for (int i = 0; i < max_disc_pivots; ++i) {
     const PlanePoint q = farthest(now.centre);
     const double square = squared_length(q - now.centre);
     if (square < least) least = square, best = now.centre;

@@ -26,7 +26,7 @@ struct SolvedDisc {
 constexpr double disc_slack = 1 + 1e-13;
 /// The most pivots of a disc. Each enlarges it, and ten suffice in practice. The last scan makes the answer
 /// safe even after these.
-constexpr int most_disc_pivots = 100;
+constexpr int max_disc_pivots = 100;
 
 /// Holds what EnclosingDiscs asks of an instruction set: plain pointers, because nothing of the standard library
 /// may be compiled for wide registers.

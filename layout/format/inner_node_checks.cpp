@@ -65,9 +65,9 @@ bool same(const Disc& a, const Disc& b) {
 /// but the one before in this list. A node whose first child is not a disc of the cut ends the part of the
 /// list that is below it. So each node is taken from the list once, and the one above it later. All ways end
 /// at the last one, the root.
-class OpenNodes {
+class PendingNodes {
  public:
-  OpenNodes(const InnerNodes& nodes, std::vector<LevelNodes::OpenNode>& open, float slack)
+  PendingNodes(const InnerNodes& nodes, std::vector<LevelNodes::OpenNode>& open, float slack)
       : nodes_(nodes), open_(open), slack_(slack) {
     open_.clear();
   }
@@ -138,7 +138,7 @@ void inner_nodes(const ShapeArrays& a, LevelNodes& level) {
     return;
   }
   const auto slack = static_cast<float>(rounding::held_room + 49 * rounding::unit_roundoff);
-  OpenNodes open(nodes, level.open_nodes, slack * a.reach[level.root / a.depths.size()]);
+  PendingNodes open(nodes, level.open_nodes, slack * a.reach[level.root / a.depths.size()]);
   for (std::uint32_t k = 0; k < nodes.count(); ++k) open.add(k);
   if (nodes.is_above_disc(nodes.count())) reject_inner(nodes, nodes.count(), "padding is above a disc");
   const std::uint32_t top = open.end_all(nodes.count());

@@ -22,7 +22,7 @@ void add_leaf(std::span<const std::uint32_t> segments, std::size_t leaf, std::si
               std::vector<std::uint32_t>& words) {
   words.resize(std::max(words.size(), leaves));
   words[leaf] = 0;
-  if (segments.size() > most_leaf_segments) return;
+  if (segments.size() > max_leaf_segments) return;
   const auto size = static_cast<std::uint32_t>(segments.size());
   if (is_run(segments)) {
     words[leaf] = size << leaf_count_shift | segments.front();

@@ -117,7 +117,7 @@ void blocks(const ShapeArrays& a, LevelNodes& level) {
     if (block == level_end) {
       level_end = next;
       // The windows below are a level, too.
-      if (++levels == most_wide_levels) reject("nodes", block, "the tree has too many levels");
+      if (++levels == max_wide_levels) reject("nodes", block, "the tree has too many levels");
     }
     if (block + block_floats > a.nodes.size()) reject("nodes", block, "the block ends beyond the array");
     const float* x = a.nodes.data() + block;
@@ -241,7 +241,7 @@ void segments_of_leaves(const ShapeArrays& a, LevelNodes& level) {
       require((word & ~leaf_list) == end && end < words.size() && words[end] < words.size() - end,
               "a list is not behind the one before");
       for (const std::uint32_t segment : words.subspan(end + 1, words[end])) name(segment, 1);
-      require(words[end] > 0 && words[end] <= most_leaf_segments, "a list is too short or too long");
+      require(words[end] > 0 && words[end] <= max_leaf_segments, "a list is too short or too long");
       end += 1 + words[end];
     }
     require(named <= points + of.count, "leaves name too many segments");

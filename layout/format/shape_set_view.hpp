@@ -12,7 +12,7 @@ namespace bch::detail {
 /// The number of discs of a block.
 constexpr std::uint32_t block_width = 8;
 /// The longest way, in blocks, from a root block to a leaf. Kernels size their stacks by it.
-constexpr std::uint32_t most_wide_levels = 10;
+constexpr std::uint32_t max_wide_levels = 10;
 
 /// Directions of supports, and the floats that a set's supports take; see supports.hpp.
 constexpr std::uint32_t support_directions = 32;
@@ -90,7 +90,7 @@ struct Tree {
 constexpr std::uint32_t leaf_list = 0x80000000;
 constexpr unsigned leaf_count_shift = 24;
 constexpr std::uint32_t leaf_first_mask = (std::uint32_t{1} << leaf_count_shift) - 1;
-constexpr std::uint32_t most_leaf_segments = 127;
+constexpr std::uint32_t max_leaf_segments = 127;
 
 /// Sectors of a profile, and what lies in one; see profile.hpp. Metres from the profile's centre, rounded so that it
 /// decides nothing wrongly.

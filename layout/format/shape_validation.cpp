@@ -47,7 +47,7 @@ constexpr Precondition all[] = {
     {"order of levels", "Levels' nodes lie one behind the other, so that checking them takes one pass.",
      nullptr, order_of_levels},
     {"blocks",
-     "Blocks are a tree in breadth-first order, within the array, with fewer than most_wide_levels levels, "
+     "Blocks are a tree in breadth-first order, within the array, with fewer than max_wide_levels levels, "
      "and none begins with padding: kernels' stacks have that size.",
      nullptr, blocks},
     {"room", "A level has eight discs or more, with padding, and a block's room follows them.", nullptr,

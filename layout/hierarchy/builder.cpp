@@ -148,10 +148,10 @@ inline void HierarchyBuilder::reserve(std::uint32_t nodes) {
 }
 
 void HierarchyBuilder::enlarge(std::uint32_t nodes) {
-  if (node_count_ + nodes > most_nodes_)
-    throw std::length_error("hierarchy: more than " + std::to_string(most_nodes_) +
+  if (node_count_ + nodes > max_nodes_)
+    throw std::length_error("hierarchy: more than " + std::to_string(max_nodes_) +
                             " nodes at a threshold of " + shortest(threshold_) + " m");
-  nodes_.resize(std::min(most_nodes_, 2 * std::size_t{node_count_} + nodes + 256));
+  nodes_.resize(std::min(max_nodes_, 2 * std::size_t{node_count_} + nodes + 256));
 }
 
 /// Grows the tree first, depth first, whose shape needs few discs, then computes the other discs.

@@ -27,7 +27,7 @@ class HierarchyBuilder {
   explicit HierarchyBuilder(const BuildImplementation& implementation) : solver_(implementation) {}
 
   /// Sets the largest number of nodes of a hierarchy, 2^22 by default: more throw std::length_error.
-  void limit_nodes(std::size_t most) noexcept { most_nodes_ = most; }
+  void limit_nodes(std::size_t most) noexcept { max_nodes_ = most; }
 
   /// Builds the hierarchy that contour_hierarchy() documents, without primitives. After an exception the
   /// hierarchy has no nodes. `deepest`: nodes at this depth are leaves; cuts down to there are the same.
@@ -98,7 +98,7 @@ class HierarchyBuilder {
   std::array<Half, 256> halves_;  ///< lengths span fewer binary orders of magnitude
 
   std::uint32_t node_count_ = 0;
-  std::size_t most_nodes_ = std::size_t{1} << 22;
+  std::size_t max_nodes_ = std::size_t{1} << 22;
   std::vector<Hierarchy::Node> nodes_;
   std::vector<std::uint32_t>
       first_node_;  ///< per item of the order: a leaf that holds it, or of its pieces' nodes

@@ -30,9 +30,9 @@ double larger_square(Point a, Point b) {
 template <int halvings>
 void write_piece(Point a, Point b, const OutwardRadii& radii, Hierarchy::Node* node, std::uint32_t number) {
   const Point exact = Point(0.5) * (a + b);
-  const Simd::Float rounded = Simd::rounded({exact, exact});
+  const Simd::Float rounded = Simd::to_float({exact, exact});
   Point middle[2];
-  Simd::widened(rounded, middle);
+  Simd::to_double(rounded, middle);
   Simd::store_pair(&node->disc, rounded, 0);
   radii.write(larger_square(a - middle[0], b - middle[0]), *node);
   if constexpr (halvings == 0) {
@@ -52,7 +52,7 @@ void write_piece(Point a, Point b, const OutwardRadii& radii, Hierarchy::Node* n
 /// which takes 2.9 u.
 constexpr double piece_end = 2 * rounding::terms::root_2, float_length = 2.5 * 2.83, limits = 2.9,
                  remains = 8;
-static_assert(piece_end >= rounding::terms::halved(EvenHalves::most_halvings) && remains >= piece_end);
+static_assert(piece_end >= rounding::terms::halved(EvenHalves::max_halvings) && remains >= piece_end);
 constexpr double slack_in_u = 24;
 static_assert(slack_in_u >= 2 * piece_end + float_length + limits + remains);
 
@@ -92,7 +92,7 @@ void EvenHalves::write(const std::vector<Hierarchy::Primitive>& segments, const 
   [&]<int... halvings>(std::integer_sequence<int, halvings...>) {
     (write_all.template operator()<halvings>(), ...);
   }
-  (std::make_integer_sequence<int, most_halvings + 1>());
+  (std::make_integer_sequence<int, max_halvings + 1>());
 }
 
 }  // namespace bch::detail

@@ -19,8 +19,8 @@ namespace bch::detail {
 /// predicted, which costs more than the halving.
 class EvenHalves {
  public:
-  static constexpr int most_halvings = 3;
-  static constexpr int uneven = most_halvings + 1;
+  static constexpr int max_halvings = 3;
+  static constexpr int uneven = max_halvings + 1;
   static constexpr std::uint32_t nodes(int halvings) { return (2u << halvings) - 1; }
 
   /// Sets the length of pieces beyond which they are halved, `longest`, in a shape of a certain reach, both
@@ -42,8 +42,8 @@ class EvenHalves {
     std::uint32_t node, source;
   };
   /// Lengths up to which a segment is surely halved so often at most, and beyond which surely once more.
-  std::array<float, most_halvings + 1> surely_short_ = {}, surely_long_ = {};
-  std::array<std::vector<Segment>, most_halvings + 1> segments_;
+  std::array<float, max_halvings + 1> surely_short_ = {}, surely_long_ = {};
+  std::array<std::vector<Segment>, max_halvings + 1> segments_;
 };
 
 }  // namespace bch::detail

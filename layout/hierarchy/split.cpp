@@ -23,10 +23,10 @@ class Sums {
  public:
   void add(const SplitItem& item, Simd::Mask before, Simd::Mask after) {
     const Float box = Float::load_aligned(item.box), sums = Float::load_aligned(item.sums);
-    box_[0] = Simd::min(Simd::hide(after, box), box_[0]);
-    box_[1] = Simd::min(Simd::hide(before, box), box_[1]);
-    sums_[0] = sums_[0] + Simd::keep(before, sums);
-    sums_[1] = sums_[1] + Simd::keep(after, sums);
+    box_[0] = Simd::min(Simd::nan_where(after, box), box_[0]);
+    box_[1] = Simd::min(Simd::nan_where(before, box), box_[1]);
+    sums_[0] = sums_[0] + Simd::zero_unless(before, sums);
+    sums_[1] = sums_[1] + Simd::zero_unless(after, sums);
   }
 
   void store(SplitMeasure& before, SplitMeasure& after) const {

@@ -10,7 +10,7 @@ namespace {
 
 template <class Archive>
 void pass(Archive& archive, ImportedCharacter& imported) {
-  Passage passage(archive);
+  CharacterFields passage(archive);
   ImportReport& r = imported.report;
   std::uint64_t clips = r.clips.size();
   passage.all(imported.character, r.format, r.meshes, r.vertices, r.triangles, r.dropped_faces,

@@ -9,7 +9,7 @@ namespace bch::detail::importing {
 namespace {
 
 constexpr double least_alignment = 0.7;
-constexpr std::size_t most_names = 5;
+constexpr std::size_t max_names = 5;
 constexpr std::size_t longest_name = 40;
 
 bool at_least_half(std::size_t part, std::size_t whole) {
@@ -19,7 +19,7 @@ bool at_least_half(std::size_t part, std::size_t whole) {
 /// "Hips, Spine and 7 more".
 std::string listed(const std::vector<std::string>& names) {
   std::string text;
-  const std::size_t shown = std::min(names.size(), most_names);
+  const std::size_t shown = std::min(names.size(), max_names);
   for (std::size_t i = 0; i < shown; ++i) text += (i > 0 ? ", " : "") + names[i].substr(0, longest_name);
   if (shown < names.size()) text += " and " + std::to_string(names.size() - shown) + " more";
   return text.empty() ? "none" : text;

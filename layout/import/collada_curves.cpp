@@ -16,7 +16,7 @@ namespace {
 
 constexpr double near_keys = 0.1;  // seconds up to which nobody asks what is between keys, as they are baked
 constexpr double samples_per_second = 60;
-constexpr std::size_t most_samples = 1000;  // between two keys
+constexpr std::size_t max_samples = 1000;  // between two keys
 
 /// How long before a jump the value is the old one: more than a float's step.
 double ramp(double seconds) {
@@ -160,7 +160,7 @@ class CurveRewriter {
       return v * v * v * p[0] + 3 * v * v * u * p[1] + 3 * v * u * u * p[2] + u * u * u * p[3];
     };
     const auto samples = static_cast<std::size_t>(
-        std::clamp((to - from) * samples_per_second, 1.0, static_cast<double>(most_samples)));
+        std::clamp((to - from) * samples_per_second, 1.0, static_cast<double>(max_samples)));
     for (std::size_t s = 1; s < samples; ++s) {
       const double u = static_cast<double>(s) / static_cast<double>(samples);
       lines.times.push_back(bezier(times, u));

@@ -21,7 +21,7 @@ constexpr double key_rounding = 1e-4;  // assimp computes in float
 constexpr double kept = 5e-4;          // what a blend between keys of assimp's may miss
 constexpr double made_anew = 1e-4;     // and one between keys of our own
 constexpr double baked = 0.1;          // seconds between keys up to which nobody asks what is between them
-constexpr int most_halvings = 8;
+constexpr int max_halvings = 8;
 
 constexpr std::string_view axes[] = {"d|X", "d|Y", "d|Z"};  // of what an object animates
 
@@ -215,7 +215,7 @@ class ClipCorrector {
     for (std::size_t m = 1; m < list.size(); ++m) {
       const Moment& here = list[m];
       if (here.seconds - list[m - 1].seconds > baked)
-        add_between(model, list[m - 1], here, most_halvings, add);
+        add_between(model, list[m - 1], here, max_halvings, add);
       add(here.seconds, here.before);
       if (!agree(here.before.map, here.pose.map, 1e-9)) add(here.seconds, here.pose);
     }

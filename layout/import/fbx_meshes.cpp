@@ -14,7 +14,7 @@ namespace {
 
 constexpr double bind_rounding = 1e-3;  // assimp inverts in float
 /// What rounding may add to a weight of 1.
-constexpr float most_of_one = 1.001f;
+constexpr float max_of_one = 1.001f;
 
 /// What binds vertices to one bone.
 struct Cluster {
@@ -160,7 +160,7 @@ class MeshCorrector {
     };
     for_each([&](float weight, double& sum) {
       sum += static_cast<double>(weight);
-      beyond = beyond || weight > most_of_one;
+      beyond = beyond || weight > max_of_one;
     });
     if (!beyond) return;
     for_each([](float& weight, double sum) {

@@ -79,7 +79,7 @@ bool is_gltf(const std::filesystem::path& file) {
 }
 
 GltfFile::GltfFile(const std::filesystem::path& file)
-    : path_(file), files_(file), bytes_(files_.read(file)), values_left_(most_values) {
+    : path_(file), files_(file), bytes_(files_.read(file)), values_left_(max_values) {
   std::string_view text = bytes_.starts_with("glTF") ? split_binary() : std::string_view(bytes_);
   while (!text.empty() && text.back() == '\0') text.remove_suffix(1);
   try {

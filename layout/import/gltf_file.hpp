@@ -24,7 +24,7 @@ constexpr std::size_t largest_index = 0xfffffffe;
 constexpr std::size_t largest_offset = largest_file;
 /// The most numbers that all accessors of a file may hold together. Accessors may share bytes or have none, so that
 /// the size of the file does not bound them.
-constexpr std::size_t most_values = std::size_t{1} << 28;
+constexpr std::size_t max_values = std::size_t{1} << 28;
 
 /// Returns whether a file is glTF, judged by its beginning or its extension.
 bool is_gltf(const std::filesystem::path& file);

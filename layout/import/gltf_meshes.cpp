@@ -73,7 +73,7 @@ class Primitive {
   std::vector<float> floats(const std::string& name, const char* type) {
     const JsonValue accessor = file_.named_by(attribute(name), "accessors");
     return draco_
-               ? draco_->attribute<float>(name.c_str(), components_of(type), accessor["normalized"].truth())
+               ? draco_->attribute<float>(name.c_str(), components_of(type), accessor["normalized"].as_bool())
                : file_.floats(accessor, type);
   }
   std::vector<std::uint32_t> indices(const std::string& name, const char* type) {

@@ -13,7 +13,7 @@ namespace bch::detail::importing {
 namespace {
 
 /// The most numbers of an accessor without bytes, whose elements are 0 but for sparse ones.
-constexpr std::size_t most_zeros = std::size_t{1} << 24;
+constexpr std::size_t max_zeros = std::size_t{1} << 24;
 
 template <class Number>
 double read_number(const char* bytes) {
@@ -119,10 +119,10 @@ std::vector<Number> GltfFile::read(const JsonValue& accessor, const char* type) 
   Decoder decoder = std::is_integral_v<Number> ? index_decoder_of(accessor["componentType"])
                                                : decoder_of(accessor["componentType"]);
   decoder.components = components_of(type);
-  decoder.normalised = !std::is_integral_v<Number> && decoder.one > 0 && accessor["normalized"].truth();
+  decoder.normalised = !std::is_integral_v<Number> && decoder.one > 0 && accessor["normalized"].as_bool();
   const std::size_t count = accessor["count"].whole_number(largest_index);
   if (count * decoder.components > values_left_)
-    accessor.reject("and those before it hold more than " + std::to_string(most_values) + " numbers");
+    accessor.reject("and those before it hold more than " + std::to_string(max_values) + " numbers");
   values_left_ -= count * decoder.components;
 
   std::vector<Number> numbers;
@@ -132,7 +132,7 @@ std::vector<Number> GltfFile::read(const JsonValue& accessor, const char* type) 
     for (std::size_t i = 0; i < count; ++i)
       decoder.decode(from.bytes + i * from.stride, &numbers[i * decoder.components]);
   } else {
-    if (count * decoder.components > most_zeros)
+    if (count * decoder.components > max_zeros)
       accessor.reject("has no bytes for " + std::to_string(count) + " elements");
     numbers.resize(count * decoder.components);
   }

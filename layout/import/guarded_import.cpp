@@ -38,7 +38,7 @@ std::string answer(const std::function<ImportedCharacter()>& read) {
   }
 }
 
-constexpr std::chrono::milliseconds asked_every{50};
+constexpr std::chrono::milliseconds queried_every{50};
 
 /// Returns all that a child says until it ends, or the first bytes beyond the limit; nothing when the time is over or the
 /// caller does not want to go on.
@@ -48,7 +48,7 @@ std::optional<std::string> listen(const ChildProcess& child, const ImportLimits&
   char part[1 << 16];
   while (Clock::now() < until && (!limits.go_on || limits.go_on())) {
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - Clock::now());
-    const std::optional<std::size_t> got = child.read(part, std::clamp(left, 0ms, asked_every));
+    const std::optional<std::size_t> got = child.read(part, std::clamp(left, 0ms, queried_every));
     if (!got) continue;
     if (*got == 0) return bytes;
     bytes.append(part, *got);

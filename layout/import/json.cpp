@@ -55,7 +55,7 @@ float JsonValue::number() const {
   return static_cast<float>(number);
 }
 
-bool JsonValue::truth() const {
+bool JsonValue::as_bool() const {
   if (value_ == nullptr) return false;
   if (!value_->is_boolean()) reject("is neither true nor false");
   return value_->get<bool>();

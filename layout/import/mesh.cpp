@@ -109,9 +109,9 @@ class MeshAppender {
   }
 
   void append_triangles(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
-    if (character_.triangles.size() + triangles.size() > file_.most_triangles)
-      file_.reject("more than " + count(file_.most_triangles, "triangle") +
-                   ", those of each instance of a mesh; ImportOptions::most_triangles raises the limit");
+    if (character_.triangles.size() + triangles.size() > file_.max_triangles)
+      file_.reject("more than " + count(file_.max_triangles, "triangle") +
+                   ", those of each instance of a mesh; ImportOptions::max_triangles raises the limit");
     const auto offset = static_cast<std::uint32_t>(character_.vertices.size());
     for (const auto& [a, b, c] : triangles)
       character_.triangles.push_back({a + offset, b + offset, c + offset});

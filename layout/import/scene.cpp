@@ -22,7 +22,7 @@
 namespace bch::detail::importing {
 namespace {
 
-constexpr std::size_t most_nodes = std::size_t{1} << 20;
+constexpr std::size_t max_nodes = std::size_t{1} << 20;
 
 void check_readable(const std::filesystem::path& file) {
   std::error_code error;
@@ -110,7 +110,7 @@ std::string to_string(const aiString& text) {
 }
 
 SceneFile::SceneFile(const std::filesystem::path& file, const ImportOptions& options)
-    : path(file), most_triangles(options.most_triangles) {
+    : path(file), max_triangles(options.max_triangles) {
   check_readable(file);
   if (is_gltf(file)) {
     gltf = read_gltf(file);
@@ -177,7 +177,7 @@ NodeList read_nodes(const SceneFile& file) {
     const auto [node, parent] = stack.back();
     stack.pop_back();
     if (node == nullptr) file.reject("the scene has a missing node");
-    if (list.nodes.size() == most_nodes) file.reject("more than " + count(most_nodes, "node"));
+    if (list.nodes.size() == max_nodes) file.reject("more than " + count(max_nodes, "node"));
 
     Joint joint{to_string(node->mName), parent, {}};
     joint.rest = read_matrix(file, node->mTransformation, "node '" + joint.name + "'");

@@ -44,7 +44,7 @@ struct SceneFile {
   const aiScene* scene = nullptr;
   std::string format;
   std::vector<std::string> notes;  ///< on what was corrected or is not read
-  std::size_t most_triangles = ImportOptions().most_triangles;
+  std::size_t max_triangles = ImportOptions().max_triangles;
 
   /// Reads the scene of a file.
   /// Errors:  throws ImportError if the file cannot be read as a scene with a root node.

@@ -29,7 +29,7 @@ class ContourIndex {
   /// Returns whether `accept`, a function of a contour's number, accepts a contour whose box holds the point.
   template <class Accept>
   bool any(GridPoint point, Accept accept) const {
-    std::size_t open[most_open], count = 0;
+    std::size_t open[max_open], count = 0;
     if (!boxes_.empty()) open[count++] = root;
     while (count > 0) {
       const std::size_t node = open[--count];
@@ -47,7 +47,7 @@ class ContourIndex {
   static constexpr std::size_t root = 1;
   /// The most nodes that wait: one of each level and both of the last. A tree has fewer levels than a number
   /// has bits.
-  static constexpr std::size_t most_open = 65;
+  static constexpr std::size_t max_open = 65;
 
   struct Place {
     std::uint64_t along_curve;

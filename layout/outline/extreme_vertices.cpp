@@ -24,7 +24,7 @@ static_assert(slack >= (2 + 1 + 1) * 0x1p-24, "the differences, their squares, t
 /// Looks for a farthest vertex end when it is no farther than that square over the disc's, which leaves a tenth of its
 /// radius; more would take longer than the few vertices that they leave out.
 constexpr double near_enough = 1.01;
-constexpr int most_looks = 4;
+constexpr int max_looks = 4;
 
 /// The squares of four points' distances.
 Float squares_of(const GridPoint* points, Float from_x, Float from_y) {
@@ -59,7 +59,7 @@ void ExtremeVertices::find(std::span<const Vec2> positions) {
   const PlanePoint a = point(first), b = point(farthest_from(a.x, a.y, from_middle_));
   pivoting::Basis now = pivoting::basis(a, b);
   double at_most = 0;
-  for (int look = 0; look < most_looks; ++look) {
+  for (int look = 0; look < max_looks; ++look) {
     const std::size_t last = farthest_from(now.centre.x, now.centre.y, from_middle_);
     at_most = (1 + slack) * static_cast<double>(from_middle_[last]);
     if (at_most <= near_enough * now.square_radius) break;

@@ -13,7 +13,7 @@ namespace {
 constexpr std::size_t segments_per_leaf = 8;
 constexpr std::size_t root = 1;
 /// A tree has fewer levels than that, and a search waits for one node of each.
-constexpr std::size_t most_open = 64;
+constexpr std::size_t max_open = 64;
 /// Steps by which places and slabs are rounded at most, and more: products of coordinates below 2^24 and unit vectors
 /// are off by less than 2^-27.
 constexpr double margin = 2;
@@ -79,7 +79,7 @@ std::size_t SegmentTree::find(GridPlace from, GridPlace to, std::uint32_t* near)
     const double b = node.normal_x * to.x + node.normal_y * to.y;
     return std::min(a, b) - margin <= node.high && std::max(a, b) + margin >= node.low;
   };
-  std::size_t open[most_open], count = 0, found = 0;
+  std::size_t open[max_open], count = 0, found = 0;
   open[count++] = root;
   while (count > 0) {
     const std::size_t node = open[--count];

@@ -14,7 +14,7 @@ namespace {
 
 /// A face bounded by n segments has O(n alpha(n)) stretches (Pollack, Sharir, Sifrony, "Separating two simple
 /// polygons by a sequence of translations", 1988), with alpha(n) <= 4 for any n that fits a computer.
-constexpr std::size_t most_stretches_per_segment = 256;
+constexpr std::size_t max_stretches_per_segment = 256;
 
 /// From so many candidates on, more than poses of characters have, they are found through the tree.
 constexpr std::size_t many_candidates = 16384;
@@ -59,7 +59,7 @@ void OutlineWalk::begin(const CandidateList& candidates) {
 
 void OutlineWalk::walk(GridPoint start, std::vector<Stretch>& contour) {
   const std::size_t first = contour.size(),
-                    most = first + most_stretches_per_segment * candidates_->segments().size();
+                    most = first + max_stretches_per_segment * candidates_->segments().size();
   const Place arriving{{start.x - 1, start.y}, start, {}};
   if (has_tree_)
     find_near_piece(arriving, 0, 1);

@@ -18,7 +18,7 @@
 namespace bch::detail::trajectory {
 namespace {
 
-constexpr std::size_t most_shown = 2, most_shown_fields = 12;
+constexpr std::size_t max_shown = 2, max_shown_fields = 12;
 
 std::string shown_field(std::string_view field) {
   const std::optional<double> number = number_from(field);
@@ -47,11 +47,11 @@ class ColumnSteps {
 
 void FirstRows::add(std::uint64_t line, std::span<const std::string_view> fields) {
   if (lines_.empty()) columns_ = fields.size();
-  if (lines_.size() < most_shown) {
+  if (lines_.size() < max_shown) {
     Line& kept = lines_.emplace_back(Line{line, {}});
-    for (const std::string_view field : fields.first(std::min(fields.size(), most_shown_fields)))
+    for (const std::string_view field : fields.first(std::min(fields.size(), max_shown_fields)))
       kept.fields.push_back(shown_field(field));
-    if (fields.size() > most_shown_fields) kept.fields.emplace_back("...");
+    if (fields.size() > max_shown_fields) kept.fields.emplace_back("...");
   }
   ++others_;
   if (fields.size() < 4) return;

@@ -17,7 +17,7 @@ namespace bch::detail::trajectory {
 namespace {
 
 constexpr std::size_t batch_rows = 4096;
-constexpr std::size_t most_people = 1'000'000;
+constexpr std::size_t max_people = 1'000'000;
 
 std::string position(const Row& row) {
   std::string text = "(";
@@ -94,7 +94,7 @@ void FrameReader::settle_rate(const Recording& recording, const Survey& survey,
   } else {
     info_.fps = *recording.rate;
     if (recording.clock != Clock::row_steps) return;
-    const auto step = static_cast<double>(std::max<std::int64_t>(survey.steps.most_common(), 1));
+    const auto step = static_cast<double>(std::max<std::int64_t>(survey.steps.max_common(), 1));
     info_.fps = checked_fps(source_->places(), info_.fps * step, "the rate of its rows times their step");
     info_.assumptions.push_back("The frame rate of " + shortest(*recording.rate) +
                                 " is that of rows, whose frame numbers go up by " + shortest(step) +
@@ -105,7 +105,7 @@ void FrameReader::settle_rate(const Recording& recording, const Survey& survey,
 /// The rate at which every time is a frame's; where times are rounded too much for that, the rate of their steps.
 double FrameReader::rate_of_times(const Survey& survey) {
   constexpr std::int64_t shortest_step = 1000;  // microseconds
-  const std::int64_t common = survey.steps.most_common();
+  const std::int64_t common = survey.steps.max_common();
   if (common == 0) source_->places().reject("has a single time, and so no frame rate: --fps has to give it");
   double rate = microseconds / static_cast<double>(survey.steps.divisor());
   std::string how = "the smallest rate at which every time is that of a frame";
@@ -146,7 +146,7 @@ void FrameReader::gather(std::int64_t frame) {
     while (count < left_.size() && frame_of(left_[count].key) == frame) ++count;
     frame_rows_.insert(frame_rows_.end(), left_.begin(), left_.begin() + static_cast<std::ptrdiff_t>(count));
     left_ = left_.subspan(count);
-    if (frame_rows_.size() > most_people)
+    if (frame_rows_.size() > max_people)
       source_->places().reject("frame " + std::to_string(frame) + " has more than 1000000 people");
     if (!left_.empty()) break;
   }

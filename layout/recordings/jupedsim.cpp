@@ -102,7 +102,7 @@ class JuPedSim final : public RowSource {
 
   /// Takes the geometry of the first frame.
   void read_geometry() {
-    if (!database_.has_table("geometry")) return say_that_there_is_none();
+    if (!database_.has_table("geometry")) return report_none();
     const bool by_frame = version_ > 1 && database_.has_table("frame_data");
     std::string which = " ORDER BY rowid LIMIT 1";
     if (by_frame) which = " AND hash = (SELECT geometry_hash FROM frame_data ORDER BY frame LIMIT 1)";
@@ -119,7 +119,7 @@ class JuPedSim final : public RowSource {
   /// For a file whose first frame names none that is there.
   void take_the_only_geometry() {
     const std::size_t count = different("wkt", "geometry");
-    if (count == 0) return say_that_there_is_none();
+    if (count == 0) return report_none();
     if (count > 1) {
       recording_.assumptions.push_back("There are no walls: the file has " + std::to_string(count) +
                                        " geometries, and its first frame names none of them.");
@@ -131,9 +131,7 @@ class JuPedSim final : public RowSource {
         "The only geometry of the file is that of all frames, though the first frame does not name it.");
   }
 
-  void say_that_there_is_none() {
-    recording_.assumptions.emplace_back("There are no walls: the file has no geometry.");
-  }
+  void report_none() { recording_.assumptions.emplace_back("There are no walls: the file has no geometry."); }
 
   /// Returns how many different values a column has, beside none and an empty text. SQLite would keep them all, which may be long and share their pages.
   std::size_t different(const std::string& column, const std::string& table) const {

@@ -27,8 +27,8 @@
 namespace bch::detail::trajectory {
 namespace {
 
-constexpr std::size_t most_geometry = std::size_t{1} << 24;
-constexpr std::uint64_t most_compression = 1032;  // of deflate
+constexpr std::size_t max_geometry = std::size_t{1} << 24;
+constexpr std::uint64_t max_compression = 1032;  // of deflate
 constexpr std::size_t archive_rows = 4096;
 
 enum Answer : std::uint64_t { is_recording = 1, is_error = 2 };
@@ -144,14 +144,14 @@ class PedestrianArchive final : public RowSource {
     char bytes[sizeof header_];
     receive(bytes);
     std::memcpy(&header_, bytes, sizeof header_);
-    if (header_.text > most_geometry) places_.reject("malformed: HDF5 crashes on it");
+    if (header_.text > max_geometry) places_.reject("malformed: HDF5 crashes on it");
     std::string text(header_.text, '\0');
     receive(text);
     if (header_.answer != is_recording) places_.reject(text);
     geometry_ = std::move(text);
     std::error_code ignored;
     const std::uintmax_t size = std::filesystem::file_size(places_.file, ignored);
-    if (header_.rows / most_compression > size / std::max<std::uint64_t>(header_.bytes_a_row, 1) + 1)
+    if (header_.rows / max_compression > size / std::max<std::uint64_t>(header_.bytes_a_row, 1) + 1)
       places_.reject("malformed: " + std::to_string(header_.rows) + " rows do not fit into it");
   }
 

@@ -109,7 +109,7 @@ SqliteDatabase::SqliteDatabase(const Places& places, std::function<bool()> go_on
 void SqliteDatabase::open() {
   const Found found(places_->file);
   page_size_ = found.page_size;
-  most_cost_ = steps_of_any_file + steps_a_byte * found.bytes;
+  max_cost_ = steps_of_any_file + steps_a_byte * found.bytes;
   sqlite3* handle = nullptr;
   // Where it fails, the handle says why.
   sqlite3_open_v2((uri_of(found.file) + (found.lacks_log ? "?immutable=1" : "")).c_str(), &handle,
@@ -131,7 +131,7 @@ int SqliteDatabase::look(void* of) {
     database.cost_ += static_cast<std::uint64_t>(pages) * database.page_size_ / bytes_of_a_page_a_step;
   }
   database.is_cancelled_ = database.go_on_ && !database.go_on_();
-  return static_cast<int>(database.is_cancelled_ || database.cost_ > database.most_cost_);
+  return static_cast<int>(database.is_cancelled_ || database.cost_ > database.max_cost_);
 }
 
 void SqliteDatabase::restrict_it() {

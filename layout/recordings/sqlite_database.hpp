@@ -74,7 +74,7 @@ class SqliteDatabase {
   const Places* places_;
   std::function<bool()> go_on_;
   bool is_cancelled_ = false;
-  std::uint64_t page_size_ = 0, cost_ = 0, most_cost_ = 0;
+  std::uint64_t page_size_ = 0, cost_ = 0, max_cost_ = 0;
   std::shared_ptr<void> log_index_;  ///< which the handle uses
   std::unique_ptr<sqlite3, Close> handle_;
 

@@ -25,7 +25,7 @@ void StepCount::add(std::int64_t step) {
   if (counts_.size() < most || counts_.contains(step)) ++counts_[step];
 }
 
-std::int64_t StepCount::most_common() const {
+std::int64_t StepCount::max_common() const {
   const auto common = std::max_element(counts_.begin(), counts_.end(),
                                        [](const auto& a, const auto& b) { return a.second < b.second; });
   return common == counts_.end() ? 0 : common->first;

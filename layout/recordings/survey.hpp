@@ -37,7 +37,7 @@ class StepCount {
   /// Returns the largest number that all steps are multiples of; 0 without steps.
   std::int64_t divisor() const { return divisor_; }
   /// Returns the step that occurs most often among the first 4096 different ones, the smallest of several; 0 without steps.
-  std::int64_t most_common() const;
+  std::int64_t max_common() const;
 
  private:
   std::map<std::int64_t, std::uint64_t> counts_;

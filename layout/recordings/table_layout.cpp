@@ -86,7 +86,7 @@ class LayoutFinder {
     layout_.has_all_columns = is_csv;
     const bool is_pathfinder = take_units(names);
     set_columns(names, line);
-    if (!is_csv && !options_.columns) say_if_names_differ(line, names.size());
+    if (!is_csv && !options_.columns) report_differing_names(line, names.size());
     if (is_pathfinder) {
       layout_.recording.format = "Pathfinder CSV";
       for (Role& role : layout_.columns.roles)  // z is the floor's
@@ -135,7 +135,7 @@ class LayoutFinder {
           "Columns are taken for " + listed(names) +
           ", which the file does not name: " + rows_.read_as(layout_.columns) + ".");
     else if (!options_.columns)
-      say_if_names_differ(line, named);
+      report_differing_names(line, named);
     const bool is_eth =
         (!comments_.any || !are_named) && columns == 4 && layout_.columns.roles.front() == Role::frame;
     if (is_eth) layout_.recording.format = "ETH/UCY columns";
@@ -156,7 +156,7 @@ class LayoutFinder {
     return text;
   }
 
-  void say_if_names_differ(std::uint64_t line, std::size_t named) {
+  void report_differing_names(std::uint64_t line, std::size_t named) {
     if (named == rows_.columns()) return;
     layout_.recording.assumptions.push_back(
         "Line " + std::to_string(line) + " names " + std::to_string(named) + " columns and rows have " +

@@ -51,7 +51,7 @@ struct TrajectoryOptions {
   std::size_t sort_memory = std::size_t{32} << 20;  ///< bytes of rows that are sorted at a time
   /// Limits how long the process that reads HDF5 may say nothing.
   std::chrono::milliseconds patience{30'000};
-  /// Asked often while the file is opened and read, which ends with an error when it says no. Does not throw.
+  /// QueryName often while the file is opened and read, which ends with an error when it says no. Does not throw.
   std::function<bool()> go_on = {};
 };
 

@@ -24,7 +24,7 @@ namespace {
 /// of a crowd, measured by `ratios.py --table plans`.
 constexpr double pairs_for_culling = 500;
 
-constexpr std::size_t most_levels = 255;
+constexpr std::size_t max_levels = 255;
 
 [[noreturn]] void reject(std::size_t agent, const std::string& what) {
   throw std::invalid_argument("scene plan: agent " + std::to_string(agent) + ": " + what);
@@ -42,7 +42,7 @@ class Shapes {
  public:
   explicit Shapes(float pose_step) : step_(static_cast<double>(pose_step)) {}
 
-  std::uint32_t number(ShapeSource source) {
+  std::uint32_t number(PoseId source) {
     if (source.at.clip == PoseTime::rest) source.at.seconds = 0;
     if (step_ > 0) source.at.seconds = stepped(source.at.seconds);
     const auto [found, is_new] =
@@ -51,7 +51,7 @@ class Shapes {
     return static_cast<std::uint32_t>(found->second);
   }
 
-  std::vector<ShapeSource> list;
+  std::vector<PoseId> list;
 
  private:
   /// Rounds a time down to a step, but not beyond the time itself, which may be the clip's end.
@@ -76,7 +76,7 @@ std::vector<std::uint32_t> different(std::vector<std::uint32_t> depths) {
   std::sort(depths.begin(), depths.end());
   depths.erase(std::unique(depths.begin(), depths.end()), depths.end());
   if (depths.empty()) depths.push_back(all_depths);
-  if (depths.size() > most_levels)
+  if (depths.size() > max_levels)
     throw std::invalid_argument("scene plan: " + std::to_string(depths.size()) +
                                 " different depths, more than 255");
   return depths;

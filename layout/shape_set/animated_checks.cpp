@@ -19,7 +19,7 @@
 namespace bch::detail {
 namespace {
 
-constexpr std::uint32_t most_discs = 4096;
+constexpr std::uint32_t max_discs = 4096;
 constexpr double largest_time = 1e6;  ///< seconds
 [[noreturn]] void reject(const std::string& what) {
   throw std::invalid_argument("animated shape: " + what);
@@ -58,8 +58,8 @@ class ChunkCheck {
   }
 
   void check_counts() const {
-    if (chunk_.disc_count == 0 || chunk_.disc_count > most_discs)
-      reject(std::to_string(chunk_.disc_count) + " discs, not 1 to " + std::to_string(most_discs));
+    if (chunk_.disc_count == 0 || chunk_.disc_count > max_discs)
+      reject(std::to_string(chunk_.disc_count) + " discs, not 1 to " + std::to_string(max_discs));
     if (chunk_.keys.size() != chunk_.times.size() * chunk_.disc_count)
       reject(std::to_string(chunk_.keys.size()) + " discs at " + std::to_string(chunk_.times.size()) +
              " keys, not " + std::to_string(chunk_.disc_count) + " at each");

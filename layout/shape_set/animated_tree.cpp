@@ -91,7 +91,7 @@ class Builder {
     discs_.reserve(chunk.keys.size());
     for (std::size_t i = 0; i < chunk.keys.size(); ++i)
       discs_.push_back(rounded(sphere_of(chunk, i), tree_.step));
-    const std::size_t keys = chunk.times.size(), looked_at = std::min<std::size_t>(keys, most_keys);
+    const std::size_t keys = chunk.times.size(), looked_at = std::min<std::size_t>(keys, max_keys);
     for (std::size_t i = 0; i < looked_at; ++i) sampled_keys_.push_back(i * (keys - 1) / (looked_at - 1));
   }
 
@@ -113,7 +113,7 @@ class Builder {
   }
 
  private:
-  static constexpr std::size_t most_keys = 8;  ///< that a split looks at
+  static constexpr std::size_t max_keys = 8;  ///< that a split looks at
 
   const Sphere& disc(std::size_t key, std::uint32_t i) const { return discs_[key * chunk_.disc_count + i]; }
 

@@ -107,7 +107,7 @@ bool Flattener::grow(Split split, Bvh8& tree) {
   level_.clear();
   if (!is_window(all)) level_.push_back(all);
   for (std::uint32_t depth = 1; !level_.empty(); ++depth) {
-    if (depth == most_wide_levels) return false;
+    if (depth == max_wide_levels) return false;
     next_.clear();
     const auto next_block = static_cast<std::uint32_t>(tree.blocks.size() + level_.size());
     for (const Group& group : level_) {

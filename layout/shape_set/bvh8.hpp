@@ -42,7 +42,7 @@ struct Bvh8 {
 
 /// Collapses the binary tree above a cut: a block's groups come from expanding descendants of its node, those of many
 /// and large discs first, until there are eight groups or nothing to expand. What fits into a window becomes one.
-/// If that would need more than most_wide_levels, the cut's discs are grouped evenly in their order instead.
+/// If that would need more than max_wide_levels, the cut's discs are grouped evenly in their order instead.
 Bvh8 bvh8(const Hierarchy& hierarchy, std::uint32_t depth);
 
 /// Builds the trees of several cuts of one hierarchy, one after the other, and reuses its memory. Once it has

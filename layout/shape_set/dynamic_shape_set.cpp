@@ -65,7 +65,7 @@ struct DynamicShapeSet::State {
 DynamicShapeSet::State::State(const ShapeSet& start)
     : plan(start.plan()), shapes(start.shape_count()), places(shapes), set(ShapeArrays(), nullptr) {
   copy(start.arrays(), shapes);
-  set.refer_to(storage.arrays());
+  set.rebind(storage.arrays());
 }
 
 /// Shape by shape: they may lie in any order there, and closer to each other than places may.
@@ -84,7 +84,7 @@ void DynamicShapeSet::State::copy(const ShapeArrays& arrays, std::size_t count) 
     const FlatBody body = flat_body(arrays, shape);
     const ShapeExtent extent = extent_of(body.shape);
     if (!roots_only) make_place(shape, extent, extent);
-    storage.put(shape, body, places[shape].begin);
+    storage.store(shape, body, places[shape].begin);
   }
 }
 
@@ -105,7 +105,7 @@ bool DynamicShapeSet::State::try_replace(std::uint32_t shape, const FlatBody& bo
   if (!fits(extent_of(body.shape), places[shape].size)) return false;
   // Else set has to learn of single discs, or a kernel would not look for them.
   if (set.view().rows_in_order && has_level(body, true)) return false;
-  storage.put(shape, body, places[shape].begin);
+  storage.store(shape, body, places[shape].begin);
   return true;
 }
 
@@ -114,14 +114,14 @@ void DynamicShapeSet::State::replace(std::uint32_t shape, const FlatBody& body) 
   // The refresh also happens where an allocation fails half way.
   struct Refresh {
     State& of;
-    ~Refresh() { of.set.refer_to(of.storage.arrays()); }
+    ~Refresh() { of.set.rebind(of.storage.arrays()); }
   };
   const Refresh refresh{*this};
   const ShapeExtent needed = extent_of(body.shape);
   ShapeExtent room = needed;
   for_each_part([](std::size_t& part) { part += part / 2; }, room);
   make_place(shape, needed, room);
-  storage.put(shape, body, places[shape].begin);
+  storage.store(shape, body, places[shape].begin);
 }
 
 /// Parts that have room enough stay where they are.
@@ -148,11 +148,11 @@ const ShapeSet& DynamicShapeSet::set() const noexcept {
   return state_->set;
 }
 
-bool DynamicShapeSet::try_replace(std::uint32_t shape, const PreparedShape& by) {
+bool DynamicShapeSet::try_replace(std::uint32_t shape, const BuiltShape& by) {
   return state_->try_replace(shape, by.flat());
 }
 
-void DynamicShapeSet::replace(std::uint32_t shape, const PreparedShape& by) {
+void DynamicShapeSet::replace(std::uint32_t shape, const BuiltShape& by) {
   state_->replace(shape, by.flat());
 }
 

@@ -20,7 +20,7 @@ namespace {
 
 /// What rounding corners to float may move them by, times their distance from the origin, and to spare.
 constexpr double corner_rounding = 0x1p-22;
-constexpr int most_corners = 6144;  ///< 6 * 2^10
+constexpr int max_corners = 6144;  ///< 6 * 2^10
 
 /// A capsule as numbers to compute with.
 struct ExactCapsule {
@@ -42,7 +42,7 @@ std::vector<Vec2> polygon_about(const ExactCapsule& capsule, double tolerance) {
     return radius * (1 / half.cosine - 1) + 2 * spare;
   };
   int corners = 6;
-  while (corners < most_corners && excess(corners) > tolerance) corners *= 2;
+  while (corners < max_corners && excess(corners) > tolerance) corners *= 2;
   if (excess(corners) > tolerance) return {};
   const double x = capsule.bx - capsule.ax, y = capsule.by - capsule.ay, length = std::sqrt(x * x + y * y);
   const double u = length > 0 ? x / length : 1, v = length > 0 ? y / length : 0;

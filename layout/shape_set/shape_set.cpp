@@ -31,7 +31,7 @@ bool rows_in_order(std::span<const Root> roots) {
 
 ShapeSet build(std::span<const Shape> shapes, const ShapeSetPlan& plan) {
   const FloatingPointStateGuard floats;
-  PreparedShape prepared(plan);
+  BuiltShape prepared(plan);
   ShapeSetBuilder builder(plan, shapes.size());
   for (std::size_t s = 0; s < shapes.size(); ++s) {
     prepared.prepare(shapes[s], s);
@@ -83,7 +83,7 @@ ShapeSet::ShapeSet(ShapeSet&&) noexcept = default;
 ShapeSet& ShapeSet::operator=(ShapeSet&&) noexcept = default;
 ShapeSet::~ShapeSet() = default;
 
-void ShapeSet::refer_to(const ShapeArrays& arrays) noexcept {
+void ShapeSet::rebind(const ShapeArrays& arrays) noexcept {
   *state_ = {arrays, nullptr, view_of(arrays)};
 }
 

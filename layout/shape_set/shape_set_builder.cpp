@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "layout/base/floating_point_state.hpp"
-#include "layout/shape_set/builder_end.hpp"
+#include "layout/shape_set/builder_mark.hpp"
 #include "layout/shape_set/shape_flattener.hpp"
 #include "layout/shape_set/shape_storage.hpp"
 
@@ -30,26 +30,26 @@ ShapeArrays roots_of(const ShapeArrays& all) {
 
 }  // namespace
 
-struct PreparedShape::State {
+struct BuiltShape::State {
   ShapeFlattener flattener;
   FlatBody flat;
 };
 
-PreparedShape::PreparedShape(const ShapeSetPlan& plan) : state_(new State{ShapeFlattener(plan), {}}) {}
-PreparedShape::PreparedShape(PreparedShape&&) noexcept = default;
-PreparedShape& PreparedShape::operator=(PreparedShape&&) noexcept = default;
-PreparedShape::~PreparedShape() = default;
+BuiltShape::BuiltShape(const ShapeSetPlan& plan) : state_(new State{ShapeFlattener(plan), {}}) {}
+BuiltShape::BuiltShape(BuiltShape&&) noexcept = default;
+BuiltShape& BuiltShape::operator=(BuiltShape&&) noexcept = default;
+BuiltShape::~BuiltShape() = default;
 
-void PreparedShape::prepare(const Shape& shape, std::size_t index) {
+void BuiltShape::prepare(const Shape& shape, std::size_t index) {
   const FloatingPointStateGuard floats;
   state_->flattener.flatten(shape, index, state_->flat);
 }
 
-FlatBody& PreparedShape::flat() noexcept {
+FlatBody& BuiltShape::flat() noexcept {
   return state_->flat;
 }
 
-const FlatBody& PreparedShape::flat() const noexcept {
+const FlatBody& BuiltShape::flat() const noexcept {
   return state_->flat;
 }
 
@@ -57,12 +57,12 @@ struct ShapeSetBuilder::State {
   ShapeSetPlan plan;
   std::size_t expected_shapes;
   ShapeStorage storage;
-  BuilderEnd end = {};
+  BuilderMark end = {};
   ShapeSet set = {ShapeArrays(), nullptr};  ///< stands on storage
 
   void add(const FlatBody& flat);
   void reserve();
-  void go_back(const BuilderEnd& to) noexcept;
+  void rollback(const BuilderMark& to) noexcept;
   void close();
   bool roots_only() const;
   ShapeSet finish();
@@ -77,14 +77,14 @@ ShapeSetBuilder::ShapeSetBuilder(ShapeSetBuilder&&) noexcept = default;
 ShapeSetBuilder& ShapeSetBuilder::operator=(ShapeSetBuilder&&) noexcept = default;
 ShapeSetBuilder::~ShapeSetBuilder() = default;
 
-void ShapeSetBuilder::add(const PreparedShape& shape) {
+void ShapeSetBuilder::add(const BuiltShape& shape) {
   state_->add(shape.flat());
 }
 
 const ShapeSet& ShapeSetBuilder::set() {
   state_->close();
   const ShapeArrays all = state_->storage.arrays();
-  state_->set.refer_to(state_->roots_only() ? roots_of(all) : all);
+  state_->set.rebind(state_->roots_only() ? roots_of(all) : all);
   return state_->set;
 }
 
@@ -97,12 +97,12 @@ std::span<const float> ShapeSetBuilder::nodes() const noexcept {
   return all.empty() ? all : all.first(state_->end.extent.nodes);
 }
 
-BuilderEnd ShapeSetBuilder::end() const noexcept {
+BuilderMark ShapeSetBuilder::mark() const noexcept {
   return state_->end;
 }
 
-void ShapeSetBuilder::go_back(const BuilderEnd& to) noexcept {
-  state_->go_back(to);
+void ShapeSetBuilder::rollback(const BuilderMark& to) noexcept {
+  state_->rollback(to);
 }
 
 /// What throws leaves the end as it was.
@@ -113,7 +113,7 @@ void ShapeSetBuilder::State::add(const FlatBody& flat) {
   ShapeExtent at = end.extent;
   at.nodes = next_line(at.nodes);
   storage.make_room(at, size);
-  storage.put(end.shapes, flat, at);
+  storage.store(end.shapes, flat, at);
   ++end.shapes;
   for_each_part([](std::size_t& behind, std::size_t from, std::size_t length) { behind = from + length; },
                 end.extent, at, size);
@@ -129,7 +129,7 @@ void ShapeSetBuilder::State::reserve() {
 }
 
 /// Every array gets shorter, so that what is added next finds zeros between shapes as behind those that stay.
-void ShapeSetBuilder::State::go_back(const BuilderEnd& to) noexcept {
+void ShapeSetBuilder::State::rollback(const BuilderMark& to) noexcept {
   end = to;
   storage.shorten(end.extent);
   storage.resize(plan, end.shapes);

@@ -113,7 +113,7 @@ void ShapeStorage::shorten(const ShapeExtent& end) noexcept {
   cut(leaf_segments, end.segments);
 }
 
-void ShapeStorage::put(std::size_t shape, const FlatBody& body, const ShapeExtent& at) {
+void ShapeStorage::store(std::size_t shape, const FlatBody& body, const ShapeExtent& at) {
   const FlatShape& flat = body.shape;
   const std::size_t first_root = shape * depths.size();
   std::size_t node = at.nodes;
@@ -124,16 +124,16 @@ void ShapeStorage::put(std::size_t shape, const FlatBody& body, const ShapeExten
     roots[first_root + k] = {tree.root.x, tree.root.y, tree.root.radius, static_cast<std::uint32_t>(row)};
     if (trees.empty()) continue;
     node = level_begin(tree, node);
-    put_level(first_root + k, tree, node);
+    store_level(first_root + k, tree, node);
     node = level_end(tree, node);
   }
   if (!heights.empty()) heights[shape] = body.heights;
   if (!reach.empty()) reach[shape] = rounding::round_up(flat.reach);
-  if (!profiles.empty()) put_culling(shape, flat, at);
-  if (!shape_contours.empty()) put_outline(shape, flat, at);
+  if (!profiles.empty()) store_culling(shape, flat, at);
+  if (!shape_contours.empty()) store_outline(shape, flat, at);
 }
 
-void ShapeStorage::put_level(std::size_t root, const Bvh8& tree, std::size_t node) {
+void ShapeStorage::store_level(std::size_t root, const Bvh8& tree, std::size_t node) {
   const std::size_t first_disc = node + tree.blocks.size() * block_floats;
   const auto name = [&](std::uint32_t local) {
     return static_cast<std::uint32_t>(local & leaf_window ? local + first_disc : node + local * block_floats);
@@ -164,14 +164,14 @@ void ShapeStorage::put_level(std::size_t root, const Bvh8& tree, std::size_t nod
   }
 }
 
-void ShapeStorage::put_culling(std::size_t shape, const FlatShape& flat, const ShapeExtent& at) {
+void ShapeStorage::store_culling(std::size_t shape, const FlatShape& flat, const ShapeExtent& at) {
   if (!flat.levels.back().is_single())
     std::copy(flat.supports.begin(), flat.supports.end(), support.data() + at.rows * support_stride);
   profiles[shape] = flat.profile;
   inscribed[shape] = flat.inscribed;
 }
 
-void ShapeStorage::put_outline(std::size_t shape, const FlatShape& flat, const ShapeExtent& at) {
+void ShapeStorage::store_outline(std::size_t shape, const FlatShape& flat, const ShapeExtent& at) {
   const auto contour = static_cast<std::uint32_t>(at.contours), point = static_cast<std::uint32_t>(at.points);
   const std::size_t count = flat.contour_disc.size();
   shape_contours[shape] = {contour, contour + static_cast<std::uint32_t>(count)};

@@ -67,12 +67,12 @@ struct ShapeStorage {
   void shorten(const ShapeExtent& end) noexcept;
   /// Writes a shape; there has to be room. Of arrays without elements nothing is written. Different shapes may be
   /// written at the same time.
-  void put(std::size_t shape, const FlatBody& body, const ShapeExtent& at);
+  void store(std::size_t shape, const FlatBody& body, const ShapeExtent& at);
 
  private:
-  void put_level(std::size_t root, const Bvh8& tree, std::size_t node);
-  void put_culling(std::size_t shape, const FlatShape& flat, const ShapeExtent& at);
-  void put_outline(std::size_t shape, const FlatShape& flat, const ShapeExtent& at);
+  void store_level(std::size_t root, const Bvh8& tree, std::size_t node);
+  void store_culling(std::size_t shape, const FlatShape& flat, const ShapeExtent& at);
+  void store_outline(std::size_t shape, const FlatShape& flat, const ShapeExtent& at);
 };
 
 }  // namespace bch::detail

@@ -18,10 +18,10 @@ std::string text_of(const Disc& disc) {
   return text.append(") of radius ").append(shortest(disc.radius)).append(" m");
 }
 
-void Look::compare(const char* array, std::uint32_t level, const std::string& place, double stored,
-                   double expected) const {
+void Verifier::compare(const char* array, std::uint32_t level, const std::string& place, double stored,
+                       double expected) const {
   if (stored == expected || std::abs(stored - expected) <= tolerance()) return;
-  say(array, level, place + " is " + shortest(stored) + " m, not " + shortest(expected) + " m");
+  report(array, level, place + " is " + shortest(stored) + " m, not " + shortest(expected) + " m");
 }
 
 namespace {
@@ -31,21 +31,21 @@ double extent_of(const Root& root) {
          static_cast<double>(root.radius);
 }
 
-void verify_shape(const Look& look) {
-  verify_levels(look);
-  if (look.set.roots_only()) return;
-  const Outline outline = outline_of(look.arrays(), look.shape);
-  verify_reach(look);
-  for (std::uint32_t level = 0; level < look.levels(); ++level) {
-    verify_tree(look, level);
-    verify_cover(look, outline, level);
+void verify_shape(const Verifier& verifier) {
+  verify_levels(verifier);
+  if (verifier.set.roots_only()) return;
+  const Outline outline = outline_of(verifier.arrays(), verifier.shape);
+  verify_reach(verifier);
+  for (std::uint32_t level = 0; level < verifier.levels(); ++level) {
+    verify_tree(verifier, level);
+    verify_cover(verifier, outline, level);
   }
-  verify_contours(look, outline);
-  if (outline.contours() > 0) verify_segments(look);
-  if (look.arrays().profiles.empty()) return;
-  verify_supports(look);
-  verify_profile(look, outline);
-  verify_inside(look, outline);
+  verify_contours(verifier, outline);
+  if (outline.contours() > 0) verify_segments(verifier);
+  if (verifier.arrays().profiles.empty()) return;
+  verify_supports(verifier);
+  verify_profile(verifier, outline);
+  verify_inside(verifier, outline);
 }
 
 }  // namespace

@@ -94,31 +94,31 @@ Interior extremes_of(const Outline& outline) {
 }
 
 /// What the library stored as outer and shallow_outer.
-void verify_outer(const Look& look, const Profile& stored) {
+void verify_outer(const Verifier& verifier, const Profile& stored) {
   Outer shallow{};
-  const std::uint32_t deepest = look.levels() - 1;
+  const std::uint32_t deepest = verifier.levels() - 1;
   for (std::uint32_t level = 0; level <= deepest; ++level) {
-    const CutDiscs discs = look.cut(level);
+    const CutDiscs discs = verifier.cut(level);
     if (level < deepest && discs.count == 1) continue;
-    const Outer of_level = outer(stored, discs.x, discs.y, discs.radius, discs.count, look.reach);
+    const Outer of_level = outer(stored, discs.x, discs.y, discs.radius, discs.count, verifier.reach);
     for (std::uint32_t k = 0; k < profile_sectors; ++k)
       if (level < deepest)
         shallow[k] = std::max(shallow[k], of_level[k]);
       else
-        look.compare("profiles", no_level, "outer of sector " + std::to_string(k),
-                     static_cast<double>(stored.sectors[k].outer), static_cast<double>(of_level[k]));
+        verifier.compare("profiles", no_level, "outer of sector " + std::to_string(k),
+                         static_cast<double>(stored.sectors[k].outer), static_cast<double>(of_level[k]));
   }
   for (std::uint32_t k = 0; k < profile_sectors; ++k)
-    look.compare("profiles", no_level, "shallow_outer of sector " + std::to_string(k),
-                 static_cast<double>(stored.sectors[k].shallow_outer), static_cast<double>(shallow[k]));
+    verifier.compare("profiles", no_level, "shallow_outer of sector " + std::to_string(k),
+                     static_cast<double>(stored.sectors[k].shallow_outer), static_cast<double>(shallow[k]));
 }
 
 /// Nothing is ever wrong with minus infinity, which is stored where nothing is known.
-void verify_sectors(const Look& look, const Profile& stored, const Profile& expected) {
+void verify_sectors(const Verifier& verifier, const Profile& stored, const Profile& expected) {
   const auto compare = [&](const char* what, std::uint32_t k, float value, float limit) {
     if (value != -infinity)
-      look.compare("profiles", no_level, what + std::to_string(k), static_cast<double>(value),
-                   static_cast<double>(limit));
+      verifier.compare("profiles", no_level, what + std::to_string(k), static_cast<double>(value),
+                       static_cast<double>(limit));
   };
   for (std::uint32_t k = 0; k < profile_sectors; ++k) {
     compare("inner of sector ", k, stored.sectors[k].inner, expected.sectors[k].inner);
@@ -128,35 +128,35 @@ void verify_sectors(const Look& look, const Profile& stored, const Profile& expe
 
 }  // namespace
 
-void verify_cover(const Look& look, const Outline& outline, std::uint32_t level) {
-  const CutDiscs discs = look.cut(level);
+void verify_cover(const Verifier& verifier, const Outline& outline, std::uint32_t level) {
+  const CutDiscs discs = verifier.cut(level);
   for (std::size_t c = 0; c < outline.contours(); ++c) {
     const auto contour = outline.contour(c);
     Vec2 before = contour.back();
     for (std::size_t i = 0; i < contour.size(); before = contour[i++])
       if (!is_covered(discs, plane_point(before), plane_point(contour[i])))
-        look.say("nodes", level,
-                 "no discs cover the outline at point " + std::to_string(i) + " of contour " +
-                     std::to_string(c) + ", (" + shortest(contour[i].x) + ", " + shortest(contour[i].y) +
-                     ") m");
+        verifier.report("nodes", level,
+                        "no discs cover the outline at point " + std::to_string(i) + " of contour " +
+                            std::to_string(c) + ", (" + shortest(contour[i].x) + ", " +
+                            shortest(contour[i].y) + ") m");
   }
 }
 
-void verify_segments(const Look& look) {
-  const ShapeArrays& arrays = look.arrays();
-  const double margin = arrays.segment_margin[look.shape];
-  if (margin + look.tolerance() * 0x1p-4 < rounding::segment_margin * look.reach)
-    look.say("segment_margin", no_level, shortest(margin) + " m is below what rounding needs");
-  const std::uint32_t level = look.levels() - 1;
-  const Tree& tree = arrays.trees[look.root(level)];
+void verify_segments(const Verifier& verifier) {
+  const ShapeArrays& arrays = verifier.arrays();
+  const double margin = arrays.segment_margin[verifier.shape];
+  if (margin + verifier.tolerance() * 0x1p-4 < rounding::segment_margin * verifier.reach)
+    verifier.report("segment_margin", no_level, shortest(margin) + " m is below what rounding needs");
+  const std::uint32_t level = verifier.levels() - 1;
+  const Tree& tree = arrays.trees[verifier.root(level)];
   if (tree.segments == no_segments) return;
-  const CutDiscs cut = look.cut(level);
+  const CutDiscs cut = verifier.cut(level);
   std::map<std::uint32_t, std::vector<std::uint32_t>> leaves;  // of each segment
   const auto words = arrays.leaf_segments.subspan(tree.segments);
   for (std::uint32_t k = 0; k < cut.count; ++k)
     for (const std::uint32_t segment : segments_of(words, k)) leaves[tree.points + segment].push_back(k);
   if (std::count(words.begin(), words.begin() + cut.count, 0u) > 0) return;  // some name none
-  const auto [first, last] = arrays.shape_contours[look.shape];
+  const auto [first, last] = arrays.shape_contours[verifier.shape];
   for (const Contour& contour : arrays.contours.subspan(first, last - first))
     for (std::uint32_t i = contour.begin; i < contour.end; ++i) {
       std::vector<float> x, y, radius;
@@ -164,55 +164,58 @@ void verify_segments(const Look& look) {
         x.push_back(cut.x[k]), y.push_back(cut.y[k]), radius.push_back(cut.radius[k]);
       const CutDiscs naming{x.data(), y.data(), radius.data(), static_cast<std::uint32_t>(x.size())};
       if (!is_covered(naming, plane_point(arrays.points[i]), plane_point(arrays.points[i + 1])))
-        look.say("leaf_segments", level, "no leaves that name segment " + std::to_string(i) + " cover it");
+        verifier.report("leaf_segments", level,
+                        "no leaves that name segment " + std::to_string(i) + " cover it");
     }
 }
 
-void verify_contours(const Look& look, const Outline& outline) {
+void verify_contours(const Verifier& verifier, const Outline& outline) {
   for (std::size_t c = 0; c < outline.contours(); ++c) {
     const std::uint32_t place =
-        look.arrays().shape_contours[look.shape].begin + static_cast<std::uint32_t>(c);
-    const Disc& stored = look.arrays().contours[place].disc;
+        verifier.arrays().shape_contours[verifier.shape].begin + static_cast<std::uint32_t>(c);
+    const Disc& stored = verifier.arrays().contours[place].disc;
     const EnclosingDisc smallest = smallest_enclosing_disc(outline.contour(c));
     const PlanePoint off = plane_point({stored.x, stored.y}) - plane_point(smallest.centre);
     const double larger = std::abs(static_cast<double>(stored.radius) - smallest.radius);
-    if (larger > look.tolerance() || length(off) > look.tolerance())
-      look.say(
+    if (larger > verifier.tolerance() || length(off) > verifier.tolerance())
+      verifier.report(
           "contours", no_level,
           "the disc of contour " + std::to_string(place) + " at " + text_of(stored) + " is not its smallest");
   }
   const double farthest = reach(outline.points);
-  const bool more = outline.contours() > 0 && look.cut(look.levels() - 1).count > 1;
-  if (farthest > look.reach + look.tolerance() || (more && look.reach > farthest + look.tolerance()))
-    look.say("reach", no_level,
-             shortest(look.reach) + " m, and the outline reaches to " + shortest(farthest) + " m");
+  const bool more = outline.contours() > 0 && verifier.cut(verifier.levels() - 1).count > 1;
+  if (farthest > verifier.reach + verifier.tolerance() ||
+      (more && verifier.reach > farthest + verifier.tolerance()))
+    verifier.report("reach", no_level,
+                    shortest(verifier.reach) + " m, and the outline reaches to " + shortest(farthest) + " m");
 }
 
-void verify_profile(const Look& look, const Outline& outline) {
-  const Profile& stored = look.arrays().profiles[look.shape];
-  verify_outer(look, stored);
+void verify_profile(const Verifier& verifier, const Outline& outline) {
+  const Profile& stored = verifier.arrays().profiles[verifier.shape];
+  verify_outer(verifier, stored);
   // Made from the reach before it was rounded up.
-  const float reach = std::nextafter(static_cast<float>(look.reach), 0.0f);
+  const float reach = std::nextafter(static_cast<float>(verifier.reach), 0.0f);
   const Profile expected = profile(outline, extremes_of(outline), static_cast<double>(reach));
   const double off = length(plane_point({stored.x, stored.y}) - plane_point({expected.x, expected.y}));
-  if (off > look.tolerance())
-    return look.say(
+  if (off > verifier.tolerance())
+    return verifier.report(
         "profiles", no_level,
         "the centre (" + shortest(stored.x) + ", " + shortest(stored.y) + ") m is not the area's");
-  verify_sectors(look, stored, expected);
+  verify_sectors(verifier, stored, expected);
 }
 
-void verify_inside(const Look& look, const Outline& outline) {
+void verify_inside(const Verifier& verifier, const Outline& outline) {
   const auto contour = outline.contours() > 0 ? largest_contour(outline) : std::span<const Vec2>();
-  const DiscBlock& discs = look.arrays().inscribed[look.shape];
+  const DiscBlock& discs = verifier.arrays().inscribed[verifier.shape];
   for (std::uint32_t i = 0; i < block_width; ++i) {
     if (!(discs.x[i] < infinity)) continue;
     const Disc disc{discs.x[i], discs.y[i], discs.radius[i]};
     const Depth depth = contour.empty() ? Depth{0, false} : depth_in(contour, plane_point({disc.x, disc.y}));
-    const double room = depth.distance - 24 * rounding::unit_roundoff * look.reach;
+    const double room = depth.distance - 24 * rounding::unit_roundoff * verifier.reach;
     if (!depth.inside || static_cast<double>(disc.radius) > room)
-      look.say("inscribed", no_level,
-               "disc " + std::to_string(i) + " at " + text_of(disc) + " is not inside the largest contour");
+      verifier.report(
+          "inscribed", no_level,
+          "disc " + std::to_string(i) + " at " + text_of(disc) + " is not inside the largest contour");
   }
 }
 

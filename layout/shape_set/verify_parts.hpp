@@ -23,7 +23,7 @@ namespace bch::detail::verification {
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
 /// Represents a shape of a set that is verified, and the list that takes the findings.
-struct Look {
+struct Verifier {
   const ShapeSet& set;
   std::vector<Finding>& findings;
   std::size_t most;  ///< findings
@@ -38,7 +38,7 @@ struct Look {
   /// was rounded up.
   double tolerance() const { return 0x1p-19 * reach; }
 
-  void say(const char* array, std::uint32_t level, const std::string& what) const {
+  void report(const char* array, std::uint32_t level, const std::string& what) const {
     if (findings.size() < most) findings.push_back({shape, level, array, what});
   }
   /// Reports a stored length that is not what was recomputed.
@@ -51,14 +51,14 @@ double distance(const Disc& a, const Disc& b);  ///< of the centres
 /// Returns whether one disc may be the smallest disc of a part of the other disc's points.
 bool may_be_part(const Disc& part, const Disc& whole, double tolerance);
 
-void verify_tree(const Look& look, std::uint32_t level);
-void verify_levels(const Look& look);
-void verify_reach(const Look& look);
-void verify_supports(const Look& look);
-void verify_profile(const Look& look, const Outline& outline);
-void verify_inside(const Look& look, const Outline& outline);
-void verify_contours(const Look& look, const Outline& outline);
-void verify_cover(const Look& look, const Outline& outline, std::uint32_t level);
-void verify_segments(const Look& look);
+void verify_tree(const Verifier& verifier, std::uint32_t level);
+void verify_levels(const Verifier& verifier);
+void verify_reach(const Verifier& verifier);
+void verify_supports(const Verifier& verifier);
+void verify_profile(const Verifier& verifier, const Outline& outline);
+void verify_inside(const Verifier& verifier, const Outline& outline);
+void verify_contours(const Verifier& verifier, const Outline& outline);
+void verify_cover(const Verifier& verifier, const Outline& outline, std::uint32_t level);
+void verify_segments(const Verifier& verifier);
 
 }  // namespace bch::detail::verification

@@ -22,8 +22,11 @@ double needed(const Disc& disc, const Disc& held) {
 /// The tree of one level that is more than a disc. Nodes are indices: of the inner ones, or leaf_window + that of a cut disc.
 class LevelTree {
  public:
-  LevelTree(const Look& look, std::uint32_t level)
-      : look_(look), level_(level), tree_(look.arrays().trees[look.root(level)]), cut_(look.cut(level)) {
+  LevelTree(const Verifier& verifier, std::uint32_t level)
+      : verifier_(verifier),
+        level_(level),
+        tree_(verifier.arrays().trees[verifier.root(level)]),
+        cut_(verifier.cut(level)) {
     inner_.resize(cut_.count);
     std::memcpy(inner_.data(), nodes() + std::size_t{tree_.first_inner()} * inner_floats,
                 inner_.size() * sizeof(InnerNode));
@@ -39,20 +42,20 @@ class LevelTree {
   }
 
   void verify_held_discs() const {
-    if (tree_.nodes_hold_discs != 0 && !nodes_hold_discs(cut_, inner_, 0.999 * look_.reach))
-      look_.say("trees", level_, "a node does not hold the discs below it, as the tree says");
+    if (tree_.nodes_hold_discs != 0 && !nodes_hold_discs(cut_, inner_, 0.999 * verifier_.reach))
+      verifier_.report("trees", level_, "a node does not hold the discs below it, as the tree says");
   }
 
   void verify_blocks() {
     is_found_.assign(cut_.count, false);
-    const Root& root = look_.arrays().roots[look_.root(level_)];
+    const Root& root = verifier_.arrays().roots[verifier_.root(level_)];
     std::vector<std::uint32_t> nodes_above;
     verify_outer({root.x, root.y, tree_.outer}, visit(tree_.top, nodes_above));
     for (std::uint32_t i = 0; i < cut_.count; ++i)
       if (!is_found_[i])
-        look_.say("nodes", level_,
-                  "disc " + std::to_string(i) + " at " + text_of(disc(leaf_window + i)) +
-                      " is not below the nodes of the blocks above it");
+        verifier_.report("nodes", level_,
+                         "disc " + std::to_string(i) + " at " + text_of(disc(leaf_window + i)) +
+                             " is not below the nodes of the blocks above it");
   }
 
  private:
@@ -63,7 +66,7 @@ class LevelTree {
     std::vector<std::uint32_t> found;
   };
 
-  const float* nodes() const { return look_.arrays().nodes.data(); }
+  const float* nodes() const { return verifier_.arrays().nodes.data(); }
   std::uint32_t above(std::uint32_t i) const { return inner_[i].link & ~above_cut_disc; }
   Disc disc(std::uint32_t node) const {
     const std::uint32_t i = node & ~leaf_window;
@@ -72,10 +75,10 @@ class LevelTree {
   }
 
   void require_part(std::uint32_t part, std::uint32_t whole) const {
-    if (!may_be_part(disc(part), disc(whole), look_.tolerance()))
-      look_.say("nodes", level_,
-                "a node's disc at " + text_of(disc(part)) + " sticks out of the one above, at " +
-                    text_of(disc(whole)));
+    if (!may_be_part(disc(part), disc(whole), verifier_.tolerance()))
+      verifier_.report("nodes", level_,
+                       "a node's disc at " + text_of(disc(part)) + " sticks out of the one above, at " +
+                           text_of(disc(whole)));
   }
 
   bool is_above(std::uint32_t node, std::uint32_t i) const {
@@ -123,10 +126,11 @@ class LevelTree {
       most = std::max(most, needed(outer, disc(leaf_window + i)));
     const double radius = outer.radius;
     if (radius < least || radius > most * (1 + 0x1p-18))
-      look_.say("nodes", level_, "an outer radius at " + text_of(outer) + " needs " + shortest(least) + " m");
+      verifier_.report("nodes", level_,
+                       "an outer radius at " + text_of(outer) + " needs " + shortest(least) + " m");
   }
 
-  const Look& look_;
+  const Verifier& verifier_;
   const std::uint32_t level_;
   const Tree tree_;
   const CutDiscs cut_;
@@ -150,9 +154,9 @@ bool may_be_part(const Disc& part, const Disc& whole, double tolerance) {
   return d * d + r * r <= limit * limit;
 }
 
-void verify_tree(const Look& look, std::uint32_t level) {
-  if (look.arrays().roots[look.root(level)].row == single_disc) return;
-  LevelTree tree(look, level);
+void verify_tree(const Verifier& verifier, std::uint32_t level) {
+  if (verifier.arrays().roots[verifier.root(level)].row == single_disc) return;
+  LevelTree tree(verifier, level);
   tree.verify_parts();
   tree.verify_held_discs();
   tree.verify_blocks();

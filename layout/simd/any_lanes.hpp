@@ -53,8 +53,8 @@ struct AnyLanes {
   static Float max(Float first, Float second) noexcept { return select(second < first, first, second); }
 
   /// Returns NaN in the lanes that are set, and 0 in those that are not; the other lanes stay.
-  static Float hide(Mask mask, Float v) noexcept { return select(mask, Float(__builtin_nanf("")), v); }
-  static Float keep(Mask mask, Float v) noexcept { return select(mask, v, Float(0.0f)); }
+  static Float nan_where(Mask mask, Float v) noexcept { return select(mask, Float(__builtin_nanf("")), v); }
+  static Float zero_unless(Mask mask, Float v) noexcept { return select(mask, v, Float(0.0f)); }
 
   /// Returns one lane of floats or doubles.
   template <class T>
@@ -109,12 +109,12 @@ struct AnyLanes {
   static void load_pairs(At at, Double (&to)[2]) noexcept {
     static_assert(doubles == 2);
     const auto both = xsimd::bitwise_cast<Float>(of<double>(pair(at(0)), pair(at(1))));
-    Own::widened(shuffle<0, 2, 1, 3>(both, both), to);
+    Own::to_double(shuffle<0, 2, 1, 3>(both, both), to);
   }
 
   /// Returns four floats for each group of four lanes: those where at(group) points.
   template <class At>
-  [[gnu::always_inline]] static Float fours(At at) noexcept {
+  [[gnu::always_inline]] static Float broadcast_fours(At at) noexcept {
     return load(at(0));
   }
   /// Loads field after field of records of four floats, lane = record. They are picked from a table, each by an index of
@@ -125,7 +125,8 @@ struct AnyLanes {
     Float record[4];
 #pragma GCC unroll 4
     for (std::size_t i = 0; i < 4; ++i)
-      record[i] = Own::fours([=](std::size_t group) { return table + stride * index[4 * group + i]; });
+      record[i] =
+          Own::broadcast_fours([=](std::size_t group) { return table + stride * index[4 * group + i]; });
     transpose(record, field);
   }
 
@@ -164,12 +165,12 @@ struct AnyLanes {
   }
 
   /// Returns a register of floats from as many doubles, and back.
-  static Float rounded(const Double (&v)[2]) noexcept {
+  static Float to_float(const Double (&v)[2]) noexcept {
     float to[width];
     for (unsigned i = 0; i < width; ++i) to[i] = static_cast<float>(lane(v[i / doubles], i % doubles));
     return load(to);
   }
-  static void widened(Float v, Double (&to)[2]) noexcept {
+  static void to_double(Float v, Double (&to)[2]) noexcept {
     double wide[width];
     for (unsigned i = 0; i < width; ++i) wide[i] = static_cast<double>(lane(v, i));
     to[0] = load(wide), to[1] = load(wide + doubles);
@@ -184,14 +185,14 @@ struct AnyLanes {
 
   /// Returns the square root, for bounds: it is off by less than 3/4 of `rough`, relatively, for normal numbers, differently on
   /// every processor, and NaN for numbers below 0.
-  static Float rough_root(Float x) noexcept {
+  static Float approximate_sqrt(Float x) noexcept {
     return xsimd::sqrt(x);
   }
-  static constexpr float rough = 0x1p-23f;
+  static constexpr float approximation_error = 0x1p-23f;
 
   /// Writes first + i for every set bit i, in order; a register's lanes of numbers may be written.
   /// Returns: how many.
-  static std::uint32_t write_set(std::uint32_t bits, std::uint32_t first, std::uint16_t* to) noexcept {
+  static std::uint32_t compress_indices(std::uint32_t bits, std::uint32_t first, std::uint16_t* to) noexcept {
     std::uint32_t count = 0;
     for (std::uint32_t i = 0; i < width; i += 4) {
       const std::uint32_t four = bits >> i & 15;
@@ -205,7 +206,7 @@ struct AnyLanes {
   // Of an outer product of blocks of eight or four, `row` gives part of the left side (disc i, or discs i and i + 1 where
   // two rows fit), `columns` the matching right side.
 
-  static const float* eight(const float* p) noexcept {
+  static const float* load_eight(const float* p) noexcept {
     return p;
   }
   template <unsigned count>

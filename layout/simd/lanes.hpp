@@ -38,11 +38,11 @@ struct Lanes<Scalar, Own> {
   static void load_records(const float* table, const std::uint32_t* index, Float (&field)[4]) noexcept {
     for (std::size_t i = 0; i < 4; ++i) field[i] = load(table + stride * *index + i);
   }
-  static std::uint32_t write_set(std::uint32_t bits, std::uint32_t first, std::uint16_t* to) noexcept {
+  static std::uint32_t compress_indices(std::uint32_t bits, std::uint32_t first, std::uint16_t* to) noexcept {
     *to = static_cast<std::uint16_t>(first);
     return bits & 1;
   }
-  static const float* eight(const float* p) noexcept { return p; }
+  static const float* load_eight(const float* p) noexcept { return p; }
   template <unsigned count>
   static Float row(const float* eight, unsigned i) noexcept {
     return eight[i];
@@ -64,11 +64,11 @@ template <class Simd, class Each>
     for (std::uint32_t lane = 0; lane < Simd::width; ++lane) each(k + lane);
 }
 
-/// Returns sqrt(x), x >= 0, nearly: as Simd's rough_root(), of what is less than the least normal number that of
+/// Returns sqrt(x), x >= 0, nearly: as Simd's approximate_sqrt(), of what is less than the least normal number that of
 /// this.
 template <class Simd>
-typename Simd::Float rough_root(typename Simd::Float x) noexcept {
-  return Simd::rough_root(xsimd::max(x, typename Simd::Float(0x1p-126f)));
+typename Simd::Float approximate_sqrt(typename Simd::Float x) noexcept {
+  return Simd::approximate_sqrt(xsimd::max(x, typename Simd::Float(0x1p-126f)));
 }
 
 }  // namespace bch::detail

@@ -18,10 +18,10 @@ struct Lanes<xsimd::sse2, Own> : AnyLanes<xsimd::sse2, Own> {
 
   static Float min(Float first, Float second) noexcept { return _mm_min_ps(first, second); }
   static Float max(Float first, Float second) noexcept { return _mm_max_ps(first, second); }
-  static Float hide(xsimd::batch_bool<float, xsimd::sse2> mask, Float v) noexcept {
+  static Float nan_where(xsimd::batch_bool<float, xsimd::sse2> mask, Float v) noexcept {
     return _mm_or_ps(mask, v);
   }
-  static Float keep(xsimd::batch_bool<float, xsimd::sse2> mask, Float v) noexcept {
+  static Float zero_unless(xsimd::batch_bool<float, xsimd::sse2> mask, Float v) noexcept {
     return _mm_and_ps(mask, v);
   }
   static std::uint32_t bits(xsimd::batch_bool<float, xsimd::sse2> mask) noexcept {
@@ -57,17 +57,17 @@ struct Lanes<xsimd::sse2, Own> : AnyLanes<xsimd::sse2, Own> {
     const __m128 pairs = _mm_min_ps(values, _mm_movehl_ps(values, values));
     return _mm_cvtss_f32(_mm_min_ss(pairs, _mm_shuffle_ps(pairs, pairs, 1)));
   }
-  static Float rounded(const Double (&v)[2]) noexcept {
+  static Float to_float(const Double (&v)[2]) noexcept {
     return _mm_movelh_ps(_mm_cvtpd_ps(v[0]), _mm_cvtpd_ps(v[1]));
   }
-  static void widened(Float v, Double (&to)[2]) noexcept {
+  static void to_double(Float v, Double (&to)[2]) noexcept {
     to[0] = _mm_cvtps_pd(v), to[1] = _mm_cvtps_pd(_mm_movehl_ps(v, v));
   }
   static Double wide(const float* p) noexcept {
     return _mm_cvtps_pd(_mm_castpd_ps(_mm_set_sd(AnyLanes<xsimd::sse2, Own>::pair(p))));
   }
-  static constexpr float rough = 0x1p-11f;
-  static Float rough_root(Float x) noexcept { return x * xsimd::rsqrt(x); }
+  static constexpr float approximation_error = 0x1p-11f;
+  static Float approximate_sqrt(Float x) noexcept { return x * xsimd::rsqrt(x); }
 };
 
 #if XSIMD_WITH_AVX2
@@ -106,13 +106,13 @@ struct Lanes<xsimd::avx2, Own> : AnyLanes<xsimd::avx2, Own> {
     to[1] = _mm256_cvtps_pd(_mm_shuffle_ps(low, high, _MM_SHUFFLE(3, 1, 3, 1)));
   }
   template <class At>
-  [[gnu::always_inline]] static Float fours(At at) noexcept {
+  [[gnu::always_inline]] static Float broadcast_fours(At at) noexcept {
     return _mm256_set_m128(_mm_loadu_ps(at(1)), _mm_loadu_ps(at(0)));
   }
-  static Float rounded(const Double (&v)[2]) noexcept {
+  static Float to_float(const Double (&v)[2]) noexcept {
     return _mm256_set_m128(_mm256_cvtpd_ps(v[1]), _mm256_cvtpd_ps(v[0]));
   }
-  static void widened(Float v, Double (&to)[2]) noexcept {
+  static void to_double(Float v, Double (&to)[2]) noexcept {
     to[0] = _mm256_cvtps_pd(_mm256_castps256_ps128(v)), to[1] = _mm256_cvtps_pd(_mm256_extractf128_ps(v, 1));
   }
   static Double wide(const float* p) noexcept { return _mm256_cvtps_pd(_mm_loadu_ps(p)); }
@@ -147,8 +147,8 @@ struct Lanes<xsimd::avx2, Own> : AnyLanes<xsimd::avx2, Own> {
     const __m128 pairs = _mm_min_ps(fours, _mm_movehl_ps(fours, fours));
     return _mm_cvtss_f32(_mm_min_ss(pairs, _mm_shuffle_ps(pairs, pairs, 1)));
   }
-  static constexpr float rough = 0x1p-11f;
-  static Float rough_root(Float x) noexcept { return x * xsimd::rsqrt(x); }
+  static constexpr float approximation_error = 0x1p-11f;
+  static Float approximate_sqrt(Float x) noexcept { return x * xsimd::rsqrt(x); }
 };
 #endif
 
@@ -165,7 +165,7 @@ struct Lanes<xsimd::avx512f, Own> : AnyLanes<xsimd::avx512f, Own> {
   struct Guard {
     ~Guard() { _mm256_zeroupper(); }
   };
-  static Float eight(const float* p) noexcept { return columns<8>(p, 0); }
+  static Float load_eight(const float* p) noexcept { return columns<8>(p, 0); }
   template <unsigned count>
   static Float row(Float eight, unsigned i) noexcept {
     const auto k = [i](unsigned lane) { return static_cast<int>(i + lane / count); };
@@ -178,7 +178,7 @@ struct Lanes<xsimd::avx512f, Own> : AnyLanes<xsimd::avx512f, Own> {
     if constexpr (count == 4) return _mm512_broadcast_f32x4(_mm_loadu_ps(eight));
     return _mm512_castpd_ps(_mm512_broadcast_f64x4(_mm256_castps_pd(_mm256_loadu_ps(eight))));
   }
-  static std::uint32_t write_set(std::uint32_t bits, std::uint32_t first, std::uint16_t* to) noexcept {
+  static std::uint32_t compress_indices(std::uint32_t bits, std::uint32_t first, std::uint16_t* to) noexcept {
     const __m512i lanes = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
     const __m512i all = _mm512_add_epi32(lanes, _mm512_set1_epi32(static_cast<int>(first)));
     const __m512i set = _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits), all);
@@ -186,18 +186,18 @@ struct Lanes<xsimd::avx512f, Own> : AnyLanes<xsimd::avx512f, Own> {
     return static_cast<std::uint32_t>(__builtin_popcount(bits));
   }
   template <class At>
-  [[gnu::always_inline]] static Float fours(At at) noexcept {
+  [[gnu::always_inline]] static Float broadcast_fours(At at) noexcept {
     __m512 all = _mm512_castps128_ps512(_mm_loadu_ps(at(0)));
     all = _mm512_insertf32x4(all, _mm_loadu_ps(at(1)), 1);
     all = _mm512_insertf32x4(all, _mm_loadu_ps(at(2)), 2);
     return _mm512_insertf32x4(all, _mm_loadu_ps(at(3)), 3);
   }
-  static Float rounded(const Double (&v)[2]) noexcept {
+  static Float to_float(const Double (&v)[2]) noexcept {
     return _mm512_castpd_ps(
         _mm512_insertf64x4(_mm512_castps_pd(_mm512_castps256_ps512(_mm512_cvtpd_ps(v[0]))),
                            _mm256_castps_pd(_mm512_cvtpd_ps(v[1])), 1));
   }
-  static void widened(Float v, Double (&to)[2]) noexcept {
+  static void to_double(Float v, Double (&to)[2]) noexcept {
     to[0] = _mm512_cvtps_pd(_mm512_castps512_ps256(v));
     to[1] = _mm512_cvtps_pd(_mm256_castpd_ps(_mm512_extractf64x4_pd(_mm512_castps_pd(v), 1)));
   }
@@ -205,8 +205,8 @@ struct Lanes<xsimd::avx512f, Own> : AnyLanes<xsimd::avx512f, Own> {
   static std::uint32_t bits(xsimd::batch_bool<float, xsimd::avx512f> mask) noexcept { return mask.data; }
   static std::uint32_t bits(xsimd::batch_bool<double, xsimd::avx512f> mask) noexcept { return mask.data; }
   static float least(Float values) noexcept { return _mm512_reduce_min_ps(values); }
-  static constexpr float rough = 0x1p-13f;
-  static Float rough_root(Float x) noexcept { return x * Float(_mm512_rsqrt14_ps(x)); }
+  static constexpr float approximation_error = 0x1p-13f;
+  static Float approximate_sqrt(Float x) noexcept { return x * Float(_mm512_rsqrt14_ps(x)); }
 };
 #endif
 

@@ -70,10 +70,10 @@ std::vector<Frame> random_frames(std::uint32_t count, std::uint32_t people, doub
   return frames;
 }
 
-std::string page_of(const std::vector<Frame>& frames, std::size_t most_bytes = CheckPage::default_most_bytes,
+std::string page_of(const std::vector<Frame>& frames, std::size_t max_bytes = CheckPage::default_most_bytes,
                     const std::vector<OverlapEvent>& events = {},
                     PageFacts facts = {.title = "title", .fps = 25}) {
-  CheckPage page(std::move(facts), square, most_bytes);
+  CheckPage page(std::move(facts), square, max_bytes);
   for (const Frame& frame : frames) page.add_frame(frame.view());
   return std::move(page).finish(events);
 }
@@ -262,12 +262,12 @@ TEST(CheckPage, NothingFromOutsideBecomesMarkup) {
 
 TEST(CheckPage, ListsTheDeepestEvents) {
   std::vector<OverlapEvent> events;
-  for (std::size_t i = 0; i < CheckPage::most_events + 100; ++i)
+  for (std::size_t i = 0; i < CheckPage::max_events + 100; ++i)
     events.push_back({static_cast<std::int64_t>(i), -1, i % 2 == 0, 25, 50, 37.5, 26,
                       static_cast<float>(i * 7919 % 10'007), 3, 4});
   const Json meta = Blocks(page_of({}, CheckPage::default_most_bytes, events)).meta();
   EXPECT_EQ(meta["allEvents"], events.size());
-  ASSERT_EQ(meta["events"].size(), CheckPage::most_events);
+  ASSERT_EQ(meta["events"].size(), CheckPage::max_events);
   std::vector<float> depths;
   for (const OverlapEvent& event : events) depths.push_back(event.depth);
   std::ranges::sort(depths);
@@ -376,7 +376,7 @@ TEST(Simplified, TakesWhatIsHardlyAContour) {
 
 TEST(OverlapSeries, KeepsTheMostOfEachStretch) {
   OverlapSeries series;
-  const std::uint32_t frames = 3 * OverlapSeries::most_stretches;
+  const std::uint32_t frames = 3 * OverlapSeries::max_stretches;
   for (std::uint32_t i = 0; i < frames; ++i) series.add(i, i == 7001 ? 9 : 1, 20);
   const std::string html = series.blocks();
   const auto seconds = Blocks(html)("series-seconds"), overlapping = Blocks(html)("series-overlapping");

@@ -206,8 +206,8 @@ LoadedCharacter vanishing_man() {
   return man;
 }
 
-std::vector<ShapeSource> sources(std::size_t count, std::size_t bad) {
-  std::vector<ShapeSource> list(count, ShapeSource{0, {0, 0.25f}});
+std::vector<PoseId> sources(std::size_t count, std::size_t bad) {
+  std::vector<PoseId> list(count, PoseId{0, {0, 0.25f}});
   if (bad < count) list[bad].at.seconds = 1;
   return list;
 }

@@ -51,8 +51,8 @@ void query(const ShapeSet& set, const Implementation& implementation) {
   for (std::uint32_t a = 0; a < agents.size(); ++a)
     for (std::uint32_t b = 0; b <= a; ++b) pairs.push_back({a, b});
 
-  test::ask_all(set, agents, pairs, implementation);
-  test::ask_all_of_a_dynamic_copy(set, agents, pairs, implementation);
+  test::query_all(set, agents, pairs, implementation);
+  test::query_all_of_a_dynamic_copy(set, agents, pairs, implementation);
   detail::verify(set);
 }
 

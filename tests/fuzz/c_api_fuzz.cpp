@@ -61,11 +61,11 @@ bch_status status_name(std::int32_t status, std::uint32_t implementation) {
 }
 
 template <auto call>
-void ask(Caller& by) {
-  by.ask(call);
+void run_query(Caller& by) {
+  by.run_query(call);
 }
 template <auto... calls>
-constexpr std::array<void (*)(Caller&), sizeof...(calls) + 1> all = {load, ask<calls>...};
+constexpr std::array<void (*)(Caller&), sizeof...(calls) + 1> all = {load, run_query<calls>...};
 constexpr auto& steps =
     all<no_character, bch_character_create, bch_character_get_info, bch_character_get_clip, sample_poses,
         bch_shape_set_get_info, bch_shape_set_get_origin, bch_shape_set_get_radius, bch_shape_set_get_discs,

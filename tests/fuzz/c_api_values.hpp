@@ -30,7 +30,7 @@ class Caller : public Program {
 
   /// Calls a function with arguments that the input draws.
   template <class... Parameters>
-  void ask(bch_status (*call)(Parameters...)) {
+  void run_query(bch_status (*call)(Parameters...)) {
     const std::tuple<Parameters...> arguments{drawn<Parameters>()...};
     finish(std::apply(call, arguments));
   }
@@ -42,7 +42,7 @@ class Caller : public Program {
   }
   /// Frees a handle.
   template <Opaque Object>
-  void ask(bch_status (*call)(Object*)) {
+  void run_query(bch_status (*call)(Object*)) {
     free(call);
   }
 
@@ -190,7 +190,7 @@ class Caller : public Program {
   // ---- Callbacks
 
   /// Cancels after so many calls. An older version has no user.
-  inline static std::int32_t hear(void* user, std::uint64_t, std::uint64_t) {
+  inline static std::int32_t on_meeting(void* user, std::uint64_t, std::uint64_t) {
     return user != nullptr && (*static_cast<std::uint8_t*>(user))-- == 0;
   }
   void draw(bch_finding& finding) {
@@ -209,7 +209,7 @@ class Caller : public Program {
     of = numbers;
   }
   void draw(bch_work& of) {
-    of.threads = 1, of.progress = chance(2) ? hear : nullptr;
+    of.threads = 1, of.progress = chance(2) ? on_meeting : nullptr;
     draw(of.user);
   }
   void draw(bch_query_options& of) {
@@ -238,7 +238,7 @@ class Caller : public Program {
   void draw(bch_crowd_options& of) {
     of = BCH_CROWD_OPTIONS_INIT;
     if (chance(4)) draw_all(of.period_x, of.period_y);
-    if (chance(8)) of.most_pairs = bytes.below(8);
+    if (chance(8)) of.max_pairs = bytes.below(8);
   }
   void draw(bch_clearance_out& of) {
     draw_all(of.distance, of.direction, of.discs, of.points);

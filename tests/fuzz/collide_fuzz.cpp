@@ -66,11 +66,13 @@ void add_pair(Bytes& bytes, const std::vector<Shape>& shapes, test::Crowd& crowd
 
 void check(const ShapeSet& set, const baselines::Reference& reference, const Agents& agents,
            const std::vector<Pair>& pairs) {
-  const auto ask = [&](Pair pair, baselines::Method method) { return reference.solid(agents, pair, method); };
+  const auto run_query = [&](Pair pair, baselines::Method method) {
+    return reference.solid(agents, pair, method);
+  };
   std::vector<std::uint8_t> expected;
   for (const Pair pair : pairs) {
-    expected.push_back(ask(pair, baselines::Method::brute_force));
-    require(ask(pair, baselines::Method::depth_first) == (expected.back() != 0),
+    expected.push_back(run_query(pair, baselines::Method::brute_force));
+    require(run_query(pair, baselines::Method::depth_first) == (expected.back() != 0),
             "the plain traversal answers like brute force");
   }
   std::vector<std::uint8_t> hits(pairs.size());

@@ -138,7 +138,7 @@ TEST(Bake, GivesTheBytesOfTheLoopOnAnyNumberOfThreads) {
 TEST(Bake, TakesPosesByClipAndTime) {
   const std::vector<Character> people = {default_male(), default_female()};
   const ShapeSetPlan plan{.heights = true};
-  const std::vector<ShapeSource> sources = {{1, {0, 0.5f}}, {0, {}}, {1, {1, 0.25f}}};
+  const std::vector<PoseId> sources = {{1, {0, 0.5f}}, {0, {}}, {1, {1, 0.25f}}};
   std::vector<Shape> shapes;
   for (const auto& [character, at] : sources) shapes.push_back(PoseShaper(people[character], plan).shape(at));
   EXPECT_EQ(bytes(bake(people, {.shapes = sources, .plan = plan})), bytes(ShapeSet(shapes, plan)));
@@ -146,7 +146,7 @@ TEST(Bake, TakesPosesByClipAndTime) {
 
 TEST(Bake, NamesTheCharacterAndThePose) {
   const Character man = vanishing_man();
-  const auto error_of = [&](const ShapeSource& source) {
+  const auto error_of = [&](const PoseId& source) {
     return test::complaint([&] { bake(man, {.shapes = {{0, {0, 0.5f}}, source}}); });
   };
   EXPECT_TRUE(error_of({0, {0, 1}}).starts_with(man.name + ": vanish at 1 s: outline: "));

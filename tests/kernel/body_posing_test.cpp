@@ -144,22 +144,22 @@ TEST(BodyPosing, MeasuresTheSameBitsByAllInstructionSets) {
 }
 
 TEST(BodyPosing, BlendsTheSameBitsByAllInstructionSets) {
-  constexpr std::uint32_t most_bones = 6,
+  constexpr std::uint32_t max_bones = 6,
                           pairs_of_each = 5;  // of 5 bones and more by the loop for any number
   detail::Random random(8);
   std::vector<float> maps, weighted;
-  for (std::uint32_t row = 0; row < 3 * most_bones; ++row) {
+  for (std::uint32_t row = 0; row < 3 * max_bones; ++row) {
     for (int i = 0; i < 4; ++i) maps.push_back(static_cast<float>(random.between(-1, 1)));
     for (int i = 0; i < 4; ++i) maps.push_back(maps[maps.size() - 4]);
   }
   std::vector<detail::BlendPairs::Run> runs;
   std::vector<std::uint32_t> first;
   std::vector<detail::PointPair> pairs;
-  for (std::uint32_t bones = 1; bones <= most_bones; ++bones) {
+  for (std::uint32_t bones = 1; bones <= max_bones; ++bones) {
     for (std::uint32_t i = 0; i < pairs_of_each; ++i) {
       const auto number = static_cast<std::uint32_t>(2 * pairs.size());
       pairs.push_back({{number + 1, number}});
-      for (std::uint32_t k = 0; k < bones; ++k) first.push_back(24 * random.below(most_bones));
+      for (std::uint32_t k = 0; k < bones; ++k) first.push_back(24 * random.below(max_bones));
     }
     runs.push_back({bones, static_cast<std::uint32_t>(pairs.size())});
   }

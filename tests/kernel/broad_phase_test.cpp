@@ -80,11 +80,11 @@ void expect_between(const std::vector<Pair>& needed, const std::vector<Pair>& fo
 /// and as much in the test, 2^-50 of the extent, and a few units, each 2^-29 of the widest cell.
 void expect_right(const test::Crowd& crowd, const ShapeSet& of = set) {
   const Agents agents = crowd.agents();
-  const auto [least_x, most_x] = std::minmax_element(crowd.x.begin(), crowd.x.end());
-  const auto [least_y, most_y] = std::minmax_element(crowd.y.begin(), crowd.y.end());
+  const auto [min_x, max_x] = std::minmax_element(crowd.x.begin(), crowd.x.end());
+  const auto [min_y, max_y] = std::minmax_element(crowd.y.begin(), crowd.y.end());
   double largest = 0;
   for (const Root& root : roots(of, agents, false)) largest = std::max(largest, root.radius);
-  const double extent = std::max(*most_x - *least_x, *most_y - *least_y) + 4 * largest;
+  const double extent = std::max(*max_x - *min_x, *max_y - *min_y) + 4 * largest;
   const double widest = std::max(2.01 * largest, 0x1p-30 * extent);
 
   const std::vector<Pair> found = sorted(test::candidate_pairs(of, agents));
@@ -121,10 +121,10 @@ TEST(BroadPhase, AllInOnePlace) {
 TEST(BroadPhase, FindsNoMorePairsThanIsWanted) {
   const test::Crowd spot = crowd_in(0, 0, 2000, 40);  // in several blocks
   constexpr std::size_t pairs = 2000 * 1999 / 2;
-  Crowd all({.most_pairs = pairs});
+  Crowd all({.max_pairs = pairs});
   EXPECT_EQ(all.candidates(set, spot.agents()).size(), pairs);
   for (const std::size_t most : {pairs - 1, std::size_t{0}}) {
-    Crowd fewer({.most_pairs = most});
+    Crowd fewer({.max_pairs = most});
     EXPECT_EQ(test::complaint<std::length_error>([&] { fewer.candidates(set, spot.agents()); }),
               "candidates: expected at most " + std::to_string(most) + " pairs, found more");
   }

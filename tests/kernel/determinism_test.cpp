@@ -171,7 +171,8 @@ class Determinism : public testing::TestWithParam<Grounds> {
   }
 
   void answer(const Implementation* isa, std::size_t begin, std::size_t size, AnswerBytes& bytes) const {
-    const auto all = ask(set, questions.part(begin, size), isa != nullptr ? *isa : best_implementation());
+    const auto all =
+        run_query(set, questions.part(begin, size), isa != nullptr ? *isa : best_implementation());
     std::vector<Penetration> ways;
     for (const test::PairAnswers& of : all) {
       bytes.add(AnswerBytes::hits, std::array{of.hit_of_discs});

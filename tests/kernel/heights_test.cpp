@@ -56,10 +56,10 @@ class AgentsWithHeights : public testing::Test {
     EXPECT_GT(hits, expected.size() / 20);
     EXPECT_GT(above, expected.size() / 60);
     expect_answers(set, questions, expected, "in order");
-    std::vector<PairAnswers> other_order = ask(set, questions.exchanged());
+    std::vector<PairAnswers> other_order = run_query(set, questions.exchanged());
     for (PairAnswers& each : other_order) each = each.exchanged();
     expect_same(other_order, twice_exchanged, "exchanged");
-    expect_same(ask(without_culling, questions), expected, "without culling");
+    expect_same(run_query(without_culling, questions), expected, "without culling");
   }
 
   Random random{20263};
@@ -131,14 +131,14 @@ TEST_F(AgentsWithHeights, OfADynamicSetAreThoseOfASet) {
   std::vector<Shape> others = shapes;
   std::rotate(others.begin(), others.begin() + 5, others.end());
   DynamicShapeSet dynamic{ShapeSet(others, plan)};
-  PreparedShape prepared(plan);
+  BuiltShape prepared(plan);
   for (std::uint32_t i = 0; i < shapes.size(); ++i) {
     prepared.prepare(shapes[i], i);
     if (!dynamic.try_replace(i, prepared)) dynamic.replace(i, prepared);
   }
   Questions questions = questions_about(random, set, random_scene(random, set, 2'000));
   test::raise(random, questions.crowd);
-  expect_same(ask(dynamic.set(), questions), ask(set, questions), "dynamic");
+  expect_same(run_query(dynamic.set(), questions), run_query(set, questions), "dynamic");
 }
 
 /// A box of a metre and a half, and another one on the ground z above its own.

@@ -118,10 +118,10 @@ TEST_F(Lattice, AnswersAreThoseOfTheOutlines) {
     for (std::uint32_t b = a; b < shapes.size(); ++b) {
       const test::Questions scene = all_places(a, b);
       test::Questions after = scene;
-      const std::vector<test::PairAnswers> all = ask(sets[0], scene);
+      const std::vector<test::PairAnswers> all = run_query(sets[0], scene);
       const std::string what = std::to_string(a) + " and " + std::to_string(b);
       expect_answers(sets[0], scene, all, what);
-      expect_same(ask(sets[1], scene), all, what + ", without culling");
+      expect_same(run_query(sets[1], scene), all, what + ", without culling");
       for (std::size_t i = 0; i < all.size(); ++i) {
         const Pair pair = scene.pairs[i];
         const double x = scene.way_x[i], y = scene.way_y[i];
@@ -151,7 +151,7 @@ TEST_F(Lattice, AnswersAreThoseOfTheOutlines) {
         after.crowd.x[pair.first] += static_cast<double>(depth) * way_x;
         after.crowd.y[pair.first] += static_cast<double>(depth) * way_y;
       }
-      for (const test::PairAnswers& each : ask(sets[0], after)) ASSERT_EQ(each.hit, 0);
+      for (const test::PairAnswers& each : run_query(sets[0], after)) ASSERT_EQ(each.hit, 0);
     }
   EXPECT_GT(crossing, 5'000u);
   EXPECT_GT(nested, 300u);

@@ -156,7 +156,7 @@ const Levels plans[] = {{"FourLevels", {{0, 3, 6, all_depths}}},
                         {"NoCulling", {.depths = {2, all_depths}, .culling = false}},
                         {"RootsAlone", {{0}}}};
 
-// Placements.
+// RelativeTransforms.
 
 struct World {
   std::vector<Shape> shapes;
@@ -314,13 +314,13 @@ TEST_P(QueriesOf, PenetrationsSuffice) {
   const World world{kind.shapes(random), levels.plan};
   for (const auto place : {at_contact, inside}) {
     Questions questions = questions_about(random, world.set, place(random, world, test::samples(500)));
-    const std::vector<PairAnswers> before = ask(world.set, questions);
+    const std::vector<PairAnswers> before = run_query(world.set, questions);
     for (std::size_t i = 0; i < before.size(); ++i) {
       const auto& [depth, x, y] = before[i].best;
       questions.crowd.x[questions.pairs[i].first] += static_cast<double>(depth) * x;
       questions.crowd.y[questions.pairs[i].first] += static_cast<double>(depth) * y;
     }
-    for (const PairAnswers& after : ask(world.set, questions)) {
+    for (const PairAnswers& after : run_query(world.set, questions)) {
       EXPECT_EQ(after.hit, 0);
       EXPECT_EQ(after.hit_of_discs, 0);
     }
@@ -372,7 +372,7 @@ TEST(DeepTrees, AreAsDeepAsStacksAllow) {
     const detail::Bvh8 tree = detail::bvh8(shape.hierarchy, all_depths);
     most = std::max(most, depth_of(tree, tree.top));
   }
-  EXPECT_EQ(most, detail::most_wide_levels);
+  EXPECT_EQ(most, detail::max_wide_levels);
 }
 
 /// Small ones alone, of which few pairs are answered in one pass, and larger ones alone; many of them near tangent.
@@ -415,7 +415,7 @@ TEST_F(Queries, OfPairsThatShareAnAgentEqualBruteForce) {
 }
 
 TEST_F(Queries, InBatchesOfAnySizeAndOffset) {
-  const std::vector<PairAnswers> whole = ask(world.set, questions);
+  const std::vector<PairAnswers> whole = run_query(world.set, questions);
   for (const Implementation& each : test::supported()) {
     const std::size_t width = each.kernels->width;
     for (const std::size_t size : std::vector<std::size_t>{0, 1, width - 1, width, width + 1, 3 * width, 127,
@@ -423,7 +423,7 @@ TEST_F(Queries, InBatchesOfAnySizeAndOffset) {
       for (const std::size_t offset : {0, 1, 3, 13, 62}) {
         const auto begin = whole.begin() + static_cast<std::ptrdiff_t>(offset);
         expect_same(
-            ask(world.set, questions.part(offset, size), each),
+            run_query(world.set, questions.part(offset, size), each),
             {begin, begin + static_cast<std::ptrdiff_t>(size)},
             std::string(each.name) + ", " + std::to_string(size) + " pairs from " + std::to_string(offset));
       }
@@ -431,16 +431,17 @@ TEST_F(Queries, InBatchesOfAnySizeAndOffset) {
 }
 
 TEST_F(Queries, OnAnyNumberOfThreads) {
-  const std::vector<PairAnswers> expected = ask(world.set, questions);
+  const std::vector<PairAnswers> expected = run_query(world.set, questions);
   const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 8);
   for (int threads = 1; threads <= 8; ++threads)
-    tbb::task_arena(threads).execute(
-        [&] { expect_same(ask(world.set, questions), expected, std::to_string(threads) + " threads"); });
+    tbb::task_arena(threads).execute([&] {
+      expect_same(run_query(world.set, questions), expected, std::to_string(threads) + " threads");
+    });
 }
 
 TEST_F(Queries, OfExchangedAgentsAreExchanged) {
-  std::vector<PairAnswers> expected = ask(world.set, questions),
-                           other = ask(world.set, questions.exchanged());
+  std::vector<PairAnswers> expected = run_query(world.set, questions),
+                           other = run_query(world.set, questions.exchanged());
   for (PairAnswers& each : other) each = each.exchanged();
   for (PairAnswers& each : expected) each = each.exchanged().exchanged();  // as 0 - 0 and no other zero
   expect_same(other, expected, "exchanged");
@@ -449,14 +450,14 @@ TEST_F(Queries, OfExchangedAgentsAreExchanged) {
 TEST_F(Queries, FarFromTheOriginAreTheSame) {
   Questions far = questions_about(random, world.set, anywhere(random, world, test::samples(20'000)));
   test::move_away(far, 0, 0);
-  const std::vector<PairAnswers> expected = ask(world.set, far);
+  const std::vector<PairAnswers> expected = run_query(world.set, far);
   test::move_away(far, 1e7, -8e8);
-  expect_same(ask(world.set, far), expected, "far from the origin");
+  expect_same(run_query(world.set, far), expected, "far from the origin");
 }
 
 /// Kernels prefetch where there are many shapes.
 TEST_F(Queries, AmongManyShapesAreTheSame) {
-  const std::vector<PairAnswers> expected = ask(world.set, questions);
+  const std::vector<PairAnswers> expected = run_query(world.set, questions);
   const ShapeSet large(test::repeated(world.shapes), world.plan);
   for (std::size_t i = 0; i < questions.crowd.shape.size(); ++i)
     questions.crowd.shape[i] += static_cast<std::uint32_t>(i * world.shapes.size() % large.shape_count());

@@ -100,13 +100,13 @@ TEST_F(TaskGroups, ATaskBesideAQueryMayThrow) {
 }
 
 /// An object for each thread, as TBB's users have it: a thread that waits within a call does not begin another with it.
-template <class Object, class Ask>
-void expect_one_call_at_a_time(std::size_t questions, Ask ask) {
-  using Answer = Kept<typename decltype(ask(std::declval<Object&>(), 0).values)::value_type>;
+template <class Object, class RunQuery>
+void expect_one_call_at_a_time(std::size_t questions, RunQuery run_query) {
+  using Answer = Kept<typename decltype(run_query(std::declval<Object&>(), 0).values)::value_type>;
   std::vector<Answer> expected;
   for (std::size_t k = 0; k < questions; ++k) {
     Object object;
-    expected.emplace_back(ask(object, k));
+    expected.emplace_back(run_query(object, k));
   }
   const tbb::global_control more_than_processors(tbb::global_control::max_allowed_parallelism, 4);
   tbb::task_arena arena(4);
@@ -117,7 +117,7 @@ void expect_one_call_at_a_time(std::size_t questions, Ask ask) {
     tbb::parallel_for(std::size_t{0}, std::size_t{test::samples(1'200)}, [&](std::size_t i) {
       const std::size_t k = i % questions;
       nested += inside.local()++ != 0;
-      wrong += !(expected[k] == ask(objects.local(), k));
+      wrong += !(expected[k] == run_query(objects.local(), k));
       --inside.local();
     });
   });
@@ -212,11 +212,11 @@ TEST_F(Executors, CarryWhatTasksThrow) {
   std::vector<Pair> pairs = test::candidate_pairs(set, crowd.agents());
   crowd.shape[pairs.back().second] = 99;
   std::vector<std::uint8_t> hits(pairs.size());
-  const auto ask = [&] { collide(set, crowd.agents(), pairs, hits); };
-  const std::string expected = test::complaint(ask);
+  const auto run_query = [&] { collide(set, crowd.agents(), pairs, hits); };
+  const std::string expected = test::complaint(run_query);
   CountingExecutor own;
   Executor::set(own.executor());
-  EXPECT_EQ(test::complaint(ask), expected);
+  EXPECT_EQ(test::complaint(run_query), expected);
   const auto fail = [](std::size_t, std::size_t) { throw std::runtime_error("a task fails"); };
   EXPECT_EQ(test::complaint<std::runtime_error>([&] { detail::for_ranges(100, 1, fail); }), "a task fails");
 }

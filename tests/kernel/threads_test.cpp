@@ -78,7 +78,7 @@ TEST_F(Threads, RangesOfOneBatchDoNotMeet) {
 TEST_F(Threads, DifferentShapesAreReplacedAtTheSameTime) {
   DynamicShapeSet dynamic(set);
   on_threads([&](unsigned t) {
-    PreparedShape prepared(set.plan());
+    BuiltShape prepared(set.plan());
     for (std::uint32_t shape = t; shape < set.shape_count(); shape += thread_count) {
       prepared.prepare(shapes[shape], shape);
       EXPECT_TRUE(dynamic.try_replace(shape, prepared));
@@ -124,7 +124,7 @@ class CApiThreads : public testing::Test {
   std::string learn() const {
     std::string all;
     for (const test::CQuery& query : all_queries(scene)) {
-      expect_ok(query.ask());
+      expect_ok(query.run_query());
       all += query.answers();
     }
     return all;

@@ -20,7 +20,7 @@ struct Expectation {
   Character (*make)();
   double stature;
   double mean_radius;
-  double least_volume, most_volume;  // at rest, cubic metres
+  double least_volume, max_volume;  // at rest, cubic metres
 };
 
 class DefaultCharacter : public testing::TestWithParam<Expectation> {
@@ -105,7 +105,7 @@ TEST_P(DefaultCharacter, SkinIsOneClosedSphere) {
 
 TEST_P(DefaultCharacter, SkinHasTheVolumeOfAPersonAndNoFlatTriangle) {
   EXPECT_GT(signed_volume(character), GetParam().least_volume);
-  EXPECT_LT(signed_volume(character), GetParam().most_volume);
+  EXPECT_LT(signed_volume(character), GetParam().max_volume);
   for (const auto& t : character.triangles) {
     const Vector3d a = exact(character.vertices[t[0]]);
     const Vector3d b = exact(character.vertices[t[1]]);

@@ -30,8 +30,8 @@ std::vector<std::vector<std::uint8_t>> answers(const ShapeSet& set, const PairSc
   return all;
 }
 
-PreparedShape flat(const Shape& shape, const ShapeSetPlan& plan) {
-  PreparedShape made(plan);
+BuiltShape flat(const Shape& shape, const ShapeSetPlan& plan) {
+  BuiltShape made(plan);
   made.prepare(shape, 0);
   return made;
 }
@@ -44,7 +44,7 @@ class DynamicShapes : public testing::TestWithParam<ShapeSetPlan> {
   ShapeSet start{present, GetParam()};
   DynamicShapeSet dynamic{start};
 
-  PreparedShape prepared{GetParam()};  // of one shape after the other
+  BuiltShape prepared{GetParam()};  // of one shape after the other
 
   void replace(std::uint32_t shape, const Shape& by) {
     prepared.prepare(by, 0);
@@ -98,14 +98,14 @@ TEST_P(DynamicShapes, TouchNoOther) {
 }
 
 TEST_P(DynamicShapes, NothingIsAllocatedOncePlacesAreLargeEnough) {
-  std::vector<PreparedShape> flats;
+  std::vector<BuiltShape> flats;
   for (const Shape& shape : pool) flats.push_back(flat(shape, GetParam()));
   for (std::uint32_t shape = 0; shape < 12; ++shape)
-    for (const PreparedShape& any : flats) dynamic.replace(shape, any);
+    for (const BuiltShape& any : flats) dynamic.replace(shape, any);
   const std::size_t bytes = dynamic.set().bytes();
   const std::size_t count = test::allocation_count();
   for (std::uint32_t shape = 0; shape < 12; ++shape)
-    for (const PreparedShape& any : flats) EXPECT_TRUE(dynamic.try_replace(shape, any));
+    for (const BuiltShape& any : flats) EXPECT_TRUE(dynamic.try_replace(shape, any));
   EXPECT_EQ(test::allocation_count(), count);
   EXPECT_EQ(dynamic.set().bytes(), bytes);
 }
@@ -157,10 +157,10 @@ TEST(DynamicShapeSet, PlacesOfACopyDoNotReachIntoEachOther) {
   tight.resize(plan, 2);
   detail::ShapeExtent end{.rows = detail::first_row};
   for (std::size_t s = 0; s < 2; ++s) {
-    const PreparedShape shape = flat(shapes[s], plan);
+    const BuiltShape shape = flat(shapes[s], plan);
     const detail::ShapeExtent size = detail::extent_of(shape.flat().shape);
     tight.make_room(end, size);
-    tight.put(s, shape.flat(), end);
+    tight.store(s, shape.flat(), end);
     detail::for_each_part([](std::size_t& sum, std::size_t more) { sum += more; }, end, size);
   }
   validate(tight.arrays());
@@ -174,7 +174,7 @@ TEST(DynamicShapeSet, PlacesOfACopyDoNotReachIntoEachOther) {
   const detail::ShapeExtent place = detail::extent_of(flat(shapes[0], plan).flat().shape);
   std::size_t most = 0;
   for (int i = 0; i < 400; ++i) {
-    const PreparedShape shape = flat(test::contour_shape(test::star(random, 61, 0.3, 0.5)), plan);
+    const BuiltShape shape = flat(test::contour_shape(test::star(random, 61, 0.3, 0.5)), plan);
     if (dynamic.try_replace(0, shape)) most = std::max(most, detail::extent_of(shape.flat().shape).nodes);
   }
   EXPECT_GT(most, place.nodes);  // room that is left up to the next line
@@ -189,7 +189,7 @@ TEST(DynamicShapeSet, PlacesTakeLittleMoreThanTheLargestShapes) {
   const Outline outline = test::star(random, 500, 0.3, 0.5);
   DynamicShapeSet dynamic(ShapeSet(std::vector<Shape>{test::contour_shape(outline, 0.4f)}, plan));
   for (float threshold = 0.2f; threshold > 0.001f; threshold *= 0.9f) {
-    const PreparedShape shape = flat(test::contour_shape(outline, threshold), plan);
+    const BuiltShape shape = flat(test::contour_shape(outline, threshold), plan);
     dynamic.replace(0, shape);
     const detail::ShapeArrays& arrays = dynamic.set().arrays();
     const detail::ShapeExtent size = detail::extent_of(shape.flat().shape);

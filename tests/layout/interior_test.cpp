@@ -181,7 +181,7 @@ void expect_best_choices(const detail::InteriorLoops& loops) {
   constexpr int cells = detail::DiscCoverage::cells;
   test::Random random(9);
   detail::CandidateDiscs discs;
-  discs.count = detail::most_touches;
+  discs.count = detail::max_touches;
   for (std::uint32_t k = 0; k < discs.count; ++k) {
     discs.x[k] = static_cast<float>(random.uniform(-2, 34));
     discs.y[k] = static_cast<float>(random.uniform(-2, 34));

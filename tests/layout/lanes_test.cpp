@@ -114,7 +114,7 @@ TEST(Lanes, HaveRoughRootsWithinTheirError) {
     const double x = std::ldexp(random.uniform(1, 2), static_cast<int>(random.below(252)) - 126);
     const Float v(static_cast<float>(x));
     const double root = std::sqrt(static_cast<double>(BaseLanes::lane(v, 0)));
-    for (const Float found : {BaseLanes::rough_root(v), PlainLanes::rough_root(v)})
+    for (const Float found : {BaseLanes::approximate_sqrt(v), PlainLanes::approximate_sqrt(v)})
       EXPECT_LE(std::abs(static_cast<double>(BaseLanes::lane(found, 0)) - root),
                 0.75 * static_cast<double>(BaseLanes::rough) * root)
           << x;

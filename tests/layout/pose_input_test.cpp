@@ -299,7 +299,7 @@ TEST(PoseShaper, NeedsNoOutlineForTheRootAlone) {
 void expect_no_allocations_the_second_time(const ShapeSetPlan& plan) {
   const Character woman = default_female();
   PoseShaper shaper(woman, plan);
-  PreparedShape prepared(plan);
+  BuiltShape prepared(plan);
   const std::vector<PoseTime> times = sample_poses(woman, 20);
   const std::size_t before = test::allocation_count();
   for (const PoseTime& time : times) prepared.prepare(shaper.shape(time), 0);

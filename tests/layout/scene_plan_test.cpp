@@ -31,7 +31,7 @@ TEST(ScenePlan, NamesEveryShapeOnce) {
   EXPECT_EQ(plan.shapes.size(), 12u);
   ASSERT_EQ(plan.agent_shape.size(), 300u);
   for (std::size_t i = 0; i < agents.size(); ++i) {
-    const ShapeSource& shape = plan.shapes.at(plan.agent_shape[i]);
+    const PoseId& shape = plan.shapes.at(plan.agent_shape[i]);
     EXPECT_EQ(shape.character, agents[i].shows.character);
     EXPECT_EQ(shape.at.clip, agents[i].shows.at.clip);
     EXPECT_EQ(shape.at.seconds, agents[i].shows.at.seconds);
@@ -144,8 +144,7 @@ TEST(ScenePlan, ChangesNoAnswer) {
   }
   const auto hits = [&](const ScenePlan& plan, const ShapeSetPlan& set_plan) {
     std::vector<Shape> shapes;
-    for (const ShapeSource& source : plan.shapes)
-      shapes.push_back(shapers[source.character].shape(source.at));
+    for (const PoseId& source : plan.shapes) shapes.push_back(shapers[source.character].shape(source.at));
     std::vector<std::uint8_t> answers(pairs.size());
     collide(ShapeSet(shapes, set_plan), {plan.agent_shape, x, y, heading, plan.agent_level}, pairs, answers);
     return answers;

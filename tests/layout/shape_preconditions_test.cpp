@@ -102,19 +102,19 @@ void name_a_window_64_times(Arrays& a) {
   a.own.reach = {1};
   const std::uint32_t first_inner = a.own.trees[0].first_inner();
   a.own.nodes.resize((first_inner + detail::block_width) * detail::inner_floats + detail::block_floats);
-  const auto put_discs = [&](std::uint32_t at) {
+  const auto store_discs = [&](std::uint32_t at) {
     std::fill_n(&a.own.nodes[at + 2 * detail::block_width], detail::block_width, 1.0f);
   };
   for (std::uint32_t block = 0; block < 9; ++block) {
     float* const x = &a.own.nodes[block * detail::block_floats];
-    put_discs(block * detail::block_floats);
+    store_discs(block * detail::block_floats);
     for (std::uint32_t lane = 0; lane < detail::block_width; ++lane) {
       a.name(x, lane) =
           std::bit_cast<float>(block == 0 ? (lane + 1) * detail::block_floats : detail::leaf_window + discs);
       x[detail::block_nodes + lane] = std::bit_cast<float>(first_inner);
     }
   }
-  put_discs(discs);
+  store_discs(discs);
   for (std::uint32_t k = 0; k + 1 < detail::block_width; ++k) {
     float* const inner = &a.own.nodes[(first_inner + k) * detail::inner_floats];
     inner[2] = 1;
@@ -408,7 +408,7 @@ TEST(Verify, FindsNothingInADynamicSet) {
   const ShapeSetPlan plan{{0, 3, all_depths}, true};
   DynamicShapeSet dynamic(ShapeSet({pool.data(), 8}, plan));
   Random random(94);
-  PreparedShape prepared(plan);
+  BuiltShape prepared(plan);
   for (int i = 0; i < 60; ++i) {
     prepared.prepare(pool[random.below(40)], 0);
     dynamic.replace(random.below(8), prepared);
@@ -419,7 +419,7 @@ TEST(Verify, FindsNothingInADynamicSet) {
 struct Lie {
   const char* array;
   const char* says;
-  std::function<void(DamagedArrays&)> tell;
+  std::function<void(DamagedArrays&)> report;
 };
 
 constexpr std::size_t first_support = detail::first_row * detail::support_stride;
@@ -470,7 +470,7 @@ const std::vector<Lie>& lies() {
 TEST(Verify, NamesTheLie) {
   for (const Lie& lie : lies()) {
     Arrays arrays;
-    lie.tell(arrays);
+    lie.report(arrays);
     ASSERT_NO_THROW(validate(arrays.view())) << lie.array << ", " << lie.says;
     bool found = false;
     std::string all;

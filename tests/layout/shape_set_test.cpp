@@ -88,7 +88,7 @@ TEST(Bvh8, HoldsTheCutAndNothingElse) {
       const Walk walk(tree);
       EXPECT_EQ(tree.is_single(), walk.discs.size() == 1);
       expect_same_discs(walk.discs, shape.hierarchy, depth);
-      EXPECT_LE(walk.levels, detail::most_wide_levels);
+      EXPECT_LE(walk.levels, detail::max_wide_levels);
     }
 }
 
@@ -137,7 +137,7 @@ TEST(Bvh8, StaysShallowWhateverTheBinaryTree) {
   for (const std::uint32_t leaves : {2u, 8u, 9u, 100u, 113u, 5000u}) {
     const Hierarchy hierarchy = comb(leaves);
     const Walk walk(detail::bvh8(hierarchy, all_depths));
-    EXPECT_LE(walk.levels, detail::most_wide_levels) << leaves;
+    EXPECT_LE(walk.levels, detail::max_wide_levels) << leaves;
     expect_same_discs(walk.discs, hierarchy, all_depths);
   }
 }
@@ -176,7 +176,7 @@ TEST(ShapeSet, BuildsOnlyWhatThePlanNames) {
 TEST(ShapeSet, IsTheSameHoweverManyShapesWereExpected) {
   const std::vector<Shape> shapes = test::synthetic_shapes(25, 90);
   const ShapeSetPlan plan{{0, 3, all_depths}, true};
-  PreparedShape prepared(plan);
+  BuiltShape prepared(plan);
   const auto bytes = [&](std::size_t expected) {
     ShapeSetBuilder builder(plan, expected);
     for (std::size_t s = 0; s < shapes.size(); ++s) {
@@ -198,7 +198,7 @@ TEST(ShapeSet, OfABuilderSoFarIsThatOfItsShapes) {
     const std::vector<Shape> shapes = test::synthetic_shapes(27, 70);
     const std::span<const Shape> all(shapes);
     ShapeSetBuilder builder(plan, 70);
-    PreparedShape prepared(plan);
+    BuiltShape prepared(plan);
     const auto bytes = [](const ShapeSet& set) { return test::BakedBytes(set, {}).text(); };
     EXPECT_EQ(bytes(builder.set()), bytes(ShapeSet(all.first(0), plan)));
     for (std::size_t s = 0; s < shapes.size(); ++s) {

@@ -137,9 +137,9 @@ class Crowds(unittest.TestCase):
     def test_candidates(self):
         self.assertEqual(bch.Crowd().candidates(SHAPES, LINE).tolist(), [[0, 1]])
         self.assertEqual(bch.Crowd().candidates(SHAPES, LINE, margin=1.0).tolist(), [[0, 1], [1, 2]])
-        self.assertEqual(bch.Crowd(most_pairs=1).candidates(SHAPES, LINE).tolist(), [[0, 1]])
+        self.assertEqual(bch.Crowd(max_pairs=1).candidates(SHAPES, LINE).tolist(), [[0, 1]])
         with self.assertRaisesRegex(OverflowError, "at most 0 pairs"):
-            bch.Crowd(most_pairs=0).candidates(SHAPES, LINE)
+            bch.Crowd(max_pairs=0).candidates(SHAPES, LINE)
 
     def test_collisions(self):
         crowd = bch.Crowd()

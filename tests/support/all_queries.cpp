@@ -10,7 +10,7 @@ namespace bch::test {
 namespace {
 
 /// A wall, and a pillar on it.
-void ask_all_of_obstacles(const ShapeSet& set, const Agents& agents, const detail::AllOptions& options) {
+void query_all_of_obstacles(const ShapeSet& set, const Agents& agents, const detail::AllOptions& options) {
   const ObstacleSet obstacles =
       obstacles_from_wkt("LINESTRING(-9 0.1, 9 0.2) POLYGON((-1 -1, 1 -1, 1 1, -1 1))");
   const std::vector<double> way(agents.size(), 0.5);
@@ -25,8 +25,8 @@ void ask_all_of_obstacles(const ShapeSet& set, const Agents& agents, const detai
 
 }  // namespace
 
-void ask_all(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs,
-             const Implementation& implementation) {
+void query_all(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs,
+               const Implementation& implementation) {
   std::vector<std::uint8_t> hits(pairs.size());
   collide(set, agents, pairs, hits, {&implementation});
   bch::Crowd crowd;
@@ -47,20 +47,20 @@ void ask_all(const ShapeSet& set, const Agents& agents, std::span<const Pair> pa
   const std::vector<double> way(pairs.size(), 0.5);
   within(set, agents, pairs, way, hits, &implementation);
   time_of_impact(set, agents, pairs, {way, way}, values, &implementation);
-  ask_all_of_obstacles(set, agents, {.implementation = &implementation});
+  query_all_of_obstacles(set, agents, {.implementation = &implementation});
 }
 
-void ask_all_of_a_dynamic_copy(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs,
-                               const Implementation& implementation) {
+void query_all_of_a_dynamic_copy(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs,
+                                 const Implementation& implementation) {
   DynamicShapeSet dynamic(set);
-  ask_all(dynamic.set(), agents, pairs, implementation);
+  query_all(dynamic.set(), agents, pairs, implementation);
   if (set.roots_only() || set.shape_count() == 0) return;
-  PreparedShape last(set.plan());
+  BuiltShape last(set.plan());
   last.flat() = detail::flat_body(set.arrays(), set.shape_count() - 1);
   last.flat().plan = set.plan();
   dynamic.try_replace(set.shape_count() - 1, last);
   dynamic.replace(0, last);
-  ask_all(dynamic.set(), agents, pairs, implementation);
+  query_all(dynamic.set(), agents, pairs, implementation);
 }
 
 }  // namespace bch::test

@@ -22,10 +22,11 @@ void clear_padding(std::vector<bch_penetration_depth>& depths) {
 
 /// A query that writes into an array.
 template <class Value>
-CQuery into(const char* name, bool needs_memory, std::size_t count, std::function<bch_status(Value*)> ask) {
+CQuery into(const char* name, bool needs_memory, std::size_t count,
+            std::function<bch_status(Value*)> run_query) {
   const auto values = std::make_shared<std::vector<Value>>(count);
   std::memset(static_cast<void*>(values->data()), 77, count * sizeof(Value));
-  return {name, needs_memory, [values, ask] { return ask(values->data()); },
+  return {name, needs_memory, [values, run_query] { return run_query(values->data()); },
           [values] {
             clear_padding(*values);
             return bytes(*values);
@@ -41,7 +42,7 @@ std::string row_bytes(const Rows& rows) {
 
 /// A query that fills all arrays of a clearance.
 CQuery clearance_into(const char* name, bool needs_memory, std::size_t count,
-                      const std::function<bch_status(const bch_clearance_out*)>& ask) {
+                      const std::function<bch_status(const bch_clearance_out*)>& run_query) {
   // One array after the other, in one: nine numbers for each pair.
   const auto values = std::make_shared<std::vector<float>>(9 * count, 77.0f);
   bch_clearance_out out = BCH_CLEARANCE_OUT_INIT;
@@ -49,7 +50,8 @@ CQuery clearance_into(const char* name, bool needs_memory, std::size_t count,
   out.direction = reinterpret_cast<bch_vec2*>(&(*values)[count]);
   out.discs = reinterpret_cast<bch_disc_pair*>(&(*values)[3 * count]);
   out.points = reinterpret_cast<bch_nearest_points*>(&(*values)[5 * count]);
-  return {name, needs_memory, [values, out, ask] { return ask(&out); }, [values] { return bytes(*values); }};
+  return {name, needs_memory, [values, out, run_query] { return run_query(&out); },
+          [values] { return bytes(*values); }};
 }
 
 void add_queries_of_pairs(const CScene& scene, std::vector<CQuery>& to) {
@@ -93,9 +95,9 @@ void add_queries_of_crowds(const CScene& scene, std::vector<CQuery>& to) {
     bch_crowd_clearance_view near{};
     bch_crowd_penetration_view apart{};
   };
-  const auto add = [&](const char* name, bool needs_memory, auto ask, auto answer) {
+  const auto add = [&](const char* name, bool needs_memory, auto run_query, auto answer) {
     const auto found = std::make_shared<Found>();
-    to.push_back({name, needs_memory, [=] { return ask(*found); }, [=] { return answer(*found); }});
+    to.push_back({name, needs_memory, [=] { return run_query(*found); }, [=] { return answer(*found); }});
   };
   /// A call whose answer is one view, of arguments beside crowd, set, agents and options.
   const auto add_of = [&](const char* name, bool needs_memory, auto call, auto answer, auto view,

@@ -31,7 +31,7 @@ constexpr const char* walls_text =
 struct CQuery {
   std::string name;
   bool needs_memory;  ///< at every call
-  std::function<bch_status()> ask;
+  std::function<bch_status()> run_query;
   std::function<std::string()> answers;  ///< what has been written, as bytes
 };
 std::vector<CQuery> all_queries(const CScene& scene);

@@ -135,10 +135,11 @@ void expect_same(const std::vector<PairAnswers>& found, const std::vector<PairAn
 void expect_answers(const ShapeSet& set, const Questions& questions, const std::vector<PairAnswers>& expected,
                     const std::string& what) {
   for (const Implementation& each : supported())
-    expect_same(ask(set, questions, each), expected, what + ", " + each.name);
+    expect_same(run_query(set, questions, each), expected, what + ", " + each.name);
 }
 
-std::vector<PairAnswers> ask(const ShapeSet& set, const Questions& of, const Implementation& implementation) {
+std::vector<PairAnswers> run_query(const ShapeSet& set, const Questions& of,
+                                   const Implementation& implementation) {
   const Agents agents = of.crowd.agents();
   const std::size_t size = of.pairs.size();
   const auto hits = [&](Leaves leaves) {

@@ -58,8 +58,8 @@ void expect_same(const std::vector<PairAnswers>& found, const std::vector<PairAn
                  const std::string& what);
 
 /// Asks all queries. Expects that nothing beside the answers is written.
-std::vector<PairAnswers> ask(const ShapeSet& set, const Questions& questions,
-                             const Implementation& implementation = best_implementation());
+std::vector<PairAnswers> run_query(const ShapeSet& set, const Questions& questions,
+                                   const Implementation& implementation = best_implementation());
 
 /// Expects these answers of every implementation.
 void expect_answers(const ShapeSet& set, const Questions& questions, const std::vector<PairAnswers>& expected,

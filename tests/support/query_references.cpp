@@ -23,7 +23,7 @@ BruteForce::BruteForce(std::span<const Shape> shapes, const ShapeSetPlan& plan)
       segments(shapes, plan, Leaves::segments) {}
 
 std::vector<PairAnswers> BruteForce::answers(const ShapeSet& set, const Questions& of) {
-  std::vector<PairAnswers> answers = ask(set, of);
+  std::vector<PairAnswers> answers = run_query(set, of);
   const Agents agents = of.crowd.agents();
   const auto set_nearest = [](NearestFeatures& found, const baselines::Clearance& expected) {
     const auto& [distance, direction, first, second] = expected;

@@ -110,12 +110,12 @@ void fail_each_making(std::size_t least, const std::function<bch_status(Object**
 }
 
 /// The same for a function that writes numbers: none of them before all are there.
-template <class Number, class Ask>
-void fail_each_writing(std::size_t least, std::vector<Number>& numbers, Ask ask) {
+template <class Number, class RunQuery>
+void fail_each_writing(std::size_t least, std::vector<Number>& numbers, RunQuery run_query) {
   const auto untouched = [&] { return std::count(numbers.begin(), numbers.end(), Number(none)); };
   fail_each(least, [&](Attempt& attempt) {
     numbers.assign(numbers.size(), Number(none));
-    attempt(ask, [&] { return untouched() == std::ssize(numbers); });
+    attempt(run_query, [&] { return untouched() == std::ssize(numbers); });
     EXPECT_EQ(untouched(), 0);
   });
 }
@@ -201,11 +201,11 @@ TEST_F(AllocationFaults, Queries) {
         const CQuery with_memory = all_queries(scene)[q];
         const std::string before = with_memory.answers();
         SCOPED_TRACE(with_memory.name);
-        expect_ok(with_memory.ask());
+        expect_ok(with_memory.run_query());
         if (!with_memory.needs_memory && before.size() == with_memory.answers().size()) continue;
         fail_each(1, [&](Attempt& attempt) {
           const CQuery query = all_queries(scene)[q];  // whose object has no memory yet
-          attempt(query.ask, [&] { return query.answers() == before; });
+          attempt(query.run_query, [&] { return query.answers() == before; });
           EXPECT_TRUE(query.answers() == with_memory.answers());
         });
       }
@@ -249,13 +249,13 @@ TEST_F(AllocationFaults, NumbersThatFunctionsTell) {
   const bch_pair pair{0, 1};
   std::vector<std::uint8_t> hit(1);
   fail_each(0, [&](Attempt& attempt) {
-    const auto ask = [&](std::uint32_t threads) {
+    const auto run_query = [&](std::uint32_t threads) {
       options.threads = threads;
       return bch_collide(set.get(), &agents, &pair, 1, &options, hit.data());
     };
-    expect_ok(ask(2));
+    expect_ok(run_query(2));
     hit[0] = 77;
-    attempt([&] { return ask(1); }, [&] { return hit[0] == 77; });
+    attempt([&] { return run_query(1); }, [&] { return hit[0] == 77; });
     EXPECT_NE(hit[0], 77);
   });
 }
@@ -446,9 +446,9 @@ class Allocations : public testing::TestWithParam<std::uint32_t> {
  protected:
   /// Of later calls, the first being over.
   static std::size_t count(const CQuery& query) {
-    expect_ok(query.ask());
+    expect_ok(query.run_query());
     const std::size_t before = allocation_count();
-    for (int i = 0; i < 5; ++i) expect_ok(query.ask());
+    for (int i = 0; i < 5; ++i) expect_ok(query.run_query());
     return allocation_count() - before;
   }
 

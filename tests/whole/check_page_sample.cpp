@@ -81,9 +81,9 @@ void write(const std::string& name, const std::string& text) {
 /// The page, and what is expected of it.
 class Sample {
  public:
-  Sample(const cli::PageFacts& facts, std::size_t most_bytes)
+  Sample(const cli::PageFacts& facts, std::size_t max_bytes)
       : page_(
-            facts, [this](std::uint32_t pose) { return shape(pose); }, most_bytes) {}
+            facts, [this](std::uint32_t pose) { return shape(pose); }, max_bytes) {}
 
   void add(const detail::CheckedFrame& checked, const ShapeSet& shapes, bool with_outlines) {
     shapes_ = &shapes, first_pose_ = checked.people[0].pose - checked.people[0].shape;

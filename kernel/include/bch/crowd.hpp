@@ -29,7 +29,7 @@ struct CrowdOptions {
 
   Period period = {};
   /// Limits the candidates of a call, which throws std::length_error beyond: n agents at one place are n^2 / 2 pairs.
-  std::size_t most_pairs = std::numeric_limits<std::size_t>::max();
+  std::size_t max_pairs = std::numeric_limits<std::size_t>::max();
 };
 
 /// Selects the pairs of a crowd that queries are about, as physics engines do. Two agents are a pair if each one's mask has a bit

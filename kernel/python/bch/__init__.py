@@ -3,7 +3,7 @@
 
 """Collision checks between characters in dense crowds.
 
-Make or load a set of shapes, describe a crowd by arrays, and ask:
+Make or load a set of shapes, describe a crowd by arrays, and query:
 
 >>> import bch, numpy as np
 >>> people = bch.bake([bch.default_male(), bch.default_female()], poses=50)

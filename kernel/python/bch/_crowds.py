@@ -144,7 +144,7 @@ class Crowd:
     ----------
     period : (float, float)
         Lengths after which the ground repeats along x and y, metres; 0: it does not.
-    most_pairs : int, optional
+    max_pairs : int, optional
         More candidates than that raise an error.
 
     Examples
@@ -155,12 +155,12 @@ class Crowd:
 
     __slots__ = ("_handle", "_exclusive")
 
-    def __init__(self, period: Tuple[float, float] = (0.0, 0.0), most_pairs: Optional[int] = None) -> None:
+    def __init__(self, period: Tuple[float, float] = (0.0, 0.0), max_pairs: Optional[int] = None) -> None:
         if not isinstance(period, (tuple, list)) or len(period) != 2:
             raise rejected(period, "period", "two lengths, (x, y)")
         x, y = (number(length, f"period[{i}]") for i, length in enumerate(period))
-        most = 2**64 - 1 if most_pairs is None else bounded(most_pairs, "most_pairs", 0, 2**64 - 1)
-        chosen = _library.CrowdOptions(period_x=x, period_y=y, most_pairs=most)
+        most = 2**64 - 1 if max_pairs is None else bounded(max_pairs, "max_pairs", 0, 2**64 - 1)
+        chosen = _library.CrowdOptions(period_x=x, period_y=y, max_pairs=most)
         self._handle, self._exclusive = Handle("crowd", "create", byref(chosen)), Exclusive("Crowd")
 
     def _pairs(self, find: str, shapes: Union[ShapeSet, BodySet], agents: Agents, *arguments: Any) -> UInt32:
@@ -258,8 +258,8 @@ class Crowd:
                 check(getattr(lib, f"bch_crowd_{kind}contacts")(self._handle.pointer, *at, chosen, how, byref(found)))
             else:
                 where = given(pairs, u4, (None, 2), "pairs")
-                ask = getattr(lib, f"bch_crowd_{kind}contacts_of")
-                check(ask(self._handle.pointer, *at, where, len(pairs), how, byref(found)))
+                call = getattr(lib, f"bch_crowd_{kind}contacts_of")
+                check(call(self._handle.pointer, *at, where, len(pairs), how, byref(found)))
             rows = _rows(found, (), SPHERE_CONTACT) if bodies else _rows(found, (2,))
             return Contacts(copied(found.pairs, u4, (found.rows, 2)), rows)
 

@@ -36,10 +36,10 @@ class Outline:
 
     def _text(self, format: int) -> str:
         length = c_size_t()
-        ask = lib.bch_outlines_get_text
-        check(ask(self._handle.pointer, self._pose, format, None, 0, byref(length)))
+        call = lib.bch_outlines_get_text
+        check(call(self._handle.pointer, self._pose, format, None, 0, byref(length)))
         text = ctypes.create_string_buffer(max(length.value, 1))
-        check(ask(self._handle.pointer, self._pose, format, ctypes.addressof(text), length.value, byref(length)))
+        check(call(self._handle.pointer, self._pose, format, ctypes.addressof(text), length.value, byref(length)))
         return text.raw[: length.value].decode()
 
     @property

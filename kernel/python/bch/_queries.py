@@ -202,7 +202,7 @@ def pointers(shapes: Union[ShapeSet, BodySet], agents: Agents, bodies: bool = Fa
 _of_pairs_alone = ("nearest_free", "penetration", "penetration_along", "time_of_impact")
 
 
-def _asked(name: str, shapes: Union[ShapeSet, BodySet], agents: Agents, pairs: Pairs) -> Tuple[Callable[..., int], int]:
+def _bound_query(name: str, shapes: Union[ShapeSet, BodySet], agents: Agents, pairs: Pairs) -> Tuple[Callable[..., int], int]:
     """Return the function of a query, bound to what it is about, and the number of its answers."""
     bodies = isinstance(shapes, BodySet)
     set_at, agents_at = pointers(shapes, agents, bodies)
@@ -249,9 +249,9 @@ def collide(
     (n,) bool
     """
     how, _ = options(leaves, "zero", math.inf, threads, implementation)
-    ask, n = _asked("collide", shapes, agents, pairs)
+    call, n = _bound_query("collide", shapes, agents, pairs)
     hits = result(out, b1, (n,))
-    check(ask(how, address(hits)))
+    check(call(how, address(hits)))
     return hits
 
 
@@ -287,7 +287,7 @@ def within(
     -------
     (n,) bool
     """
-    ask, n = _asked("within", shapes, agents, pairs)
+    call, n = _bound_query("within", shapes, agents, pairs)
     if leaves != "discs" and not isinstance(pairs, Obstacles):
         raise ArgumentError("leaves are for obstacles; pairs are measured between discs")
     answers = result(out, b1, (n,))
@@ -296,7 +296,7 @@ def within(
     if not isinstance(distance, (np.ndarray, list, tuple)):
         near = np.array([number(distance, "distance")], f8)
     at = given(near, f8, (None,), "distance")
-    check(ask(at, len(near), how, address(answers)))
+    check(call(at, len(near), how, address(answers)))
     return answers
 
 
@@ -310,7 +310,7 @@ class Nearest(NamedTuple):
 
 
 def _measure(
-    ask: Callable[..., int],
+    call: Callable[..., int],
     bodies: bool,
     how: int,
     distance: Float32,
@@ -321,7 +321,7 @@ def _measure(
     to = (_library.BodyClearanceOut if bodies else _library.ClearanceOut)(distance=address(distance))
     for name, array in {"direction": direction, "spheres" if bodies else "discs": discs, "points": points}.items():
         setattr(to, name, None if array is None else address(array))
-    check(ask(how, ctypes.addressof(to)))
+    check(call(how, ctypes.addressof(to)))
 
 
 def clearance(
@@ -362,10 +362,10 @@ def clearance(
     (n,) float32
         Metres.
     """
-    ask, n = _asked("clearance", shapes, agents, pairs)
+    call, n = _bound_query("clearance", shapes, agents, pairs)
     distance = result(out, f4, (n,))
     how, _ = options("segments", overlap, max_distance, threads, implementation, leaves)
-    _measure(ask, isinstance(shapes, BodySet), how, distance)
+    _measure(call, isinstance(shapes, BodySet), how, distance)
     return distance
 
 
@@ -397,7 +397,7 @@ def nearest(
         agents overlap unless `overlap` is "deepest".
     """
     bodies = isinstance(shapes, BodySet)
-    ask, n = _asked("clearance", shapes, agents, pairs)
+    call, n = _bound_query("clearance", shapes, agents, pairs)
     axes = 3 if bodies else 2
     if out is not None:
         instance(out, Nearest, "out")
@@ -408,7 +408,7 @@ def nearest(
         result(None if out is None else out.points, f4, (n, 2, axes), "out.points"),
     )
     how, _ = options("segments", overlap, max_distance, threads, implementation, leaves)
-    _measure(ask, bodies, how, *found)
+    _measure(call, bodies, how, *found)
     return found
 
 
@@ -446,16 +446,16 @@ def penetration(
         Records of depth, in metres, and of x and y, a unit vector.
     """
     is_along = isinstance(directions, np.ndarray)
-    ask, n = _asked("penetration_along" if is_along and not isinstance(pairs, Obstacles) else "penetration", shapes, agents, pairs)
+    call, n = _bound_query("penetration_along" if is_along and not isinstance(pairs, Obstacles) else "penetration", shapes, agents, pairs)
     depths = result(out, PENETRATION, (n,))
     how, _ = options("segments", "zero", math.inf, threads, implementation)
     if not isinstance(pairs, Obstacles):
         to = given(directions, f4, (n, 2), "directions") if is_along else bounded(directions, "directions", 2, 256)
-        check(ask(to, how, address(depths)))
+        check(call(to, how, address(depths)))
     elif is_along or directions != 16:
         raise ArgumentError("directions are for pairs; obstacles have directions of their own")
     else:
-        check(ask(how, address(depths)))
+        check(call(how, address(depths)))
     return depths
 
 
@@ -490,10 +490,10 @@ def nearest_free(
         Records of depth, in metres, and of x and y, a unit vector.
     """
     pointers(bodies, agents, True)
-    ask, n = _asked("nearest_free", bodies, agents, pairs)
+    call, n = _bound_query("nearest_free", bodies, agents, pairs)
     depths = result(out, PENETRATION, (n,))
     how, _ = options("segments", "zero", math.inf, threads, implementation)
-    check(ask(bounded(directions, "directions", 2, 256), how, address(depths)))
+    check(call(bounded(directions, "directions", 2, 256), how, address(depths)))
     return depths
 
 
@@ -536,13 +536,13 @@ def time_of_impact(
     bodies = isinstance(shapes, BodySet)
     if dz is not None and not bodies:
         raise ArrayError("dz is given; wanted is a bch.BodySet for shapes, or no dz: outlines do not move up or down")
-    ask, n = _asked("time_of_impact", shapes, agents, pairs)
+    call, n = _bound_query("time_of_impact", shapes, agents, pairs)
     times = result(out, f4, (n,))
     how, _ = options("segments", "zero", math.inf, threads, implementation)
     way: List[Optional[int]] = [given(dx, f8, (n,), "dx"), given(dy, f8, (n,), "dy")]
     if bodies:
         way.append(None if dz is None else given(dz, f8, (n,), "dz"))
-    check(ask(*way, how, address(times)))
+    check(call(*way, how, address(times)))
     return times
 
 

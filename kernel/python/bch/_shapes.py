@@ -305,7 +305,7 @@ def import_character(
             force_clips=bool(force_clips),
             clip_files=ctypes.addressof(files),
             clip_file_count=len(paths),
-            most_triangles=bounded(max_triangles, "max_triangles", 1, 2**63 - 1),
+            max_triangles=bounded(max_triangles, "max_triangles", 1, 2**63 - 1),
             seconds=number(timeout, "timeout"),
             memory=bounded(memory_limit, "memory_limit", 1, 2**63 - 1),
             progress=watched.callback,

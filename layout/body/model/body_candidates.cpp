@@ -17,10 +17,10 @@ namespace {
 
 // Of bodies of up to two metres, metres.
 constexpr double radius_of_flat_skin = 0.025;  ///< about a piece's middle it holds the piece
-constexpr double first_radius = 0.3, least_radius = 0.004, most_radius = 0.29;
+constexpr double first_radius = 0.3, least_radius = 0.004, max_radius = 0.29;
 constexpr double grid_cell = 0.03;
 constexpr double least_weight = 0.02;  ///< of a bone; smaller ones are dropped
-constexpr int most_shrinks = 40;
+constexpr int max_shrinks = 40;
 
 SpacePoint cross(const SpacePoint& a, const SpacePoint& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
@@ -195,7 +195,7 @@ std::vector<BodyCandidate> find_candidates(const Character& character, const Ski
   for (const SkinPoint& p : all) {
     double radius = scale * first_radius;
     std::uint32_t touched = SkinGrid::none;
-    for (int i = 0; i < most_shrinks; ++i) {
+    for (int i = 0; i < max_shrinks; ++i) {
       const std::uint32_t inside = grid.nearest(p.at - radius * p.normal, radius * (1 - 1e-6), p.at);
       if (inside == SkinGrid::none) break;
       const SpacePoint way = p.at - all[inside].at;
@@ -203,7 +203,7 @@ std::vector<BodyCandidate> find_candidates(const Character& character, const Ski
       touched = inside;
       if (radius < scale * least_radius) break;
     }
-    if (touched == SkinGrid::none || !(radius >= scale * least_radius && radius <= scale * most_radius))
+    if (touched == SkinGrid::none || !(radius >= scale * least_radius && radius <= scale * max_radius))
       continue;
     BodyCandidate candidate{bind(p.at - radius * p.normal, p, all[touched], posed), radius};
     if (!candidate.influences.empty()) found.push_back(std::move(candidate));

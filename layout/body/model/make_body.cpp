@@ -63,8 +63,8 @@ std::vector<PoseTime> repeated(std::vector<PoseTime> poses) {
 BodyModel make_body(const Character& character, const BodyOptions& options) {
   const FloatingPointStateGuard floats;
   validate(character);
-  if (options.spheres < 1 || options.spheres > most_spheres)
-    throw std::invalid_argument("make_body: expected 1 to " + std::to_string(most_spheres) +
+  if (options.spheres < 1 || options.spheres > max_spheres)
+    throw std::invalid_argument("make_body: expected 1 to " + std::to_string(max_spheres) +
                                 " spheres, found " + std::to_string(options.spheres));
   const auto advance = [&](double share) {
     if (options.progress && !options.progress(share))

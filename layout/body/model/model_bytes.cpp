@@ -143,7 +143,7 @@ std::vector<std::byte> to_bytes(const BodyModel& model) {
   Character character = *model.character;
   std::string own = bytes_of(model);
   ByteWriter writer;
-  Passage(writer).all(character, own);
+  CharacterFields(writer).all(character, own);
   const std::string all = writer.take();
   const auto bytes = std::as_bytes(std::span(all));
   return {bytes.begin(), bytes.end()};
@@ -154,7 +154,7 @@ BodyModel body_model(std::span<const std::byte> bytes) {
   Character character;
   std::string own;
   ByteReader reader({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
-  Passage(reader).all(character, own);
+  CharacterFields(reader).all(character, own);
   reader.end();
   BodyModel model = model_from(own, std::make_shared<const Character>(std::move(character)));
   validate(model);

@@ -13,7 +13,7 @@ namespace bch::detail {
 namespace {
 
 /// A triangle is halved so often at most, whatever its size: 2^12 pieces.
-constexpr std::uint32_t most_halvings = 12;
+constexpr std::uint32_t max_halvings = 12;
 
 class Cutter {
  public:
@@ -32,7 +32,7 @@ class Cutter {
           squared_distance(space_point(points_[corners[i]]), space_point(points_[corners[(i + 1) % 3]]));
       if (length > most) longest = i, most = length;
     }
-    if (most <= longest_ || halvings == most_halvings) {
+    if (most <= longest_ || halvings == max_halvings) {
       skin.nodes[node].piece = static_cast<std::uint32_t>(skin.pieces.size());
       skin.pieces.push_back(corners);
       return node;

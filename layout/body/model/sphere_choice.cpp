@@ -26,11 +26,11 @@ struct Growth {
 class GrowthTable {
  public:
   GrowthTable(const SkinPieces& skin, std::span<const BodyCandidate> candidates, const TrainingPoses& poses,
-              double most_growth)
+              double max_growth)
       : skin_(skin),
         candidates_(candidates),
         poses_(poses),
-        most_growth_(most_growth),
+        max_growth_(max_growth),
         pieces_at_(poses.points(0).size()) {
     for (std::uint32_t p = 0; p < skin.pieces.size(); ++p)
       for (const std::uint32_t corner : skin.pieces[p]) pieces_at_[corner].push_back(p);
@@ -45,7 +45,7 @@ class GrowthTable {
 
  private:
   void add(std::uint32_t candidate) {
-    const double radius = candidates_[candidate].radius, most = radius + most_growth_;
+    const double radius = candidates_[candidate].radius, most = radius + max_growth_;
     std::vector<std::uint32_t> near;
     SpacePoint centre = poses_.centre(0, candidates_[candidate].influences);
     for (std::uint32_t i = 0; i < poses_.points(0).size(); ++i) {
@@ -80,7 +80,7 @@ class GrowthTable {
   const SkinPieces& skin_;
   std::span<const BodyCandidate> candidates_;
   const TrainingPoses& poses_;
-  const double most_growth_;
+  const double max_growth_;
   std::vector<std::vector<std::uint32_t>> pieces_at_;  ///< by point
   std::vector<double> growth_of_point_;  ///< squared distance from the centre, the largest of all poses
   std::vector<std::uint8_t> corners_seen_;
@@ -124,10 +124,10 @@ std::vector<std::uint32_t> cover(const GrowthTable& table, std::size_t candidate
 SphereChoice choose_spheres(const SkinPieces& skin, std::span<const BodyCandidate> candidates,
                             const TrainingPoses& poses, std::uint32_t most, double scale,
                             const std::function<void(double)>& advance) {
-  const double most_growth = scale * usual_growth;
-  const GrowthTable table(skin, candidates, poses, most_growth);
+  const double max_growth = scale * usual_growth;
+  const GrowthTable table(skin, candidates, poses, max_growth);
   advance(0.5);
-  float low = 0, high = static_cast<float>(most_growth);
+  float low = 0, high = static_cast<float>(max_growth);
   std::vector<std::uint32_t> chosen = cover(table, candidates.size(), skin.pieces.size(), high);
   for (int i = 0; i < halvings && chosen.size() != most; ++i) {
     const float middle = 0.5f * (low + high);

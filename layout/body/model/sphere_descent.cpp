@@ -14,7 +14,7 @@ using Ball = SphereFit::Ball;
 
 constexpr std::uint64_t slides_seed = 54;
 constexpr double widest_lateral = 0.5;  // metres
-constexpr float most_leverage = 4;      // of a contact: by how much later it is where a front is 1 less far
+constexpr float max_leverage = 4;       // of a contact: by how much later it is where a front is 1 less far
 constexpr float kept_gradient = 0.9f, kept_square = 0.99f;
 
 }  // namespace
@@ -57,7 +57,7 @@ void SphereDescent::step(float length) {
     second_.place(bodies[b], turn_b, lateral, -1);
     const auto contact = first_contact(first_, second_);
     if (!contact) continue;
-    const float leverage = std::min(most_leverage, 1 / std::max(contact->normal[0], 0.01f));
+    const float leverage = std::min(max_leverage, 1 / std::max(contact->normal[0], 0.01f));
     note(contact->first, a, turn_a, contact->normal, 1, leverage);
     note(contact->second, b, turn_b, contact->normal, -1, leverage);
     is_met[contact->first] = is_met[contact->second] = 1;

@@ -58,7 +58,7 @@ class Covering {
  public:
   explicit Covering(const BodyModel& model)
       : spheres_(points(model)),
-        left_(most_work * (points(model) + model.character->triangles.size() + model.corners.size())) {
+        left_(max_work * (points(model) + model.character->triangles.size() + model.corners.size())) {
     for (std::uint32_t s = 0; s < model.sphere_count(); ++s)
       for (std::uint32_t i = model.corner_begin[s]; i < model.corner_begin[s + 1]; ++i)
         spheres_[model.corners[i]].push_back(s);
@@ -74,7 +74,7 @@ class Covering {
     left_ -= work;
     for (const std::uint32_t s : spheres_[a])
       if (has(b, s) && has(c, s)) return true;
-    if (halvings == most_halvings) return false;
+    if (halvings == max_halvings) return false;
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t from = corners[k], to = corners[(k + 1) % 3], other = corners[(k + 2) % 3];
       const auto found = middle_.find(std::minmax(from, to));
@@ -86,8 +86,8 @@ class Covering {
   }
 
  private:
-  static constexpr std::size_t most_work = 64;  ///< times the size of a model; make_body()'s take 4
-  static constexpr int most_halvings = 64;
+  static constexpr std::size_t max_work = 64;  ///< times the size of a model; make_body()'s take 4
+  static constexpr int max_halvings = 64;
 
   static std::size_t points(const BodyModel& model) {
     return model.character->vertices.size() + model.cuts.size();
@@ -127,8 +127,8 @@ void validate(const BodyModel& model) {
   if (model.character == nullptr) refuse("a character", "none");
   validate(*model.character);
   const std::size_t spheres = model.sphere_count();
-  if (spheres < 1 || spheres > most_spheres)
-    refuse("1 to " + std::to_string(most_spheres) + " spheres", std::to_string(spheres));
+  if (spheres < 1 || spheres > max_spheres)
+    refuse("1 to " + std::to_string(max_spheres) + " spheres", std::to_string(spheres));
   require_offsets(model.influence_begin, spheres, model.influences.size(), "influence_begin");
   require_offsets(model.corner_begin, spheres, model.corners.size(), "corner_begin");
   if (model.leaf_size != 4 && model.leaf_size != 8)

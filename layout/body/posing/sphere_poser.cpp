@@ -47,7 +47,7 @@ SpherePoser::SpherePoser(const BodyModel& model, const BodyLayout& layout)
   for (const auto [a, b] : model.cuts) {
     cuts_.push_back({row_of(a), row_of(b)});
     cuts_above.push_back(1 + std::max(cuts_above[a], cuts_above[b]));
-    most_cuts_ = std::max(most_cuts_, cuts_above.back());
+    max_cuts_ = std::max(max_cuts_, cuts_above.back());
   }
   for (std::uint32_t s = 0; s < spheres; ++s) {
     for (std::uint32_t i = model.corner_begin[s]; i < model.corner_begin[s + 1]; ++i)
@@ -107,7 +107,7 @@ void SpherePoser::fit_radii() {
   // 1.01 for what the margin itself adds to the reach, and what is rounded here.
   const float margin =
       reach *
-      static_cast<float>(1.01 * (rounding::sphere_margin + 1.7321 * most_cuts_ * rounding::unit_roundoff));
+      static_cast<float>(1.01 * (rounding::sphere_margin + 1.7321 * max_cuts_ * rounding::unit_roundoff));
   for (float& radius : radius_) radius += margin;
 }
 

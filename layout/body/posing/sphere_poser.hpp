@@ -50,7 +50,7 @@ class SpherePoser {
   std::vector<std::array<std::uint32_t, 2>> cuts_;   ///< numbers among points_
   std::vector<std::uint32_t> corners_;               ///< numbers among points_, filled up to blocks by sphere
   std::vector<std::uint32_t> corner_end_;            ///< by sphere
-  std::uint32_t most_cuts_ = 0;                      ///< that a corner is away from a vertex
+  std::uint32_t max_cuts_ = 0;                       ///< that a corner is away from a vertex
   AlignedVector<float> x_, y_, z_, radius_, least_;  ///< by slots, filled up to whole lines
 };
 

@@ -35,7 +35,7 @@ struct ImportOptions {
   std::optional<float> scale;                     ///< metres per unit of the file, likewise
   std::vector<std::filesystem::path> clip_files;  ///< files whose clips follow the file's own, in this order
   bool force_clips = false;  ///< also takes clips of another skeleton, with a note; `--force-clips`
-  std::size_t most_triangles = 0x7fffffff;  ///< more are refused; those of each instance of a mesh count
+  std::size_t max_triangles = 0x7fffffff;  ///< more are refused; those of each instance of a mesh count
 };
 
 /// Reports on an import by import_character(): what the file had, and what became of it.

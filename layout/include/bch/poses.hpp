@@ -235,7 +235,7 @@ class PoseShaper {
 struct BakeOptions {
   std::uint32_t poses =
       100;  ///< of each character, spread evenly over its clips, one character after the other
-  std::vector<ShapeSource> shapes =
+  std::vector<PoseId> shapes =
       {};  ///< which poses of which characters, for instance ScenePlan::shapes; none: `poses`
   ShapeSetPlan plan = {};
   float threshold = 0.01f;  ///< metres; the radius below which discs are not divided

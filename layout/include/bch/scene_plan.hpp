@@ -15,7 +15,7 @@
 namespace bch {
 
 /// Names the character and pose of a shape that a scene needs.
-struct ShapeSource {
+struct PoseId {
   std::uint32_t character = 0;  ///< index in the scene's list of characters
   PoseTime at;
 };
@@ -43,13 +43,13 @@ struct SceneUse {
 struct ScenePlan {
   /// Describes an agent of a scene to plan.
   struct Agent {
-    ShapeSource shows;
+    PoseId shows;
     double distance = 0;  ///< metres, from the viewer
     double density = 0;   ///< people per square metre around the agent, as from local_densities()
   };
 
   ShapeSetPlan set;
-  std::vector<ShapeSource> shapes;         ///< in the order in which agents first show them
+  std::vector<PoseId> shapes;              ///< in the order in which agents first show them
   std::vector<std::uint32_t> agent_shape;  ///< one per agent: Agents::shape
   std::vector<std::uint8_t> agent_level;   ///< one per agent: Agents::level
 };

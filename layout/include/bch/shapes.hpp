@@ -15,7 +15,7 @@
 
 namespace bch::detail {
 struct AnimatedTree;
-struct BuilderEnd;
+struct BuilderMark;
 struct FlatBody;
 struct ShapeArrays;
 struct ShapeSetView;
@@ -120,7 +120,7 @@ class AnimatedShape {
   /// Returns the spheres at a time, likewise; none of a body that is not in space.
   std::vector<Sphere> spheres(double seconds) const;
   /// Returns the body at a time as a shape without outline, whose leaves are its discs, numbered as leaves of the tree. A set takes the
-  /// shape, and so does a PreparedShape for a DynamicShapeSet.
+  /// shape, and so does a BuiltShape for a DynamicShapeSet.
   /// Cost:    a few us for 200 discs, less than making it flat.
   Shape shape(double seconds) const;
   /// Makes that shape in place of another shape of this kind, whose memory it keeps.
@@ -203,7 +203,7 @@ class ShapeSet {
   /// Precondition: validate(arrays) does not throw.
   ShapeSet(const detail::ShapeArrays& arrays, std::shared_ptr<const void> memory);
   /// Views other arrays from now on.
-  void refer_to(const detail::ShapeArrays& arrays) noexcept;
+  void rebind(const detail::ShapeArrays& arrays) noexcept;
   const detail::ShapeSetView& view() const noexcept;
   const detail::ShapeArrays& arrays() const noexcept;
 
@@ -215,14 +215,14 @@ class ShapeSet {
 /// Holds a shape in its flat form, ready to be added to a set. Preparing shapes is nearly all the work of making a set; an object keeps
 /// its memory for the next shape. Only one thread may use it at a time, and an object that was moved from can only be assigned to or
 /// destroyed.
-class PreparedShape {
+class BuiltShape {
  public:
   /// Takes the plan of the sets that the shapes are for.
   /// Errors:  throws std::invalid_argument on a bad plan.
-  explicit PreparedShape(const ShapeSetPlan& plan);
-  PreparedShape(PreparedShape&&) noexcept;
-  PreparedShape& operator=(PreparedShape&&) noexcept;
-  ~PreparedShape();
+  explicit BuiltShape(const ShapeSetPlan& plan);
+  BuiltShape(BuiltShape&&) noexcept;
+  BuiltShape& operator=(BuiltShape&&) noexcept;
+  ~BuiltShape();
 
   /// Makes a shape flat, in place of the previous one.
   /// Errors:  throws std::invalid_argument as ShapeSet does, naming the shape by `index`; then prepare another shape.
@@ -251,7 +251,7 @@ class ShapeSetBuilder {
 
   /// Adds a shape that was prepared with the same plan.
   /// Errors:  throws std::length_error beyond 2^31 numbers in nodes or 2^32 roots. Shapes that were added before are then unchanged.
-  void add(const PreparedShape& shape);
+  void add(const BuiltShape& shape);
   /// Returns the set of the shapes so far. It can be queried until the next call of another function; more shapes may follow.
   const ShapeSet& set();
   /// Returns the set of the shapes that were added. Where memory runs out, the shapes stay in the builder.
@@ -261,10 +261,10 @@ class ShapeSetBuilder {
   /// Returns the nodes of the shapes so far, as the set is going to have them, or none for sets of only roots. They are
   /// valid until the next call of another function.
   std::span<const float> nodes() const noexcept;
-  /// Returns the present end of the set, for go_back().
-  detail::BuilderEnd end() const noexcept;
-  /// Removes all that was added since end() returned `to`. Allocates nothing.
-  void go_back(const detail::BuilderEnd& to) noexcept;
+  /// Returns the present end of the set, for rollback().
+  detail::BuilderMark mark() const noexcept;
+  /// Removes all that was added since mark() returned `to`. Allocates nothing.
+  void rollback(const detail::BuilderMark& to) noexcept;
 
  private:
   struct State;
@@ -280,7 +280,7 @@ class ShapeSetBuilder {
 /// need. An object that was moved from can only be assigned to or destroyed.
 ///
 ///     PoseShaper shaper(character);                  // each thread has its own shaper and prepared shape
-///     PreparedShape prepared(dynamic.set().plan());
+///     BuiltShape prepared(dynamic.set().plan());
 ///     prepared.prepare(shaper.shape({clip, seconds}), shape);
 ///     if (!dynamic.try_replace(shape, prepared)) later.push_back(shape);  // for replace(), by one thread
 class DynamicShapeSet {
@@ -301,12 +301,12 @@ class DynamicShapeSet {
   /// Returns: whether it fitted. If not, the set is unchanged and replace() is needed. The first single disc
   ///          does not fit into a set without any.
   /// Errors:  throws std::out_of_range on an index out of range, std::invalid_argument on a shape of another plan.
-  bool try_replace(std::uint32_t shape, const PreparedShape& by);
+  bool try_replace(std::uint32_t shape, const BuiltShape& by);
 
   /// Replaces a shape, if need be in a new place. Only one thread may call it at a time: arrays may move, and earlier views of set()
   /// are then invalid. Takes time linear in the number of shapes where try_replace() would refuse.
   /// Errors:  as try_replace(); std::length_error as ShapeSet. The shape is then the previous one.
-  void replace(std::uint32_t shape, const PreparedShape& by);
+  void replace(std::uint32_t shape, const BuiltShape& by);
 
  private:
   struct State;

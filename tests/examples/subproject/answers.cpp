@@ -107,8 +107,8 @@ struct Crowd {
 
 /// Both for pairs, and for agents among obstacles.
 template <class... Others>
-void ask_of_distances(const bch::ShapeSet& set, const bch::Agents& agents, std::size_t count,
-                      const Others&... others) {
+void query_distances(const bch::ShapeSet& set, const bch::Agents& agents, std::size_t count,
+                     const Others&... others) {
   std::vector<float> values(count);
   std::vector<bch::Vec2> directions(count);
   std::vector<bch::DiscPair> discs(count);
@@ -131,7 +131,7 @@ void ask_of_distances(const bch::ShapeSet& set, const bch::Agents& agents, std::
   clearance.add(values), clearance.add(directions);
 }
 
-void ask_all(const bch::ShapeSet& set, const Crowd& crowd) {
+void query_all(const bch::ShapeSet& set, const Crowd& crowd) {
   const bch::Agents agents = crowd;
   const std::size_t count = agents.size();
   bch::Crowd of;
@@ -140,7 +140,7 @@ void ask_all(const bch::ShapeSet& set, const Crowd& crowd) {
   Hash("clearances").add(of.clearances(set, agents, {.max_distance = .25}).distance);
   const std::span<const bch::Pair> pairs = of.candidates(set, agents, .25).span();
   Hash("candidates").add(pairs);
-  ask_of_distances(set, agents, pairs.size(), pairs);
+  query_distances(set, agents, pairs.size(), pairs);
   std::vector<bch::Penetration> ways(pairs.size());
   bch::penetration(set, agents, pairs, 16, ways);
   Hash("penetration").add(ways);
@@ -151,7 +151,7 @@ void ask_all(const bch::ShapeSet& set, const Crowd& crowd) {
 
   const bch::ObstacleSet walls =
       bch::obstacles_from_wkt("POLYGON((4 4, 8 4, 7 9, 4 4)) LINESTRING(0 16, 32 17, 16 30)");
-  ask_of_distances(set, agents, count, walls);
+  query_distances(set, agents, count, walls);
   ways.resize(count), times.resize(count);
   bch::penetration(set, agents, walls, ways);
   Hash("penetration").add(ways);
@@ -159,7 +159,7 @@ void ask_all(const bch::ShapeSet& set, const Crowd& crowd) {
   Hash("time_of_impact").add(times);
 }
 
-void ask_of_motions(const Crowd& crowd) {
+void query_motions(const Crowd& crowd) {
   const bch::AnimatedShape body = swinging();
   std::vector<std::vector<bch::PathKey>> paths;
   std::vector<bch::Motion> motions;
@@ -209,7 +209,7 @@ bool is_nan_refused(const bch::ShapeSet&, const Crowd&) {
 int main() {
   const Crowd crowd(4000);
   const bch::ShapeSet set(shapes());
-  ask_all(set, crowd);
-  ask_of_motions(crowd);
+  query_all(set, crowd);
+  query_motions(crowd);
   return is_nan_refused(set, crowd) ? 0 : 1;
 }

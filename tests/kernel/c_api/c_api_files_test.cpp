@@ -38,7 +38,7 @@ TEST(CApiFiles, CharactersAreImported) {
   bch_character* none = nullptr;
   EXPECT_EQ(bch_character_import(file.c_str(), &options, &none), BCH_CANCELLED);
   options = BCH_IMPORT_OPTIONS_INIT;
-  options.most_triangles = 1;
+  options.max_triangles = 1;
   EXPECT_EQ(bch_character_import(file.c_str(), &options, &none), BCH_BAD_FILE);
   EXPECT_EQ(bch_character_import("/nowhere/a.glb", nullptr, &none), BCH_FILE_NOT_FOUND);
   EXPECT_EQ(none, nullptr);

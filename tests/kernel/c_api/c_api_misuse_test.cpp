@@ -27,7 +27,7 @@ class CApiMisuse : public testing::Test {
   bch_query_options options = BCH_QUERY_OPTIONS_INIT;
   std::uint8_t hit = 77;
 
-  bch_status ask() { return bch_collide(set.get(), &agents, &pair, 1, &options, &hit); }
+  bch_status run_query() { return bch_collide(set.get(), &agents, &pair, 1, &options, &hit); }
 
   /// Expects an error whose message has a word, and that nothing was written.
   void expect_error(bch_status status, bch_status expected, const std::string& word) {
@@ -61,7 +61,7 @@ TEST_F(CApiMisuse, PointersThatAreNull) {
   expect_invalid(bch_obstacles_from_wkt(nullptr, 0, 0, 1, nullptr), "is NULL");
   expect_invalid(bch_obstacles_from_wkt("POINT", 0, 0, 1, nullptr), "obstacles is NULL");
   agents.heading = nullptr;
-  expect_invalid(ask(), "agents->heading is NULL");
+  expect_invalid(run_query(), "agents->heading is NULL");
   // Nothing to do is no mistake.
   agents = test::c_agents(crowd);
   expect_ok(bch_collide(set.get(), &agents, nullptr, 0, nullptr, nullptr));
@@ -113,13 +113,13 @@ TEST_F(CApiMisuse, SizesOfThePastAndOfTheFuture) {
   // Of the past: what it does not have yet is as if it had been left alone.
   options.leaves = 99;
   options.size = offsetof(bch_query_options, leaves);
-  expect_ok(ask());
+  expect_ok(run_query());
   hit = 77;
   options.size = sizeof options;
-  expect_invalid(ask(), "options->leaves is 99");
+  expect_invalid(run_query(), "options->leaves is 99");
   for (const std::uint32_t size : {0u, 3u, 5000u}) {
     options.size = size;
-    expect_invalid(ask(), "options->size is " + std::to_string(size));
+    expect_invalid(run_query(), "options->size is " + std::to_string(size));
   }
 
   // No version ends inside a member.
@@ -129,10 +129,10 @@ TEST_F(CApiMisuse, SizesOfThePastAndOfTheFuture) {
   for (std::uint32_t size = 4; size <= sizeof options; ++size) {
     options.size = size;
     if ((size % 4 == 0 || size / 4 == 5) && size != 28 && size != 36) {
-      expect_ok(ask());
+      expect_ok(run_query());
       hit = 77;
     } else {
-      expect_invalid(ask(), "options->size is " + std::to_string(size) + ", inside a member");
+      expect_invalid(run_query(), "options->size is " + std::to_string(size) + ", inside a member");
     }
   }
   bch_clearance_out cut = BCH_CLEARANCE_OUT_INIT;
@@ -153,20 +153,20 @@ TEST_F(CApiMisuse, SizesOfThePastAndOfTheFuture) {
 
 TEST_F(CApiMisuse, ValuesAndTheirPlaces) {
   crowd.x[1] = std::nan("");
-  expect_invalid(ask(), "agent 1");
+  expect_invalid(run_query(), "agent 1");
   crowd.x[1] = 0;
   crowd.shape[0] = 50;
-  expect_invalid(ask(), "50");
+  expect_invalid(run_query(), "50");
   expect_invalid(bch_validate_agents(set.get(), &agents), "50");
   crowd.shape[0] = 0;
   const bch_pair beyond{0, 2};
   expect_invalid(bch_collide(set.get(), &agents, &beyond, 1, nullptr, &hit), "pair 0");
   options.threads = 100'000;
-  expect_invalid(ask(), "threads is 100000");
+  expect_invalid(run_query(), "threads is 100000");
   options.threads = 0, options.implementation = "mmx";
-  expect_invalid(ask(), "mmx");
+  expect_invalid(run_query(), "mmx");
   options.implementation = nullptr, options.leaves = 2;
-  expect_invalid(ask(), "options->leaves is 2");
+  expect_invalid(run_query(), "options->leaves is 2");
   options.leaves = 0;
   bch_disc disc;
   std::size_t count = 9;
@@ -257,7 +257,7 @@ TEST_F(CApiMisuse, Obstacles) {
 
 TEST_F(CApiMisuse, TheLastErrorStays) {
   expect_invalid(bch_collide(nullptr, &agents, &pair, 1, nullptr, &hit), "set is NULL");
-  expect_ok(ask());
+  expect_ok(run_query());
   EXPECT_STREQ(bch_last_error(), "set is NULL");
   std::thread([] { EXPECT_STREQ(bch_last_error(), ""); }).join();
 }

@@ -135,7 +135,7 @@ TEST_P(CApi, AnswersAreThoseOfTheLibrary) {
     EXPECT_NE(before["clearance"], expected.at("clearance"));
     before = expected;
     for (const test::CQuery& query : all_queries(scene)) {
-      expect_ok(query.ask());
+      expect_ok(query.run_query());
       EXPECT_TRUE(query.answers() == expected.at(query.name)) << query.name;
     }
   }

@@ -49,7 +49,8 @@ struct Question {
   detail::AllOptions options;
   std::vector<double> distances, way;
 
-  test::ObstacleAnswers ask(const ShapeSet& set, const Agents& agents, const ObstacleSet& obstacles) const {
+  test::ObstacleAnswers run_query(const ShapeSet& set, const Agents& agents,
+                                  const ObstacleSet& obstacles) const {
     return test::all_answers(set, agents, obstacles, options, distances, {way, way});
   }
 };
@@ -65,7 +66,7 @@ class ObstaclesWithHeights : public testing::Test {
     const Question its_own{
         question.options, {question.distances[agent]}, std::vector<double>(1, question.way[agent])};
     const ObstacleSet obstacles = level.part.set();
-    test::ObstacleAnswers of = its_own.ask(flat, one.agents(), obstacles);
+    test::ObstacleAnswers of = its_own.run_query(flat, one.agents(), obstacles);
     EXPECT_EQ(of.hits[0], std::ranges::any_of(level.part.reference, [&](const auto& obstacle) {
                 return reference.collides(one.agents(), 0, obstacle);
               }));
@@ -115,7 +116,7 @@ TEST_F(ObstaclesWithHeights, AreAsWithoutHeightsWhereLevelWithABody) {
     for (const bool raised : {false, true}) {
       if (raised) raise(random, scene);
       const ObstacleSet obstacles = scene.set();
-      const test::ObstacleAnswers found = question.ask(set, crowd.agents(), obstacles);
+      const test::ObstacleAnswers found = question.run_query(set, crowd.agents(), obstacles);
       bch::Crowd whole;
       const Rows<std::uint32_t> rows =
           whole.obstacles(set, crowd.agents(), obstacles, {.leaves = question.options.leaves});

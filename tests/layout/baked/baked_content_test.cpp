@@ -123,17 +123,17 @@ struct Chain {
     nodes.resize((root + 2) * detail::inner_floats + detail::block_floats);
     for (std::uint32_t block = 0; block < discs; block += detail::block_floats) {
       const std::uint32_t next = block + detail::block_floats;
-      put_discs(block, 1);
+      store_discs(block, 1);
       nodes[block + detail::block_names] =
           std::bit_cast<float>(next == discs ? detail::leaf_window + discs : next);
       nodes[block + detail::block_nodes] = std::bit_cast<float>(root);
     }
-    put_discs(discs, 2);
+    store_discs(discs, 2);
     nodes[root * detail::inner_floats + 2] = 1;
     nodes[root * detail::inner_floats + 3] = std::bit_cast<float>(detail::above_cut_disc + root);
   }
 
-  void put_discs(std::uint32_t at, std::uint32_t count) {
+  void store_discs(std::uint32_t at, std::uint32_t count) {
     std::fill(nodes.begin() + at + count, nodes.begin() + at + detail::block_width, infinity);
     std::fill_n(nodes.begin() + at + 2 * detail::block_width, count, 1.0f);
   }
@@ -146,9 +146,9 @@ struct Chain {
 };
 
 TEST(BakedContent, TreesAreNoDeeperThanStacks) {
-  for (std::uint32_t blocks = 1; blocks < 2 * detail::most_wide_levels; ++blocks) {
+  for (std::uint32_t blocks = 1; blocks < 2 * detail::max_wide_levels; ++blocks) {
     const Chain chain(blocks);
-    if (blocks < detail::most_wide_levels)
+    if (blocks < detail::max_wide_levels)
       EXPECT_NO_THROW(validate(chain.arrays())) << blocks;
     else
       EXPECT_THROW(validate(chain.arrays()), std::invalid_argument) << blocks;
@@ -165,8 +165,8 @@ void query(const ShapeSet& set, std::uint64_t seed) {
   std::vector<Pair> pairs = candidate_pairs(set, crowd.agents());
   for (std::uint32_t i = 1; i < 24; ++i) pairs.push_back({0, i});
   for (const Implementation& row : test::supported()) {
-    ask_all(set, crowd.agents(), pairs, row);
-    ask_all_of_a_dynamic_copy(set, crowd.agents(), pairs, row);
+    query_all(set, crowd.agents(), pairs, row);
+    query_all_of_a_dynamic_copy(set, crowd.agents(), pairs, row);
   }
 }
 

@@ -117,7 +117,7 @@ TEST_F(ImportBvh, FramesThatAreMissingAndPositionsThatWouldBeLostAreErrorsOfTheC
   });
 }
 
-// ---- What Collada says of keys and joints, and assimp does not hear.
+// ---- What Collada says of keys and joints, and assimp does not on_meeting.
 
 /// The curve of one property: times, values and kinds of keys, and tangents where there are any.
 struct Curve {

@@ -614,7 +614,7 @@ typedef struct bch_crowd_options {
   uint32_t size;      /**< sizeof(bch_crowd_options) */
   double period_x;    /**< length after which the ground repeats along x, metres; 0: never */
   double period_y;    /**< likewise along y */
-  uint64_t most_pairs; /**< more candidates than that are an error */
+  uint64_t max_pairs; /**< more candidates than that are an error */
 } bch_crowd_options;
 #define BCH_CROWD_OPTIONS_INIT \
   { sizeof(bch_crowd_options), 0, 0, UINT64_MAX }

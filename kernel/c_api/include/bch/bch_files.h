@@ -26,7 +26,7 @@ typedef struct bch_import_options {
   int32_t force_clips;           /**< not 0: also takes clips that belong to another skeleton */
   const char* const* clip_files; /**< paths of files whose clips follow those of the character's own file */
   size_t clip_file_count;
-  uint64_t most_triangles; /**< files of more are refused */
+  uint64_t max_triangles; /**< files of more are refused */
   double seconds;          /**< the longest time that reading may take */
   uint64_t memory;         /**< bytes that reading may take */
   bch_progress progress;   /**< or NULL; called with 0 of 0 parts, and can cancel */

@@ -10,7 +10,7 @@
 namespace bch::detail {
 
 /// Holds where a set that is being built ends: how many shapes and parts there are, and where the next one begins.
-struct BuilderEnd {
+struct BuilderMark {
   std::size_t shapes = 0;
   ShapeExtent extent{.rows = first_row};
 };
