@@ -3,6 +3,8 @@
 
 #pragma once
 
+#include <fmt/format.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <functional>
@@ -10,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "bench/base/did_you_mean.hpp"
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/output.hpp"
 
@@ -25,6 +28,18 @@ inline void require_values(const CLI::App& program) {
       if (value.empty()) throw UsageError(option->get_name() + ": the value is empty (--help tells more)");
 }
 
+/// Says which argument a program and the command that was named do not know, an option first, and which it may stand for.
+inline std::string unexpected(const CLI::App& program) {
+  const std::vector<std::string> words = program.remaining(true);
+  const auto option = std::find_if(words.begin(), words.end(),
+                                   [](const std::string& word) { return word.starts_with("--"); });
+  if (option == words.end()) return "expected no argument '" + words.front() + "'";
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands())
+    for (const CLI::Option* each : command->get_options()) names.push_back(each->get_name());
+  return "unknown option " + *option + did_you_mean(option->substr(0, option->find('=')), names);
+}
+
 /// Reads the command line, or writes the help or the version that it asks for.
 /// Returns: whether there is anything left to do.
 /// Errors:  throws UsageError.
@@ -37,6 +52,8 @@ inline bool parse_command_line(CLI::App& program, int argc, char** argv) {
     write_standard_output(std::string(version.what()) + "\n");
   } catch (const CLI::CallForHelp&) {
     write_standard_output(program.help() + "\n");
+  } catch (const CLI::ExtrasError&) {
+    throw UsageError(unexpected(program) + " (--help tells more)");
   } catch (const CLI::ParseError& error) {
     std::string line = error.what();
     while (line.ends_with('\n') || line.ends_with(' ')) line.pop_back();
@@ -62,11 +79,11 @@ inline void set_up(CLI::App& program, const std::string& version, const std::str
 /// Errors:  throws UsageError, and as the subcommand throws.
 inline int run_command(CLI::App& program, const std::vector<Command>& commands, int argc, char** argv) {
   const std::string word = argc > 1 ? argv[1] : "-";
-  std::string names;
-  for (const Command& command : commands) names += (names.empty() ? "" : ", ") + command.first;
-  const auto is_named = [&](const Command& command) { return command.first == word; };
-  if (word[0] != '-' && std::none_of(commands.begin(), commands.end(), is_named))
-    throw UsageError("no command '" + word + "' (" + names + ")");
+  std::vector<std::string> names;
+  for (const Command& command : commands) names.push_back(command.first);
+  if (word[0] != '-' && std::find(names.begin(), names.end(), word) == names.end())
+    throw UsageError(
+        fmt::format("no command '{}'{} ({})", word, did_you_mean(word, names), fmt::join(names, ", ")));
   if (!parse_command_line(program, argc, argv)) return exit_success;
   for (const auto& [name, run] : commands)
     if (program.got_subcommand(name)) run();

@@ -16,6 +16,7 @@
 #include <bch/poses.hpp>
 #include <bch/shapes.hpp>
 
+#include "bench/base/did_you_mean.hpp"
 #include "bench/base/exit_codes.hpp"
 #include "bench/characters/shape_table.hpp"
 
@@ -41,15 +42,19 @@ std::vector<ClipOf> find_clips(std::span<const std::string> names, std::span<con
   std::vector<ClipOf> found;
   for (const std::string& name : names) {
     bool is_there = false;
+    std::vector<std::string> known;
     for (std::uint32_t i = 0; i < characters.size(); ++i) {
       const std::vector<Clip>& clips = characters[i].character.clips;
       for (std::uint32_t clip = 0; clip < clips.size(); ++clip) {
+        known.push_back(clips[clip].name);
         if (name != "all" && name != clips[clip].name) continue;
         is_there = true;
         if (std::ranges::find(found, ClipOf{i, clip}) == found.end()) found.push_back({i, clip});
       }
     }
-    if (!is_there) throw InputError(fmt::format("{}: no character has a clip named '{}'", option, name));
+    if (!is_there)
+      throw InputError(
+          fmt::format("{}: no character has a clip named '{}'{}", option, name, did_you_mean(name, known)));
   }
   return found;
 }
