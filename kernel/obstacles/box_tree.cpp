@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "kernel/obstacles/box_tree_memory.hpp"
-
 namespace bch::detail {
 namespace {
 

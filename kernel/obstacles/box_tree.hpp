@@ -3,7 +3,12 @@
 
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <span>
+#include <vector>
+
+#include "layout/base/aligned_vector.hpp"
 
 namespace bch::detail {
 
@@ -28,9 +33,66 @@ struct Box {
   double low_x, low_y, high_x, high_y;
 };
 
+/// Represents a tree of boxes and its memory; it does not move.
+struct BoxTreeMemory {
+  explicit BoxTreeMemory(std::span<const Box> boxes);
+  BoxTreeMemory(const BoxTreeMemory&) = delete;
+
+  std::vector<std::uint32_t> order;  ///< the box of each place in the tree
+  AlignedVector<BoxBlock> blocks;
+  BoxTreeView view;
+};
+
 /// Represents a node of a tree, or one of its boxes, and the number of the query that asks about it.
 struct BoxHit {
   std::uint32_t query, place;
+};
+
+/// Searches a tree for what is near a point, nearest first, and keeps its memory from one search to the next.
+class NearestBoxes {
+ public:
+  /// Calls take(place) for the boxes that have a square distance from a point below a limit, which may sink; those of near blocks first.
+  template <class Take>
+  void visit(const BoxTreeView& tree, double x, double y, const double& limit, const Take& take) {
+    open_.clear();
+    if (tree.levels != 0) open_.push_back({0, tree.levels - 1, 0});
+    while (!open_.empty() && open_.front().square < limit) {
+      const auto [of_block, level, block] = open_.front();
+      std::pop_heap(open_.begin(), open_.end());
+      open_.pop_back();
+      const BoxBlock& boxes = tree.blocks[tree.level_begin[level] + block];
+      for (std::uint32_t i = 0; i < 8; ++i) {
+        const double square = square_distance(boxes, i, x, y);
+        if (!(square < limit)) continue;
+        const std::uint32_t below = 8 * block + i;
+        if (level == 0) {
+          take(below);
+          continue;
+        }
+        open_.push_back({square, level - 1, below});
+        std::push_heap(open_.begin(), open_.end());
+      }
+    }
+  }
+
+ private:
+  /// Represents a block whose box has this square distance from the point. Of equally near blocks the lowest comes first.
+  struct OpenBlock {
+    double square;
+    std::uint32_t level, block;
+    bool operator<(const OpenBlock& other) const noexcept {
+      return square != other.square ? square > other.square : level > other.level;
+    }
+  };
+
+  /// Returns the square of the distance of a point from a box of a block; infinity: of padding.
+  static double square_distance(const BoxBlock& block, std::uint32_t i, double x, double y) noexcept {
+    const double dx = std::max(std::max(block.low_x[i] - x, x - block.high_x[i]), 0.0),
+                 dy = std::max(std::max(block.low_y[i] - y, y - block.high_y[i]), 0.0);
+    return dx * dx + dy * dy;
+  }
+
+  std::vector<OpenBlock> open_;  ///< a heap: the nearest first
 };
 
 }  // namespace bch::detail

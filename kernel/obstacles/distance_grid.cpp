@@ -8,9 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <vector>
 
-#include "kernel/obstacles/distance_grid_memory.hpp"
+#include "kernel/obstacles/segment.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 
 namespace bch::detail {
@@ -22,24 +21,24 @@ constexpr double cells_per_segment = 4, least_cells = 256;
 /// Cells are measured by squares of so many a side, because their nearest segments are few and soon found together.
 constexpr std::size_t cells_together = 4;
 
-/// Finds the segments one of which is the nearest one of any point in a disc, by the tree of their boxes.
+/// Finds the segments one of which is the nearest one of any point in a disc.
 class NearestSegments {
  public:
-  NearestSegments(const BoxTreeView& tree, const std::vector<WorldSegment>& segments) noexcept
+  NearestSegments(const BoxTreeView& tree, std::span<const WorldSegment> segments) noexcept
       : tree_(tree), segments_(segments) {}
 
   /// Looks about a disc. Returns: whether it was done; segments that cross each other all over take too long.
   bool look(double x, double y, double radius) {
-    x_ = x, y_ = y, twice_radius_ = 2 * radius, blocks_ = 0;
+    constexpr std::size_t too_many = 200;
     found_.clear();
-    nearest_ = first_bound();
-    search_into(tree_.levels - 1, 0);
-    if (is_too_much()) return false;
-    const auto last = std::remove_if(found_.begin(), found_.end(), [this](std::uint32_t slot) {
-      return !is_near(segments_[slot].square_distance(x_, y_));
+    double limit = beyond_all;
+    boxes_.visit(tree_, x, y, limit, [&](std::uint32_t slot) {
+      found_.push_back(slot);
+      // The nearest one of a point in the disc is at most twice the radius farther from the centre than the nearest one there.
+      const double most = std::sqrt(segments_[slot].square_distance(x, y)) + 2 * radius;
+      limit = found_.size() > too_many ? 0 : std::min(limit, most * most);
     });
-    found_.erase(last, found_.end());
-    return true;
+    return found_.size() <= too_many;
   }
 
   double distance(double x, double y) const noexcept {
@@ -49,62 +48,9 @@ class NearestSegments {
   }
 
  private:
-  bool is_too_much() const noexcept { return blocks_ > 100 || found_.size() > 200; }
-
-  /// The nearest one of a point in the disc is at most twice the radius farther from the centre than the nearest one there.
-  bool is_near(double square) const noexcept {
-    const double most = nearest_ + twice_radius_;
-    return square <= most * most;
-  }
-
-  /// The squares of the distances of a block's boxes from the centre.
-  struct Squares {
-    double of[8];
-  };
-  Squares squares(std::uint32_t level, std::uint32_t block) const noexcept {
-    const BoxBlock& boxes = tree_.blocks[tree_.level_begin[level] + block];
-    Squares square;
-    for (unsigned i = 0; i < 8; ++i) {
-      const double dx = std::max(std::max(boxes.low_x[i] - x_, x_ - boxes.high_x[i]), 0.0),
-                   dy = std::max(std::max(boxes.low_y[i] - y_, y_ - boxes.high_y[i]), 0.0);
-      square.of[i] = dx * dx + dy * dy;
-    }
-    return square;
-  }
-
-  /// Returns the distance of one that is probably near: down the tree, the nearest box of each block.
-  double first_bound() const noexcept {
-    std::uint32_t place = 0;
-    for (std::uint32_t level = tree_.levels; level-- > 0;) {
-      const Squares square = squares(level, place);
-      place = 8 * place + static_cast<std::uint32_t>(std::min_element(square.of, square.of + 8) - square.of);
-    }
-    return std::sqrt(segments_[place].square_distance(x_, y_));
-  }
-
-  void search_into(std::uint32_t level, std::uint32_t block) {
-    ++blocks_;
-    const Squares square = squares(level, block);
-    for (unsigned i = 0; i < 8 && !is_too_much(); ++i) {
-      if (!is_near(square.of[i])) continue;
-      if (level > 0)
-        search_into(level - 1, 8 * block + i);
-      else
-        take(8 * block + i);
-    }
-  }
-
-  void take(std::uint32_t slot) {
-    const double square = segments_[slot].square_distance(x_, y_);
-    if (!is_near(square)) return;
-    found_.push_back(slot);
-    nearest_ = std::min(nearest_, std::sqrt(square));
-  }
-
   const BoxTreeView& tree_;
-  const std::vector<WorldSegment>& segments_;
-  double x_ = 0, y_ = 0, twice_radius_ = 0, nearest_ = 0;
-  std::uint32_t blocks_ = 0;
+  std::span<const WorldSegment> segments_;
+  NearestBoxes boxes_;
   std::vector<std::uint32_t> found_;
 };
 
@@ -135,7 +81,7 @@ void measure_rows(const DistanceGridView& view, std::uint8_t* steps, std::size_t
 
 }  // namespace
 
-DistanceGridMemory::DistanceGridMemory(const BoxTreeView& tree, const std::vector<WorldSegment>& segments) {
+DistanceGridMemory::DistanceGridMemory(const BoxTreeView& tree, std::span<const WorldSegment> segments) {
   if (segments.empty()) {
     steps.assign(1, DistanceGridView::far);
     view = {0, 0, huge, 1 / huge, huge, 0, 0, 1, steps.data(), 0};

@@ -5,8 +5,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 namespace bch::detail {
+
+struct BoxTreeView;
+struct WorldSegment;
 
 /// Says how far a point is from the nearest segment at least, and at most where that can be told, metres. (A search that finds nothing
 /// looks farther.)
@@ -26,7 +31,7 @@ struct DistanceGridView {
   double step;             ///< metres
   double last_column, last_row;
   std::size_t columns;
-  const std::uint8_t* steps;  ///< by row and column, rounded down; 0 where too many boxes overlap to tell
+  const std::uint8_t* steps;  ///< by row and column, rounded down; 0 where too many are near to tell
   double rounding;  ///< metres: more than the largest coordinates lose in a bound, and segments have slack
 
   /// Returns bounds of the distance of a point, whose coordinates are finite, from the nearest segment.
@@ -51,6 +56,16 @@ struct DistanceGridView {
     const double half_more = v + 0.5;
     return static_cast<double>(static_cast<std::int64_t>(half_more));
   }
+};
+
+/// Represents a grid of distances and its memory; it does not move.
+struct DistanceGridMemory {
+  /// Measures the grid of segments, which are in the order of the tree of their boxes.
+  DistanceGridMemory(const BoxTreeView& tree, std::span<const WorldSegment> segments);
+  DistanceGridMemory(const DistanceGridMemory&) = delete;
+
+  std::vector<std::uint8_t> steps;
+  DistanceGridView view;
 };
 
 }  // namespace bch::detail

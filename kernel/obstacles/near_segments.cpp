@@ -39,13 +39,6 @@ bool is_near(const ObstaclePlace& place, Vec2 centre, double distance, const Wor
   return to.touches(double{centre.x}, double{centre.y}, distance);
 }
 
-/// Returns the square of the distance of a point from a box of a block; infinity: of padding.
-double square_distance(const BoxBlock& block, unsigned i, Vector from) noexcept {
-  const double dx = std::max(std::max(block.low_x[i] - from.x, from.x - block.high_x[i]), 0.0),
-               dy = std::max(std::max(block.low_y[i] - from.y, from.y - block.high_y[i]), 0.0);
-  return dx * dx + dy * dy;
-}
-
 /// Returns how far boxes of segments may be that are within a distance: it is enlarged by what is rounded, and by what slack adds.
 double distance_of_boxes(const ObstaclePlace& place, double distance) noexcept {
   return distance * (1 + 8 * slack_share) + rounding_of(place);
@@ -137,26 +130,9 @@ std::span<LocalSegment> NearSegments::find_on_way(const ObstaclePlace& place, Ve
 
 template <class Take>
 void NearSegments::visit_near(Vector from, const double& limit, const Take& take) {
-  const BoxTreeView& tree = obstacles_.segment_tree;
-  open_.clear();
-  if (tree.levels != 0) open_.push_back({0, tree.levels - 1, 0});
-  while (!open_.empty() && open_.front().square < limit) {
-    const auto [of_block, level, block] = open_.front();
-    std::pop_heap(open_.begin(), open_.end());
-    open_.pop_back();
-    const BoxBlock& boxes = tree.blocks[tree.level_begin[level] + block];
-    for (std::uint32_t i = 0; i < 8; ++i) {
-      const double square = square_distance(boxes, i, from);
-      if (!(square < limit)) continue;
-      const std::uint32_t below = 8 * block + i;
-      if (level > 0) {
-        open_.push_back({square, level - 1, below});
-        std::push_heap(open_.begin(), open_.end());
-      } else if (body_.empty() || is_level(obstacles_.segments[below].obstacle, body_.front())) {
-        take(below);
-      }
-    }
-  }
+  nearest_boxes_.visit(obstacles_.segment_tree, from.x, from.y, limit, [&](std::uint32_t slot) {
+    if (body_.empty() || is_level(obstacles_.segments[slot].obstacle, body_.front())) take(slot);
+  });
 }
 
 double NearSegments::nearest_distance(const ObstaclePlace& place, Vec2 centre) {

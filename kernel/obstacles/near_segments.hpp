@@ -119,13 +119,6 @@ class NearSegments {
   /// Calls take(slot) for segments whose boxes have a square distance from a point below a limit, which may sink; those of near blocks first.
   template <class Take>
   void visit_near(ObstaclePlace::Vector from, const double& limit, const Take& take);
-  /// Represents a block of the tree whose box has this square distance from a point.
-  struct OpenBlock {
-    double square;
-    std::uint32_t level, block;
-    bool operator<(const OpenBlock& other) const noexcept { return square > other.square; }
-  };
-
   /// Represents a point that was asked about: the agent's position, and the way from there.
   struct QueryName {
     double x, y, way_x, way_y;
@@ -139,7 +132,7 @@ class NearSegments {
   std::optional<QueryName> asked_;  ///< what areas_ hold
   std::vector<Box> boxes_;
   std::vector<BoxHit> hits_, next_;
-  std::vector<OpenBlock> open_;                  ///< a heap: the nearest first
+  NearestBoxes nearest_boxes_;
   std::vector<LocalSegment> memory_, prepared_;  ///< of find() and of prepare()
   std::vector<std::uint32_t> prepared_end_;      ///< where those of the queries before one end
   std::span<LocalSegment> found_;

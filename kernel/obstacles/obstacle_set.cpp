@@ -10,8 +10,6 @@
 
 #include <bch/obstacles.hpp>
 
-#include "kernel/obstacles/box_tree_memory.hpp"
-#include "kernel/obstacles/distance_grid_memory.hpp"
 #include "kernel/obstacles/segment.hpp"
 #include "layout/base/floating_point_state.hpp"
 #include "layout/base/rounding.hpp"
