@@ -57,17 +57,17 @@ bool leaf_is_held(const ShapeSetView& shapes, const ShapeTree<void>& own, std::u
 
 void BodyQuery::prepare(std::uint32_t begin, std::uint32_t end, double limit, Look look) {
   choose(begin, end, limit, look);
-  queries_.clear(), bodies_.clear(), standing_.clear();
+  queries_.clear(), bodies_.clear();
   const bool by_height = near_.obstacles().heights != nullptr && shapes_.heights != nullptr;
   for (std::size_t i = 0; i < chosen_count_; ++i) {
     const auto [agent, looked] = chosen_[i];
     const ObstaclePlace place{agents_.x[agent], agents_.y[agent], rotation(agents_.heading[agent])};
     const std::uint32_t shape = agents_.shape[agent];
     bodies_.push_back({shapes_, place, shape, level_of(agent), looked, i});
-    queries_.push_back({place, bodies_.back().centre(), bodies_.back().outer_radius() + looked});
-    if (by_height) standing_.push_back({heights(shape, limit), agents_.z.empty() ? 0 : agents_.z[agent]});
+    queries_.push_back({place, bodies_.back().centre(), bodies_.back().outer_radius() + looked, {}});
+    if (by_height) queries_.back().body = {heights(shape, limit), agents_.z.empty() ? 0 : agents_.z[agent]};
   }
-  near_.prepare(queries_, standing_);
+  near_.prepare(queries_);
 }
 
 Heights BodyQuery::heights(std::uint32_t shape, double limit) const noexcept {

@@ -125,8 +125,7 @@ class BodyQuery {
   };
   std::vector<Chosen> chosen_;
   std::size_t chosen_count_ = 0;
-  std::vector<NearQuery> queries_;      ///< by body
-  std::vector<StandingBody> standing_;  ///< the same, where obstacles and bodies have heights
+  std::vector<NearQuery> queries_;  ///< by body
   std::vector<PlacedBody> bodies_;
   std::vector<std::size_t> place_;  ///< by agent, among these, and one past the last
   std::uint32_t begin_ = 0;         ///< the first agent that was prepared

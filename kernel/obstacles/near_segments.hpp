@@ -44,17 +44,18 @@ inline ObstaclePlace::Vector to_nearest_point(const LocalSegment& segment, doubl
   return {forward * segment.x - aside * segment.y, forward * segment.y + aside * segment.x};
 }
 
+/// Represents the heights of an agent, and the ground that the agent stands on, metres.
+struct StandingBody {
+  Heights heights = {-__builtin_inff(), __builtin_inff()};
+  double ground = 0;
+};
+
 /// Represents a disc that is asked about, of an agent's frame.
 struct NearQuery {
   ObstaclePlace place;
   Vec2 centre;
   double distance;
-};
-
-/// Represents the heights of an agent, and the ground that the agent stands on, metres.
-struct StandingBody {
-  Heights heights;
-  double ground;
+  StandingBody body;
 };
 
 /// Finds the segments and areas of obstacles that are near a disc, and keeps its memory from one to the next.
@@ -65,9 +66,8 @@ class NearSegments {
 
   const ObstacleView& obstacles() const noexcept { return obstacles_; }
 
-  /// Finds the segments within each of many discs, for take(). `bodies` has the body that each query is about, where heights count; it must
-  /// outlive the queries. Empty: obstacles of all heights are near.
-  void prepare(std::span<const NearQuery> queries, std::span<const StandingBody> bodies);
+  /// Finds the segments within each of many discs, for take(). The queries must outlive that.
+  void prepare(std::span<const NearQuery> queries);
   /// Returns what find() finds for one of the queries of prepare(). From here on, obstacles that are above or below its body are left out.
   std::span<LocalSegment> take(std::size_t query);
 
@@ -82,9 +82,16 @@ class NearSegments {
   /// Returns a distance from a point of the agent's frame within which find() finds the nearest segment, and hardly any other; infinity:
   /// there is none.
   double nearest_distance(const ObstaclePlace& place, Vec2 centre);
-  /// Returns one within which it finds the nearest segment with a length of each of some areas, which ascend; of those that have such
-  /// segments. One search serves all areas, however many there are.
-  double nearest_distance(const ObstaclePlace& place, Vec2 centre, std::span<const std::uint32_t> areas);
+  /// Calls take(segment) for all segments that are nearer to a point of the agent's frame than `limit` says, which may sink, and for few
+  /// others. Those of near boxes come first. `limit` is what limit_of() makes of a distance, or infinity.
+  template <class Take>
+  void visit_near(const ObstaclePlace& place, Vec2 point, const double& limit, const Take& take) {
+    const auto [x, y] = in_world(place, point);
+    nearest_boxes_.visit(obstacles_.segment_tree, x, y, limit, [&](std::uint32_t slot) {
+      if (is_level(obstacles_.segments[slot].obstacle, body_)) take(placed(place, slot));
+    });
+  }
+  static double limit_of(const ObstaclePlace& place, double distance) noexcept;
 
   /// Calls visit(segments) for every obstacle of those that were found, until it returns true. Returns: whether it did.
   template <class Visit>
@@ -107,18 +114,21 @@ class NearSegments {
   /// Finds those that overlap one box.
   std::span<const std::uint32_t> query(const BoxTreeView& tree, const Box& box,
                                        std::vector<std::uint32_t>& slots);
-  /// Leaves out segments of obstacles that are above or below the query's body. Returns: how many of hits_ are left.
-  std::uint32_t keep_level(std::uint32_t size, std::span<const StandingBody> bodies) noexcept;
+  static ObstaclePlace::Vector in_world(const ObstaclePlace& place, Vec2 point) noexcept {
+    const auto [x, y] = place.turned(double{point.x}, double{point.y});
+    return {place.x + x, place.y + y};
+  }
+  /// Returns whether a body is neither above nor below an obstacle.
   bool is_level(std::uint32_t obstacle, const StandingBody& body) const noexcept {
+    if (obstacles_.heights == nullptr) return true;
     const auto [bottom, top] = obstacles_.heights[obstacle];
     return heights_meet(bottom, top, body.heights, body.ground);
   }
+  /// Returns the segment in a slot, in the frame of an agent.
+  LocalSegment placed(const ObstaclePlace& place, std::uint32_t slot) const noexcept;
   /// Sorts the segments that were found by their numbers.
   std::span<LocalSegment> sorted(std::span<LocalSegment> segments);
 
-  /// Calls take(slot) for segments whose boxes have a square distance from a point below a limit, which may sink; those of near blocks first.
-  template <class Take>
-  void visit_near(ObstaclePlace::Vector from, const double& limit, const Take& take);
   /// Represents a point that was asked about: the agent's position, and the way from there.
   struct QueryName {
     double x, y, way_x, way_y;
@@ -128,7 +138,6 @@ class NearSegments {
   const Implementation& implementation_;
   const ObstacleView& obstacles_;
   std::vector<std::uint32_t> slots_, about_, areas_;
-  std::vector<double> squares_;     ///< by area
   std::optional<QueryName> asked_;  ///< what areas_ hold
   std::vector<Box> boxes_;
   std::vector<BoxHit> hits_, next_;
@@ -136,8 +145,8 @@ class NearSegments {
   std::vector<LocalSegment> memory_, prepared_;  ///< of find() and of prepare()
   std::vector<std::uint32_t> prepared_end_;      ///< where those of the queries before one end
   std::span<LocalSegment> found_;
-  std::span<const StandingBody> bodies_;  ///< of prepare()
-  std::span<const StandingBody> body_;    ///< that of the query that was taken; empty: heights do not count
+  std::span<const NearQuery> queries_;  ///< of prepare()
+  StandingBody body_;                   ///< that of the query that was taken
 };
 
 /// Returns whether the way from one point to another crosses a segment, all in one frame. A vertex on the line of the way belongs to one side of it, for both of

@@ -112,25 +112,35 @@ WaysOut::Range WaysOut::beside_touched(const LocalSegment& segment) const {
   return {-hull_.most([&](EndsHull::Point end) { return -along(end); }), hull_.most(along)};
 }
 
-/// An area has no nearest segment where a set has numbers that are no lengths.
+/// An area has no nearest segment where a set has numbers that are no lengths. One search serves all areas, however many there are.
 WayOut WaysOut::longest_out_of(std::span<const std::uint32_t> areas) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
   struct Nearest {
-    const LocalSegment* segment = nullptr;
-    double square = std::numeric_limits<double>::infinity();
+    LocalSegment segment = {};
+    double square = infinity;
   };
   std::vector<Nearest> nearest(areas.size());
   const Vec2 centre = body_.centre();
-  const double distance = query_.near().nearest_distance(body_.place, centre, areas);
-  for (const LocalSegment& segment : query_.near().find(body_.place, centre, distance)) {
+  std::size_t missing = areas.size();
+  double limit = infinity;
+  query_.near().visit_near(body_.place, centre, limit, [&](const LocalSegment& segment) {
     const auto area = std::lower_bound(areas.begin(), areas.end(), segment.obstacle);
-    if (area == areas.end() || *area != segment.obstacle || !(in_world(segment).length > 0)) continue;
-    const double square = segment.square_distance(double{centre.x}, double{centre.y});
+    if (area == areas.end() || *area != segment.obstacle || !(in_world(segment).length > 0)) return;
     Nearest& of_area = nearest[static_cast<std::size_t>(area - areas.begin())];
-    if (square < of_area.square) of_area = {&segment, square};
-  }
+    const double square = segment.square_distance(double{centre.x}, double{centre.y});
+    const bool is_first = of_area.square == infinity;
+    if (square < of_area.square || (square == of_area.square && segment.number < of_area.segment.number))
+      of_area = {segment, square};
+    missing -= is_first;
+    // With many areas the limit is set once: it is near enough then, and looking for the largest number takes time.
+    if (missing != 0 || (!is_first && areas.size() > 1)) return;
+    double most = 0;
+    for (const Nearest& of : nearest) most = std::max(most, of.square);
+    limit = NearSegments::limit_of(body_.place, std::sqrt(most));
+  });
   WayOut longest;
   for (const auto& [segment, square] : nearest)
-    if (segment != nullptr) keep_longer(longest, over(*segment, {}));
+    if (square < infinity) keep_longer(longest, over(segment, {}));
   return longest;
 }
 
