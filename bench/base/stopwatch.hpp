@@ -5,9 +5,20 @@
 
 #include <time.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 namespace bch::bench {
+
+/// Returns the median; of an even number of values, the greater of the two in the middle.
+/// Precondition: not empty.
+inline double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
 
 /// Measures nanoseconds since its construction.
 class Stopwatch {

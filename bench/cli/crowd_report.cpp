@@ -5,15 +5,14 @@
 
 #include <fmt/format.h>
 #include <algorithm>
-#include <chrono>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <tuple>
 
 #include <bch/crowd.hpp>
 
-#include "bench/base/median.hpp"
 #include "bench/base/progress.hpp"
+#include "bench/base/stopwatch.hpp"
 #include "bench/base/text.hpp"
 #include "bench/cli/inspection.hpp"
 #include "kernel/runtime/all_options.hpp"
@@ -28,18 +27,18 @@ constexpr double enough_seconds = 0.5;  ///< for one level, once there were leas
 /// Runs the batch until the time is known, the first time unmeasured.
 void answer_level(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs,
                   const detail::AllOptions& options, LevelAnswers& level) {
-  using Clock = std::chrono::steady_clock;
   collide(set, agents, pairs, level.hits, options);
   std::vector<double> seconds;
   double total = 0;
   while (seconds.size() < least_runs || (seconds.size() < max_runs && total < enough_seconds)) {
-    const auto begin = Clock::now();
+    const bench::Stopwatch watch(0);
     collide(set, agents, pairs, level.hits, options);
-    seconds.push_back(std::chrono::duration<double>(Clock::now() - begin).count());
+    seconds.push_back(watch.nanoseconds() / 1e9);
     total += seconds.back();
   }
   level.runs = static_cast<std::uint32_t>(seconds.size());
-  if (!pairs.empty()) level.nanoseconds_per_pair = 1e9 * median(seconds) / static_cast<double>(pairs.size());
+  if (!pairs.empty())
+    level.nanoseconds_per_pair = 1e9 * bench::median(seconds) / static_cast<double>(pairs.size());
 }
 
 double mean_discs(const ShapeSet& set, std::uint32_t level) {

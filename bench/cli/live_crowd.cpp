@@ -14,7 +14,6 @@
 
 #include <bch/crowd.hpp>
 
-#include "bench/base/median.hpp"
 #include "bench/base/options.hpp"
 #include "bench/base/output.hpp"
 #include "bench/base/progress.hpp"
@@ -177,7 +176,7 @@ std::vector<double> FrameTimes::whole() const {
 std::string text_report(const LiveRun& run) {
   std::string table = fmt::format("{:<12}{:>9} {:>9}\n", "ms a frame", "median", "least");
   for (const TimeRow& row : rows_of(run.times))
-    table += fmt::format("{:<12}{:>9.2f} {:>9.2f}\n", row.name, median(row.milliseconds), row.least());
+    table += fmt::format("{:<12}{:>9.2f} {:>9.2f}\n", row.name, bench::median(row.milliseconds), row.least());
   return fact("characters", names_of(run.characters)) +
          fact("bodies", fmt::format("{} each, {:.1f} kB each", counted(run.options.spheres, "sphere"),
                                     bytes_per_body(run) / 1e3)) +
@@ -207,7 +206,7 @@ nlohmann::ordered_json json_report(const LiveRun& run) {
                               {"collisions", run.collisions.size()},
                               {"checked_pairs", run.checked}};
   for (const TimeRow& row : rows_of(run.times))
-    json["milliseconds"][row.name] = {{"median", median(row.milliseconds)}, {"least", row.least()}};
+    json["milliseconds"][row.name] = {{"median", bench::median(row.milliseconds)}, {"least", row.least()}};
   return json;
 }
 

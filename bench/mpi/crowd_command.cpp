@@ -16,9 +16,9 @@
 #include <bch/files.hpp>
 
 #include "bench/base/exit_codes.hpp"
-#include "bench/base/median.hpp"
 #include "bench/base/options.hpp"
 #include "bench/base/output.hpp"
+#include "bench/base/stopwatch.hpp"
 #include "bench/mpi/crowd.hpp"
 #include "kernel/distributed/agreement.hpp"
 #include "layout/base/random.hpp"
@@ -133,7 +133,7 @@ CrowdReport report_of(Walk& walk, MPI_Comm comm, std::uint32_t steps, double bef
   here.memory_bytes = occupied_bytes() - before;
   MPI_Allreduce(MPI_IN_PLACE, &report.collisions, 1, MPI_DOUBLE, MPI_SUM, comm);
   MPI_Allreduce(MPI_IN_PLACE, &report.digest, 1, MPI_UINT64_T, MPI_SUM, comm);
-  report.step_seconds = median(seconds);
+  report.step_seconds = bench::median(seconds);
   report.cuts = walk.counters().cuts;
   report.ranks = gather(comm, here);
   return report;

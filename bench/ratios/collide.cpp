@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "bench/ratios/ratios.hpp"
-#include "bench/workload/answer_checks.hpp"
+#include "bench/workload/scene.hpp"
 #include "kernel/runtime/all_options.hpp"
 
 namespace bch::bench {

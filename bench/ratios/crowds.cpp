@@ -14,7 +14,7 @@
 #include <bch/crowd.hpp>
 
 #include "bench/ratios/ratios.hpp"
-#include "bench/workload/answer_checks.hpp"
+#include "bench/workload/scene.hpp"
 #include "layout/base/random.hpp"
 #include "layout/hierarchy/builder.hpp"
 #include "layout/hierarchy/paper_hierarchies.hpp"

@@ -9,7 +9,6 @@
 #include <type_traits>
 #include <vector>
 
-#include "bench/workload/answer_checks.hpp"
 #include "bench/workload/scene.hpp"
 #include "kernel/runtime/all_options.hpp"
 

@@ -17,7 +17,7 @@
 
 #include "bench/characters/baking.hpp"
 #include "bench/ratios/ratios.hpp"
-#include "bench/workload/answer_checks.hpp"
+#include "bench/workload/scene.hpp"
 #include "kernel/runtime/all_options.hpp"
 
 namespace bch::bench {

@@ -5,11 +5,10 @@
 #include <bch/scene_plan.hpp>
 #include <bch/shapes.hpp>
 
-#include "bench/base/median.hpp"
 #include "bench/base/stopwatch.hpp"
 #include "bench/report/subjects.hpp"
-#include "bench/workload/answer_checks.hpp"
 #include "bench/workload/build_stages.hpp"
+#include "bench/workload/scene.hpp"
 #include "kernel/runtime/all_options.hpp"
 #include "layout/enclosing_disc/enclosing_disc.hpp"
 #include "layout/hierarchy/paper_hierarchies.hpp"
@@ -39,7 +38,7 @@ void time_each(Table& table, std::string_view structure, std::size_t poses, Buil
       build(pose);
       taken.push_back(watch.nanoseconds() / 1000);
     }
-    table.add({structure, pose, cli::median(taken)});
+    table.add({structure, pose, bench::median(taken)});
   }
 }
 

@@ -3,8 +3,8 @@
 
 #include <deque>
 
-#include "bench/report/body_subjects.hpp"
-#include "bench/workload/answer_checks.hpp"
+#include "bench/report/subjects.hpp"
+#include "bench/workload/scene.hpp"
 
 // What does each microsecond buy? Every structure and depth as a point.
 
@@ -78,6 +78,24 @@ void run_error_time(Run& run) {
   const SlideCases cases(run.scene.shapes(), run.sizes().cases, run.seed());
   tables.slide(cases, *baselines::fcl_mesh_distances(run.scene.bodies()));
   tables.write("error_time");
+}
+
+/// How near people come until a structure says that they collide: figure 6, left, of the paper.
+void run_distance(Run& run) {
+  const auto& shapes = run.scene.shapes();
+  const SlideCases cases(shapes, run.sizes().cases, run.seed());
+  // The hierarchies that the kernel takes are slid in one query, others step by step.
+  const ShapeSet leaves(shapes), roots(shapes, {{0}});
+  std::vector<Subject> subjects = {subject_of("single cylinder", roots), subject_of("BCH outline", leaves),
+                                   subject_of(exact_leaves_name, leaves, {})};
+  Structures structures(run.scene);
+  for (const std::string_view name :
+       {"BCH outline by centre", "BCH projected", "OBB outline", "OBB projected", "OBB full mesh"})
+    subjects.push_back(subject_of(name, structures.of(name)));
+  SubjectTables tables(run);
+  tables.add(subjects);
+  tables.slide(cases, *baselines::fcl_mesh_distances(run.scene.bodies()));
+  tables.write("distance");
 }
 
 }  // namespace bch::report

@@ -8,8 +8,8 @@
 
 #include "bench/base/stopwatch.hpp"
 #include "bench/report/subjects.hpp"
-#include "bench/workload/answer_checks.hpp"
-#include "bench/workload/mesh_detail.hpp"
+#include "bench/workload/scene.hpp"
+#include "bench/workload/workload.hpp"
 #include "layout/character/skinning.hpp"
 
 // What a limit of the depth (figure 6, right, of the paper) and the detail of a mesh cost and give.

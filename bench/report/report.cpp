@@ -14,7 +14,7 @@
 #include "bch_commit.hpp"
 #include "bench/base/output.hpp"
 #include "bench/base/progress.hpp"
-#include "bench/workload/answer_checks.hpp"
+#include "bench/workload/scene.hpp"
 
 namespace bch::report {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "bench/report/slide.hpp"
+#include "bench/report/subjects.hpp"
 
 #include <oneapi/tbb/parallel_for.h>
 

@@ -11,7 +11,7 @@
 #include "baselines/obb_tree.hpp"
 #include "bench/base/stopwatch.hpp"
 #include "bench/base/text.hpp"
-#include "bench/workload/answer_checks.hpp"
+#include "bench/workload/scene.hpp"
 
 namespace bch::report {
 namespace {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
@@ -12,18 +13,55 @@
 #include <string_view>
 #include <vector>
 
+#include <bch/bodies.hpp>
 #include <bch/pairs.hpp>
+#include <bch/shapes.hpp>
 
 #include "baselines/pair_distances.hpp"
+#include "baselines/ragdoll.hpp"
 #include "baselines/structure.hpp"
+#include "bench/characters/crowd.hpp"
 #include "bench/report/report.hpp"
-#include "bench/report/slide.hpp"
 #include "kernel/runtime/all_options.hpp"
+#include "layout/base/random.hpp"
 #include "layout/hierarchy/paper_hierarchies.hpp"
 
 // What experiments compare: structures, cuts and sets that answer the same pairs.
 
 namespace bch::report {
+
+/// Answers the pairs of agents.
+using Answer =
+    std::function<void(const Agents& agents, std::span<const Pair> pairs, std::span<std::uint8_t> hits)>;
+
+/// Represents the cases of the paper's experiment on errors. In each case, two people stand apart, turned at
+/// random. The first one slides along the x axis past the second, on a line up to half a metre beside the
+/// other, until a collision is detected; then the distance between the two meshes is measured. A case is
+/// drawn again where the leaf discs over the outlines do not meet on the way, so that in every case the two
+/// collide.
+class SlideCases {
+ public:
+  /// Draws the cases, which are the same for the same shapes and seed everywhere.
+  SlideCases(std::span<const Shape> shapes, std::uint32_t cases, std::uint64_t seed);
+
+  std::size_t size() const { return from_.size(); }
+  Agents agents() const { return crowd_.agents(); }
+
+  /// Returns where on the x axis the first person is when a collision is detected, metres: one place a case,
+  /// NaN where there is none. The answer is asked for at every millimetre, and that interval is then bisected to a
+  /// micrometre. Runs on all threads.
+  std::vector<double> contacts(const Answer& answer) const;
+
+  /// Returns how far the bodies are from each other at such places, centimetres; 0 where they meet, NaN as
+  /// above.
+  std::vector<double> distances(const baselines::PairDistances& bodies, std::span<const double> places) const;
+
+ private:
+  void draw(detail::Random& random, std::size_t of);
+
+  cli::Crowd crowd_;          ///< agents 2 i and 2 i + 1 are case i
+  std::vector<double> from_;  ///< where even boxes about boxes do not meet yet
+};
 
 constexpr std::string_view kernel_name = "BCH outline in the batch kernel";
 /// The name of the batch kernel with exact leaves.
@@ -132,6 +170,43 @@ class Structures {
   bench::Scene& scene_;
   std::vector<baselines::Body> centre_bodies_;
   std::map<std::string, std::unique_ptr<baselines::Structure>, std::less<>> made_;
+};
+
+/// Makes the shape of a number anew, from the transforms of joints to what can be asked.
+using MakePose = std::function<void(std::size_t shape)>;
+
+/// Represents a kind of bodies that is asked, and posed where that is timed.
+struct BodySubject {
+  Subject subject;
+  MakePose pose;  ///< or none
+  bool knows_heights = true;
+};
+
+/// Makes bodies of all shapes of a scene, and owns them.
+class BodySubjects {
+ public:
+  explicit BodySubjects(bench::Scene& scene);
+
+  /// Adds outlines with exact leaves.
+  void add_outlines();
+  /// Adds ragdolls of 15 and 32 capsules, each thin, holding all vertices in the poses of the fit, and halfway between; and 64 to 512
+  /// spheres.
+  void add_ragdolls_and_spheres(std::uint32_t max_spheres);
+  /// Adds the meshes themselves.
+  void add_meshes();
+
+  const std::vector<BodySubject>& all() const { return all_; }
+
+ private:
+  void add_ragdolls(std::uint32_t capsules);
+  void add_spheres(std::uint32_t spheres);
+
+  bench::Scene& scene_;
+  std::vector<std::vector<Affine3d>> joints_;  ///< one a shape, as of WorldPose
+  std::deque<ShapeSet> sets_;
+  std::deque<BodySet> bodies_;
+  std::deque<std::unique_ptr<baselines::Structure>> structures_;
+  std::vector<BodySubject> all_;
 };
 
 /// Returns the bodies with hierarchies of another kind.

@@ -9,7 +9,7 @@
 #include <limits>
 #include <numbers>
 
-#include "bench/stability/setup.hpp"
+#include "bench/stability/trial.hpp"
 
 namespace bch::bench {
 namespace {

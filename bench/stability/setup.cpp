@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "bench/stability/setup.hpp"
+#include "bench/stability/trial.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -10,6 +10,7 @@
 #include <bch/shapes.hpp>
 
 #include "baselines/exact_discs.hpp"
+#include "bench/stability/stability.hpp"
 #include "layout/base/random.hpp"
 
 namespace bch::bench {
@@ -85,5 +86,39 @@ class Trial {
  private:
   baselines::ExactCut cut_a_, cut_b_;  ///< in the world's axes about their agents
 };
+
+enum class Placing {
+  contact,     ///< half of the pairs with discs, half with outlines near contact
+  coincident,  ///< one shape twice, at one place or some bits beside it
+  stacked,     ///< one above the other
+  apart,       ///< as far as the setup says
+};
+
+/// Selects how the pairs of a row are made.
+struct StabilitySetup {
+  std::string value;
+  double conditioning = 0;
+  bool outside = false;    ///< of the documented domain
+  std::uint32_t cost = 1;  ///< only one in so many pairs is tried, at least 20
+  std::function<std::vector<Specimen>(detail::Random&)> make = [](detail::Random& random) {
+    return usual_specimens(random, 1);
+  };
+  /// Makes the shapes of the second agent; null: as of the first.
+  std::function<std::vector<Specimen>(detail::Random&)> make_other = nullptr;
+  ShapeSetPlan plan = {};
+  Placing placing = Placing::contact;
+  double x = 0, y = 0, z = 0;       ///< of the first agent
+  double apart_x = 0, apart_y = 0;  ///< the second agent's position from there, where they are apart
+  std::function<double(detail::Random&)> heading = nullptr;  ///< null: all directions
+  /// Draws a gap from the sum of two radii and the sum of the reaches; null: gaps of all sizes.
+  std::function<double(detail::Random&, double radii, double reaches)> gap = nullptr;
+};
+
+/// Returns the distance from a value to the next float or double.
+double float_step(double value);
+double double_step(double value);
+
+StabilityRow run_setup(const char* family, const StabilitySetup& setup, std::uint32_t pairs,
+                       std::uint64_t seed);
 
 }  // namespace bch::bench

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "bench/workload/answer_checks.hpp"
+#include "bench/workload/scene.hpp"
 
 #include <fmt/format.h>
 

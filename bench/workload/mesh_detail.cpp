@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "bench/workload/mesh_detail.hpp"
+#include "bench/workload/workload.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -10,11 +10,21 @@
 #include <string_view>
 #include <vector>
 
+#include <bch/characters.hpp>
 #include <bch/shapes.hpp>
 
 #include "bench/characters/crowd.hpp"
 
 namespace bch::bench {
+
+/// Returns the character with every triangle cut into four at the middles of its edges, `times` times. A
+/// middle moves with the bones of both ends.
+Character finer(const Character& character, int times);
+
+/// Returns the character refined as by finer(), with relief as cloth and muscles have it at every size. Each
+/// middle stands out of its edge, or into it, by up to an eighth of the edge's length along the surface's
+/// normal. The result is the same for a character everywhere.
+Character with_relief(const Character& character, int times);
 
 using Hits = std::vector<std::uint8_t>;
 

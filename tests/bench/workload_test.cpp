@@ -2,7 +2,6 @@
 // Copyright (c) 2026 the bch authors
 
 #include "bench/workload/workload.hpp"
-#include "bench/workload/mesh_detail.hpp"
 #include "bench/workload/motions.hpp"
 #include "layout/character/eigen.hpp"
 #include "layout/hierarchy/paper_hierarchies.hpp"
