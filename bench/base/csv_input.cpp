@@ -141,9 +141,9 @@ void add_agent(const Place& place, AgentTable& table, std::string_view id, std::
 AgentTable read_agents(const std::string& file, std::uint32_t shapes, std::uint32_t levels, bool moving) {
   constexpr double largest_position = detail::rounding::largest_position;
   AgentTable table;
-  CsvRows rows(file, {"id", "shape", "x", "y", "heading", "z", "level", "dx", "dy"});
+  CsvRows rows(file, {"id", "shape", "x", "y", "heading", "z", "level", "dx", "dy", "mobility"});
   rows.require({"id", "shape", "x", "y", "heading"});
-  const bool has_z = rows.has("z"), has_level = rows.has("level");
+  const bool has_z = rows.has("z"), has_level = rows.has("level"), has_mobility = rows.has("mobility");
   const bool has_way = moving || rows.has("dx") || rows.has("dy");
   if (has_way) rows.require({"dx", "dy"});
   while (rows.next()) {
@@ -157,6 +157,9 @@ AgentTable read_agents(const std::string& file, std::uint32_t shapes, std::uint3
     if (has_z) table.z.push_back(number("z", largest_position));
     if (has_level)
       table.level.push_back(static_cast<std::uint8_t>(index_below(place, "level", rows["level"], levels)));
+    if (has_mobility) table.mobility.push_back(number("mobility", HUGE_VAL));
+    if (has_mobility && !(table.mobility.back() >= 0 && table.mobility.back() <= 1))
+      place.reject("mobility", rows["mobility"], "is not within 0 to 1");
     if (!has_way) continue;
     table.dx.push_back(number("dx", largest_way));
     table.dy.push_back(number("dy", largest_way));
@@ -179,6 +182,22 @@ std::vector<Pair> read_pairs(const std::string& file, const AgentTable& agents) 
     pairs.push_back({first, index("second")});
   }
   return pairs;
+}
+
+std::string csv_of(const AgentTable& agents) {
+  const std::pair<const char*, const std::vector<double>&> more[] = {
+      {"z", agents.z}, {"dx", agents.dx}, {"dy", agents.dy}, {"mobility", agents.mobility}};
+  std::string lines = agents.level.empty() ? "id,shape,x,y,heading" : "id,shape,x,y,heading,level";
+  for (const auto& [name, column] : more)
+    if (!column.empty()) (lines += ',') += name;
+  for (std::size_t i = 0; i < agents.id.size(); ++i) {
+    lines += fmt::format("\n{},{},{},{},{}", csv_field(agents.id[i]), agents.shape[i], agents.x[i],
+                         agents.y[i], agents.heading[i]);
+    if (!agents.level.empty()) lines += fmt::format(",{}", agents.level[i]);
+    for (const auto& [name, column] : more)
+      if (!column.empty()) lines += fmt::format(",{}", column[i]);
+  }
+  return lines + "\n";
 }
 
 void guard_ids(AgentTable& table) {

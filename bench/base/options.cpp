@@ -75,6 +75,12 @@ void add_seed_option(CLI::App& command, std::uint64_t& seed, const std::string& 
                        whole_between(0, std::numeric_limits<std::uint64_t>::max()));
 }
 
+void add_max_pairs_option(CLI::App& command, std::size_t& most, const char* what, const char* one) {
+  OptionAdder{command, "Limits"}("--max-pairs", most, "N",
+                                 fmt::format("Pairs of {} [4 million plus 100 per {}]", what, one),
+                                 whole_between(1, 1'000'000'000));
+}
+
 void add_threads_option(CLI::App& command, std::uint32_t& threads) {
   OptionAdder{command}("--threads", threads, "N", "Number of threads [all that the machine has]",
                        whole_between(1, 1024));
@@ -101,11 +107,15 @@ void ShapeOptions::add_import_to(CLI::App& command) {
       number_between(1e-9, 1e9));
 }
 
+void ShapeOptions::add_poses_to(CLI::App& command) {
+  OptionAdder{command}("--poses", poses, "N", "Poses per character, spread evenly over its clips [100]",
+                       whole_between(1, 1'000'000));
+}
+
 void ShapeOptions::add_to(CLI::App& command) {
   add_import_to(command);
+  add_poses_to(command);
   const OptionAdder add(command);
-  add("--poses", poses, "N", "Poses per character, spread evenly over its clips [100]",
-      whole_between(1, 1'000'000));
   add("--threshold", threshold, "METRES", "Nodes with a smaller radius are not divided [0.01 m]",
       number_between(1e-4, 100));
   add_limits_to(command);

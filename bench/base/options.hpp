@@ -33,8 +33,9 @@ struct ShapeOptions {
   CostLimits limits;
 
   void add_to(CLI::App& command);
-  /// Adds the options of import_options() alone.
+  /// Adds the options of import_options(), or --poses, alone.
   void add_import_to(CLI::App& command);
+  void add_poses_to(CLI::App& command);
   ImportOptions import_options() const;
   /// Returns all files that are read: these, and the clips' files.
   std::vector<std::string> inputs(std::vector<std::string> files) const;
@@ -71,6 +72,8 @@ void require_absent(const CLI::App& command, const std::vector<const char*>& opt
 /// Errors:  as require_absent() throws.
 void require_unsettled(const CLI::App& command, const std::string& baked_file);
 
+/// Adds the option --max-pairs: of `what`, of whom one is `one`.
+void add_max_pairs_option(CLI::App& command, std::size_t& most, const char* what, const char* one);
 void add_threads_option(CLI::App& command, std::uint32_t& threads);
 /// Adds the option of what decides at the deepest level. `centimetres`: by how much sooner discs do.
 void add_leaves_option(CLI::App& command, std::string& leaves, int centimetres);

@@ -17,5 +17,6 @@ std::function<void()> add_inspect_command(CLI::App& program);
 std::function<void()> add_outline_command(CLI::App& program);
 std::function<void()> add_place_command(CLI::App& program);
 std::function<void()> add_query_command(CLI::App& program);
+std::function<void()> add_resolve_command(CLI::App& program);
 
 }  // namespace bch::cli

@@ -36,7 +36,8 @@ int run(int argc, char** argv) {
                       {"merge", add_merge_command(program)},
                       {"outline", add_outline_command(program)},
                       {"place", add_place_command(program)},
-                      {"query", add_query_command(program)}},
+                      {"query", add_query_command(program)},
+                      {"resolve", add_resolve_command(program)}},
                      argc, argv);
 }
 

@@ -3,9 +3,12 @@
 
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cmath>
 #include <optional>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <variant>
@@ -17,9 +20,11 @@
 #include <bch/query.hpp>
 
 #include "bench/base/csv_input.hpp"
+#include "bench/base/exit_codes.hpp"
 #include "bench/base/options.hpp"
 #include "bench/characters/body_models.hpp"
 #include "bench/recordings/parts.hpp"
+#include "kernel/broad_phase/pair_limit.hpp"
 #include "kernel/runtime/all_options.hpp"
 
 namespace bch::cli {
@@ -75,14 +80,42 @@ std::string query_help();
 std::vector<Pair> all_pairs(const AskedSet& set, const AgentTable& table, const std::string& what,
                             const detail::AllOptions& options, std::size_t most);
 
+/// Holds the options of a command that takes obstacles.
+struct ObstacleOptions {
+  std::string file, heights;  ///< empty: no obstacles; infinite
+  bool walkable = false;
+
+  void add_to(CLI::App& command, const char* help);
+  /// Errors:  throws UsageError.
+  void require_fitting(const CLI::App& command) const;
+  /// Errors:  throws InputError.
+  std::optional<ObstacleSet> read() const;
+};
+
+/// Calls find(most), by which so many pairs of neighbours are found; 0: what is usual for the agents of a file.
+/// Errors:  throws InputError where there are more, which find() says by std::length_error.
+template <class Find>
+auto within_limit(std::size_t most, const std::string& file, const AgentTable& table, const Find& find) {
+  if (most == 0) most = detail::usual_most_pairs(table.id.size());
+  try {
+    return find(most);
+  } catch (const std::length_error&) {
+    throw InputError(fmt::format(
+        "{}: more than {} pairs of agents are near each other; --max-pairs raises the limit", file, most));
+  }
+}
+
+/// Renumbers the agents' shapes to those in use. Returns: where these come from; no other is built.
+std::vector<PoseId> keep_used(std::span<const PoseId> sources, AgentTable& table);
+
 /// Holds what the command line of bch query says.
 struct QueryCommandOptions {
-  std::string character, agents, pairs, obstacles;
-  bool all_pairs = false, walkable = false, guard_ids = false;
+  std::string character, agents, pairs;
+  ObstacleOptions obstacles;
+  bool all_pairs = false, guard_ids = false;
   std::string what = query_kinds().front().name;
   std::uint32_t directions = 16;
-  std::string direction;         ///< empty: the best of many
-  std::string obstacle_heights;  ///< empty: infinite
+  std::string direction;  ///< empty: the best of many
   double max_distance = HUGE_VAL;
   std::size_t max_pairs = 0;  ///< of neighbours, for all_pairs; 0: what is usual
   std::string overlap = "zero";
@@ -95,11 +128,9 @@ struct QueryCommandOptions {
 
   /// Errors:  throws UsageError.
   std::optional<Vec2> only_direction() const;
-  /// Errors:  throws UsageError.
-  std::pair<double, double> heights_of_obstacles() const;
   /// Returns whether the heights of bodies count.
   bool compares_heights(const AgentTable& table) const {
-    return !table.z.empty() || !obstacle_heights.empty();
+    return !table.z.empty() || !obstacles.heights.empty();
   }
 };
 

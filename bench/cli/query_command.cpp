@@ -11,31 +11,25 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <stdexcept>
 #include <string>
 #include <unordered_map>
 
 #include <bch/pairs.hpp>
 
-#include "bench/base/exit_codes.hpp"
 #include "bench/base/options.hpp"
 #include "bench/base/output.hpp"
 #include "bench/base/text.hpp"
-#include "bench/base/wkt_input.hpp"
 #include "bench/characters/cost_guard.hpp"
 #include "bench/characters/shape_table.hpp"
 #include "bench/cli/commands.hpp"
 #include "bench/cli/inspection.hpp"
 #include "bench/cli/query.hpp"
-#include "kernel/broad_phase/pair_limit.hpp"
 #include "kernel/runtime/all_options.hpp"
 #include "layout/base/mixed_hash.hpp"
 #include "layout/base/rounding.hpp"
 
 namespace bch::cli {
-namespace {
 
-/// Renumbers the agents' shapes to those in use. Returns: where these come from; no other is built.
 std::vector<PoseId> keep_used(std::span<const PoseId> sources, AgentTable& table) {
   std::vector<PoseId> used;
   std::unordered_map<std::uint32_t, std::uint32_t, detail::MixedHash> index_of;
@@ -46,6 +40,8 @@ std::vector<PoseId> keep_used(std::span<const PoseId> sources, AgentTable& table
   }
   return used;
 }
+
+namespace {
 
 /// What there is to answer.
 struct Question {
@@ -79,30 +75,12 @@ void keep_only(Question& question, const Part& part) {
 Question read_question(const QueryCommandOptions& options, std::size_t shapes, std::size_t levels) {
   Question question{read_agents(options.agents, static_cast<std::uint32_t>(shapes),
                                 static_cast<std::uint32_t>(levels), query_kind(options.what).moving),
-                    {}};
-  if (!options.obstacles.empty())
-    question.obstacles =
-        read_obstacles(options.obstacles, options.walkable ? Polygons::walkable : Polygons::solid,
-                       options.heights_of_obstacles());
-  else if (!options.all_pairs)
-    question.pairs = read_pairs(options.pairs, question.table);
+                    {},
+                    options.obstacles.read()};
+  if (!options.pairs.empty()) question.pairs = read_pairs(options.pairs, question.table);
   if (options.only) keep_only(question, *options.only);
   if (options.guard_ids) guard_ids(question.table);
   return question;
-}
-
-/// Returns all pairs of neighbours that are asked about.
-std::vector<Pair> pairs_of_all(const QueryCommandOptions& options, const AskedSet& set,
-                               const AgentTable& table, const detail::AllOptions& how) {
-  const std::size_t most =
-      options.max_pairs > 0 ? options.max_pairs : detail::usual_most_pairs(table.id.size());
-  try {
-    return all_pairs(set, table, options.what, how, most);
-  } catch (const std::length_error&) {
-    throw InputError(
-        fmt::format("{}: more than {} pairs of agents are near each other; --max-pairs raises the limit",
-                    options.agents, most));
-  }
 }
 
 using Write = std::function<void(const std::string&)>;
@@ -116,7 +94,10 @@ void answer(const QueryCommandOptions& options, const AskedSet& set, Question& q
   how.max_distance = options.max_distance;
   how.overlap = options.overlap == "zero" ? Overlap::zero : Overlap::deepest;
   how.distance_leaves = options.answer.leaves == "segments" ? Leaves::segments : Leaves::discs;
-  if (options.all_pairs) pairs = pairs_of_all(options, set, table, how);
+  if (options.all_pairs)
+    pairs = within_limit(options.max_pairs, options.agents, question.table, [&](std::size_t most) {
+      return all_pairs(set, question.table, options.what, how, most);
+    });
   const QueryKind& kind = query_kind(options.what);
   const bool spheres = std::holds_alternative<const BodySet*>(set);
   std::string lines =
@@ -206,7 +187,7 @@ void query_part(const CLI::App& command, QueryCommandOptions options,
 void run_query(const CLI::App& command, const QueryCommandOptions& options) {
   require_fitting(command, options);
   const std::vector<std::string> inputs =
-      options.shapes.inputs({options.character, options.agents, options.pairs, options.obstacles});
+      options.shapes.inputs({options.character, options.agents, options.pairs, options.obstacles.file});
   if (options.part.are_given()) return query_part(command, options, inputs);
   answer_all(command, options, write_standard_data);
 }
@@ -251,16 +232,9 @@ Example: bch query default:female agents.csv pairs.csv > answers.csv)");
   command.add_flag(
       "--guard-ids", options->guard_ids,
       "Put ' before ids that begin with =, +, - or @, unless they are numbers, for spreadsheets");
-  OptionAdder{command, "Limits"}(
-      "--max-pairs", options->max_pairs, "N",
-      "Pairs of agents near each other, for --all-pairs [4 million plus 100 per agent]",
-      whole_between(1, 1'000'000'000));
-  add("--obstacles", options->obstacles, "FILE.wkt",
-      "Instead of PAIRS.csv: test all agents against these walls and polygons, in well-known text");
-  command.add_flag("--walkable", options->walkable,
-                   "Polygons of --obstacles are floors to walk on, and their borders are walls");
-  add("--obstacle-heights", options->obstacle_heights, "BOTTOM,TOP",
-      "Heights of all --obstacles, metres, as agents' z; bodies above or below pass [infinite]");
+  add_max_pairs_option(command, options->max_pairs, "agents near each other, for --all-pairs", "agent");
+  options->obstacles.add_to(
+      command, "Instead of PAIRS.csv: test all agents against these walls and polygons, in well-known text");
   std::vector<std::string> names;
   for (const QueryKind& kind : query_kinds()) names.emplace_back(kind.name);
   add("--what", options->what, "NAME", fmt::format("Query: {} [{}]", fmt::join(names, ", "), names.front()),

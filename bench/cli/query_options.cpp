@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <fmt/format.h>
-
 #include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "bench/base/exit_codes.hpp"
 #include "bench/base/text.hpp"
+#include "bench/base/wkt_input.hpp"
 #include "bench/characters/shape_table.hpp"
 #include "bench/cli/query.hpp"
 
@@ -29,7 +27,7 @@ std::pair<double, double> numbers_of(const std::string& text) {
 /// Refuses options that mean nothing beside the others.
 void require_no_misfits(const CLI::App& command, const QueryCommandOptions& options) {
   const bool collide = options.what == "collide", within = options.what == "within",
-             clearance = options.what == "clearance", walls = !options.obstacles.empty(),
+             clearance = options.what == "clearance", walls = !options.obstacles.file.empty(),
              tests_leaves = collide || options.what == "contacts";
   struct Misfit {
     bool is_one;
@@ -37,7 +35,6 @@ void require_no_misfits(const CLI::App& command, const QueryCommandOptions& opti
     const char* reason;
   };
   const Misfit misfits[] = {
-      {!walls, {"--walkable", "--obstacle-heights"}, "belongs to --obstacles"},
       {walls, {"--directions", "--direction"}, "obstacles have directions of their own"},
       {options.what != "penetration", {"--directions", "--direction"}, "belongs to --what penetration"},
       {!options.all_pairs, {"--max-pairs"}, "belongs to --all-pairs"},
@@ -63,7 +60,7 @@ void require_of_spheres(const CLI::App& command, const QueryCommandOptions& opti
   const char* const reason = "belongs to outlines, not to --bodies spheres";
   require_absent(command, {"--depths", "--leaves", "--threshold"}, reason);
   const QueryKind& kind = query_kind(options.what);
-  if (!options.obstacles.empty() && kind.of_obstacles && !kind.spheres_of_obstacles)
+  if (!options.obstacles.file.empty() && kind.of_obstacles && !kind.spheres_of_obstacles)
     throw UsageError(fmt::format("--what: '{}' about --obstacles {}", options.what, reason));
   if (is_baked(options.character))
     throw UsageError(options.character +
@@ -74,7 +71,7 @@ void require_of_spheres(const CLI::App& command, const QueryCommandOptions& opti
 
 void require_fitting(const CLI::App& command, const QueryCommandOptions& options) {
   if (options.kind.are_spheres(command)) require_of_spheres(command, options);
-  const bool walls = !options.obstacles.empty();
+  const bool walls = !options.obstacles.file.empty();
   const int named = int{options.all_pairs} + int{!options.pairs.empty()} + int{walls};
   if (named != 1)
     throw UsageError(named > 1 ? "PAIRS.csv, --all-pairs and --obstacles: name one of them"
@@ -83,10 +80,11 @@ void require_fitting(const CLI::App& command, const QueryCommandOptions& options
     throw UsageError(fmt::format("--what: '{}' cannot be asked about --obstacles", options.what));
   if (options.what == "within" && !std::isfinite(options.max_distance))
     throw UsageError("--max-distance: --what within needs one");
+  options.obstacles.require_fitting(command);
   require_no_misfits(command, options);
   if (options.directions % 2 != 0)
     throw UsageError(fmt::format("--directions: '{}' is odd", options.directions));
-  options.only_direction(), options.heights_of_obstacles();
+  options.only_direction();
 }
 
 std::optional<Vec2> QueryCommandOptions::only_direction() const {
@@ -98,13 +96,26 @@ std::optional<Vec2> QueryCommandOptions::only_direction() const {
   return Vec2{x, y};
 }
 
-std::pair<double, double> QueryCommandOptions::heights_of_obstacles() const {
-  if (obstacle_heights.empty()) return {-HUGE_VAL, HUGE_VAL};
-  const auto heights = numbers_of(obstacle_heights);
-  if (!(heights.first <= heights.second))
-    throw UsageError(
-        fmt::format("--obstacle-heights: '{}' is not BOTTOM,TOP, the lower first", obstacle_heights));
-  return heights;
+void ObstacleOptions::add_to(CLI::App& command, const char* help) {
+  const OptionAdder add(command);
+  add("--obstacles", file, "FILE.wkt", help);
+  command.add_flag("--walkable", walkable,
+                   "Polygons of --obstacles are floors to walk on, and their borders are walls");
+  add("--obstacle-heights", heights, "BOTTOM,TOP",
+      "Heights of all --obstacles, metres, as agents' z; bodies above or below pass [infinite]");
+}
+
+void ObstacleOptions::require_fitting(const CLI::App& command) const {
+  if (file.empty()) require_absent(command, {"--walkable", "--obstacle-heights"}, "belongs to --obstacles");
+  const auto [bottom, top] = numbers_of(heights);
+  if (!heights.empty() && !(bottom <= top))
+    throw UsageError(fmt::format("--obstacle-heights: '{}' is not BOTTOM,TOP, the lower first", heights));
+}
+
+std::optional<ObstacleSet> ObstacleOptions::read() const {
+  if (file.empty()) return std::nullopt;
+  return read_obstacles(file, walkable ? Polygons::walkable : Polygons::solid,
+                        heights.empty() ? std::pair{-HUGE_VAL, HUGE_VAL} : numbers_of(heights));
 }
 
 }  // namespace bch::cli

@@ -164,10 +164,7 @@ void CheckInput::add_to(CLI::App& command) {
   add("--max-distance", max_distance, "M",
       "Also write to --pairs the pairs with a gap of at most M metres [0: overlaps only]",
       number_between(0, 10));
-  OptionAdder{command, "Limits"}(
-      "--max-pairs", max_pairs, "N",
-      "Pairs of people near each other in a frame, or in 4096 rows [4 million plus 100 per person]",
-      whole_between(1, 1'000'000'000));
+  add_max_pairs_option(command, max_pairs, "people near each other in a frame, or in 4096 rows", "person");
 }
 
 void CheckInput::add_bodies_to(CLI::App& command) {

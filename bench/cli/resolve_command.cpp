@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <bch/crowd.hpp>
+
+#include "bench/base/output.hpp"
+#include "bench/base/text.hpp"
+#include "bench/characters/shape_table.hpp"
+#include "bench/cli/commands.hpp"
+#include "bench/cli/query.hpp"
+
+namespace bch::cli {
+namespace {
+
+struct ResolveCommandOptions {
+  std::string character, agents;
+  ShapeOptions shapes;
+  std::uint32_t spheres = 256, threads = 0;
+  ObstacleOptions obstacles;
+  std::size_t max_pairs = 0;  ///< 0: what is usual
+  bch::Crowd::ResolveOptions how;
+};
+
+std::string report_of(const AgentTable& before, const bch::Crowd::Resolved& after) {
+  double sum = 0, largest = 0;
+  for (std::size_t i = 0; i < before.id.size(); ++i) {
+    const double shift = std::hypot(after.x[i] - before.x[i], after.y[i] - before.y[i]);
+    sum += shift, largest = std::max(largest, shift);
+  }
+  const auto fixed = static_cast<std::size_t>(std::ranges::count(before.mobility, 0));
+  const double agents = std::max(1.0, static_cast<double>(before.id.size()));
+  return fact("agents", fmt::format("{}, {} fixed", grouped(before.id.size()), grouped(fixed))) +
+         fact("sweeps", grouped(after.sweeps)) +
+         fact("shift", fmt::format("{:.4f} m on average, {:.4f} m at most", sum / agents, largest)) +
+         fact("left", fmt::format("{} in collision, {} at a wall", counted(after.left.size(), "pair"),
+                                  counted(after.touch_walls.size(), "agent")));
+}
+
+void run_resolve(const CLI::App& command, const ResolveCommandOptions& options) {
+  options.obstacles.require_fitting(command);
+  if (options.how.directions % 2 != 0)
+    throw UsageError(fmt::format("--directions: '{}' is odd", options.how.directions));
+  if (is_baked(options.character))
+    throw UsageError(options.character + ": a baked file has outlines alone, without spheres");
+  const std::vector<LoadedCharacter> from{load_character(options.character, options.shapes.import_options())};
+  const auto sources = list_shapes(from, options.shapes.poses);
+  AgentTable table = read_agents(options.agents, static_cast<std::uint32_t>(sources.size()), 1, false);
+  const std::optional<ObstacleSet> obstacles = options.obstacles.read();
+  const Threads threads(options.threads);
+  const std::vector<std::uint32_t> shape = table.shape;
+  const BodySet bodies = posed_bodies(make_models(from, options.spheres), keep_used(sources, table));
+  bch::Crowd::ResolveOptions how = options.how;
+  how.mobility = table.mobility;
+  how.obstacles = obstacles ? &*obstacles : nullptr;
+  bch::Crowd crowd;
+  const auto after = within_limit(options.max_pairs, options.agents, table, [&](std::size_t most) {
+    crowd = bch::Crowd({.max_pairs = most});
+    return crowd.resolve(bodies, table.agents(), how);
+  });
+  const std::string report = report_of(table, after) + notes_text(from);
+  table.shape = shape;
+  table.x.assign(after.x.begin(), after.x.end()), table.y.assign(after.y.begin(), after.y.end());
+  write_standard_data(csv_of(table));
+  std::fputs(report.c_str(), stderr);  // standard output is for data
+}
+
+}  // namespace
+
+std::function<void()> add_resolve_command(CLI::App& program) {
+  const auto options = std::make_shared<ResolveCommandOptions>();
+  CLI::App& command = *program.add_subcommand(
+      "resolve", "Move people, as little as possible, until nobody overlaps anybody or a wall");
+  command.footer(
+      R"(Bodies are spheres bound to the bones, in space. Nobody turns. Writes AGENTS.csv with new x and y, and to standard
+error how many sweeps that took, how far people went, and which pairs and walls are left where there is no room.
+AGENTS.csv is that of bch query, with one more column:
+  mobility       from 0, who stays, to 1: of two who are parted, one with half of the other's goes half as far [1]
+Example: bch resolve default:female agents.csv --obstacles walls.wkt > moved.csv)");
+  const OptionAdder add(command);
+  bch::Crowd::ResolveOptions& how = options->how;
+  add("CHARACTER", options->character, "", character_help)->required();
+  add("AGENTS.csv", options->agents, "", "Columns id,shape,x,y,heading[,z][,mobility]")->required();
+  options->obstacles.add_to(command, "Also keep people out of these walls and polygons, in well-known text");
+  add("--sweeps", how.sweeps, "N", "Move everybody so many times at most [100]", whole_between(0, 1'000'000));
+  add("--directions", how.directions, "N", "Directions in which people may go, N even [16]",
+      whole_between(2, 256));
+  add("--gap", how.gap, "METRES", "Gap between two who are parted [0.001 m]", number_between(0, 1000));
+  add("--largest-step", how.largest_step, "METRES", "Longest way of a person in a sweep [0.05 m]",
+      number_between(0, 1000));
+  add("--largest-shift", how.largest_shift, "METRES", "Longest way of a person in all [no limit]",
+      number_between(0, 1e9));
+  add_max_pairs_option(command, options->max_pairs, "agents near each other", "agent");
+  add_spheres_option(command, options->spheres);
+  options->shapes.add_poses_to(command);
+  options->shapes.add_import_to(command);
+  add_threads_option(command, options->threads);
+  return [options, &command] { run_resolve(command, *options); };
+}
+
+}  // namespace bch::cli
