@@ -36,31 +36,54 @@ class Opening {
   bool is_cancelled_ = false;
 };
 
-std::unique_ptr<TrajectoryReader> opened(const char* path, const bch_trajectory_options& given) {
+/// Opens a recording by a function of its options.
+/// Errors:  throws Failure with `fault`, or with BCH_CANCELLED.
+template <class Open>
+std::unique_ptr<bch_trajectory> opened(const bch_trajectory_options& given, bch_status fault, Open open) {
   TrajectoryOptions options;
   if (given.fps != 0) options.fps = given.fps;
   if (given.unit != 0) options.unit = given.unit;
   if (given.columns != nullptr) options.columns = given.columns;
-  require_file(path);
   const auto opening = std::make_shared<Opening>(given);
   options.go_on = [opening] { return opening->go_on(); };
-  try {
-    auto reader = open_trajectory(path, options);
-    opening->end();
-    return reader;
-  } catch (const TrajectoryError& error) {
-    throw Failure(opening->is_cancelled() ? BCH_CANCELLED : BCH_BAD_FILE, error.what());
-  }
-}
-
-std::unique_ptr<bch_trajectory> open(const char* path, const bch_trajectory_options& given) {
   auto trajectory = std::make_unique<bch_trajectory>();
-  trajectory->reader = opened(path, given);
+  trajectory->fault = fault;
+  try {
+    trajectory->reader = open(options);
+  } catch (const TrajectoryError& error) {
+    throw Failure(opening->is_cancelled() ? BCH_CANCELLED : fault, error.what());
+  }
+  opening->end();
   for (const std::string& line : trajectory->reader->info().assumptions)
     trajectory->assumptions += line + "\n";
   for (const NamedMotion& motion : trajectory->reader->info().motions)
     trajectory->motions.push_back({motion.character.c_str(), motion.clip.c_str()});
   return trajectory;
+}
+
+constexpr std::size_t column_sizes[] = {sizeof(double), sizeof(float), sizeof(std::int64_t),
+                                        sizeof(std::int32_t), sizeof(const char*)};
+
+ColumnView column_of(const bch_column& given, std::size_t rows) {
+  required(given.name, "columns->name");
+  const auto type = one_of(given.type, ColumnView::Type::text, "columns->type");
+  const std::size_t stride = given.stride > 0 ? given.stride : column_sizes[given.type];
+  if (rows > PTRDIFF_MAX / stride)
+    throw Failure(BCH_INVALID_ARGUMENT, "row_count is " + std::to_string(rows));
+  return {given.name, given.values, stride, type};
+}
+
+/// Runs a function that reads a recording, which may turn out to be bad at any frame.
+template <class Body>
+bch_status guarded_reading(bch_trajectory* handle, Body body) noexcept {
+  return guarded([&] {
+    bch_trajectory& trajectory = object_of(handle, "trajectory");
+    try {
+      body(trajectory);
+    } catch (const TrajectoryError& error) {
+      throw Failure(trajectory.fault, error.what());
+    }
+  });
 }
 
 /// Writes whole frames as long as they fit.
@@ -87,13 +110,31 @@ std::size_t read(bch_trajectory& trajectory, std::span<bch_tracked_person> to) {
 }  // namespace bch::c_api
 
 using namespace bch::c_api;
+using namespace bch::detail;
 
 bch_status bch_trajectory_open(const char* path, const bch_trajectory_options* options,
                                bch_trajectory** trajectory) {
   return guarded([&] {
     required(path, "path");
     required(trajectory, "trajectory");
-    hand_out(open(path, sized<bch_trajectory_options>(options, BCH_TRAJECTORY_OPTIONS_INIT, "options")),
+    const auto given = sized<bch_trajectory_options>(options, BCH_TRAJECTORY_OPTIONS_INIT, "options");
+    require_file(path);
+    hand_out(opened(given, BCH_BAD_FILE,
+                    [&](const TrajectoryOptions& wanted) { return open_trajectory(path, wanted); }),
+             trajectory);
+  });
+}
+
+bch_status bch_trajectory_from_columns(const bch_column* columns, size_t column_count, size_t row_count,
+                                       const bch_trajectory_options* options, bch_trajectory** trajectory) {
+  return guarded([&] {
+    std::vector<ColumnView> views;
+    for (const bch_column& column : array_of(columns, column_count, "columns"))
+      views.push_back(column_of(column, row_count));
+    required(trajectory, "trajectory");
+    const auto given = sized<bch_trajectory_options>(options, BCH_TRAJECTORY_OPTIONS_INIT, "options");
+    hand_out(opened(given, BCH_INVALID_ARGUMENT,
+                    [&](const TrajectoryOptions& wanted) { return open_columns(views, row_count, wanted); }),
              trajectory);
   });
 }
@@ -101,7 +142,7 @@ bch_status bch_trajectory_open(const char* path, const bch_trajectory_options* o
 bch_status bch_trajectory_get_info(const bch_trajectory* handle, bch_trajectory_info* to) {
   return guarded([&] {
     const bch_trajectory& trajectory = object_of(handle, "trajectory");
-    const bch::detail::TrajectoryInfo& info = trajectory.reader->info();
+    const TrajectoryInfo& info = trajectory.reader->info();
     bch_trajectory_info all = BCH_TRAJECTORY_INFO_INIT;
     all.fps = info.fps;
     all.rows = info.rows;
@@ -117,9 +158,9 @@ bch_status bch_trajectory_get_info(const bch_trajectory* handle, bch_trajectory_
 
 bch_status bch_trajectory_read(bch_trajectory* trajectory, bch_tracked_person* people, size_t capacity,
                                size_t* count) {
-  return guarded_reading([&] {
+  return guarded_reading(trajectory, [&](bch_trajectory& from) {
     required(count, "count");
-    *count = read(object_of(trajectory, "trajectory"), array_of(people, capacity, "people"));
+    *count = read(from, array_of(people, capacity, "people"));
   });
 }
 
@@ -137,11 +178,9 @@ bch_status bch_trajectory_free(bch_trajectory* trajectory) {
 }
 
 bch_status bch_check_run(bch_trajectory* trajectory, const bch_check_options* options, bch_check** check) {
-  return guarded_reading([&] {
+  return guarded_reading(trajectory, [&](bch_trajectory& of) {
     required(check, "check");
-    hand_out(run_check(object_of(trajectory, "trajectory"),
-                       sized<bch_check_options>(options, BCH_CHECK_OPTIONS_INIT, "options")),
-             check);
+    hand_out(run_check(of, sized<bch_check_options>(options, BCH_CHECK_OPTIONS_INIT, "options")), check);
   });
 }
 

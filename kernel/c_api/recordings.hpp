@@ -17,6 +17,7 @@ struct bch_trajectory {
   std::unique_ptr<bch::detail::TrajectoryReader> reader;
   std::string assumptions;                ///< a line each
   std::vector<bch_named_motion> motions;  ///< whose texts are the reader's
+  bch_status fault = BCH_BAD_FILE;        ///< what a recording that is wrong is
   bool is_read = false;                   ///< some of it
   std::int64_t frame = 0;                 ///< of the people who wait
   std::vector<bch::detail::TrackedPerson> waiting = {};
@@ -31,18 +32,6 @@ struct bch_check {
 };
 
 namespace bch::c_api {
-
-/// Runs the body of a function that reads a recording, which may turn out to be bad at any frame.
-template <class Body>
-bch_status guarded_reading(Body body) noexcept {
-  return guarded([&] {
-    try {
-      body();
-    } catch (const detail::TrajectoryError& error) {
-      throw Failure(BCH_BAD_FILE, error.what());
-    }
-  });
-}
 
 /// Checks a recording. It is made of the kernel's code, which is in libbch.so alone: that library has this function for libbch_files.so.
 std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check_options& given);

@@ -113,26 +113,16 @@ std::vector<std::string_view> words_of(std::string_view line, char separator) {
   return words;
 }
 
-ColumnName named(std::string_view word) {
-  if (word.size() >= 2 && word.starts_with('"') && word.ends_with('"'))
-    word = trimmed(word.substr(1, word.size() - 2));
-  const std::size_t end = std::min(word.find_first_of("/[("), word.size());
-  std::string_view unit = word.substr(end);
-  if (!unit.empty()) unit.remove_prefix(1);
-  if (unit.ends_with(']') || unit.ends_with(')')) unit.remove_suffix(1);
-  return {lower_case(trimmed(word.substr(0, end))), lower_case(trimmed(unit))};
-}
-
 /// The columns of a table while they are found.
 class ColumnFinder {
  public:
-  ColumnFinder(const Places& places, std::uint64_t line, bool unit_is_given)
+  ColumnFinder(const Places& places, std::optional<std::uint64_t> line, bool unit_is_given)
       : places_(places), line_(line), unit_is_given_(unit_is_given) {}
 
   void add(const ColumnName& column) {
     const Role role = role_of(column.name);
     if (role != Role::none && columns_.has(role))
-      places_.reject(line_, "has two columns for the same, the second is " + shown(column.name));
+      reject("has two columns for the same, the second is " + shown(column.name));
     columns_.roles.push_back(role);
     columns_.names.push_back(column.name);
     columns_.has_angle |= role == Role::heading && column.name == "angle";
@@ -159,33 +149,36 @@ class ColumnFinder {
 
  private:
   const Places& places_;
-  std::uint64_t line_;
+  std::optional<std::uint64_t> line_;
   bool unit_is_given_;
   Columns columns_;
+
+  [[noreturn]] void reject(const std::string& reason) const {
+    if (line_) places_.reject(*line_, reason);
+    places_.reject(reason);
+  }
 
   void require(Role role, const char* name) const {
     if (columns_.has(role)) return;
     std::string all;
     for (const std::string& there : columns_.names) all += (all.empty() ? "" : ", ") + there;
-    places_.reject(line_, std::string("has no column called ") + name + ", only " + shown(all));
+    reject(std::string("has no column called ") + name + ", only " + shown(all));
   }
 
   void take_length(const ColumnName& column) {
     const std::optional<double> metres = find(lengths, column.unit);
     if (unit_is_given_) return;
     if (!metres)
-      places_.reject(line_, "the unit " + shown(column.unit) + " of column " + shown(column.name) +
-                                " is not known: --unit has to give its metres");
-    if (columns_.metres && *columns_.metres != *metres)
-      places_.reject(line_, "x and y are of different units");
+      reject("the unit " + shown(column.unit) + " of column " + shown(column.name) +
+             " is not known: --unit has to give its metres");
+    if (columns_.metres && *columns_.metres != *metres) reject("x and y are of different units");
     columns_.metres = metres;
   }
 
   void take_angle(const ColumnName& column) {
     columns_.radians = find(angles, column.unit);
     if (!columns_.radians)
-      places_.reject(line_,
-                     "the unit " + shown(column.unit) + " of column " + shown(column.name) + " is not known");
+      reject("the unit " + shown(column.unit) + " of column " + shown(column.name) + " is not known");
   }
 
   /// Beside frames a time is that of the row's clip, or does not matter.
@@ -199,7 +192,7 @@ class ColumnFinder {
 
   void take_duration(const ColumnName& column, std::optional<double>& seconds) {
     seconds = find(durations, column.unit);
-    if (!seconds) places_.reject(line_, "the unit " + shown(column.unit) + " of time is not known");
+    if (!seconds) reject("the unit " + shown(column.unit) + " of time is not known");
   }
 };
 
@@ -209,10 +202,20 @@ std::optional<double> metres_of(std::string_view unit) {
   return find(lengths, unit);
 }
 
+ColumnName column_name(std::string_view word) {
+  if (word.size() >= 2 && word.starts_with('"') && word.ends_with('"'))
+    word = trimmed(word.substr(1, word.size() - 2));
+  const std::size_t end = std::min(word.find_first_of("/[("), word.size());
+  std::string_view unit = word.substr(end);
+  if (!unit.empty()) unit.remove_prefix(1);
+  if (unit.ends_with(']') || unit.ends_with(')')) unit.remove_suffix(1);
+  return {lower_case(trimmed(word.substr(0, end))), lower_case(trimmed(unit))};
+}
+
 std::vector<ColumnName> column_names(std::string_view line, char separator) {
   std::vector<ColumnName> names;
   for (const std::string_view word : words_of(line, separator)) {
-    ColumnName name = named(word);
+    ColumnName name = column_name(word);
     if (name.name.empty() && !name.unit.empty() && !names.empty())  // "x [m]" where blanks separate names
       names.back().unit = std::move(name.unit);
     else
@@ -239,7 +242,7 @@ bool Columns::has(Role role) const {
   return std::find(roles.begin(), roles.end(), role) != roles.end();
 }
 
-Columns columns_of(const Places& places, std::uint64_t line, std::span<const ColumnName> names,
+Columns columns_of(const Places& places, std::optional<std::uint64_t> line, std::span<const ColumnName> names,
                    bool unit_is_given) {
   ColumnFinder finder(places, line, unit_is_given);
   for (const ColumnName& column : names) finder.add(column);

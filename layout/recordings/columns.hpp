@@ -24,6 +24,9 @@ struct ColumnName {
   std::string name, unit;
 };
 
+/// Takes a name apart.
+ColumnName column_name(std::string_view word);
+
 /// Takes names apart that a separator divides. '#' stands for any of commas, semicolons and blanks, as in comments.
 std::vector<ColumnName> column_names(std::string_view line, char separator);
 
@@ -49,9 +52,9 @@ struct Columns {
 };
 
 /// Finds out what named columns are. Where there are frames, a time is that of the row's clip, if there is one, or does not matter.
-/// Errors:  throws TrajectoryError, naming the line, on columns that lack, are there twice, or are of an unknown unit, unless the
+/// Errors:  throws TrajectoryError, naming the line if there is one, on columns that lack, are there twice, or are of an unknown unit, unless the
 ///          unit is given.
-Columns columns_of(const Places& places, std::uint64_t line, std::span<const ColumnName> names,
+Columns columns_of(const Places& places, std::optional<std::uint64_t> line, std::span<const ColumnName> names,
                    bool unit_is_given);
 
 /// Returns how many metres a unit has that is called so.

@@ -9,6 +9,8 @@
 #include <cstring>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "layout/base/number_class.hpp"
 #include "layout/base/shortest.hpp"
@@ -55,15 +57,25 @@ std::unique_ptr<RowSource> open_rows(const std::filesystem::path& file, const Tr
   return open_table(file, options);
 }
 
+void check_options(const Places& places, const TrajectoryOptions& options) {
+  if (options.fps) checked_fps(places, *options.fps, "the frame rate of --fps");
+  if (options.unit && !(*options.unit > 0 && is_finite(*options.unit)))
+    places.reject("the unit of --unit is " + shortest(*options.unit) + " m, not above 0");
+}
+
 }  // namespace
 }  // namespace trajectory
 
+std::unique_ptr<TrajectoryReader> open_columns(std::vector<ColumnView> columns, std::size_t rows,
+                                               const TrajectoryOptions& options) {
+  trajectory::check_options({trajectory::table_in_memory, false}, options);
+  return std::make_unique<trajectory::FrameReader>(
+      trajectory::open_column_table(std::move(columns), rows, options), options);
+}
+
 std::unique_ptr<TrajectoryReader> open_trajectory(const std::filesystem::path& file,
                                                   const TrajectoryOptions& options) {
-  const trajectory::Places places{file, false};
-  if (options.fps) trajectory::checked_fps(places, *options.fps, "the frame rate of --fps");
-  if (options.unit && !(*options.unit > 0 && is_finite(*options.unit)))
-    places.reject("the unit of --unit is " + shortest(*options.unit) + " m, not above 0");
+  trajectory::check_options({file, false}, options);
   return std::make_unique<trajectory::FrameReader>(trajectory::open_rows(file, options), options);
 }
 

@@ -35,7 +35,7 @@ struct Row {
   double x = 0, y = 0;  ///< metres
   float heading = unknown, stature = unknown, clip_seconds = unknown;
   std::uint32_t motion = TrackedPerson::no_motion;  ///< index into Recording::motions
-  std::uint64_t number = 0;                         ///< of its line or row in the file, from 1
+  std::uint64_t number = 0;  ///< of its line or row in the file, from 1; in memory from 0
 };
 
 /// Names the rows of a file, for messages.

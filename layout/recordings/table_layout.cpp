@@ -19,6 +19,30 @@ namespace {
 
 constexpr std::string_view juelich_columns = "id frame x y z", eth_columns = "frame id x y z";
 
+/// Settles what a unit of each column is, and says what is assumed. `said`: the metres of a unit, where something else than columns says it.
+void take_units_of_columns(TableLayout& layout, const TrajectoryOptions& options,
+                           std::optional<double> said) {
+  std::vector<std::string>& assumptions = layout.recording.assumptions;
+  const Columns& columns = layout.columns;
+  std::optional<double> metres = columns.metres ? columns.metres : said;
+  if (options.unit) metres = options.unit;
+  if (!metres) assumptions.emplace_back("Coordinates are in metres; no unit is said.");
+  layout.metres = metres.value_or(1);
+  layout.height_metres = options.unit ? *options.unit : columns.height_metres.value_or(layout.metres);
+  layout.radians = columns.radians.value_or(columns.has_angle ? std::numbers::pi / 180 : 1);
+  if (columns.has_angle && !columns.radians)
+    assumptions.emplace_back("Angles are headings in degrees; no unit is said.");
+  layout.clip_seconds = columns.clip_seconds.value_or(1);
+  if (columns.has_frames_and_time)
+    assumptions.emplace_back("Times are those of the clips that rows name, because there are frames.");
+  if (columns.has(Role::clip_time) && !columns.clip_seconds)
+    assumptions.emplace_back("Times of clips are in seconds; no unit is said.");
+  if (!columns.has(Role::time)) return;
+  layout.recording.clock = Clock::times;
+  if (!columns.seconds) assumptions.emplace_back("Times are in seconds; no unit is said.");
+  layout.seconds = columns.seconds.value_or(1);
+}
+
 class LayoutFinder {
  public:
   LayoutFinder(const Places& places, LineReader& lines, const TrajectoryOptions& options)
@@ -191,35 +215,27 @@ class LayoutFinder {
   }
 
   void settle_units() {
-    std::vector<std::string>& assumptions = layout_.recording.assumptions;
-    const Columns& columns = layout_.columns;
-    std::optional<double> metres = columns.metres ? columns.metres : comments_.metres;
-    if (options_.unit) metres = options_.unit;
-    if (!metres && needs_unit_)
+    const bool is_known = options_.unit || layout_.columns.metres || comments_.metres;
+    if (!is_known && needs_unit_)
       places_.reject(
           options_.fps
               ? "says no unit: --unit has to give its metres, such as 0.01 for cm"
               : "says no unit and no frame rate: --unit has to give its metres, such as 0.01 for cm, and "
                 "--fps the frame numbers a second");
-    if (!metres) assumptions.emplace_back("Coordinates are in metres; the file does not say their unit.");
-    layout_.metres = metres.value_or(1);
-    layout_.height_metres = options_.unit ? *options_.unit : columns.height_metres.value_or(layout_.metres);
-    layout_.radians = columns.radians.value_or(columns.has_angle ? std::numbers::pi / 180 : 1);
-    if (columns.has_angle && !columns.radians)
-      assumptions.emplace_back("Angles are headings in degrees; the file does not say their unit.");
-    layout_.clip_seconds = columns.clip_seconds.value_or(1);
-    if (columns.has_frames_and_time)
-      assumptions.emplace_back("Times are those of the clips that rows name, because there are frames.");
-    if (columns.has(Role::clip_time) && !columns.clip_seconds)
-      assumptions.emplace_back("Times of clips are in seconds; the file does not say their unit.");
-    if (!columns.has(Role::time)) return;
-    layout_.recording.clock = Clock::times;
-    if (!columns.seconds) assumptions.emplace_back("Times are in seconds; the file does not say their unit.");
-    layout_.seconds = columns.seconds.value_or(1);
+    take_units_of_columns(layout_, options_, comments_.metres);
   }
 };
 
 }  // namespace
+
+TableLayout layout_of_columns(const Places& places, std::span<const ColumnName> names,
+                              const TrajectoryOptions& options) {
+  TableLayout layout;
+  layout.recording.format = "columns";
+  layout.columns = columns_of(places, std::nullopt, names, options.unit.has_value());
+  take_units_of_columns(layout, options, std::nullopt);
+  return layout;
+}
 
 TableLayout table_layout(const Places& places, LineReader& lines, const TrajectoryOptions& options) {
   return LayoutFinder(places, lines, options).find();

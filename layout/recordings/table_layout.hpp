@@ -34,4 +34,9 @@ inline bool is_comment(std::string_view line) {
 /// Errors:  throws TrajectoryError on what is none of these, where a unit is not known, and on other columns without names.
 TableLayout table_layout(const Places& places, LineReader& lines, const TrajectoryOptions& options);
 
+/// Says what columns in memory are, by their names.
+/// Errors:  throws TrajectoryError as columns_of() does.
+TableLayout layout_of_columns(const Places& places, std::span<const ColumnName> names,
+                              const TrajectoryOptions& options);
+
 }  // namespace bch::detail::trajectory

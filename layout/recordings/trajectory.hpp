@@ -55,6 +55,17 @@ struct TrajectoryOptions {
   std::function<bool()> go_on = {};
 };
 
+/// Refers to a column of a table in memory, with a value for each row.
+struct ColumnView {
+  enum class Type : std::uint8_t { float64, float32, int64, int32, text };
+
+  std::string name;  ///< as in a header: "frame", "x/cm"
+  const void* values =
+      nullptr;  ///< of any alignment; texts are pointers to characters that end with NUL, or null where they are empty
+  std::size_t stride = 0;  ///< bytes from a value to the next
+  Type type = Type::float64;
+};
+
 /// Holds what a recording is, known before its first frame is read.
 struct TrajectoryInfo {
   std::string format;    ///< such as "JuPedSim SQLite, version 2"
@@ -95,5 +106,12 @@ class TrajectoryReader {
 /// Errors:  throws TrajectoryError; also where fps or unit are needed and neither file nor options say them.
 std::unique_ptr<TrajectoryReader> open_trajectory(const std::filesystem::path& file,
                                                   const TrajectoryOptions& options = {});
+
+/// Opens a recording that is in memory: a table whose columns have the names that headers of CSV have. Rows are numbered from 0. Its frames are
+/// those of the same table as CSV. The values are not copied, so they have to stay as they are as long as the reader lives.
+/// Memory:  as above; rows out of order are sorted likewise.
+/// Errors:  throws TrajectoryError as above; also where a column that is needed has no values, or the options name columns.
+std::unique_ptr<TrajectoryReader> open_columns(std::vector<ColumnView> columns, std::size_t rows,
+                                               const TrajectoryOptions& options = {});
 
 }  // namespace bch::detail

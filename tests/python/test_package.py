@@ -157,7 +157,7 @@ class Errors(unittest.TestCase):
             (bch.read_trajectory, {"path": "/nowhere.csv", "fps": 1, "unit": 1, "columns": "id,frame,x,y"}),
             (
                 bch.check,
-                {"path": "/nowhere.csv", "characters": [man], "clip_speeds": {}, "facing": 0, "depth": 0}
+                {"recording": "/nowhere.csv", "characters": [man], "clip_speeds": {}, "facing": 0, "depth": 0}
                 | {"leaves": "discs", "max_distance": 1, "walls": walls, "fps": 1, "unit": 1, "threads": 1},
             ),
             (
@@ -643,6 +643,76 @@ class Recordings(unittest.TestCase):
         self.assertEqual((seen["kind"], seen["worst"], seen["y"]), (bch.PASS, 1, 5))
         self.assertTrue(0.2 < seen["after"] < 0.5)
         self.assertAlmostEqual(seen["x"], 8999 + 2 * float(seen["after"]), 4)
+
+    def columns(self, count=60):
+        """Rows of some people, in no order, as arrays of many types."""
+        random = np.random.default_rng(5)
+        frame, id = (each.ravel() for each in np.meshgrid(np.arange(3, 3 + count), np.arange(12), indexing="ij"))
+        order = random.permutation(len(frame))
+        x, y = (random.uniform(0, 4, 12)[id] + 0.03 * random.uniform(-1, 1, 12)[id] * frame for _ in "xy")
+        heading = np.where(random.random(len(id)) < 0.3, np.nan, random.uniform(-4, 4, len(id)))
+        return {"frame": frame[order], "id": id[order], "x": x[order], "y": y[order], "heading": heading[order]}
+
+    def same(self, one, other):
+        for name in ("events", "frames", "pairs"):
+            self.assertEqual(getattr(one, name).tobytes(), getattr(other, name).tobytes(), name)
+        self.assertGreater(min(len(one.events), len(one.pairs)), 0)
+        self.assertEqual(one.summary, other.summary)
+
+    def as_csv(self, columns, **options):
+        path = Path(self.folder.name) / "same.csv"
+        rows = zip(*(values.tolist() for values in columns.values()))
+        path.write_text(",".join(columns) + "\n" + "".join(",".join(map(repr, row)) + "\n" for row in rows))
+        return bch.check(path, max_distance=0.5, **options)
+
+    def test_arrays(self):
+        columns = self.columns()
+        check = lambda changed={}, **more: bch.check(**{**columns, **changed}, max_distance=0.5, **{"fps": 25, **more})
+        expected = self.as_csv(columns, fps=25)
+        self.same(check(), expected)
+        self.assertEqual([line for line in check().assumptions if "no unit" in line], [])
+        records = np.empty(len(columns["x"]), [("c", "i1"), ("frame", ">i2"), ("id", "u8"), ("x", "f8"), ("y", "f8"), ("heading", "f8")])
+        for name, values in columns.items():
+            records[name] = values
+        self.same(check({name: records[name] for name in columns}), expected)
+        self.same(check({name: values.tolist() for name, values in columns.items()}), expected)
+        self.same(check({name: values[::-1] for name, values in columns.items()}), self.as_csv({n: v[::-1] for n, v in columns.items()}, fps=25))
+        masked = np.ma.masked_invalid(columns["heading"])
+        self.same(check({"heading": masked, "x": columns["x"] * 100, "y": columns["y"] * 100}, unit=0.01),
+                  self.as_csv({**columns, "x": columns["x"] * 100, "y": columns["y"] * 100}, fps=25, unit=0.01))
+        floats = {name: columns[name].astype(np.float32) for name in ("x", "y", "heading")}
+        self.same(check(floats), self.as_csv({**columns, **floats}, fps=25))
+        statures = {"stature": 1.5 + 0.05 * columns["id"]}
+        self.same(check(statures), self.as_csv({**columns, **statures}, fps=25))
+        # Times from any origin are those of frames from the first on.
+        timed = {"frame": None, "time": 1.7e9 + columns["frame"] / 25}
+        self.same(check(timed, fps=None), self.as_csv({"time": timed["time"], **{n: columns[n] for n in ("id", "x", "y", "heading")}}))
+        epochs = np.datetime64("2026-05-01", "ns") + (columns["frame"] * 40_000_000).astype("timedelta64[ns]")
+        self.assertEqual(check({"frame": None, "time": epochs}, fps=None).events["depth"].tolist(), expected.events["depth"].tolist())
+
+    def test_arrays_that_are_wrong(self):
+        columns = self.columns()
+        broken = {name: values.copy() for name, values in columns.items()}
+        broken["x"][3] = np.nan
+        jumping = {**columns, "x": columns["x"] + 400 * (columns["frame"] == 20)}
+        far = np.full(len(columns["id"]), 2**63, np.uint64)
+        for kind, words, changed in (
+            (ValueError, "^table: row 3: x nan is not finite$", broken),
+            (ValueError, r"^table: row \d+: person \d+ jumps by 399.* m, ", jumping),
+            (ValueError, r"^table: row \d+: repeats row \d+, person \d+ in frame \d+$", {n: np.tile(v, 2) for n, v in columns.items()}),
+            (ValueError, "row 0: id 2.5 is not a whole number", {**columns, "id": columns["id"] + 0.5}),
+            (ValueError, "^table: has no column called 'y', only 'frame, id, x, heading'$", {**columns, "y": None}),
+            (ValueError, "^table: says no frame rate: fps has to give", {**columns, "fps": None}),
+            (ValueError, "columns is for files", {**columns, "columns": "frame,id,x,y"}),
+            (TypeError, "^y has 719 rows, and frame has 720$", {**columns, "y": columns["y"][1:]}),
+            (TypeError, r"^x is a list; wanted is numbers with shape \(n,\)$", {**columns, "x": ["one"]}),
+            (TypeError, r"^x is an array of float64 with shape \(720, 1\)", {**columns, "x": columns["x"][:, None]}),
+            (IndexError, r"^id\[0\] is 9223372036854775808, above 9223372036854775807$", {**columns, "id": far}),
+            (TypeError, "^recording is not given, nor are arrays", {}),
+            (TypeError, "^recording and y are both given", {"recording": self.path, "y": columns["y"]}),
+        ):
+            with self.subTest(words), self.assertRaisesRegex(kind, words):
+                bch.check(**{"fps": 25, **changed})
 
     def test_options_of_checks(self):
         check = lambda **more: bch.check(self.path, unit=1, **more)

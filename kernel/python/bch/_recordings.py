@@ -11,6 +11,7 @@ from types import MappingProxyType
 from typing import Any, Dict, List, Literal, Mapping, NamedTuple, Optional, Sequence, Union
 
 import numpy as np
+import numpy.typing as npt
 
 from . import _library
 from ._arrays import Records, address, bounded, copied, encoded, f4, f8, i4, i8, instance, instances, number, one_of, rejected, u4
@@ -19,6 +20,7 @@ from ._obstacles import Obstacles
 from ._progress import Watched
 from ._queries import LEAVES, Leaves
 from ._shapes import ALL_DEPTHS, Character, Path, ShapeSet
+from ._tables import Columns
 
 #: A person in a frame, in metres, radians and seconds; NaN where the file has no value. `motion` indexes `Trajectory.motions`, or is -1.
 TRACKED = np.dtype(
@@ -40,6 +42,8 @@ _EVENT = np.dtype(
 )
 Bodies = Literal["outlines", "spheres"]
 _BODIES = {"outlines": 0, "spheres": 1}
+#: Units of arrays.
+_UNITS = {"time": "s", "x": "m", "y": "m", "heading": "rad", "stature": "m"}
 #: People whom a frame has at most.
 _MOST_PEOPLE = 1_000_000
 
@@ -92,7 +96,7 @@ def dataframe(records: Union[Records, Trajectory]) -> Any:
     return rows.assign(character=records.character, clip=records.clip)
 
 
-def _open(path: Path, fps: Optional[float], unit: Optional[float], columns: Optional[str]) -> Handle:
+def _open(recording: Union[Path, bytes, Columns], fps: Optional[float], unit: Optional[float], columns: Optional[str]) -> Handle:
     with Watched("reading", False) as watched:
         options = _library.TrajectoryOptions(
             fps=0.0 if fps is None else number(fps, "fps"),
@@ -100,7 +104,10 @@ def _open(path: Path, fps: Optional[float], unit: Optional[float], columns: Opti
             columns=None if columns is None else encoded(columns, "columns"),
             progress=watched.callback,
         )
-        return Handle("trajectory", "open", encoded(path, "path"), byref(options), checked=watched.run)
+        if isinstance(recording, Columns):
+            table = (recording.array, len(recording.array), recording.rows)
+            return Handle("trajectory", "from_columns", *table, byref(options), checked=watched.run)
+        return Handle("trajectory", "open", encoded(recording, "path"), byref(options), checked=watched.run)
 
 
 def _info(handle: Handle) -> _library.TrajectoryInfo:
@@ -167,9 +174,26 @@ def _records(get: Any, handle: Handle, dtype: "np.dtype[Any]") -> Records:
     return copied(pointer.value, dtype, (count.value,))
 
 
+def _source_of(recording: Optional[Path], arrays: Dict[str, Any]) -> Union[bytes, Columns]:
+    """Return the path of a recording, or the arrays that stand for it."""
+    given = {name: values for name, values in arrays.items() if values is not None}
+    if recording is not None and given:
+        raise ArrayError(f"recording and {given.popitem()[0]} are both given; wanted is one of them")
+    if recording is None and not given:
+        raise ArrayError("recording is not given, nor are arrays; wanted are id, x, y and frame or time")
+    return Columns(given, _UNITS) if recording is None else encoded(recording, "recording")
+
+
 def check(
-    path: Path,
+    recording: Optional[Path] = None,
     *,
+    frame: Optional[npt.ArrayLike] = None,
+    time: Optional[npt.ArrayLike] = None,
+    id: Optional[npt.ArrayLike] = None,
+    x: Optional[npt.ArrayLike] = None,
+    y: Optional[npt.ArrayLike] = None,
+    heading: Optional[npt.ArrayLike] = None,
+    stature: Optional[npt.ArrayLike] = None,
     characters: Union[Sequence[Character], ShapeSet] = (),
     clip_speeds: Mapping[str, float] = MappingProxyType({}),
     facing: float = 0.0,
@@ -188,9 +212,23 @@ def check(
 ) -> Check:
     """Put a walking person on every row of a recording, and find who runs into whom. Ctrl-C interrupts it.
 
+    A recording is a file, or arrays with an entry per row, in any order of rows: `check("walk.sqlite")`, or
+    `check(frame=frame, id=id, x=x, y=y, fps=25)`. Arrays are of any numbers with any stride, or lists. They give the same result as a
+    CSV file with these columns.
+
     Parameters
     ----------
-    path : path
+    recording : path, optional
+    frame, id : (n,) whole numbers, optional
+        The frame of a row, with `fps`, and the person. A person is in a frame once at most.
+    time : (n,) numbers, optional
+        In place of frames: seconds from any origin, or numpy's datetime64 or timedelta64.
+    x, y : (n,) numbers, optional
+        Positions of heads, metres or `unit`, within 1e8 m.
+    heading : (n,) numbers, optional
+        Radians, counter-clockwise from +x; NaN: the direction in which the person walks.
+    stature : (n,) numbers, optional
+        Heights of people, metres or `unit`, from 1 to 2.5 m; NaN: by the id.
     characters : sequence of Character, or ShapeSet
         The bodies of the people, assigned by id or as rows name them, and scaled to the people's statures; by default built-in
         pedestrians. Each character needs a clip that walks straight on, and should have one that stands. Alternatively a set that
@@ -216,7 +254,7 @@ def check(
     walls : Obstacles, optional
         Walls to use instead of the geometry of the recording.
     fps, unit, columns
-        As for `read_trajectory`.
+        As for `read_trajectory`. `columns` are of files alone.
     threads : int
         Number of threads; 0: all processors. The answer is the same for any number.
     progress : bool
@@ -225,7 +263,17 @@ def check(
     Returns
     -------
     Check
+
+    Raises
+    ------
+    FileNotFoundError, OSError
+        A file that does not exist, or cannot be read. The message names the file, the row and the value.
+    TypeError, ValueError
+        Arrays that are no numbers or not of one length, or an argument or a value that makes no sense. The message names the
+        argument or the column, the row, from 0, and the value.
     """
+    arrays = {"frame": frame, "time": time, "id": id, "x": x, "y": y, "heading": heading, "stature": stature}
+    source = _source_of(recording, arrays)
     if walls is not None:
         instance(walls, Obstacles, "walls")
     baked = characters if isinstance(characters, ShapeSet) else None
@@ -235,7 +283,7 @@ def check(
     ahead = number(facing, "facing")
     if baked is None and (clip_speeds or ahead):
         raise ArrayError("clip_speeds and facing are for characters of a bch.ShapeSet")
-    trajectory = _open(path, fps, unit, columns)
+    trajectory = _open(source, fps, unit, columns)
     cast = (ctypes.c_void_p * len(own))(*(character._pointer for character in own))
     speeds = (_library.ClipSpeed * len(clip_speeds))(
         *(_library.ClipSpeed(encoded(clip, "clip_speeds"), number(speed, "clip_speeds")) for clip, speed in clip_speeds.items())

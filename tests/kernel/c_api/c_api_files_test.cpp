@@ -120,6 +120,70 @@ TEST_F(CApiRecordings, AreRead) {
   EXPECT_EQ(other, nullptr);
 }
 
+/// All tables of a check, as bytes.
+std::string tables_of(const bch_check* check) {
+  const bch_check_frame* frames = nullptr;
+  const bch_check_pair* pairs = nullptr;
+  const bch_check_event* events = nullptr;
+  std::size_t frame_count = 0, pair_count = 0, event_count = 0;
+  expect_ok(bch_check_get_frames(check, &frames, &frame_count));
+  expect_ok(bch_check_get_pairs(check, &pairs, &pair_count));
+  expect_ok(bch_check_get_events(check, &events, &event_count));
+  EXPECT_GT(std::min({frame_count, pair_count, event_count}), 0u);
+  return std::string(reinterpret_cast<const char*>(frames), frame_count * sizeof(*frames)) +
+         std::string(reinterpret_cast<const char*>(pairs), pair_count * sizeof(*pairs)) +
+         std::string(reinterpret_cast<const char*>(events), event_count * sizeof(*events));
+}
+
+TEST_F(CApiRecordings, InMemoryAreThoseOfTheSameFile) {
+  struct Person {
+    std::int32_t frame, id;
+    double x, y;
+  };
+  std::vector<Person> people;
+  std::istringstream lines(rows());
+  std::string line;
+  std::getline(lines, line);
+  for (Person one{}; std::getline(lines, line); people.push_back(one))
+    ASSERT_EQ(std::sscanf(line.c_str(), "%d,%d,%lf,%lf", &one.frame, &one.id, &one.x, &one.y), 4);
+  bch_column columns[] = {{"frame", &people[0].frame, sizeof(Person), BCH_COLUMN_INT32, 0},
+                          {"ID", &people[0].id, sizeof(Person), BCH_COLUMN_INT32, 0},
+                          {"x/m", &people[0].x, sizeof(Person), BCH_COLUMN_DOUBLE, 0},
+                          {"y/m", &people[0].y, sizeof(Person), BCH_COLUMN_DOUBLE, 0},
+                          {"point", nullptr, 0, BCH_COLUMN_TEXT, 0}};
+  bch_trajectory_options options = BCH_TRAJECTORY_OPTIONS_INIT;
+  options.fps = 10;
+  const auto in_memory = made<bch_trajectory_free>(bch_trajectory_from_columns, columns, std::size_t{5},
+                                                   people.size(), &options);
+  bch_check_options how = BCH_CHECK_OPTIONS_INIT;
+  how.max_distance = 0.5;
+  const auto check = made<bch_check_free>(bch_check_run, in_memory.get(), &how);
+  EXPECT_EQ(tables_of(check.get()), tables_of(checked(how).get()));
+
+  bch_trajectory* none = nullptr;
+  const auto expect_said = [&](bch_status status, const std::string& words) {
+    EXPECT_EQ(status, BCH_INVALID_ARGUMENT);
+    EXPECT_TRUE(test::has(bch_last_error(), words)) << bch_last_error();
+  };
+  const auto open = [&] { return bch_trajectory_from_columns(columns, 5, people.size(), &options, &none); };
+  people[3].x = HUGE_VAL;
+  expect_said(open(), "table: row 3: x inf is not finite");
+  people[3].x = 300;
+  const auto jumping = made<bch_trajectory_free>(bch_trajectory_from_columns, columns, std::size_t{5},
+                                                 people.size(), &options);
+  bch_check* no_check = nullptr;
+  expect_said(bch_check_run(jumping.get(), &how, &no_check), "table: row 3: person 5 jumps by ");
+  columns[0].type = 5;
+  expect_said(open(), "columns->type is 5");
+  columns[0].name = nullptr;
+  expect_said(open(), "columns->name is NULL");
+  expect_said(bch_trajectory_from_columns(nullptr, 1, 1, &options, &none), "columns is NULL");
+  options.progress = [](void*, std::uint64_t, std::uint64_t) { return 1; };
+  columns[0].type = BCH_COLUMN_INT32, columns[0].name = "frame";
+  EXPECT_EQ(open(), BCH_CANCELLED);
+  EXPECT_EQ(none, nullptr);
+}
+
 TEST_F(CApiRecordings, AreChecked) {
   bch_check_options options = BCH_CHECK_OPTIONS_INIT;
   options.max_distance = 0.5;

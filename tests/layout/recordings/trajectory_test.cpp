@@ -152,6 +152,111 @@ TEST_F(Trajectories, NameNoMoreThanCanBe) {
       "f:4098: character '' and clip 'clip4096' are beyond the 4096 different pairs that a file may name");
 }
 
+// ---- Recordings in memory.
+
+/// A person at a time, as programs keep them: packed, so that hardly a value is aligned.
+#pragma pack(push, 1)
+struct PackedRow {
+  char kind;
+  std::int32_t frame;
+  std::int64_t id;
+  double x;
+  float y;
+  double heading, stature;
+  const char* clip;
+};
+#pragma pack(pop)
+
+using Type = detail::ColumnView::Type;
+
+std::vector<detail::ColumnView> columns_of(const std::vector<PackedRow>& rows) {
+  const auto* const base = reinterpret_cast<const char*>(rows.data());
+  const auto column = [&](const char* name, std::size_t offset, Type type) {
+    return detail::ColumnView{name, base + offset, sizeof(PackedRow), type};
+  };
+  return {column("kind", offsetof(PackedRow, kind), Type::int32),  // which nobody reads
+          column("Frame", offsetof(PackedRow, frame), Type::int32),
+          column("id", offsetof(PackedRow, id), Type::int64),
+          column("x [cm]", offsetof(PackedRow, x), Type::float64),
+          column("y/cm", offsetof(PackedRow, y), Type::float32),
+          column("angle", offsetof(PackedRow, heading), Type::float64),
+          column("height/m", offsetof(PackedRow, stature), Type::float64),
+          column("clip", offsetof(PackedRow, clip), Type::text)};
+}
+
+ReadRecording read_columns(const std::vector<detail::ColumnView>& columns, std::size_t rows,
+                           const TrajectoryOptions& wanted) {
+  const auto reader = detail::open_columns(columns, rows, wanted);
+  ReadRecording recording{reader->info(), {}};
+  for (RecordedFrame frame; reader->next(frame.number, frame.people);) recording.frames.push_back(frame);
+  return recording;
+}
+
+TEST_F(Trajectories, InMemoryAreThoseOfTheSameRowsAsCsv) {
+  Random random(7);
+  std::vector<PackedRow> rows;
+  std::string csv = "kind,Frame,id,x [cm],y/cm,angle,height/m,clip\n";
+  for (int frame = 400; frame > 0; --frame)
+    for (int k = 0; k < 20; ++k) {
+      if (random.below(3) == 0) continue;
+      const bool has_more = random.below(2) == 0;
+      const double none = std::numeric_limits<double>::quiet_NaN();
+      rows.push_back({'a', frame, (std::int64_t{1} << 60) + k, random.uniform(-1e5, 1e5),
+                      static_cast<float>(random.uniform(-900, 900)), has_more ? random.uniform(-7, 7) : none,
+                      has_more ? 1.5 + 0.1 * k : none, has_more ? "walk" : nullptr});
+      const PackedRow& row = rows.back();
+      csv += "a," + std::to_string(row.frame) + "," + std::to_string(row.id);
+      for (const double value : {row.x, double{row.y}, row.heading, row.stature})
+        csv += "," + detail::shortest(value);
+      csv += std::string(",") + (row.clip == nullptr ? "" : row.clip) + "\n";
+    }
+  for (const std::size_t memory : {std::size_t{0}, std::size_t{1} << 25}) {
+    const TrajectoryOptions wanted{.fps = 25, .sort_memory = memory};
+    const ReadRecording of_file = read(csv, wanted),
+                        in_memory = read_columns(columns_of(rows), rows.size(), wanted);
+    EXPECT_EQ(text_of(in_memory), text_of(of_file));
+    EXPECT_EQ(motions_of(in_memory).substr(0, 7), "/walk a");
+    EXPECT_EQ(assumptions_of(in_memory), assumptions_of(of_file));
+    EXPECT_EQ(in_memory.info.format, "columns");
+    EXPECT_EQ(in_memory.info.people, of_file.info.people);
+  }
+}
+
+TEST_F(Trajectories, InMemoryAreRefusedByOneLine) {
+  const std::vector<double> time{0, 0.5, 1}, x{1, 2, NAN}, far{0, 1, 1e9}, id{0, 0.5, 1};
+  const std::vector<std::int64_t> ids{7, 7, 7}, zeros{0, 0, 0};
+  const std::vector<const char*> texts{"1", "2", "three"};
+  const auto refused = [&](std::vector<detail::ColumnView> columns, const TrajectoryOptions& wanted = {}) {
+    return test::complaint<detail::TrajectoryError>([&] { read_columns(columns, 3, wanted); });
+  };
+  const auto numbers = [](const char* name, const std::vector<double>& values) {
+    return detail::ColumnView{name, values.data(), 8, Type::float64};
+  };
+  const detail::ColumnView person{"id", ids.data(), 8, Type::int64}, y = numbers("y", time);
+  const std::vector<detail::ColumnView> sound{numbers("t", time), person, numbers("x", time), y};
+  EXPECT_EQ(refused(sound), "accepted");
+  EXPECT_EQ(refused({sound[0], person, numbers("x", x), y}), "table: row 2: x nan is not finite");
+  EXPECT_EQ(refused({sound[0], person, numbers("x", far), y}), "table: row 2: x 1e+09 is not within +-1e8 m");
+  EXPECT_EQ(refused({sound[0], numbers("ID", id), sound[2], y}),
+            "table: row 1: id 0.5 is not a whole number");
+  EXPECT_EQ(refused({sound[0], person, {"x", texts.data(), 8, Type::text}, y}),
+            "table: row 2: x 'three' is not a number");
+  EXPECT_EQ(refused({sound[0], person, sound[2], y, numbers("clip", id)}),
+            "table: row 0: clip 0 is not a name");
+  EXPECT_EQ(refused({{"frame", zeros.data(), 8, Type::int64}, person, sound[2], y}, {.fps = 1}),
+            "table: row 1: person 7 is at two places in frame 0, here at (0.5, 0.5), by row 0 at (0, 0)");
+  EXPECT_EQ(refused({sound[0], person, {"x", nullptr, 8, Type::float64}, y}),
+            "table: the values of column 'x' are neither numbers nor texts");
+  EXPECT_EQ(refused({sound[0], person, y}), "table: has no column called 'x', only 't, id, y'");
+  EXPECT_EQ(refused({numbers("frame", time), person, sound[2], y}),
+            "table: says no frame rate: --fps has to give the frame numbers a second");
+  EXPECT_EQ(refused(sound, {.fps = -1}),
+            "table: the frame rate of --fps is -1 frames a second, not above 0 and at most 10000");
+  EXPECT_EQ(refused(sound, {.columns = "t,id,x,y"}), "table: has columns with names; --columns is for files");
+  EXPECT_EQ(test::complaint<detail::TrajectoryError>([&] { read_columns(sound, 0, {}); }),
+            "table: has no rows");
+}
+
 // ---- Recordings as text whose columns have no names, or not as many as rows have fields; whose times are far from 0, whose numbers are closer
 // to it than any double, or that are made to take long.
 

@@ -58,6 +58,27 @@ typedef struct bch_trajectory_options {
  * Dynamics Data Archive's HDF5, Pathfinder's CSV, TrajNet++ and ETH/UCY, CSV with a header. */
 BCH_API bch_status bch_trajectory_open(const char* path, const bch_trajectory_options* options,
                                        bch_trajectory** trajectory);
+/** Selects what the values of a column are. */
+enum {
+  BCH_COLUMN_DOUBLE = 0, /**< double */
+  BCH_COLUMN_FLOAT = 1,  /**< float */
+  BCH_COLUMN_INT64 = 2,  /**< int64_t */
+  BCH_COLUMN_INT32 = 3,  /**< int32_t */
+  BCH_COLUMN_TEXT = 4    /**< const char*, of which NULL is an empty text */
+};
+/** Refers to a column of a table of the caller, with a value for each row: an array, or a member of structs. */
+typedef struct bch_column {
+  const char* name;   /**< as in the header of CSV: "frame", "x [cm]", "heading [deg]" */
+  const void* values; /**< or NULL where the column is not read */
+  size_t stride;      /**< bytes from a value to the next; 0: one follows the other */
+  int32_t type;       /**< BCH_COLUMN_DOUBLE ... */
+  int32_t unused;
+} bch_column;
+/** Opens a recording that is in memory, as rows of named columns. It is the same as a CSV file with that header and those rows, which messages
+ * number from 0. The values are not copied: they have to stay as they are until the recording is freed. What is wrong with them is
+ * BCH_INVALID_ARGUMENT. `options->columns` is NULL. */
+BCH_API bch_status bch_trajectory_from_columns(const bch_column* columns, size_t column_count, size_t row_count,
+                                               const bch_trajectory_options* options, bch_trajectory** trajectory);
 /** Holds the format, size and assumptions of a recording. */
 typedef struct bch_trajectory_info {
   uint32_t size; /**< sizeof(bch_trajectory_info) */
