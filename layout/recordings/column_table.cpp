@@ -30,10 +30,9 @@ class ColumnTable final : public RowSource {
       : columns_(std::move(columns)), rows_(rows) {
     if (options.columns) places_.reject("has columns with names; --columns is for files");
     layout_ = layout_of_columns(places_, names_of(columns_), options);
-    for (std::size_t i = 0; i < columns_.size(); ++i)
-      if (layout_.columns.roles[i] != Role::none && columns_[i].values == nullptr && rows > 0)
-        places_.reject("the values of column " + shown(layout_.columns.names[i]) +
-                       " are neither numbers nor texts");
+    for (std::size_t i = 0; i < columns_.size() && rows > 0; ++i)
+      if (layout_.columns.roles[i] != Role::none && columns_[i].values == nullptr)
+        places_.reject("column " + shown(layout_.columns.names[i]) + " does not have one value a row");
   }
 
   const Places& places() const override { return places_; }

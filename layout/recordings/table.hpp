@@ -17,7 +17,7 @@ namespace bch::detail::trajectory {
 std::unique_ptr<RowSource> open_table(const std::filesystem::path& file, const TrajectoryOptions& options);
 
 /// Stands for the file's name in messages about columns in memory.
-constexpr const char* table_in_memory = "table";
+constexpr const char* table_in_memory = "recording";
 
 /// Opens columns in memory, as open_columns() says.
 std::unique_ptr<RowSource> open_column_table(std::vector<ColumnView> columns, std::size_t rows,

@@ -662,7 +662,7 @@ class Recordings(unittest.TestCase):
     def as_csv(self, columns, **options):
         path = Path(self.folder.name) / "same.csv"
         rows = zip(*(values.tolist() for values in columns.values()))
-        path.write_text(",".join(columns) + "\n" + "".join(",".join(map(repr, row)) + "\n" for row in rows))
+        path.write_text(",".join(columns) + "\n" + "".join(",".join(map(str, row)) + "\n" for row in rows))
         return bch.check(path, max_distance=0.5, **options)
 
     def test_arrays(self):
@@ -671,12 +671,14 @@ class Recordings(unittest.TestCase):
         expected = self.as_csv(columns, fps=25)
         self.same(check(), expected)
         self.assertEqual([line for line in check().assumptions if "no unit" in line], [])
-        records = np.empty(len(columns["x"]), [("c", "i1"), ("frame", ">i2"), ("id", "u8"), ("x", "f8"), ("y", "f8"), ("heading", "f8")])
+        types = {"kind": "i1", "frame": ">i2", "id": "u8", "x": "f8", "y": "f8", "heading": "f8"}
+        records = np.empty(len(columns["x"]), list(types.items()))
         for name, values in columns.items():
             records[name] = values
         self.same(check({name: records[name] for name in columns}), expected)
         self.same(check({name: values.tolist() for name, values in columns.items()}), expected)
-        self.same(check({name: values[::-1] for name, values in columns.items()}), self.as_csv({n: v[::-1] for n, v in columns.items()}, fps=25))
+        backwards = {name: values[::-1] for name, values in columns.items()}
+        self.same(check(backwards), self.as_csv(backwards, fps=25))
         masked = np.ma.masked_invalid(columns["heading"])
         self.same(check({"heading": masked, "x": columns["x"] * 100, "y": columns["y"] * 100}, unit=0.01),
                   self.as_csv({**columns, "x": columns["x"] * 100, "y": columns["y"] * 100}, fps=25, unit=0.01))
@@ -686,9 +688,93 @@ class Recordings(unittest.TestCase):
         self.same(check(statures), self.as_csv({**columns, **statures}, fps=25))
         # Times from any origin are those of frames from the first on.
         timed = {"frame": None, "time": 1.7e9 + columns["frame"] / 25}
-        self.same(check(timed, fps=None), self.as_csv({"time": timed["time"], **{n: columns[n] for n in ("id", "x", "y", "heading")}}))
+        self.same(check(timed, fps=None), self.as_csv({"time": timed["time"], **{n: v for n, v in columns.items() if n != "frame"}}))
         epochs = np.datetime64("2026-05-01", "ns") + (columns["frame"] * 40_000_000).astype("timedelta64[ns]")
         self.assertEqual(check({"frame": None, "time": epochs}, fps=None).events["depth"].tolist(), expected.events["depth"].tolist())
+
+    def test_tables_by_what_they_offer(self):
+        columns = self.columns()
+        expected = self.as_csv(columns, fps=25)
+        nothing = [None] * len(columns["id"])
+        clips = {"character": nothing, "Clip": np.array(["", "walk"])[columns["id"] % 2], "point": [object()] * len(nothing)}
+
+        class Frame:  # as a dataframe of pandas
+            def __init__(self, columns):
+                self.columns, self._columns = tuple(columns), columns
+
+            def __getitem__(self, name):
+                return Series(self._columns[name])
+
+        class Series:
+            def __init__(self, values):
+                self._values = values
+
+            def __array__(self, dtype=None, copy=None):
+                return np.array(self._values, dtype)
+
+        class Arrow(Frame):  # whose columns have no names
+            def __init__(self, columns):
+                super().__init__(columns)
+                self.column_names, self.columns = list(columns), [Series(values) for values in columns.values()]
+
+        records = np.empty(len(columns["x"]), [(name, values.dtype) for name, values in columns.items()])
+        for name, values in columns.items():
+            records[name] = values
+        check = lambda table, **more: bch.check(table, max_distance=0.5, **more)
+        for table in (columns, {**columns, "v": np.zeros((720, 2))}, records, records.view(np.recarray), Frame(columns), Arrow(columns)):
+            self.same(check(table, fps=25), expected)
+        people = [bch.default_male(), bch.default_female()]
+        named = {**columns, "character": np.full(len(nothing), ""), "Clip": clips["Clip"]}
+        self.same(check(Frame({**columns, **clips}), fps=25, characters=people), self.as_csv(named, fps=25, characters=people))
+
+        class TrajectoryData:  # of PedPy
+            data, frame_rate = Frame({**{n: columns[n] for n in ("id", "frame", "x", "y")}, "point": clips["point"]}), 25.0
+
+        self.same(check(TrajectoryData()), self.as_csv({n: columns[n] for n in ("id", "frame", "x", "y")}, fps=25))
+        self.assertEqual(check(TrajectoryData(), fps=5).summary["fps"], 5)
+        self.assertFalse(any("no unit" in line for line in check(TrajectoryData()).assumptions))
+
+        class Agent:
+            def __init__(self, id, x, y, heading):
+                self.id, self.position = id, (x, y)
+                self.orientation = (0.0, 0.0) if np.isnan(heading) else (np.cos(heading), np.sin(heading))
+
+        class Recording:  # of JuPedSim
+            num_frames, fps = 70, 25.0
+
+            def frame(self, number):
+                rows = np.flatnonzero(columns["frame"] == number)
+                return mock.Mock(agents=[Agent(*(columns[n][row] for n in ("id", "x", "y", "heading"))) for row in rows])
+
+            def geometry(self):
+                return mock.Mock(spec=["wkt"], wkt="POLYGON ((1 -9, 9 -9, 9 9, 1 9, 1 -9))")
+
+        recording = Recording()
+        turned = np.arctan2(np.sin(columns["heading"]), np.cos(columns["heading"]))
+        self.same(check(recording, walls="LINESTRING (50 0, 51 0)"), self.as_csv({**columns, "heading": turned}, fps=25))
+        self.assertGreater(check(recording).summary["in_walls"], 0)
+
+    def test_walls_of_geometries(self):
+        ring = [[0, 0], [3, 0], [3, 3], [0, 3]]
+        wkt = "POLYGON ((0 0, 3 0, 3 3, 0 3, 0 0))"
+        closed = {"type": "Polygon", "coordinates": (tuple(map(tuple, ring + ring[:1])),)}
+        with_wkt = lambda **what: mock.Mock(spec=list(what), **what)
+        shapely = with_wkt(wkt=wkt)
+        lines = {"type": "MultiLineString", "coordinates": [ring + ring[:1]]}
+        count = lambda walls: bch.check(self.path, walls=walls, unit=1).summary["in_walls"]
+        expected = count(bch.Obstacles.from_wkt(wkt, walkable=True))
+        self.assertGreater(expected, 0)
+        for walls in (
+            *(wkt, shapely, with_wkt(polygon=shapely), closed, with_wkt(__geo_interface__=closed), lines),
+            {"type": "Feature", "geometry": closed},
+            {"type": "FeatureCollection", "features": [{"type": "Feature", "geometry": closed}]},
+            {"type": "GeometryCollection", "geometries": [lines]},
+            *(ring, [ring], np.array(ring, np.float32), [np.array(ring), np.array(ring) + 50]),
+        ):
+            with self.subTest(walls):
+                self.assertEqual(count(walls), expected)
+        self.assertEqual(len(bch.Obstacles.from_wkt([ring, ring])), 2)
+        self.assertEqual(len(bch.Obstacles.from_wkt([])), 0)
 
     def test_arrays_that_are_wrong(self):
         columns = self.columns()
@@ -697,18 +783,20 @@ class Recordings(unittest.TestCase):
         jumping = {**columns, "x": columns["x"] + 400 * (columns["frame"] == 20)}
         far = np.full(len(columns["id"]), 2**63, np.uint64)
         for kind, words, changed in (
-            (ValueError, "^table: row 3: x nan is not finite$", broken),
-            (ValueError, r"^table: row \d+: person \d+ jumps by 399.* m, ", jumping),
-            (ValueError, r"^table: row \d+: repeats row \d+, person \d+ in frame \d+$", {n: np.tile(v, 2) for n, v in columns.items()}),
+            (ValueError, "^recording: row 3: x nan is not finite$", broken),
+            (ValueError, r"^recording: row \d+: person \d+ jumps by 399.* m, ", jumping),
+            (ValueError, r"^recording: row \d+: repeats row \d+, person \d+ in", {n: np.tile(v, 2) for n, v in columns.items()}),
             (ValueError, "row 0: id 2.5 is not a whole number", {**columns, "id": columns["id"] + 0.5}),
-            (ValueError, "^table: has no column called 'y', only 'frame, id, x, heading'$", {**columns, "y": None}),
-            (ValueError, "^table: says no frame rate: fps has to give", {**columns, "fps": None}),
+            (ValueError, "^recording: has no column called 'y', only 'frame, id, x, heading'$", {**columns, "y": None}),
+            (ValueError, "^recording: says no frame rate: fps has to give", {**columns, "fps": None}),
             (ValueError, "columns is for files", {**columns, "columns": "frame,id,x,y"}),
             (TypeError, "^y has 719 rows, and frame has 720$", {**columns, "y": columns["y"][1:]}),
-            (TypeError, r"^x is a list; wanted is numbers with shape \(n,\)$", {**columns, "x": ["one"]}),
-            (TypeError, r"^x is an array of float64 with shape \(720, 1\)", {**columns, "x": columns["x"][:, None]}),
+            (ValueError, "^recording: column 'x' does not have one value a row$", {**columns, "x": ["one"]}),
+            (ValueError, "^recording: column 'x' does not have one value a row$", {**columns, "x": columns["x"][:, None]}),
             (IndexError, r"^id\[0\] is 9223372036854775808, above 9223372036854775807$", {**columns, "id": far}),
             (TypeError, "^recording is not given, nor are arrays", {}),
+            (TypeError, "^recording is a int; wanted is a path, or a table with columns by name", {"recording": 7}),
+            (ValueError, "^recording: has no column called 'id', only 'x, y'$", {"recording": {n: columns[n] for n in ("x", "y")}}),
             (TypeError, "^recording and y are both given", {"recording": self.path, "y": columns["y"]}),
         ):
             with self.subTest(words), self.assertRaisesRegex(kind, words):
@@ -742,7 +830,10 @@ class Recordings(unittest.TestCase):
             (ValueError, "expected 64, 128, 256 or 512 spheres, found 65", {"bodies": "spheres", "spheres": 65}),
             (ValueError, "belong to outlines", {"bodies": "spheres", "depth": 3}),
             (ValueError, "baked has outlines", {"bodies": "spheres", "characters": baked, "clip_speeds": {"walk": 1.3}}),
-            (TypeError, "walls is a str", {"walls": "LINESTRING(0 0, 1 1)"}),
+            (TypeError, "walls is a int", {"walls": 3}),
+            (ValueError, "^walls: WKT: line 1, column 1: expected POLYGON", {"walls": "SQUARE (0 0, 1 1)"}),
+            (TypeError, "walls is a mapping of type 'Walls' without coordinates", {"walls": {"type": "Walls"}}),
+            (TypeError, r"walls\[0\] is an array of float64 with shape \(4, 3\)", {"walls": np.zeros((1, 4, 3))}),
         ):
             with self.assertRaisesRegex(kind, words):
                 check(**more)

@@ -7,13 +7,13 @@ from __future__ import annotations
 
 import ctypes
 import math
-from typing import Any, Optional, Tuple
+from typing import Any, List, Mapping, Optional, Tuple
 
 import numpy as np
 
 from . import _library
-from ._arrays import Float64, UInt8, UInt64, address, encoded, f8, given, index, pair, u1, u8
-from ._library import Handle, check, lib
+from ._arrays import Float64, UInt8, UInt64, address, encoded, f8, given, index, listed, pair, table, u1, u8
+from ._library import ArgumentError, ArrayError, Handle, check, lib
 
 
 class Obstacles:
@@ -75,12 +75,14 @@ class Obstacles:
     def from_wkt(
         cls, text: Any, walkable: bool = False, heights: Tuple[float, float] = (-math.inf, math.inf)
     ) -> Obstacles:
-        """Read obstacles from well-known text, or from an object that has it, such as a shapely geometry.
+        """Read obstacles from well-known text, or from a geometry.
 
         Parameters
         ----------
-        text : str, or an object with an attribute `wkt`
-            Any number of POLYGON, MULTIPOLYGON, LINESTRING, MULTILINESTRING and GEOMETRYCOLLECTION.
+        text : str, or a geometry
+            A geometry is of shapely or of PedPy (attributes `wkt`, `polygon`), GeoJSON (a mapping, or the attribute
+            `__geo_interface__`), or points (n, 2) of a polygon or of each of several. It has any number of POLYGON, MULTIPOLYGON,
+            LINESTRING, MULTILINESTRING and GEOMETRYCOLLECTION.
         walkable : bool
             If True, polygons are the floor that agents walk on, and their rings are walls: lines, without an inside. If False, polygons
             are solid.
@@ -89,7 +91,7 @@ class Obstacles:
         """
         bottom, top = pair(heights, "heights")
         made = cls.__new__(cls)
-        wkt = encoded(getattr(text, "wkt", text), "text")
+        wkt = encoded(_well_known_text(text, "text"), "text")
         made._take(Handle("obstacles", "from_wkt", wkt, int(walkable), bottom, top))
         return made
 
@@ -119,3 +121,50 @@ class Obstacles:
 
     def __repr__(self) -> str:
         return f"<bch.Obstacles: {len(self)} of {self.segment_count} segments>"
+
+
+def walls_of(geometry: Any) -> Obstacles:
+    """Return obstacles, or those of a geometry that people walk on."""
+    if isinstance(geometry, Obstacles):
+        return geometry
+    try:
+        return Obstacles.from_wkt(_well_known_text(geometry, "walls"), walkable=True)
+    except ArgumentError as error:
+        raise ArgumentError(f"walls: {error}") from None
+
+
+def _well_known_text(geometry: Any, name: str) -> Any:
+    """Return a geometry as well-known text."""
+    geometry = getattr(geometry, "polygon", geometry)  # of PedPy's WalkableArea
+    if isinstance(geometry, str) or hasattr(geometry, "wkt"):
+        return getattr(geometry, "wkt", geometry)
+    geometry = getattr(geometry, "__geo_interface__", geometry)
+    if isinstance(geometry, Mapping):
+        return _of_geojson(geometry, name)
+    polygons = listed(geometry, name, "polygons")
+    if polygons and np.ndim(polygons[0]) == 1:
+        polygons = [geometry]
+    rings = [table(points, f8, 2, f"{name}[{i}]").tolist() for i, points in enumerate(polygons)]
+    return _collection([f"POLYGON ({_coordinates(ring)})" for ring in rings])
+
+
+def _of_geojson(geometry: Mapping[str, Any], name: str) -> str:
+    kind = str(geometry.get("type"))
+    for several in ("features", "geometries"):
+        if several in geometry:
+            return _collection([_of_geojson(each, name) for each in geometry[several]])
+    if kind == "Feature":
+        return _of_geojson(geometry["geometry"], name)
+    if "coordinates" not in geometry:
+        raise ArrayError(f"{name} is a mapping of type {kind!r} without coordinates; wanted is a geometry of GeoJSON")
+    return f"{kind.upper()} {_coordinates(geometry['coordinates'])}"
+
+
+def _coordinates(nested: Any) -> str:
+    if not isinstance(nested[0], (list, tuple)):
+        return f"{float(nested[0])!r} {float(nested[1])!r}"
+    return "(" + ", ".join(map(_coordinates, nested)) + ")"
+
+
+def _collection(parts: List[str]) -> str:
+    return f"GEOMETRYCOLLECTION ({', '.join(parts)})" if parts else "GEOMETRYCOLLECTION EMPTY"

@@ -6,6 +6,7 @@
 from __future__ import annotations
 
 import ctypes
+import os
 from ctypes import byref
 from types import MappingProxyType
 from typing import Any, Dict, List, Literal, Mapping, NamedTuple, Optional, Sequence, Union
@@ -14,13 +15,13 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _library
-from ._arrays import Records, address, bounded, copied, encoded, f4, f8, i4, i8, instance, instances, number, one_of, rejected, u4
+from ._arrays import Records, address, bounded, copied, encoded, f4, f8, i4, i8, instances, number, one_of, rejected, u4
 from ._library import ArrayError, Handle, check as _check, lib, said
-from ._obstacles import Obstacles
+from ._obstacles import walls_of
 from ._progress import Watched
 from ._queries import LEAVES, Leaves
 from ._shapes import ALL_DEPTHS, Character, Path, ShapeSet
-from ._tables import Columns
+from ._tables import Columns, Table, table_of
 
 #: A person in a frame, in metres, radians and seconds; NaN where the file has no value. `motion` indexes `Trajectory.motions`, or is -1.
 TRACKED = np.dtype(
@@ -174,18 +175,20 @@ def _records(get: Any, handle: Handle, dtype: "np.dtype[Any]") -> Records:
     return copied(pointer.value, dtype, (count.value,))
 
 
-def _source_of(recording: Optional[Path], arrays: Dict[str, Any]) -> Union[bytes, Columns]:
-    """Return the path of a recording, or the arrays that stand for it."""
+def _table_of(recording: Any, arrays: Dict[str, Any]) -> Optional[Table]:
+    """Return the table that a recording is, or arrays are; None where it is a file."""
     given = {name: values for name, values in arrays.items() if values is not None}
     if recording is not None and given:
         raise ArrayError(f"recording and {given.popitem()[0]} are both given; wanted is one of them")
     if recording is None and not given:
         raise ArrayError("recording is not given, nor are arrays; wanted are id, x, y and frame or time")
-    return Columns(given, _UNITS) if recording is None else encoded(recording, "recording")
+    if isinstance(recording, (str, bytes, os.PathLike)):
+        return None
+    return Table(given, _UNITS) if recording is None else table_of(recording)
 
 
 def check(
-    recording: Optional[Path] = None,
+    recording: Any = None,
     *,
     frame: Optional[npt.ArrayLike] = None,
     time: Optional[npt.ArrayLike] = None,
@@ -203,7 +206,7 @@ def check(
     leaves: Leaves = "segments",
     max_distance: float = 0.0,
     max_pairs: int = 0,
-    walls: Optional[Obstacles] = None,
+    walls: Any = None,
     fps: Optional[float] = None,
     unit: Optional[float] = None,
     columns: Optional[str] = None,
@@ -212,13 +215,17 @@ def check(
 ) -> Check:
     """Put a walking person on every row of a recording, and find who runs into whom. Ctrl-C interrupts it.
 
-    A recording is a file, or arrays with an entry per row, in any order of rows: `check("walk.sqlite")`, or
-    `check(frame=frame, id=id, x=x, y=y, fps=25)`. Arrays are of any numbers with any stride, or lists. They give the same result as a
-    CSV file with these columns.
+    A recording is a file, a table with columns by name, or arrays with an entry per row: `check("walk.sqlite")`, `check(dataframe, fps=25)`
+    or `check(frame=frame, id=id, x=x, y=y, fps=25)`. Rows are in any order. Arrays and columns are of any numbers with any stride, or
+    lists. They give the same result as a CSV file with these columns.
 
     Parameters
     ----------
-    recording : path, optional
+    recording : path, or table, optional
+        A table is a mapping of names to arrays, a structured array, a dataframe of pandas or polars, a table of Arrow, or anything that
+        gives a column by `table[name]` and names in `columns`, `column_names` or `dtype.names`. Its columns have the names and units
+        that a header of CSV has, as the page of layout/ lists them. PedPy's TrajectoryData and JuPedSim's Recording are taken, too,
+        with their frame rates, and the latter with its geometry.
     frame, id : (n,) whole numbers, optional
         The frame of a row, with `fps`, and the person. A person is in a frame once at most.
     time : (n,) numbers, optional
@@ -251,8 +258,9 @@ def check(
     max_pairs : int
         The most pairs of people near each other, in a frame or in some 4096 rows; 0: 4 million and 100 per person. More are
         an error, because each takes memory.
-    walls : Obstacles, optional
-        Walls to use instead of the geometry of the recording.
+    walls : Obstacles, or a geometry as `Obstacles.from_wkt` takes, optional
+        Walls to use instead of the geometry of the recording. Polygons of a geometry are the floor that people walk on, and their
+        rings are walls.
     fps, unit, columns
         As for `read_trajectory`. `columns` are of files alone.
     threads : int
@@ -273,9 +281,11 @@ def check(
         argument or the column, the row, from 0, and the value.
     """
     arrays = {"frame": frame, "time": time, "id": id, "x": x, "y": y, "heading": heading, "stature": stature}
-    source = _source_of(recording, arrays)
-    if walls is not None:
-        instance(walls, Obstacles, "walls")
+    table = _table_of(recording, arrays)
+    if table is not None:
+        walls = table.walls if walls is None else walls
+        fps = table.fps if fps is None else fps
+    obstacles = None if walls is None else walls_of(walls)
     baked = characters if isinstance(characters, ShapeSet) else None
     own = [] if isinstance(characters, ShapeSet) else instances(characters, Character, "characters")
     if not isinstance(clip_speeds, Mapping):
@@ -283,7 +293,8 @@ def check(
     ahead = number(facing, "facing")
     if baked is None and (clip_speeds or ahead):
         raise ArrayError("clip_speeds and facing are for characters of a bch.ShapeSet")
-    trajectory = _open(source, fps, unit, columns)
+    rows = None if table is None else Columns(table)  # which live until the check has read them
+    trajectory = _open(rows or encoded(recording, "recording"), fps, unit, columns)
     cast = (ctypes.c_void_p * len(own))(*(character._pointer for character in own))
     speeds = (_library.ClipSpeed * len(clip_speeds))(
         *(_library.ClipSpeed(encoded(clip, "clip_speeds"), number(speed, "clip_speeds")) for clip, speed in clip_speeds.items())
@@ -302,7 +313,7 @@ def check(
             spheres=bounded(spheres, "spheres", 1, 4096) if one_of(_BODIES, bodies, "bodies") else 0,
             max_distance=number(max_distance, "max_distance"),
             max_pairs=bounded(max_pairs, "max_pairs", 0, 1_000_000_000),
-            walls=None if walls is None else walls._pointer,
+            walls=None if obstacles is None else obstacles._pointer,
             progress=watched.callback,
         )
         handle = Handle("check", "run", trajectory.pointer, byref(options), checked=watched.run)

@@ -167,12 +167,12 @@ TEST_F(CApiRecordings, InMemoryAreThoseOfTheSameFile) {
   };
   const auto open = [&] { return bch_trajectory_from_columns(columns, 5, people.size(), &options, &none); };
   people[3].x = HUGE_VAL;
-  expect_said(open(), "table: row 3: x inf is not finite");
+  expect_said(open(), "recording: row 3: x inf is not finite");
   people[3].x = 300;
   const auto jumping = made<bch_trajectory_free>(bch_trajectory_from_columns, columns, std::size_t{5},
                                                  people.size(), &options);
   bch_check* no_check = nullptr;
-  expect_said(bch_check_run(jumping.get(), &how, &no_check), "table: row 3: person 5 jumps by ");
+  expect_said(bch_check_run(jumping.get(), &how, &no_check), "recording: row 3: person 5 jumps by ");
   columns[0].type = 5;
   expect_said(open(), "columns->type is 5");
   columns[0].name = nullptr;

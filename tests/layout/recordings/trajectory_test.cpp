@@ -235,26 +235,28 @@ TEST_F(Trajectories, InMemoryAreRefusedByOneLine) {
   const detail::ColumnView person{"id", ids.data(), 8, Type::int64}, y = numbers("y", time);
   const std::vector<detail::ColumnView> sound{numbers("t", time), person, numbers("x", time), y};
   EXPECT_EQ(refused(sound), "accepted");
-  EXPECT_EQ(refused({sound[0], person, numbers("x", x), y}), "table: row 2: x nan is not finite");
-  EXPECT_EQ(refused({sound[0], person, numbers("x", far), y}), "table: row 2: x 1e+09 is not within +-1e8 m");
+  EXPECT_EQ(refused({sound[0], person, numbers("x", x), y}), "recording: row 2: x nan is not finite");
+  EXPECT_EQ(refused({sound[0], person, numbers("x", far), y}),
+            "recording: row 2: x 1e+09 is not within +-1e8 m");
   EXPECT_EQ(refused({sound[0], numbers("ID", id), sound[2], y}),
-            "table: row 1: id 0.5 is not a whole number");
+            "recording: row 1: id 0.5 is not a whole number");
   EXPECT_EQ(refused({sound[0], person, {"x", texts.data(), 8, Type::text}, y}),
-            "table: row 2: x 'three' is not a number");
+            "recording: row 2: x 'three' is not a number");
   EXPECT_EQ(refused({sound[0], person, sound[2], y, numbers("clip", id)}),
-            "table: row 0: clip 0 is not a name");
+            "recording: row 0: clip 0 is not a name");
   EXPECT_EQ(refused({{"frame", zeros.data(), 8, Type::int64}, person, sound[2], y}, {.fps = 1}),
-            "table: row 1: person 7 is at two places in frame 0, here at (0.5, 0.5), by row 0 at (0, 0)");
+            "recording: row 1: person 7 is at two places in frame 0, here at (0.5, 0.5), by row 0 at (0, 0)");
   EXPECT_EQ(refused({sound[0], person, {"x", nullptr, 8, Type::float64}, y}),
-            "table: the values of column 'x' are neither numbers nor texts");
-  EXPECT_EQ(refused({sound[0], person, y}), "table: has no column called 'x', only 't, id, y'");
+            "recording: column 'x' does not have one value a row");
+  EXPECT_EQ(refused({sound[0], person, y}), "recording: has no column called 'x', only 't, id, y'");
   EXPECT_EQ(refused({numbers("frame", time), person, sound[2], y}),
-            "table: says no frame rate: --fps has to give the frame numbers a second");
+            "recording: says no frame rate: --fps has to give the frame numbers a second");
   EXPECT_EQ(refused(sound, {.fps = -1}),
-            "table: the frame rate of --fps is -1 frames a second, not above 0 and at most 10000");
-  EXPECT_EQ(refused(sound, {.columns = "t,id,x,y"}), "table: has columns with names; --columns is for files");
+            "recording: the frame rate of --fps is -1 frames a second, not above 0 and at most 10000");
+  EXPECT_EQ(refused(sound, {.columns = "t,id,x,y"}),
+            "recording: has columns with names; --columns is for files");
   EXPECT_EQ(test::complaint<detail::TrajectoryError>([&] { read_columns(sound, 0, {}); }),
-            "table: has no rows");
+            "recording: has no rows");
 }
 
 // ---- Recordings as text whose columns have no names, or not as many as rows have fields; whose times are far from 0, whose numbers are closer
