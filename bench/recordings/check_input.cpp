@@ -238,8 +238,14 @@ detail::CheckOptions OpenedCheck::options(const CheckInput& input) {
 detail::CheckSummary OpenedCheck::check(
     const detail::CheckOptions& options,
     const std::function<void(const detail::CheckedFrame&, const ShapeSet&)>& seen) const {
+  const auto report = [](const std::vector<std::string>& notes) {
+    for (const std::string& note : notes) fmt::print(stderr, "note: {}\n", note);
+  };
+  report(recording.info.notes);
   try {
-    return detail::check(*reader, options, seen);
+    detail::CheckSummary summary = detail::check(*reader, options, seen);
+    report(summary.notes);
+    return summary;
   } catch (const detail::TooManyPairs& error) {
     throw InputError(recording.file + ": " + error.what() + "; --max-pairs raises the limit");
   }

@@ -123,7 +123,7 @@ struct OpenedCheck {
   /// Returns what to ask check(); as long as this lives. Makes models where people have spheres.
   /// Errors:  throws UsageError, InputError on models that cannot be made.
   detail::CheckOptions options(const CheckInput& input);
-  /// Checks the recording by detail::check(). Errors: throws InputError also on too many pairs.
+  /// Checks the recording by detail::check(), and writes its notes to standard error. Errors: throws InputError also on too many pairs.
   detail::CheckSummary check(
       const detail::CheckOptions& options,
       const std::function<void(const detail::CheckedFrame&, const ShapeSet&)>& seen) const;

@@ -153,6 +153,7 @@ std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check
   options.coarse = given.spheres > 0 || trajectory.reader->info().rows < coarse_from ? 1 : 3;
   auto made = std::make_unique<bch_check>();
   made->assumptions = trajectory.assumptions;
+  made->notes = trajectory.notes;
   for (const CharacterEntry& member : cast)
     for (const std::string& line : member.assumptions) made->assumptions += line + "\n";
   const TrajectoryInfo& info = trajectory.reader->info();
@@ -168,6 +169,7 @@ std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check
             throw Failure(BCH_CANCELLED, "cancelled by the caller");
         });
     made->summary = summary_of(summary, info);
+    for (const std::string& line : summary.notes) made->notes += line + "\n";
     for (const OverlapEvent& event : summary.events) made->events.push_back(event_of(event));
   });
   return made;

@@ -56,6 +56,7 @@ std::unique_ptr<bch_trajectory> opened(const bch_trajectory_options& given, bch_
   opening->end();
   for (const std::string& line : trajectory->reader->info().assumptions)
     trajectory->assumptions += line + "\n";
+  for (const std::string& line : trajectory->reader->info().notes) trajectory->notes += line + "\n";
   for (const NamedMotion& motion : trajectory->reader->info().motions)
     trajectory->motions.push_back({motion.character.c_str(), motion.clip.c_str()});
   return trajectory;
@@ -152,6 +153,7 @@ bch_status bch_trajectory_get_info(const bch_trajectory* handle, bch_trajectory_
     all.format = info.format.c_str();
     all.geometry = info.geometry.c_str();
     all.assumptions = trajectory.assumptions.c_str();
+    all.notes = trajectory.notes.c_str();
     fill(to, all, "info");
   });
 }
@@ -192,6 +194,13 @@ bch_status bch_check_get_assumptions(const bch_check* check, const char** assump
   return guarded([&] {
     required(assumptions, "assumptions");
     *assumptions = object_of(check, "check").assumptions.c_str();
+  });
+}
+
+bch_status bch_check_get_notes(const bch_check* check, const char** notes) {
+  return guarded([&] {
+    required(notes, "notes");
+    *notes = object_of(check, "check").notes.c_str();
   });
 }
 

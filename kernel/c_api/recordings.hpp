@@ -15,7 +15,7 @@
 
 struct bch_trajectory {
   std::unique_ptr<bch::detail::TrajectoryReader> reader;
-  std::string assumptions;                ///< a line each
+  std::string assumptions, notes;         ///< a line each
   std::vector<bch_named_motion> motions;  ///< whose texts are the reader's
   bch_status fault = BCH_BAD_FILE;        ///< what a recording that is wrong is
   bool is_read = false;                   ///< some of it
@@ -28,7 +28,7 @@ struct bch_check {
   std::vector<bch_check_pair> pairs;
   std::vector<bch_check_event> events;
   bch_check_summary summary = BCH_CHECK_SUMMARY_INIT;
-  std::string assumptions;  ///< a line each
+  std::string assumptions, notes;  ///< a line each
 };
 
 namespace bch::c_api {

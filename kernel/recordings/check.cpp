@@ -7,6 +7,8 @@
 #include <future>
 #include <memory>
 #include <optional>
+#include <sstream>
+#include <utility>
 
 #include "kernel/recordings/events.hpp"
 #include "kernel/recordings/frame_block.hpp"
@@ -157,6 +159,30 @@ CheckSummary Checker::finish(std::size_t people) {
   return std::move(summary_);
 }
 
+std::string rounded(double speed) {
+  std::ostringstream text;
+  text.precision(3);
+  text << speed;
+  return std::move(text).str();
+}
+
+/// Says where people are too fast or too slow to be people, and that walls are none.
+std::vector<std::string> notes_on(const Speeds& speeds, const ObstacleSet* walls) {
+  constexpr double fastest_crowd = 12, fastest_step = 100, slowest_crowd = 1.3 / 40;  // metres a second
+  std::vector<std::string> notes;
+  const std::string mean = "People move at " + rounded(speeds.mean()) + " m/s on average: ";
+  if (speeds.mean() > fastest_crowd)
+    notes.push_back(mean + "is the unit of length smaller than metres, or the frame rate lower?");
+  else if (speeds.fastest > fastest_step)
+    notes.push_back("Person " + std::to_string(speeds.person) + " moves at " + rounded(speeds.fastest) +
+                    " m/s to frame " + std::to_string(speeds.frame) +
+                    ", the fastest of all: is that position right?");
+  if (speeds.way > 0 && speeds.mean() < slowest_crowd)
+    notes.push_back(mean + "do they stand, or is the frame rate higher?");
+  if (walls != nullptr && walls->segment_count() == 0) notes.emplace_back("The walls have no segment.");
+  return notes;
+}
+
 }  // namespace
 
 OverlapCount& OverlapCount::operator+=(const OverlapCount& other) {
@@ -186,7 +212,9 @@ CheckSummary check(TrajectoryReader& reader, const CheckOptions& options,
     std::swap(now, next);
   }
   if (now.frames() > 0) checker.check(now, !walkers.is_behind(), fps);
-  return checker.finish(walkers.people());
+  CheckSummary summary = checker.finish(walkers.people());
+  summary.notes = notes_on(walkers.speeds(), options.walls);
+  return summary;
 }
 
 }  // namespace bch::detail

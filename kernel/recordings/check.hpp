@@ -12,6 +12,7 @@
 #include <set>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -128,6 +129,8 @@ struct CheckSummary {
   OverlapCounts by_density;
   std::vector<OverlapEvent> events;  ///< by their first frames, then ids
   std::set<std::uint64_t> poses;     ///< keys of all that people were in; none where spheres decide
+  std::vector<std::string>
+      notes;  ///< a sentence each: what seems to be wrong with the recording or the walls; join() leaves it empty
 };
 
 /// Puts a walking person on every row of a recording and finds who runs into whom. Reads frame after frame; memory grows with the people, and with

@@ -49,11 +49,16 @@ WalkerReader::WalkerReader(TrajectoryReader& reader, FrameInterval wanted, doubl
       facing_(facing) {}
 
 /// Nobody moves so far so fast: ids were mixed up, or places.
-void WalkerReader::require_no_jump(const Place& from, const TrackedPerson& to, std::int64_t frame) const {
-  const double x = to.x - from.x, y = to.y - from.y, square = x * x + y * y;
-  if (square < jump * jump) return;
-  const double way = std::sqrt(square), seconds = static_cast<double>(frame - from.frame) / fps_;
-  if (way < fastest * seconds) return;
+/// Counts a person's step, which is no jump.
+void WalkerReader::measure(const Place& from, const TrackedPerson& to, std::int64_t frame) {
+  const double x = to.x - from.x, y = to.y - from.y, way = std::sqrt(x * x + y * y);
+  const double seconds = static_cast<double>(frame - from.frame) / fps_;
+  speeds_.way += way, speeds_.seconds += seconds;
+  if (way > speeds_.fastest * seconds) {
+    speeds_.fastest = way / seconds;
+    speeds_.person = to.id, speeds_.frame = frame;
+  }
+  if (way < jump || way < fastest * seconds) return;
   std::ostringstream text;
   text << reader_.place_of(to.row) << ": person " << to.id << " jumps by " << way << " m, from (" << from.x
        << ", " << from.y << ") in frame " << from.frame << " to (" << to.x << ", " << to.y << ") in frame "
@@ -69,7 +74,7 @@ bool WalkerReader::read_one() {
   }
   for (const TrackedPerson& person : next.people) {
     Track& track = track_of(person.id);
-    if (!track.places.empty()) require_no_jump(track.places.back(), person, next.frame);
+    if (!track.places.empty()) measure(track.places.back(), person, next.frame);
     track.places.push_back({next.frame, person.x, person.y});
     next.tracks.push_back(&track);
   }

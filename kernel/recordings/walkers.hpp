@@ -38,6 +38,15 @@ struct WalkerFrame {
   std::vector<Walker> people;
 };
 
+/// Holds how fast people are, from row to row of each.
+struct Speeds {
+  double way = 0, seconds = 0;         ///< of all people together; metres
+  double fastest = 0;                  ///< metres a second
+  std::int64_t person = 0, frame = 0;  ///< who is that fast, and where he then gets
+
+  double mean() const noexcept { return seconds > 0 ? way / seconds : 0; }
+};
+
 /// Represents the frames whose numbers are in [from, to).
 struct FrameInterval {
   std::int64_t from = std::numeric_limits<std::int64_t>::min();
@@ -59,6 +68,8 @@ class WalkerReader {
   bool next(WalkerFrame& frame);
   /// Returns whether the last frame that was read is the one behind those wanted.
   bool is_behind() const noexcept { return is_behind_; }
+  /// Returns how fast people were until now.
+  const Speeds& speeds() const noexcept { return speeds_; }
   /// Returns how many different people were read.
   std::size_t people() const noexcept { return tracks_.size() + left_.size(); }
 
@@ -89,7 +100,7 @@ class WalkerReader {
   bool read_one();
   Track& track_of(std::int64_t id);
   void let_go(std::int64_t frame);
-  void require_no_jump(const Place& from, const TrackedPerson& to, std::int64_t frame) const;
+  void measure(const Place& from, const TrackedPerson& to, std::int64_t frame);
   bool walk_on(WalkerFrame& frame);
   Walker walk(const TrackedPerson& person, Track& track, std::int64_t frame) const;
   void face_the_crowd(WalkerFrame& frame, const std::vector<Track*>& tracks) const;
@@ -99,6 +110,7 @@ class WalkerReader {
   const std::int64_t window_;  ///< frames before and after
   const FrameInterval wanted_;
   const double facing_;
+  Speeds speeds_;
   bool at_end_ = false, is_behind_ = false;
   std::deque<Frame> ahead_;
   std::unordered_map<std::int64_t, Track, MixedHash> tracks_;

@@ -17,36 +17,47 @@ struct NamedRole {
   Role role;
 };
 
+/// All names that are known, without '_', '-', '.' and blanks; layout/README.md lists them.
 constexpr NamedRole roles[] = {{"id", Role::id},
                                {"agent", Role::id},
-                               {"agent_id", Role::id},
                                {"agentid", Role::id},
-                               {"person", Role::id},
-                               {"person_id", Role::id},
-                               {"personid", Role::id},
-                               {"persid", Role::id},
+                               {"objectid", Role::id},
                                {"ped", Role::id},
-                               {"ped_id", Role::id},
                                {"pedestrian", Role::id},
-                               {"pedestrian_id", Role::id},
-                               {"track_id", Role::id},
+                               {"pedestrianid", Role::id},
+                               {"pedid", Role::id},
+                               {"persid", Role::id},
+                               {"person", Role::id},
+                               {"personid", Role::id},
+                               {"trackid", Role::id},
                                {"frame", Role::frame},
                                {"fr", Role::frame},
-                               {"frame_id", Role::frame},
+                               {"frameid", Role::frame},
                                {"time", Role::time},
+                               {"simtime", Role::time},
                                {"t", Role::time},
+                               {"timestamp", Role::time},
                                {"x", Role::x},
-                               {"pos_x", Role::x},
+                               {"centerx", Role::x},
+                               {"positionx", Role::x},
+                               {"posx", Role::x},
+                               {"xcenter", Role::x},
                                {"y", Role::y},
-                               {"pos_y", Role::y},
+                               {"centery", Role::y},
+                               {"positiony", Role::y},
+                               {"posy", Role::y},
+                               {"ycenter", Role::y},
                                {"z", Role::height},
                                {"height", Role::height},
                                {"stature", Role::height},
                                {"heading", Role::heading},
                                {"angle", Role::heading},
+                               {"orientation", Role::heading},
+                               {"theta", Role::heading},
+                               {"yaw", Role::heading},
                                {"character", Role::character},
                                {"clip", Role::clip},
-                               {"clip_time", Role::clip_time}};
+                               {"cliptime", Role::clip_time}};
 
 struct NamedUnit {
   std::string_view name;
@@ -79,6 +90,23 @@ std::optional<double> find(std::span<const NamedUnit> units, std::string_view na
   for (const NamedUnit& unit : units)
     if (unit.name == name) return unit.factor;
   return std::nullopt;
+}
+
+/// Returns the units of what a column holds.
+std::span<const NamedUnit> units_of(Role role) {
+  switch (role) {
+    case Role::x:
+    case Role::y:
+    case Role::height:
+      return lengths;
+    case Role::time:
+    case Role::clip_time:
+      return durations;
+    case Role::heading:
+      return angles;
+    default:
+      return {};
+  }
 }
 
 bool separates(char c, char separator) {
@@ -121,8 +149,6 @@ class ColumnFinder {
 
   void add(const ColumnName& column) {
     const Role role = role_of(column.name);
-    if (role != Role::none && columns_.has(role))
-      reject("has two columns for the same, the second is " + shown(column.name));
     columns_.roles.push_back(role);
     columns_.names.push_back(column.name);
     columns_.has_angle |= role == Role::heading && column.name == "angle";
@@ -137,6 +163,7 @@ class ColumnFinder {
   Columns finish() {
     const bool has_frames = columns_.has(Role::frame);
     if (has_frames) settle_time();
+    require_different();
     require(Role::id, "'id'");
     if (!has_frames) require(Role::time, "'frame', nor one called 'time'");
     require(Role::x, "'x'");
@@ -163,6 +190,14 @@ class ColumnFinder {
     std::string all;
     for (const std::string& there : columns_.names) all += (all.empty() ? "" : ", ") + there;
     reject(std::string("has no column called ") + name + ", only " + shown(all));
+  }
+
+  void require_different() const {
+    for (std::size_t i = 0; i < columns_.roles.size(); ++i)
+      if (columns_.roles[i] != Role::none &&
+          std::find(columns_.roles.begin(), columns_.roles.begin() + static_cast<std::ptrdiff_t>(i),
+                    columns_.roles[i]) != columns_.roles.begin() + static_cast<std::ptrdiff_t>(i))
+        reject("has two columns for the same, the second is " + shown(columns_.names[i]));
   }
 
   void take_length(const ColumnName& column) {
@@ -209,7 +244,16 @@ ColumnName column_name(std::string_view word) {
   std::string_view unit = word.substr(end);
   if (!unit.empty()) unit.remove_prefix(1);
   if (unit.ends_with(']') || unit.ends_with(')')) unit.remove_suffix(1);
-  return {lower_case(trimmed(word.substr(0, end))), lower_case(trimmed(unit))};
+  ColumnName column{lower_case(trimmed(word.substr(0, end))), lower_case(trimmed(unit))};
+  const std::size_t last = column.name.rfind('_');
+  if (column.unit.empty() && last != std::string::npos) {  // "heading_deg"
+    const std::string suffix = column.name.substr(last + 1);
+    if (find(units_of(role_of(column.name.substr(0, last))), suffix)) {
+      column.unit = suffix;
+      column.name.resize(last);
+    }
+  }
+  return column;
 }
 
 std::vector<ColumnName> column_names(std::string_view line, char separator) {
@@ -225,8 +269,12 @@ std::vector<ColumnName> column_names(std::string_view line, char separator) {
 }
 
 Role role_of(std::string_view name) {
+  const auto divides = [](char c) { return std::string_view("_-. ").find(c) != std::string_view::npos; };
+  if (name.empty() || divides(name.front()) || divides(name.back())) return Role::none;
+  std::string letters(name);
+  std::erase_if(letters, divides);
   for (const NamedRole& known : roles)
-    if (known.name == name) return known.role;
+    if (known.name == letters) return known.role;
   return Role::none;
 }
 
@@ -236,6 +284,20 @@ bool has_all_roles(std::span<const ColumnName> names) {
                        [&](const ColumnName& column) { return role_of(column.name) == role; });
   };
   return has(Role::id) && (has(Role::frame) || has(Role::time)) && has(Role::x) && has(Role::y);
+}
+
+std::string Columns::ignored() const {
+  constexpr std::size_t most = 12;
+  std::string text;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < roles.size(); ++i) {
+    if (roles[i] != Role::none || names[i].empty() || names[i] == "skip") continue;
+    if (count++ < most) text += (text.empty() ? "" : ", ") + shown(names[i]);
+  }
+  if (count > most) text += " and " + std::to_string(count - most) + " more";
+  return text.empty()
+             ? text
+             : (count == 1 ? "Column " : "Columns ") + text + (count == 1 ? " is" : " are") + " ignored.";
 }
 
 bool Columns::has(Role role) const {

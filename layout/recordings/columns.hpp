@@ -19,7 +19,7 @@ namespace bch::detail::trajectory {
 
 enum class Role : std::uint8_t { none, id, frame, time, x, y, height, heading, character, clip, clip_time };
 
-/// Holds the name of a column, in small letters, and its unit, as in "x/cm", "x [cm]" or "x(cm)".
+/// Holds the name of a column, in small letters, and its unit, as in "x/cm", "x [cm]", "x(cm)" or "x_cm".
 struct ColumnName {
   std::string name, unit;
 };
@@ -30,6 +30,7 @@ ColumnName column_name(std::string_view word);
 /// Takes names apart that a separator divides. '#' stands for any of commas, semicolons and blanks, as in comments.
 std::vector<ColumnName> column_names(std::string_view line, char separator);
 
+/// Returns what a name in small letters stands for, such as "pos_x" or "posx".
 Role role_of(std::string_view name);
 
 /// Returns whether there are names for all that a row needs.
@@ -49,6 +50,8 @@ struct Columns {
   std::size_t needed = 0;  ///< columns up to the last that matters
 
   bool has(Role role) const;
+  /// Returns a sentence that names the columns that are not read, but for those called "skip"; nothing where there are none.
+  std::string ignored() const;
 };
 
 /// Finds out what named columns are. Where there are frames, a time is that of the row's clip, if there is one, or does not matter.

@@ -38,6 +38,7 @@ FrameReader::FrameReader(std::unique_ptr<RowSource> source, const TrajectoryOpti
   info_.format = std::move(recording.format);
   info_.geometry = std::move(recording.geometry);
   info_.assumptions = std::move(recording.assumptions);
+  info_.notes = std::move(recording.notes);
   info_.motions = std::move(recording.motions);
   info_.rows = found.rows;
   info_.people = found.ids.count();

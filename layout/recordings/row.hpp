@@ -62,7 +62,7 @@ enum class Clock : std::uint8_t {
 struct Recording {
   std::string format;
   std::string geometry;
-  std::vector<std::string> assumptions;
+  std::vector<std::string> assumptions, notes;
   Clock clock = Clock::frames;
   std::optional<double> rate;    ///< frames or steps a second
   std::optional<double> origin;  ///< seconds in the file at key 0, where that is not 0

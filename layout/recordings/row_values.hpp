@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -91,6 +92,10 @@ class RowValues {
   void describe(Recording& recording) const {
     heights_.describe(recording.assumptions);
     recording.motions = motions_.all();
+    constexpr float turn = 6.3F;
+    if (largest_heading_ > turn)
+      recording.notes.push_back("Headings reach " + shortest(largest_heading_) +
+                                " radians: are they degrees, as of a column 'heading [deg]'?");
     if (origin_ != 0) recording.origin = origin_ * layout_.seconds;
   }
 
@@ -102,6 +107,7 @@ class RowValues {
   Heights heights_;
   MotionTable motions_;
   std::string_view character_, clip_;  ///< of the row that is read
+  float largest_heading_ = 0;          ///< radians, of either sign
   std::uint64_t row_ = 0;              ///< its number
   std::optional<double> first_time_;   ///< of the table, in its unit
   double origin_ = 0;                  ///< likewise, the time whose key is 0
@@ -178,10 +184,12 @@ class RowValues {
   }
 
   template <class Value>
-  float heading(std::size_t column, Value value) const {
+  float heading(std::size_t column, Value value) {
     const double radians = finite_or_nan(column, value) * layout_.radians;
     if (std::abs(radians) > rounding::largest_heading) reject(column, value, "is not within +-1e9");
-    return static_cast<float>(radians);
+    const auto taken = static_cast<float>(radians);
+    largest_heading_ = std::max(largest_heading_, std::abs(taken));  // of which NaN is none
+    return taken;
   }
 };
 

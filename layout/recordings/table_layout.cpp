@@ -32,6 +32,8 @@ void take_units_of_columns(TableLayout& layout, const TrajectoryOptions& options
   layout.radians = columns.radians.value_or(columns.has_angle ? std::numbers::pi / 180 : 1);
   if (columns.has_angle && !columns.radians)
     assumptions.emplace_back("Angles are headings in degrees; no unit is said.");
+  if (std::string ignored = columns.ignored(); !ignored.empty())
+    layout.recording.notes.push_back(std::move(ignored));
   layout.clip_seconds = columns.clip_seconds.value_or(1);
   if (columns.has_frames_and_time)
     assumptions.emplace_back("Times are those of the clips that rows name, because there are frames.");

@@ -73,6 +73,8 @@ struct TrajectoryInfo {
   std::string geometry;  ///< the walkable area as WKT, or empty
   std::vector<std::string>
       assumptions;  ///< a sentence each: what the file does not say, and what is taken for it
+  std::vector<std::string>
+      notes;  ///< a sentence each: columns that are not read, values that seem to be of another unit
   std::vector<NamedMotion> motions;  ///< all that rows name, in the order of the file; at most 4096
   std::uint64_t rows = 0;
   std::int64_t first_frame = 0, last_frame = 0;

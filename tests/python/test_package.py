@@ -754,6 +754,24 @@ class Recordings(unittest.TestCase):
         self.same(check(recording, walls="LINESTRING (50 0, 51 0)"), self.as_csv({**columns, "heading": turned}, fps=25))
         self.assertGreater(check(recording).summary["in_walls"], 0)
 
+    def test_notes(self):
+        columns = self.columns()
+        notes = lambda changed={}, **more: bch.check({**columns, **changed}, **{"fps": 25, **more}).notes
+        self.assertEqual(notes(), [])
+        self.assertEqual(notes({"speed": columns["x"], "name": ["a"] * 720}), ["Columns 'speed', 'name' are ignored."])
+        self.assertEqual(notes(walls=[]), ["The walls have no segment."])
+        (turned,) = notes({"heading": np.linspace(0, 359, 720)})
+        self.assertEqual(turned, "Headings reach 359 radians: are they degrees, as of a column 'heading [deg]'?")
+        degrees = {name: values for name, values in columns.items() if name != "heading"}
+        self.assertEqual(bch.check({**degrees, "heading_deg": np.linspace(0, 359, 720)}, fps=25).notes, [])
+        (slow,) = notes(fps=0.01)
+        self.assertIn(" m/s on average: do they stand, or is the frame rate higher?", slow)
+        (fast,) = notes({"x": 100 * columns["x"]}, fps=50)
+        self.assertIn(" m/s on average: is the unit of length smaller than metres, or the frame rate lower?", fast)
+        path = Path(self.folder.name) / "more.csv"
+        path.write_text("frame,id,x,y,speed\n0,1,0,0,3\n")
+        self.assertEqual(bch.read_trajectory(path, fps=1).notes, ["Column 'speed' is ignored."])
+
     def test_walls_of_geometries(self):
         ring = [[0, 0], [3, 0], [3, 3], [0, 3]]
         wkt = "POLYGON ((0 0, 3 0, 3 3, 0 3, 0 0))"

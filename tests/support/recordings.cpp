@@ -109,6 +109,7 @@ std::string text_of(const ReadRecording& recording) {
 std::string assumptions_of(const ReadRecording& recording) {
   std::string all;
   for (const std::string& sentence : recording.info.assumptions) all += sentence + "\n";
+  for (const std::string& sentence : recording.info.notes) all += sentence + "\n";
   return all;
 }
 

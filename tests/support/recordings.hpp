@@ -28,7 +28,7 @@ ReadRecording read_recording(const std::filesystem::path& file,
 
 /// A line for each person and frame: "frame id x y heading stature", with - for NaN.
 std::string text_of(const ReadRecording& recording);
-/// A line for each sentence on what was taken for granted.
+/// A line for each sentence on what was taken for granted, then for each note.
 std::string assumptions_of(const ReadRecording& recording);
 
 /// Returns the message of the TrajectoryError that reading throws, the folder left out; "accepted" where there is none.

@@ -65,6 +65,7 @@ class Trajectory(NamedTuple):
     geometry: str  #: the walkable area as well-known text, or empty
     assumptions: List[str]  #: what the file does not say, and what is assumed instead
     motions: List[NamedMotion]  #: all motions that rows name, in the order of the file
+    notes: Sequence[str] = ()  #: what seems to be wrong: columns that are not read, values of another unit
 
     @property
     def character(self) -> "np.ndarray[Any, Any]":
@@ -154,7 +155,8 @@ def read_trajectory(
         done += count.value
     lines = said(info.assumptions).splitlines()
     geometry = info.geometry.decode(errors="replace")
-    return Trajectory(rows[:done], info.fps, info.format.decode(), geometry, lines, _motions(handle))
+    notes = said(info.notes).splitlines()
+    return Trajectory(rows[:done], info.fps, info.format.decode(), geometry, lines, _motions(handle), notes)
 
 
 class Check(NamedTuple):
@@ -167,12 +169,20 @@ class Check(NamedTuple):
     pairs: Records  #: frame, first, second, depth, gap, x, y, kind: who is near whom
     summary: Dict[str, Any]  #: counts of the whole recording: person_frames, overlapping, near_pairs ...
     assumptions: List[str]  #: what is assumed where the file does not say, and what was found about the characters
+    #: What seems to be wrong: columns that are not read, people who are too fast or too slow, headings in degrees, walls without a segment.
+    notes: List[str]
 
 
 def _records(get: Any, handle: Handle, dtype: "np.dtype[Any]") -> Records:
     pointer, count = ctypes.c_void_p(), ctypes.c_size_t()
     _check(get(handle.pointer, byref(pointer), byref(count)))
     return copied(pointer.value, dtype, (count.value,))
+
+
+def _lines(get: Any, handle: Handle) -> List[str]:
+    lines = ctypes.c_char_p()
+    _check(get(handle.pointer, byref(lines)))
+    return said(lines.value or b"").splitlines()
 
 
 def _table_of(recording: Any, arrays: Dict[str, Any]) -> Optional[Table]:
@@ -319,12 +329,11 @@ def check(
         handle = Handle("check", "run", trajectory.pointer, byref(options), checked=watched.run)
     summary = _library.CheckSummary()
     _check(lib.bch_check_get_summary(handle.pointer, byref(summary)))
-    lines = ctypes.c_char_p()
-    _check(lib.bch_check_get_assumptions(handle.pointer, byref(lines)))
     return Check(
         _records(lib.bch_check_get_events, handle, _EVENT),
         _records(lib.bch_check_get_frames, handle, _FRAME),
         _records(lib.bch_check_get_pairs, handle, _PAIR),
         {name: getattr(summary, name) for name, *_ in _library.CheckSummary._fields_ if name != "size"},
-        said(lines.value or b"").splitlines(),
+        _lines(lib.bch_check_get_assumptions, handle),
+        _lines(lib.bch_check_get_notes, handle),
     )

@@ -160,6 +160,14 @@ TEST_F(CApiRecordings, InMemoryAreThoseOfTheSameFile) {
   const auto check = made<bch_check_free>(bch_check_run, in_memory.get(), &how);
   EXPECT_EQ(tables_of(check.get()), tables_of(checked(how).get()));
 
+  bch_trajectory_info info = BCH_TRAJECTORY_INFO_INIT;
+  expect_ok(bch_trajectory_get_info(in_memory.get(), &info));
+  EXPECT_STREQ(info.notes, "Column 'point' is ignored.\n");
+  const char* notes = nullptr;
+  expect_ok(bch_check_get_notes(check.get(), &notes));
+  EXPECT_STREQ(notes, info.notes);
+  EXPECT_EQ(bch_check_get_notes(check.get(), nullptr), BCH_INVALID_ARGUMENT);
+
   bch_trajectory* none = nullptr;
   const auto expect_said = [&](bch_status status, const std::string& words) {
     EXPECT_EQ(status, BCH_INVALID_ARGUMENT);

@@ -231,6 +231,31 @@ TEST(Check, IntervalsJoinToTheWhole) {
 }
 
 /// A deeper cut never adds an overlap, and segments add none to discs. (Discs of 2 cm at the leaves.)
+TEST(Check, SaysWhereNobodyMovesSo) {
+  const auto notes_of = [](double speed, double jump = 0, const ObstacleSet* walls = nullptr) {
+    MadeUp recording(10);
+    recording.walk(3, 0, 5, speed / 2, 0, 20);
+    recording.walk(8, 0, 0, 3 * speed / 2, 0, 20);
+    recording.add(20, {8, 3 * speed + jump, 0, test::unknown, 1.75F});
+    std::string all;
+    for (const std::string& note : check_of(recording, {.walls = walls}).notes) all += note + "\n";
+    return all;
+  };
+  EXPECT_EQ(notes_of(1.3), "");
+  EXPECT_EQ(notes_of(0), "");
+  EXPECT_EQ(notes_of(0.04), "");
+  EXPECT_EQ(notes_of(11.5), "");
+  EXPECT_EQ(notes_of(1.3, 9), "");
+  EXPECT_TRUE(test::has(notes_of(1.3, 20), "Person 8 moves at 202 m/s to frame 20, "));
+  EXPECT_TRUE(test::has(notes_of(1.3, 20), ", the fastest of all: is that position right?\n"));
+  EXPECT_TRUE(test::has(notes_of(130), "People move at 13"));
+  EXPECT_TRUE(
+      test::has(notes_of(130), "is the unit of length smaller than metres, or the frame rate lower?\n"));
+  EXPECT_TRUE(test::has(notes_of(0.02), " m/s on average: do they stand, or is the frame rate higher?\n"));
+  const ObstacleSet nothing = obstacles_from_wkt("GEOMETRYCOLLECTION EMPTY", Polygons::walkable);
+  EXPECT_EQ(notes_of(1.3, 0, &nothing), "The walls have no segment.\n");
+}
+
 TEST(Check, IsAskedAtADepth) {
   MadeUp recording(10);
   add_crowd(recording, 60, static_cast<int>(test::samples(40)));

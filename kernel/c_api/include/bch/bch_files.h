@@ -90,9 +90,10 @@ typedef struct bch_trajectory_info {
   const char* format;      /**< such as "JuPedSim SQLite, version 2"; lives as long as the trajectory, like the next */
   const char* geometry;    /**< the walkable area as well-known text, or empty */
   const char* assumptions; /**< a line for each thing that the file does not say, and what was assumed for it */
+  const char* notes;       /**< a line for each thing that seems to be wrong: columns that are not read, values of another unit */
 } bch_trajectory_info;
 #define BCH_TRAJECTORY_INFO_INIT \
-  { sizeof(bch_trajectory_info), 0, 0, 0, 0, 0, NULL, NULL, NULL }
+  { sizeof(bch_trajectory_info), 0, 0, 0, 0, 0, NULL, NULL, NULL, NULL }
 /** Gets the format, size and assumptions of a recording. */
 BCH_API bch_status bch_trajectory_get_info(const bch_trajectory* trajectory, bch_trajectory_info* info);
 /** Names the body that rows of a recording name, and the clip that it plays; one of the two may be empty. */
@@ -177,6 +178,9 @@ BCH_API bch_status bch_check_get_summary(const bch_check* check, bch_check_summa
 /** Gets what was assumed for what the recording does not say, and what was found out about characters, one line each. The text lives as
  * long as the check. */
 BCH_API bch_status bch_check_get_assumptions(const bch_check* check, const char** assumptions);
+/** Gets what seems to be wrong with the recording, one line each: its own notes, people too fast or too slow to be people, walls without a
+ * segment. The text lives as long as the check. */
+BCH_API bch_status bch_check_get_notes(const bch_check* check, const char** notes);
 
 enum {
   BCH_CHECK_NEAR = 0,    /**< two people within the largest distance */
