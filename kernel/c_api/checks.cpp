@@ -171,6 +171,11 @@ std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check
     made->summary = summary_of(summary, info);
     for (const std::string& line : summary.notes) made->notes += line + "\n";
     for (const OverlapEvent& event : summary.events) made->events.push_back(event_of(event));
+    for (std::size_t k = 0; k < density_classes.size(); ++k) {
+      const OverlapCount& of = summary.by_density[k];
+      made->densities.push_back(
+          {density_classes[k], of.people, of.overlapping, of.in_walls, of.near_pairs, of.overlapping_pairs});
+    }
   });
   return made;
 }

@@ -228,6 +228,15 @@ bch_status bch_check_get_events(const bch_check* check, const bch_check_event** 
   });
 }
 
+bch_status bch_check_get_densities(const bch_check* check, const bch_check_density** densities,
+                                   size_t* count) {
+  return guarded([&] {
+    const auto& all = object_of(check, "check").densities;
+    required(densities, "densities"), required(count, "count");
+    *densities = all.data(), *count = all.size();
+  });
+}
+
 bch_status bch_check_free(bch_check* check) {
   return free_object(check, "check");
 }

@@ -27,6 +27,7 @@ struct bch_check {
   std::vector<bch_check_frame> frames;
   std::vector<bch_check_pair> pairs;
   std::vector<bch_check_event> events;
+  std::vector<bch_check_density> densities;
   bch_check_summary summary = BCH_CHECK_SUMMARY_INIT;
   std::string assumptions, notes;  ///< a line each
 };

@@ -772,6 +772,36 @@ class Recordings(unittest.TestCase):
         path.write_text("frame,id,x,y,speed\n0,1,0,0,3\n")
         self.assertEqual(bch.read_trajectory(path, fps=1).notes, ["Column 'speed' is ignored."])
 
+    def test_tables_of_results(self):
+        found = bch.check(self.path, unit=1, max_distance=0.5, walls="LINESTRING (-1 -0.3, -1 0.3)")
+        events, frames, pairs = found.table(), found.table("frames"), found.table("pairs")
+        self.assertEqual(
+            list(events),
+            ["first", "second", "from", "from_seconds", "to", "to_seconds", "worst", "worst_seconds"]
+            + ["x", "y", "depth", "frames", "kind", "after"],
+        )
+        self.assertEqual(list(pairs), ["frame", "seconds", "first", "second", "depth", "gap", "x", "y", "kind"])
+        self.assertEqual(list(frames), [name for name in found.frames.dtype.names if name != "_"])
+        self.assertEqual(set(pairs["kind"]), {"near", "overlap", "wall"})
+        self.assertEqual((events["kind"] == "overlap").tolist(), (found.events["kind"] == bch.OVERLAP).tolist())
+        np.testing.assert_array_equal(events["to_seconds"], found.events["to"] / 25)
+        np.testing.assert_array_equal(pairs["seconds"], pairs["frame"] / 25)
+        passing = bch.check(frame=[0, 0, 1, 1], id=[1, 2] * 2, x=[8999.0, 9001, 9001, 8999], y=[5.0] * 4, fps=2)
+        (event,) = zip(*passing.table().values())
+        named = dict(zip(passing.table(), event))
+        self.assertEqual((named["kind"], named["from_seconds"]), ("pass", 0))
+        self.assertEqual(named["worst_seconds"], float(named["after"]) / 2)
+        with self.assertRaisesRegex(ValueError, "name is 'people'"):
+            found.table("people")
+        densities = found.summary["by_density"]
+        self.assertEqual([each["from"] for each in densities], [0, 1, 2, 3, 4, 6])
+        for count in ("person_frames", "overlapping", "in_walls", "near_pairs", "overlapping_near_pairs"):
+            self.assertEqual(sum(each[count] for each in densities), found.summary[count], count)
+        self.assertGreater(found.summary["in_walls"], 0)
+        pandas = mock.Mock(DataFrame=dict)
+        with mock.patch.dict(sys.modules, pandas=pandas):
+            self.assertEqual(list(found.to_dataframe("pairs")), list(pairs))
+
     def test_walls_of_geometries(self):
         ring = [[0, 0], [3, 0], [3, 3], [0, 3]]
         wkt = "POLYGON ((0 0, 3 0, 3 3, 0 3, 0 0))"

@@ -15,7 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import _library
-from ._arrays import Records, address, bounded, copied, encoded, f4, f8, i4, i8, instances, number, one_of, rejected, u4
+from ._arrays import Records, address, bounded, copied, encoded, f4, f8, i4, i8, instances, number, one_of, rejected, u4, u8
 from ._library import ArrayError, Handle, check as _check, lib, said
 from ._obstacles import walls_of
 from ._progress import Watched
@@ -29,6 +29,7 @@ TRACKED = np.dtype(
 )
 #: The kinds of pairs and events of a check.
 NEAR, OVERLAP, PASS, WALL = 0, 1, 2, 3
+_KINDS = np.array(["near", "overlap", "pass", "wall"])
 _FRAME = np.dtype(
     [("frame", i8), ("seconds", f8), ("people", u4), ("overlapping", u4), ("overlapping_pairs", u4), ("in_walls", u4)]
     + [("density", f4), ("_", f4)]
@@ -37,10 +38,15 @@ _PAIR = np.dtype(
     [("frame", i8), ("first", i8), ("second", i8), ("depth", f4), ("gap", f4), ("x", f4), ("y", f4), ("kind", i4)]
     + [("_", i4)]
 )
+_DENSITY = np.dtype(
+    [("from", f8), ("person_frames", u8), ("overlapping", u8), ("in_walls", u8), ("near_pairs", u8), ("overlapping_near_pairs", u8)]
+)
 _EVENT = np.dtype(
     [("first", i8), ("second", i8), ("from", i8), ("to", i8), ("worst", i8), ("x", f8), ("y", f8), ("depth", f4)]
     + [("frames", u4), ("kind", i4), ("after", f4)]
 )
+CheckTable = Literal["events", "frames", "pairs"]
+_TABLES = {"events": 0, "frames": 1, "pairs": 2}
 Bodies = Literal["outlines", "spheres"]
 _BODIES = {"outlines": 0, "spheres": 1}
 #: Units of arrays.
@@ -167,10 +173,35 @@ class Check(NamedTuple):
     events: Records
     frames: Records  #: frame, seconds, people, overlapping, overlapping_pairs, in_walls, density
     pairs: Records  #: frame, first, second, depth, gap, x, y, kind: who is near whom
-    summary: Dict[str, Any]  #: counts of the whole recording: person_frames, overlapping, near_pairs ...
+    #: Counts of the whole recording: person_frames, overlapping, near_pairs ... And `by_density`, a mapping for each class of density,
+    #: with the same counts of people with at least `from` and less than the next class's people per square metre within a metre of them.
+    summary: Dict[str, Any]
     assumptions: List[str]  #: what is assumed where the file does not say, and what was found about the characters
     #: What seems to be wrong: columns that are not read, people who are too fast or too slow, headings in degrees, walls without a segment.
     notes: List[str]
+
+    def table(self, name: CheckTable = "events") -> "Dict[str, np.ndarray[Any, Any]]":
+        """Return a table as columns by name, (n,) each: with words for kinds, and seconds, counted from frame 0, beside frames.
+
+        Parameters
+        ----------
+        name : {"events", "frames", "pairs"}
+        """
+        one_of(_TABLES, name, "name")
+        records: Records = getattr(self, name)
+        columns: "Dict[str, np.ndarray[Any, Any]]" = {}
+        for field in filter("_".__ne__, records.dtype.names or ()):
+            columns[field] = _KINDS[records[field]] if field == "kind" else records[field]
+            if field in ("from", "to", "worst") or field == "frame" and name == "pairs":
+                time = records[field] + (records["after"].astype(f8) if field == "worst" else 0.0)
+                columns["seconds" if field == "frame" else field + "_seconds"] = time / self.summary["fps"]
+        return columns
+
+    def to_dataframe(self, name: CheckTable = "events") -> Any:
+        """Return a table, as `table` does, as a pandas dataframe. It needs pandas."""
+        import pandas
+
+        return pandas.DataFrame(self.table(name))
 
 
 def _records(get: Any, handle: Handle, dtype: "np.dtype[Any]") -> Records:
@@ -329,11 +360,13 @@ def check(
         handle = Handle("check", "run", trajectory.pointer, byref(options), checked=watched.run)
     summary = _library.CheckSummary()
     _check(lib.bch_check_get_summary(handle.pointer, byref(summary)))
+    densities = _records(lib.bch_check_get_densities, handle, _DENSITY)
     return Check(
         _records(lib.bch_check_get_events, handle, _EVENT),
         _records(lib.bch_check_get_frames, handle, _FRAME),
         _records(lib.bch_check_get_pairs, handle, _PAIR),
-        {name: getattr(summary, name) for name, *_ in _library.CheckSummary._fields_ if name != "size"},
+        {name: getattr(summary, name) for name, *_ in _library.CheckSummary._fields_ if name != "size"}
+        | {"by_density": [dict(zip(densities.dtype.names or (), row)) for row in densities.tolist()]},
         _lines(lib.bch_check_get_assumptions, handle),
         _lines(lib.bch_check_get_notes, handle),
     )

@@ -221,6 +221,15 @@ TEST_F(CApiRecordings, AreChecked) {
   expect_ok(bch_check_get_summary(check.get(), &summary));
   EXPECT_EQ(summary.person_frames, 20u);
   EXPECT_EQ(summary.overlapping, 2 * events[0].frames);
+  const bch_check_density* densities = nullptr;
+  std::size_t density_count = 0;
+  expect_ok(bch_check_get_densities(check.get(), &densities, &density_count));
+  ASSERT_EQ(density_count, 6u);
+  EXPECT_EQ(densities[1].from, 1);
+  std::uint64_t person_frames = 0;
+  for (const bch_check_density& each : std::span(densities, density_count))
+    person_frames += each.person_frames;
+  EXPECT_EQ(person_frames, summary.person_frames);
   const char* assumptions = nullptr;
   expect_ok(bch_check_get_assumptions(check.get(), &assumptions));
   EXPECT_NE(std::string(assumptions), "");

@@ -175,6 +175,14 @@ typedef struct bch_check_summary {
   { sizeof(bch_check_summary), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 }
 /** Gets the summary of a check. */
 BCH_API bch_status bch_check_get_summary(const bch_check* check, bch_check_summary* summary);
+/** Counts the person-frames of a class of density. */
+typedef struct bch_check_density {
+  double from;            /**< people per square metre within a metre of the person; to the `from` of the next class, or any more */
+  uint64_t person_frames; /**< these and the next are counted as in bch_check_summary */
+  uint64_t overlapping, in_walls, near_pairs, overlapping_near_pairs;
+} bch_check_density;
+/** Gets the counts of all classes of density, from the lowest on; they live as long as the check. */
+BCH_API bch_status bch_check_get_densities(const bch_check* check, const bch_check_density** densities, size_t* count);
 /** Gets what was assumed for what the recording does not say, and what was found out about characters, one line each. The text lives as
  * long as the check. */
 BCH_API bch_status bch_check_get_assumptions(const bch_check* check, const char** assumptions);
