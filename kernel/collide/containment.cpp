@@ -43,8 +43,8 @@ Placement placement(const Arguments& in, std::uint32_t of, std::uint32_t to_agen
 /// radius away from the outer disc's centre. The ray from there through the vertex leaves the outer contour at most
 /// the outer radius away. Between the two is at least what keeps cuts apart: (query_margin) without (1'), of S, of
 /// which halving takes its part of the outer reach alone, because it moves no vertex; where leaves are exact,
-/// (segment_margin) without (segment_place). Either is more of the inner reach than the inner disc is too large, and
-/// so no test can see the slack made 0.
+/// (segment_margin) without (segment_place). Either is more of the inner reach than the inner disc is too large, and so
+/// no unit test notices a slack of 0.
 constexpr double inside_slack = 1e-6;
 constexpr double centre_and_radius = 2.45, placing = 0.04;  // in units of u
 constexpr double between_cuts =

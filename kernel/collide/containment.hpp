@@ -16,9 +16,9 @@ bool contour_holds(const Vec2* points, const Contour& contour, PointIn<double> p
 
 /// Returns whether a contour of one agent lies inside the other's, for two agents whose cuts do not overlap.
 ///
-/// Outlines then do not meet, so one point of a contour speaks for all of it. And the answer does not hang on
-/// a rounding: discs that the float test keeps apart leave u S and more between any two outline points
-/// (layout/base/rounding.hpp), while this test, in double, is off by less than 1e-9 S.
+/// Outlines then do not meet, so one point decides for its contour, despite rounding: what the float test of discs, or
+/// the test of segments, rejects is more than u S apart (layout/base/rounding.hpp), while this test, in double, is off
+/// by less than 1e-9 S.
 /// Preconditions: valid indices; the set keeps outlines.
 bool one_contains_other(const Arguments& in, Pair pair) noexcept;
 

@@ -22,7 +22,7 @@ namespace bch::detail {
 /// many pairs overlap and no branch depends on an answer. Ancestors are tested only where leaves overlap.
 /// Most pairs end after a few rounds. The rest stay open until more pairs are added, because a round over
 /// three pairs takes as long as one over thirty.
-/// `capacity`: `add` needs room; `run(below)` makes it.
+/// `capacity`: the most open pairs; `run(enough)` makes room for add().
 template <class Simd, std::uint32_t capacity>
 class OverlapTraversal {
  public:
@@ -56,7 +56,7 @@ class OverlapTraversal {
 
  private:
   using Nodes = TreeNodes<Simd>;
-  /// Tests that nodes are asked for ahead, with `prefetch`.
+  /// How many tests ahead nodes are prefetched.
   static constexpr std::uint32_t tests_ahead = 6;
   static constexpr std::uint32_t verified_together = 32;
   /// The most frames of a pair: every test descends on one side at least, and no tree has more than
@@ -74,7 +74,7 @@ class OverlapTraversal {
     float reach;
     std::uint32_t top;  ///< frame
     std::size_t pair;
-    double margin;  ///< 0, or segments decide where leaves overlap: metres
+    double margin;  ///< metres; 0: discs decide, not segments
     [[no_unique_address]] std::conditional_t<KnowsGaps<Simd>, Gaps, NoGaps> gaps;
   };
 
@@ -121,8 +121,8 @@ class OverlapTraversal {
                                    Nodes::discs(nodes, b, pair.stride_b));
   }
 
-  /// Takes the hits of leaves away whose segments do not meet or whose ancestors do not all overlap, but for
-  /// a pair's first that stays.
+  /// Clears the hits of leaves whose segments do not meet or whose ancestors do not all overlap, up to each pair's
+  /// first confirmed hit.
   [[gnu::always_inline]] void verify() noexcept {
     // Leaf discs within their gap are a hit, whatever is above them.
     if constexpr (KnowsGaps<Simd>) return;
@@ -143,9 +143,8 @@ class OverlapTraversal {
     verify_hits(which, count);
   }
 
-  /// Keeps of the hits of leaf windows those whose segments meet, or of a pair whose segments surely cross
-  /// any.
-  /// Returns: how many pairs have hits whose ancestors have to be asked; these come first.
+  /// Keeps the hits of leaves whose segments meet. A pair whose segments surely cross keeps all its hits.
+  /// Returns: how many pairs have hits whose ancestors have to be tested; these come first.
   std::uint32_t compare_segments(std::uint16_t* which, std::uint32_t count) noexcept {
     std::uint64_t near[verified_together];
     std::uint32_t is_sure = 0, is_compared = 0;
@@ -188,8 +187,8 @@ class OverlapTraversal {
     return left;
   }
 
-  /// Verifies one hit of every pair after the other, until one stays or none is left. Paths are looked up side by
-  /// side, because each step waits for the one before.
+  /// Verifies one hit of every pair per pass, until one is confirmed or none is left. Paths of many pairs are followed
+  /// side by side, because each step waits for the one before.
   void verify_hits(std::uint16_t* which, std::uint32_t count) noexcept {
     const float* const nodes = shapes_.nodes;
     AncestorPath<Simd>*const above_a = above_a_, *const above_b = above_b_;

@@ -22,10 +22,10 @@ namespace bch::detail {
 /// answer is one of those listed in layout/base/rounding.hpp, or in Gaps, in that order, so that all instantiations and
 /// the scalar reference agree bit for bit; what only saves work is conservative.
 ///
-/// Pairs are answered in chunks, stage by stage, and each stage leaves fewer of them open: place B in A's
-/// frame; decide by profiles along the line of the centres, and tell which of the rest will probably collide;
-/// separate the others by their supports; accept pairs whose inscribed discs overlap; traverse the trees of what
-/// is left.
+/// Pairs are answered in chunks, stage by stage, and each stage leaves fewer of them open: place B in A's frame; decide
+/// by profiles along the line of the centres, and tell which of the rest will probably collide; separate the others by
+/// even supports; accept pairs whose inscribed discs overlap, the likely hits first; separate by odd supports; traverse
+/// the trees of what is left.
 template <class Simd>
 class PairKernel {
  public:
@@ -70,7 +70,7 @@ class PairKernel {
     if (shapes_.support == nullptr)
       open_all();
     else if (any_open())
-      take_culling();
+      cull();
     for (std::uint32_t k = 0; k < open_.size; ++k) {
       const std::uint32_t pair = open_.pair[k];
       if (coincide(pair)) continue;  // the code says so by now
@@ -80,8 +80,8 @@ class PairKernel {
     }
   }
 
-  /// Returns whether both agents show one cut at one place, to the bit, so that their outlines meet: all leaves would be near each other, and none
-  /// would surely cross, which is the dearest that there is to compare.
+  /// Returns whether both agents have the same cut, place and heading, so that they collide. Testing them would be
+  /// slowest: all leaves are near each other, and no crossing is sure.
   bool coincide(std::uint32_t pair) const noexcept {
     const auto [c, s, tx, ty] = at_.transform(pair);
     return at_.root_a[pair] == at_.root_b[pair] && s == 0 && tx == 0 && ty == 0 && c > 0;
@@ -142,14 +142,14 @@ class PairKernel {
       open_.add_if(open_bits_[k / Simd::width] >> k % Simd::width & 1, k);
   }
 
-  /// Leaves the pairs open that only a traversal can decide. Those that are not separated have the code of a hit
-  /// by now: areas that meet are one, wherever their outlines are.
-  [[gnu::noinline]] void take_culling() noexcept {
+  /// Leaves open the pairs that only a traversal can decide. Codes begin as hits, and only separation clears them:
+  /// areas that meet are a hit, wherever their outlines are.
+  [[gnu::noinline]] void cull() noexcept {
     compare_profiles();
     axis_test_.place_directions();
     separate(0);
-    meet<block_width / 2>(near_);
-    meet<block_width>(open_);
+    accept<block_width / 2>(near_);
+    accept<block_width>(open_);
     separate(1);
   }
 
@@ -167,10 +167,9 @@ class PairKernel {
         });
   }
 
-  /// Accepts pairs by the first `count` inscribed discs of either shape. Pairs that these do not decide stay
-  /// open.
+  /// Accepts the pairs of a list by the first `count` inscribed discs of either shape, and leaves the others open.
   template <unsigned count>
-  void meet(List& list) noexcept {
+  void accept(List& list) noexcept {
     list.drop_if(
         open_, [&](std::uint32_t pair) { return inscribed_discs_overlap<count>(pair); },
         [&](std::uint32_t pair) __attribute__((always_inline)) {

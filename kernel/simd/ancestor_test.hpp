@@ -82,9 +82,9 @@ class AncestorTest {
  private:
   using Float = typename Simd::Float;
   static constexpr std::uint32_t length = AncestorPath<Simd>::length;
-  /// Holds how far inside of all discs a point has to be, in both reaches: then every disc of A overlaps every one
-  /// of B by twice that. The test of such a pair and these two compare the same floats. Each rounds a
-  /// difference, squares and radii, which are at most both reaches.
+  /// How deep a point has to lie in all discs, times the sum of reaches: then every disc of A overlaps every disc of B
+  /// by twice that. Both calls of holds_point() and the test of such a pair use the same floats. Each rounds a
+  /// difference, squares and radii, which are at most the sum of reaches.
   static constexpr double inside_margin = 16 * rounding::unit_roundoff;
   static_assert(2 * inside_margin >=
                 3 * (rounding::terms::apart + rounding::terms::square + rounding::terms::radii) *

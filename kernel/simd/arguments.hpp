@@ -37,7 +37,7 @@ struct Arguments {
   AgentColumn agent_level;      ///< none: the last level
   AgentColumn agent_z;          ///< none: all stand on the same ground
   const Pair* pairs;
-  const float* gaps;  ///< per pair, the leaf's of Gaps; null: which pairs collide is asked
+  const float* gaps;  ///< per pair, Gaps::leaf of within(); null: collide()
   std::uint8_t* codes;
   bool exact_leaves;  ///< where both trees have segments, these decide; see Leaves
   // Ask for what is needed soon: there is more of it than a near cache holds.
@@ -46,9 +46,10 @@ struct Arguments {
 
 /// Tells the result of a kernel for a pair.
 enum PairState : std::uint8_t {
-  apart = 0,        ///< the cuts do not overlap, and neither outline holds the other
-  overlap = 1,      ///< discs of the cuts overlap, or come within the distance of the pair
-  may_contain = 2,  ///< the cuts do not overlap, and one outline might hold the other
+  apart = 0,  ///< no hit
+  overlap =
+      1,  ///< a hit: they collide or are within the distance; the bit of may_contain may be set beside it
+  may_contain = 2,  ///< no hit so far; one outline might contain the other
 };
 
 }  // namespace bch::detail

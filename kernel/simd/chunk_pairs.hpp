@@ -26,8 +26,8 @@ struct ChunkPairs {
     size += Simd::compress_indices(bits, first, pair + size);
   }
 
-  /// Forgets the pairs that pass a test; the rest go to a list, which may be this one. No branch depends on an
-  /// answer. `prefetch(pair)` asks for what the test will read.
+  /// Empties this list and appends the pairs that fail the test to `rest`, which may be this list. No branch depends on
+  /// an answer. `prefetch(pair)` asks for what the test will read.
   template <class Test, class Prefetch>
   void drop_if(ChunkPairs& rest, Test passes, Prefetch prefetch) noexcept {
     const std::uint32_t count = size;

@@ -42,8 +42,8 @@ void visit_pairs_called(const Transform& b_in_a, Discs a, Discs b, Visit visit) 
 /// Visits the pairs of the first `count` of A's discs with those of B, four or all eight; pair count * i + j for disc i of A and j
 /// of B: calls visit(k, x, y, r) for every register, whose lanes are the pairs from k on. (x, y) leads from A's disc
 /// to B's in A's frame, r is the sum of radii. The operations are those of layout/base/rounding.hpp. Padding
-/// gives infinities and NaN. It is inlined because a call takes longer than a test, but not one lane at a time, when
-/// copies of it would fill the object file.
+/// gives infinities and NaN. It is inlined because a call takes longer than a test; not for a width of 1, where copies
+/// of it would fill the object file.
 template <class Simd, unsigned count = block_width, bool called = Simd::width == 1, class Visit>
 [[gnu::always_inline]] inline void visit_disc_pairs(const Transform& b_in_a, Discs a, Discs b,
                                                     Visit visit) noexcept {

@@ -7,7 +7,8 @@
 
 namespace bch::detail {
 
-/// Holds the gaps between discs of a pair up to which within() says 1 and looks further.
+/// Holds the thresholds of within() on gaps between discs: up to `leaf`, two leaves are a hit; up to `bound`, blocks
+/// are descended into.
 ///
 /// Notation of layout/base/rounding.hpp; d is the distance of the question, r = r_A + r_B, and of two leaf discs, alone,
 ///

@@ -27,7 +27,7 @@ class RelativeTransforms {
   /// Places the pairs from `begin` on, at most a chunk, and none from `end` on.
   void place(const Arguments& in, std::size_t begin, std::size_t end) noexcept {
     size = end - begin < chunk_size ? static_cast<std::uint32_t>(end - begin) : chunk_size;
-    name_agents(in, begin);
+    load_agents(in, begin);
     in.prefetch_agents ? find_roots<true>(in) : find_roots<false>(in);
     turn(in);
   }
@@ -79,8 +79,8 @@ class RelativeTransforms {
   static constexpr std::uint32_t doubles = Simd::doubles;        ///< a register
   static constexpr std::uint32_t parts = Simd::width / doubles;  ///< registers of them for one of floats
 
-  /// Reads the agents of each pair. The lower index is A, so that the order within a pair does not matter.
-  void name_agents(const Arguments& in, std::size_t begin) noexcept {
+  /// Loads the agents of each pair. The lower index is A, so that the order within a pair does not matter.
+  void load_agents(const Arguments& in, std::size_t begin) noexcept {
     const Pair* const __restrict pairs = in.pairs + begin;
     const std::uint32_t count = size, whole = count / Simd::width * Simd::width;
     const auto name = [&](std::uint32_t k) {
@@ -189,8 +189,8 @@ class RelativeTransforms {
     return unit_vectors(in.agent_heading, in.agent_heading_y, agent);
   }
 
-  /// Returns the distance from A to B in one coordinate.
-  static Float distance(const AgentColumn& x, const std::uint32_t* a, const std::uint32_t* b) noexcept {
+  /// Returns B's coordinate minus A's.
+  static Float difference(const AgentColumn& x, const std::uint32_t* a, const std::uint32_t* b) noexcept {
     Double between[parts];
 #pragma GCC unroll 2
     for (std::uint32_t part = 0; part < parts; ++part) {
@@ -206,7 +206,7 @@ class RelativeTransforms {
     for (std::uint32_t k = 0; k < whole_registers(); k += Simd::width) {
       const auto [ca, sa] = unit_vectors(in, a_ + k);
       const auto [cb, sb] = unit_vectors(in, b_ + k);
-      const Float dx = distance(in.agent_x, a_ + k, b_ + k), dy = distance(in.agent_y, a_ + k, b_ + k);
+      const Float dx = difference(in.agent_x, a_ + k, b_ + k), dy = difference(in.agent_y, a_ + k, b_ + k);
       Simd::store(cosine_ + k, ca), Simd::store(sine_ + k, sa);
       Simd::store(c + k, ca * cb + sa * sb);
       Simd::store(s + k, ca * sb - sa * cb);

@@ -53,6 +53,7 @@ class ProfileTest {
   /// the areas meet.
   Answers answers(std::uint32_t k) const noexcept {
     const Float distance = Simd::load(distance_ + k), coincident(1e-20f);
+    // Of a sector: field 0 is inner, 1 outer, 2 extent.
     const Float outer_a = field(of_a_, 1, k), outer_b = field(of_b_, 1, k);
     Float inner = field(of_a_, 0, k) + field(of_b_, 0, k), outer = outer_a + outer_b;
     if constexpr (KnowsGaps<Simd>) {
@@ -69,8 +70,8 @@ class ProfileTest {
  private:
   using Float = typename Simd::Float;
   using Fields = RecordFields<Simd>;
-  /// The unit of record indices, in floats: half a record. That is the largest scale that an address can
-  /// hold; a larger one takes an additional instruction for each record.
+  /// The unit of record indices, in floats: half a record, 8 bytes, which is the largest scale of an x86 address. A
+  /// larger one takes an additional instruction for each record.
   static constexpr std::size_t stride = 2;
   static constexpr std::uint32_t strides_each = sizeof(Sector) / sizeof(float) / stride;
   static constexpr std::uint32_t profile_strides = sizeof(Profile) / sizeof(float) / stride;

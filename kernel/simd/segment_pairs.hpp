@@ -24,8 +24,8 @@ struct SegmentPair {
 
   /// Holds the sides of the line of one segment on which the ends of another lie.
   struct Sides {
-    Double high, low;  ///< of both ends, the larger and the smaller
-    Double margin;     ///< what counts at least as the margin's distance from the line
+    Double high, low;  ///< cross products of both ends, the larger and the smaller
+    Double margin;     ///< the margin times the L1 length of the segment, at least its length
 
     /// Returns a value above 0 where both ends are farther than the margin on one side.
     Double beside() const noexcept { return xsimd::max(low, Double(0.0) - high) - margin; }
@@ -75,7 +75,7 @@ class SegmentBatch {
   SegmentBatch(const ShapeSetView& shapes, const Placed* placed) noexcept
       : leaves_{shapes.leaf_segments}, points_(shapes.points), placed_(placed) {}
 
-  /// Asks for the words of a leaf window, or for the points that they name.
+  /// Prefetches the words of a leaf window, or the points that they name.
   [[gnu::always_inline]] void prefetch_words(const Tree& tree, std::uint32_t window) const noexcept {
     __builtin_prefetch(leaves_.word(tree, window & ~leaf_window));
   }

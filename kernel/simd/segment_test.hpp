@@ -17,10 +17,11 @@ namespace bch::detail {
 enum class Meeting : std::uint8_t {
   none,
   near,  ///< they come within the margin of each other
-  sure,  ///< also, the outlines surely cross: some leaves that hold the crossing overlap with all ancestors
+  sure,  ///< also, the outlines surely cross, so that some leaves overlap with all ancestors
 };
 
-/// Returns how near segments of two shapes are that meet, metres. (`Simd` keeps instruction sets from sharing a function.)
+/// Returns the distance within which segments of two shapes meet, metres. (`Simd` keeps instruction sets from sharing a
+/// function.)
 template <class Simd>
 double segment_margin(const ShapeSetView& shapes, std::uint32_t shape_a, std::uint32_t shape_b) noexcept {
   const double of_a = shapes.segment_margin[shape_a], of_b = shapes.segment_margin[shape_b];
@@ -60,9 +61,9 @@ class SegmentTest : private SegmentBatch<Simd, Placed> {
   using Batch::parts, Batch::capacity;
   using typename Batch::Pair;
 
-  /// Computes two numbers a pair, which say by being above 0 that a line separates the segments, and that they surely
+  /// Computes for each pair apart_, above 0 where a line separates the segments, and sure_, above 0 where they surely
   /// cross.
-  /// Returns: bits of the pairs of which the first number may not be.
+  /// Returns: the bits of the pairs whose apart_ may not be above 0.
   std::uint32_t test(std::uint32_t k) noexcept {
     Pair pairs[parts];
     this->load(k, pairs);

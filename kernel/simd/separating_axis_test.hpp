@@ -44,9 +44,9 @@ class SeparatingAxisTest {
     if constexpr (KnowsGaps<Simd>) gap = Float(at_.bound_gap[pair]);
     directions_.search_along(pair, odd, rows(pair, odd),
                              [&](unsigned, Float distance, Float of_a, Float of_b) {
-                               Float reach = of_a + of_b;
-                               if constexpr (KnowsGaps<Simd>) reach = reach + gap;
-                               separated |= Simd::bits(reach < distance);
+                               Float extent = of_a + of_b;
+                               if constexpr (KnowsGaps<Simd>) extent = extent + gap;
+                               separated |= Simd::bits(extent < distance);
                              });
     return separated != 0;
   }

@@ -10,8 +10,8 @@
 
 namespace bch::detail {
 
-/// Finds what a node's name leads to among ShapeSetView::nodes. (`Simd` keeps instruction sets from sharing a
-/// function.)
+/// Decodes the name of a node: its place among ShapeSetView::nodes, with the top bit set for a leaf window. (`Simd`
+/// keeps instruction sets from sharing a function.)
 template <class Simd>
 struct TreeNodes {
   /// Returns a mask, all ones if the node is a leaf. GCC would compile a condition to a branch, and no
@@ -31,8 +31,8 @@ struct TreeNodes {
             block_outer + (leaf & (2 * stride - block_outer))};
   }
 
-  /// Asks for a node's discs, and for the names below a block. (Here and elsewhere inlined for certain: GCC
-  /// 12 drops the calls of functions that do nothing else.)
+  /// Prefetches a node's discs, and the names below a block. (Here and elsewhere inlined for certain: GCC 12 drops the
+  /// calls of functions that do nothing else.)
   [[gnu::always_inline]] static void prefetch(const float* nodes, std::uint32_t node,
                                               std::uint32_t stride) noexcept {
     const Discs at = discs(nodes, node, stride);
