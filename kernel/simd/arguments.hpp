@@ -46,9 +46,8 @@ struct Arguments {
 
 /// Tells the result of a kernel for a pair.
 enum PairState : std::uint8_t {
-  apart = 0,  ///< no hit
-  overlap =
-      1,  ///< a hit: they collide or are within the distance; the bit of may_contain may be set beside it
+  apart = 0,        ///< no hit
+  overlap = 1,      ///< a hit: they collide or are within the distance; may be set beside may_contain
   may_contain = 2,  ///< no hit so far; one outline might contain the other
 };
 
