@@ -88,8 +88,8 @@ class Headings {
   constexpr Headings() = default;
   constexpr Headings(const Numbers& angles) noexcept  // NOLINT(google-explicit-constructor): views are
       : x_(angles) {}
-  /// Takes unit vectors, which are the cosines and sines of angles: where an agent's +x points in the world. Their lengths are from 0.999 to
-  /// 1.001, and queries take them as if they were exactly 1.
+  /// Takes unit vectors (cosine, sine): where an agent's +x points in the world. Their lengths are from 0.999 to 1.001,
+  /// and queries normalise them.
   constexpr Headings(const Numbers& x, const Numbers& y) noexcept : x_(x), y_(y), are_directions_(true) {}
   template <class Range>
   requires std::is_constructible_v<Numbers, const Range&>
@@ -115,14 +115,14 @@ class Headings {
 /// Units:   metres and radians, counter-clockwise, on the ground plane; |x|, |y|, |z| <= 1e9 m and |heading| <=
 ///          1e9 rad.
 struct Agents {
-  Strided<std::uint32_t> shape;  ///< index into the ShapeSet
+  Strided<std::uint32_t> shape;  ///< index into the ShapeSet or BodySet
   Numbers x;
   Numbers y;
   Headings heading;
   Strided<std::uint8_t> level = {};  ///< index into the set's depths; empty: the last level for all
-  /// Gives the heights of the grounds that agents stand on: floors, steps, a stage. Empty: one ground for all, and bodies are compared
-  /// whatever their heights. Agents with a z meet only where their heights have a point in common, and the set has to know these heights
-  /// (ShapeSetPlan::heights).
+  /// Gives the heights of the grounds that agents stand on: floors, steps, a stage. Empty: one ground for all, and
+  /// heights of shapes are ignored. Agents with a z collide only if their ranges of height intersect, too; a ShapeSet
+  /// then needs ShapeSetPlan::heights.
   Numbers z = {};
 
   std::size_t size() const noexcept { return shape.size(); }

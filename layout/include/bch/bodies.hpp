@@ -19,11 +19,12 @@
 
 namespace bch {
 
-/// Holds the share of one bone in the centre of a sphere. The centre in a pose is the sum of weight * (where the bone takes `centre`).
+/// Holds the share of one bone in the centre of a sphere. The posed centre is the sum of weight * bone matrix *
+/// `centre` (linear blend skinning).
 struct SphereInfluence {
   std::uint32_t bone;
   float weight;
-  Vec3 centre;  ///< in the frame that the bone's inverse_bind expects
+  Vec3 centre;  ///< in the space that the bone's inverse_bind maps from
 };
 
 /// Describes a body as spheres that move with a skeleton. In a pose each centre is blended from its bones, and each radius is the least
@@ -33,14 +34,14 @@ struct BodyModel {
   std::shared_ptr<const Character> character;  ///< its mesh, skeleton and clips
   std::vector<std::uint32_t> influence_begin;  ///< one offset more than spheres
   std::vector<SphereInfluence> influences;     ///< weights of a sphere are positive and sum to 1
-  /// Makes more points: number vertices + i is the middle of these two earlier points, in every pose.
+  /// Makes more points: number vertices.size() + i is the midpoint of these two earlier points, in every pose.
   std::vector<std::array<std::uint32_t, 2>> cuts;
   std::vector<std::uint32_t> corner_begin;  ///< one offset more than spheres
-  std::vector<std::uint32_t> corners;       ///< points, ascending within a sphere
-  std::vector<float> least_radius;  ///< one a sphere, metres; of spheres that stand for themselves. None: 0
-  /// Spheres follow each other in leaves of so many, 4 or 8, that are near each other in most poses.
+  std::vector<std::uint32_t> corners;       ///< indices of vertices or midpoints, ascending within a sphere
+  std::vector<float> least_radius;          ///< lower bound of each sphere's radius, metres; empty: 0
+  /// Every leaf_size spheres in sequence, 4 or 8, form a leaf; they are near each other in most poses.
   std::uint32_t leaf_size = 4;
-  std::array<std::uint32_t, detail::core_spheres> core = {};  ///< spheres that most collisions meet first
+  std::array<std::uint32_t, detail::core_spheres> core = {};  ///< spheres that queries test first
 
   std::size_t sphere_count() const noexcept {
     return influence_begin.empty() ? 0 : influence_begin.size() - 1;
@@ -64,32 +65,35 @@ struct BodyOptions {
   std::uint32_t spheres = 256;  ///< at most 4096
   /// Leaves out the search for better places of the spheres: a model in seconds, whose errors are about twice as large.
   bool draft = false;
-  /// Hears on the caller's thread, twenty times a second at most, which share is done. Returning false cancels.
+  /// Called on the caller's thread, at most twenty times a second, with the share that is done. Returning false
+  /// cancels.
   std::function<bool(double share)> progress = {};
 };
 
 /// Makes the model of a character: spheres inside its skin, bound to its bones. The same bits on every processor.
 /// Cost:    up to a minute, a few seconds as a draft.
-/// Errors:  throws std::invalid_argument as validate(Character) does, on spheres out of range, and on a character without triangles of some area;
+/// Errors:  throws std::invalid_argument as validate(Character) does, on spheres out of range, and on a character
+///          without triangles of some area;
 ///          std::system_error of std::errc::operation_canceled where it is cancelled.
 BodyModel make_body(const Character& character, const BodyOptions& options = {});
 
-/// Makes the model of a rigid body of given spheres, for things that move among people and share their sets: its poses are rest(), and a
-/// transform of its one joint, by which it may lie or tilt. Radii are the same in every pose. Queries number spheres in the model's order:
-/// those that are near each other follow each other.
+/// Makes the model of a rigid body from spheres, for things that move among people and share their sets. Its poses are
+/// Pose() (at rest) or a transform of its one joint, which may tilt it. Radii are the same in every pose. Queries
+/// number spheres in the model's order, which groups those that are near each other.
 /// Errors:  throws std::invalid_argument on no spheres or more than 4096, and on one that is not finite or has a negative radius.
 BodyModel make_body(std::span<const Sphere> spheres);
 
 /// Returns the model that comes with the library of a built-in character: what make_body() makes of default_male() or default_female(),
 /// with 64, 128, 256 or 512 spheres. Pedestrians (default_pedestrian()), who have the same skins, take the same models.
 /// Cost:    milliseconds.
-/// Errors:  throws std::invalid_argument on another skin or skeleton, and on another number of spheres, both of which make_body() takes.
+/// Errors:  throws std::invalid_argument on another skin or skeleton, or another number of spheres; use make_body() for
+///          those.
 BodyModel default_body(const Character& built_in, std::uint32_t spheres = 256);
 
 /// Holds the options of animate().
 struct AnimateOptions {
   float error =
-      0.005f;  ///< metres, by how much more spheres may stand out between two keys than in a pose, unless these are 9 ms apart
+      0.005f;  ///< metres, most by which spheres protrude from posed ones between keys that are more than 9 ms apart
   std::optional<bool> loops =
       {};  ///< AnimatedDiscs::loops; none: whether the clip's last pose is its first one, to 0.025 mm
 };
@@ -135,7 +139,8 @@ struct BakeBodiesOptions {
   std::uint32_t poses =
       100;  ///< of each model, spread evenly over its character's clips, one model after the other
   std::vector<PoseOfBody> bodies = {};  ///< which poses of which models; none: `poses`
-  /// Hears on the caller's thread, twenty times a second at most, how many bodies are made. Returning false cancels.
+  /// Called on the caller's thread, at most twenty times a second, with the bodies made so far. Returning false
+  /// cancels.
   std::function<bool(std::size_t done, std::size_t total)> progress = {};
 };
 
@@ -165,6 +170,7 @@ class LiveBodies {
   /// Errors:  throws std::invalid_argument on another number of poses and, naming the body, what BodyPoser::spheres() throws. Some
   ///          bodies then have their new poses.
   void pose(std::span<const Pose> poses);
+  /// Returns the bodies in their present poses.
   const BodySet& set() const noexcept;
 
  private:

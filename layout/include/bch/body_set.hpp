@@ -14,7 +14,7 @@
 namespace bch::detail {
 struct BodyLayout;
 struct BodySetView;
-/// The number of spheres of a body that queries test first.
+/// The number of spheres of a body that queries test first, as most collisions involve them.
 constexpr std::uint32_t core_spheres = 16;
 }  // namespace bch::detail
 
@@ -24,7 +24,7 @@ namespace bch {
 /// stand at any height (Agents::z). An object that was moved from can only be assigned to or destroyed.
 class BodySet {
  public:
-  /// Represents the points within a radius of a segment in space, metres.
+  /// Represents the points within a radius of a segment in space, metres. (bch::Capsule is one on the ground.)
   struct Capsule {
     Vec3 a, b;
     float radius = 0;
@@ -43,6 +43,7 @@ class BodySet {
   /// Returns the spheres of a body as queries use them, with the rounding margin.
   /// Errors:  throws std::out_of_range on an index out of range.
   std::vector<Sphere> spheres(std::uint32_t body) const;
+  /// Returns the heights of a body above its agent's ground, metres. Errors: as spheres().
   Heights heights(std::uint32_t body) const;
 
   // For the library's own parts, which alone know these types.
@@ -60,17 +61,17 @@ class BodySet {
   std::unique_ptr<State> state_;
 };
 
-/// Returns spheres that together hold capsules, such as those of a ragdoll, and reach out of them by at most an error: rows of spheres
-/// from end to end.
+/// Returns spheres that cover capsules, such as those of a ragdoll, and protrude from them by at most `error`: one row
+/// of spheres per capsule.
 /// Units:   metres, all; the error is more than 1e-6 of a capsule's reach.
 /// Errors:  throws std::invalid_argument on no capsules; naming the capsule, on a negative radius, on a reach outside 1e-6 to 1e6 m, and on
 ///          an error that is too small, or takes more than 4096 spheres.
 std::vector<Sphere> spheres_from_capsules(std::span<const BodySet::Capsule> capsules, float error = 0.005f);
 
-/// Returns spheres that together hold all that stands on polygons (see outline_from_polygons()) from the bottom to the top, and reach out of
-/// it by at most an error: the footprint of a cart or a box beside people.
+/// Returns spheres that cover what stands on polygons (see outline_from_polygons()) from the bottom to the top, and
+/// protrude from it by at most `error`: for a cart or a box beside people.
 /// Units:   metres, all.
-/// Cost:    milliseconds. A box of 0.6 x 0.4 x 1 m takes 104 spheres, and 556 at an error of 2 cm.
+/// Cost:    milliseconds. A box of 0.6 x 0.4 x 1 m takes 104 spheres at the default error of 5 cm, 556 at 2 cm.
 /// Errors:  throws std::invalid_argument as outline_from_polygons() does, on a bottom that is not below the top, on heights that are not
 ///          within +-1e6 m, and, naming the polygon, on an error that is not above 0 or takes more than 4096 spheres.
 std::vector<Sphere> spheres_from_polygons(std::span<const std::vector<Vec2>> polygons, const Heights& heights,

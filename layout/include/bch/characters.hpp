@@ -83,14 +83,14 @@ struct Character {
   std::string name;
   std::vector<Joint> joints;
   std::vector<Bone> bones;
-  std::vector<Vec3> vertices;                  ///< in the frames that the bones' inverse_bind expects
+  std::vector<Vec3> vertices;                  ///< in the spaces that the bones' inverse_bind map from
   std::vector<std::uint32_t> influence_begin;  ///< vertices.size() + 1 offsets into influences
   std::vector<Influence> influences;           ///< weights of a vertex are positive and sum to 1
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<Clip> clips;
-  Affine3 to_ground;  ///< maps the file's frame to metres, z up
-  /// Selects the joint whose point on the ground is a shape's origin; -1 for a mesh without skeleton, whose origin is the
-  /// middle of the bounding rectangle.
+  Affine3 to_ground;  ///< maps the file's frame to the world: metres, z up
+  /// Selects the joint whose (x, y) is a shape's origin. -1: a mesh without skeleton, whose origin is the centre of its
+  /// bounding rectangle.
   std::int32_t root_joint = -1;
 };
 
@@ -105,8 +105,8 @@ struct PoseTime {
   float seconds = 0;
 };
 
-/// Returns `count` poses spread evenly over the character's clips laid end to end, each in the middle of its share. The same arguments
-/// give the same poses everywhere. A character without clips has one pose, the rest pose.
+/// Returns the poses at the middles of `count` equal intervals of the character's clips laid end to end. The same
+/// arguments give the same poses everywhere. A character without clips has one pose, the rest pose.
 std::vector<PoseTime> sample_poses(const Character& character, std::uint32_t count);
 
 /// Returns the built-in man. He is 1.88 m tall, the woman of default_female() 1.74 m. Each is one
@@ -130,10 +130,11 @@ Character default_bulky_male();
 enum class Sex { female, male };
 
 /// Returns a pedestrian for recorded and simulated crowds: the built-in man or woman of a given stature. The pedestrian walks at every
-/// speed, keeps the arms close, and stands under the head, which is what cameras track. Clip k is one stride at 0.03 k m/s, up to 2.19: it
-/// begins and ends with the left heel's contact, in the same pose, and can be repeated. Steps are taken at 1.3 Hz when people shuffle and at 0.5 Hz more for every metre per second:
-/// about 2 Hz and 0.7 m at 1.4 m/s. The step length goes to 0 with the speed. `shoulders` is the angle of the shoulders to the
-/// walking direction, counter-clockwise: people turn them when they pass each other closely.
+/// speed, keeps the arms close, and stands under the head, which is what cameras track. Clip k is one stride (two
+/// steps) at 0.03 k m/s, k = 0 to 73: it begins and ends with the left heel's contact, in the same pose, and can be
+/// repeated. The step frequency is 1.3 Hz + 0.5 Hz per m/s: about 2 Hz and 0.7 m at 1.4 m/s. The step length goes to 0
+/// with the speed. `shoulders` is the turn of the shoulder line from square to the walking direction,
+/// counter-clockwise: people turn them when they pass each other closely.
 /// Units:   metres, radians; a stature from 0.8 to 2.4, a turn from -1 to 1.
 /// Source:  A. Pachi, T. Ji, "Frequency and velocity of people walking", The Structural Engineer 83, 2005 (2.0 Hz at 1.4 m/s, steps of
 ///          0.75 m of men and 0.67 m of women); A. Jelic, C. Appert-Rolland, S. Lemercier, J. Pettre, "Properties of pedestrians

@@ -81,9 +81,10 @@ BakedShapes load_baked(const std::filesystem::path& file, FileAccess access = Fi
 BakedShapes load_baked(std::span<const std::byte> bytes, const std::string& name,
                        std::shared_ptr<const void> memory);
 
-/// Writes a set, clips and models of bodies as a baked file. It writes a temporary file beside `file`, and renames it over `file` once it is complete.
-/// The same content gives the same bytes. A clip takes 6 bytes per disc and key where numbers are of 16 bits times a power of two,
-/// as those of animate() are, and 12 otherwise.
+/// Writes a set, clips and models of bodies as a baked file. It writes a temporary file beside `file`, and renames it
+/// over `file` once it is complete. The same content gives the same bytes. A clip takes 6 bytes per disc and key, or 8
+/// per sphere and key, if its numbers are 16-bit integers times a power of two, as those of animate() are; else twice
+/// that.
 /// Errors:  throws BakedFileError where the file cannot be written, and leaves none; std::invalid_argument where load_baked()
 ///          would refuse it: on a set() of a DynamicShapeSet of which a shape was replaced, origins of another number of
 ///          shapes, origins or clips with names that do not exist, and clips that validate() refuses.

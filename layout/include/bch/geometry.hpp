@@ -7,6 +7,8 @@
 
 namespace bch {
 
+// The reach of a body is the largest distance of its points from the origin of its frame, in metres.
+
 /// Represents a point or vector of the ground plane, in metres.
 struct Vec2 {
   float x = 0;
@@ -31,14 +33,14 @@ struct Quaternion {
   friend bool operator==(const Quaternion&, const Quaternion&) = default;
 };
 
-/// Maps a point affinely to rows * (x, y, z, 1): each row is one of the linear part and its share of the
-/// translation.
+/// Represents an affine map, row-major: a 3 x 3 linear part, and the translation in column 3. It maps a point to rows *
+/// (x, y, z, 1).
 struct Affine3 {
   float rows[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
   friend bool operator==(const Affine3&, const Affine3&) = default;
 };
 
-/// Represents a closed disc on the ground: a vertical cylinder of infinite height seen from above.
+/// Represents a closed disc on the ground: a vertical cylinder of infinite height, seen from above.
 struct Disc {
   float x = 0;
   float y = 0;

@@ -56,11 +56,10 @@ static_assert(sizeof(Hierarchy::Node) == 16);
 /// Errors:  throws std::invalid_argument naming the node and the value.
 void validate(const Hierarchy& hierarchy);
 
-/// Builds the paper's contour hierarchy. A plane divides a node's segments: at right angles to the axis of the larger extent, through the
-/// centroid, weighted by length. A segment goes to the side of its midpoint. Where one side would stay empty,
-/// the other axis is tried, then the segments are halved by count. A lone segment longer than twice the
-/// threshold is halved. A node is a leaf if its smallest enclosing disc has a radius below the threshold, or if it
-/// is a lone segment.
+/// Builds the paper's contour hierarchy. A line splits a node's segments: perpendicular to their longer extent, through
+/// their length-weighted centroid. A segment goes to the side of its midpoint. If a side is empty, the other axis is
+/// tried, then the segments are halved by count. A lone segment longer than twice the threshold is halved. A node is a
+/// leaf if its smallest enclosing disc has a radius below the threshold, or if it is a lone segment.
 /// Units:   metres; the threshold is positive and finite.
 /// Returns: the hierarchy with its primitives.
 /// Errors:  throws std::invalid_argument on a bad outline or threshold, std::length_error beyond 2^22 nodes.

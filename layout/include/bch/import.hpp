@@ -23,10 +23,10 @@ class ImportError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Holds the options of import_character(): values that override those of the file, and limits. Collada counts as metres for
-/// `scale`, because assimp applies a Collada file's own unit.
-/// The up axis becomes z and nothing else turns: in a file that is y up, x stays and z becomes -y. So a character that faces +z
-/// there, as in glTF, faces -y at heading 0 and walks along its heading less a quarter turn.
+/// Holds the options of import_character(): values that override those of the file, and limits. In Collada, `scale` is
+/// relative to metres, because assimp applies the file's own unit. The up axis becomes z and nothing else turns: in a
+/// file that is y up, x stays and z becomes -y. So a y-up character that faces +z, as in glTF, faces -y at heading 0:
+/// it walks along heading - pi/2.
 struct ImportOptions {
   /// Selects the axis of a file's frame that points up.
   enum class UpAxis : std::uint8_t { x, y, z };
@@ -35,7 +35,7 @@ struct ImportOptions {
   std::optional<float> scale;                     ///< metres per unit of the file, likewise
   std::vector<std::filesystem::path> clip_files;  ///< files whose clips follow the file's own, in this order
   bool force_clips = false;  ///< also takes clips of another skeleton, with a note; `--force-clips`
-  std::size_t max_triangles = 0x7fffffff;  ///< more are refused; those of each instance of a mesh count
+  std::size_t max_triangles = 0x7fffffff;  ///< more are refused; those of every instance count
 };
 
 /// Reports on an import by import_character(): what the file had, and what became of it.
@@ -72,8 +72,8 @@ struct ImportedCharacter {
 ///          further file is read, wherever a link or a path leads.
 /// Meshes:  all of the scene, instances included. Polygons are cut into triangles, which cover a simple one exactly
 ///          once. Vertices equal in position and influences become one. Weights, each from 0 to 1 (1.001 for
-///          rounding), are normalised, and any number of them is kept; FBX's are shares of their sum, such as
-///          percents. A vertex without weights in a mesh with bones takes those of the nearest vertex that has some.
+///          rounding), are normalised, and any number of them is kept; FBX's are normalised by their sum. A vertex
+///          without weights in a mesh with bones takes those of the nearest vertex that has some.
 /// Frame:   to_ground leads to metres, z up, and never mirrors. Where neither file nor format tells the unit
 ///          or the up axis, they are guessed from the rest pose, and a note says so.
 /// glTF:    the default scene. Required extensions are refused by name, except KHR_mesh_quantization,

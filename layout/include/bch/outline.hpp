@@ -17,8 +17,8 @@ namespace bch {
 /// trace of a triangle seen edge-on, is a contour (or part of one) that goes there and back.
 ///
 /// Other outlines may have contours that touch, cross, overlap or contain themselves or each other. Every segment
-/// counts, and a point is inside where some contour winds round it an odd number of times.
-/// Clockwise contours are refused: they stand for holes, which are to be left out.
+/// counts, and a point is inside if it is inside one contour by the even-odd rule. Clockwise contours are holes
+/// (OutlineOptions::holes); hierarchies and sets reject them.
 struct Outline {
   std::vector<Vec2> points;  ///< metres, in the shape's frame; taken as they are, on a grid or not
   std::vector<std::uint32_t> contour_begin = {0};  ///< contours + 1 offsets into points
@@ -45,9 +45,9 @@ double area(const Outline& outline);
 Outline outline_from_polygons(std::span<const std::vector<Vec2>> polygons);
 
 /// Returns an outline as well-known text, a MULTIPOLYGON as OGC's simple features have it, which obstacles_from_wkt() reads as well.
-/// Exteriors go counter-clockwise, and a clockwise contour is a hole of the exterior before it. Polygons come to no point twice: a
-/// contour is cut where it does. What has no area, as a whisker, is left out, and nothing at all is EMPTY. Numbers are the
-/// floats' shortest text.
+/// Exteriors go counter-clockwise, and a clockwise contour is a hole of the exterior before it. No ring visits a point
+/// twice: contours are split there. Parts without area, such as whiskers, are left out; an outline without polygons
+/// gives MULTIPOLYGON EMPTY. Numbers are the floats' shortest text.
 std::string to_wkt(const Outline& outline);
 /// Returns an outline as GeoJSON, a geometry of RFC 7946 of type MultiPolygon, of the same polygons in metres instead of degrees.
 std::string to_geojson(const Outline& outline);

@@ -71,24 +71,24 @@ class Transforms {
   bool is_double_;
 };
 
-/// Poses a character by the transforms of all joints, each in the frame of its parent, and of a joint without parent in the
-/// character's own frame, which Character::to_ground maps to the ground.
+/// Poses a character by the transforms of all joints, each in the frame of its parent, or for a joint without parent in
+/// the character's own frame, which Character::to_ground maps to the world.
 struct LocalPose {
   Transforms joints;
 };
 
-/// Poses a character by the transforms of all joints to the ground: metres, z up. As by a clip, the root joint's point on the ground
-/// becomes the origin of the shape.
+/// Poses a character by the world transforms of all joints: metres, z up. As in a clip, the root joint's (x, y) becomes
+/// the shape's origin.
 struct WorldPose {
   Transforms joints;
 };
 
-/// Poses a character by the bone matrices of a renderer, in the order of Character::bones: each is the transform of a bone's joint to the
-/// ground times the bone's inverse_bind.
+/// Poses a character by the bone matrices of a renderer, in the order of Character::bones: each is the world transform
+/// of a bone's joint times the bone's inverse_bind.
 struct SkinningPalette {
   Transforms bones;
-  /// Names the point on the ground that becomes the origin of the shape. A character without a root joint has the middle of its
-  /// rectangle there in any case.
+  /// Gives the world point that becomes the shape's origin. Without a root joint it has no effect, and the origin is
+  /// the centre of the bounding rectangle.
   double x = 0, y = 0;
 };
 
@@ -144,22 +144,22 @@ std::vector<Affine3d> blend(const Character& character, std::span<const Weighted
 /// Errors:  as PoseShaper::shape().
 std::vector<Vec3> pose_vertices(const Character& character, const Pose& pose);
 
-/// Describes the axes and units of another program, by the way to ours: x forwards, y to the left, z up, metres, headings in radians,
+/// Converts the axes and units of another program to ours: x forwards, y left, z up, metres, headings in radians,
 /// counter-clockwise.
 ///
 ///     agents.x[i] = AxisSystem::unity.position(at.x, at.y, at.z)[0];
 ///     shaper.shape(WorldPose{AxisSystem::unity.transforms(Transforms::column_major(matrices, joints))});
 struct AxisSystem {
-  double rows[3][3];  ///< rows * (x, y, z) is one of its points along our axes, in its unit
-  double metres = 1;  ///< in its unit of length
-  double yaw = 1;     ///< in its unit of turns about the vertical, radians counter-clockwise
+  double rows[3][3];  ///< rotation or reflection from its axes to ours
+  double metres = 1;  ///< metres per unit of its lengths
+  double yaw = 1;     ///< radians counter-clockwise per unit of its headings
 
   /// Returns Character::to_ground of a character whose vertices and joints are in these axes: its LocalPose needs no conversion.
   Affine3 to_ground() const;
   Vec3 point(const Vec3& theirs) const;
   std::array<double, 3> position(double x, double y, double z) const;
   double heading(double theirs) const { return yaw * theirs; }
-  /// Returns a transform between two frames that both change to our axes.
+  /// Returns one of its transforms in our axes and units (a change of basis).
   Affine3d transform(const Affine3d& theirs) const;
   std::vector<Affine3d> transforms(const Transforms& theirs) const;
 
@@ -180,8 +180,8 @@ inline constexpr AxisSystem AxisSystem::gltf{{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}};
 inline constexpr AxisSystem AxisSystem::godot{{{0, 0, -1}, {-1, 0, 0}, {0, 1, 0}}};
 inline constexpr AxisSystem AxisSystem::ros{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
-/// Returns Character::to_ground times maps: a WorldPose or a SkinningPalette from joints or bone matrices that a program computes in
-/// the character's own frame.
+/// Returns Character::to_ground * map for joint or bone matrices in the character's own frame: those of a WorldPose or
+/// a SkinningPalette.
 std::vector<Affine3d> grounded(const Character& character, const Transforms& maps);
 
 /// Makes shapes of one character in pose after pose: it poses the mesh, finds the outline of the union of its triangles, and builds
@@ -205,8 +205,9 @@ class PoseShaper {
   void limit_nodes(std::size_t most);
 
   /// Makes the shape of a pose: a time of a clip, joint transforms, bone matrices or posed vertices. Keys of a clip are interpolated as
-  /// the channels' curves say, and times are clamped to the first and last key. The way of the root joint over the ground is removed
-  /// from the shape, but for bone matrices and vertices; its turn stays in it.
+  /// the channels' curves say, and times are clamped to the first and last key. The root joint's ground translation is
+  /// removed from the shape, its rotation is not. (From bone matrices SkinningPalette::x and y are removed, from
+  /// vertices nothing.)
   /// Returns: the shape down to the deepest depth, valid until the next call. It has primitives where that depth is all_depths, because
   ///          exact leaves need them. With the plan's heights it also has the heights of the body.
   /// Errors:  throws std::invalid_argument on a clip or a time that does not exist, transforms or vertices of another number than the
@@ -239,7 +240,8 @@ struct BakeOptions {
       {};  ///< which poses of which characters, for instance ScenePlan::shapes; none: `poses`
   ShapeSetPlan plan = {};
   float threshold = 0.01f;  ///< metres; the radius below which discs are not divided
-  /// Hears on the caller's thread, twenty times a second at most, how many shapes are made. Returning false cancels.
+  /// Called on the caller's thread, at most twenty times a second, with the shapes made so far. Returning false
+  /// cancels.
   std::function<bool(std::size_t done, std::size_t total)> progress = {};
 };
 

@@ -23,8 +23,8 @@ struct ShapeSetView;
 
 namespace bch {
 
-/// Represents a body seen from above: a pose of a character, a footprint, a cylinder. The outline may be empty. Its discs
-/// then decide alone: it lies in no outline, and none in it, unless their discs overlap.
+/// Represents a body seen from above: a pose of a character, a footprint, a cylinder. The outline may be empty. Then
+/// the discs decide alone: containment without overlapping discs is no collision.
 struct Shape {
   Outline outline;
   Hierarchy hierarchy;
@@ -33,7 +33,8 @@ struct Shape {
 
 /// Makes a shape of given discs, such as the three to fifty of a body in mechanical crowd models. The discs are enlarged
 /// only by the rounding margin, and queries number them as they are given. The shape has no outline. Neighbouring discs
-/// should follow each other, because nodes of the hierarchy group them in that order. shape_from_capsules() makes circles that have outlines.
+/// should follow each other, because nodes of the hierarchy group them in that order. shape_from_capsules() makes
+/// circles that have outlines.
 /// Cost:    6 ms for 50 discs.
 /// Errors:  throws std::invalid_argument on no discs or more than 4096, on a disc that is not finite or without a radius, naming it, or
 ///          on a reach outside 1e-6 to 1e6 m.
@@ -46,6 +47,7 @@ Shape shape_from_discs(std::span<const Disc> discs);
 Shape shape_from_polygons(std::span<const std::vector<Vec2>> polygons, float threshold = 0.01f);
 
 /// Represents the points within a radius of a segment of the ground plane, metres, in the shape's frame.
+/// (BodySet::Capsule is one in space.)
 struct Capsule {
   Vec2 a, b;
   float radius;
@@ -73,7 +75,7 @@ struct AnimatedChunk {
 /// Describes a clip as moving discs: chunks that follow one another in time, each beginning when the one before it ends.
 struct AnimatedDiscs {
   std::vector<AnimatedChunk> chunks;  ///< from the clip's beginning to its end
-  bool loops = false;                 ///< whether the clip is played over and over; a loop takes 1 ms or more
+  bool loops = false;                 ///< whether the clip repeats; it then lasts at least 1 ms
   Heights heights = {};               ///< of the body at all times; by default it takes part at every height
   friend bool operator==(const AnimatedDiscs&, const AnimatedDiscs&) = default;
 };
@@ -86,15 +88,17 @@ struct AnimatedDiscs {
 ///          less than 1 ms, and on a reach outside 1e-6 to 1e6 m.
 void validate(const AnimatedDiscs& discs);
 
-/// Represents a body that moves by itself: a clip of a character, or other moving discs or spheres. Its solid at a time is its discs, which
-/// are spheres where they have heights.
+/// Represents an animated body: a clip of a character, or other moving discs or spheres. Its solid at a time is its
+/// discs, which are spheres where they have heights.
 ///
-/// The discs are in a tree whose nodes are discs that move as these do, and hold them at every time. Where a chunk ends and the next one
-/// begins, the discs of the next one count alone; first_contact() of who comes from before also compares those of the one that ends. Times before the beginning and after the end are clamped to these; if the clip loops, they wrap around
-/// instead: its end is followed by its beginning at once, even where the body is not there what it was at the end.
+/// The discs are in a tree whose nodes are discs that move as these do, and hold them at every time. At the time where
+/// two chunks join, the later chunk's discs count; first_contact() also compares the earlier chunk's when it reaches
+/// that time from before. Times outside the clip are clamped or, if the clip loops, wrap around, even if its last pose
+/// is not its first.
 ///
-/// Numbers are kept in 16 bits. Discs of animate() are kept exactly; other discs are rounded outward, so that they hold the given ones
-/// and reach out of them by less than 0.15 mm per metre of the reach. An object that was moved from can only be assigned to or destroyed.
+/// Numbers are kept in 16 bits. Discs of animate() are kept exactly; other discs are rounded outward, so that they hold
+/// the given ones and protrude from them by less than 0.15 mm per metre of the reach. An object that was moved from can
+/// only be assigned to or destroyed.
 class AnimatedShape {
  public:
   /// Checks moving discs and builds the tree over them.
@@ -123,7 +127,7 @@ class AnimatedShape {
   /// shape, and so does a BuiltShape for a DynamicShapeSet.
   /// Cost:    a few us for 200 discs, less than making it flat.
   Shape shape(double seconds) const;
-  /// Makes that shape in place of another shape of this kind, whose memory it keeps.
+  /// Writes that shape into `shape`, and reuses its memory.
   void shape(double seconds, Shape& shape) const;
 
   // For the library's own parts, which alone know these types.
@@ -138,9 +142,9 @@ class AnimatedShape {
 /// Selects what makes two leaves meet.
 enum class Leaves {
   discs,  ///< their discs overlap
-  /// Their discs overlap, and segments of the outlines in them come within the rounding margin of each other,
-  /// 1.7 um per metre of the reaches (exact leaves). This applies to agents at the level of all depths whose shapes have segments there.
-  /// Otherwise, and for leaves of more than 127 segments, discs decide.
+  /// Their discs overlap, and their outline segments come within the rounding margin, 1.7 um per metre of both reaches
+  /// (exact leaves). This applies to agents at depth all_depths whose shapes have exact leaves. Otherwise, and for
+  /// leaves of more than 127 segments, discs decide.
   segments,
 };
 
@@ -148,12 +152,12 @@ enum class Leaves {
 struct ShapeSetPlan {
   /// Lists the levels of detail: cut depths, ascending. Level k of every shape is its cut at depths[k].
   std::vector<std::uint32_t> depths = {all_depths};
-  /// Says whether to keep the outlines. Without them discs alone decide: an agent clear inside another's outline is no hit, and there are
-  /// no exact leaves. Exact leaves exist at the level of all depths, for shapes whose cut is more than one disc and whose hierarchy has
-  /// its primitives.
+  /// Says whether to keep the outlines. Without them discs alone decide: containment without overlapping discs is no
+  /// hit, and there are no exact leaves. Exact leaves exist at depth all_depths, for shapes whose cut is more than one
+  /// disc and whose hierarchy has its primitives.
   bool outlines = true;
-  /// Says whether to keep culling data, which lets queries skip most traversals: supports and, of outlines that are kept, inscribed
-  /// discs. It changes no answer, and does not pay for a set that answers few queries.
+  /// Says whether to keep culling data, which lets queries skip most traversals: 32-DOPs, profiles and, with outlines,
+  /// inscribed discs. It changes no answer, and does not pay for a set that answers few queries.
   bool culling = true;
   /// Says whether to keep the heights of bodies, which agents at different heights need; see Agents::z.
   bool heights = false;
@@ -185,7 +189,7 @@ class ShapeSet {
   bool exact_leaves() const noexcept;
   /// Returns whether every cut is a single disc: there are roots and nothing else.
   bool roots_only() const noexcept;
-  /// Returns the plan of what is stored. Of sets with only roots it has no more than the depths.
+  /// Returns the plan of what is stored. A roots-only set has neither outlines nor culling data.
   ShapeSetPlan plan() const;
   std::size_t bytes() const noexcept;
 
@@ -225,7 +229,8 @@ class BuiltShape {
   ~BuiltShape();
 
   /// Makes a shape flat, in place of the previous one.
-  /// Errors:  throws std::invalid_argument as ShapeSet does, naming the shape by `index`; then prepare another shape.
+  /// Errors:  throws std::invalid_argument as ShapeSet does, with `index` as the shape's number; then call prepare()
+  ///          again.
   void prepare(const Shape& shape, std::size_t index);
 
   // For the library's own parts, which alone know these types.
@@ -285,8 +290,8 @@ class ShapeSetBuilder {
 ///     if (!dynamic.try_replace(shape, prepared)) later.push_back(shape);  // for replace(), by one thread
 class DynamicShapeSet {
  public:
-  /// Copies a set, another one's set() for instance, with its plan and without its unused gaps. In a set of
-  /// single discs every shape stays a single disc.
+  /// Copies a set, another one's set() for instance, with its plan and without its unused gaps. A copy of a roots-only
+  /// set accepts only single-disc shapes.
   explicit DynamicShapeSet(const ShapeSet& start);
   DynamicShapeSet(DynamicShapeSet&&) noexcept;
   DynamicShapeSet& operator=(DynamicShapeSet&&) noexcept;
@@ -298,8 +303,8 @@ class DynamicShapeSet {
 
   /// Replaces a shape by one that was prepared with set().plan(), if the new one fits into its place. Threads may replace
   /// different shapes at the same time, while no query runs. Allocates nothing.
-  /// Returns: whether it fitted. If not, the set is unchanged and replace() is needed. The first single disc
-  ///          does not fit into a set without any.
+  /// Returns: whether it fitted. If not, the set is unchanged and replace() is needed. A single-disc shape does not fit
+  ///          into a one-level set that has none.
   /// Errors:  throws std::out_of_range on an index out of range, std::invalid_argument on a shape of another plan.
   bool try_replace(std::uint32_t shape, const BuiltShape& by);
 
