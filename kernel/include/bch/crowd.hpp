@@ -22,7 +22,7 @@ namespace bch {
 
 /// Holds what is the same in all calls of a Crowd.
 struct CrowdOptions {
-  /// Holds the lengths after which the ground repeats along x and y, metres; 0: it does not repeat.
+  /// Holds the periods of periodic boundary conditions along x and y, metres; 0: not periodic.
   struct Period {
     double x = 0, y = 0;
   };
@@ -48,14 +48,15 @@ struct PairFilter {
 ///
 /// Order:   pairs come by place, along the rows of a grid, so agents of neighbouring pairs are mostly in cache. Answers and their
 ///          order are the same for any number of threads and every implementation.
-/// Period:  where the ground repeats, agents meet across its borders as well; positions count modulo the period. A period has to be
-///          more than four times the farthest reach of a body and the margin. Obstacles do not repeat: let walls extend beyond the
+/// Period:  agents meet across periodic boundaries; positions count modulo the period. A period has to exceed 4 R + 2
+///          m, where R is the farthest reach of a body and m the margin. Obstacles do not repeat: let walls extend
+///          beyond the
 ///          borders by the reach of a body.
 /// Memory:  answers are valid until the next call. The object keeps its memory, about 72 bytes an agent and 24 a candidate beside
 ///          the answers; a call like an earlier one allocates nothing.
 /// Errors:  throws std::invalid_argument like validate(shapes, agents), and on options out of range. The last answer is then lost.
-/// Threads: runs in the caller's TBB arena; one call at a time. While the calling thread waits for the tasks of a call, it takes no
-///          other tasks, so one object for each of TBB's threads is enough.
+/// Threads: runs in the caller's TBB arena; one call at a time. Unlike other queries, calls are isolated: while a
+///          thread waits in one, it runs no other tasks. So one Crowd per TBB thread is enough.
 class Crowd {
  public:
   /// Names an agent of a pair as seen from the other.
@@ -100,7 +101,7 @@ class Crowd {
   };
 
   /// Represents an overlap of two spheres, in space. The normal leads from the first agent's sphere to the second's; where centres coincide
-  /// it is (1, 0, 0). Moving the second agent by depth * normal parts the two spheres.
+  /// it is (1, 0, 0). Moving the second agent by depth * normal separates the two spheres.
   struct SphereContact {
     DiscPair spheres;  ///< their numbers, as in BodySet::spheres()
     Vec3
@@ -124,7 +125,8 @@ class Crowd {
     std::span<const NearestPoints> points;
 
     /// Returns for each agent the nearest others, at most so many, the nearest first; of equal distances the lower agent first. With
-    /// Overlap::deepest the deepest overlap is the nearest. Crowd models avoid these (ORCA's neighbours), by bodies in place of discs.
+    /// Overlap::deepest the deepest overlap is the nearest. Crowd models such as ORCA take these as neighbours; here,
+    /// distances are between bodies.
     /// Errors:  throws std::length_error beyond 2^32 - 1 pairs.
     Rows<Neighbour> nearest(std::uint32_t most) const { return pairs.nearest(distance, most); }
   };
@@ -141,7 +143,7 @@ class Crowd {
     Rows<Neighbour> nearest(std::uint32_t most) const { return pairs.nearest(distance, most); }
   };
 
-  /// Holds the pairs that collide, and how far the first agent of each has to move to be free of the second.
+  /// Holds the pairs that collide, and how far the first agent of each has to move to separate from the second.
   struct Penetrations {
     Pairs pairs;
     std::span<const Penetration> penetrations;  ///< one per pair
@@ -151,11 +153,11 @@ class Crowd {
   struct ResolveOptions {
     std::uint32_t directions = 16;  ///< of nearest_free()
     std::uint32_t sweeps = 100;     ///< at most
-    double gap = 0.001;             ///< metres, between two who are parted
-    double largest_step = 0.05;     ///< metres, of an agent in a sweep
-    double largest_shift =
-        std::numeric_limits<double>::infinity();  ///< metres, of an agent from where it was
-    /// Gives each agent a number from 0 to 1: of two who are parted, one with half of the other's goes half as far, and one with 0 stays.
+    double gap = 0.001;             ///< metres, clearance to leave between separated agents
+    double largest_step = 0.05;     ///< metres, limit of an agent's move in a sweep
+    double largest_shift = std::numeric_limits<double>::infinity();  ///< metres, limit of its total move
+    /// Weights the moves of agents, from 0 (fixed) to 1. Of two agents, the one with half the mobility moves half as
+    /// far.
     std::span<const double> mobility = {};   ///< none: 1 each
     const ObstacleSet* obstacles = nullptr;  ///< walls that bodies have to be free of, too
     const Implementation* implementation = nullptr;
@@ -177,7 +179,7 @@ class Crowd {
 
   /// Finds the pairs whose root discs, at the agents' levels, overlap or come within a margin of each other. They contain every pair
   /// that collides, and every pair with a clearance of at most the margin. For time_of_impact() the margin has to be twice the
-  /// longest way of an agent. Other pairs miss the margin by a relative error of about 1e-6.
+  /// longest way of an agent. Returned pairs exceed the margin by a relative error of at most about 1e-6.
   /// Units:   the margin is metres, from 0 to 2e9.
   Pairs candidates(const ShapeSet& shapes, const Agents& agents, double margin = 0,
                    const PairFilter& filter = {}) &;
@@ -193,13 +195,14 @@ class Crowd {
   Pairs collisions(const BodySet& bodies, const Agents& agents,
                    const Implementation* implementation = nullptr, const PairFilter& filter = {}) &;
 
-  /// Finds all pairs of discs that make agents collide. A pair of discs counts if the discs overlap, all nodes above the one overlap all
-  /// nodes above the other, and, with exact leaves, segments of the two meet; see Leaves. A pair that collides only because one agent
-  /// is wholly inside the other's outline has no contacts.
+  /// Finds all pairs of discs that make agents collide. A pair of discs counts if the discs overlap, all ancestors of
+  /// the one overlap all ancestors of the other, and, with exact leaves, segments of the two meet; see Leaves. A pair
+  /// that collides only because one agent is wholly inside the other's outline has no contacts.
   ///
-  /// The deepest overlap of a pair does not grow from 0 when two agents come together, because the nodes above
-  /// decide as well. For continuous forces use clearances() with Overlap::deepest, or penetration() of all pairs that are near.
-  /// The contacts of bodies of discs (shape_from_discs()) are all overlaps of their discs, as in mechanical crowd models.
+  /// The deepest overlap of a pair does not grow from 0 when two agents come together, because ancestors decide as
+  /// well. For continuous forces use clearances() with Overlap::deepest, or penetration() of all pairs that are near.
+  /// The contacts of bodies of discs (shape_from_discs()) are all overlaps of their discs, as in mechanical crowd
+  /// models.
   /// Order:   contacts of a pair by the first discs, then the second discs.
   Contacts contacts(const ShapeSet& shapes, const Agents& agents, const CollideOptions& options = {},
                     const PairFilter& filter = {}) &;
@@ -212,8 +215,9 @@ class Crowd {
   Rows<DiscPair> contacts(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                           const CollideOptions& options = {}) &;
 
-  /// Finds all pairs of spheres that overlap, as collide() tests them, of bodies that collide: contacts for a physics engine. A pair has hundreds
-  /// where bodies are deep in each other; clearances() with Overlap::deepest has the deepest alone.
+  /// Finds all pairs of spheres that overlap, as collide() tests them, of bodies that collide: contacts for a physics
+  /// engine. A pair has hundreds where bodies are deep in each other; clearances() with Overlap::deepest has the
+  /// deepest alone.
   /// Order:   contacts of a pair by the first spheres, then the second spheres.
   BodyContacts contacts(const BodySet& bodies, const Agents& agents,
                         const Implementation* implementation = nullptr, const PairFilter& filter = {}) &;
@@ -243,9 +247,10 @@ class Crowd {
   Rows<std::uint32_t> obstacles(const BodySet& bodies, const Agents& agents, const ObstacleSet& obstacles,
                                 const Implementation* implementation = nullptr) &;
 
-  /// Moves agents on the ground, as little as it can, until no two bodies collide and nobody touches a wall. Each sweep moves all together:
-  /// pairs that collide by their shortest ways, nearest_free(), and no pair that is near into another. Agents do not turn. Where
-  /// there is no room, pairs are left after the last sweep. With a period, agents may leave it: positions count modulo the period.
+  /// Moves agents on the ground, as little as it can, until no two bodies collide and nobody touches a wall. Each sweep
+  /// moves all agents at once. It separates pairs that collide by their nearest_free() moves, and keeps pairs that are
+  /// near each other apart. Agents do not turn. Where there is no room, pairs are left after the last sweep. With a
+  /// period, agents may leave it: positions count modulo the period.
   /// Memory:  allocates in every sweep, as nearest_free() does.
   /// Errors:  also on an odd number of directions, and on lengths and mobilities out of range.
   Resolved resolve(const BodySet& bodies, const Agents& agents, const ResolveOptions& options,

@@ -13,8 +13,8 @@
 
 namespace bch {
 
-/// Places a motion at a time: a key of its path. Between two keys the motion goes straight on and turns evenly, by the difference of their
-/// headings, even if that is the long way round.
+/// Places a motion at a time: a key of its path. Between two keys, position and heading are linear in time; the turn is
+/// the difference of the headings, even if that is the long way round.
 struct PathKey {
   double time, x, y, heading;  ///< seconds; metres in the world; radians
   double z = 0;  ///< metres: the height of the agent's ground, which counts between bodies of spheres
@@ -38,13 +38,13 @@ struct TimeInterval {
 /// AnimatedShape), or infinity if there is none. Paths, turning and discs are taken at every real time, not sampled. Two bodies of spheres
 /// meet in space, and stand at the heights of their paths; where one is of discs, both count as seen from above.
 ///
-/// The time is never later than the first contact. At that time the solids are apart by at most the tolerance, 2 um for each metre of
-/// both reaches, and the rounding of positions and times in double, below 1e-14 of these. That of times counts at the speed of the path
-/// between the two keys and the greatest one of the clip's discs; times are those of these keys (behind the last one, 1e6 s), twice
-/// clip_begin and three times the clip's own. The tolerance is one of distance, not of time: the time is early by at most the tolerance
-/// over the speed at which the solids come together. By default that is 5 ms at 1 m a second, and a quarter of a second at 0.02 m a
-/// second. The time is finite where the solids only pass each other that closely. Times are the same bits on every processor, for any
-/// number of threads, any split of the batch and exchanged motions. A later end of the interval changes no time.
+/// The time is never later than the first contact. At that time the solids are apart by at most the tolerance, 2 um per
+/// metre of both reaches, 1e-14 of the positions, and 1e-14 V T. V is the speed of the path plus the greatest speed of
+/// the clip's discs. T is the time of the later key (behind the last one, 1e6 s) + 2 |clip_begin| + 3 times the clip's
+/// latest time. The tolerance is a distance: the time is early by at most the tolerance over the speed at which the
+/// solids come together. By default that is 5 ms at 1 m a second, and a quarter of a second at 0.02 m a second. The
+/// time is finite where the solids only pass each other that closely. Times are the same bits on every processor, for
+/// any number of threads, any split of the batch and exchanged motions. A later end of the interval changes no time.
 ///
 /// Units:   seconds within +-1e6, metres within +-1e9, headings within +-1e9 rad, a turn of at most 1e3 rad from key to key.
 /// Sizes:   as many times as pairs, which name motions by index. A motion may be paired with itself.

@@ -89,14 +89,14 @@ ObstacleSet obstacles_from_wkt(std::string_view text, Polygons polygons = Polygo
 
 // Queries of agents against obstacles. Each answers every agent as the query of the same name answers every pair: it is defined without a
 // traversal, gives the same bits on every processor and for any number of threads, never misses a contact, and answers far from the
-// origin as at it. A disc overlaps an obstacle where its centre is at most its radius away from it; distances are computed in double. A
-// false positive has a gap of at most the sizes of discs, 4 um per metre of an agent's reach, and 9e-15 of the distances to the two ends
-// of a segment together.
+// origin as at it. A disc overlaps an obstacle if the distance from its centre to the obstacle is at most its radius;
+// distances are computed in double. A false positive has a gap of at most a disc's diameter, 4 um per metre of an
+// agent's reach, and 9e-15 of the distances to the two ends of a segment together.
 //
 // A body is compared only with obstacles whose heights meet its own, as between agents with a z: touching counts, and heights are widened
-// by their rounding. For it there are no other obstacles, neither their segments nor their areas. Its heights are metres above the agent's
-// z, or above 0 if agents have none. Sets keep them with ShapeSetPlan::heights; a body without heights is infinite, and meets obstacles at
-// all heights.
+// by their rounding. It ignores all other obstacles, their segments and their areas. Its heights are metres above the
+// agent's z, or above 0 if agents have none. Sets keep them with ShapeSetPlan::heights; a body without heights is
+// infinite, and meets obstacles at all heights.
 //
 // Sizes:   one answer per agent.
 // Errors:  throw std::invalid_argument, before anything is written, as validate(shapes, agents) and the query of pairs.
@@ -104,9 +104,9 @@ ObstacleSet obstacles_from_wkt(std::string_view text, Polygons polygons = Polygo
 // Memory:  in proportion to the segments that are near 64 agents, for each task.
 
 /// Tests whether each agent collides with an obstacle, touching included, and writes 1 for a hit and 0 otherwise. An agent
-/// collides where a disc of its cut overlaps the obstacle, and so does every node above that disc. With exact leaves the outline in that
-/// disc has to overlap it, too. An agent inside an area always collides, and so does one whose outline
-/// holds a whole path of an obstacle.
+/// collides if a disc of its cut and all ancestors of that disc overlap the obstacle. With exact leaves the outline in
+/// that disc has to overlap it, too. An agent inside an area always collides, and so does one whose outline holds a
+/// whole path of an obstacle.
 void collide(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
              std::span<std::uint8_t> hits, const CollideOptions& options = {});
 
@@ -117,9 +117,10 @@ void within(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obs
             std::span<const double> distances, std::span<std::uint8_t> answers, Leaves leaves = Leaves::discs,
             const Implementation* implementation = nullptr);
 
-// Queries of bodies of spheres. An obstacle stands upright, from its bottom to its top, on its line or over its area. A sphere touches it
-// where its centre is at most its radius away from that, in space. What spheres hold never meets an obstacle without a hit. Distances are
-// computed in double, with the same bits on every processor and for any number of threads. Sizes, errors, threads and memory are as above.
+// Queries of bodies of spheres. An obstacle stands upright, from its bottom to its top, on its line or over its area. A
+// sphere touches it if the distance from its centre to that solid is at most its radius. If an enclosed mesh meets an
+// obstacle, the answer is a hit. Distances are computed in double, with the same bits on every processor and for any
+// number of threads. Sizes, errors, threads and memory are as above.
 
 /// Tests whether some sphere of each agent touches an obstacle, and writes 1 for a hit and 0 otherwise.
 void collide(const BodySet& bodies, const Agents& agents, const ObstacleSet& obstacles,
@@ -132,16 +133,17 @@ void within(const BodySet& bodies, const Agents& agents, const ObstacleSet& obst
             const Implementation* implementation = nullptr);
 
 /// Measures how far each agent is in space from the nearest obstacle: the least gap between a sphere and an obstacle, or with
-/// Overlap::zero 0 where they touch. The direction leads from the agent to the obstacle; `spheres` has the number of the sphere and that of
-/// the segment, which is 2^32 - 1 above, in and below an area. Points are relative to the agent's position. Of equal gaps that of the
-/// first obstacle counts. Where collide() answers 1 the distance is 0, and nowhere else.
+/// Overlap::zero 0 where they touch. The direction leads from the agent to the obstacle; `spheres` holds the indices of
+/// the sphere and of the segment. The latter is 2^32 - 1 for a sphere above, in or below an area. Points are relative
+/// to the agent's position. Of equal gaps that of the first obstacle counts. Where collide() answers 1 the distance is
+/// 0, and nowhere else.
 void clearance(const BodySet& bodies, const Agents& agents, const ObstacleSet& obstacles,
                const BodyClearanceAnswers& answers, const BodyClearanceOptions& options = {});
 
-/// Measures how far each agent is from the nearest obstacle: the least gap between a disc of its cut and a segment, or 0 where they
-/// overlap, an area holds a disc or the agent's outline a whole path. The direction leads from the agent to the obstacle. `discs` has the agent's disc and the
-/// number of the segment; of equal gaps the first disc counts, and then the first segment. `points` are both relative to the agent's
-/// position.
+/// Measures how far each agent is from the nearest obstacle: the least gap between a disc of its cut and a segment, or
+/// 0 where they overlap, an area holds a disc or the agent's outline a whole path. The direction leads from the agent
+/// to the obstacle. `discs` has the agent's disc and the number of the segment; of equal gaps the first disc counts,
+/// and then the first segment. `points` are both relative to the agent's position.
 ///
 /// The distance of a disc that a segment crosses is negative with Overlap::deepest. Its direction is that to the segment's nearest point,
 /// or (1, 0) where that point is the disc's centre. An agent that is inside an area and touches none of its segments then has its distance
@@ -152,8 +154,9 @@ void clearance(const BodySet& bodies, const Agents& agents, const ObstacleSet& o
 /// outline. It is never larger than that of the outline as it was given, and below it by no more than 1.2 um per metre of reach, 0.12 um
 /// per metre of the distance and 9e-15 of the distances to the two ends of the segment together, which is 9 um beside the middle of a wall
 /// of 1e9 m. The points are those of the two segments, and the disc is the leaf that holds the agent's point. Of equal distances that with
-/// the first segment of the outline counts, then the first of the obstacle. A leaf of more than 127 segments is measured as a disc, after all segments. Where collide() answers 1
-/// the distance is 0; where the distance is positive, collide() answers 0.
+/// the first segment of the outline counts, then the first of the obstacle. A leaf of more than 127 segments is
+/// measured as a disc, after all segments. Where collide() answers 1 the distance is 0; where the distance is positive,
+/// collide() answers 0.
 void clearance(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
                const ClearanceAnswers& answers, const ClearanceOptions& options = {});
 
@@ -167,8 +170,8 @@ void clearance(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& 
 /// The shortest of all such moves out of an obstacle counts. An agent that is inside an area and touches none of its segments crosses the
 /// nearest of them. An agent that touches or is inside several obstacles gets the longest of the moves that each of them alone asks for.
 /// One move frees an agent of a convex area or a single segment, if its new position is right to 1e-7 of its reach; for other obstacles,
-/// call again after the move. The depth is 0, and the direction (0, 0), where nothing is
-/// touched, also where the agent's outline holds a whole path clear of its discs.
+/// call again after the move. The depth is 0, and the direction (0, 0), where nothing is touched, even if the outline
+/// encloses a whole path that no disc overlaps.
 /// Cost:    n log n for n segments that are near an agent, or as near as the farthest of those that it crosses.
 void penetration(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
                  std::span<Penetration> out, const Implementation* implementation = nullptr);
@@ -185,7 +188,8 @@ void time_of_impact(const ShapeSet& shapes, const Agents& agents, const Displace
 ///
 /// The time is never later than the first contact. At that time the solid is away from the obstacle by at most the tolerance, 4 um for each
 /// metre of its reach, 2e-14 of the distances to the two ends of a segment together, and the rounding in double, as between two motions.
-/// Times are the same bits on every processor, for any number of threads and any split of the batch. A later end of the interval changes no time.
+/// Times are the same bits on every processor, for any number of threads and any split of the batch. A later end of the
+/// interval changes no time.
 ///
 /// Units:   as first_contact() of pairs.
 /// Sizes:   as many times as motions.

@@ -14,14 +14,14 @@ namespace bch {
 /// Tests whether the two agents of each pair collide at their levels, touching included, and writes 1 for a hit and 0 otherwise.
 ///
 /// A collision is never missed: agents whose outlines meet collide at every level. Agents that do not collide at one level do
-/// not collide at a deeper one either. A false positive has a gap of at most the sizes of two discs and 4 um per metre of the two
-/// shapes' reaches; between exact leaves, of at most 1.7 um per metre. The answer is the same bits on every processor, for any
-/// number of threads, any split of the batch and either order within a pair. Only the difference of positions counts, so
-/// answers far from the origin are the same as at the origin.
+/// not collide at a deeper one either. The outlines of a false positive are apart by at most the two discs' diameters
+/// plus 4 um per metre of the two shapes' reaches; between exact leaves, by at most 1.7 um per metre. The answer is the
+/// same bits on every processor, for any number of threads, any split of the batch and either order within a pair. Only
+/// the difference of positions counts, so answers far from the origin are the same as at the origin.
 ///
-/// Agents at different heights (Agents::z) collide where their heights meet, too.
-/// Meshes that have a point in common are hits in either case. The exception is lone triangles that are points on the grid of
-/// OutlineBuilder, because outlines leave them out.
+/// Agents with a z (Agents::z) collide only if their ranges of height intersect as well. Meshes that have a point in
+/// common are hits in either case. The exception is lone triangles that are points on the grid of OutlineBuilder,
+/// because outlines leave them out.
 ///
 /// Sizes:   hits.size() == pairs.size(); an agent may be paired with itself (it collides).
 /// Errors:  throws std::invalid_argument, before hits is touched, on sizes that differ, an index out of
@@ -33,9 +33,9 @@ void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair>
              std::span<std::uint8_t> hits, const CollideOptions& options = {});
 
 /// Tests whether the bodies of the two agents of each pair have a point in common in space, touching included, and writes 1 for a hit and
-/// 0 otherwise: whether some sphere of one overlaps some sphere of the other. What spheres hold never meets without a hit; a false
-/// positive has a gap of at most 4 um per metre of the two bodies' reaches, beside what spheres stand out. The answer is the same bits
-/// on every processor, for any number of threads, any split of the batch and either order within a pair.
+/// 0 otherwise: whether some sphere of one overlaps some sphere of the other. If the enclosed meshes intersect, the
+/// answer is 1. If it is 1, the spheres are at most 4 um per metre of the two bodies' reaches apart. The answer is the
+/// same bits on every processor, for any number of threads, any split of the batch and either order within a pair.
 /// Levels:  bodies have one, so agents have none or 0 for all.
 /// Sizes, errors, threads: as for collide() of a ShapeSet. `implementation` is as in CollideOptions.
 void collide(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs,
@@ -67,8 +67,8 @@ struct ClearanceAnswers {
 ///
 /// The distance of overlapping agents is negative with Overlap::deepest: the deepest overlap of two discs. The direction then leads
 /// from one centre to the other or, where these coincide, is (1, 0) from the agent with the lower index to
-/// the other. The radii of the discs limit the depth, so with fine cuts penetration() says more. It is about discs alone, and so
-/// positive for an agent that lies clear inside another's outline.
+/// the other. The radii of the discs limit the depth, so with fine cuts penetration() says more. It measures discs
+/// only. So it is positive for an agent inside another's outline whose discs overlap none of the other's.
 ///
 /// With leaves = Leaves::segments, where both shapes have exact leaves, the distance is that of the outlines: the least of a
 /// segment of one and a segment of the other, and 0 where they come within the margin of exact leaves. It is never larger than that of
@@ -79,17 +79,18 @@ struct ClearanceAnswers {
 ///
 /// A distance of discs is never larger than that of the outlines: outlines that cross have a clearance of at most 0. It is below the
 /// distance of the outlines by no more than r_A + r_B + (r_A^2 + r_B^2) / 2 D (below 3 cm for leaf discs of 1 cm), and 4 um per metre
-/// of the two shapes' reach and of D. There, r are the radii of the nearest discs, and D = distance + r_A + r_B. Only the discs
-/// of the cuts count, not the nodes above them, so that a positive distance is always the distance of two discs.
+/// of the two shapes' reach and of D. There, r are the radii of the nearest discs, and D = distance + r_A + r_B. Only
+/// the discs of the cuts count, not their ancestors, so that a positive distance is always the distance of two discs.
 ///
-/// With Overlap::zero the distance is 0 where collide() answers 1, and collide() answers 0 where it is positive. A distance of 0
-/// does not imply a collision: collide() may answer 0 where discs overlap, but nodes above them or the segments of exact leaves do not.
+/// With Overlap::zero the distance is 0 where collide() answers 1, and collide() answers 0 where it is positive. A
+/// distance of 0 does not imply a collision: collide() may answer 0 where discs overlap, but their ancestors or the
+/// segments of exact leaves do not.
 ///
 /// Results are the same bits on every processor, for any number of threads and any split of the batch. Exchanging the agents of a pair
 /// exchanges the discs and negates the direction. Of gaps that are equal, the one with the first disc of the agent with the lower
 /// index counts, then that with the first disc of the other.
 ///
-/// Agents at different heights (Agents::z) that do not meet are infinitely far from each other.
+/// Agents with disjoint ranges of height (Agents::z) are infinitely far from each other.
 ///
 /// Sizes:   as many distances as pairs; as many directions, discs and points as pairs, or none. An agent may be paired with
 ///          itself.
@@ -104,7 +105,8 @@ void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pai
 /// and clearance() takes several times as much.
 ///
 /// Only the discs of the cuts count, as in clearance() by discs: more pairs are within a distance of 0 than
-/// collide. An agent inside another's outline is within every distance of it. Agents at different heights that do not meet are within none.
+/// collide. An agent inside another's outline is within every distance of it. Agents with disjoint ranges of height are
+/// within none.
 ///
 /// The answer is 1 wherever clearance() returns a finite distance of at most the given one, and wherever outlines are as close.
 /// clearance() is at most the given distance plus 1.4 um per metre of that distance and of the radii of the agents' largest discs where
@@ -144,7 +146,8 @@ void clearance(const BodySet& bodies, const Agents& agents, std::span<const Pair
                const BodyClearanceAnswers& answers, const BodyClearanceOptions& options = {});
 
 /// Tests whether the bodies of the two agents of each pair come within a distance of each other in space, and writes 1 if so and 0
-/// otherwise: whether some sphere of one is within the distance of some sphere of the other. Within 0 are those that collide.
+/// otherwise: whether some sphere of one is within the distance of some sphere of the other. A distance of 0 gives the
+/// answers of collide().
 ///
 /// The answer is 1 wherever clearance() is at most the given distance, and clearance() is at most that and 4 um per metre of it and of the
 /// largest radii where the answer is 1. It has the same bits everywhere, and in either order of a pair.
@@ -153,48 +156,43 @@ void within(const BodySet& bodies, const Agents& agents, std::span<const Pair> p
             std::span<const double> distances, std::span<std::uint8_t> answers,
             const Implementation* implementation = nullptr);
 
-/// Tells how far the first agent of a pair has to move to be free of the second, which stays, and in which direction.
-///
-/// The depth of two agents A and B along a direction u is how far A has to move along
-/// u until no disc of its cut overlaps one of B's and neither outline encloses anything of the other, there
-/// or anywhere further along u.
-///
-///     s(u) = max over B's discs (b . u + r) - min over A's discs (a . u - r),    depth = max(0, s(u))
-///
-/// over the discs of the cuts. The depth has these properties:
-///
-/// - *Sufficient.* After A has moved by s(u) or more, a line across u separates A and B: their discs, the
-///   outlines that these cover, and what the outlines enclose. The depth is rounded up so that collide() then answers
-///   0 if A's new position is right to 1e-7 of the two shapes' reach (in doubles: up to
-///   1e8 m or so from the origin). Where the agents are far apart, rounding the direction turns the line that separates
-///   them: in float by centimetres at 1e6 m.
-/// - *Continuous.* Where no point of an agent moves by more than m, by shifting or by turning, no a . u changes
-///   by more than m, so neither does the depth. Where both agents move, it changes by no more than both moves together. The
-///   smallest depth of several directions is continuous, too. (Rounding adds 1e-6 of the two shapes' reach and 4e-7 of the depth.)
-/// - *Symmetric.* B has to move as far along -u as A along u: the same bits, with the direction negated.
-/// - *The least continuous depth.* Let T be the largest t >= 0 at which a disc of A's cut still overlaps one of B's when
-///   A has moved by t u, or 0. Every f >= T that is continuous in this sense, in A's position alone, is at
-///   least s(u). Proof: let s(u) belong to two discs, and let w be how far they are apart across u. Start at q, which is
-///   n behind A along u and w beside it. From there the two discs touch last at n + s(u). So f(A) >= f(q) -
-///   |q - A| >= n + s(u) - sqrt(n^2 + w^2), for every n.
-///
-/// Agents at different heights (Agents::z) that do not meet have a depth of 0.
-///
-/// Continuity has a price: the depth may be positive where nothing overlaps yet, because one agent may reach around the
-/// other. Along a given direction no continuous depth can be zero there: if A touches B from behind, A still has to pass all of
-/// B. So query only pairs that collide. Over all directions, the way to the nearest place without overlapping
-/// discs lies between two bounds, and both are continuous. The lower one is the deepest overlap of two discs (clearance() with
-/// Overlap::deepest). It is zero until they touch, and suits forces that grow from contact on. The upper one is this depth, and
-/// suits corrections of positions that are applied at once.
+/// Holds the depth of a pair along a direction: how far the first agent has to move to separate from the second, which stays.
+/// penetration_along() defines it.
 struct Penetration {
   float depth;  ///< metres, not negative; 0: a line across the direction separates the two
   double x, y;  ///< the direction in which the first agent moves, in the world; a unit vector within 1e-9
   friend bool operator==(const Penetration&, const Penetration&) = default;
 };
 
-/// Measures the depth of each pair along a given direction, which may have any length and is returned as a unit vector.
-/// The answer is the same bits on every processor, for any number of threads and any split of the batch. Only the
-/// difference of positions counts.
+/// Measures the depth of each pair along a given direction, which may have any length and is returned as a unit vector. The depth of two
+/// agents A and B along a unit vector u is how far A has to move along u until no disc of its cut overlaps one of B's and neither outline
+/// encloses anything of the other, there or anywhere further along u:
+///
+///     s(u) = max over B's discs (b . u + r) - min over A's discs (a . u - r),    depth = max(0, s(u))
+///
+/// a and b are the centres of discs of the cuts in the world, and r are their radii. The depth has these properties:
+///
+/// - *Sufficient.* After A has moved by s(u) or more, a line across u separates A and B: their discs, the outlines that these cover, and
+///   what the outlines enclose. The depth is rounded up so that collide() then answers 0 if A's new position is right to 1e-7 of the two
+///   shapes' reach (in doubles: up to 1e8 m or so from the origin). Where the agents are far apart, rounding the direction turns the line
+///   that separates them: in float by centimetres at 1e6 m.
+/// - *1-Lipschitz.* If no point of an agent moves by more than m, by shifting or turning, the depth changes by at most m. If both agents
+///   move, it changes by at most both moves together. The smallest depth of several directions has this property, too. (Rounding adds
+///   1e-6 of the two shapes' reach and 4e-7 of the depth.)
+/// - *Symmetric.* B has to move as far along -u as A along u: the same bits, with the direction negated.
+/// - *The least 1-Lipschitz depth.* Let T be the largest t >= 0 at which a disc of A's cut still overlaps one of B's when A has moved by
+///   t u, or 0. Every f >= T that is 1-Lipschitz in A's position is at least s(u). Proof: let s(u) belong to two discs, and let w be how
+///   far they are apart across u. Start at q, which is n behind A along u and w beside it. From there the two discs touch last at n + s(u).
+///   So f(A) >= f(q) - |q - A| >= n + s(u) - sqrt(n^2 + w^2), for every n.
+///
+/// The price: the depth may be positive where nothing overlaps yet, because one agent may reach around the other. Along a given direction
+/// no 1-Lipschitz depth can be zero there: if A touches B from behind, A still has to pass all of B. So query only pairs that collide. Over
+/// all directions, the way to the nearest place without overlapping discs lies between two bounds, and both are 1-Lipschitz. The lower one
+/// is the deepest overlap of two discs (clearance() with Overlap::deepest). It is zero until they touch, and suits forces that grow from
+/// contact on. The upper one is this depth, and suits corrections of positions that are applied at once.
+///
+/// Agents with disjoint ranges of height (Agents::z) have a depth of 0. The answer is the same bits on every processor, for any number of
+/// threads and any split of the batch. Only the difference of positions counts.
 /// Sizes:   as many directions and answers as pairs; the set need not have outlines. An agent may be paired with
 ///          itself: then it has to move by its own width.
 /// Errors:  throws std::invalid_argument, before out is touched, like collide(), and on a direction that is zero or not
@@ -214,8 +212,9 @@ void penetration(const ShapeSet& shapes, const Agents& agents, std::span<const P
                  std::uint32_t directions, std::span<Penetration> out,
                  const Implementation* implementation = nullptr);
 
-/// Measures how far the first agent of each pair has to move on the ground along a given direction until a line separates the spheres of the
-/// two as seen from above. collide() then answers 0. The depth is 0 for bodies whose heights do not meet. All else is as for a ShapeSet.
+/// Measures how far the first agent of each pair has to move on the ground along a given direction until a line
+/// separates the spheres of the two as seen from above. collide() then answers 0. The depth is 0 for bodies with
+/// disjoint ranges of height. All else is as for a ShapeSet.
 void penetration_along(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs,
                        std::span<const Vec2> directions, std::span<Penetration> out,
                        const Implementation* implementation = nullptr);
@@ -225,10 +224,11 @@ void penetration(const BodySet& bodies, const Agents& agents, std::span<const Pa
                  std::uint32_t directions, std::span<Penetration> out,
                  const Implementation* implementation = nullptr);
 
-/// Measures how far the first agent of each pair has to move on the ground, along the best of `directions` evenly spread directions, until no
-/// sphere of its body overlaps one of the second's. The two may stay entangled, so the way is at most that of penetration(), to rounding.
-/// collide() answers 0 afterwards; where it answers 0 before, the depth is 0. It grows from there on, and may jump where a gap opens or closes.
-/// Sizes, symmetry, directions and errors are those of penetration(); the bits are the same on every processor.
+/// Measures how far the first agent of each pair has to move on the ground, along the best of `directions` evenly
+/// spread directions, until no sphere of its body overlaps one of the second's. The bodies may remain interlocked: no
+/// line need separate them. So the depth is at most that of penetration(), up to rounding. collide() answers 0
+/// afterwards; where it answers 0 before, the depth is 0. It grows from there on, and may jump where a gap opens or
+/// closes. Sizes, symmetry, directions and errors are those of penetration(); the bits are the same on every processor.
 /// Memory:  allocates in every call. Threads: runs in the caller's TBB arena.
 void nearest_free(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs,
                   std::uint32_t directions, std::span<Penetration> out,
@@ -246,17 +246,17 @@ struct Displacements {
 /// discs of their cuts touch when the first agent has moved by t times its displacement, or infinity if there is none. It is 0 where
 /// the agents collide already.
 ///
-/// Only the discs of the cuts count, not the nodes above them, because whether nodes overlap changes on the way, and
-/// a time has to be no later than the outlines' contact. The time is 0 where discs of the cuts overlap already,
-/// also where the agents move apart. A displacement that is zero as a float gives 0 only where collide() with
-/// Leaves::discs answers 1, and infinity otherwise.
+/// Only the discs of the cuts count, not their ancestors: ancestors may start to overlap later on the way, which would
+/// make the time late. The time is 0 where discs of the cuts overlap already, even if the agents move apart. If the
+/// displacement rounds to zero in float, the time is 0 where collide() with Leaves::discs answers 1, and infinity
+/// elsewhere.
 ///
-/// The time is never later than the outlines' first contact. At that time the outlines are at most the leaf discs' sizes and 4 um per
-/// metre of way and of the two shapes' reach apart. So the time may be early, or finite where the outlines only pass each other within
-/// that distance. Times are the same bits on every processor, for any number of threads and any split of the batch, and for exchanged
-/// agents with the displacement negated.
+/// The time is never later than the outlines' first contact. At that time the outlines are apart by at most the two
+/// discs' diameters plus 4 um per metre of way and of the two shapes' reaches. So the time may be early, or finite
+/// where the outlines only pass each other within that distance. Times are the same bits on every processor, for any
+/// number of threads and any split of the batch, and for exchanged agents with the displacement negated.
 ///
-/// Agents at different heights (Agents::z) that do not meet never touch.
+/// Agents with disjoint ranges of height (Agents::z) never touch.
 ///
 /// Sizes:   as many displacements in x, in y, and times as pairs. An agent may be paired with itself (0).
 /// Errors:  throws std::invalid_argument, before anything is written, as collide() does, and on a
@@ -267,13 +267,13 @@ void time_of_impact(const ShapeSet& shapes, const Agents& agents, std::span<cons
                     const Displacements& displacements, std::span<float> times,
                     const Implementation* implementation = nullptr);
 
-/// Finds when the bodies of the two agents of each pair first touch in space while they move without turning: the least t in [0, 1] at which
-/// some sphere of one touches some sphere of the other when the first agent has moved by t times its displacement, or infinity if there
-/// is none. It is 0 where collide() answers 1.
+/// Finds when the bodies of the two agents of each pair first touch in space while they move without turning: the least
+/// t in [0, 1] at which some sphere of one touches some sphere of the other when the first agent has moved by t times
+/// its displacement, or infinity if there is none. It is 0 where collide() answers 1.
 ///
 /// The time is never later than the first contact of what the spheres hold. At that time the spheres are at most 6 um per metre of way
-/// and of the two bodies' reaches apart. So the time may be early, or finite where the spheres only pass each other within that distance. Bits
-/// are as for a ShapeSet.
+/// and of the two bodies' reaches apart. So the time may be early, or finite where the spheres only pass each other
+/// within that distance. Bits are as for a ShapeSet.
 /// Sizes, errors, threads: as for time_of_impact() of a ShapeSet, without levels.
 void time_of_impact(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs,
                     const Displacements& displacements, std::span<float> times,

@@ -18,12 +18,12 @@ struct Kernels;
 
 namespace bch {
 
-// What a collision is. Two agents collide at their levels where their outlines have a point in common as areas, as far as discs
-// tell: some disc of one's cut overlaps some disc of the other's, and every node above the one disc (itself included) overlaps every
-// node above the other; or one's contour lies inside the other's outline, where the set keeps outlines. Touching counts. Discs are the
-// smallest around their primitives. A point that two outlines have in common lies in all of these discs, so this is the tightest answer
-// that discs can give, and a deeper cut never adds a collision. With exact leaves (Leaves::segments, at the level of all depths) two
-// leaves count only where their segments meet, too. In a set without outlines discs alone decide.
+// What a collision is. Two agents collide at their levels if a disc a of one cut overlaps a disc b of the other, and
+// each of a and its ancestors overlaps each of b and its ancestors. They also collide if a contour of one lies inside a
+// contour of the other, where the set keeps outlines. Touching counts. Discs are the smallest around their primitives.
+// A point that two outlines have in common lies in all of these discs, so this is the tightest answer that discs can
+// give, and a deeper cut never adds a collision. With exact leaves (Leaves::segments, at depth all_depths) two leaves
+// count only if their segments meet, too. In a set without outlines discs alone decide.
 //
 // The rules that all queries share. A query over pairs writes one result per pair into spans of the caller, and allocates nothing
 // unless its header says so. Where a pair or an agent can have many results, an object finds them and keeps them in its memory until
@@ -59,7 +59,7 @@ struct Executor {
   void (*run)(void* context, std::size_t count, void (*task)(void* data, std::size_t i),
               void* data) = nullptr;
   void* context = nullptr;    ///< given to run()
-  std::uint32_t threads = 1;  ///< how many tasks run at once: work is divided into up to 8 a thread
+  std::uint32_t threads = 1;  ///< tasks that run at once; a query is divided into at most 8 tasks per thread
 
   /// Runs the tasks of all queries from now on by an executor. One without run() brings back what the library was built with.
   /// Errors:  throws std::invalid_argument on other than 1 to 1024 threads.
@@ -88,7 +88,8 @@ struct ClearanceOptions {
   double max_distance = std::numeric_limits<double>::infinity();
   Overlap overlap = Overlap::zero;
   /// Selects what distances are measured from: discs or, where shapes have exact leaves, segments of the outlines. Segments give the
-  /// distance of the outlines. Discs give up to 3 cm less, in about a seventh of the time of pairs. Overlap::deepest always measures discs.
+  /// distance of the outlines. Discs give up to 3 cm less and take about a seventh of the time. Overlap::deepest always
+  /// measures discs.
   Leaves leaves = Leaves::discs;
 };
 
