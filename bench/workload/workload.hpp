@@ -47,7 +47,7 @@ void add_agent(cli::Crowd& crowd, std::uint32_t shape, double x, double y, doubl
 /// Returns the names of the workloads, in the order of reports:
 ///   colliding     distinct pairs whose meshes intersect
 ///   near_miss     distinct pairs whose root discs overlap while the meshes do not intersect
-///   no_hit        distinct pairs whose root discs overlap while their contour hierarchies do not
+///   no_hit        distinct pairs whose root discs overlap while their contour hierarchies do not collide
 ///   crowd         the broad phase's pairs of a crowd at 3 agents per square metre
 ///   candidates    those of the same crowd with a margin of 0.5 m
 ///   paper500      the paper's protocol: 500 colliding cases in sequence, over and over

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 the bch authors
 
-"""Bodies that move by themselves, each as one shape over all times."""
+"""Animated bodies, each as one shape over all times."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from ._library import ArrayError, Handle, check, lib
 
 
 class AnimatedShape:
-    """A body that moves by itself: discs or spheres whose centres and radii are linear in time between keys. `animate` makes one of a clip.
+    """An animated body: discs or spheres whose centres and radii are linear in time between keys. `animate` makes one of a clip.
 
-    Times before its beginning and after its end are clamped to these; if it loops, they wrap around instead: its end is followed by its beginning at once.
+    Times outside the clip are clamped or, if it loops, wrap around.
 
     Parameters
     ----------
@@ -28,7 +28,7 @@ class AnimatedShape:
     discs : (k, n, 3) or (k, n, 4) numbers
         x, y and radius of each disc at each key, or x, y, z and radius of each sphere, metres, relative to the agent's position.
     loops : bool
-        Whether the body moves so over and over. A loop takes 1 ms or more.
+        Whether the motion repeats. It then lasts at least 1 ms.
     """
 
     __slots__ = ("_handle", "_pointer", "loops", "begin", "end", "reach", "nbytes", "chunk_count", "key_count")

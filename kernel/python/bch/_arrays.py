@@ -35,7 +35,8 @@ SPHERE = np.dtype([("x", f4), ("y", f4), ("z", f4), ("radius", f4)])
 POSE = np.dtype([("clip", u4), ("seconds", f4)])
 #: The character, by its index in a list, and the pose that a shape shows.
 SOURCE = np.dtype([("character", u4), ("clip", u4), ("seconds", f4)])
-#: Two spheres that overlap, in space; see `Contacts`.
+#: Two spheres that overlap, in space: their indices, the point of the first that is deepest in the second (relative to the
+#: first agent's position), the normal from the first to the second, and the depth, metres.
 SPHERE_CONTACT = np.dtype([("spheres", u4, 2), ("point", f4, 3), ("normal", f4, 3), ("depth", f4)])
 #: How far the first agent of a pair has to move, metres, and the direction of the move, a unit vector.
 PENETRATION = np.dtype({"names": ["depth", "x", "y"], "formats": [f4, f8, f8], "offsets": [0, 8, 16], "itemsize": 24})

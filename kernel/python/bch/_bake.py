@@ -51,8 +51,8 @@ def bake(
     characters : Character or BodyModel, or a sequence of either
     poses : int, or poses
         The number of poses each, spread evenly over the clips; or the poses themselves: an (n,) POSE array, a sequence of
-        (clip, seconds), Transforms or Vertices. For several characters or models: a sequence of these, one for each. Models take no
-        Vertices, and several of them times of clips alone.
+        (clip, seconds), Transforms or Vertices. For several characters or models: a sequence of these, one for each. Models do
+        not take Vertices. Several models take only (clip, seconds) or POSE.
     plan : Plan, optional
         Of shapes.
     path : path, optional

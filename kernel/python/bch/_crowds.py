@@ -100,9 +100,8 @@ class Contacts(NamedTuple):
     """The result of `Crowd.contacts`."""
 
     pairs: UInt32  #: (n, 2), the pairs of agents
-    #: a row per pair, of (m, 2) indices: a disc of the first agent and one of the second, see `ShapeSet.discs`; of bodies, (m,)
-    #: `SPHERE_CONTACT`: two spheres that overlap, the point of the first that is deepest in the second, relative to the first agent's
-    #: position, the normal from the first to the second, and the depth, metres
+    #: one row per pair. ShapeSet: (m, 2) indices of the first agent's disc and the second's, see `ShapeSet.discs`. BodySet: (m,)
+    #: `SPHERE_CONTACT`
     discs: Rows
 
 
@@ -143,7 +142,7 @@ class Crowd:
     Parameters
     ----------
     period : (float, float)
-        Lengths after which the ground repeats along x and y, metres; 0: it does not.
+        Periods of periodic boundary conditions along x and y, metres; 0: not periodic.
     max_pairs : int, optional
         More candidates than that raise an error.
 
@@ -341,21 +340,23 @@ class Crowd:
     ) -> Resolved:
         """Move agents on the ground, as little as it can, until no two bodies collide and nobody touches an obstacle.
 
-        Each sweep moves all together: pairs that collide by their shortest ways, as `nearest_free` finds them, and no pair that is near
-        into another. Agents do not turn. Where there is no room, pairs are left after the last sweep.
+        Each sweep moves all agents at once. It separates pairs that collide by their `nearest_free` moves, and keeps pairs that
+        are near each other apart. Agents do not turn. Where there is no room, pairs are left after the last sweep.
 
         Parameters
         ----------
         directions : int
-            Of `nearest_free`.
+            The number of directions of `nearest_free`.
         sweeps : int
-            At most so many.
+            The limit of sweeps.
         gap : float
-            Between two who are parted, metres.
-        largest_step, largest_shift : float
-            Of an agent in a sweep, and from where it was, metres.
+            The clearance to leave between two separated agents, metres.
+        largest_step : float
+            The limit of an agent's move in one sweep, metres.
+        largest_shift : float
+            The limit of its total move, metres.
         mobility : (n,) float64, optional
-            From 0, who stays, to 1; of two who are parted, one with half of the other's goes half as far.
+            Weights of moves, from 0 (fixed) to 1. Of two agents, the one with half the mobility moves half as far.
         """
         how, _ = options(threads=threads, implementation=implementation)
         at, found = pointers(instance(bodies, BodySet, "bodies"), agents, True), _library.ResolvedView()
@@ -387,7 +388,7 @@ class Crowd:
     def nearest(self, most: int) -> Neighbours:
         """Return for each agent of the last answer, which has to be of `clearances`, the nearest others, at most so many, the nearest first.
 
-        These are the people that crowd models avoid (ORCA's neighbours), by bodies in place of discs.
+        Crowd models such as ORCA take these as neighbours. Distances are between bodies, not between discs.
         """
         return self._neighbours(lib.bch_crowd_nearest, bounded(most, "most", 0, 2**32 - 1))
 

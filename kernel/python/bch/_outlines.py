@@ -31,7 +31,7 @@ class Outline:
     def __init__(self, handle: Handle, pose: int) -> None:
         self._handle, self._pose = handle, pose
         #: (n, 2) arrays of points, metres. Counter-clockwise ones are exteriors; a clockwise one is a hole of the exterior before it.
-        #: Contours without area are traces of triangles seen edge-on, which text has not.
+        #: Contours without area are triangles seen edge-on; `wkt` and `geojson` omit them.
         self.contours: List[Float32] = _contours(lib.bch_outlines_get, handle.pointer, pose)
 
     def _text(self, format: int) -> str:
@@ -84,7 +84,7 @@ def outline(
     heights : (bottom, top), optional
         Cut the mesh at two heights, metres, and leave out what is below and above. They may be infinite.
     holes : bool
-        Find also holes, and what lies in them. This takes some hundred times as long.
+        Also find holes, and what lies in them. This takes some hundred times as long.
     threads : int
         Number of threads for many poses; 0: all processors.
     progress : bool
@@ -93,7 +93,7 @@ def outline(
     Returns
     -------
     Outline, or a list of them
-        One for each pose; for one pose that is no array of poses, that outline.
+        A list with one Outline per pose; for a single pose, that Outline.
     """
     bottom, top = (-math.inf, math.inf) if heights is None else pair(heights, "heights")
     options = _library.OutlineOptions(holes=bool(holes), bottom=bottom, top=top)

@@ -24,8 +24,8 @@ class Transforms(NamedTuple):
     """
 
     transforms: npt.ArrayLike  #: (frames, joints, 4, 4) or (frames, joints, 3, 4), of any dtype of floats and any strides
-    #: "parent": each joint in its parent's frame; "world": joints to the ground, metres, z up; "palette": the matrices of bones, each
-    #: the transform of its joint to the ground times its inverse bind matrix
+    #: "parent": each joint in its parent's frame; "world": each joint in the world, metres, z up; "palette": skinning matrices,
+    #: one per bone: the joint's world transform times the inverse bind matrix
     space: str = "world"
     origins: Optional[npt.ArrayLike] = None  #: (frames, 2), of palettes: the points on the ground that are the shapes' origins
 

@@ -54,12 +54,12 @@ class Agents:
     ----------
     shape : (n,) uint32, or other integers
         Index of each agent's shape in the set.
-    x, y : (n,) float64, or float32 like heading and z
+    x, y : (n,) float64 or float32; x, y, heading and z have the same dtype
         Positions, metres, within 1e9 m.
     heading : (n,) or (n, 2) float64, or float32
         Angles by which shapes are turned about their positions, radians, counter-clockwise. At 0 the built-in characters face
-        +x, and those of files stand as in their files. Or directions (cos, sin): where an agent's +x points, of a length of 1
-        within 1e-3.
+        +x, and those of files stand as in their files. Or (n, 2) unit vectors (cos, sin): where an agent's +x points; their
+        length is 1 within 1e-3.
     level : (n,) uint8, or other integers, optional
         Index into the set's depths; by default every agent uses the last level.
     z : (n,) float64, or float32, optional
@@ -225,8 +225,8 @@ def collide(
 ) -> Bool:
     """Test whether the two agents of each pair collide, touching included.
 
-    A collision is never missed: agents whose outlines have a point in common as areas, also where one is wholly inside the
-    other, collide at every level.
+    A collision is never missed: agents collide at every level if the areas of their outlines intersect, even if one is wholly
+    inside the other.
 
     Parameters
     ----------
@@ -236,7 +236,7 @@ def collide(
     pairs : (n, 2) uint32, or Obstacles
         Indices of agents; with obstacles, every agent is tested against all of them.
     leaves : {"segments", "discs"}
-        What decides at the level of all depths: segments of the outlines, or discs that cover them. Bodies have no choice.
+        What decides at depth ALL_DEPTHS: segments of the outlines, or discs that cover them. No effect for bodies.
     threads : int
         Number of threads; 0: all processors. The answer is the same for any number.
     implementation : str, optional
@@ -350,7 +350,7 @@ def clearance(
         Metres. Pairs farther apart get infinity. Smaller limits are faster.
     leaves : {"discs", "segments"}
         With "discs", the distance is up to 3 cm less than that of the outlines. With "segments", it is that of the outlines
-        themselves, in about seven times the time, for shapes that have outlines, at the level of all depths.
+        themselves, in about seven times the time, for shapes that have outlines, at depth ALL_DEPTHS.
     overlap : {"zero", "deepest"}
         The distance where discs overlap: 0, or with "deepest" the deepest overlap of two discs, as a negative number.
     threads, implementation
@@ -422,17 +422,17 @@ def penetration(
     implementation: Optional[str] = None,
     out: Optional[Records] = None,
 ) -> Records:
-    """Measure how far the first agent of each pair has to move to be free of the second, and in which direction.
+    """Measure how far the first agent of each pair has to move to separate from the second, and in which direction.
 
     Use it for pairs that collide. The depth may be positive where nothing overlaps yet, if one agent reaches around the other.
 
     Parameters
     ----------
     shapes : ShapeSet or BodySet
-        Bodies move on the ground, and are free where a line separates them as seen from above.
+        Bodies move on the ground, until a line separates them as seen from above.
     agents : Agents
     pairs : (n, 2) uint32, or Obstacles
-        With obstacles, of shapes alone, the depth is how far each agent has to move to leave the one that it is deepest in.
+        With obstacles (ShapeSet only), the depth is the longest of the moves that leave each obstacle by itself.
     directions : int, or (n, 2) float32
         The number of evenly spread directions to try, an even number from 2 to 256, of which the best one counts; or one
         direction per pair. Not for obstacles.
@@ -469,9 +469,10 @@ def nearest_free(
     implementation: Optional[str] = None,
     out: Optional[Records] = None,
 ) -> Records:
-    """Measure the shortest way on the ground after which the first body of each pair is free of the second.
+    """Measure how far the first body of each pair has to move on the ground to separate from the second.
 
-    It is 0 where the two do not collide, and at most that of `penetration`, because bodies may stay entangled.
+    The best of `directions` directions counts. The depth is 0 where the two do not
+    collide, and at most that of `penetration`, because the bodies may remain interlocked.
 
     Parameters
     ----------
@@ -511,19 +512,19 @@ def time_of_impact(
 ) -> Float32:
     """Find when the two agents of each pair first touch while they move without turning.
 
-    The time is never later than the first contact of the outlines. An agent inside another one's outline touches it only when the
-    outlines meet.
+    The time is never later than the first contact of the outlines. It is 0 where the agents collide already, even if one is
+    inside the other.
 
     Parameters
     ----------
     shapes : ShapeSet or BodySet
         Bodies touch in space.
     agents : Agents
-    pairs : (n, 2) uint32, or Obstacles (of shapes alone)
+    pairs : (n, 2) uint32, or Obstacles (ShapeSet only)
     dx, dy : (n,) float64
         The displacement of the first agent of each pair relative to the second, or of each agent among obstacles, metres.
     dz : (n,) float64, optional
-        The same upward, of bodies alone. Nobody moves up or down without it.
+        The same upward (BodySet only). Nobody moves up or down without it.
     threads, implementation
         As for `collide`.
     out : (n,) float32, optional

@@ -27,7 +27,8 @@ from ._tables import Columns, Table, table_of
 TRACKED = np.dtype(
     [("frame", i8), ("id", i8), ("x", f8), ("y", f8), ("heading", f4), ("stature", f4), ("motion", i4), ("clip_time", f4)]
 )
-#: The kinds of pairs and events of a check.
+#: Kinds of pairs and events: a gap of at most `max_distance`; an overlap; a contact between two frames only; an overlap with a
+#: wall.
 NEAR, OVERLAP, PASS, WALL = 0, 1, 2, 3
 _KINDS = np.array(["near", "overlap", "pass", "wall"])
 _FRAME = np.dtype(
@@ -168,13 +169,18 @@ def read_trajectory(
 class Check(NamedTuple):
     """The result of `check`: who runs into whom in a recording. Ids are those of the file; depths and positions are in metres."""
 
-    #: first, second, from, to, worst (frames), x, y, depth, frames, kind, after: overlaps in successive frames, and passes. A pass is
-    #: `after` frames behind the frame `worst`; `x` and `y` are where the first person then is.
+    #: first, second, from, to, worst (frames), x, y, depth, frames, kind, after: overlaps in successive frames, and passes. A
+    #: pass happens `after` of a frame (a fraction) after the frame `worst`; `x` and `y` are the position of the first person
+    #: then.
     events: Records
-    frames: Records  #: frame, seconds, people, overlapping, overlapping_pairs, in_walls, density
-    pairs: Records  #: frame, first, second, depth, gap, x, y, kind: who is near whom
-    #: Counts of the whole recording: person_frames, overlapping, near_pairs ... And `by_density`, a mapping for each class of density,
-    #: with the same counts of people with at least `from` and less than the next class's people per square metre within a metre of them.
+    #: frame, seconds, people, overlapping, overlapping_pairs, in_walls, density (people per square metre within 1 m of a person, the mean
+    #: over all people)
+    frames: Records
+    #: frame, first, second (an id, or a wall's number), depth, gap, x and y (unit vector: the move of the first), kind
+    pairs: Records
+    #: Counts of the whole recording: person_frames, overlapping, near_pairs (pairs of people in a frame within 1.2 m) ... And `by_density`,
+    #: a mapping for each class of density, with the same counts of people with at least `from` and less than the next class's people per
+    #: square metre within a metre of them.
     summary: Dict[str, Any]
     assumptions: List[str]  #: what is assumed where the file does not say, and what was found about the characters
     #: What seems to be wrong: columns that are not read, people who are too fast or too slow, headings in degrees, walls without a segment.
@@ -291,13 +297,13 @@ def check(
     spheres : int
         Spheres of a body: 64, 128, 256 or 512; of characters that the library has no models of up to 4096.
     depth : int
-        Depth in the bodies' hierarchies: 0 is one disc per body, ALL_DEPTHS the body itself.
+        Depth of the cut: 0 is one disc per body, ALL_DEPTHS all discs, or the outlines (see `leaves`).
     leaves : {"segments", "discs"}
         What decides at ALL_DEPTHS: segments of the outlines, or discs that cover them.
     max_distance : float
         Also report pairs with gaps up to this distance, metres.
     max_pairs : int
-        The most pairs of people near each other, in a frame or in some 4096 rows; 0: 4 million and 100 per person. More are
+        The most pairs of people near each other, in a frame or in some 4096 rows; 0: 4 million plus 100 per person. More are
         an error, because each takes memory.
     walls : Obstacles, or a geometry as `Obstacles.from_wkt` takes, optional
         Walls to use instead of the geometry of the recording. Polygons of a geometry are the floor that people walk on, and their

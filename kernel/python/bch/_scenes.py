@@ -106,7 +106,7 @@ def plan_scene(
     pose_step : float
         Seconds. Times are rounded down to multiples of this step, so that agents share shapes; 0: times are not rounded.
     pairs_per_shape : float
-        The expected number of pairs of a shape before it is replaced; a small number if each shape lives for one frame.
+        The expected number of pairs tested per shape in its lifetime. From 500 on, shapes get culling data.
     """
     array = _as_poses(poses)
     n = len(array)

@@ -88,7 +88,10 @@ def depth_at_density(people_per_square_metre: float) -> int: ...
 @overload
 def depth_at_density(people_per_square_metre: Float64) -> UInt32: ...
 def depth_at_density(people_per_square_metre: Union[float, Float64]) -> Union[int, UInt32]:
-    """Return the cut depth that a density needs, in people per square metre; for an array, one depth per entry."""
+    """Return the coarsest cut depth whose false collisions stop a walking person at most once a second at a density.
+
+    Densities are in people per square metre; for an array, one depth per entry.
+    """
     if isinstance(people_per_square_metre, np.ndarray):
         densities = converted(people_per_square_metre, f8, "people_per_square_metre")
         return np.array([depth_at_density(float(density)) for density in densities], u4)
@@ -370,7 +373,7 @@ class Origin(NamedTuple):
 
 
 class KeptClip(NamedTuple):
-    """A body that moves by itself, which a set keeps with its names."""
+    """An animated body, which a set keeps with its names."""
 
     character: str
     clip: Optional[str]
@@ -492,13 +495,13 @@ class ShapeSet:
         return Origin(character, clip, origin.seconds)
 
     def keep_clip(self, shape: AnimatedShape, character: str, clip: Optional[str] = None) -> None:
-        """Keep a body that moves by itself, with its names. `save` writes it beside the shapes."""
+        """Keep an animated body, with its names. `save` writes it beside the shapes."""
         body, name = instance(shape, AnimatedShape, "shape"), None if clip is None else encoded(clip, "clip")
         check(lib.bch_shape_set_add_clip(self._pointer, body._pointer, encoded(character, "character"), name))
 
     @property
     def clips(self) -> List[KeptClip]:
-        """The bodies that move by themselves: those of the loaded file, and those that `keep_clip` added."""
+        """The animated bodies: those of the loaded file, and those that `keep_clip` added."""
         count = c_size_t()
         check(lib.bch_shape_set_get_clip_count(self._pointer, byref(count)))
         return [self._clip(i) for i in range(count.value)]
@@ -588,7 +591,7 @@ class ShapeSetBuilder:
         ----------
         characters : sequence of Character
         sources : (n,) SOURCE
-            Records of character, clip, seconds and whole. A character is an index in `characters`.
+            Records of character, clip and seconds. `character` is an index in `characters`.
         threads : int
             Number of threads; 0: all processors.
         progress : bool
@@ -662,7 +665,7 @@ class ShapeSetBuilder:
             )
 
     def add_moment(self, shape: AnimatedShape, seconds: float) -> None:
-        """Add a body that moves by itself, as it is at a time of its clip, in seconds."""
+        """Add a snapshot of an animated body: its shape at one time of its clip, in seconds."""
         body, at = instance(shape, AnimatedShape, "shape"), number(seconds, "seconds")
         with self._exclusive:
             check(lib.bch_shape_set_builder_add_moment(self._pointer, body._pointer, at))

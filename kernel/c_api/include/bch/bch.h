@@ -15,9 +15,8 @@
  * Results:  every function that can fail returns a bch_status and writes its results through its last arguments. Unless it
  *           returns BCH_OK, nothing has been written, and bch_last_error() says what is wrong.
  * Handles:  an object is a pointer that a function creates and that the free function of its kind frees; freeing NULL does
- *           nothing. A function returns BCH_INVALID_ARGUMENT for a pointer which is no living object of the right kind, also to
- *           all but one of the threads that free an object at the same time. An object that lent a pointer has to live as long
- *           as that pointer is used.
+ *           nothing. A pointer that is no live object of the right kind gives BCH_INVALID_ARGUMENT. If several threads free one
+ *           object, one succeeds. An object that lent a pointer has to live as long as that pointer is used.
  * Structs:  those that begin with `size` may grow at their end in later versions: initialise them by the macro of their
  *           name, which fills in the size and the defaults. NULL in place of options means the defaults.
  * Arrays:   they are the caller's and packed. They are neither copied nor kept, and may be NULL where they are empty.
@@ -117,13 +116,14 @@ BCH_API bch_status bch_character_default(int32_t which, bch_character** characte
 /** Names the sexes of pedestrians. */
 enum { BCH_PEDESTRIAN_FEMALE = 0, BCH_PEDESTRIAN_MALE = 1 };
 /** Makes a pedestrian of a stature in metres, for recorded and simulated crowds. Clip k is one stride at k * BCH_PEDESTRIAN_SPEED_STEP, in
- * metres per second, from 0 to 2.19. The shape stands under the head. `shoulders` is their angle to the walking direction, radians. */
+ * metres per second, from 0 to 2.19. The origin of the shape is below the head. `shoulders` is their turn from square to the
+ * walking direction, radians, counter-clockwise. */
 BCH_API bch_status bch_character_pedestrian(int32_t sex, double stature, double shoulders, bch_character** character);
 #define BCH_PEDESTRIAN_SPEED_STEP 0.03
 /** Returns the number of strides, of two steps each, that a pedestrian takes in a second. */
 BCH_API double bch_pedestrian_strides_per_second(double metres_per_second);
 
-/** Maps a point affinely to rows * (x, y, z, 1): each row is one of the linear part and its share of the translation. */
+/** Represents an affine map, row-major: a 3 x 3 linear part, and the translation in column 3. */
 typedef struct bch_affine3 {
   float rows[3][4];
 } bch_affine3;
@@ -232,11 +232,11 @@ enum {
   BCH_DOUBLE_ROWS = 2,   /**< double[12] */
   BCH_DOUBLE_COLUMNS = 3 /**< double[16] */
 };
-/** Refers to poses of one's own in an array of the caller, one pose after the other. */
+/** Refers to poses in an array of the caller, one pose after the other. */
 typedef struct bch_pose_arrays {
   uint32_t size;         /**< sizeof(bch_pose_arrays) */
   int32_t kind;          /**< BCH_JOINTS_IN_PARENTS ... */
-  int32_t layout;        /**< BCH_FLOAT_ROWS ...; that for vertices */
+  int32_t layout;        /**< BCH_FLOAT_ROWS ...; has to be BCH_FLOAT_ROWS for vertices */
   const void* data;      /**< the numbers */
   size_t count;          /**< of transforms or vertices in a pose */
   size_t stride;         /**< numbers from one transform to the next, at least what one takes; 0: one follows the other */
@@ -359,7 +359,7 @@ BCH_API bch_status bch_pose_shaper_create(const bch_character* character, const 
                                           bch_pose_shaper** shaper);
 /** Makes the shape of a pose, in place of the previous one. */
 BCH_API bch_status bch_pose_shaper_make(bch_pose_shaper* shaper, bch_pose pose);
-/** Makes the shape of poses[index] in the same way. */
+/** Makes the shape of poses[index], a pose given by arrays, in the same way. */
 BCH_API bch_status bch_pose_shaper_make_own(bch_pose_shaper* shaper, const bch_pose_arrays* poses, size_t index);
 /** Gets the outline of the shape that was made last; see bch_shape_set_get_outline(). */
 BCH_API bch_status bch_pose_shaper_get_outline(const bch_pose_shaper* shaper, bch_outline* outline);
@@ -374,7 +374,7 @@ BCH_API bch_status bch_shape_set_builder_create(const bch_plan* plan, bch_shape_
  * shapes that were added before are still there. */
 BCH_API bch_status bch_shape_set_builder_add_poses(bch_shape_set_builder* builder, const bch_character* character,
                                                    const bch_pose* poses, size_t count, const bch_work* work);
-/** Adds the shapes of `count` poses of one's own, as bch_shape_set_builder_add_poses() does of clips. Their origin is the rest pose. */
+/** Adds the shapes of `count` poses given by arrays, as bch_shape_set_builder_add_poses() does of clips. Their origin is the rest pose. */
 BCH_API bch_status bch_shape_set_builder_add_own_poses(bch_shape_set_builder* builder, const bch_character* character,
                                                        const bch_pose_arrays* poses, size_t count,
                                                        const bch_work* work);
@@ -507,7 +507,7 @@ typedef struct bch_pair {
 
 enum {
   BCH_DISCS = 0,   /**< leaves meet where their discs overlap */
-  BCH_SEGMENTS = 1 /**< at the level of all depths, segments of the outlines in them have to meet as well */
+  BCH_SEGMENTS = 1 /**< at depth BCH_ALL_DEPTHS, segments of the outlines in them have to meet as well */
 };
 enum {
   BCH_OVERLAP_ZERO = 0,   /**< the clearance of overlapping agents is 0 */
@@ -1006,15 +1006,14 @@ BCH_API bch_status bch_crowd_body_resolve(bch_crowd* crowd, const bch_body_set* 
 
 /* Motions ----------------------------------------------------------------------------------------------------------- */
 
-/** Represents a body that moves by itself: discs whose centres and radii are linear in time from key to key, or spheres, which have heights.
- * It has a shape at every time. Times before the beginning and after the end are clamped to these; if the clip loops, they wrap around
- * instead: its end is followed by its beginning at once. */
+/** Represents an animated body: discs whose centres and radii are linear in time from key to key, or spheres, which have heights.
+ * It has a shape at every time. Times outside the clip are clamped or, if the clip loops, wrap around. */
 typedef struct bch_animated_shape bch_animated_shape;
 
 /** Says how moving discs of a clip are made. */
 typedef struct bch_animate_options {
   uint32_t size; /**< sizeof(bch_animate_options) */
-  float error;   /**< by how much more discs may protrude between two keys than at these */
+  float error;   /**< metres, by how much more spheres may protrude between two keys than at these */
   int32_t loops; /**< 1: the clip is played over and over; 0: it ends; -1: over and over if its last pose is its first one */
 } bch_animate_options;
 #define BCH_ANIMATE_OPTIONS_INIT \
@@ -1026,7 +1025,7 @@ BCH_API bch_status bch_animated_shape_animate(const bch_body_model* model, uint3
 /** Holds moving discs in arrays of the caller: chunks that follow one another in time, each with discs of its own. */
 typedef struct bch_animated_arrays {
   uint32_t size;             /**< sizeof(bch_animated_arrays) */
-  int32_t loops;             /**< not 0: the clip is played over and over; it takes 1 ms or more */
+  int32_t loops;             /**< not 0: the clip repeats; it then lasts at least 1 ms */
   const uint32_t* key_counts; /**< one per chunk, like the next one */
   const uint32_t* disc_counts;
   size_t chunk_count;
@@ -1039,7 +1038,7 @@ typedef struct bch_animated_arrays {
 /** Makes a body from moving discs. */
 BCH_API bch_status bch_animated_shape_create(const bch_animated_arrays* arrays, bch_animated_shape** shape);
 
-/** Holds the times and sizes of a body that moves by itself. */
+/** Holds the times and sizes of an animated body. */
 typedef struct bch_animated_shape_info {
   uint32_t size; /**< sizeof(bch_animated_shape_info) */
   int32_t loops;
