@@ -15,7 +15,7 @@
 /// separates (C. Ericson, "Real-time collision detection", 2005, section 4.4.1).
 ///
 /// Why a test in float never misses. u = 2^-24, P the reaches, S = P_A + P_B, and p a point of both shapes
-/// for the exact tests, so that the relative position t has |t| <= S. Let boxes be tight but for the margin.
+/// for the exact tests, so that the relative position t has |t| <= S. Let boxes be tight except for the margin.
 ///
 ///     stored axes against an orthonormal frame          u each, so a tight box grows by 2 u P
 ///     R_ij: b_j, turning it (3 u), a_i, their product   1 + 3 + 1 + 3 u   <= 9 u

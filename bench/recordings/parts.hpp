@@ -28,7 +28,7 @@ struct Part {
 /// Errors:  throws UsageError.
 Part parse_part(const std::string& text);
 
-/// Returns what all parts of a command have in common: the options that were given, but for those that do not change an answer, and
+/// Returns what all parts of a command have in common: the options that were given, except for those that do not change an answer, and
 /// the files that are read.
 nlohmann::ordered_json run_of(const CLI::App& command, const std::vector<std::string>& inputs);
 

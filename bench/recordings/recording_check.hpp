@@ -30,7 +30,7 @@ struct CheckedRecording {
   std::uint32_t spheres;  ///< of a body; 0: people have outlines
   std::uint32_t depth;
   Leaves leaves;
-  std::uint32_t characters;  ///< of one's own; 0: built-in pedestrians
+  std::uint32_t characters;  ///< custom ones; 0: built-in pedestrians
   bool baked;                ///< those are of a baked set
   bool walls;
   std::string floor;  ///< to walk on, as well-known text, or empty

@@ -24,7 +24,7 @@ namespace bch::detail {
 /// Finds all pairs of cut discs that overlap with all their ancestors, and whose segments meet where these decide,
 /// one pair of agents after the other. Rows are discs of a pair's first agent, columns those of its second.
 /// Row windows are visited from left to right, each with the column nodes that the blocks above it left to
-/// it, so that contacts come in order but for the eight rows of a window, which are counted before they are
+/// it, so that contacts come in order except for the eight rows of a window, which are counted before they are
 /// placed.
 ///
 /// No contact is named twice, although windows show some of their neighbours' discs. Of a row window only its

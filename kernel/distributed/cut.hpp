@@ -43,7 +43,7 @@ using WeightBefore =
 /// Returns that of weights in order of their keys; they become sums.
 WeightBefore weight_before(std::vector<Weight>& sorted);
 
-/// Cuts the curve for so many ranks into parts that weigh the same, but for one square's weight: by bisection of all cuts at once,
+/// Cuts the curve for so many ranks into parts that weigh the same, up to one square's weight: by bisection of all cuts at once,
 /// which asks for nothing but sums, so that it does not matter where the weights are.
 Cut cut_evenly(int ranks, const WeightBefore& weight_before);
 

@@ -17,7 +17,7 @@ namespace bch::detail {
 /// Time is cut where a path has a key. Between two keys of the paths bodies come as near as their reaches for an interval at most, which a
 /// square root tells; there alone the clips are gone through, from window to window of their hulls: where these are apart along a line
 /// there is no contact, and else shorter windows are looked at, in the end those between two keys of the clips. From key to key every disc
-/// moves straight on but for what turning bends, so that the first time at which two nodes may touch is a root, too, and the trees are
+/// moves straight on except for what turning bends, so that the first time at which two nodes may touch is a root, too, and the trees are
 /// descended where there is one before the earliest contact of leaves so far. What bends more than half the tolerance is halved in time,
 /// but only where a contact is found.
 ///

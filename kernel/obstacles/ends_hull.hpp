@@ -29,7 +29,7 @@ class EndsHull {
     make_chain(upper_, -1);
   }
 
-  /// Returns the largest value of a function that is linear but for rounding. (On one of the chains it may descend at first. The other
+  /// Returns the largest value of a function that is linear except for rounding. (On one of the chains it may descend at first. The other
   /// one then has the largest value, and no value is too large.)
   template <class Linear>
   double most(const Linear& of) const {

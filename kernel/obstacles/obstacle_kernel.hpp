@@ -21,8 +21,8 @@ namespace bch::detail {
 template <class Simd>
 class ObstacleKernel {
  public:
-  /// Returns whether a disc of the cut and all nodes above it touch the segments, and the outline in that disc does where
-  /// exact leaves decide.
+  /// Returns whether a disc of the cut and all its ancestors touch the segments, and the outline in that disc does
+  /// where exact leaves decide.
   static bool touches(const ObstacleArguments& in) noexcept { return ObstacleKernel(in).meets_any(); }
 
   /// Finds the least gap between a disc of the cut and a segment, or between the outline and a segment where exact leaves decide. The
@@ -130,7 +130,7 @@ class ObstacleKernel {
     return bits;
   }
 
-  /// Returns whether all nodes above a cut disc touch the segment. `disc` is its place among the nodes.
+  /// Returns whether all ancestors of a cut disc touch the segment. `disc` is its place among the nodes.
   bool ancestors_touch(std::uint32_t disc) const noexcept {
     if (tree_.count == 1) return true;
     AncestorPath<Simd> path;

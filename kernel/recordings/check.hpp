@@ -62,7 +62,7 @@ struct CheckedPair {
   bool overlap;  ///< the two overlap in this frame
   bool passing;  ///< they do between this frame and the next, and in neither of them
   float depth;   ///< how far the first has to move to be free; of spheres in a wall, how deep one is; metres
-  float gap;     ///< between them in this frame, metres; 0 also where discs overlap, but not the nodes above
+  float gap;     ///< between them in this frame, metres; 0 also where discs overlap, but not their ancestors
   float x, y;    ///< where the first has to move
   // Of a pass: how long after this frame they touch, in frames, and the way of the first until then, metres.
   float after, way_x, way_y;

@@ -30,7 +30,7 @@ struct CastClip {
   std::vector<BakedPose> baked = {};  ///< of a member of a baked set, by time: its phases
 };
 
-/// Represents a character of one's own as the people of a recording have it: it walks along +x, but for those of a baked set, which have
+/// Represents a custom character as the people of a recording have it: it walks along +x, except for those of a baked set, which have
 /// the size and the direction that they were baked with.
 struct CharacterEntry {
   std::string name;
@@ -53,7 +53,7 @@ CharacterEntry cast_member(Character character, const std::string& name);
 /// Sorts the walks of a member by ascending speed.
 void sort_walks(CharacterEntry& member);
 
-/// Holds the characters of one's own in a recording, and a view of them, which they outlive.
+/// Holds the custom characters in a recording, and a view of them, which they outlive.
 using Cast = std::vector<CharacterEntry>;
 using CastView = std::span<const CharacterEntry>;
 

@@ -61,7 +61,7 @@
 /// Clips. Each clip takes its number of chunks. Each chunk takes its number of key times, and three numbers a disc and key from disc_steps
 /// or, where its step says so, disc_floats. Nothing is left. validate(AnimatedDiscs) lists what is checked of them.
 ///
-/// Rows. Root::row is 0 where the level's cut is a single disc; else 1, but for a shape's last level, which has the row
+/// Rows. Root::row is 0 where the level's cut is a single disc; else 1, except for a shape's last level, which has the row
 /// after that of the shape before, from 2 on.
 ///
 /// Nodes. A node's name is the index of its first float, with bit 31 set for a leaf window. A block is 48 floats: x, y
@@ -75,9 +75,10 @@
 /// leads to the window at the first disc, top itself where it is a window. Levels lie in the order of roots, with at
 /// most 9 levels of blocks each. At least 48 floats follow the last one.
 ///
-/// Exact leaves. Tree::segments is 2^32 - 1, or, at the level of all depths of a shape with contours, the index in leaf_segments
-/// of the first of Tree::count words; Tree::points is then the index of the shape's first point, else 0. shape_set_view.hpp says
-/// what the words, and the lists that follow them in their order, mean. The next tree's words follow the last list.
+/// Exact leaves. Tree::segments is 2^32 - 1, or, at depth all_depths of a shape with contours, the index in
+/// leaf_segments of the first of Tree::count words; Tree::points is then the index of the shape's first point, else 0.
+/// shape_set_view.hpp says what the words, and the lists that follow them in their order, mean. The next tree's words
+/// follow the last list.
 ///
 /// Numbers. Coordinates and radii are finite and at most 1e7 m, a root's radius above 0, reaches within rounding.hpp's
 /// domain. shape_preconditions() lists all that is checked.

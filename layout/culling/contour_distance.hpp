@@ -19,7 +19,7 @@ struct ContourDepths {
   alignas(64) std::array<double, max_touches> winding;
 };
 
-/// Measures the depths of the discs' centres, exact but for the rounding of double.
+/// Measures the depths of the discs' centres, exact except for the rounding of double.
 void measure_depths(const InteriorLoops& loops, std::span<const Vec2> contour, const CandidateDiscs& discs,
                     ContourDepths& depths);
 

@@ -10,7 +10,7 @@
 namespace bch::detail {
 
 /// Represents the smallest disc around points. The centre is a float, as it will be stored; the radius
-/// belongs to that very centre and is exact but for the rounding of double.
+/// belongs to that very centre and is exact except for the rounding of double.
 struct EnclosingDisc {
   Vec2 centre;
   double radius = 0;

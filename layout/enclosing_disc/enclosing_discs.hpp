@@ -21,7 +21,7 @@ class EnclosingDiscs {
   /// Uses a given implementation, which this processor has to support.
   explicit EnclosingDiscs(const BuildImplementation& implementation) : loops_(&implementation.loops) {}
 
-  /// Sets may overlap; none is empty. discs[i] is as smallest_enclosing_disc() would have it but for the
+  /// Sets may overlap; none is empty. discs[i] is as smallest_enclosing_disc() would have it except for the
   /// rounding of the centre.
   void solve(std::span<const Vec2> points, std::span<const PointRange> sets, std::span<SolvedDisc> discs);
 

@@ -44,7 +44,7 @@ struct FbxScene {
   FbxModel read_model(FbxId id) const;
 };
 
-/// Tells whether two transforms are the same but for rounding: linear parts to a share, translations to a share of themselves or of one.
+/// Tells whether two transforms are the same except for rounding: linear parts to a share, translations to a share of themselves or of one.
 bool agree(const Eigen::Affine3d& a, const Eigen::Affine3d& b, double share);
 
 void correct_fbx_meshes(FbxScene& file, aiScene& scene);

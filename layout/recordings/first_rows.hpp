@@ -61,7 +61,7 @@ class FirstRows {
   };
 
   std::size_t columns_ = 0, others_ = 0;
-  std::vector<Place> places_;  ///< of the rows but for others_
+  std::vector<Place> places_;  ///< of the rows except for others_
   std::vector<Line> lines_;    ///< those that messages show
 
   std::vector<Place> by_person(ColumnOrder order) const;

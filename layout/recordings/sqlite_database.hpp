@@ -47,7 +47,7 @@ class SqliteStatement {
 };
 
 /// Represents a database that is only read: within limits, without triggers, views, extensions or other files, in one transaction, so that
-/// all queries see the same. No file is made or changed, but for the index of a log, where there is one.
+/// all queries see the same. No file is made or changed, except for the index of a log, where there is one.
 /// Errors:  all functions throw TrajectoryError, also where a go_on() that is not empty says no.
 class SqliteDatabase {
  public:

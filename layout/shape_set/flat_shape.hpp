@@ -12,7 +12,7 @@
 
 namespace bch::detail {
 
-/// Returns a shape of a set as ShapeStorage::put() was given it, but for its plan and its outline's grid step, which are not stored. Of a
+/// Returns a shape of a set as ShapeStorage::put() was given it, except for its plan and its outline's grid step, which are not stored. Of a
 /// set of single discs only the roots.
 FlatBody flat_body(const ShapeArrays& arrays, std::size_t shape);
 

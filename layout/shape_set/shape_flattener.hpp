@@ -48,7 +48,7 @@ class ShapeFlattener {
   /// Errors:  throws std::invalid_argument as ShapeSet does, naming the shape by `index`.
   void flatten(const Shape& shape, std::size_t index, FlatBody& flat);
 
-  /// Makes the outline of a shape flat, but for what leaves hold of it.
+  /// Makes the outline of a shape flat, except for what leaves hold of it.
   static void add_outline(const Shape& shape, FlatShape& flat);
 
  private:

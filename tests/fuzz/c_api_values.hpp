@@ -108,7 +108,7 @@ class Caller : public Program {
     for (std::size_t i = 0; i < count; ++i) draw(values[i]);
   }
 
-  /// The first entries as the input says; the others repeat them, but for offsets.
+  /// The first entries as the input says; the others repeat them, except for offsets.
   template <class Value>
   void draw(const Value*& values) {
     if (chance(128)) return void(values = nullptr);

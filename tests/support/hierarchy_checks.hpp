@@ -15,7 +15,7 @@ void expect_sound(const Hierarchy& hierarchy);
 /// all primitives.
 void expect_covers_outline(const Hierarchy& hierarchy, const Outline& outline);
 
-/// Checks that no leaf's disc is larger than the threshold, but for the rounding.
+/// Checks that no leaf's disc is larger than the threshold, except for the rounding.
 void expect_leaves_below(const Hierarchy& hierarchy, float threshold);
 
 }  // namespace bch::test

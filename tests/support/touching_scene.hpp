@@ -25,7 +25,7 @@ struct TouchingScene : PairScene {
   std::vector<Truth> truths;
 };
 
-/// Makes pairs of which the second agent is slid up to the first touch of the outlines, and left there, but for a gap of any
+/// Makes pairs of which the second agent is slid up to the first touch of the outlines, and left there, except for a gap of any
 /// magnitude, either way.
 TouchingScene touching_scene(Random& random, const std::vector<Shape>& shapes, std::uint32_t count);
 

@@ -159,7 +159,7 @@ class Crowd {
     /// Weights the moves of agents, from 0 (fixed) to 1. Of two agents, the one with half the mobility moves half as
     /// far.
     std::span<const double> mobility = {};   ///< none: 1 each
-    const ObstacleSet* obstacles = nullptr;  ///< walls that bodies have to be free of, too
+    const ObstacleSet* obstacles = nullptr;  ///< walls that bodies must not touch, either
     const Implementation* implementation = nullptr;
   };
   /// Holds where the agents of a crowd are after resolve(), and what it left.

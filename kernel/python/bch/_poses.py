@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 the bch authors
 
-"""Poses of one's own, for all calls that take poses of one character."""
+"""Custom poses, as arrays, for all calls that take poses of one character."""
 
 from __future__ import annotations
 
@@ -46,7 +46,7 @@ def _floats(values: npt.ArrayLike, name: str, shapes: Tuple[Tuple[int, ...], ...
 
 
 class OwnPoses:
-    """Poses of one's own as the library takes them, with the arrays that they point to."""
+    """Custom poses as the library takes them, with the arrays that they point to."""
 
     def __init__(self, poses: Any) -> None:
         if isinstance(poses, Vertices):
@@ -76,5 +76,5 @@ class OwnPoses:
 
 
 def own_poses(poses: Any) -> Optional[OwnPoses]:
-    """Return poses of one's own, or None for those of clips."""
+    """Return custom poses, or None for those of clips."""
     return OwnPoses(poses) if isinstance(poses, (Transforms, Vertices)) else None

@@ -75,7 +75,7 @@ struct OutlineOptions {
   /// Finds also the holes of the union, and what lies in them, as clockwise contours after the counter-clockwise one that is around
   /// them. Contours then come to no point twice, and what has no area is left out. It takes some hundred times as long.
   bool holes = false;
-  /// Hears as BakeOptions::progress how many poses of outlines() are done. Returning false cancels.
+  /// Called as BakeOptions::progress, with the poses of outlines() done so far. Returning false cancels.
   std::function<bool(std::size_t done, std::size_t total)> progress = {};
 };
 

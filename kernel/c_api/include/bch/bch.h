@@ -218,7 +218,7 @@ BCH_API bch_status bch_character_get_joint(const bch_character* character, uint3
 /** Finds the one joint of a name. */
 BCH_API bch_status bch_character_find_joint(const bch_character* character, const char* name, uint32_t* joint);
 
-/** Selects what poses of one's own are given by. */
+/** Selects the form of poses in bch_pose_arrays. */
 enum {
   BCH_JOINTS_IN_PARENTS = 0, /**< the transforms of all joints, each in the frame of its parent */
   BCH_JOINTS_IN_WORLD = 1,   /**< the transforms of all joints to the ground: metres, z up; the root joint's point there is the origin */
@@ -430,7 +430,7 @@ BCH_API bch_status bch_dynamic_shape_set_replace(bch_dynamic_shape_set* set, uin
 BCH_API bch_status bch_dynamic_shape_set_replace_poses(bch_dynamic_shape_set* set, const bch_character* character,
                                                        const uint32_t* shapes, const bch_pose* poses, size_t count,
                                                        float threshold, const bch_work* work);
-/** Replaces many shapes by poses of one's own in the same way. */
+/** Replaces many shapes by poses given by arrays, in the same way. */
 BCH_API bch_status bch_dynamic_shape_set_replace_own_poses(bch_dynamic_shape_set* set, const bch_character* character,
                                                            const uint32_t* shapes, const bch_pose_arrays* poses,
                                                            size_t count, float threshold, const bch_work* work);
@@ -583,7 +583,7 @@ typedef struct bch_clearance_out {
 BCH_API bch_status bch_clearance(const bch_shape_set* set, const bch_agents* agents, const bch_pair* pairs,
                                  size_t count, const bch_query_options* options, const bch_clearance_out* out);
 
-/** Tells how far the first agent of a pair has to move to be free of the second, and in which direction, as a unit vector. */
+/** Tells how far the first agent of a pair has to move to separate from the second, and in which direction, a unit vector. */
 typedef struct bch_penetration_depth {
   float depth;  /**< metres */
   float unused; /**< padding */
@@ -984,7 +984,7 @@ typedef struct bch_resolve_options {
   double largest_step;            /**< metres, of an agent in a sweep */
   double largest_shift;           /**< metres, of an agent from where it was */
   const double* mobility;         /**< from 0, who stays, to 1, one per agent; NULL: 1 for all */
-  const bch_obstacles* obstacles; /**< that bodies have to be free of, too; may be NULL */
+  const bch_obstacles* obstacles; /**< that bodies must not touch, either; may be NULL */
 } bch_resolve_options;
 #define BCH_RESOLVE_OPTIONS_INIT \
   { sizeof(bch_resolve_options), 16, 100, 0.001, 0.05, HUGE_VAL, NULL, NULL }

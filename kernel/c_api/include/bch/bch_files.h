@@ -209,7 +209,7 @@ typedef struct bch_check_pair {
   int64_t frame;
   int64_t first, second; /**< ids; `second` is the number of a wall */
   float depth;           /**< how far the first has to move to be free; of spheres in a wall, how deep one is; metres */
-  float gap;             /**< how far they are apart in this frame, metres; 0 where they overlap, and where discs do but no nodes above */
+  float gap;             /**< how far they are apart in this frame, metres; 0 also where discs overlap, but not their ancestors */
   float x, y;            /**< the direction in which the first has to move */
   int32_t kind;          /**< BCH_CHECK_OVERLAP ... */
   int32_t unused;
