@@ -58,7 +58,7 @@ bool leaf_is_held(const ShapeSetView& shapes, const ShapeTree<void>& own, std::u
 void BodyQuery::prepare(std::uint32_t begin, std::uint32_t end, double limit, Look look) {
   choose(begin, end, limit, look);
   queries_.clear(), bodies_.clear();
-  const bool by_height = near_.obstacles().heights != nullptr && shapes_.heights != nullptr;
+  const bool by_height = obstacles().heights != nullptr && shapes_.heights != nullptr;
   for (std::size_t i = 0; i < chosen_count_; ++i) {
     const auto [agent, looked] = chosen_[i];
     const ObstaclePlace place{agents_.x[agent], agents_.y[agent], rotation(agents_.heading[agent])};
@@ -85,7 +85,7 @@ void BodyQuery::choose(std::uint32_t begin, std::uint32_t end, double limit, Loo
   std::size_t count = 0;
   for (std::uint32_t agent = begin; agent < end; ++agent) {
     place_[agent - begin] = count;
-    const DistanceBounds nearest = near_.obstacles().distance_grid.bounds(agents_.x[agent], agents_.y[agent]);
+    const DistanceBounds nearest = obstacles().distance_grid.bounds(agents_.x[agent], agents_.y[agent]);
     const double looked = look == Look::touching ? 0 : std::min(limit, first_look(nearest));
     const auto index = static_cast<std::uint32_t>(agents_.root(agent, shapes_.level_count));
     const Root& root = shapes_.roots[index];
@@ -97,21 +97,37 @@ void BodyQuery::choose(std::uint32_t begin, std::uint32_t end, double limit, Loo
   place_.back() = chosen_count_ = count;
 }
 
-bool BodyQuery::touches(const PlacedBody& body, std::span<const LocalSegment> segments,
-                        bool exact_leaves) const noexcept {
-  return implementation_.kernels->touches({&shapes_, body.root_index(), segments.data(),
-                                           static_cast<std::uint32_t>(segments.size()), exact_leaves});
+bool BodyQuery::touches(const PlacedBody& body, std::span<const LocalSegment> segments) const noexcept {
+  return implementation_.kernels->touches(arguments(body, segments));
+}
+
+NearestObstacle BodyQuery::nearest(std::uint32_t agent, double limit, double enough, bool inside) {
+  const PlacedBody* const body = this->body(agent);
+  NearestObstacle nearest{.gap = std::min(limit, farthest_gap), .body = body};
+  if (body == nullptr) return nearest;
+  ObstacleGap best{nearest.gap, no_disc, no_disc, no_disc, nullptr};
+  const auto look = [&](std::span<const LocalSegment> segments) {
+    best.segment = nullptr;
+    implementation_.kernels->find_gap(arguments(*body, segments), enough, best);
+    if (best.segment != nullptr)
+      nearest = {best.gap, best.point, best.disc, body, *best.segment, true, best.gap <= enough};
+  };
+  look(near_body(*body));
+  if (!nearest.is_near_enough) nearest.is_near_enough = inside && is_inside(*body);
+  if (!nearest.is_near_enough) look_outward(*body, enough, nearest, look);
+  return nearest;
 }
 
 /// Where no segment touches a node, everything below it is on the side of the border on which its centre is. Where they touch a leaf's disc and
 /// not the outline in it, the points of that tell. Where discs decide, a node above a touched leaf may be untouched: blocks do not have all
 /// nodes.
 bool BodyQuery::area_holds(const PlacedBody& body, std::span<const LocalSegment> segments,
-                           std::uint32_t obstacle, bool exact_leaves) {
+                           std::uint32_t obstacle) {
+  if (obstacles().is_area[obstacle] == 0) return false;
   const ShapeTree<void> own(shapes_, body.root_index());
   const Tree& tree = own.tree;
   AreaSide area(near_, body.place, segments, obstacle);
-  const bool has_segments = exact_leaves && tree.segments != no_segments;
+  const bool has_segments = exact_leaves_ && tree.segments != no_segments;
   const Root& root = body.root();
   if (!is_touched(segments, root.x, root.y, root.radius)) return area.holds(body.centre());
   std::uint32_t open[7 * max_wide_levels + 1], count = 0;
@@ -138,8 +154,8 @@ bool BodyQuery::outline_holds(const PlacedBody& body, std::span<const LocalSegme
   if (shapes_.shape_contours == nullptr) return false;
   const ContourRange contours = shapes_.shape_contours[body.shape];
   for (const LocalSegment& segment : segments) {
-    if (near_.obstacles().begins_path[segment.number] == 0) continue;
-    const WorldSegment& world = near_.obstacles().segments[segment.slot];
+    if (obstacles().begins_path[segment.number] == 0) continue;
+    const WorldSegment& world = obstacles().segments[segment.slot];
     const auto [x, y] = body.place.turned_back(world.ax - body.place.x, world.ay - body.place.y);
     for (std::uint32_t i = contours.begin; i < contours.end; ++i)
       if (contour_holds(shapes_.points, shapes_.contours[i], {x, y})) return true;
@@ -156,20 +172,12 @@ bool BodyQuery::has_segment_of(std::uint32_t obstacle) noexcept {
   return first != found.end() && first->obstacle == obstacle;
 }
 
-std::uint32_t BodyQuery::area_that_holds(const PlacedBody& body, bool exact_leaves) {
-  std::uint32_t area = no_obstacle;
-  near_.any_obstacle([&](std::span<const LocalSegment> segments, std::uint32_t obstacle) {
-    if (near_.obstacles().is_area[obstacle] == 0 || !area_holds(body, segments, obstacle, exact_leaves))
-      return false;
-    area = obstacle;
-    return true;
-  });
-  if (area == no_obstacle)
-    visit_areas_beyond(body, [&](std::uint32_t obstacle) {
-      area = obstacle;
-      return false;
-    });
-  return area;
+bool BodyQuery::is_inside(const PlacedBody& body) {
+  const auto holds = [&](std::span<const LocalSegment> segments, std::uint32_t obstacle) {
+    return area_holds(body, segments, obstacle);
+  };
+  return near_.any_obstacle(holds) || visit_areas_beyond(body, [](std::uint32_t) { return false; }) ||
+         outline_holds(body, near_.found());
 }
 
 }  // namespace bch::detail

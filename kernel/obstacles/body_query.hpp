@@ -3,7 +3,9 @@
 
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -37,22 +39,35 @@ struct PlacedBody {
 /// The largest gap that there can be, metres.
 constexpr double farthest_gap = 8 * rounding::largest_position;
 
+/// Holds the nearest obstacle of an agent.
+struct NearestObstacle {
+  double gap;  ///< metres; of nothing found, the limit
+  /// Name what is nearest of the agent: a segment of its outline by the point where it begins, or no_point and a disc of its cut.
+  std::uint32_t point = no_point, disc = 0;
+  const PlacedBody* body = nullptr;
+  LocalSegment segment = {};
+  bool is_found = false, is_near_enough = false;
+};
+
 /// Selects which segments are looked for at first: those that touch a body, or those that the nearest one is among.
 enum class Look { touching, nearest };
 
 /// Implements the stages that answer an agent's queries against obstacles; it keeps its memory from agent to agent.
 class BodyQuery {
  public:
-  /// With `in_space`, obstacles above and below a body are near it, too, as far away as the limit of prepare() allows.
+  /// With `exact_leaves`, outlines decide and are measured where shapes have exact leaves, else discs. With `in_space`, obstacles above and
+  /// below a body are near it, too, as far away as the limit of prepare() allows.
   BodyQuery(const Implementation& implementation, const ShapeSetView& shapes, const Agents& agents,
-            const ObstacleView& obstacles, bool in_space = false) noexcept
+            const ObstacleView& obstacles, bool exact_leaves, bool in_space = false) noexcept
       : implementation_(implementation),
         shapes_(shapes),
         agents_(agents),
         near_(implementation, obstacles),
+        exact_leaves_(exact_leaves),
         in_space_(in_space) {}
 
   NearSegments& near() noexcept { return near_; }
+  const ObstacleView& obstacles() const noexcept { return near_.obstacles(); }
 
   /// Asks for the obstacles about many agents at once, begin .. end: those that touch their outer discs, or to measure a distance those that are
   /// as near as the nearest one. near_body() then returns them. Agents from which all obstacles are farther than a limit are left out.
@@ -67,27 +82,33 @@ class BodyQuery {
     return i < bodies_.size() && place_[agent - begin_ + 1] > i ? &bodies_[i] : nullptr;
   }
 
-  /// Calls found(obstacle) for obstacles that a body collides with, each once, until it returns false.
+  /// Calls found(obstacle) for obstacles that an agent collides with, each once, until it returns false.
   template <class Found>
-  void visit_hits(const PlacedBody& body, bool exact_leaves, const Found& found) {
-    near_body(body);
+  void visit_hits(std::uint32_t agent, const Found& found) {
+    const PlacedBody* const body = this->body(agent);
+    if (body == nullptr) return;
+    near_body(*body);
     const bool stop = near_.any_obstacle([&](std::span<const LocalSegment> segments, std::uint32_t obstacle) {
       const bool hit =
-          touches(body, segments, exact_leaves) ||
-          (near_.obstacles().is_area[obstacle] != 0 && area_holds(body, segments, obstacle, exact_leaves)) ||
-          outline_holds(body, segments);
+          touches(*body, segments) || area_holds(*body, segments, obstacle) || outline_holds(*body, segments);
       return hit && !found(obstacle);
     });
-    if (!stop) visit_areas_beyond(body, found);
+    if (!stop) visit_areas_beyond(*body, found);
   }
 
-  /// Returns an area that holds a disc of a body clear of its segments, with exact leaves something of its outline, or no_obstacle.
-  /// Precondition: near() found all segments within the root's disc.
-  std::uint32_t area_that_holds(const PlacedBody& body, bool exact_leaves);
-  /// Returns whether an area, whose segments next to a body these are, holds something of it that they do not touch.
-  bool area_holds(const PlacedBody& body, std::span<const LocalSegment> segments, std::uint32_t obstacle,
-                  bool exact_leaves);
-  /// Calls found(obstacle) for the areas that hold a body and have no segment next to it, until it returns false.
+  /// Finds the least gap of an agent of at most `limit`, metres. The search ends where one is at most `enough` or, where `inside` counts, an area
+  /// holds the agent or its outline a path.
+  NearestObstacle nearest(std::uint32_t agent, double limit, double enough, bool inside);
+  bool is_within(std::uint32_t agent, double distance) {
+    return nearest(agent, distance, distance, true).is_near_enough;
+  }
+
+  /// Returns whether an area holds a disc of a body clear of its segments, with exact leaves something of its outline, or the outline of
+  /// the body a path. Precondition: near() found all segments within the root's disc.
+  bool is_inside(const PlacedBody& body);
+  /// Returns whether an obstacle, whose segments next to a body these are, is an area that holds something of it that they do not touch.
+  bool area_holds(const PlacedBody& body, std::span<const LocalSegment> segments, std::uint32_t obstacle);
+  /// Calls found(obstacle) for the areas that hold a body and have no segment next to it, until it returns false. Returns: whether it did.
   template <class Found>
   bool visit_areas_beyond(const PlacedBody& body, const Found& found) {
     if (is_too_large_for_areas(body.root())) return false;
@@ -95,8 +116,26 @@ class BodyQuery {
       if (!has_segment_of(area) && !found(area)) return true;
     return false;
   }
-  /// Returns whether the outline of a body holds where a path begins, which it does not touch.
-  bool outline_holds(const PlacedBody& body, std::span<const LocalSegment> segments) const noexcept;
+
+ protected:
+  /// Calls look(segments) farther and farther away than prepare() did, until nothing beyond can be nearer than what it found, or that is
+  /// at most `enough`. The segment that is nearest to the body's centre comes first: its gap, which is at most twice the outer radius
+  /// larger than the least one can be, leaves few others to look at. (In space it may be far above or below.)
+  template <class Nearest, class Visit>
+  void look_outward(const PlacedBody& body, double enough, const Nearest& nearest, const Visit& look) {
+    constexpr double least_step = 0.05;  // metres
+    const double outer = body.outer_radius();
+    for (double seen = body.looked; seen < nearest.gap && !(nearest.is_found && nearest.gap <= enough);) {
+      double next = nearest.gap;
+      if (!nearest.is_found) {
+        const double bound = near_.nearest_distance(body.place, body.centre()) - outer;
+        if (bound == std::numeric_limits<double>::infinity()) return;
+        next = std::min(next, std::max({bound, 2 * seen, least_step}));
+      }
+      look(near_.find(body.place, body.centre(), outer + next));
+      seen = next;
+    }
+  }
 
  private:
   Heights heights(std::uint32_t shape, double limit) const noexcept;
@@ -105,11 +144,16 @@ class BodyQuery {
     return agents_.level.empty() ? shapes_.level_count - 1 : agents_.level[agent];
   }
 
-  bool touches(const PlacedBody& body, std::span<const LocalSegment> segments,
-               bool exact_leaves) const noexcept;
+  ObstacleArguments arguments(const PlacedBody& body, std::span<const LocalSegment> segments) const noexcept {
+    return {&shapes_, body.root_index(), segments.data(), static_cast<std::uint32_t>(segments.size()),
+            exact_leaves_};
+  }
+  bool touches(const PlacedBody& body, std::span<const LocalSegment> segments) const noexcept;
+  /// Returns whether the outline of a body holds where a path begins, which it does not touch.
+  bool outline_holds(const PlacedBody& body, std::span<const LocalSegment> segments) const noexcept;
 
   bool is_too_large_for_areas(const Root& root) const noexcept {
-    return 2 * double{root.radius} > near_.obstacles().widest_area;
+    return 2 * double{root.radius} > obstacles().widest_area;
   }
   bool has_segment_of(std::uint32_t obstacle) noexcept;
 
@@ -117,7 +161,7 @@ class BodyQuery {
   const ShapeSetView& shapes_;
   const Agents& agents_;
   NearSegments near_;
-  const bool in_space_;
+  const bool exact_leaves_, in_space_;
   /// Represents an agent that was not left out, and how far it looks.
   struct Chosen {
     std::uint32_t agent;

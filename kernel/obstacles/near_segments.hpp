@@ -35,8 +35,6 @@ struct ObstaclePlace {
   }
 };
 
-constexpr std::uint32_t no_obstacle = 0xffffffff;
-
 /// Returns the vector from a point to the nearest one of a segment, in the agent's frame.
 inline ObstaclePlace::Vector to_nearest_point(const LocalSegment& segment, double x, double y) noexcept {
   const double along = segment.along(x, y), aside = -segment.across(x, y);

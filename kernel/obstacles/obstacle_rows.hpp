@@ -22,8 +22,8 @@ class ObstacleRows {
                            const Implementation* wanted);
 
  private:
-  template <class MakeQuery, class Visit>
-  Rows<std::uint32_t> find_all(std::size_t agents, const MakeQuery& make_query, const Visit& visit);
+  template <class MakeQuery>
+  Rows<std::uint32_t> find_all(std::size_t agents, const MakeQuery& make);
 
   RowBlocks<std::uint32_t> rows_;
 };

@@ -21,37 +21,40 @@ constexpr std::size_t agents_per_task = 256;
 /// a near cache.
 constexpr std::size_t agents_together = 64;
 
-/// Calls answer(agent) for agents begin .. end, for which a body's query is prepared; those who were left out have no obstacle within a limit, metres.
-template <class Answer>
-void for_prepared(BodyQuery& body, std::size_t begin, std::size_t end, double limit, Look look,
-                  Answer answer) {
+/// Calls answer(query, agent) for agents begin .. end, for which a query is prepared; those who are left out have no obstacle within a limit, metres.
+template <class Query, class Answer>
+void for_prepared(Query& query, std::size_t begin, std::size_t end, double limit, Look look,
+                  const Answer& answer) {
   for (std::size_t first = begin; first < end; first += agents_together) {
     const auto from = static_cast<std::uint32_t>(first),
                to = static_cast<std::uint32_t>(std::min(first + agents_together, end));
-    body.prepare(from, to, limit, look);
-    for (std::uint32_t agent = from; agent < to; ++agent) answer(agent);
+    query.prepare(from, to, limit, look);
+    for (std::uint32_t agent = from; agent < to; ++agent) answer(query, agent);
   }
 }
 
-/// Calls answer(body, agent) for all agents, in tasks.
-template <class Answer>
-void for_agents(const Implementation& implementation, const ShapeSet& shapes, const Agents& agents,
-                const ObstacleSet& obstacles, double limit, Look look, Answer answer) {
-  for_ranges(agents.size(), agents_per_task, [&](std::size_t begin, std::size_t end) {
-    BodyQuery body(implementation, shapes.view(), agents, obstacles.view());
-    for_prepared(body, begin, end, limit, look, [&](std::uint32_t agent) { answer(body, agent); });
+/// Calls answer(query, agent) for so many agents, in tasks, each of which makes a query.
+template <class MakeQuery, class Answer>
+void for_agents(std::size_t agents, const MakeQuery& make, double limit, Look look, const Answer& answer) {
+  for_ranges(agents, agents_per_task, [&](std::size_t begin, std::size_t end) {
+    auto query = make();
+    for_prepared(query, begin, end, limit, look, answer);
   });
 }
 
-/// Calls answer(spheres, agent) for all agents of bodies of spheres, in tasks.
-template <class Answer>
-void for_agents(const Implementation& implementation, const BodySetView& bodies, const Agents& agents,
-                const ObstacleSet& obstacles, double limit, Look look, Answer answer) {
-  for_ranges(agents.size(), agents_per_task, [&](std::size_t begin, std::size_t end) {
-    BodyQuery body(implementation, bodies.ground, agents, obstacles.view(), true);
-    SphereQuery spheres(bodies, body, agents);
-    for_prepared(body, begin, end, limit, look, [&](std::uint32_t agent) { answer(spheres, agent); });
-  });
+/// Validates the input of a query by its name. Returns: what makes a query of it; all of the input has to outlive that.
+inline auto queries_of(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
+                       const Implementation* wanted, const char* name, Leaves leaves = Leaves::discs) {
+  const bool exact = exact_leaves(shapes, leaves, name);
+  const Implementation& implementation = chosen(wanted, name);
+  validate(shapes, agents);
+  return [&, exact] { return BodyQuery(implementation, shapes.view(), agents, obstacles.view(), exact); };
+}
+inline auto queries_of(const BodySet& bodies, const Agents& agents, const ObstacleSet& obstacles,
+                       const Implementation* wanted, const char* name) {
+  const Implementation& implementation = chosen(wanted, name);
+  require_valid_agents(bodies.view().ground, agents);
+  return [&] { return SphereQuery(implementation, bodies.view(), agents, obstacles.view()); };
 }
 
 }  // namespace bch::detail

@@ -82,8 +82,7 @@ void find_time(const PlacedBody& body, const LocalSegment& segment, Vector way, 
 double impact(BodyQuery& query, const PlacedBody& body, Vector way_in_world) {
   const Vec2 centre = body.centre();
   query.near_body(body);
-  if (query.area_that_holds(body, false) != no_obstacle) return 0;
-  if (query.outline_holds(body, query.near().found())) return 0;
+  if (query.is_inside(body)) return 0;
   const Vector way = body.place.turned_back(way_in_world.x, way_in_world.y);
   double best = infinity;
   for (const LocalSegment& segment :
@@ -98,16 +97,13 @@ void penetration(const ShapeSet& shapes, const Agents& agents, const ObstacleSet
                  std::span<Penetration> out, const Implementation* wanted) {
   const FloatingPointStateGuard floats;
   check_size({"penetration", "agent", agents.size()}, out.size(), "answers");
-  const Implementation& implementation = chosen(wanted, "penetration");
-  validate(shapes, agents);
-  for_agents(implementation, shapes, agents, obstacles, 0, Look::touching,
-             [&](BodyQuery& query, std::uint32_t agent) {
-               WayOut longest;
-               if (const PlacedBody* const body = query.body(agent))
-                 longest = WaysOut(query, *body).longest();
-               const auto [depth, direction] = longest;
-               out[agent] = {depth > 0 ? rounding::round_up(depth) : 0.0f, direction.x, direction.y};
-             });
+  const auto make = queries_of(shapes, agents, obstacles, wanted, "penetration");
+  for_agents(agents.size(), make, 0, Look::touching, [&](BodyQuery& query, std::uint32_t agent) {
+    WayOut longest;
+    if (const PlacedBody* const body = query.body(agent)) longest = WaysOut(query, *body).longest();
+    const auto [depth, direction] = longest;
+    out[agent] = {depth > 0 ? rounding::round_up(depth) : 0.0f, direction.x, direction.y};
+  });
 }
 
 void time_of_impact(const ShapeSet& shapes, const Agents& agents, const Displacements& displacements,
@@ -115,19 +111,17 @@ void time_of_impact(const ShapeSet& shapes, const Agents& agents, const Displace
   const FloatingPointStateGuard floats;
   require_valid({"time_of_impact", "agent", agents.size()}, displacements, times.size());
   require_on_ground({"time_of_impact", "agent", agents.size()}, displacements);
-  const Implementation& implementation = chosen(wanted, "time_of_impact");
-  validate(shapes, agents);
+  const auto make = queries_of(shapes, agents, obstacles, wanted, "time_of_impact");
   double farthest = 0;
   for (std::size_t i = 0; i < agents.size(); ++i)
     farthest = std::max(farthest, std::abs(displacements.x[i]) + std::abs(displacements.y[i]));
-  for_agents(implementation, shapes, agents, obstacles, farthest, Look::touching,
-             [&](BodyQuery& query, std::uint32_t agent) {
-               const PlacedBody* const body = query.body(agent);
-               times[agent] = body == nullptr
-                                  ? static_cast<float>(infinity)
-                                  : rounding::round_down(impact(
-                                        query, *body, {displacements.x[agent], displacements.y[agent]}));
-             });
+  for_agents(agents.size(), make, farthest, Look::touching, [&](BodyQuery& query, std::uint32_t agent) {
+    const PlacedBody* const body = query.body(agent);
+    times[agent] =
+        body == nullptr
+            ? static_cast<float>(infinity)
+            : rounding::round_down(impact(query, *body, {displacements.x[agent], displacements.y[agent]}));
+  });
 }
 
 }  // namespace bch

@@ -35,48 +35,32 @@ bool is_clear(const NearestSegment& nearest) noexcept {
 }  // namespace
 
 double SphereQuery::rise(float bottom, float top, std::uint32_t obstacle) const noexcept {
-  const WorldHeights* const heights = query_.near().obstacles().heights;
+  const WorldHeights* const heights = obstacles().heights;
   if (heights == nullptr) return 0;
   const double below = heights[obstacle].bottom - (ground_ + double{top}),
                above = ground_ + double{bottom} - heights[obstacle].top;
   return std::max(std::max(below, above) - 0x1p-50 * std::abs(ground_), 0.0);
 }
 
-void SphereQuery::improve_by_near(SphereGap& nearest) {
-  query_.near().any_obstacle([&](std::span<const LocalSegment> segments, std::uint32_t obstacle) {
-    improve(segments, obstacle, nearest);
-    return false;
-  });
-}
-
-/// Looks farther and farther away, until nothing beyond can be nearer.
-SphereGap SphereQuery::find(std::uint32_t agent, double limit) {
+SphereGap SphereQuery::nearest(std::uint32_t agent, double limit) {
   SphereGap nearest{std::min(limit, farthest_gap)};
   if (!begin(agent)) return nearest;
-  query_.near_body(*body_);
-  improve_by_near(nearest);
-  query_.visit_areas_beyond(*body_, [&](std::uint32_t area) { return improve({}, area, nearest), true; });
-  const double outer = body_->outer_radius();
-  for (double seen = body_->looked; seen < nearest.gap;) {
-    double next = nearest.gap;
-    if (!nearest.is_found) {
-      // What is nearest as seen from above may be far above or below.
-      const double bound = query_.near().nearest_distance(body_->place, body_->centre()) - outer;
-      if (bound == std::numeric_limits<double>::infinity()) break;
-      next = std::min(next, std::max({bound, 2 * seen, 0.05}));
-    }
-    query_.near().find(body_->place, body_->centre(), outer + next);
-    improve_by_near(nearest);
-    seen = next;
-  }
+  const auto look = [&](std::span<const LocalSegment>) {
+    near().any_obstacle([&](std::span<const LocalSegment> segments, std::uint32_t obstacle) {
+      return improve(segments, obstacle, nearest), false;
+    });
+  };
+  look(near().found());
+  visit_areas_beyond(*body_, [&](std::uint32_t area) { return improve({}, area, nearest), true; });
+  look_outward(*body_, -std::numeric_limits<double>::infinity(), nearest, look);
   return nearest;
 }
 
 void SphereQuery::improve(std::span<const LocalSegment> segments, std::uint32_t obstacle,
                           SphereGap& nearest) {
   const BodyHeader& header = header_of(record_);
-  const bool is_area = query_.near().obstacles().is_area[obstacle] != 0;
-  AreaSide area(query_.near(), body_->place, segments, obstacle);
+  const bool is_area = obstacles().is_area[obstacle] != 0;
+  AreaSide area(near(), body_->place, segments, obstacle);
   // Whether the area holds a centre that is as far from its segments as that.
   const auto is_held = [&](const NearestSegment& segment, float x, float y) {
     return is_area && (segments.empty() || !is_clear(segment) || area.holds({x, y}));

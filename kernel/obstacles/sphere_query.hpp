@@ -15,7 +15,7 @@ namespace bch::detail {
 struct SphereGap {
   double gap;              ///< metres; of nothing found, the limit
   std::uint32_t slot = 0;  ///< of the sphere
-  std::uint32_t obstacle = no_obstacle;
+  std::uint32_t obstacle = 0;
   LocalSegment segment = {};
   bool is_found = false;
   bool is_inside = false;  ///< the area holds the centre, as seen from above; the segment says nothing then
@@ -28,50 +28,51 @@ struct SphereGap {
 ///
 /// in double, where slack is that of LocalSegment and 2^-50 of the ground's height. Radii have more room than the sums round, so that a
 /// gap is never larger than that of the given spheres.
-class SphereQuery {
+class SphereQuery : public BodyQuery {
  public:
-  SphereQuery(const BodySetView& bodies, BodyQuery& query, const Agents& agents) noexcept
-      : bodies_(bodies), query_(query), agents_(agents) {}
+  SphereQuery(const Implementation& implementation, const BodySetView& bodies, const Agents& agents,
+              const ObstacleView& obstacles) noexcept
+      : BodyQuery(implementation, bodies.ground, agents, obstacles, false, true),
+        bodies_(bodies),
+        agents_(agents) {}
 
   /// Calls found(obstacle) for obstacles that have a gap of at most 0 from the body of an agent that was prepared, until it returns false.
   /// Each comes once.
   template <class Found>
   void visit_hits(std::uint32_t agent, const Found& found) {
     if (!begin(agent)) return;
-    query_.near_body(*body_);
     const auto hits = [&](std::span<const LocalSegment> segments, std::uint32_t obstacle) {
       SphereGap nearest{0};
       improve(segments, obstacle, nearest);
       return nearest.is_found;
     };
     const bool stop =
-        query_.near().any_obstacle([&](std::span<const LocalSegment> segments, std::uint32_t obstacle) {
+        near().any_obstacle([&](std::span<const LocalSegment> segments, std::uint32_t obstacle) {
           return hits(segments, obstacle) && !found(obstacle);
         });
-    if (!stop)
-      query_.visit_areas_beyond(*body_, [&](std::uint32_t area) { return !hits({}, area) || found(area); });
+    if (!stop) visit_areas_beyond(*body_, [&](std::uint32_t area) { return !hits({}, area) || found(area); });
   }
 
   /// Finds the least gap of at most `limit`, metres, of an agent that was prepared.
-  SphereGap find(std::uint32_t agent, double limit);
+  SphereGap nearest(std::uint32_t agent, double limit);
+  bool is_within(std::uint32_t agent, double distance) { return nearest(agent, distance).is_found; }
 
  private:
-  /// Takes an agent. Returns: whether it was not left out.
-  bool begin(std::uint32_t agent) noexcept {
-    body_ = query_.body(agent);
+  /// Takes an agent, and the segments near it. Returns: whether it was not left out.
+  bool begin(std::uint32_t agent) {
+    body_ = body(agent);
     if (body_ == nullptr) return false;
+    near_body(*body_);
     record_ = bodies_.record(body_->shape);
     ground_ = agents_.z.empty() ? 0 : agents_.z[agent];
     return true;
   }
-  void improve_by_near(SphereGap& nearest);
   /// Takes what improves on the nearest so far. An area without segments holds all of the body, as seen from above.
   void improve(std::span<const LocalSegment> segments, std::uint32_t obstacle, SphereGap& nearest);
   /// Returns how far heights of the body are above or below an obstacle, 0 where they meet.
   double rise(float bottom, float top, std::uint32_t obstacle) const noexcept;
 
   const BodySetView& bodies_;
-  BodyQuery& query_;
   const Agents& agents_;
   const PlacedBody* body_ = nullptr;
   const float* record_ = nullptr;

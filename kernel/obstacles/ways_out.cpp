@@ -27,8 +27,7 @@ WayOut WaysOut::longest() {
     find_touched(segments);
     if (!touched_.empty())
       keep_longer(longest, is_post() ? from_post(*touched_.front()) : shortest(segments));
-    else if (query_.near().obstacles().is_area[obstacle] != 0 &&
-             query_.area_holds(body_, segments, obstacle, false))
+    else if (query_.area_holds(body_, segments, obstacle))
       areas.push_back(obstacle);
     return false;
   });
@@ -87,7 +86,7 @@ WayOut WaysOut::shortest(std::span<const LocalSegment> segments) {
   WayOut shortest{std::numeric_limits<double>::infinity(), {}};
   for (const LocalSegment& segment : segments) {
     if (!has_length(segment)) continue;
-    const int side = query_.near().obstacles().outside[segment.number];
+    const int side = query_.obstacles().outside[segment.number];
     if (!(side != 0 && has_all_behind(segment, side)) && !is_touched(segment)) continue;
     const WayOut way = over(segment, side == 0 ? beside_touched(segment) : Range{});
     if (way.depth < shortest.depth) shortest = way;
@@ -145,7 +144,7 @@ WayOut WaysOut::longest_out_of(std::span<const std::uint32_t> areas) {
 }
 
 WayOut WaysOut::over(const LocalSegment& segment, Range range) const {
-  int side = query_.near().obstacles().outside[segment.number];
+  int side = query_.obstacles().outside[segment.number];
   double depth = depth_towards(side == 0 ? 1 : side, segment, range);
   if (side == 0) {
     const double right = depth_towards(-1, segment, range);

@@ -53,7 +53,7 @@ class WaysOut {
   double depth_towards(int side, const LocalSegment& segment, Range range) const noexcept;
   double with_margin(double depth, const LocalSegment& segment) const noexcept;
   const WorldSegment& in_world(const LocalSegment& segment) const noexcept {
-    return query_.near().obstacles().segments[segment.slot];
+    return query_.obstacles().segments[segment.slot];
   }
 
   BodyQuery& query_;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
+#include "kernel/obstacles/body_query.hpp"
 #include "kernel/obstacles/distance_grid.hpp"
-#include "kernel/obstacles/gap_query.hpp"
 #include "kernel/obstacles/segment.hpp"
 #include "tests/support/obstacle_scenes.hpp"
 #include "tests/support/plane_geometry.hpp"
@@ -128,14 +128,13 @@ TEST_F(ObstacleHall, TakesNoMoreThanItsNearestSegments) {
       const Crowd crowd = test::crowd_about(random, set, 20, 20, at);
       const Agents agents = crowd.agents();
       const detail::ShapeSetView shapes_view = set.view();
-      detail::BodyQuery body(best_implementation(), shapes_view, agents, obstacles.view());
-      const detail::GapQuery query(best_implementation(), shapes_view, false);
-      body.prepare(0, 20, infinity, detail::Look::nearest);
+      detail::BodyQuery query(best_implementation(), shapes_view, agents, obstacles.view(), false);
+      query.prepare(0, 20, infinity, detail::Look::nearest);
       std::size_t looked_at = 0;
       for (std::uint32_t i = 0; i < 20; ++i) {
-        const auto nearest = query.find(body, i, infinity, 0, true);
+        const auto nearest = query.nearest(i, infinity, 0, true);
         EXPECT_EQ(nearest.is_near_enough, is_area);
-        looked_at = std::max(looked_at, body.near().found().size());
+        looked_at = std::max(looked_at, query.near().found().size());
       }
       EXPECT_LE(looked_at, segments / 50) << at;
     }
