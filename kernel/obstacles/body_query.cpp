@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "kernel/collide/containment.hpp"
-#include "kernel/obstacles/area_side.hpp"
 #include "kernel/obstacles/shape_tree.hpp"
 #include "kernel/runtime/kernels.hpp"
 #include "kernel/simd/ancestor_test.hpp"
@@ -130,10 +129,7 @@ bool BodyQuery::area_holds(const PlacedBody& body, std::span<const LocalSegment>
   const bool has_segments = exact_leaves_ && tree.segments != no_segments;
   const Root& root = body.root();
   if (!is_touched(segments, root.x, root.y, root.radius)) return area.holds(body.centre());
-  std::uint32_t open[7 * max_wide_levels + 1], count = 0;
-  open[count++] = tree.top;
-  while (count != 0) {
-    const std::uint32_t node = open[--count];
+  const auto visit = [&](std::uint32_t node, OpenBlock& block) {
     const Discs discs = TreeNodes<void>::discs(own.nodes, node, tree.stride);
     for (unsigned lane = 0; lane < block_width; ++lane) {
       const float x = discs.x[lane], y = discs.y()[lane];
@@ -141,13 +137,14 @@ bool BodyQuery::area_holds(const PlacedBody& body, std::span<const LocalSegment>
       if (!is_touched(segments, x, y, discs.radius()[lane])) {
         if (area.holds({x, y})) return true;
       } else if (node < leaf_window) {
-        open[count++] = TreeNodes<void>::child(own.nodes, node, lane);
+        block.lanes |= 1u << lane;
       } else if (leaf_is_held(shapes_, own, (node & ~leaf_window) + lane, has_segments, segments, area)) {
         return true;
       }
     }
-  }
-  return false;
+    return false;
+  };
+  return own.walk(visit, [](const OpenBlock& block) { return block.first(); });
 }
 
 bool BodyQuery::outline_holds(const PlacedBody& body, std::span<const LocalSegment> segments) const noexcept {

@@ -120,17 +120,19 @@ class BodyQuery {
  protected:
   /// Calls look(segments) farther and farther away than prepare() did, until nothing beyond can be nearer than what it found, or that is
   /// at most `enough`. The segment that is nearest to the body's centre comes first: its gap, which is at most twice the outer radius
-  /// larger than the least one can be, leaves few others to look at. (In space it may be far above or below.)
+  /// larger than the least one can be, leaves few others to look at.
   template <class Nearest, class Visit>
   void look_outward(const PlacedBody& body, double enough, const Nearest& nearest, const Visit& look) {
     constexpr double least_step = 0.05;  // metres
     const double outer = body.outer_radius();
     for (double seen = body.looked; seen < nearest.gap && !(nearest.is_found && nearest.gap <= enough);) {
       double next = nearest.gap;
-      if (!nearest.is_found) {
+      if (!nearest.is_found && 2 * seen < next) {
         const double bound = near_.nearest_distance(body.place, body.centre()) - outer;
         if (bound == std::numeric_limits<double>::infinity()) return;
-        next = std::min(next, std::max({bound, 2 * seen, least_step}));
+        // What is nearest as seen from above may be far above or below.
+        const double step = in_space_ ? std::max({bound, 2 * seen, least_step}) : bound;
+        if (step > seen) next = std::min(next, step);
       }
       look(near_.find(body.place, body.centre(), outer + next));
       seen = next;

@@ -45,8 +45,9 @@ void keep_odd(std::vector<std::uint32_t>& numbers) {
   numbers.resize(kept);
 }
 
-}  // namespace
-
+/// Returns whether the way from one point to another crosses a segment, all in one frame. A vertex on the line of the way belongs to one side of it, for both of
+/// its segments, so that the parity of a ring's crossings tells whether the way leaves what it encloses. Neither end of the way may
+/// be next to the segment. `square`: that of the way's length; infinite: a ray.
 bool crosses(Vector from, Vector way, double square, Vector a, Vector b) noexcept {
   const double ax = a.x - from.x, ay = a.y - from.y, bx = b.x - from.x, by = b.y - from.y;
   const double side_a = way.x * ay - way.y * ax, side_b = way.x * by - way.y * bx;
@@ -56,6 +57,8 @@ bool crosses(Vector from, Vector way, double square, Vector a, Vector b) noexcep
   const double along = (along_a * side_b - along_b * side_a) / (side_b - side_a);
   return along > 0 && along < square;
 }
+
+}  // namespace
 
 std::uint32_t NearSegments::descend(const BoxTreeView& tree) {
   if (tree.levels == 0) return 0;
@@ -73,29 +76,10 @@ std::uint32_t NearSegments::descend(const BoxTreeView& tree) {
   return size;
 }
 
-std::span<const std::uint32_t> NearSegments::query(const BoxTreeView& tree, const Box& box,
-                                                   std::vector<std::uint32_t>& slots) {
+std::span<const BoxHit> NearSegments::overlapping(const BoxTreeView& tree, const Box& box) {
   boxes_.assign(1, box);
   const std::uint32_t size = descend(tree);
-  slots.clear();
-  for (std::uint32_t k = 0; k < size; ++k) slots.push_back(hits_[k].place);
-  return slots;
-}
-
-LocalSegment NearSegments::placed(const ObstaclePlace& place, std::uint32_t slot) const noexcept {
-  const WorldSegment& world = obstacles_.segments[slot];
-  const double dx = world.ax - place.x, dy = world.ay - place.y;
-  const double from = dx * world.x + dy * world.y;
-  const Vector along = place.turned_back(world.x, world.y);
-  return {along.x,
-          along.y,
-          dy * world.x - dx * world.y,
-          from,
-          from + world.length,
-          slack_share * (std::abs(dx) + std::abs(dy) + world.length),
-          slot,
-          world.number,
-          world.obstacle};
+  return std::span(hits_).first(size);
 }
 
 double NearSegments::limit_of(const ObstaclePlace& place, double distance) noexcept {
@@ -126,11 +110,10 @@ std::span<LocalSegment> NearSegments::find(const ObstaclePlace& place, Vec2 cent
 std::span<LocalSegment> NearSegments::find_on_way(const ObstaclePlace& place, Vec2 centre, double distance,
                                                   Vector way) {
   memory_.clear();
-  boxes_.assign(1, box_about(place, in_world(place, centre), distance, way));
-  const std::uint32_t size = descend(obstacles_.segment_tree);
   const bool moves = way.x != 0 || way.y != 0;
-  for (std::uint32_t k = 0; k < size; ++k) {
-    const LocalSegment segment = placed(place, hits_[k].place);
+  const Box box = box_about(place, in_world(place, centre), distance, way);
+  for (const BoxHit& hit : overlapping(obstacles_.segment_tree, box)) {
+    const LocalSegment& segment = put(place, hit.place, visited_);
     if (is_level(segment.obstacle, body_) &&
         (moves || segment.touches(double{centre.x}, double{centre.y}, distance)))
       memory_.push_back(segment);
@@ -147,15 +130,16 @@ void NearSegments::prepare(std::span<const NearQuery> queries) {
   if (prepared_.size() <= size) prepared_.resize(std::size_t{size} + 1);
   prepared_end_.assign(queries.size() + 1, 0);
   std::uint32_t count = 0;
-  for (std::uint32_t i = 0, k = 0; i < queries.size(); ++i) {
-    const auto& [place, centre, distance, body] = queries[i];
-    for (; k < size && hits_[k].query == i; ++k) {
-      const LocalSegment& segment = prepared_[count] = placed(place, hits_[k].place);
-      count +=
-          segment.touches(double{centre.x}, double{centre.y}, distance) & is_level(segment.obstacle, body);
-    }
-    prepared_end_[i + 1] = count;
+  for (std::uint32_t k = 0; k < size; ++k) {
+    const auto& [place, centre, distance, body] = queries[hits_[k].query];
+    const LocalSegment& segment = put(place, hits_[k].place, prepared_[count]);
+    const bool is_near = segment.touches(double{centre.x}, double{centre.y}, distance);
+    count += is_near & is_level(segment.obstacle, body);
+    prepared_end_[hits_[k].query + 1] = count;
   }
+  // Those of which no box was found end where the ones before do.
+  for (std::size_t i = 0; i < queries.size(); ++i)
+    prepared_end_[i + 1] = std::max(prepared_end_[i], prepared_end_[i + 1]);
 }
 
 std::span<LocalSegment> NearSegments::take(std::size_t query) {
@@ -179,15 +163,15 @@ std::span<const std::uint32_t> NearSegments::areas_that_hold(const ObstaclePlace
   areas_.clear(), about_.clear();
   const double wide = rounding_of(place), x = place.x + from.x, y = place.y + from.y;
   Box ray{x - wide, y - wide, x + wide, y + wide};
-  for (const std::uint32_t slot : query(obstacles_.area_tree, ray, slots_)) {
+  for (const auto [query, slot] : overlapping(obstacles_.area_tree, ray)) {
     if (!is_level(obstacles_.areas[slot], body_)) continue;
     about_.push_back(obstacles_.areas[slot]);
     ray.high_x = std::max(ray.high_x, obstacles_.area_boxes[slot].high_x);
   }
   if (about_.empty()) return areas_;
   std::sort(about_.begin(), about_.end());
-  for (const std::uint32_t slot : query(obstacles_.segment_tree, ray, slots_)) {
-    const WorldSegment& segment = obstacles_.segments[slot];
+  for (const BoxHit& hit : overlapping(obstacles_.segment_tree, ray)) {
+    const WorldSegment& segment = obstacles_.segments[hit.place];
     if (std::binary_search(about_.begin(), about_.end(), segment.obstacle) &&
         crosses(from, {1, 0}, std::numeric_limits<double>::infinity(),
                 {segment.ax - place.x, segment.ay - place.y}, {segment.bx - place.x, segment.by - place.y}))
@@ -195,6 +179,24 @@ std::span<const std::uint32_t> NearSegments::areas_that_hold(const ObstaclePlace
   }
   keep_odd(areas_);
   return areas_;
+}
+
+bool AreaSide::holds(Vec2 point) {
+  const Vector at = place_.turned(double{point.x}, double{point.y});
+  if (!is_known_) {
+    const auto areas = near_.areas_that_hold(place_, point);
+    is_known_ = true, first_ = at;
+    return first_is_held_ = std::binary_search(areas.begin(), areas.end(), obstacle_);
+  }
+  const Vector way{at.x - first_.x, at.y - first_.y};
+  const double square = way.x * way.x + way.y * way.y;
+  bool is_held = first_is_held_;
+  for (const LocalSegment& segment : segments_) {
+    const WorldSegment& world = near_.obstacles().segments[segment.slot];
+    is_held ^= crosses(first_, way, square, {world.ax - place_.x, world.ay - place_.y},
+                       {world.bx - place_.x, world.by - place_.y});
+  }
+  return is_held;
 }
 
 }  // namespace bch::detail

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -86,7 +87,7 @@ class NearSegments {
   void visit_near(const ObstaclePlace& place, Vec2 point, const double& limit, const Take& take) {
     const auto [x, y] = in_world(place, point);
     nearest_boxes_.visit(obstacles_.segment_tree, x, y, limit, [&](std::uint32_t slot) {
-      if (is_level(obstacles_.segments[slot].obstacle, body_)) take(placed(place, slot));
+      if (is_level(obstacles_.segments[slot].obstacle, body_)) take(put(place, slot, visited_));
     });
   }
   static double limit_of(const ObstaclePlace& place, double distance) noexcept;
@@ -109,9 +110,8 @@ class NearSegments {
  private:
   /// Finds the boxes of a tree that overlap `boxes_`, level by level. Returns: how many of hits_ these are, query after query.
   std::uint32_t descend(const BoxTreeView& tree);
-  /// Finds those that overlap one box.
-  std::span<const std::uint32_t> query(const BoxTreeView& tree, const Box& box,
-                                       std::vector<std::uint32_t>& slots);
+  /// Finds those that overlap one box. Valid until the next call.
+  std::span<const BoxHit> overlapping(const BoxTreeView& tree, const Box& box);
   static ObstaclePlace::Vector in_world(const ObstaclePlace& place, Vec2 point) noexcept {
     const auto [x, y] = place.turned(double{point.x}, double{point.y});
     return {place.x + x, place.y + y};
@@ -122,8 +122,24 @@ class NearSegments {
     const auto [bottom, top] = obstacles_.heights[obstacle];
     return heights_meet(bottom, top, body.heights, body.ground);
   }
-  /// Returns the segment in a slot, in the frame of an agent.
-  LocalSegment placed(const ObstaclePlace& place, std::uint32_t slot) const noexcept;
+  /// Places the segment in a slot in the frame of an agent. (A copy of what was just written would wait for it.)
+  [[gnu::always_inline]] const LocalSegment& put(const ObstaclePlace& place, std::uint32_t slot,
+                                                 LocalSegment& to) const noexcept {
+    const WorldSegment& world = obstacles_.segments[slot];
+    const double dx = world.ax - place.x, dy = world.ay - place.y;
+    const double from = dx * world.x + dy * world.y;
+    const ObstaclePlace::Vector along = place.turned_back(world.x, world.y);
+    to = {along.x,
+          along.y,
+          dy * world.x - dx * world.y,
+          from,
+          from + world.length,
+          slack_share * (std::abs(dx) + std::abs(dy) + world.length),
+          slot,
+          world.number,
+          world.obstacle};
+    return to;
+  }
   /// Sorts the segments that were found by their numbers.
   std::span<LocalSegment> sorted(std::span<LocalSegment> segments);
 
@@ -135,22 +151,36 @@ class NearSegments {
 
   const Implementation& implementation_;
   const ObstacleView& obstacles_;
-  std::vector<std::uint32_t> slots_, about_, areas_;
+  std::vector<std::uint32_t> about_, areas_;
   std::optional<QueryName> asked_;  ///< what areas_ hold
   std::vector<Box> boxes_;
   std::vector<BoxHit> hits_, next_;
   NearestBoxes nearest_boxes_;
   std::vector<LocalSegment> memory_, prepared_;  ///< of find() and of prepare()
+  LocalSegment visited_;                         ///< by visit_near()
   std::vector<std::uint32_t> prepared_end_;      ///< where those of the queries before one end
   std::span<LocalSegment> found_;
   std::span<const NearQuery> queries_;  ///< of prepare()
   StandingBody body_;                   ///< that of the query that was taken
 };
 
-/// Returns whether the way from one point to another crosses a segment, all in one frame. A vertex on the line of the way belongs to one side of it, for both of
-/// its segments, so that the parity of a ring's crossings tells whether the way leaves what it encloses. Neither end of the way may
-/// be next to the segment. `square`: that of the way's length; infinite: a ray.
-bool crosses(ObstaclePlace::Vector from, ObstaclePlace::Vector way, double square, ObstaclePlace::Vector a,
-             ObstaclePlace::Vector b) noexcept;
+/// Tells whether an area holds points that are clear of its segments. The first one is compared with the whole area, and
+/// others by the way from there.
+class AreaSide {
+ public:
+  AreaSide(NearSegments& near, const ObstaclePlace& place, std::span<const LocalSegment> segments,
+           std::uint32_t obstacle) noexcept
+      : near_(near), place_(place), segments_(segments), obstacle_(obstacle) {}
+
+  bool holds(Vec2 point);
+
+ private:
+  NearSegments& near_;
+  const ObstaclePlace& place_;
+  std::span<const LocalSegment> segments_;
+  std::uint32_t obstacle_;
+  bool is_known_ = false, first_is_held_ = false;
+  ObstaclePlace::Vector first_{};
+};
 
 }  // namespace bch::detail

@@ -44,23 +44,17 @@ class ObstacleKernel {
 
   bool meets_any() noexcept {
     if (in_.shapes->inscribed != nullptr && any_goes_in()) return true;
-    std::uint32_t open = 0;
-    nodes_open_[open++] = tree_.top;
-    while (open != 0) {
-      const std::uint32_t node = nodes_open_[--open];
-      const Discs discs = TreeNodes<Simd>::discs(nodes_, node, tree_.stride);
-      for (std::uint32_t hits = touching(discs); hits != 0; hits &= hits - 1) {
-        const auto lane = static_cast<unsigned>(__builtin_ctz(hits));
-        if (node < leaf_window) {
-          nodes_open_[open++] = TreeNodes<Simd>::child(nodes_, node, lane);
-        } else {
-          const std::uint32_t disc = (node & ~leaf_window) + lane;
-          const Meeting meeting = exact_ ? outline_meets(disc) : Meeting::near;
-          if (meeting == Meeting::sure || (meeting == Meeting::near && ancestors_touch(disc))) return true;
-        }
+    const auto visit = [&](std::uint32_t node, OpenBlock& block) {
+      block.lanes = touching(TreeNodes<Simd>::discs(nodes_, node, tree_.stride));
+      if (node < leaf_window) return false;
+      for (; block.lanes != 0; block.lanes &= block.lanes - 1) {
+        const std::uint32_t disc = (node & ~leaf_window) + block.first();
+        const Meeting meeting = exact_ ? outline_meets(disc) : Meeting::near;
+        if (meeting == Meeting::sure || (meeting == Meeting::near && ancestors_touch(disc))) return true;
       }
-    }
-    return false;
+      return false;
+    };
+    return own_.walk(visit, [](const OpenBlock& block) { return block.first(); });
   }
 
   void search_all(double enough, ObstacleGap& best) noexcept {
@@ -80,8 +74,6 @@ class ObstacleKernel {
   static_assert(rounding::query_margin >=
                 rounding::segment_margin +
                     (rounding::terms::halving + 2 * rounding::terms::higher) * rounding::unit_roundoff);
-  /// The most nodes that wait: a step leaves at most seven siblings behind.
-  static constexpr std::uint32_t max_open = 7 * max_wide_levels + 1;
 
   static Double square_distance(const LocalSegment& segment, Double x, Double y) noexcept {
     const Double along = segment.along(x, y), across = segment.across(x, y);
@@ -164,12 +156,6 @@ class ObstacleKernel {
     return most;
   }
 
-  /// Holds a block, and the bounds of what is below its nodes.
-  struct Frame {
-    alignas(64) double bound[block_width];
-    std::uint32_t node, open;
-  };
-
   static bool is_enough(double enough, const ObstacleGap& best) noexcept {
     return best.segment != nullptr && best.gap <= enough;
   }
@@ -192,36 +178,22 @@ class ObstacleKernel {
     double limit = limit_of(segment, best);
     const double reach = double{tree_.outer} + limit;
     if (reach < 0 || square_from_root(segment) > reach * reach) return;
-    Frame* top = frames_;
-    std::uint32_t node = tree_.top;
-    for (;;) {
-      if (node >= leaf_window) {
-        if (take(segment, node, limit, best)) limit = limit_of(segment, best);
-        if (is_enough(enough, best)) return;
-      } else {
-        top += bound(segment, node, limit, *top);
-      }
-      for (;; --top) {
-        if (top == frames_) return;
-        Frame& frame = top[-1];
-        const unsigned lane = least(frame);
-        if (frame.open == 0 || frame.bound[lane] > limit) continue;
-        frame.open &= ~(1u << lane);
-        node = TreeNodes<Simd>::child(nodes_, frame.node, lane);
-        break;
-      }
-    }
+    const auto visit = [&](std::uint32_t node, OpenBlock& block) {
+      if (node < leaf_window) return open(segment, limit, block), false;
+      if (take(segment, node, limit, best)) limit = limit_of(segment, best);
+      return is_enough(enough, best);
+    };
+    own_.walk(visit, [&](const OpenBlock& block) { return least(block, limit); });
   }
 
-  /// Bounds what is below the nodes of a block. Returns: whether any may be within the limit; mostly none is, which squares tell sooner.
-  bool bound(const LocalSegment& segment, std::uint32_t node, double limit, Frame& frame) const noexcept {
-    const Discs discs = TreeNodes<Simd>::outer_discs(nodes_, node, tree_.stride);
+  /// Opens what may be within the limit below the nodes of a block, and bounds it; mostly there is nothing, which squares tell sooner.
+  void open(const LocalSegment& segment, double limit, OpenBlock& block) const noexcept {
+    const Discs discs = TreeNodes<Simd>::outer_discs(nodes_, block.node, tree_.stride);
     alignas(64) double square[block_width];
-    frame.node = node, frame.open = near(segment, discs, limit, square);
-    if (frame.open == 0) return false;
+    block.lanes = near(segment, discs, limit, square);
+    if (block.lanes == 0) return;
     for (unsigned k = 0; k < block_width; k += Simd::doubles)
-      Simd::store(frame.bound + k, gaps(segment, discs, k, square));
-    return true;
+      Simd::store(block.bound + k, gaps(segment, discs, k, square));
   }
 
   /// Returns which discs may have a gap of at most a limit from the segment, and the squares of their centres' distances; no padding.
@@ -240,15 +212,15 @@ class ObstacleKernel {
     return xsimd::sqrt(Simd::load(square + k)) - (Simd::wide(discs.radius() + k) + Double(segment.slack));
   }
 
-  /// Returns the open lane with the least bound.
-  static unsigned least(const Frame& frame) noexcept {
-    std::uint32_t left = frame.open;
-    unsigned found = 0;
-    for (double bound = __builtin_inf(); left != 0; left &= left - 1) {
+  /// Returns the open lane with the least bound, if that is within a limit.
+  static unsigned least(const OpenBlock& block, double limit) noexcept {
+    unsigned found = block_width;
+    double bound = __builtin_inf();
+    for (std::uint32_t left = block.lanes; left != 0; left &= left - 1) {
       const auto lane = static_cast<unsigned>(__builtin_ctz(left));
-      if (frame.bound[lane] < bound) bound = frame.bound[lane], found = lane;
+      if (block.bound[lane] < bound) bound = block.bound[lane], found = lane;
     }
-    return found;
+    return bound > limit ? block_width : found;
   }
 
   /// Takes what improves on the best from a leaf window. Returns: whether anything does.
@@ -293,8 +265,6 @@ class ObstacleKernel {
   const float* const nodes_;
   const Tree& tree_;
   const bool exact_;  ///< segments of the outline decide where leaves have them
-  std::uint32_t nodes_open_[max_open];
-  Frame frames_[max_wide_levels];
 };
 
 }  // namespace bch::detail

@@ -62,20 +62,19 @@ bool passes(const LocalSegment& segment, const Disc& disc, Vector way, double ti
 /// Finds when a body touches a segment, if that is before `best`.
 void find_time(const PlacedBody& body, const LocalSegment& segment, Vector way, double& best) {
   const ShapeTree<void> own(body.shapes, body.root_index());
-  std::uint32_t open[7 * max_wide_levels + 1], count = 0;
-  open[count++] = own.tree.top;
-  while (count != 0 && best > 0) {
-    const std::uint32_t node = open[--count];
+  const auto visit = [&](std::uint32_t node, OpenBlock& block) {
     const Discs discs = TreeNodes<void>::outer_discs(own.nodes, node, own.tree.stride);
     for (unsigned lane = 0; lane < block_width; ++lane) {
       const Disc disc{discs.x[lane], discs.y()[lane], discs.radius()[lane]};
       if (!(disc.x < __builtin_inff()) || passes(segment, disc, way, std::min(best, 1.0))) continue;
       if (node < leaf_window)
-        open[count++] = TreeNodes<void>::child(own.nodes, node, lane);
+        block.lanes |= 1u << lane;
       else
         best = std::min(best, touch_time(segment, disc, way));
     }
-  }
+    return best <= 0;
+  };
+  if (best > 0) own.walk(visit, [](const OpenBlock& block) { return block.first(); });
 }
 
 /// Returns when a body on its way touches an obstacle, or infinity.

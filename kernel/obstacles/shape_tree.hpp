@@ -5,9 +5,21 @@
 
 #include <cstdint>
 
+#include "kernel/simd/tree_nodes.hpp"
 #include "layout/format/shape_set_view.hpp"
 
 namespace bch::detail {
+
+/// Holds a block on the way from the top of a tree to where a walk is: the lanes below which the walk has not been yet, and bounds of what is there.
+struct OpenBlock {
+  alignas(64) double bound[block_width];
+  std::uint32_t node, lanes;
+
+  /// Returns some open lane, or block_width. (Inlined for certain, so that instruction sets share no function.)
+  [[gnu::always_inline]] unsigned first() const noexcept {
+    return lanes == 0 ? block_width : static_cast<unsigned>(__builtin_ctz(lanes));
+  }
+};
 
 /// Holds the tree of a shape's level, also of a set of single discs, which stores none: a window of the one disc then stands for it.
 /// (`Simd` keeps instruction sets from sharing a function.)
@@ -28,6 +40,28 @@ struct ShapeTree {
     nodes = window_, tree = {leaf_window, 0, block_width, 1, only.radius};
   }
   ShapeTree(const ShapeTree&) = delete;
+
+  /// Walks from the top down, until visit(node, block) returns true. visit() opens the lanes of a block below which the walk has to go,
+  /// and next(block) returns the one of them that comes next, or block_width. Returns: whether visit() ended the walk.
+  template <class Visit, class Next>
+  bool walk(const Visit& visit, const Next& next) const {
+    OpenBlock open[max_wide_levels + 1];  // a window beyond them opens none
+    OpenBlock* top = open;
+    std::uint32_t node = tree.top;
+    for (;;) {
+      top->node = node, top->lanes = 0;
+      if (visit(node, *top)) return true;
+      top += top->lanes != 0;
+      unsigned lane = block_width;
+      for (; top != open; --top) {
+        lane = next(top[-1]);
+        if (lane != block_width) break;
+      }
+      if (top == open) return false;
+      top[-1].lanes &= ~(1u << lane);
+      node = TreeNodes<Simd>::child(nodes, top[-1].node, lane);
+    }
+  }
 
  private:
   float window_[3 * block_width];

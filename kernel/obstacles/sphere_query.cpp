@@ -7,8 +7,6 @@
 #include <cmath>
 #include <limits>
 
-#include "kernel/obstacles/area_side.hpp"
-
 namespace bch::detail {
 namespace {
 
