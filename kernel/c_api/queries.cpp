@@ -63,6 +63,16 @@ bch_status bch_penetration(const bch_shape_set* set, const bch_agents* agents, c
   });
 }
 
+bch_status bch_nearest_free(const bch_shape_set* set, const bch_agents* agents, const bch_pair* pairs,
+                            size_t count, uint32_t directions, const bch_query_options* options,
+                            bch_penetration_depth* depths) {
+  return guarded([&] {
+    const PairCall call(set, agents, pairs, count, options);
+    const auto to = penetrations(depths, count);
+    call.run([&] { nearest_free(call.shapes, call.agents, call.pairs, directions, to, call.options); });
+  });
+}
+
 bch_status bch_penetration_along(const bch_shape_set* set, const bch_agents* agents, const bch_pair* pairs,
                                  size_t count, const bch_vec2* directions, const bch_query_options* options,
                                  bch_penetration_depth* depths) {

@@ -133,7 +133,7 @@ class Sweeps {
     if (sweep % sweeps_to_disentangle == 0 && sweep > 0)
       measure(CrowdMemory::by_penetration);
     else
-      measure(nearest_free);
+      measure([](auto&&... of) { nearest_free(of...); });
     for (std::size_t i = 0; i < memory_.pairs.size(); ++i) {
       const auto [first, second] = memory_.pairs[i];
       const auto [depth, x, y] = memory_.penetrations[i];

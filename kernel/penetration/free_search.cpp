@@ -4,86 +4,131 @@
 #include "kernel/penetration/free_search.hpp"
 
 #include <algorithm>
-
-#include "layout/simd/lanes.hpp"
+#include <type_traits>
 
 namespace bch::detail {
 namespace {
 
-using Simd = BaseLanes;
-using Float = Simd::Float;
-static_assert(Simd::width == 4, "leaves have whole registers");
-
-/// Holds spheres side by side, as FreeSearch has them.
-struct Spheres {
-  Float along, across, z, radius;
-};
-
-template <class Rounds>
-Spheres load(const Rounds& from, std::uint32_t i) noexcept {
-  return {Simd::load(&from.along[i]), Simd::load(&from.across[i]), Simd::load(&from.z[i]),
-          Simd::load(&from.radius[i])};
-}
-
-/// Holds the places at which spheres overlap, in the lanes where they do so anywhere.
-struct Intervals {
-  Float low, high;
-  Simd::Mask are_some;
-
-  Intervals(const Spheres& a, const Spheres& b) noexcept : are_some(false) {
-    const Float m = b.along - a.along, w = b.across - a.across, z = b.z - a.z, radius = a.radius + b.radius;
-    const Float left = radius * radius - (w * w + z * z);
-    const Float s = xsimd::sqrt(xsimd::max(left, Float(0.0f)));
-    low = m - s, high = m + s, are_some = left > Float(0.0f);
-  }
-  Simd::Mask holding(Float place) const noexcept { return are_some & (low < place) & (place < high); }
-};
+using Float = FreeIntervals::Float;
+static_assert(FreeIntervals::Simd::width == 4, "leaves have whole registers");
 
 float largest(Float values) noexcept {
-  return -Simd::least(-values);
+  return -FreeIntervals::Simd::least(-values);
+}
+
+Float clamped(Float value, Float limit) noexcept {
+  return xsimd::min(xsimd::max(value, -limit), limit);
+}
+
+/// Widens an interval by the part of a side of a parallelogram that lies in the strip. The middle of the side is at (m, w).
+[[gnu::always_inline]] inline void add_side(FreeIntervals& to, const FreeLanes& side, Float m, Float w,
+                                            Float margin) noexcept {
+  using Simd = FreeIntervals::Simd;
+  const Float first_w = w - side.half_across, last_w = w + side.half_across;
+  const Float first = m - side.half_along + (clamped(first_w, margin) - first_w) * side.slope,
+              last = m + side.half_along + (clamped(last_w, margin) - last_w) * side.slope;
+  const auto inside = (xsimd::min(first_w, last_w) <= margin) & (-margin <= xsimd::max(first_w, last_w));
+  to.low = Simd::select(inside, xsimd::min(to.low, xsimd::min(first, last)), to.low);
+  to.high = Simd::select(inside, xsimd::max(to.high, xsimd::max(first, last)), to.high);
 }
 
 }  // namespace
 
-template <std::uint32_t most>
-void FreeSearch::Rounds<most>::turn(float to_x, float to_y, std::uint32_t count) {
+FreeSpheres::FreeSpheres(const FreeLanes& a, const FreeLanes& b, float) noexcept {
+  const Float m = b.along - a.along, w = b.across - a.across, z = b.z - a.z, radius = a.radius + b.radius;
+  const Float left = radius * radius - (w * w + z * z);
+  const Float s = xsimd::sqrt(xsimd::max(left, Float(0.0f)));
+  low = m - s, high = m + s, are_some = left > Float(0.0f);
+}
+
+FreeSegments::FreeSegments(const FreeLanes& a, const FreeLanes& b, float by) noexcept {
+  const Float m = b.along - a.along, w = b.across - a.across, margin(by);
+  low = Float(__builtin_inff()), high = Float(-__builtin_inff()), are_some = Simd::Mask(true);
+  add_side(*this, a, m - b.half_along, w - b.half_across, margin);
+  add_side(*this, a, m + b.half_along, w + b.half_across, margin);
+  add_side(*this, b, m - a.half_along, w - a.half_across, margin);
+  add_side(*this, b, m + a.half_along, w + a.half_across, margin);
+  low = low - margin, high = high + margin;
+}
+
+template <class Intervals>
+void FreeSearch<Intervals>::Rounds::resize(std::size_t count) {
+  for (std::vector<float>* each :
+       {&x, &y, &z, &radius, &half_x, &half_y, &along, &across, &half_along, &half_across, &slope})
+    each->resize(count + padding);
+}
+
+template <class Intervals>
+void FreeSearch<Intervals>::Rounds::set(std::size_t at, const FreeElement& element) {
+  x[at] = element.x, y[at] = element.y, z[at] = element.z, radius[at] = element.radius;
+  half_x[at] = element.half_x, half_y[at] = element.half_y;
+}
+
+template <class Intervals>
+void FreeSearch<Intervals>::Rounds::turn(float to_x, float to_y, std::uint32_t count, float margin) {
   const Float ex(to_x), ey(to_y);
   for (std::uint32_t i = 0; i < count; i += Simd::width) {
     const Float at_x = Simd::load(&x[i]), at_y = Simd::load(&y[i]);
     Simd::store(&along[i], at_x * ex + at_y * ey);
     Simd::store(&across[i], at_x * ey - at_y * ex);
+    if constexpr (std::is_same_v<Intervals, FreeSegments>) {
+      const Float to_end_x = Simd::load(&half_x[i]), to_end_y = Simd::load(&half_y[i]);
+      const Float a = to_end_x * ex + to_end_y * ey, w = to_end_x * ey - to_end_y * ex;
+      Simd::store(&half_along[i], a);
+      Simd::store(&half_across[i], w);
+      Simd::store(&slope[i], Simd::select(xsimd::abs(w) > Float(margin), a / w, Float(0.0f)));
+    }
   }
 }
 
-template <class Placed>
-void FreeSearch::Body::take(const float* record, const Placed& placed, float grown) {
-  leaves = header_of(record).leaf_count, leaf_size = header_of(record).leaf_size;
-  for (std::uint32_t i = 0; i <= leaves; ++i) {
-    const Cylinder node = placed(i < leaves ? node_of(record, i) : whole_of(record));
-    nodes.x[i] = static_cast<float>(node.x), nodes.y[i] = static_cast<float>(node.y);
-    nodes.radius[i] = static_cast<float>(node.radius);
-    nodes.z[i] = static_cast<float>(node.bottom), top[i] = static_cast<float>(node.top);
+template <class Intervals>
+FreeLanes FreeSearch<Intervals>::Rounds::load(std::uint32_t i) const noexcept {
+  return {Simd::load(&along[i]),  Simd::load(&across[i]),     Simd::load(&z[i]),
+          Simd::load(&radius[i]), Simd::load(&half_along[i]), Simd::load(&half_across[i]),
+          Simd::load(&slope[i])};
+}
+
+template <class Intervals>
+FreeLanes FreeSearch<Intervals>::Rounds::one(std::uint32_t i) const noexcept {
+  return {Float(along[i]),      Float(across[i]),      Float(z[i]),    Float(radius[i]),
+          Float(half_along[i]), Float(half_across[i]), Float(slope[i])};
+}
+
+template <class Intervals>
+void FreeSearch<Intervals>::Body::take(const FreeBody& body, float grown) {
+  leaf_size = body.leaf_size, leaves = static_cast<std::uint32_t>(body.elements.size()) / leaf_size;
+  elements.resize(body.elements.size()), nodes.resize(body.nodes.size()),
+      top.resize(body.nodes.size() + padding);
+  for (std::size_t i = 0; i < body.elements.size(); ++i) {
+    elements.set(i, body.elements[i]);
+    elements.radius[i] += grown;
   }
-  for (std::uint32_t slot = 0; slot < first(leaves); ++slot) {
-    const Sphere sphere = placed(sphere_of(record, slot));
-    spheres.x[slot] = sphere.x, spheres.y[slot] = sphere.y, spheres.z[slot] = sphere.z;
-    spheres.radius[slot] = sphere.radius + grown;
+  for (std::size_t i = 0; i < body.nodes.size(); ++i) {
+    const Cylinder& node = body.nodes[i];
+    nodes.set(i, {static_cast<float>(node.x), static_cast<float>(node.y), static_cast<float>(node.bottom),
+                  static_cast<float>(node.radius)});
+    top[i] = static_cast<float>(node.top);
   }
 }
 
-void FreeSearch::Body::turn(float x, float y) {
-  nodes.turn(x, y, leaves + 1);
-  spheres.turn(x, y, first(leaves));
+template <class Intervals>
+void FreeSearch<Intervals>::Body::turn(float x, float y, float margin) {
+  nodes.turn(x, y, leaves + 1, margin);
+  elements.turn(x, y, first(leaves), margin);
 }
 
-void FreeSearch::begin(const float* a, const float* b, const SpaceFrame& frame) {
-  const double reaches = double{header_of(a).reach} + double{header_of(b).reach};
-  // Nodes in float, their products, and what spheres grow by.
-  node_slack_ = rounding::round_up((rounding::bound_margin + 2 * slack) * reaches);
-  const auto unmoved = [](const auto& of_a) { return of_a; };
-  const auto placed = [&](const auto& of_b) { return frame.placed(of_b); };
-  a_.take(a, unmoved, rounding::round_up(slack * reaches));
-  b_.take(b, placed, 0);
+template <class Intervals>
+void FreeSearch<Intervals>::begin(const FreeBody& a, const FreeBody& b, float margin, float slack) {
+  margin_ = margin, node_slack_ = slack;
+  a_.take(a, margin);
+  b_.take(b, 0);
+  leaves_a_.resize(a_.leaves + padding), leaves_b_.resize(b_.leaves + padding);
+  slots_.resize(b_.leaf_size + padding);
+}
+
+template <class Intervals>
+void FreeSearch<Intervals>::sample() {
+  sample_a_.resize(max_samples), sample_b_.resize(max_samples);
   turn(1, 0);
   overlapping_.clear();
   visit(0, [&](std::uint32_t leaf_a, std::uint32_t leaf_b) { overlapping_.push_back({leaf_a, leaf_b}); });
@@ -93,13 +138,15 @@ void FreeSearch::begin(const float* a, const float* b, const SpaceFrame& frame) 
     keep_sample(overlapping_[i].of_a, overlapping_[i].of_b);
 }
 
-void FreeSearch::turn(float x, float y) {
-  a_.turn(x, y);
-  b_.turn(x, y);
+template <class Intervals>
+void FreeSearch<Intervals>::turn(float x, float y) {
+  a_.turn(x, y, margin_);
+  b_.turn(x, y, margin_);
 }
 
-std::uint32_t FreeSearch::list(const Body& of, const Body& other, std::uint32_t node, float moved,
-                               std::uint16_t* leaves) const {
+template <class Intervals>
+std::uint32_t FreeSearch<Intervals>::list(const Body& of, const Body& other, std::uint32_t node, float moved,
+                                          std::uint16_t* leaves) const {
   const Float along(other.nodes.along[node] + moved), across(other.nodes.across[node]),
       radius(other.nodes.radius[node] + node_slack_), bottom(other.nodes.z[node] - node_slack_),
       top(other.top[node] + node_slack_);
@@ -115,8 +162,9 @@ std::uint32_t FreeSearch::list(const Body& of, const Body& other, std::uint32_t 
   return count;
 }
 
+template <class Intervals>
 template <class Use>
-void FreeSearch::visit(float moved, const Use& use) {
+void FreeSearch<Intervals>::visit(float moved, const Use& use) {
   const std::uint32_t rows = list(a_, b_, b_.leaves, -moved, leaves_a_.data());
   for (std::uint32_t i = 0; i < rows; ++i) {
     const std::uint32_t columns = list(b_, a_, leaves_a_[i], moved, leaves_b_.data());
@@ -124,26 +172,28 @@ void FreeSearch::visit(float moved, const Use& use) {
   }
 }
 
+template <class Intervals>
 template <class Use>
-void FreeSearch::visit_spheres(std::uint32_t leaf_a, std::uint32_t leaf_b, float moved,
-                               const Use& use) const {
+void FreeSearch<Intervals>::visit_elements(std::uint32_t leaf_a, std::uint32_t leaf_b, float moved,
+                                           const Use& use) {
   const Float along(a_.nodes.along[leaf_a] + moved), across(a_.nodes.across[leaf_a]),
       radius(a_.nodes.radius[leaf_a] + node_slack_);
-  std::array<std::uint16_t, 8 + Simd::width> slots;
+  const std::uint32_t first = b_.first(leaf_b);
   std::uint32_t count = 0;
-  for (std::uint32_t j = b_.first(leaf_b); j < b_.first(leaf_b + 1); j += Simd::width) {
-    const Spheres b = load(b_.spheres, j);
+  for (std::uint32_t j = 0; j < b_.leaf_size; j += Simd::width) {
+    const FreeLanes b = b_.elements.load(first + j);
     const Float m = b.along - along, w = b.across - across, r = b.radius + radius;
-    count += Simd::compress_indices(Simd::bits(m * m + w * w <= r * r), j, &slots[count]);
+    count += Simd::compress_indices(Simd::bits(m * m + w * w <= r * r), j, &slots_[count]);
   }
-  for (std::uint32_t i = 0; i < count; ++i) use(slots[i]);
+  for (std::uint32_t i = 0; i < count; ++i) use(first + slots_[i]);
 }
 
-void FreeSearch::keep_sample(std::uint32_t leaf_a, std::uint32_t leaf_b) {
-  const auto &a = a_.spheres, &b = b_.spheres;
+template <class Intervals>
+void FreeSearch<Intervals>::keep_sample(std::uint32_t leaf_a, std::uint32_t leaf_b) {
+  const auto &a = a_.elements, &b = b_.elements;
   float deepest = 0;
   std::uint32_t of_a = 0, of_b = 0;
-  visit_spheres(leaf_a, leaf_b, 0, [&](std::uint32_t j) {
+  visit_elements(leaf_a, leaf_b, 0, [&](std::uint32_t j) {
     for (std::uint32_t i = a_.first(leaf_a); i < a_.first(leaf_a + 1); ++i) {
       const float x = b.x[j] - a.x[i], y = b.y[j] - a.y[i], z = b.z[j] - a.z[i],
                   radius = a.radius[i] + b.radius[j];
@@ -155,31 +205,38 @@ void FreeSearch::keep_sample(std::uint32_t leaf_a, std::uint32_t leaf_b) {
   const auto copy = [at = samples_](auto& to, const auto& from, std::uint32_t i) {
     // Also into the lanes behind it, which belong to the next ones.
     for (std::uint32_t lane = at; lane < at + Simd::width; ++lane)
-      to.x[lane] = from.x[i], to.y[lane] = from.y[i], to.z[lane] = from.z[i],
-      to.radius[lane] = from.radius[i];
+      to.set(lane, {from.x[i], from.y[i], from.z[i], from.radius[i], from.half_x[i], from.half_y[i]});
   };
   copy(sample_a_, a, of_a);
   copy(sample_b_, b, of_b);
   ++samples_;
 }
 
-float FreeSearch::bound(float x, float y) {
-  sample_a_.turn(x, y, samples_);
-  sample_b_.turn(x, y, samples_);
+template <class Intervals>
+float FreeSearch<Intervals>::bound(float x, float y) {
+  sample_a_.turn(x, y, samples_, margin_);
+  sample_b_.turn(x, y, samples_, margin_);
   Float most(0.0f);
   for (std::uint32_t i = 0; i < samples_; i += Simd::width) {
-    const Intervals of(load(sample_a_, i), load(sample_b_, i));
+    const Intervals of(sample_a_.load(i), sample_b_.load(i), margin_);
     most = Simd::select(of.holding(Float(0.0f)), xsimd::max(most, of.high), most);
   }
   return largest(most);
 }
 
-float FreeSearch::leave(std::uint32_t leaf_a, std::uint32_t leaf_b, float place) const {
-  visit_spheres(leaf_a, leaf_b, place, [&](std::uint32_t j) {
-    const Spheres b{Float(b_.spheres.along[j]), Float(b_.spheres.across[j]), Float(b_.spheres.z[j]),
-                    Float(b_.spheres.radius[j])};
+template <class Intervals>
+float FreeSearch<Intervals>::leave(std::uint32_t leaf_a, std::uint32_t leaf_b, float place) {
+  visit_elements(leaf_a, leaf_b, place, [&](std::uint32_t j) {
+    const FreeLanes b = b_.elements.one(j);
     for (std::uint32_t i = a_.first(leaf_a); i < a_.first(leaf_a + 1); i += Simd::width) {
-      const Intervals of(load(a_.spheres, i), b);
+      const FreeLanes a = a_.elements.load(i);
+      if constexpr (std::is_same_v<Intervals, FreeSegments>) {
+        // Most are apart there, which the discs about them tell sooner.
+        const Float m = b.along - a.along - Float(place), w = b.across - a.across,
+                    r = a.radius + b.radius + Float(node_slack_);
+        if (Simd::bits(m * m + w * w <= r * r) == 0) continue;
+      }
+      const Intervals of(a, b, margin_);
       const Simd::Mask holding = of.holding(Float(place));
       if (Simd::bits(holding) != 0) place = largest(Simd::select(holding, of.high, Float(place)));
     }
@@ -187,9 +244,37 @@ float FreeSearch::leave(std::uint32_t leaf_a, std::uint32_t leaf_b, float place)
   return place;
 }
 
-float FreeSearch::next(float place) {
+template <class Intervals>
+float FreeSearch<Intervals>::next(float place) {
   visit(place, [&](std::uint32_t leaf_a, std::uint32_t leaf_b) { place = leave(leaf_a, leaf_b, place); });
   return place;
 }
+
+template <class Intervals>
+float FreeSearch<Intervals>::after_gap(float place) const {
+  float begin = __builtin_inff(), end = place;
+  const auto compare = [&](std::uint32_t leaf_a, std::uint32_t j) {
+    const FreeLanes b = b_.elements.one(j);
+    for (std::uint32_t i = a_.first(leaf_a); i < a_.first(leaf_a + 1); i += Simd::width) {
+      const Intervals of(a_.elements.load(i), b, margin_);
+      float low[Simd::width], high[Simd::width];
+      Simd::store(low, Simd::select(of.are_some, of.low, Float(-__builtin_inff())));
+      Simd::store(high, of.high);
+      for (std::uint32_t lane = 0; lane < Simd::width; ++lane)
+        if (low[lane] >= place && low[lane] < begin) begin = low[lane], end = high[lane];
+    }
+  };
+  const Rounds &a = a_.nodes, &b = b_.nodes;
+  for (std::uint32_t i = 0; i < a_.leaves; ++i)
+    for (std::uint32_t k = 0; k < b_.leaves; ++k) {
+      const float radius = a.radius[i] + b.radius[k] + node_slack_, w = b.across[k] - a.across[i];
+      if (w > radius || -w > radius || b.along[k] - a.along[i] + radius < place) continue;
+      for (std::uint32_t j = b_.first(k); j < b_.first(k + 1); ++j) compare(i, j);
+    }
+  return end;
+}
+
+template class FreeSearch<FreeSpheres>;
+template class FreeSearch<FreeSegments>;
 
 }  // namespace bch::detail

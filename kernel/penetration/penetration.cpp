@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "kernel/penetration/agent_discs.hpp"
 #include "kernel/penetration/spread_axes.hpp"
 #include "kernel/runtime/pair_heights.hpp"
 #include "kernel/runtime/pair_validation.hpp"
@@ -59,19 +60,6 @@ struct Depths {
     std::fill_n(against, axes, -std::numeric_limits<double>::infinity());
     reach = 0;
   }
-};
-
-/// The discs of an agent, about its position and unturned.
-class AgentDiscs {
- public:
-  AgentDiscs(const ShapeSetView& shapes, const Agents& agents, std::uint32_t agent) noexcept
-      : discs(cut_discs(shapes, static_cast<std::uint32_t>(agents.root(agent, shapes.level_count)))),
-        // A set of single discs has no reaches.
-        reach(discs.count == 1 ? std::abs(discs.x[0]) + std::abs(discs.y[0]) + discs.radius[0]
-                               : shapes.reach[agents.shape[agent]]) {}
-
-  const CutDiscs discs;
-  const float reach;  ///< as in rounding.hpp
 };
 
 /// The spheres of an agent as seen from above.

@@ -52,7 +52,9 @@ bch_status sample_poses(const bch_character* character, std::uint8_t count, bch_
 bch_status even_directions(const bch_shape_set* set, const bch_agents* agents, const bch_pair* pairs,
                            std::size_t count, std::uint8_t directions, const bch_query_options* options,
                            bch_penetration_depth* depths) {
-  return bch_penetration(set, agents, pairs, count, 2 * directions, options, depths);
+  const bch_status status = bch_penetration(set, agents, pairs, count, 2 * directions, options, depths);
+  return status != BCH_OK ? status
+                          : bch_nearest_free(set, agents, pairs, count, 2 * directions, options, depths);
 }
 bch_status status_name(std::int32_t status, std::uint32_t implementation) {
   require(bch_status_name(status) != nullptr, "every number has a name");

@@ -76,6 +76,15 @@ class Pairs(unittest.TestCase):
         along = bch.penetration(SHAPES, LINE, PAIRS, np.array([(0, 2), (1, 0), (1, 0)], np.float32))
         self.near([along[part][0] for part in ("depth", "x", "y")], [1, 0, 1], 0.03)
 
+    def test_nearest_free(self):
+        free = bch.nearest_free(SHAPES, LINE, PAIRS)
+        self.near([free[part][0] for part in ("depth", "x", "y")], [0.1, -1, 0], 1e-4)
+        self.assertEqual(free["depth"][1:].tolist(), [0, 0])
+        discs = bch.nearest_free(SHAPES, LINE, PAIRS, leaves="discs", directions=4, threads=1)
+        self.assertTrue(0.1 < discs["depth"][0] < 0.13)
+        with self.assertRaisesRegex(bch.ArrayError, "wanted is an array of pairs"):
+            bch.nearest_free(SHAPES, LINE, WALL)
+
     def test_time_of_impact(self):
         times = bch.time_of_impact(SHAPES, LINE, PAIRS, np.array([0, 2.2, 0]), np.array([0, 0, 5.0]))
         self.near(times, [0, 0.5, np.inf], 0.02)

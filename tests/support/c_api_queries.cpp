@@ -70,6 +70,9 @@ void add_queries_of_pairs(const CScene& scene, std::vector<CQuery>& to) {
   to.push_back(into<bch_penetration_depth>("penetration", false, n, [=](auto* out) {
     return bch_penetration(set, &all->agents, pairs, n, 16, &all->options, out);
   }));
+  to.push_back(into<bch_penetration_depth>("nearest free", true, n, [=](auto* out) {
+    return bch_nearest_free(set, &all->agents, pairs, n, 16, &all->options, out);
+  }));
   to.push_back(into<bch_penetration_depth>("penetration along", false, n, [=](auto* out) {
     return bch_penetration_along(set, &all->agents, pairs, n, all->along.data(), &all->options, out);
   }));

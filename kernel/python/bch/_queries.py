@@ -460,28 +460,29 @@ def penetration(
 
 
 def nearest_free(
-    bodies: BodySet,
+    shapes: Union[ShapeSet, BodySet],
     agents: Agents,
     pairs: Pairs,
     directions: int = 16,
     *,
+    leaves: Leaves = "segments",
     threads: int = 0,
     implementation: Optional[str] = None,
     out: Optional[Records] = None,
 ) -> Records:
-    """Measure how far the first body of each pair has to move on the ground to separate from the second.
+    """Measure how far the first agent of each pair has to move on the ground to separate from the second.
 
     The best of `directions` directions counts. The depth is 0 where the two do not
-    collide, and at most that of `penetration`, because the bodies may remain interlocked.
+    collide, and at most that of `penetration`, because the agents may remain interlocked.
 
     Parameters
     ----------
-    bodies : BodySet
+    shapes : ShapeSet or BodySet
     agents : Agents
     pairs : (n, 2) uint32
     directions : int
         The number of evenly spread directions to try, an even number from 2 to 256.
-    threads, implementation
+    leaves, threads, implementation
         As for `collide`.
     out : (n,) PENETRATION, optional
 
@@ -490,10 +491,11 @@ def nearest_free(
     (n,) PENETRATION
         Records of depth, in metres, and of x and y, a unit vector.
     """
-    pointers(bodies, agents, True)
-    call, n = _bound_query("nearest_free", bodies, agents, pairs)
+    if isinstance(pairs, Obstacles):
+        raise rejected(pairs, "pairs", "an array of pairs")
+    call, n = _bound_query("nearest_free", shapes, agents, pairs)
     depths = result(out, PENETRATION, (n,))
-    how, _ = options("segments", "zero", math.inf, threads, implementation)
+    how, _ = options(leaves, "zero", math.inf, threads, implementation)
     check(call(bounded(directions, "directions", 2, 256), how, address(depths)))
     return depths
 

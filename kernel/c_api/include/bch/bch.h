@@ -515,7 +515,7 @@ enum {
 };
 /** Holds the options of all queries. Initialise them by BCH_QUERY_OPTIONS_INIT: zeros are not the defaults. Every query uses `threads` and
  * `implementation`. Queries use the other options as follows, and ignore what is not listed:
- * - bch_collide(), bch_obstacles_collide(), bch_crowd_collisions(), bch_crowd_contacts() and the like: `leaves`,
+ * - bch_collide(), bch_nearest_free(), bch_obstacles_collide(), bch_crowd_collisions(), bch_crowd_contacts() and the like: `leaves`,
  * - bch_obstacles_within(): `distance_leaves`,
  * - bch_clearance() and bch_obstacles_clearance(): `max_distance`, `overlap` and `distance_leaves`,
  * - bch_crowd_clearances(): `overlap` and `distance_leaves`. */
@@ -594,6 +594,10 @@ typedef struct bch_penetration_depth {
 BCH_API bch_status bch_penetration(const bch_shape_set* set, const bch_agents* agents, const bch_pair* pairs,
                                    size_t count, uint32_t directions, const bch_query_options* options,
                                    bch_penetration_depth* depths);
+/** Measures the shortest such way after which bch_collide() by `leaves` answers 0: the two may stay entangled. 0: they do not collide. */
+BCH_API bch_status bch_nearest_free(const bch_shape_set* set, const bch_agents* agents, const bch_pair* pairs,
+                                    size_t count, uint32_t directions, const bch_query_options* options,
+                                    bch_penetration_depth* depths);
 /** Measures how far the first agent of each pair has to move to be free along a given direction, which may have any length. */
 BCH_API bch_status bch_penetration_along(const bch_shape_set* set, const bch_agents* agents, const bch_pair* pairs,
                                          size_t count, const bch_vec2* directions,
