@@ -30,9 +30,7 @@ class ColumnTable final : public RowSource {
       : columns_(std::move(columns)), rows_(rows) {
     if (options.columns) places_.reject("has columns with names; --columns is for files");
     layout_ = layout_of_columns(places_, names_of(columns_), options);
-    for (std::size_t i = 0; i < columns_.size() && rows > 0; ++i)
-      if (layout_.columns.roles[i] != Role::none && columns_[i].values == nullptr)
-        places_.reject("column " + shown(layout_.columns.names[i]) + " does not have one value a row");
+    if (rows > 0) require_values();
   }
 
   const Places& places() const override { return places_; }
@@ -64,6 +62,16 @@ class ColumnTable final : public RowSource {
   TableLayout layout_;
   RowValues values_{places_, layout_};
   std::size_t next_ = 0;
+
+  void require_values() const {
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      const Role role = layout_.columns.roles[i];
+      if (role == Role::none || columns_[i].values != nullptr) continue;
+      const bool is_name = role == Role::character || role == Role::clip;
+      places_.reject("column " + shown(layout_.columns.names[i]) + " does not have a " +
+                     (is_name ? "text" : "number") + " in every row");
+    }
+  }
 
   void take(Row& row, std::size_t i) {
     const ColumnView& column = columns_[i];

@@ -75,8 +75,8 @@ constexpr NamedUnit lengths[] = {{"m", 1},
                                  {"centimetres", 0.01},
                                  {"centimeter", 0.01},
                                  {"centimeters", 0.01}};
-constexpr NamedUnit durations[] = {{"s", 1},       {"sec", 1},   {"second", 1},
-                                   {"seconds", 1}, {"ms", 1e-3}, {"us", 1e-6}};
+constexpr NamedUnit durations[] = {{"s", 1},     {"sec", 1},   {"second", 1}, {"seconds", 1},
+                                   {"ms", 1e-3}, {"us", 1e-6}, {"ns", 1e-9}};
 
 constexpr NamedUnit angles[] = {{"rad", 1},
                                 {"radians", 1},

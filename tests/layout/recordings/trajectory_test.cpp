@@ -247,7 +247,7 @@ TEST_F(Trajectories, InMemoryAreRefusedByOneLine) {
   EXPECT_EQ(refused({{"frame", zeros.data(), 8, Type::int64}, person, sound[2], y}, {.fps = 1}),
             "recording: row 1: person 7 is at two places in frame 0, here at (0.5, 0.5), by row 0 at (0, 0)");
   EXPECT_EQ(refused({sound[0], person, {"x", nullptr, 8, Type::float64}, y}),
-            "recording: column 'x' does not have one value a row");
+            "recording: column 'x' does not have a number in every row");
   EXPECT_EQ(refused({sound[0], person, y}), "recording: has no column called 'x', only 't, id, y'");
   EXPECT_EQ(refused({numbers("frame", time), person, sound[2], y}),
             "recording: says no frame rate: --fps has to give the frame numbers a second");
