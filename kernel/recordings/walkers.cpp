@@ -48,8 +48,7 @@ WalkerReader::WalkerReader(TrajectoryReader& reader, FrameInterval wanted, doubl
       wanted_(wanted),
       facing_(facing) {}
 
-/// Nobody moves so far so fast: ids were mixed up, or places.
-/// Counts a person's step, which is no jump.
+/// Counts a person's step. Nobody moves so far so fast as in a jump: ids were mixed up, or places.
 void WalkerReader::measure(const Place& from, const TrackedPerson& to, std::int64_t frame) {
   const double x = to.x - from.x, y = to.y - from.y, way = std::sqrt(x * x + y * y);
   const double seconds = static_cast<double>(frame - from.frame) / fps_;

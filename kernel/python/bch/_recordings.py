@@ -271,7 +271,7 @@ def check(
     recording : path, or table, optional
         A table is a mapping of names to arrays, a structured array, a dataframe of pandas or polars, a table of Arrow, or anything that
         gives a column by `table[name]` and names in `columns`, `column_names` or `dtype.names`. Its columns have the names and units
-        that a header of CSV has, as the page of layout/ lists them. PedPy's TrajectoryData and JuPedSim's Recording are taken, too,
+        that a header of CSV has; layout/README.md lists them. PedPy's TrajectoryData and JuPedSim's Recording are taken, too,
         with their frame rates, and the latter with its geometry.
     frame, id : (n,) whole numbers, optional
         The frame of a row, with `fps`, and the person. A person is in a frame once at most.
