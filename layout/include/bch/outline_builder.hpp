@@ -26,8 +26,8 @@ namespace bch {
 /// Vertices are snapped to a grid of 2^-23 of the power of two above the reach (0.12 um for a person). On the
 /// grid the result is exact, except for points where edges cross: each is rounded to the nearest grid point.
 /// Every vertex of a triangle is inside the outline or within 1.5 grid steps of it. Triangles may be open,
-/// non-manifold, duplicated or degenerate. Holes are left out, also where they are closed by mere contact. A
-/// triangle without area is a whisker, traversed there and back; a triangle that is a point is left out.
+/// non-manifold, duplicated or degenerate. Holes are left out, even if only contact closes them. A triangle without
+/// area is a whisker, traversed there and back; a triangle that is a point is left out.
 ///
 /// The result depends only on the union, not on how it is made of triangles: a contour begins at its
 /// lexicographically smallest vertex before rounding, no corner is straight, and contours are in the order of
@@ -69,11 +69,12 @@ class OutlineBuilder {
 
 /// Says what of a mesh outline() finds.
 struct OutlineOptions {
-  /// Cuts the mesh at two heights, metres, and leaves out what is below and above; infinite ones cut nothing. A cut mesh is learned anew
-  /// in every pose.
+  /// Clips the mesh at two heights, metres, and leaves out what is below and above; infinite ones clip nothing. A
+  /// clipped mesh is prepared anew in every pose.
   Heights between = {};
-  /// Finds also the holes of the union, and what lies in them, as clockwise contours after the counter-clockwise one that is around
-  /// them. Contours then come to no point twice, and what has no area is left out. It takes some hundred times as long.
+  /// Also finds the holes of the union, as clockwise contours after the counter-clockwise one that is around them, and
+  /// what lies in the holes. No contour then visits a point twice, and parts without area are left out. It takes some
+  /// hundred times as long.
   bool holes = false;
   /// Called as BakeOptions::progress, with the poses of outlines() done so far. Returning false cancels.
   std::function<bool(std::size_t done, std::size_t total)> progress = {};
@@ -86,10 +87,11 @@ struct OutlineOptions {
 ///          height only where some cut), a reach outside 1e-6 to 1e6 m, and heights that are NaN or do not ascend.
 Outline outline(std::span<const Vec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles,
                 const OutlineOptions& options = {});
-/// Finds the outline of a character in a pose, about the root's point on the ground; see PoseShaper::shape().
+/// Finds the outline of a character in a pose, relative to the root joint's (x, y); see PoseShaper::shape().
 Outline outline(const Character& character, PoseTime at = {}, const OutlineOptions& options = {});
 
-/// Finds the outlines of a mesh in many poses, on all threads of the caller's TBB arena. What is learned of the mesh serves all poses.
+/// Finds the outlines of a mesh in many poses, on all threads of the caller's TBB arena. The mesh is prepared once for
+/// all poses.
 /// Sizes:   one pose of so many vertices after the other.
 /// Errors:  as outline(), with the number of the pose, and std::system_error of std::errc::operation_canceled where it is cancelled.
 std::vector<Outline> outlines(std::span<const Vec3> positions, std::size_t vertices,

@@ -34,8 +34,8 @@ struct SceneUse {
   /// Gives the step, in seconds, to whose multiples times within a clip are rounded down, so that agents share shapes; 0: agents share
   /// only equal poses.
   float pose_step = 0;
-  /// Gives the expected number of pairs of a shape before it is replaced; few where shapes live for one frame. From
-  /// 500 on, shapes get culling data, which takes as long to build as it saves then.
+  /// Gives the expected number of pairs tested per shape in its lifetime. From 500 on, shapes get culling data: from
+  /// there it saves more time than building it takes.
   double pairs_per_shape = std::numeric_limits<double>::infinity();
 };
 
@@ -54,8 +54,8 @@ struct ScenePlan {
   std::vector<std::uint8_t> agent_level;   ///< one per agent: Agents::level
 };
 
-/// Returns the cut depth that a density needs, by measurement (`bch_lab report --experiment detail`). It is the coarsest one whose false
-/// collisions stop a walking person at most once a second, or all_depths where no depth does.
+/// Returns the coarsest cut depth whose false collisions stop a walking person at most once a second at a density, or
+/// all_depths if no depth does. It was measured (`bch_lab report --experiment detail`).
 std::uint32_t depth_at_density(double people_per_square_metre);
 
 /// Plans which shapes a scene needs, each once, at which depths and with which further data.

@@ -161,7 +161,7 @@ typedef struct bch_clip {
  * from the vertices' frame into that joint's frame at rest. Without joints it is a mesh that stands still, about the agent's position. */
 typedef struct bch_character_arrays {
   uint32_t size;      /**< sizeof(bch_character_arrays) */
-  int32_t root_joint; /**< the joint whose point on the ground is a shape's origin; -1: the middle of the mesh's bounding rectangle */
+  int32_t root_joint; /**< the joint whose (x, y) is a shape's origin; -1: the centre of the mesh's bounding rectangle */
   const char* name;   /**< or NULL */
   const bch_vec3* vertices;
   size_t vertex_count;
@@ -178,7 +178,7 @@ typedef struct bch_character_arrays {
   const bch_influence* influences;
   const bch_clip* clips;
   size_t clip_count;
-  const bch_affine3* to_ground; /**< from the joints' frame to metres, z up; NULL: the joints' frame is in metres, z up */
+  const bch_affine3* to_ground; /**< from the joints' frame to the world: metres, z up; NULL: they are the same */
 } bch_character_arrays;
 #define BCH_CHARACTER_ARRAYS_INIT \
   { sizeof(bch_character_arrays), -1, NULL, NULL, 0, NULL, 0, NULL, NULL, NULL, 0, NULL, NULL, 0, NULL, NULL, NULL, 0, NULL }
@@ -221,8 +221,8 @@ BCH_API bch_status bch_character_find_joint(const bch_character* character, cons
 /** Selects the form of poses in bch_pose_arrays. */
 enum {
   BCH_JOINTS_IN_PARENTS = 0, /**< the transforms of all joints, each in the frame of its parent */
-  BCH_JOINTS_IN_WORLD = 1,   /**< the transforms of all joints to the ground: metres, z up; the root joint's point there is the origin */
-  BCH_BONE_MATRICES = 2,     /**< those of a renderer, for all bones: the joint's transform to the ground times its inverse bind matrix */
+  BCH_JOINTS_IN_WORLD = 1,   /**< the world transforms of all joints: metres, z up; the root joint's (x, y) is the origin */
+  BCH_BONE_MATRICES = 2,     /**< skinning matrices of all bones: the joint's world transform times its inverse bind matrix */
   BCH_POSED_VERTICES = 3     /**< the positions of all vertices, three floats each: metres, z up, relative to the shape's origin */
 };
 /** Selects how transforms are written. */
@@ -240,7 +240,7 @@ typedef struct bch_pose_arrays {
   const void* data;      /**< the numbers */
   size_t count;          /**< of transforms or vertices in a pose */
   size_t stride;         /**< numbers from one transform to the next, at least what one takes; 0: one follows the other */
-  const double* origins; /**< of bone matrices: x and y of the point on the ground that is the shape's origin, for each pose; or NULL: 0 */
+  const double* origins; /**< of bone matrices: x and y of the world point that is the shape's origin, for each pose; or NULL: 0 */
 } bch_pose_arrays;
 #define BCH_POSE_ARRAYS_INIT \
   { sizeof(bch_pose_arrays), BCH_JOINTS_IN_PARENTS, BCH_FLOAT_ROWS, NULL, 0, 0, NULL }
@@ -616,7 +616,7 @@ typedef struct bch_crowd bch_crowd;
 /** Holds what is the same in all calls for a crowd. */
 typedef struct bch_crowd_options {
   uint32_t size;      /**< sizeof(bch_crowd_options) */
-  double period_x;    /**< length after which the ground repeats along x, metres; 0: never */
+  double period_x;    /**< period of periodic boundaries along x, metres; 0: not periodic */
   double period_y;    /**< likewise along y */
   uint64_t max_pairs; /**< more candidates than that are an error */
 } bch_crowd_options;
@@ -1018,7 +1018,7 @@ typedef struct bch_animated_shape bch_animated_shape;
 typedef struct bch_animate_options {
   uint32_t size; /**< sizeof(bch_animate_options) */
   float error;   /**< metres, by how much more spheres may protrude between two keys than at these */
-  int32_t loops; /**< 1: the clip is played over and over; 0: it ends; -1: over and over if its last pose is its first one */
+  int32_t loops; /**< 1: the clip repeats; 0: it ends; -1: it repeats if its last pose is its first one */
 } bch_animate_options;
 #define BCH_ANIMATE_OPTIONS_INIT \
   { sizeof(bch_animate_options), 0.005f, -1 }
@@ -1127,7 +1127,7 @@ typedef struct bch_scene_use {
   uint32_t size;          /**< sizeof(bch_scene_use) */
   int32_t outlines;       /**< not 0: keep outlines, as bch_plan does */
   int32_t heights;        /**< not 0: agents stand at different heights */
-  double pairs_per_shape; /**< expected pairs of a shape before it is replaced; few where shapes live for one frame */
+  double pairs_per_shape; /**< expected number of pairs tested per shape in its lifetime */
   float pose_step; /**< the step to whose multiples times are rounded down, seconds, so that agents share shapes; 0: they are not */
 } bch_scene_use;
 #define BCH_SCENE_USE_INIT \
