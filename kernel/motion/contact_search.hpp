@@ -21,8 +21,9 @@ namespace bch::detail {
 /// descended where there is one before the earliest contact of leaves so far. What bends more than half the tolerance is halved in time,
 /// but only where a contact is found.
 ///
-/// Where both bodies are of spheres, these are tested in space, and only while their heights allow it. What else is known of bodies, reaches
-/// and hulls, is seen from above, which misses nothing. The reaches below are then those on the ground and in height together.
+/// Where both bodies are of spheres, these are tested in 3D, and only while their heights allow it. What else is known
+/// of bodies, reaches and hulls, is seen from above, which misses nothing. The reaches below are then those on the
+/// ground and in height together.
 ///
 /// Never late: discs are enlarged by what their ways may bend, and by `slack_`, which holds what double rounds:
 ///

@@ -28,8 +28,9 @@ class ObstacleKernel {
   /// Finds the least gap between a disc of the cut and a segment, or between the outline and a segment where exact leaves decide. The
   /// search ends at one of at most `enough`. The segment that is nearest to the root comes first: few others improve on it.
   ///
-  /// Gaps of discs bound those of outlines: some leaf holds the nearest point of an outline, and its radius was enlarged by the same grid steps
-  /// as the margin of exact leaves, and by query_margin, which is more than that margin and what halving moves. So its gap is below that of the outline.
+  /// Gaps of discs bound those of outlines: some leaf holds the nearest point of an outline, and its radius was
+  /// enlarged by the same grid steps as the margin of exact leaves, and by query_margin, which is more than that margin
+  /// and what halving moves. So its gap is below that of the outline.
   static void find_gap(const ObstacleArguments& in, double enough, ObstacleGap& best) noexcept {
     ObstacleKernel(in).search_all(enough, best);
   }

@@ -133,16 +133,17 @@ struct CheckSummary {
       notes;  ///< a sentence each: what seems to be wrong with the recording or the walls; join() leaves it empty
 };
 
-/// Puts a walking person on every row of a recording and finds who runs into whom. Reads frame after frame; memory grows with the people, and with
-/// those of some frames. Characters and clips that rows name are taken from the cast. `seen`, which may be empty, hears of every frame in turn, on the caller's thread.
+/// Puts a walking person on every row of a recording and finds who collides with whom. Reads frame after frame; memory
+/// grows with the people, and with those of some frames. Characters and clips that rows name are taken from the cast.
+/// `seen`, which may be empty, is called with every frame in turn, on the caller's thread.
 /// Threads: runs in the caller's TBB arena, and reads on any of its threads, what comes next while it checks. The same answers for any
 ///          number of threads.
 /// Errors:  throws TrajectoryError, also where rows name what the cast does not have; TooManyPairs.
 CheckSummary check(TrajectoryReader& reader, const CheckOptions& options,
                    const std::function<void(const CheckedFrame&, const ShapeSet&)>& seen = {});
 
-/// Joins what there is to tell of a recording's intervals, all of them one behind the other, to that of the whole: the same as if it had been
-/// checked at once. Overlaps that go on from one to the next are one event.
+/// Joins the results of a recording's intervals, all of them in order, to those of the whole: the same as if it had
+/// been checked at once. Overlaps that go on from one to the next are one event.
 CheckSummary join(std::span<const CheckSummary> intervals);
 
 }  // namespace bch::detail

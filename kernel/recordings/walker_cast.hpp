@@ -66,8 +66,8 @@ struct CastMotion {
   std::vector<std::uint32_t> clips;     ///< of each member; empty: by the speed
 };
 
-/// Finds what the rows of a recording name among the characters. A character is called as its file is, with or without what follows the last
-/// dot, and a clip as the file calls it.
+/// Finds the characters and clips that the rows of a recording name. A character has the name of its file, with or
+/// without the extension, and a clip the name that the file gives it.
 /// Errors:  throws TrajectoryError, naming the file, the line and the name, on what is not there, and on a clip that a row names without a
 ///          character and that one of them does not have.
 std::vector<CastMotion> cast_motions(std::span<const NamedMotion> named, CastView cast);
@@ -81,8 +81,8 @@ struct CastPose {
   float exact_seconds;  ///< of the walker, before he is rounded to a phase
 };
 
-/// Returns how a walker moves: as his row says, else in the walk of the nearest speed, as far in it as he has walked, or in an idle while he
-/// stands. `motions`: what cast_motions() found. `coarse`: divides the number of phases.
+/// Returns how a walker moves: as his row says, else in the walk of the nearest speed, as far in it as he has walked,
+/// or in an idle while he stands. `motions`: what cast_motions() found. `coarse`: divides the number of phases.
 CastPose cast_pose(CastView cast, std::span<const CastMotion> motions, const Walker& walker,
                    std::uint32_t coarse);
 

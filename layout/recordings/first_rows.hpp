@@ -35,8 +35,8 @@ class FirstRows {
   /// Tells ids from frames by the ways between rows: from frame to frame a person moves less than a third of the way to somebody else,
   /// and, alone, less than a twelfth of the extent of all rows.
   ColumnOrder order_by_ways() const;
-  /// Returns whether these few rows have one number first and may be a person's who goes no faster than people run; `speed`: of one that goes
-  /// a unit from frame to frame, in metres a second.
+  /// Returns whether these few rows have one number first and may be those of a person who is no faster than people
+  /// run. `speed`: metres a second of a person who moves by one unit from frame to frame.
   bool may_be_one_person(double speed) const;
   /// Tells ids from frames by the steps between different numbers: frames of ETH/UCY have a common divisor above 1, as each tenth is
   /// there, and ids have none.
