@@ -48,10 +48,9 @@ struct PairFilter {
 ///
 /// Order:   pairs come by place, along the rows of a grid, so agents of neighbouring pairs are mostly in cache. Answers and their
 ///          order are the same for any number of threads and every implementation.
-/// Period:  agents meet across periodic boundaries; positions count modulo the period. A period has to exceed 4 R + 2
-///          m, where R is the farthest reach of a body and m the margin. Obstacles do not repeat: let walls extend
-///          beyond the
-///          borders by the reach of a body.
+/// Period:  agents meet across periodic boundaries; positions count modulo the period. A period has to exceed 4 R + 2 m, where R is the
+///          farthest reach of a body and m the margin. Obstacles do not repeat: let walls extend beyond the borders by the reach of a
+///          body.
 /// Memory:  answers are valid until the next call. The object keeps its memory, about 72 bytes an agent and 24 a candidate beside
 ///          the answers; a call like an earlier one allocates nothing.
 /// Errors:  throws std::invalid_argument like validate(shapes, agents), and on options out of range. The last answer is then lost.

@@ -94,9 +94,9 @@ ObstacleSet obstacles_from_wkt(std::string_view text, Polygons polygons = Polygo
 // agent's reach, and 9e-15 of the distances to the two ends of a segment together.
 //
 // A body is compared only with obstacles whose heights meet its own, as between agents with a z: touching counts, and heights are widened
-// by their rounding. It ignores all other obstacles, their segments and their areas. Its heights are metres above the
-// agent's z, or above 0 if agents have none. Sets keep them with ShapeSetPlan::heights; a body without heights is
-// infinite, and meets obstacles at all heights.
+// by their rounding. The query ignores all other obstacles, their segments and their areas. Its heights are metres
+// above the agent's z, or above 0 if agents have none. Sets keep them with ShapeSetPlan::heights; a body without
+// heights is infinite, and meets obstacles at all heights.
 //
 // Sizes:   one answer per agent.
 // Errors:  throw std::invalid_argument, before anything is written, as validate(shapes, agents) and the query of pairs.

@@ -73,8 +73,7 @@ struct BodyOptions {
 /// Makes the model of a character: spheres inside its skin, bound to its bones. The same bits on every processor.
 /// Cost:    up to a minute, a few seconds as a draft.
 /// Errors:  throws std::invalid_argument as validate(Character) does, on spheres out of range, and on a character
-///          without triangles of some area;
-///          std::system_error of std::errc::operation_canceled where it is cancelled.
+///          without triangles of some area; std::system_error of std::errc::operation_canceled where it is cancelled.
 BodyModel make_body(const Character& character, const BodyOptions& options = {});
 
 /// Makes the model of a rigid body from spheres, for things that move among people and share their sets. Its poses are
