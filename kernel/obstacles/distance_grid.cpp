@@ -31,12 +31,15 @@ class NearestSegments {
   bool look(double x, double y, double radius) {
     constexpr std::size_t too_many = 200;
     found_.clear();
-    double limit = beyond_all;
+    double least = beyond_all, limit = beyond_all;
     boxes_.visit(tree_, x, y, limit, [&](std::uint32_t slot) {
       found_.push_back(slot);
+      const double square = segments_[slot].square_distance(x, y);
+      if (found_.size() > too_many) limit = 0;
+      if (!(square < least) || limit == 0) return;
       // The nearest one of a point in the disc is at most twice the radius farther from the centre than the nearest one there.
-      const double most = std::sqrt(segments_[slot].square_distance(x, y)) + 2 * radius;
-      limit = found_.size() > too_many ? 0 : std::min(limit, most * most);
+      const double most = std::sqrt(square) + 2 * radius;
+      least = square, limit = most * most;
     });
     return found_.size() <= too_many;
   }
