@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <numbers>
 
 namespace bch::baselines {
 namespace {
@@ -42,7 +43,7 @@ std::vector<bool> visible_vertices(std::span<const Corners> triangles, std::span
     const Vector3d aside = normals[v].unitOrthogonal();
     int seen = escapes(v, normals[v]) ? 1 : 0;
     for (int i = 0; i < rays_around && seen < rays_needed; ++i) {
-      const Eigen::AngleAxisd turn(i * 2 * M_PI / rays_around, normals[v]);
+      const Eigen::AngleAxisd turn(i * 2 * std::numbers::pi / rays_around, normals[v]);
       seen += escapes(v, normals[v] + turn * aside) ? 1 : 0;
     }
     visible.push_back(seen >= rays_needed);

@@ -3,12 +3,10 @@
 
 #pragma once
 
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/info.h>
-
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -92,14 +90,12 @@ CLI::Validator whole_between(std::uint64_t low, std::uint64_t high);
 /// Sets how many threads work during this object's lifetime; 0: all.
 class Threads {
  public:
-  explicit Threads(std::uint32_t wanted)
-      : count(wanted == 0 ? static_cast<unsigned>(tbb::info::default_concurrency()) : wanted),
-        control_(tbb::global_control::max_allowed_parallelism, count) {}
+  explicit Threads(std::uint32_t wanted);
 
   const unsigned count;
 
  private:
-  tbb::global_control control_;
+  std::shared_ptr<const void> limit_;
 };
 
 }  // namespace bch::cli

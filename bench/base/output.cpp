@@ -3,8 +3,6 @@
 
 #include "bench/base/output.hpp"
 
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -13,6 +11,7 @@
 
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/output_file.hpp"
+#include "bench/base/system.hpp"
 #include "bench/base/text.hpp"
 
 namespace bch::cli {
@@ -24,7 +23,7 @@ namespace fs = std::filesystem;
 /// folder. Which ones a model names is not known before it is read.
 bool may_be_read_by(const fs::path& input, const fs::path& output) {
   std::error_code none;
-  const std::string ending = output.extension();
+  const std::string ending = output.extension().string();
   const bool named = ending == ".bin" || ending == ".mtl" || ending == ".md5anim";
   return named && fs::exists(output, none) &&
          fs::equivalent(fs::canonical(input, none).parent_path(), fs::canonical(output, none).parent_path(),
@@ -39,7 +38,7 @@ void reject_output(const std::string& destination, int error, const std::string&
 
 void write_all(int descriptor, std::string_view text, const std::string& destination) {
   while (!text.empty()) {
-    const ssize_t written = write(descriptor, text.data(), text.size());
+    const std::ptrdiff_t written = write_some(descriptor, text);
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) reject_output(destination, errno);
     text.remove_prefix(static_cast<std::size_t>(written));
@@ -47,12 +46,12 @@ void write_all(int descriptor, std::string_view text, const std::string& destina
 }
 
 void write_standard_output(std::string_view text) {
-  write_all(STDOUT_FILENO, printable(text), "standard output");
+  write_all(standard_output, printable(text), "standard output");
 }
 
 void write_standard_data(std::string_view data) {
-  if (isatty(STDOUT_FILENO) == 1) return write_standard_output(data);
-  write_all(STDOUT_FILENO, data, "standard output");
+  if (is_terminal(standard_output)) return write_standard_output(data);
+  write_all(standard_output, data, "standard output");
 }
 
 void write_file(const std::string& file, std::string_view text) {

@@ -29,7 +29,7 @@ bool is_replaced(const std::string& file);
 
 /// Represents a file that gets its name once it is complete. It grows beside the file that has the name now,
 /// under a random name that an attacker cannot predict, and replaces that file in commit(). Without commit(),
-/// the destructor or a signal removes it. The new file has the permissions of the one it replaces. Where the
+/// the destructor or a signal (on Windows the system) removes it. The new file has the permissions of the one it replaces. Where the
 /// name is a symbolic link to a file, that file is replaced.
 /// Errors of all: throw InputError naming the file and the reason.
 class OutputFile {
@@ -44,6 +44,9 @@ class OutputFile {
   void commit();
 
  private:
+  /// Returns a name of 64 random bits: two processes never choose the same one, and nobody can foresee it. Short, so that it fits wherever
+  /// the file's own name does.
+  static std::string unforeseeable_name();
   void check(bool good) const;
 
   std::string user_name_;  ///< as the user wrote it

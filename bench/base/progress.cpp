@@ -4,10 +4,11 @@
 #include "bench/base/progress.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cstdint>
 #include <cstdio>
+
+#include "bench/base/system.hpp"
 
 namespace bch::cli {
 namespace {
@@ -26,7 +27,7 @@ std::string time_text(double seconds) {
 Progress::Progress(std::string what, std::size_t total)
     : what_(std::move(what)),
       total_(total),
-      terminal_(isatty(STDERR_FILENO) == 1),
+      terminal_(is_terminal(standard_error)),
       next_(begin_ + first_after) {}
 
 Progress::~Progress() {

@@ -3,10 +3,6 @@
 
 #include "bench/base/exit_codes.hpp"
 
-#include <fcntl.h>
-#include <sys/resource.h>
-#include <unistd.h>
-
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -17,32 +13,11 @@
 #include <bch/files.hpp>
 #include <bch/import.hpp>
 
+#include "bench/base/system.hpp"
 #include "bench/base/text.hpp"
 #include "layout/recordings/trajectory.hpp"
 
 namespace bch::cli {
-namespace {
-
-constexpr rlim_t least_stack = 320;  ///< KiB, which queries need: <bch/query.hpp>
-
-/// A stack that is too small ends the program by SIGSEGV somewhere in the work.
-void require_stack() {
-  rlimit stack;
-  if (getrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur / 1024 < least_stack)
-    throw UsageError("the stack is limited to " + std::to_string(stack.rlim_cur / 1024) +
-                     " KiB (ulimit -s), and " + std::to_string(least_stack) + " are needed");
-}
-
-/// Opens the standard streams that are closed, each the wrong way round, so that using them is still an error.
-/// Otherwise the next file or pipe would be one of them.
-void occupy_standard_streams() {
-  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-    if (fcntl(stream, F_GETFD) < 0 &&
-        open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY) != stream)
-      throw std::runtime_error("standard streams are closed, and there is no /dev/null in their place");
-}
-
-}  // namespace
 
 int run_main(const char* program, const std::function<int()>& run) {
   const auto report = [&](int code, const std::string& message) {
@@ -50,8 +25,7 @@ int run_main(const char* program, const std::function<int()>& run) {
     return code;
   };
   try {
-    occupy_standard_streams();
-    require_stack();
+    prepare_process();
     return run();
   } catch (const UsageError& error) {
     return report(exit_usage, error.what());

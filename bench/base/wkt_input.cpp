@@ -20,7 +20,7 @@ namespace bch::cli {
 
 std::string read_wkt(const std::string& name) {
   constexpr std::size_t max_of_a_pipe = std::size_t{256} << 20;
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(name.c_str(), "re"), std::fclose);
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(name.c_str(), "rb"), std::fclose);
   if (!file) throw InputError(fmt::format("{}: cannot be opened: {}", name, std::strerror(errno)));
   std::error_code none;
   const bool ends = std::filesystem::is_regular_file(name, none);

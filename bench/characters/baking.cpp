@@ -3,8 +3,6 @@
 
 #include "bench/characters/baking.hpp"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -16,6 +14,7 @@
 #include "bench/base/progress.hpp"
 #include "bench/characters/body_models.hpp"
 #include "kernel/baking/pose_baker.hpp"
+#include "kernel/runtime/tasks.hpp"
 #include "layout/baked/image.hpp"
 
 namespace bch::cli {
@@ -64,7 +63,7 @@ std::vector<BakedClip> bake_clips(std::span<const LoadedCharacter> characters,
   const std::vector<BodyModel> models = make_models(characters, animated_spheres);
   Progress progress("animating clips", clips.size());
   progress.show();
-  tbb::parallel_for(std::size_t{0}, clips.size(), [&](std::size_t i) {
+  detail::run_each(clips.size(), [&](std::size_t i) {
     const auto& [character, clip] = clips[i];
     const std::uint32_t name = first_name[character];
     baked[i] = {name, name + 1 + clip,

@@ -4,32 +4,15 @@
 #include "bench/characters/cost_guard.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
-
-#include <cstdio>
 
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/interrupt.hpp"
+#include "bench/base/system.hpp"
 
 namespace bch::cli {
 namespace {
 
 constexpr std::chrono::milliseconds between_looks{50};
-
-/// GiB in main memory that are no file's; 0 where the system does not say. See proc(5), statm.
-double own_memory() {
-#ifdef BCH_SANITIZED  // whose shadow memory would count
-  return 0;
-#else
-  std::FILE* file = std::fopen("/proc/self/statm", "re");
-  if (file == nullptr) return 0;
-  unsigned long size = 0, resident = 0, shared = 0;
-  const int read = std::fscanf(file, "%lu %lu %lu", &size, &resident, &shared);
-  std::fclose(file);
-  if (read != 3) return 0;
-  return static_cast<double>(resident - shared) * static_cast<double>(sysconf(_SC_PAGESIZE)) * 0x1p-30;
-#endif
-}
 
 std::string names_of(std::span<const LoadedCharacter> characters) {
   if (characters.size() == 1) return characters.front().source;

@@ -4,8 +4,6 @@
 #include "bench/characters/shape_table.hpp"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/enumerable_thread_specific.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include <chrono>
 #include <cmath>
@@ -15,6 +13,8 @@
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/progress.hpp"
 #include "bench/base/text.hpp"
+#include "kernel/runtime/spares.hpp"
+#include "kernel/runtime/tasks.hpp"
 #include "layout/base/random.hpp"
 
 namespace bch::cli {
@@ -154,11 +154,10 @@ BuiltShapes build_shapes(std::span<const LoadedCharacter> characters, std::span<
   Progress progress("building shapes", sources.size());
 
   // Learning a mesh takes as long as tens of shapes, so that a thread keeps what it learned.
-  tbb::enumerable_thread_specific<ShapeMaker> makers([&] {
-    return ShapeMaker{characters, threshold, plan, limits};
-  });
-  tbb::parallel_for(std::size_t{0}, sources.size(), [&](std::size_t i) {
-    timings[i] = makers.local().make(sources[i], built.shapes[i]);
+  detail::Spares<ShapeMaker> makers;
+  detail::run_each(sources.size(), [&](std::size_t i) {
+    const auto maker = makers.borrow([&] { return ShapeMaker{characters, threshold, plan, limits}; });
+    timings[i] = maker->make(sources[i], built.shapes[i]);
     progress.advance();
   });
 

@@ -2,7 +2,6 @@
 // Copyright (c) 2026 the bch authors
 
 #include <fmt/format.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
@@ -21,6 +20,7 @@
 #include "bench/base/text.hpp"
 #include "bench/characters/body_models.hpp"
 #include "bench/cli/crowd.hpp"
+#include "kernel/runtime/tasks.hpp"
 #include "layout/base/heading.hpp"
 #include "layout/body/body_record.hpp"
 
@@ -67,7 +67,7 @@ std::size_t require_right(const LiveRun& run) {
       1 + static_cast<std::size_t>(static_cast<double>(run.candidates.size()) * each / compared_spheres);
   const std::size_t count = (run.candidates.size() + step - 1) / step;
   std::atomic<bool> is_wrong = false;
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+  detail::run_each(count, [&](std::size_t i) {
     const Pair pair = run.candidates[i * step];
     const double gap = least_gap(bodies, run.crowd.crowd(), pair);
     const bool hit = std::binary_search(run.collisions.begin(), run.collisions.end(), pair, before);

@@ -2,7 +2,6 @@
 // Copyright (c) 2026 the bch authors
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <memory>
@@ -24,6 +23,7 @@
 #include "bench/cli/commands.hpp"
 #include "bench/cli/place.hpp"
 #include "kernel/recordings/walker_cast.hpp"
+#include "kernel/runtime/tasks.hpp"
 
 namespace bch::cli {
 namespace {
@@ -78,7 +78,7 @@ std::vector<bench::PlacedClip> clips_of(const PlaceOptions& options, std::string
   std::vector<std::optional<bench::PlacedClip>> built(wanted.size());
   Progress progress("animating clips", wanted.size());
   progress.show();
-  tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t i) {
+  detail::run_each(wanted.size(), [&](std::size_t i) {
     built[i].emplace(
         placed_clip(options, members[wanted[i].character], models[wanted[i].character], wanted[i].clip));
     progress.advance();

@@ -92,7 +92,7 @@ void require_whole(const PartFiles& part, const Json& manifest) {
     if (name != file.filename())
       throw InputError(manifest_file + ": '" + name + "' is elsewhere, where " + file.filename().string() +
                        " is expected");
-    if (identity_of_file(file, name) != files[i])
+    if (identity_of_file(file.string(), name) != files[i])
       throw InputError(file.string() + ": is not what " + part.part().name() + " wrote");
   }
 }
@@ -109,7 +109,7 @@ FoundPart find_part(const std::string& file) {
     const Part part{checked_number(manifest.at("part")), checked_number(manifest.at("of"))};
     if (part.number == 0 || part.number > part.count)
       throw InputError(file + ": is damaged: 'part' and 'of' are not a part and its number of parts");
-    const PartFiles files(fs::path(file).parent_path(), part);
+    const PartFiles files(fs::path(file).parent_path().string(), part);
     if (fs::path(files.manifest()).filename() != fs::path(file).filename())
       throw InputError(file + ": is " + part.name() + ", and has the name of another");
     require_whole(files, manifest);
@@ -130,7 +130,8 @@ std::vector<std::string> manifests_of(const std::vector<std::string>& names) {
     }
     const std::size_t before = manifests.size();
     for (const fs::directory_entry& entry : fs::directory_iterator(name))
-      if (entry.path().filename().string().ends_with(manifest_ending)) manifests.push_back(entry.path());
+      if (entry.path().filename().string().ends_with(manifest_ending))
+        manifests.push_back(entry.path().string());
     if (manifests.size() == before) throw InputError(name + ": has no parts");
   }
   std::sort(manifests.begin(), manifests.end());
@@ -183,7 +184,7 @@ std::vector<std::string> kinds_of(const std::string& command) {
 }
 
 Json identity_of(const StreamedFile& file) {
-  return identity_of(fs::path(file.name()).filename(), file.checksum());
+  return identity_of(fs::path(file.name()).filename().string(), file.checksum());
 }
 
 Json run_of(const CLI::App& command, const std::vector<std::string>& inputs) {
@@ -218,7 +219,7 @@ bool PartOptions::are_given() const {
 PartFiles::PartFiles(std::string folder, Part part) : folder_(std::move(folder)), part_(part) {}
 
 std::string PartFiles::file(const std::string& kind) const {
-  return fs::path(folder_) / fmt::format("part-{}-of-{}.{}", part_.number, part_.count, kind);
+  return (fs::path(folder_) / fmt::format("part-{}-of-{}.{}", part_.number, part_.count, kind)).string();
 }
 
 bool PartFiles::is_done(const Json& run) const {
@@ -279,7 +280,8 @@ WholeRun find_parts(const std::vector<std::string>& names) {
     whole.parts.push_back(files);
     whole.files.push_back(files.manifest());
     for (const Json& file : manifest.at("files"))
-      whole.files.push_back(fs::path(files.manifest()).parent_path() / std::string(file.at("file")));
+      whole.files.push_back(
+          (fs::path(files.manifest()).parent_path() / std::string(file.at("file"))).string());
   }
   if (whole.parts.size() < count)
     throw InputError(fmt::format("{} is missing, of the run of {}",

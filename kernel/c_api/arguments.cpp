@@ -3,11 +3,10 @@
 
 #include "kernel/c_api/arguments.hpp"
 
-#include <sys/stat.h>
-
 #include <algorithm>
-#include <cerrno>
+#include <filesystem>
 #include <memory>
+#include <system_error>
 
 #include "kernel/runtime/tasks.hpp"
 #include "layout/base/shortest.hpp"
@@ -38,8 +37,9 @@ void check_index(std::size_t index, std::size_t count, const char* argument) {
 }
 
 void require_file(const char* path) {
-  struct stat file;
-  if (stat(path, &file) != 0 && errno == ENOENT)
+  std::error_code error;
+  static_cast<void>(std::filesystem::status(path, error));
+  if (error == std::errc::no_such_file_or_directory)
     throw Failure(BCH_FILE_NOT_FOUND, std::string(path) + ": no such file");
 }
 

@@ -29,6 +29,13 @@ class RangeWork {
 /// Calls the work, as tasks, for ranges of about `grain` and more that together are [0, count), in the standard floating-point state. Throws
 /// what the first task throws that does so; others may be left out then.
 void run_ranges(std::size_t count, std::size_t grain, const RangeWork& work);
+/// Calls the work, as run_ranges() does, for each number below `count`.
+template <class Work>
+void run_each(std::size_t count, const Work& work) {
+  run_ranges(count, 1, RangeWork([&](std::size_t begin, std::size_t end) {
+               for (std::size_t i = begin; i < end; ++i) work(i);
+             }));
+}
 /// Calls work(0, 0) so that this thread takes no task from outside while it waits for those of the work.
 void run_isolated(const RangeWork& work);
 /// Calls work(0, 0) so that what this thread runs meanwhile has at most `threads` threads; an Executor of the caller has as many as it has.

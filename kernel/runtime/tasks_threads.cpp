@@ -106,7 +106,11 @@ class PoolOfProcess {
 #endif
   }
   static PoolOfProcess& instance() {
+#if defined(_WIN32)
+    static PoolOfProcess& all = *new PoolOfProcess;  // whose threads Windows ends before it leaves a library
+#else
     static PoolOfProcess all;
+#endif
     return all;
   }
   ThreadPool& pool() {

@@ -3,9 +3,9 @@
 
 #include "layout/base/aligned_memory.hpp"
 
-#include <sys/mman.h>
-
 #include <new>
+
+#include "layout/base/system_memory.hpp"
 
 namespace bch::detail {
 namespace {
@@ -20,8 +20,7 @@ std::align_val_t alignment_of(std::size_t bytes) {
 
 void* allocate_aligned(std::size_t bytes) {
   void* const memory = ::operator new(bytes, alignment_of(bytes));
-  // Advice: without large pages it only takes longer.
-  if (bytes >= large_page) madvise(memory, bytes, MADV_HUGEPAGE);
+  if (bytes >= large_page) advise_large_pages(memory, bytes);
   return memory;
 }
 

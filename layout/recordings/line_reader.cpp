@@ -3,9 +3,6 @@
 
 #include "layout/recordings/line_reader.hpp"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstring>
 
@@ -17,18 +14,14 @@ constexpr std::size_t buffer_size = std::size_t{1} << 18;
 
 }  // namespace
 
-LineReader::LineReader(const Places& places)
-    : places_(places), file_(open(places.file.c_str(), O_RDONLY | O_CLOEXEC)) {
-  if (file_ < 0) places_.reject(std::string("cannot be opened: ") + std::strerror(errno));
+LineReader::LineReader(const Places& places) : places_(places), file_(places.file, std::ios::binary) {
+  if (!file_) places_.reject(std::string("cannot be opened: ") + std::strerror(errno));
   buffer_.resize(buffer_size);
 }
 
-LineReader::~LineReader() {
-  close(file_);
-}
-
 void LineReader::rewind() {
-  if (lseek(file_, 0, SEEK_SET) != 0) places_.reject(std::string("cannot be read: ") + std::strerror(errno));
+  file_.clear();
+  if (!file_.seekg(0)) places_.reject(std::string("cannot be read: ") + std::strerror(errno));
   begin_ = end_ = 0;
   number_ = 0;
   at_end_ = begun_ = has_nul_ = false;
@@ -38,13 +31,12 @@ void LineReader::fill() {
   std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
   end_ -= begin_;
   begin_ = 0;
-  ssize_t got = 0;
-  do got = ::read(file_, buffer_.data() + end_, buffer_.size() - end_);
-  while (got < 0 && errno == EINTR);
-  if (got < 0) places_.reject(std::string("cannot be read: ") + std::strerror(errno));
+  file_.read(buffer_.data() + end_, static_cast<std::streamsize>(buffer_.size() - end_));
+  if (file_.bad()) places_.reject(std::string("cannot be read: ") + std::strerror(errno));
+  const auto got = static_cast<std::size_t>(file_.gcount());
   at_end_ = got == 0;
-  has_nul_ = has_nul_ || std::memchr(buffer_.data() + end_, '\0', static_cast<std::size_t>(got)) != nullptr;
-  end_ += static_cast<std::size_t>(got);
+  has_nul_ = has_nul_ || std::memchr(buffer_.data() + end_, '\0', got) != nullptr;
+  end_ += got;
 }
 
 void LineReader::begin_text() {

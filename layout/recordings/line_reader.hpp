@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <fstream>
 #include <string_view>
 #include <vector>
 
@@ -19,9 +20,6 @@ namespace bch::detail::trajectory {
 class LineReader {
  public:
   explicit LineReader(const Places& places);
-  ~LineReader();
-  LineReader(const LineReader&) = delete;
-  LineReader& operator=(const LineReader&) = delete;
 
   /// Reads a line, which is there until the next is read.
   /// Returns: whether there was one.
@@ -34,7 +32,7 @@ class LineReader {
 
  private:
   const Places& places_;
-  int file_;
+  std::ifstream file_;
   std::vector<char> buffer_;
   std::size_t begin_ = 0, end_ = 0;  ///< what is read but not yet given
   std::uint64_t number_ = 0;

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <fcntl.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -29,17 +26,18 @@ namespace {
 /// Returns the first bytes of a file.
 /// Errors:  throws TrajectoryError on what is no file, or an empty one.
 std::string beginning(const Places& places) {
-  const int file = open(places.file.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (file < 0) places.reject(std::string("cannot be opened: ") + std::strerror(errno));
-  struct stat status = {};
-  const bool is_file = fstat(file, &status) == 0 && S_ISREG(status.st_mode);
+  std::error_code none;
+  const std::filesystem::file_status status = std::filesystem::status(places.file, none);
+  // A pipe would wait for a writer.
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    places.reject("is not a file");
+  std::ifstream file(places.file, std::ios::binary);
+  if (!file) places.reject(std::string("cannot be opened: ") + std::strerror(errno));
   std::string bytes(4096, '\0');
-  const ssize_t got = is_file ? ::read(file, bytes.data(), bytes.size()) : 0;
-  close(file);
-  if (!is_file) places.reject("is not a file");
-  if (got < 0) places.reject(std::string("cannot be read: ") + std::strerror(errno));
-  if (got == 0) places.reject("is empty");
-  bytes.resize(static_cast<std::size_t>(got));
+  file.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  if (file.bad()) places.reject(std::string("cannot be read: ") + std::strerror(errno));
+  if (file.gcount() == 0) places.reject("is empty");
+  bytes.resize(static_cast<std::size_t>(file.gcount()));
   return bytes;
 }
 

@@ -9,30 +9,11 @@
 #include <vector>
 
 #include "layout/recordings/row.hpp"
+#include "layout/recordings/temporary_file.hpp"
 
 // Private to the readers of recordings: rows sorted in bounded memory.
 
 namespace bch::detail::trajectory {
-
-/// Represents a file without a name in the folder for temporary files.
-class TemporaryFile {
- public:
-  /// Creates a file without a name in the folder for temporary files.
-  /// Errors:  all functions throw TrajectoryError, naming the folder.
-  TemporaryFile();
-  ~TemporaryFile();
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
-  void append(std::span<const Row> rows);
-  /// Reads rows from the first'th on.
-  void read(std::uint64_t first, std::span<Row> rows) const;
-
- private:
-  int file_ = -1;
-
-  [[noreturn]] static void fail(const char* what);
-};
 
 /// Holds rows by key, then id, then number. They are sorted piece by piece, and the pieces merged.
 class RowSorter {

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include <system_error>
 
 #include "tests/support/baked_bytes.hpp"
 #include "tests/support/body_models.hpp"
+#include "tests/support/on_threads.hpp"
 #include "tests/support/test.hpp"
 
 // bake() of outlines and of bodies of spheres: what each pose gives by itself, for any number of threads; what cannot be made is named.
@@ -71,11 +69,10 @@ TEST(BakeBodies, MakesWhatIsListed) {
 }
 
 TEST(BakeBodies, GivesTheSameForAnyNumberOfThreads) {
-  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 4);
   const BodyModel model = test::plain_model(default_male(), 80);
   std::vector<std::vector<Sphere>> expected;
-  for (const int threads : {1, 2, 4})
-    tbb::task_arena(threads).execute([&] {
+  for (const unsigned threads : {1u, 2u, 4u})
+    test::on_threads(threads, [&] {
       const BodySet set = bake(model, {.poses = 101});
       for (std::uint32_t i = 0; i < set.body_count(); ++i) {
         if (threads == 1) expected.push_back(set.spheres(i));
@@ -119,7 +116,6 @@ Character vanishing_man() {
 }
 
 TEST(Bake, GivesTheBytesOfTheLoopOnAnyNumberOfThreads) {
-  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 4);
   const std::vector<Character> people = {default_male(), default_female()};
   for (const ShapeSetPlan& plan : {ShapeSetPlan{}, ShapeSetPlan{.depths = {0, 3}, .heights = true}}) {
     std::vector<Shape> shapes;
@@ -128,8 +124,8 @@ TEST(Bake, GivesTheBytesOfTheLoopOnAnyNumberOfThreads) {
       for (const PoseTime& at : sample_poses(person, 70)) shapes.push_back(shaper.shape(at));
     }
     const std::string expected = bytes(ShapeSet(shapes, plan));
-    for (const int threads : {1, 2, 4})
-      tbb::task_arena(threads).execute([&] {
+    for (const unsigned threads : {1u, 2u, 4u})
+      test::on_threads(threads, [&] {
         EXPECT_EQ(bytes(bake(people, {.poses = 70, .plan = plan, .threshold = 0.02f})), expected) << threads;
       });
   }

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/task_arena.h>
 #define XXH_INLINE_ALL  // nothing is linked
 #include <xxhash.h>
 
@@ -15,6 +13,7 @@
 #include "tests/support/body_models.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/held_triangles.hpp"
+#include "tests/support/on_threads.hpp"
 #include "tests/support/test.hpp"
 
 namespace bch {
@@ -247,11 +246,10 @@ std::uint64_t hash_of(const BodySet& set) {
 }
 
 TEST(LiveBodies, HaveTheSpheresOfTheirPosesForAnyNumberOfThreads) {
-  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 4);
   const PosedCrowd crowd(101);
   std::vector<std::uint64_t> hashes;
-  for (const int threads : {1, 2, 4})
-    tbb::task_arena(threads).execute([&] {
+  for (const unsigned threads : {1u, 2u, 4u})
+    test::on_threads(threads, [&] {
       LiveBodies live(crowd.models, crowd.model_of_body);
       live.pose(crowd.poses);
       hashes.push_back(hash_of(live.set()));
@@ -267,7 +265,7 @@ TEST(LiveBodies, HaveTheSpheresOfTheirPosesForAnyNumberOfThreads) {
 }
 
 TEST(LiveBodies, AllocateNothingAfterTheFirstFrame) {
-  tbb::task_arena(1).execute([] {
+  test::on_threads(1, [] {
     const PosedCrowd crowd(40);
     LiveBodies live(crowd.models, crowd.model_of_body);
     live.pose(crowd.poses);

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include "layout/base/heading.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/format/shape_set_view.hpp"
 #include "tests/support/crowd_pairs.hpp"
+#include "tests/support/on_threads.hpp"
 #include "tests/support/test.hpp"
 
 namespace bch {
@@ -260,11 +258,9 @@ TEST(BroadPhase, AnswersOfALargeCrowdAreThoseOfItsPairs) {
 TEST(BroadPhase, AnyNumberOfThreads) {
   const test::Crowd crowd = crowd_in(60, 60, 9000, 8);
   const auto expected = test::candidate_pairs(set, crowd.agents());
-  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 8);
-  for (int threads = 1; threads <= 8; ++threads) {
-    tbb::task_arena arena(threads);
-    EXPECT_EQ(arena.execute([&] { return test::candidate_pairs(set, crowd.agents()); }), expected) << threads;
-  }
+  for (unsigned threads = 1; threads <= 8; ++threads)
+    test::on_threads(threads,
+                     [&] { EXPECT_EQ(test::candidate_pairs(set, crowd.agents()), expected) << threads; });
 }
 
 /// Also where it has moved.

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/task_arena.h>
 #define XXH_INLINE_ALL  // nothing is linked
 #include <xxhash.h>
 
@@ -10,6 +8,7 @@
 #include "layout/base/floating_point_state.hpp"
 #include "tests/support/baked_bytes.hpp"
 #include "tests/support/crowd_pairs.hpp"
+#include "tests/support/on_threads.hpp"
 #include "tests/support/query_answers.hpp"
 #include "tests/support/test.hpp"
 
@@ -207,29 +206,24 @@ TEST_P(Determinism, OfInstructionSets) {
 }
 
 TEST_P(Determinism, OfThreadsAndBatches) {
-  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 32);
   // With sanitizers, which look for other mistakes, two of these.
-  const std::vector<int> counts = test::samples(8) == 8 ? std::vector{1, 2, 3, 8, 32} : std::vector{3, 32};
-  for (const int threads : counts) {
-    tbb::task_arena arena(threads);
+  const std::vector<unsigned> counts =
+      test::samples(8) == 8 ? std::vector{1u, 2u, 3u, 8u, 32u} : std::vector{3u, 32u};
+  for (const unsigned threads : counts)
     for (const std::size_t batch : {pairs.size(), std::size_t{2049}, std::size_t{100}})
-      arena.execute(
-          [&] { EXPECT_EQ(hashes(nullptr, batch), expected()) << threads << " threads, " << batch; });
-  }
+      test::on_threads(threads, [&] {
+        EXPECT_EQ(hashes(nullptr, batch), expected()) << threads << " threads, " << batch;
+      });
 }
 
 /// New arenas give the state of the thread that makes them to their workers.
 TEST_P(Determinism, OfTheThreadsFloatingPointState) {
-  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 4);
   const unsigned before = float_state();
   for (const FloatState& state : odd_float_states()) {
     Hashes here;
     unsigned after = 0;
     set_float_state(state.bits);
-    {
-      tbb::task_arena arena(4);
-      arena.execute([&] { here = hashes(nullptr, pairs.size()), after = float_state(); });
-    }
+    test::on_threads(4, [&] { here = hashes(nullptr, pairs.size()), after = float_state(); });
     set_float_state(before);
     EXPECT_EQ(here, expected()) << state.name;
     EXPECT_EQ(after, state.bits) << state.name;

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include "baselines/oracle.hpp"
 #include "baselines/reference.hpp"
 #include "kernel/runtime/all_options.hpp"
+#include "kernel/runtime/tasks.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/format/shape_arrays.hpp"
 #include "layout/format/shape_set_view.hpp"
@@ -42,7 +41,7 @@ class ExactLeaves : public testing::Test {
 TEST_F(ExactLeaves, MissNoOutlinesThatMeetAndTakeNoOthersForMeeting) {
   constexpr std::uint32_t blocks = 400;
   std::vector<Scene> scenes(blocks);
-  tbb::parallel_for(0u, blocks, [&](std::uint32_t i) {
+  detail::run_each(blocks, [&](std::size_t i) {
     Random own(2402 + i);
     scenes[i] = test::touching_scene(own, shapes, test::samples(5'000));
   });

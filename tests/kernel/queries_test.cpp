@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include "kernel/runtime/kernels.hpp"
 #include "layout/format/shape_arrays.hpp"
 #include "layout/hierarchy/paper_hierarchies.hpp"
 #include "layout/shape_set/bvh8.hpp"
 #include "tests/support/character_shapes.hpp"
 #include "tests/support/crowd_pairs.hpp"
+#include "tests/support/on_threads.hpp"
 #include "tests/support/query_references.hpp"
 #include "tests/support/test.hpp"
 #include "tests/support/touching_scene.hpp"
@@ -432,9 +430,8 @@ TEST_F(Queries, InBatchesOfAnySizeAndOffset) {
 
 TEST_F(Queries, OnAnyNumberOfThreads) {
   const std::vector<PairAnswers> expected = run_query(world.set, questions);
-  const tbb::global_control allow(tbb::global_control::max_allowed_parallelism, 8);
-  for (int threads = 1; threads <= 8; ++threads)
-    tbb::task_arena(threads).execute([&] {
+  for (unsigned threads = 1; threads <= 8; ++threads)
+    test::on_threads(threads, [&] {
       expect_same(run_query(world.set, questions), expected, std::to_string(threads) + " threads");
     });
 }

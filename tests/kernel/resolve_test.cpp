@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <oneapi/tbb/task_arena.h>
-
 #include "kernel/crowd/separation_solver.hpp"
 #include "tests/support/body_scenes.hpp"
+#include "tests/support/on_threads.hpp"
 #include "tests/support/test.hpp"
 
 // Crowds without overlaps: Crowd::resolve().
@@ -83,8 +82,8 @@ TEST(Resolve, IsTheSameOnEveryImplementationAndForAnyNumberOfThreads) {
   const Scene scene;
   const Answer expected = resolved(scene.bodies, scene.crowd);
   for (const Implementation& implementation : test::supported())
-    for (const int threads : {1, 2})
-      tbb::task_arena(threads).execute([&] {
+    for (const unsigned threads : {1u, 2u})
+      test::on_threads(threads, [&] {
         EXPECT_EQ(resolved(scene.bodies, scene.crowd, {.implementation = &implementation}), expected);
       });
 }

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <oneapi/tbb/enumerable_thread_specific.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include <cstdlib>
+#include <mutex>
 
 #include "baselines/exact_discs.hpp"
 #include "baselines/placement.hpp"
+#include "kernel/runtime/tasks.hpp"
 #include "layout/base/heading.hpp"
 #include "layout/base/rounding.hpp"
 #include "tests/support/test.hpp"
@@ -330,12 +329,14 @@ void attack(const TangentShapes& shapes, std::uint64_t seed, Tallies& tallies) {
 
 Tallies attack(std::uint64_t pairs) {
   const TangentShapes shapes(1968, 2000, 8000);
-  tbb::enumerable_thread_specific<Tallies> local([] { return Tallies(test::supported().size()); });
-  tbb::parallel_for(std::uint64_t{0}, (pairs + block - 1) / block,
-                    [&](std::uint64_t i) { attack(shapes, 0x5eed + i, local.local()); });
   Tallies all(test::supported().size());
-  for (const Tallies& some : local)
+  std::mutex mutex;
+  detail::run_each((pairs + block - 1) / block, [&](std::size_t i) {
+    Tallies some(all.size());
+    attack(shapes, 0x5eed + i, some);
+    const std::lock_guard lock(mutex);
     for (std::size_t k = 0; k < all.size(); ++k) all[k].add(some[k]);
+  });
   return all;
 }
 

@@ -29,10 +29,26 @@ bool fails() {
   return now;
 }
 
+#if defined(_WIN32)
+void* take(std::size_t alignment, std::size_t size) {
+  return _aligned_malloc(size, alignment);
+}
+void give_back(void* memory) {
+  _aligned_free(memory);
+}
+#else
+void* take(std::size_t alignment, std::size_t size) {
+  return std::aligned_alloc(alignment, size);
+}
+void give_back(void* memory) {
+  std::free(memory);
+}
+#endif
+
 void* try_allocate(std::size_t size, std::size_t alignment) {
   if (fails()) return nullptr;
   const std::size_t whole = (size + alignment - 1) / alignment * alignment;
-  void* const memory = std::aligned_alloc(alignment, whole > 0 ? whole : alignment);
+  void* const memory = take(alignment, whole > 0 ? whole : alignment);
   live += memory != nullptr ? 1 : 0;
   return memory;
 }
@@ -44,7 +60,7 @@ void* allocate(std::size_t size, std::size_t alignment) {
 
 void release(void* memory) {
   live -= memory != nullptr ? 1 : 0;
-  std::free(memory);
+  give_back(memory);
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ std::string bytes(const Values& values) {
 /// The same set for the C interface, by way of a file.
 inline OwnedSet c_set(const ShapeSet& set) {
   const TemporaryFolder folder;
-  const std::string file = folder.file("shapes.bch");
+  const std::string file = folder.file("shapes.bch").string();
   save_baked(file, set);
   return made<bch_shape_set_free>(bch_shape_set_load, file.c_str(), BCH_READ);
 }

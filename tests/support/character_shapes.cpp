@@ -3,10 +3,9 @@
 
 #include "tests/support/character_shapes.hpp"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include <cstdlib>
+
+#include "kernel/runtime/tasks.hpp"
 
 namespace bch::test {
 
@@ -19,10 +18,10 @@ std::optional<std::filesystem::path> test_data() {
 std::vector<Shape> pose_shapes(const Character& character, std::uint32_t poses) {
   const std::vector<PoseTime> times = sample_poses(character, poses);
   std::vector<Shape> shapes(times.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, times.size()), [&](const auto& range) {
-    PoseShaper shaper(character);
-    for (std::size_t i = range.begin(); i < range.end(); ++i) shapes[i] = shaper.shape(times[i]);
-  });
+  detail::run_ranges(times.size(), 1, detail::RangeWork([&](std::size_t begin, std::size_t end) {
+                       PoseShaper shaper(character);
+                       for (std::size_t i = begin; i < end; ++i) shapes[i] = shaper.shape(times[i]);
+                     }));
   return shapes;
 }
 

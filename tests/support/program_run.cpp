@@ -12,8 +12,6 @@
 #include <cstdlib>
 #include <thread>
 
-#include "tests/support/temporary_folder.hpp"
-
 namespace bch::test {
 namespace {
 
@@ -49,12 +47,6 @@ int end_of(pid_t child) {
 }
 
 }  // namespace
-
-std::string read_text(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return text.str();
-}
 
 Ending run_program(const std::string& program, const std::vector<std::string>& arguments,
                    const Streams& streams) {

@@ -6,10 +6,9 @@
 #include <chrono>
 
 #include "tests/support/standard.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace bch::test {
-
-std::string read_text(const std::filesystem::path& file);
 
 /// The output of a program and how it ended.
 struct Ending {

@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include <stdlib.h>
+#include <random>
 
 #include "tests/support/standard.hpp"
 
@@ -13,9 +13,10 @@ namespace bch {
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "bch_test_XXXXXX").string();
-    if (!mkdtemp(name.data())) throw std::runtime_error("cannot make a folder like " + name);
-    path_ = name;
+    std::random_device random;
+    path_ = std::filesystem::temp_directory_path() / ("bch_test_" + std::to_string(random()));
+    if (!std::filesystem::create_directory(path_))
+      throw std::runtime_error("there is already a folder " + path_.string());
   }
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
@@ -42,4 +43,13 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
+namespace test {
+
+inline std::string read_text(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+}  // namespace test
 }  // namespace bch

@@ -2,23 +2,56 @@
  * Copyright (c) 2026 the bch authors */
 
 /* Loads the library while the program runs, as engines load plugins. Usage: plugin LIBRARY */
-#include <dlfcn.h>
 #include <stdio.h>
 #include <string.h>
 
 #include <bch/bch.h>
 
+#if defined(_WIN32)
+#include <windows.h>
+typedef HMODULE Library;
+typedef FARPROC Address;
+static Library open_library(const char* path) {
+  return LoadLibraryA(path);
+}
+static Address address_of(Library library, const char* name) {
+  return GetProcAddress(library, name);
+}
+static int close_library(Library library) {
+  return FreeLibrary(library) != 0;
+}
+static int is_loaded(const char* path) {
+  return GetModuleHandleA(path) != NULL;
+}
+#else
+#include <dlfcn.h>
+typedef void* Library;
+typedef void* Address;
+static Library open_library(const char* path) {
+  return dlopen(path, RTLD_NOW | RTLD_LOCAL);
+}
+static Address address_of(Library library, const char* name) {
+  return dlsym(library, name);
+}
+static int close_library(Library library) {
+  return dlclose(library) == 0;
+}
+static int is_loaded(const char* path) {
+  return dlopen(path, RTLD_LAZY | RTLD_NOLOAD) != NULL;
+}
+#endif
+
 /* ISO C has no cast from the pointers that dlsym() returns to those of functions. */
-static void find(void* library, const char* name, void* function) {
-  void* const found = dlsym(library, name);
-  if (found == NULL) fprintf(stderr, "%s\n", dlerror());
+static void find(Library library, const char* name, void* function) {
+  const Address found = address_of(library, name);
+  if (found == NULL) fprintf(stderr, "no function %s\n", name);
   memcpy(function, &found, sizeof found);
 }
 
 int main(int argc, char** argv) {
-  void* const library = argc == 2 ? dlopen(argv[1], RTLD_NOW | RTLD_LOCAL) : NULL;
+  const Library library = argc == 2 ? open_library(argv[1]) : NULL;
   if (library == NULL) {
-    fprintf(stderr, "%s\n", argc == 2 ? dlerror() : "usage: plugin LIBRARY");
+    fprintf(stderr, "%s\n", argc == 2 ? "no such library" : "usage: plugin LIBRARY");
     return 1;
   }
   uint32_t (*abi_version)(void) = NULL;
@@ -56,7 +89,7 @@ int main(int argc, char** argv) {
 
   fine = free_set(set) == BCH_OK && free_builder(builder) == BCH_OK && fine;
   /* It stays when it is closed: threads may still wait in it. */
-  fine = dlclose(library) == 0 && dlopen(argv[1], RTLD_LAZY | RTLD_NOLOAD) != NULL && fine;
+  fine = close_library(library) && is_loaded(argv[1]) && fine;
   printf("%s\n", fine ? "one pair of two collides" : "wrong");
   return fine ? 0 : 1;
 }

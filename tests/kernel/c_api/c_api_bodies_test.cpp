@@ -50,7 +50,7 @@ void expect_baked(const std::vector<const bch_body_model*>& models) {
 
 TEST(CApiBodies, AreBakedOfModelsOfTheLibraryAndComeFromFilesAsTheyWere) {
   const TemporaryFolder folder;
-  const std::string file = folder.file("people.bch");
+  const std::string file = folder.file("people.bch").string();
   {
     const Models own;
     EXPECT_EQ(sphere_count(own.man.get()), 64u);

@@ -3,7 +3,7 @@
 
 #include "layout/hierarchy/paper_hierarchies.hpp"
 #include "tests/support/c_api.hpp"
-#include "tests/support/program_run.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/support/test.hpp"
 
 // Characters, sets and scenes that the C interface makes: sets have the bytes of those that the C++ library makes.
@@ -17,14 +17,14 @@ using test::made;
 
 std::string bytes_of(const bch_shape_set* set) {
   const TemporaryFolder folder;
-  const std::string file = folder.file("c.bch");
+  const std::string file = folder.file("c.bch").string();
   expect_ok(bch_shape_set_save(set, file.c_str()));
   return test::read_text(file);
 }
 
 std::string bytes_of(const ShapeSet& set, const ShapeOrigins& origins) {
   const TemporaryFolder folder;
-  const std::string file = folder.file("own.bch");
+  const std::string file = folder.file("own.bch").string();
   save_baked(file, set, origins);
   return test::read_text(file);
 }

@@ -4,7 +4,7 @@
 #include "tests/support/baked_bytes.hpp"
 #include "tests/support/c_api.hpp"
 #include "tests/support/moving_bodies.hpp"
-#include "tests/support/program_run.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tests/support/test.hpp"
 
 // Bodies that move by themselves, and poses of one's own, by the C interface: they and their answers are those of the C++ library.
@@ -103,7 +103,7 @@ TEST(CApiMotions, ClipsAreAnimated) {
 
 TEST(CApiMotions, SetsKeepThem) {
   const TemporaryFolder folder;
-  const std::string file = folder.file("people.bch");
+  const std::string file = folder.file("people.bch").string();
   const std::vector<BakedClip> clips = test::few_clips();
   const auto set = test::c_set(ShapeSet(test::few_shapes()));
   std::size_t count = 9;

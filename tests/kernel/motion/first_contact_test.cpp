@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <oneapi/tbb/task_arena.h>
-
 #include "tests/support/moving_bodies.hpp"
+#include "tests/support/on_threads.hpp"
 #include "tests/support/test.hpp"
 
 // The first contact of two motions, against the solids sampled densely, and where a formula tells it.
@@ -233,9 +232,9 @@ TEST(FirstContact, TellsTheSameToAnyThreadsSplitOrderAndLaterEnd) {
     pairs.push_back({random.below(40), random.below(40)});
     exchanged.push_back({pairs.back().second, pairs.back().first});
   }
-  const auto times_of = [&](std::span<const Pair> asked, double to, int threads) {
+  const auto times_of = [&](std::span<const Pair> asked, double to, unsigned threads) {
     std::vector<double> times(asked.size());
-    tbb::task_arena(threads).execute([&] { first_contact(motions, asked, {-2, to}, times); });
+    test::on_threads(threads, [&] { first_contact(motions, asked, {-2, to}, times); });
     return times;
   };
   const std::vector<double> times = times_of(pairs, 3, 1);

@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/task_arena.h>
-
 #include "baselines/obstacle_reference.hpp"
 #include "kernel/runtime/all_options.hpp"
 #include "layout/hierarchy/paper_hierarchies.hpp"
 #include "tests/support/obstacle_scenes.hpp"
+#include "tests/support/on_threads.hpp"
 #include "tests/support/plane_geometry.hpp"
 #include "tests/support/test.hpp"
 
@@ -189,8 +187,7 @@ TEST_F(Obstacles, AnswerFarAwayAsAtTheOrigin) {
   };
   for (const double far : {0x1p20, 0x1p27, 0x1.8p29}) {
     move(far);
-    const oneapi::tbb::global_control threads(oneapi::tbb::global_control::max_allowed_parallelism, 4);
-    oneapi::tbb::task_arena(4).execute([&] {
+    test::on_threads(4, [&] {
       EXPECT_EQ(all_answers(set, crowd.agents(), scene.set(), {}, distances, {way, way}), here) << far;
       EXPECT_EQ(all_answers(set, crowd.agents(), scene.set(), exact_distances, distances, {way, way}),
                 outlines)

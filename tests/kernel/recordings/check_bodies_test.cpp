@@ -3,10 +3,9 @@
 
 #include "kernel/recordings/check.hpp"
 
-#include <oneapi/tbb/task_arena.h>
-
 #include "kernel/recordings/walker_bodies.hpp"
 #include "tests/support/made_up_recording.hpp"
+#include "tests/support/on_threads.hpp"
 #include "tests/support/test.hpp"
 
 // Checks of recordings by bodies of spheres, against queries of every pair of a frame.
@@ -224,10 +223,9 @@ TEST(CheckOfBodies, IsTheSameForAnyNumberOfThreadsAndFramesAtOnce) {
   };
   const std::vector<Lines> expected = lines();
   for (const std::size_t at_once : {std::size_t{1}, std::size_t{500}})
-    for (const int threads : {1, 2}) {
+    for (const unsigned threads : {1u, 2u}) {
       options.people_at_once = at_once;
-      tbb::task_arena arena(threads);
-      arena.execute([&] { EXPECT_TRUE(lines() == expected) << at_once << " " << threads; });
+      test::on_threads(threads, [&] { EXPECT_TRUE(lines() == expected) << at_once << " " << threads; });
     }
 }
 

@@ -3,10 +3,9 @@
 
 #include "kernel/recordings/check.hpp"
 
-#include <oneapi/tbb/task_arena.h>
-
 #include "tests/support/crowd_pairs.hpp"
 #include "tests/support/made_up_recording.hpp"
+#include "tests/support/on_threads.hpp"
 #include "tests/support/test.hpp"
 
 // Who runs into whom in recordings that are made up.
@@ -184,11 +183,11 @@ TEST(Check, IsTheSameForAnyNumberOfThreadsAndFramesAtOnce) {
   const std::string expected = text_of_all(recording, options);
   EXPECT_GT(expected.size(), 10'000u);
   for (const std::size_t at_once : {std::size_t{1}, std::size_t{500}, std::size_t{1'000'000}})
-    for (const int threads : {1, 2}) {
+    for (const unsigned threads : {1u, 2u}) {
       options.people_at_once = at_once;
-      tbb::task_arena arena(threads);
-      arena.execute(
-          [&] { EXPECT_TRUE(text_of_all(recording, options) == expected) << at_once << " " << threads; });
+      test::on_threads(threads, [&] {
+        EXPECT_TRUE(text_of_all(recording, options) == expected) << at_once << " " << threads;
+      });
     }
 }
 

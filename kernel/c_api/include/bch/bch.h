@@ -32,7 +32,11 @@
 extern "C" {
 #endif
 
-#if defined(__GNUC__)
+#if defined(_WIN32) && defined(BCH_EXPORTS)
+#define BCH_API __declspec(dllexport)
+#elif defined(_WIN32)
+#define BCH_API __declspec(dllimport)
+#elif defined(__GNUC__)
 #define BCH_API __attribute__((visibility("default")))
 #else
 #define BCH_API
