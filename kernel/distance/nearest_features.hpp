@@ -25,7 +25,7 @@ class PlacedFeatures {
  public:
   /// Takes the pair, the lower index first. Everything has to outlive this.
   PlacedFeatures(const ShapeSetView& shapes, const Agents& agents, Pair pair,
-                  const NearestFeatures& nearest) noexcept
+                 const NearestFeatures& nearest) noexcept
       : shapes_(shapes), agents_(agents), pair_(pair), nearest_(nearest) {}
 
   const NearestFeatures& nearest() const noexcept { return nearest_; }

@@ -32,7 +32,7 @@ class JsonValue {
   std::size_t whole_number(std::size_t largest) const;  ///< from 0 to `largest`
   std::size_t whole_number(std::size_t largest, std::size_t if_absent) const;
   float number() const;
-  bool as_bool() const;        ///< false if absent
+  bool as_bool() const;      ///< false if absent
   std::string text() const;  ///< empty if absent
 
   const std::string& place() const { return place_; }
