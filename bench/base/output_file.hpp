@@ -76,22 +76,18 @@ class StreamedFile {
     write();
     file_->commit();
   }
-  /// Returns size and checksum of what was committed.
-  detail::baked::StreamChecksum checksum() const { return checksum_.value(); }
 
  private:
   static constexpr std::size_t piece = std::size_t{1} << 20;
 
   void write() {
     file_->write(waiting_);
-    checksum_.add(waiting_);
     waiting_.clear();
   }
 
   std::string name_;
   std::optional<OutputFile> file_;
   std::string waiting_;
-  detail::baked::RunningChecksum checksum_;
 };
 
 }  // namespace bch::cli

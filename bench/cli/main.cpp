@@ -18,7 +18,7 @@ constexpr const char* footer =
     "Data goes to standard output, messages to standard error.\n"
     "Exit codes:\n"
     "  0        success\n"
-    "  1        a check failed (--fail-above of check and merge)\n"
+    "  1        a check failed (--fail-above of check)\n"
     "  2        wrong usage\n"
     "  3        a file cannot be read or written, or is not valid\n"
     "  4        internal error\n"
@@ -33,7 +33,6 @@ int run(int argc, char** argv) {
                       {"check", add_check_command(program)},
                       {"crowd", add_crowd_command(program)},
                       {"inspect", add_inspect_command(program)},
-                      {"merge", add_merge_command(program)},
                       {"outline", add_outline_command(program)},
                       {"place", add_place_command(program)},
                       {"query", add_query_command(program)},

@@ -23,7 +23,6 @@
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/options.hpp"
 #include "bench/characters/body_models.hpp"
-#include "bench/recordings/parts.hpp"
 #include "kernel/broad_phase/pair_limit.hpp"
 #include "kernel/runtime/all_options.hpp"
 
@@ -120,8 +119,6 @@ struct QueryCommandOptions {
   std::size_t max_pairs = 0;  ///< of neighbours, for all_pairs; 0: what is usual
   std::string overlap = "zero";
   bool points = false;
-  PartOptions part;
-  std::optional<Part> only;  ///< of pairs, or of agents by obstacles
   BodyKind kind;
   ShapeOptions shapes;
   AnswerOptions answer;

@@ -50,27 +50,6 @@ struct Question {
   std::optional<ObstacleSet> obstacles = {};
 };
 
-/// Keeps a part of the agents.
-void keep_only(AgentTable& table, const Part& part) {
-  const auto [begin, end] = part.share_of(table.id.size());
-  const auto keep = [first = begin, last = end](auto& column) {
-    if (column.empty()) return;
-    column.erase(column.begin() + static_cast<std::ptrdiff_t>(last), column.end());
-    column.erase(column.begin(), column.begin() + static_cast<std::ptrdiff_t>(first));
-  };
-  keep(table.id), keep(table.shape), keep(table.level);
-  for (std::vector<double>* column : {&table.x, &table.y, &table.heading, &table.z, &table.dx, &table.dy})
-    keep(*column);
-}
-
-/// Keeps a part of what is asked.
-void keep_only(Question& question, const Part& part) {
-  if (question.obstacles) return keep_only(question.table, part);
-  const auto [begin, end] = part.share_of(question.pairs.size());
-  question.pairs = {question.pairs.begin() + static_cast<std::ptrdiff_t>(begin),
-                    question.pairs.begin() + static_cast<std::ptrdiff_t>(end)};
-}
-
 /// Files first, so that a wrong value does not wait for shapes to be built.
 Question read_question(const QueryCommandOptions& options, std::size_t shapes, std::size_t levels) {
   Question question{read_agents(options.agents, static_cast<std::uint32_t>(shapes),
@@ -78,7 +57,6 @@ Question read_question(const QueryCommandOptions& options, std::size_t shapes, s
                     {},
                     options.obstacles.read()};
   if (!options.pairs.empty()) question.pairs = read_pairs(options.pairs, question.table);
-  if (options.only) keep_only(question, *options.only);
   if (options.guard_ids) guard_ids(question.table);
   return question;
 }
@@ -166,29 +144,8 @@ void answer_all(const CLI::App& command, const QueryCommandOptions& options, con
   query_baked(options, write);
 }
 
-/// Answers a part of what is asked, unless that is done already.
-void query_part(const CLI::App& command, QueryCommandOptions options,
-                const std::vector<std::string>& inputs) {
-  require_absent(command, {"--all-pairs"}, "the pairs of all agents are found at once, not in parts");
-  const PartFiles files = options.part.files();
-  const nlohmann::ordered_json run = run_of(command, inputs);
-  if (files.is_done(run)) return write_standard_output(files.done_line());
-  files.prepare("query", inputs);
-  options.only = files.part();
-  std::string table;
-  answer_all(command, options, [&](const std::string& lines) { table += lines; });
-  files.begin();
-  StreamedFile answered(files.file(answers_kind), table);
-  answered.commit();
-  files.finish(run, {}, nlohmann::ordered_json::array({identity_of(answered)}));
-  write_standard_output(fmt::format("{}: {}\n", files.part().name(), files.manifest()));
-}
-
 void run_query(const CLI::App& command, const QueryCommandOptions& options) {
   require_fitting(command, options);
-  const std::vector<std::string> inputs =
-      options.shapes.inputs({options.character, options.agents, options.pairs, options.obstacles.file});
-  if (options.part.are_given()) return query_part(command, options, inputs);
   answer_all(command, options, write_standard_data);
 }
 
@@ -253,7 +210,6 @@ Example: bch query default:female agents.csv pairs.csv > answers.csv)");
   command.add_flag(
       "--points", options->points,
       "For clearance: also write the nearest points, relative to the positions of their agents, metres");
-  options->part.add_to(command);
   options->kind.add_to(command);
   options->shapes.add_to(command);
   options->answer.add_to(command);

@@ -16,10 +16,6 @@
 
 namespace bch::cli {
 
-/// Adds the command that checks a recording in parts, which ranks take in turn. Returns what runs the
-/// command.
-std::function<void()> add_check_command(CLI::App& program, MPI_Comm comm);
-
 /// Adds the command that lets a crowd walk on all ranks, and tells what each of them did. Returns what runs
 /// the command.
 std::function<void()> add_crowd_command(CLI::App& program, MPI_Comm comm);

@@ -30,10 +30,7 @@ int run_program(const Session& session, int argc, char** argv) {
   CLI::App program(description, "bch_mpi");
   set_up(program, BCH_VERSION, footer);
   if (argc > 1 && argv[1][0] == '-' && session.rank() != 0) return exit_success;  // help and version once
-  return run_command(program,
-                     {{"check", add_check_command(program, session.comm())},
-                      {"crowd", add_crowd_command(program, session.comm())}},
-                     argc, argv);
+  return run_command(program, {{"crowd", add_crowd_command(program, session.comm())}}, argc, argv);
 }
 
 /// Ends with an error that all ranks know of: rank 0 alone writes it.

@@ -19,11 +19,11 @@ struct CheckCommandOptions {
   CheckInput input;
   CheckOutputs outputs;
   std::string html;
-  PartOptions part;
   std::uint32_t threads = 0;
 };
 
-void check_whole(const CheckCommandOptions& options) {
+void run_check(const CLI::App& command, const CheckCommandOptions& options) {
+  options.input.require_fitting(command);
   std::vector<OutputOption> files = options.outputs.files();
   files.push_back({"--html", options.html});
   require_outputs(files, options.input.files());
@@ -42,17 +42,6 @@ void check_whole(const CheckCommandOptions& options) {
   tables.finish(opened.recording, summary);
   if (page) write_file(options.html, std::move(*page).finish(summary));
   report(opened.recording, summary, options.outputs);
-}
-
-void run_check(const CLI::App& command, const CheckCommandOptions& options) {
-  options.input.require_fitting(command);
-  if (!options.part.are_given()) return check_whole(options);
-  require_absent(command, {"--events", "--frames", "--pairs", "--json", "--fail-above"},
-                 "--part writes parts of all: it belongs to bch merge");
-  require_absent(command, {"--html"}, "a page is not made in parts");
-  const Threads threads(options.threads);
-  write_standard_output(
-      check_part(options.input, options.part.files(), run_of(command, options.input.files())));
 }
 
 }  // namespace
@@ -77,42 +66,8 @@ Example: bch check trajectories.sqlite --events events.csv)");
   add_outputs_to(command, options->outputs);
   OptionAdder{command}("--html", options->html, "FILE.html",
                        "Write a web page that plays the recording; it needs no network");
-  options->part.add_to(command);
   add_threads_option(command, options->threads);
   return [options, &command] { run_check(command, *options); };
-}
-
-namespace {
-
-struct MergeOptions {
-  std::vector<std::string> parts;
-  CheckOutputs outputs;
-};
-
-void run_merge(const CLI::App& command, const MergeOptions& options) {
-  const WholeRun whole = find_parts(options.parts);
-  require_outputs(options.outputs.files(), whole.files);
-  if (whole.run.at("command") == "check") return merge_check(whole, options.outputs);
-  require_absent(command, {"--events", "--frames", "--pairs", "--json", "--fail-above"},
-                 "belongs to parts of bch check");
-  write_standard_data(joined_tables(whole, answers_kind));
-}
-
-}  // namespace
-
-std::function<void()> add_merge_command(CLI::App& program) {
-  const auto options = std::make_shared<MergeOptions>();
-  CLI::App& command =
-      *program.add_subcommand("merge", "Join the parts that check --part or query --part wrote");
-  command.footer(
-      "Writes the same bytes as a single run. All parts have to be there, complete, and of the same run, "
-      "with the same\n"
-      "files, options and version. A page (check --html) cannot be made in parts.\n"
-      "Example: seq 8 | xargs -P 4 -I{} bch check long.sqlite --part {}/8 --into parts && bch merge parts "
-      "--json check.json");
-  OptionAdder{command}("PARTS", options->parts, "", "Folder of the parts, or their manifests")->required();
-  add_outputs_to(command, options->outputs);
-  return [options, &command] { run_merge(command, *options); };
 }
 
 }  // namespace bch::cli

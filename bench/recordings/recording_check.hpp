@@ -18,7 +18,6 @@
 #include "bench/base/output.hpp"
 #include "bench/base/output_file.hpp"
 #include "bench/characters/body_models.hpp"
-#include "bench/recordings/parts.hpp"
 #include "kernel/recordings/check.hpp"
 
 namespace bch::cli {
@@ -129,15 +128,7 @@ struct OpenedCheck {
       const std::function<void(const detail::CheckedFrame&, const ShapeSet&)>& seen) const;
 };
 
-/// Checks a part of a recording's frames, unless that is done already. Returns a line about it.
-std::string check_part(const CheckInput& input, const PartFiles& files, const nlohmann::ordered_json& run);
-
-/// Writes what one run would.
-/// Errors:  throws InputError; CheckFailed as outputs.fail_above asks for.
-void merge_check(const WholeRun& whole, const CheckOutputs& outputs);
-
 /// Adds a subcommand to the program, as those of bench/cli/commands.hpp are.
 std::function<void()> add_check_command(CLI::App& program);
-std::function<void()> add_merge_command(CLI::App& program);
 
 }  // namespace bch::cli

@@ -198,7 +198,7 @@ CheckSummary check(TrajectoryReader& reader, const CheckOptions& options,
                    const std::function<void(const CheckedFrame&, const ShapeSet&)>& seen) {
   const FloatingPointStateGuard floats;
   const double fps = reader.info().fps;
-  WalkerReader walkers(reader, options.frames, options.facing);
+  WalkerReader walkers(reader, options.facing);
   Checker checker(reader.info(), options, seen);
   FrameBlock now, next;
   bool at_end = now.read(walkers, options.people_at_once, {});
@@ -211,7 +211,7 @@ CheckSummary check(TrajectoryReader& reader, const CheckOptions& options,
     at_end = next_is_last.get();
     std::swap(now, next);
   }
-  if (now.frames() > 0) checker.check(now, !walkers.is_behind(), fps);
+  if (now.frames() > 0) checker.check(now, true, fps);
   CheckSummary summary = checker.finish(walkers.people());
   summary.notes = notes_on(walkers.speeds(), options.walls);
   return summary;

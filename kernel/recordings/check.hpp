@@ -32,8 +32,7 @@ struct CheckOptions {
   const ObstacleSet* walls = nullptr;
   std::uint32_t coarse =
       1;  ///< 1: neither speed nor phase of a pose is off by what moves an outline by 1 cm; 3: by 3 cm
-  FrameInterval frames = {};  ///< these are checked; all before them are read, because people hold headings
-  CastView cast = {};         ///< whose bodies people have; where it is empty, pedestrians'
+  CastView cast = {};  ///< whose bodies people have; where it is empty, pedestrians'
   const ShapeSet* baked =
       nullptr;  ///< their shapes, of baked_cast(): of its last level, so that the plan does not matter
   /// Models of bodies of spheres that people have in place of outlines, in the exact time of a clip: body_models() of a cast that is not
@@ -130,7 +129,7 @@ struct CheckSummary {
   std::vector<OverlapEvent> events;  ///< by their first frames, then ids
   std::set<std::uint64_t> poses;     ///< keys of all that people were in; none where spheres decide
   std::vector<std::string>
-      notes;  ///< a sentence each: what seems to be wrong with the recording or the walls; join() leaves it empty
+      notes;  ///< a sentence each: what seems to be wrong with the recording or the walls
 };
 
 /// Puts a walking person on every row of a recording and finds who collides with whom. Reads frame after frame; memory
@@ -141,9 +140,5 @@ struct CheckSummary {
 /// Errors:  throws TrajectoryError, also where rows name what the cast does not have; TooManyPairs.
 CheckSummary check(TrajectoryReader& reader, const CheckOptions& options,
                    const std::function<void(const CheckedFrame&, const ShapeSet&)>& seen = {});
-
-/// Joins the results of a recording's intervals, all of them in order, to those of the whole: the same as if it had
-/// been checked at once. Overlaps that go on from one to the next are one event.
-CheckSummary join(std::span<const CheckSummary> intervals);
 
 }  // namespace bch::detail

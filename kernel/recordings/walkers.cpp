@@ -41,11 +41,10 @@ double stature_by_id(std::int64_t id, bool is_female) {
   return is_female ? 1.66 + 0.065 * sum : 1.79 + 0.07 * sum;
 }
 
-WalkerReader::WalkerReader(TrajectoryReader& reader, FrameInterval wanted, double facing)
+WalkerReader::WalkerReader(TrajectoryReader& reader, double facing)
     : reader_(reader),
       fps_(reader.info().fps),
       window_(std::max<std::int64_t>(1, std::llround(smoothing * fps_))),
-      wanted_(wanted),
       facing_(facing) {}
 
 /// Counts a person's step. Nobody moves so far so fast as in a jump: ids were mixed up, or places.
@@ -167,8 +166,7 @@ void WalkerReader::face_the_crowd(WalkerFrame& frame, const std::vector<Track*>&
     if (!tracks[i]->has_heading) frame.people[i].heading = std::atan2(y, x);
 }
 
-/// Lets people walk on to the next frame, wanted or not.
-bool WalkerReader::walk_on(WalkerFrame& frame) {
+bool WalkerReader::next(WalkerFrame& frame) {
   while (ahead_.empty() || ahead_.back().frame <= ahead_.front().frame + window_)
     if (!read_one()) break;
   if (ahead_.empty()) return false;
@@ -181,15 +179,6 @@ bool WalkerReader::walk_on(WalkerFrame& frame) {
   face_the_crowd(frame, now.tracks);
   for (Walker& walker : frame.people) walker.heading -= facing_;
   let_go(now.frame);
-  return true;
-}
-
-bool WalkerReader::next(WalkerFrame& frame) {
-  if (is_behind_) return false;
-  do {
-    if (!walk_on(frame)) return false;
-  } while (frame.frame < wanted_.from);
-  is_behind_ = frame.frame >= wanted_.to;
   return true;
 }
 

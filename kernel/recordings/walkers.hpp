@@ -47,12 +47,6 @@ struct Speeds {
   double mean() const noexcept { return seconds > 0 ? way / seconds : 0; }
 };
 
-/// Represents the frames whose numbers are in [from, to).
-struct FrameInterval {
-  std::int64_t from = std::numeric_limits<std::int64_t>::min();
-  std::int64_t to = std::numeric_limits<std::int64_t>::max();
-};
-
 /// Reads a recording and finds how its people walk: speeds from positions 0.4 s before and after,
 /// or from the next ones where there are none so near, headings from the file or from the
 /// way of a person who walks, held while he stands, and strides that go on with the distance. Memory grows with the people of
@@ -62,12 +56,10 @@ class WalkerReader {
  public:
   /// Takes `reader`, which has to live as long as this.
   /// `facing`: where shapes face that are not turned, radians.
-  explicit WalkerReader(TrajectoryReader& reader, FrameInterval wanted = {}, double facing = 0);
+  explicit WalkerReader(TrajectoryReader& reader, double facing = 0);
 
-  /// Reads the next frame that is wanted. The first one behind these follows, too. Returns false at the end.
+  /// Reads the next frame. Returns false at the end.
   bool next(WalkerFrame& frame);
-  /// Returns whether the last frame that was read is the one behind those wanted.
-  bool is_behind() const noexcept { return is_behind_; }
   /// Returns how fast people were until now.
   const Speeds& speeds() const noexcept { return speeds_; }
   /// Returns how many different people were read.
@@ -101,17 +93,15 @@ class WalkerReader {
   Track& track_of(std::int64_t id);
   void let_go(std::int64_t frame);
   void measure(const Place& from, const TrackedPerson& to, std::int64_t frame);
-  bool walk_on(WalkerFrame& frame);
   Walker walk(const TrackedPerson& person, Track& track, std::int64_t frame) const;
   void face_the_crowd(WalkerFrame& frame, const std::vector<Track*>& tracks) const;
 
   TrajectoryReader& reader_;
   const double fps_;
   const std::int64_t window_;  ///< frames before and after
-  const FrameInterval wanted_;
   const double facing_;
   Speeds speeds_;
-  bool at_end_ = false, is_behind_ = false;
+  bool at_end_ = false;
   std::deque<Frame> ahead_;
   std::unordered_map<std::int64_t, Track, MixedHash> tracks_;
   std::unordered_map<std::int64_t, Left, MixedHash> left_;

@@ -4,7 +4,6 @@
 #include "layout/baked/checksum.hpp"
 
 #include <algorithm>
-#include <vector>
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -24,33 +23,6 @@ std::uint64_t checksum(Preamble preamble) {
 
 std::uint64_t checksum(std::span<const std::byte> section_with_zeros) {
   return XXH3_64bits(section_with_zeros.data(), section_with_zeros.size());
-}
-
-StreamChecksum checksum(std::istream& stream) {
-  RunningChecksum running;
-  std::vector<char> bytes(piece);
-  while (stream.read(bytes.data(), static_cast<std::streamsize>(piece)) || stream.gcount() > 0)
-    running.add({bytes.data(), static_cast<std::size_t>(stream.gcount())});
-  return running.value();
-}
-
-struct RunningChecksum::State {
-  XXH3_state_t xxh3;
-};
-
-RunningChecksum::RunningChecksum() : state_(std::make_unique<State>()) {
-  XXH3_64bits_reset(&state_->xxh3);
-}
-
-RunningChecksum::~RunningChecksum() = default;
-
-void RunningChecksum::add(std::string_view bytes) {
-  XXH3_64bits_update(&state_->xxh3, bytes.data(), bytes.size());
-  bytes_ += bytes.size();
-}
-
-StreamChecksum RunningChecksum::value() const {
-  return {bytes_, XXH3_64bits_digest(&state_->xxh3)};
 }
 
 struct SectionChecksum::State {

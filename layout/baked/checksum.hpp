@@ -5,10 +5,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <istream>
 #include <memory>
 #include <span>
-#include <string_view>
 
 #include "layout/baked/format.hpp"
 
@@ -17,29 +15,6 @@ namespace bch::detail::baked {
 /// Returns the checksum of a file's first bytes.
 std::uint64_t checksum(Preamble preamble);
 std::uint64_t checksum(std::span<const std::byte> section_with_zeros);
-
-/// Holds what a stream has left, up to its end.
-struct StreamChecksum {
-  std::uint64_t bytes, checksum;
-};
-StreamChecksum checksum(std::istream& stream);
-
-/// Computes the same of bytes that come piece by piece.
-class RunningChecksum {
- public:
-  RunningChecksum();
-  ~RunningChecksum();
-
-  void add(std::string_view bytes);
-  /// Returns those of all bytes so far.
-  StreamChecksum value() const;
-
- private:
-  struct State;
-
-  std::unique_ptr<State> state_;
-  std::uint64_t bytes_ = 0;
-};
 
 /// Computes a section's checksum, 64 bits of XXH3, piece by piece. The code that reads a piece next finds it
 /// in a near cache, and a large section is read from memory once.

@@ -127,7 +127,7 @@ TEST_P(CliGolden, IsWhatTheProgramWrites) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, CliGolden,
-                         testing::Values("baked", "check", "help", "inspect", "parts", "place", "query",
+                         testing::Values("baked", "check", "help", "inspect", "place", "query",
                                          "query_options", "resolve", "tables", "usage"),
                          [](const auto& file) { return std::string(file.param); });
 

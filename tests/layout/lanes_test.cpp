@@ -38,18 +38,18 @@ TEST(Lanes, AreTheSameWithInstructionsOfTheirOwn) {
     EXPECT_EQ(bits_of(BaseLanes::max(a, b)), bits_of(PlainLanes::max(a, b)));
     const auto less = a < b;
     EXPECT_EQ(BaseLanes::bits(less), PlainLanes::bits(less));
-    EXPECT_EQ(bits_of(BaseLanes::keep(less, a)), bits_of(PlainLanes::keep(less, a)));
-    EXPECT_EQ(bits_of(BaseLanes::min(BaseLanes::hide(less, a), b)),
-              bits_of(PlainLanes::min(PlainLanes::hide(less, a), b)));
+    EXPECT_EQ(bits_of(BaseLanes::zero_unless(less, a)), bits_of(PlainLanes::zero_unless(less, a)));
+    EXPECT_EQ(bits_of(BaseLanes::min(BaseLanes::nan_where(less, a), b)),
+              bits_of(PlainLanes::min(PlainLanes::nan_where(less, a), b)));
     Double wide[2], plain[2];
-    BaseLanes::widened(a, wide), PlainLanes::widened(a, plain);
+    BaseLanes::to_double(a, wide), PlainLanes::to_double(a, plain);
     EXPECT_EQ(bits_of(wide[0]), bits_of(plain[0]));
     EXPECT_EQ(bits_of(wide[1]), bits_of(plain[1]));
     float floats[BaseLanes::width];
     BaseLanes::store(floats, a);
     EXPECT_EQ(bits_of(BaseLanes::wide(floats)), bits_of(plain[0]));
     EXPECT_EQ(bits_of(PlainLanes::wide(floats)), bits_of(plain[0]));
-    EXPECT_EQ(bits_of(BaseLanes::rounded(wide)), bits_of(PlainLanes::rounded(plain)));
+    EXPECT_EQ(bits_of(BaseLanes::to_float(wide)), bits_of(PlainLanes::to_float(plain)));
     EXPECT_EQ(BaseLanes::bits(wide[0] < wide[1]), PlainLanes::bits(wide[0] < wide[1]));
     if (BaseLanes::bits(xsimd::isnan(a)) == 0) {
       EXPECT_EQ(BaseLanes::least(a), PlainLanes::least(a));
@@ -75,7 +75,7 @@ TEST(Lanes, HaveTheSecondAsMinimumAndMaximumWhereNeitherIsLess) {
     EXPECT_EQ(bits_of(xsimd::min(a, b)), bits_of(xsimd::select(a < b, a, b)));
     EXPECT_EQ(bits_of(xsimd::max(a, b)), bits_of(xsimd::select(b < a, a, b)));
     Double first[2], second[2];
-    BaseLanes::widened(a, first), BaseLanes::widened(b, second);
+    BaseLanes::to_double(a, first), BaseLanes::to_double(b, second);
     for (int i = 0; i < 2; ++i) {
       EXPECT_EQ(bits_of(xsimd::min(first[i], second[i])),
                 bits_of(xsimd::select(first[i] < second[i], first[i], second[i])));
@@ -97,7 +97,7 @@ TEST(Lanes, HaveRootsAndQuotientsAsOneLaneHasThem) {
     EXPECT_EQ(bits_of(xsimd::sqrt(a)), bits_of(BaseLanes::load(root)));
     EXPECT_EQ(bits_of(a / b), bits_of(BaseLanes::load(quotient)));
     Double wide[2], other[2];
-    BaseLanes::widened(a, wide), BaseLanes::widened(b, other);
+    BaseLanes::to_double(a, wide), BaseLanes::to_double(b, other);
     for (int h = 0; h < 2; ++h)
       for (unsigned k = 0; k < 2; ++k) {
         EXPECT_EQ(BaseLanes::lane(xsimd::sqrt(wide[h]), k), std::sqrt(BaseLanes::lane(wide[h], k)));
@@ -116,7 +116,7 @@ TEST(Lanes, HaveRoughRootsWithinTheirError) {
     const double root = std::sqrt(static_cast<double>(BaseLanes::lane(v, 0)));
     for (const Float found : {BaseLanes::approximate_sqrt(v), PlainLanes::approximate_sqrt(v)})
       EXPECT_LE(std::abs(static_cast<double>(BaseLanes::lane(found, 0)) - root),
-                0.75 * static_cast<double>(BaseLanes::rough) * root)
+                0.75 * static_cast<double>(BaseLanes::approximation_error) * root)
           << x;
   }
 }
@@ -170,7 +170,7 @@ TEST(Lanes, GoWhereTheirNamesSay) {
   expect(second, {7, 1, 5, 3});
   Double wide[2];
   BaseLanes::load_pairs([&](std::size_t i) { return table + 2 * index[i]; }, wide);
-  expect(BaseLanes::rounded(wide), {6, 0, 7, 1});
+  expect(BaseLanes::to_float(wide), {6, 0, 7, 1});
   float pair[3] = {0, 0, 9};
   BaseLanes::store_pair(pair, BaseLanes::load(table), 1);
   EXPECT_EQ((std::array{pair[0], pair[1], pair[2]}), (std::array{2.0f, 3.0f, 9.0f}));
