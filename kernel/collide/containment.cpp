@@ -39,12 +39,11 @@ Placement placement(const Arguments& in, std::uint32_t of, std::uint32_t to_agen
 /// sqrt(2) u |c| + 2 u r, which is 2.45 u P, because |c|^2 + r^2 <= P^2. The headings are off by 3e-10 each,
 /// and so is the place of what is at most 3 S away: 0.04 u S.
 ///
-/// The contour inside has the smaller disc as published, too. A vertex that holds its disc in place is at least its
-/// radius away from the outer disc's centre. The ray from there through the vertex leaves the outer contour at most
-/// the outer radius away. Between the two is at least what keeps cuts apart: (query_margin) without (1'), of S, of
-/// which halving takes its part of the outer reach alone, because it moves no vertex; where leaves are exact,
-/// (segment_margin) without (segment_place). Either is more of the inner reach than the inner disc is too large, and so
-/// no unit test notices a slack of 0.
+/// The contour inside has the smaller disc as published, too. A vertex on the boundary of the inner disc, one that determines it, is at
+/// least the disc's radius away from the outer disc's centre. The ray from there through the vertex leaves the outer contour at most the
+/// outer radius away. Between the two is at least what keeps cuts apart: (query_margin) without (1'), of S; of that, (halving) counts for
+/// the outer shape alone, because the inner point is a vertex as given; where leaves are exact, (segment_margin) without (segment_place).
+/// Either is more of the inner reach than the inner disc is too large, and so no unit test notices a slack of 0.
 constexpr double inside_slack = 1e-6;
 constexpr double centre_and_radius = 2.45, placing = 0.04;  // in units of u
 constexpr double between_cuts =
@@ -56,9 +55,8 @@ static_assert(inside_slack >= (centre_and_radius + placing) * rounding::unit_rou
 static_assert(between_cuts >= rounding::terms::halving && between_cuts > centre_and_radius);
 static_assert(between_segments > centre_and_radius);
 
-/// A contour inside another has the smaller enclosing disc, and more: the points that hold its disc in place
-/// do not fit into any half of it, so one of them is at least sqrt(d^2 + r^2) away from the other disc's
-/// centre. `b_centre` is that of b, in a's frame.
+/// A contour inside another has the smaller enclosing disc, and more: the points that determine its disc do not fit into any half of it, so
+/// one of them is at least sqrt(d^2 + r^2) away from the other disc's centre. `b_centre` is that of b, in a's frame.
 bool one_may_be_inside(const Disc& a, const Disc& b, Point b_centre, double slack) {
   const double x = b_centre.x - static_cast<double>(a.x), y = b_centre.y - static_cast<double>(a.y);
   const double r = std::min(a.radius, b.radius), limit = double{std::max(a.radius, b.radius)} + slack;

@@ -45,7 +45,7 @@ class OverlapTraversal {
     const std::uint32_t slot = slots_[size_++];
     open_[slot] = {b_in_a, a.top, b.top, a.stride, b.stride, root_a, root_b, reach, 0, pair, margin, {}};
     if constexpr (KnowsGaps<Simd>) open_[slot].gaps = gaps;
-    frames_[slot][0] = {0, 0, 0};
+    frames_[slot][0] = {0, 0, 0};  // a sentinel: no open hits, so the pair ends here
     codes_[pair] = miss;
   }
 
@@ -85,10 +85,9 @@ class OverlapTraversal {
     std::uint64_t open;
   };
 
-  /// Makes one test for every open pair, then one step for every pair: apart, because the processor looks ahead
-  /// over a few of either, but hardly over one of both. All in one function, because rounds over a lone pair
-  /// are so short that calls count. `noipa`, because GCC 12 takes such functions for ones without effects
-  /// when their parameters are changed a little, and drops the calls.
+  /// Tests every open pair, then steps every pair: in two loops, because out-of-order execution overlaps iterations of either, but hardly
+  /// those of one fused loop. All in one function, because rounds over a lone pair are so short that calls count. `noipa`, because GCC 12
+  /// takes such functions for ones without effects when their parameters are changed a little, and drops the calls.
   [[gnu::noipa]] void rounds(std::uint32_t enough) noexcept {
     while (size_ > enough) {
       test();
@@ -238,6 +237,7 @@ class OverlapTraversal {
       const std::uint16_t slot = slots_[k];
       Open& at = open_[slot];
       const std::uint64_t hits = hits_[k];
+      // leaf_window is the top bit of a node's name, so the division gives 1 where both nodes are leaf windows.
       const std::uint32_t hit = hits != 0, found = (at.a & at.b) / leaf_window & hit;
       codes[at.pair] = static_cast<std::uint8_t>(codes[at.pair] | found);
 

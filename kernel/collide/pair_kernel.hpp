@@ -23,9 +23,8 @@ namespace bch::detail {
 /// the scalar reference agree bit for bit; what only saves work is conservative.
 ///
 /// Pairs are answered in chunks, stage by stage, and each stage leaves fewer of them open: place B in A's frame; decide
-/// by profiles along the line of the centres, and tell which of the rest will probably collide; separate the others by
-/// even supports; accept pairs whose inscribed discs overlap, the likely hits first; separate by odd supports; traverse
-/// the trees of what is left.
+/// by profiles along the line between the centres, and tell which of the rest are likely hits; reject the others by even supports; accept
+/// pairs whose inscribed discs overlap, the likely hits first; reject by odd supports; traverse the trees of what is left.
 template <class Simd>
 class PairKernel {
  public:
@@ -60,6 +59,8 @@ class PairKernel {
   [[gnu::always_inline]] void answer_chunk(std::size_t begin) noexcept {
     codes_ = in_.codes + begin;
     open_.size = near_.size = 0;
+    // Profiles reject more than root discs do. Roots are tested only where there are no profiles, where a cut may be a single
+    // disc, or where there are several levels.
     if (shapes_.support == nullptr || !shapes_.rows_in_order) {
       test_roots();
     } else {
@@ -153,7 +154,7 @@ class PairKernel {
     separate(1);
   }
 
-  /// Separates open pairs by their supports along even directions or odd ones.
+  /// Rejects the open pairs that supports along even directions, or odd ones, show to be apart.
   void separate(unsigned odd) noexcept {
     open_.drop_if(
         open_,
@@ -177,7 +178,7 @@ class PairKernel {
         });
   }
 
-  /// Answers the pairs that profiles decide, and lists the others by whether they will probably collide.
+  /// Answers the pairs that profiles decide, and lists the others by whether they are likely hits.
   void compare_profiles() noexcept {
     shapes_.rows_in_order ? profiles_.look(nullptr, nullptr) : profiles_.look(row_a_, row_b_);
     separated_.size = 0;

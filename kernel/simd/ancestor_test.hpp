@@ -31,7 +31,7 @@ struct AncestorPath {
   /// is known then.
   void begin(const float* nodes, const Tree& tree, std::uint32_t disc) noexcept {
     const std::uint32_t beside = tree.first_inner() + (disc - tree.discs);
-    // The disc is the first child of that node, or the second child of the one before.
+    // Inner nodes are stored in order: disc k is the first child of node k, or the second child of node k - 1.
     node[0] = beside - (link(nodes, beside) < above_cut_disc);
   }
   /// Finds node k from the one before.

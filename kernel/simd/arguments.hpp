@@ -40,7 +40,7 @@ struct Arguments {
   const float* gaps;  ///< per pair, Gaps::leaf of within(); null: collide()
   std::uint8_t* codes;
   bool exact_leaves;  ///< where both trees have segments, these decide; see Leaves
-  // Ask for what is needed soon: there is more of it than a near cache holds.
+  // Prefetch agents or shapes: set where there are more than the near caches hold.
   bool prefetch_agents = false, prefetch_shapes = false;
 };
 

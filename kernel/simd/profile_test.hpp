@@ -12,7 +12,8 @@
 
 namespace bch::detail {
 
-/// Tests pairs by two profiles (layout/culling/profile.hpp) along the line of their centres; lane = pair.
+/// Tests pairs by two profiles (layout/culling/profile.hpp) along the line between their centres, which are the centroids of the largest
+/// contours; lane = pair.
 template <class Simd>
 class ProfileTest {
  public:
@@ -21,13 +22,13 @@ class ProfileTest {
     std::uint32_t apart = 0;     ///< a line separates the cuts, by more than the gap
     std::uint32_t meet = 0;      ///< areas of the largest contours meet, or are within the gap of each other
     std::uint32_t may_nest = 0;  ///< a contour of one may lie inside one of the other
-    std::uint32_t near = 0;      ///< they will probably collide
+    std::uint32_t near = 0;      ///< likely hits: test these for a hit first
   };
 
   ProfileTest(const ShapeSetView& shapes, const RelativeTransforms<Simd>& at, bool prefetch) noexcept
       : shapes_(shapes), at_(at), prefetch_(prefetch) {}
 
-  /// Finds, for all pairs of the chunk, the line of the centres, and the sectors of both profiles along it.
+  /// Finds, for all pairs of the chunk, the line between the centres, and the sectors of both profiles along it.
   /// `row_a`, `row_b`: the rows of the roots; null where they are in order.
   void look(const std::uint32_t* row_a, const std::uint32_t* row_b) noexcept {
     const float* const records = &shapes_.profiles->x;
@@ -53,7 +54,7 @@ class ProfileTest {
   /// the areas meet.
   Answers answers(std::uint32_t k) const noexcept {
     const Float distance = Simd::load(distance_ + k), coincident(1e-20f);
-    // Of a sector: field 0 is inner, 1 outer, 2 extent.
+    // Of a sector: field 0 is inner, 1 outer of the pair's level (see choose_outer()), 2 extent, 3 shallow_outer.
     const Float outer_a = field(of_a_, 1, k), outer_b = field(of_b_, 1, k);
     Float inner = field(of_a_, 0, k) + field(of_b_, 0, k), outer = outer_a + outer_b;
     if constexpr (KnowsGaps<Simd>) {
@@ -75,15 +76,16 @@ class ProfileTest {
   static constexpr std::size_t stride = 2;
   static constexpr std::uint32_t strides_each = sizeof(Sector) / sizeof(float) / stride;
   static constexpr std::uint32_t profile_strides = sizeof(Profile) / sizeof(float) / stride;
-  /// The share of the way from where areas meet to where cuts are apart: pairs nearer than that probably
-  /// collide. Its value was measured.
+  /// The share of the distance from where areas meet to where cuts are apart: pairs nearer than that are likely hits. Its value was
+  /// measured.
   static constexpr float near_share = 0.6f;
 
   static Float field(const Fields& of, std::uint32_t i, std::uint32_t k) noexcept {
     return Simd::load(of.field[i] + k);
   }
 
-  /// Chooses the outer field of the pair's level. A single disc has been tested, and has no outer bound here.
+  /// Writes the bound of the pair's level into field 1, outer: that of the deepest level is there, that of the others is field 3. A single
+  /// disc has been tested, and has no outer bound here.
   static void choose_outer(Fields& of, const std::uint32_t* row, std::uint32_t count) noexcept {
     for_whole_registers<Simd>(count, [&](std::uint32_t k) {
       const float shallow = row[k] == no_supports ? of.field[3][k] : __builtin_inff();
@@ -114,8 +116,8 @@ class ProfileTest {
     }
   }
 
-  /// Returns the place of a direction among the sectors; after the last one comes the first again. Zero has
-  /// any.
+  /// Returns the pseudo-angle of a direction, y / (|x| + |y|) quadrant by quadrant, in sectors: 0 to 32, where 32 is sector 0 again. Zero
+  /// has any.
   static Float sector(Float x, Float y) noexcept {
     constexpr float quadrant = 0.25f * profile_sectors, not_zero = 1e-30f;
     const Float zero(0.0f), ax = xsimd::abs(x), ay = xsimd::abs(y);

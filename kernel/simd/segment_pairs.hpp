@@ -97,7 +97,8 @@ class SegmentBatch {
   static_assert(sizeof(Placed) % sizeof(double) == 0 && alignof(Placed) == alignof(double));
 
   /// Collects all segments of a leaf of A with all of a leaf of B, named by the places of their discs among
-  /// ShapeSetView::nodes; calls finish() before where there is no room for more. Both trees have segments.
+  /// ShapeSetView::nodes; calls finish() before where there is no room for more. Both trees have segments. `owner`: the caller's number,
+  /// which owner() returns.
   /// Returns: false where a leaf has too many, so that discs decide.
   template <class Finish>
   [[gnu::always_inline]] bool collect(std::uint32_t placed, const Tree& a, std::uint32_t leaf_a,

@@ -30,7 +30,8 @@ namespace bch::detail {
 ///          that of the shape, metres.
 Profile profile(const Outline& outline, const Interior& interior, double reach);
 
-/// Says how far one disc or more of a cut, in arrays, extend from a profile's centre, sector by sector.
+/// Bounds the support function of one disc or more of a cut, in arrays, about a profile's centre: an upper bound over the directions of
+/// each sector.
 using Outer = std::array<float, profile_sectors>;
 Outer outer(const Profile& profile, const float* x, const float* y, const float* radius, std::uint32_t count,
             double reach);

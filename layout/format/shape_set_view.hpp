@@ -96,9 +96,9 @@ constexpr std::uint32_t max_leaf_segments = 127;
 /// decides nothing wrongly.
 constexpr std::uint32_t profile_sectors = 32;
 struct Sector {
-  float inner;          ///< the largest contour's inside goes on to there
-  float outer;          ///< no disc of the deepest level's cut extends farther
-  float extent;         ///< the contour extends so far at least, in the opposite direction
+  float inner;  ///< the largest contour's inside goes on to there
+  float outer;  ///< upper bound of the support function of the deepest level's cut in the sector's directions
+  float extent;         ///< lower bound of the contour's support function in the opposite directions
   float shallow_outer;  ///< like outer, of all levels that are more than a disc and not the deepest
 };
 
