@@ -30,7 +30,7 @@ class Joint(NamedTuple):
 
 
 class Bone(NamedTuple):
-    """A bone, which moves vertices: a joint, and the map from the vertices' frame to that joint's frame at rest."""
+    """A bone, which moves vertices: a joint, and its inverse bind matrix, from the vertices' frame to the joint's in the bind pose."""
 
     joint: int
     inverse_bind: Optional[npt.ArrayLike] = None  #: (3, 4) or (4, 4); None: vertices are in the joint's frame

@@ -19,8 +19,8 @@
 
 namespace bch {
 
-/// Holds the share of one bone in the centre of a sphere. The posed centre is the sum of weight * bone matrix *
-/// `centre` (linear blend skinning).
+/// Holds the skinning weight of one bone for the centre of a sphere. The posed centre is the sum of weight * bone matrix * `centre` (linear
+/// blend skinning).
 struct SphereInfluence {
   std::uint32_t bone;
   float weight;
@@ -28,8 +28,8 @@ struct SphereInfluence {
 };
 
 /// Describes a body as spheres that move with a skeleton. In a pose each centre is blended from its bones, and each radius is the least
-/// that holds the sphere's corners. Corners are points of the skin: each triangle, or each of the pieces that cuts make of it, has all
-/// of its corners in one sphere, so that the spheres hold all triangles in every pose.
+/// that holds the sphere's corners. Every triangle of the skin, or every piece of one that `cuts` splits at midpoints of edges, has its
+/// three corners among those of one sphere. So the spheres enclose all triangles in every pose.
 struct BodyModel {
   std::shared_ptr<const Character> character;  ///< its mesh, skeleton and clips
   std::vector<std::uint32_t> influence_begin;  ///< one offset more than spheres
@@ -41,7 +41,8 @@ struct BodyModel {
   std::vector<float> least_radius;          ///< lower bound of each sphere's radius, metres; empty: 0
   /// Every leaf_size spheres in sequence, 4 or 8, form a leaf; they are near each other in most poses.
   std::uint32_t leaf_size = 4;
-  std::array<std::uint32_t, detail::core_spheres> core = {};  ///< spheres that queries test first
+  /// Indices of spheres that queries test first, which changes no answer. Repeats are allowed.
+  std::array<std::uint32_t, detail::core_spheres> core = {};
 
   std::size_t sphere_count() const noexcept {
     return influence_begin.empty() ? 0 : influence_begin.size() - 1;
@@ -77,8 +78,9 @@ struct BodyOptions {
 BodyModel make_body(const Character& character, const BodyOptions& options = {});
 
 /// Makes the model of a rigid body from spheres, for things that move among people and share their sets. Its poses are
-/// Pose() (at rest) or a transform of its one joint, which may tilt it. Radii are the same in every pose. Queries
-/// number spheres in the model's order, which groups those that are near each other.
+/// Pose() (at rest) or a transform of its one joint, which may tilt it. Radii are the same in every pose. Queries number spheres as the
+/// model does, which groups those that are near each other, not as they are given: sphere i has the centre influences[i].centre and the
+/// radius least_radius[i].
 /// Errors:  throws std::invalid_argument on no spheres or more than 4096, and on one that is not finite or has a negative radius.
 BodyModel make_body(std::span<const Sphere> spheres);
 
@@ -91,8 +93,8 @@ BodyModel default_body(const Character& built_in, std::uint32_t spheres = 256);
 
 /// Holds the options of animate().
 struct AnimateOptions {
-  float error =
-      0.005f;  ///< metres, most by which spheres protrude from posed ones between keys that are more than 9 ms apart
+  /// Metres: between keys more than 9 ms apart, spheres protrude from those of BodyPoser by at most this. Closer keys have no such limit.
+  float error = 0.005f;
   std::optional<bool> loops =
       {};  ///< AnimatedDiscs::loops; none: whether the clip's last pose is its first one, to 0.025 mm
 };

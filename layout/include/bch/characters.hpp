@@ -62,14 +62,15 @@ struct Clip {
   std::vector<Channel> channels;  ///< at most one per joint
 };
 
-/// Describes a bone, which moves vertices: a joint, and the map from a mesh's own frame into that joint's frame at rest.
+/// Describes a bone, which moves vertices: a joint, and its inverse bind matrix, from the mesh's own frame into the joint's frame in the
+/// bind pose, which may differ from Joint::rest.
 struct Bone {
   std::uint32_t joint = 0;
   Affine3 inverse_bind;
   friend bool operator==(const Bone&, const Bone&) = default;
 };
 
-/// Holds the share of one bone in the position of a vertex (linear blend skinning).
+/// Holds the skinning weight of one bone for a vertex (linear blend skinning).
 struct Influence {
   std::uint32_t bone;
   float weight;
@@ -130,11 +131,10 @@ Character default_bulky_male();
 enum class Sex { female, male };
 
 /// Returns a pedestrian for recorded and simulated crowds: the built-in man or woman of a given stature. The pedestrian walks at every
-/// speed, keeps the arms close, and stands under the head, which is what cameras track. Clip k is one stride (two
-/// steps) at 0.03 k m/s, k = 0 to 73: it begins and ends with the left heel's contact, in the same pose, and can be
-/// repeated. The step frequency is 1.3 Hz + 0.5 Hz per m/s: about 2 Hz and 0.7 m at 1.4 m/s. The step length goes to 0
-/// with the speed. `shoulders` is the turn of the shoulder line from square to the walking direction,
-/// counter-clockwise: people turn them when they pass each other closely.
+/// speed and keeps the arms close. The shape's origin is the point below the head, which is what cameras track. Clip k is one stride (two
+/// steps) at 0.03 k m/s, k = 0 to 73: it begins and ends with the left heel's contact, in the same pose, and can be repeated. The step
+/// frequency is 1.3 Hz + 0.5 Hz per m/s: about 2 Hz and 0.7 m at 1.4 m/s. The step length goes to 0 with the speed. `shoulders` is the turn
+/// of the shoulder line from square to the walking direction, counter-clockwise: people turn them when they pass each other closely.
 /// Units:   metres, radians; a stature from 0.8 to 2.4, a turn from -1 to 1.
 /// Source:  A. Pachi, T. Ji, "Frequency and velocity of people walking", The Structural Engineer 83, 2005 (2.0 Hz at 1.4 m/s, steps of
 ///          0.75 m of men and 0.67 m of women); A. Jelic, C. Appert-Rolland, S. Lemercier, J. Pettre, "Properties of pedestrians

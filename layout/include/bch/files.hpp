@@ -29,7 +29,7 @@ struct ShapeOrigin {
 /// Holds a clip of a character as moving discs, or moving discs of other origin. Character and clip are indices into ShapeOrigins::names.
 struct BakedClip {
   std::uint32_t character = 0;
-  std::uint32_t clip = ShapeOrigin::rest_pose;  ///< without a name by default
+  std::uint32_t clip = ShapeOrigin::rest_pose;  ///< by default no name; rest_pose means nothing else here
   AnimatedDiscs discs;                          ///< the discs from which an AnimatedShape is made
   friend bool operator==(const BakedClip&, const BakedClip&) = default;
 };

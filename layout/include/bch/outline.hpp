@@ -16,9 +16,9 @@ namespace bch {
 /// do not contain each other (holes are left out), and cross themselves by at most a rounding to the grid. A whisker, the
 /// trace of a triangle seen edge-on, is a contour (or part of one) that goes there and back.
 ///
-/// Other outlines may have contours that touch, cross, overlap or contain themselves or each other. Every segment
-/// counts, and a point is inside if it is inside one contour by the even-odd rule. Clockwise contours are holes
-/// (OutlineOptions::holes); hierarchies and sets reject them.
+/// Other outlines may have contours that touch, cross, overlap or contain themselves or each other. Every segment counts. A point is inside
+/// if the even-odd rule of any one contour says so, so a counter-clockwise contour is never a hole. Only OutlineOptions::holes adds
+/// clockwise contours, the holes; hierarchies and sets reject them.
 struct Outline {
   std::vector<Vec2> points;  ///< metres, in the shape's frame; taken as they are, on a grid or not
   std::vector<std::uint32_t> contour_begin = {0};  ///< contours + 1 offsets into points
@@ -33,7 +33,7 @@ struct Outline {
   }
 };
 
-/// Returns the area inside the contours, square metres. Where contours overlap, it is the sum of their areas.
+/// Returns the sum of the contours' signed areas, square metres: holes are subtracted, and overlaps count repeatedly.
 double area(const Outline& outline);
 
 /// Makes an outline of footprints: polygons on the ground, for bodies that come from no mesh. Polygons are closed from the last corner

@@ -46,7 +46,8 @@ class Transforms {
   static Transforms row_major(const Number* first, std::size_t count, std::size_t stride = 12) {
     return {first, count, stride, 4, 1, std::same_as<Number, double>};
   }
-  /// Refers to 4x4 matrices written column by column, as OpenGL, glTF, glm and Eigen keep them.
+  /// Refers to 4x4 matrices written column by column, as OpenGL, glTF, glm and Eigen keep them. Matrices for row vectors, written row by
+  /// row (Direct3D, Unreal), lie in memory the same way.
   template <std::floating_point Number>
   static Transforms column_major(const Number* first, std::size_t count, std::size_t stride = 16) {
     return {first, count, stride, 1, 4, std::same_as<Number, double>};
@@ -131,13 +132,14 @@ std::uint32_t find_joint(const Character& character, std::string_view name);
 // A PoseShaper has functions of these names that keep their memory.
 
 /// Returns the transforms of all joints at a time of a clip. As a LocalPose or a WorldPose they give the clip's shape, bit for bit.
-/// Errors:  throws std::invalid_argument on a clip or a time that does not exist.
+/// Errors:  throws std::invalid_argument on a clip that does not exist or a time outside 0 to Clip::seconds.
 std::vector<Affine3d> joint_transforms(const Character& character, PoseTime at,
                                        JointFrame frame = JointFrame::parent);
 
 /// Returns the joint transforms of a mean of poses, in the frames of the parents. Positions and scales are weighted means; rotations
 /// are normalised weighted sums of quaternions, each with the sign that is nearer to the sum before it. Weights need not sum to 1.
-/// Errors:  throws std::invalid_argument on a weight below 0 or not finite, no weight above 0, a clip or a time that does not exist.
+/// Errors:  throws std::invalid_argument on a weight below 0 or not finite, no weight above 0, a clip that does not exist or a time outside
+///          0 to Clip::seconds.
 std::vector<Affine3d> blend(const Character& character, std::span<const WeightedPose> poses);
 
 /// Returns the positions of all vertices in a pose: metres, z up, relative to the origin of the shape.
@@ -180,8 +182,8 @@ inline constexpr AxisSystem AxisSystem::gltf{{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}};
 inline constexpr AxisSystem AxisSystem::godot{{{0, 0, -1}, {-1, 0, 0}, {0, 1, 0}}};
 inline constexpr AxisSystem AxisSystem::ros{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
-/// Returns Character::to_ground * map for joint or bone matrices in the character's own frame: those of a WorldPose or
-/// a SkinningPalette.
+/// Returns Character::to_ground * map for each map: joint or bone matrices of the character's model space become those of the world, for a
+/// WorldPose or a SkinningPalette.
 std::vector<Affine3d> grounded(const Character& character, const Transforms& maps);
 
 /// Makes shapes of one character in pose after pose: it poses the mesh, finds the outline of the union of its triangles, and builds
@@ -204,15 +206,15 @@ class PoseShaper {
   /// Sets the largest number of nodes of a hierarchy, 2^22 by default. Shapes of more nodes throw std::length_error.
   void limit_nodes(std::size_t most);
 
-  /// Makes the shape of a pose: a time of a clip, joint transforms, bone matrices or posed vertices. Keys of a clip are interpolated as
-  /// the channels' curves say, and times are clamped to the first and last key. The root joint's ground translation is
-  /// removed from the shape, its rotation is not. (From bone matrices SkinningPalette::x and y are removed, from
+  /// Makes the shape of a pose: a time of a clip, joint transforms, bone matrices or posed vertices. Keys of a clip are interpolated as the
+  /// channels' curves say; a channel holds its first value before its first key and its last one after its last key. The root joint's
+  /// ground translation is removed from the shape, its rotation is not. (From bone matrices SkinningPalette::x and y are removed, from
   /// vertices nothing.)
   /// Returns: the shape down to the deepest depth, valid until the next call. It has primitives where that depth is all_depths, because
   ///          exact leaves need them. With the plan's heights it also has the heights of the body.
-  /// Errors:  throws std::invalid_argument on a clip or a time that does not exist, transforms or vertices of another number than the
-  ///          character has or that are not finite, and as OutlineBuilder and contour_hierarchy() do, std::domain_error on a position
-  ///          that is not finite. The shape made before is lost.
+  /// Errors:  throws std::invalid_argument on a clip that does not exist, a time outside 0 to Clip::seconds, transforms or vertices of
+  ///          another number than the character has or that are not finite, and as OutlineBuilder and contour_hierarchy() do,
+  ///          std::domain_error on a position that is not finite. The shape made before is lost.
   const Shape& shape(const Pose& pose);
 
   /// Makes the outline of a pose, the first step of shape(), for callers that need only outlines or time each step. It makes
@@ -221,8 +223,8 @@ class PoseShaper {
   /// Makes the hierarchy over the last outline, the second step of shape().
   const Shape& make_hierarchy();
 
-  // Like the functions of these names above, in memory of this object: valid until the next call of the same function or of another
-  // one for the same character.
+  // Like the functions of these names above, in memory of this object: valid until the next call of any of its functions that takes a pose
+  // or a time.
   std::span<const Affine3d> joint_transforms(PoseTime at, JointFrame frame = JointFrame::parent);
   std::span<const Affine3d> blend(std::span<const WeightedPose> poses);
   std::span<const Vec3> pose_vertices(const Pose& pose);

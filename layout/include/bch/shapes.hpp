@@ -123,8 +123,9 @@ class AnimatedShape {
   std::vector<Disc> discs(double seconds) const;
   /// Returns the spheres at a time, likewise; none of a body that is not in space.
   std::vector<Sphere> spheres(double seconds) const;
-  /// Returns the body at a time as a shape without outline, whose leaves are its discs, numbered as leaves of the tree. A set takes the
-  /// shape, and so does a BuiltShape for a DynamicShapeSet.
+  /// Returns the body at a time as a shape without outline, whose leaves are its discs. They are numbered in the order of the current
+  /// chunk's tree, not in that of discs(): the numbers can change from chunk to chunk. A set takes the shape, and so does a BuiltShape for
+  /// a DynamicShapeSet.
   /// Cost:    a few us for 200 discs, less than making it flat.
   Shape shape(double seconds) const;
   /// Writes that shape into `shape`, and reuses its memory.
@@ -174,7 +175,7 @@ class ShapeSet {
  public:
   /// Makes shapes flat, each at all depths of a plan, and copies what it needs of them.
   /// Errors:  throws std::invalid_argument on a plan that validate() rejects and, naming the shape, on a hierarchy, or on a
-  ///          non-empty outline that the plan uses, if validate() rejects it; std::length_error beyond 2^31 numbers in nodes.
+  ///          non-empty outline that the plan uses, if validate() rejects it; std::length_error beyond 2^31 floats in the nodes' arrays.
   explicit ShapeSet(std::span<const Shape> shapes, const ShapeSetPlan& plan = {});
   ShapeSet(ShapeSet&&) noexcept;
   ShapeSet& operator=(ShapeSet&&) noexcept;
@@ -255,7 +256,8 @@ class ShapeSetBuilder {
   ~ShapeSetBuilder();
 
   /// Adds a shape that was prepared with the same plan.
-  /// Errors:  throws std::length_error beyond 2^31 numbers in nodes or 2^32 roots. Shapes that were added before are then unchanged.
+  /// Errors:  throws std::length_error beyond 2^31 floats in the nodes' arrays or 2^32 roots. Shapes that were added before are then
+  ///          unchanged.
   void add(const BuiltShape& shape);
   /// Returns the set of the shapes so far. It can be queried until the next call of another function; more shapes may follow.
   const ShapeSet& set();
@@ -303,8 +305,8 @@ class DynamicShapeSet {
 
   /// Replaces a shape by one that was prepared with set().plan(), if the new one fits into its place. Threads may replace
   /// different shapes at the same time, while no query runs. Allocates nothing.
-  /// Returns: whether it fitted. If not, the set is unchanged and replace() is needed. A single-disc shape does not fit
-  ///          into a one-level set that has none.
+  /// Returns: whether it fitted. If not, the set is unchanged and replace() is needed. Nor does the first single-disc shape of a one-level
+  ///          set fit, because replace() has to update the set.
   /// Errors:  throws std::out_of_range on an index out of range, std::invalid_argument on a shape of another plan.
   bool try_replace(std::uint32_t shape, const BuiltShape& by);
 

@@ -161,8 +161,9 @@ typedef struct bch_clip {
   const bch_channel* channels; /**< at most one per joint */
   size_t channel_count;
 } bch_clip;
-/** Describes a character in arrays of the caller. Joints are the nodes of the skeleton. Bones move vertices: each has a joint, and the map
- * from the vertices' frame into that joint's frame at rest. Without joints it is a mesh that stands still, about the agent's position. */
+/** Describes a character in arrays of the caller. Joints are the nodes of the skeleton. Bones move vertices: each has a joint, and its
+ * inverse bind matrix, from the vertices' frame into the joint's frame in the bind pose. Without joints it is a mesh that stands still,
+ * about the agent's position. */
 typedef struct bch_character_arrays {
   uint32_t size;      /**< sizeof(bch_character_arrays) */
   int32_t root_joint; /**< the joint whose (x, y) is a shape's origin; -1: the centre of the mesh's bounding rectangle */
