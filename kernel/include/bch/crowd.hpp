@@ -45,9 +45,8 @@ struct PairFilter {
 ///
 ///     bch::Crowd crowd;
 ///     for (const auto [a, b] : crowd.collisions(shapes, {shape, x, y, heading})) ...
-///
-/// Order:   pairs come by place, along the rows of a grid, so agents of neighbouring pairs are mostly in cache. Answers and their
-///          order are the same for any number of threads and every implementation.
+/// Order:   pairs come in the order of a grid over the agents, row by row, not of indices, so agents of neighbouring pairs are mostly in
+///          cache. Answers and their order are the same for any number of threads and every implementation.
 /// Period:  agents meet across periodic boundaries; positions count modulo the period. A period has to exceed 4 R + 2 m, where R is the
 ///          farthest reach of a body and m the margin. Obstacles do not repeat: let walls extend beyond the borders by the reach of a
 ///          body.
@@ -124,8 +123,8 @@ class Crowd {
     std::span<const NearestPoints> points;
 
     /// Returns for each agent the nearest others, at most so many, the nearest first; of equal distances the lower agent first. With
-    /// Overlap::deepest the deepest overlap is the nearest. Crowd models such as ORCA take these as neighbours; here,
-    /// distances are between bodies.
+    /// Overlap::deepest the deepest overlap is the nearest. Crowd models such as ORCA take these as neighbours. The order is that of the
+    /// distances of clearances(), not of the agents' centres.
     /// Errors:  throws std::length_error beyond 2^32 - 1 pairs.
     Rows<Neighbour> nearest(std::uint32_t most) const { return pairs.nearest(distance, most); }
   };
@@ -164,7 +163,7 @@ class Crowd {
   /// Holds where the agents of a crowd are after resolve(), and what it left.
   struct Resolved {
     std::span<const double> x, y;                ///< one per agent
-    Pairs left;                                  ///< those that collide
+    Pairs left;                                  ///< unresolved: those that still collide
     std::span<const std::uint32_t> touch_walls;  ///< agents, ascending
     std::uint32_t sweeps;                        ///< that were made
   };
@@ -177,8 +176,9 @@ class Crowd {
   ~Crowd();
 
   /// Finds the pairs whose root discs, at the agents' levels, overlap or come within a margin of each other. They contain every pair
-  /// that collides, and every pair with a clearance of at most the margin. For time_of_impact() the margin has to be twice the
-  /// longest way of an agent. Returned pairs exceed the margin by a relative error of at most about 1e-6.
+  /// that collides, and every pair with a clearance of at most the margin. For time_of_impact() the margin has to be twice the longest
+  /// displacement of an agent. Root discs of a returned pair may be farther apart than the margin, by a few millionths of the margin, of
+  /// their radii and of their shapes' reaches.
   /// Units:   the margin is metres, from 0 to 2e9.
   Pairs candidates(const ShapeSet& shapes, const Agents& agents, double margin = 0,
                    const PairFilter& filter = {}) &;
@@ -247,9 +247,9 @@ class Crowd {
                                 const Implementation* implementation = nullptr) &;
 
   /// Moves agents on the ground, as little as it can, until no two bodies collide and nobody touches a wall. Each sweep
-  /// moves all agents at once. It separates pairs that collide by their nearest_free() moves, and keeps pairs that are
-  /// near each other apart. Agents do not turn. Where there is no room, pairs are left after the last sweep. With a
-  /// period, agents may leave it: positions count modulo the period.
+  /// moves all agents at once. It separates pairs that collide by their nearest_free() moves, and keeps other nearby pairs from coming into
+  /// collision. Agents do not turn. Where there is no room, pairs are left after the last sweep. With a period, agents may leave it:
+  /// positions count modulo the period.
   /// Memory:  allocates in every sweep, as nearest_free() does.
   /// Errors:  also on an odd number of directions, and on lengths and mobilities out of range.
   Resolved resolve(const BodySet& bodies, const Agents& agents, const ResolveOptions& options,

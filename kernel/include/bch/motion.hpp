@@ -40,11 +40,11 @@ struct TimeInterval {
 ///
 /// The time is never later than the first contact. At that time the solids are apart by at most the tolerance, 2 um per
 /// metre of both reaches, 1e-14 of the positions, and 1e-14 V T. V is the speed of the path plus the greatest speed of
-/// the clip's discs. T is the time of the later key (behind the last one, 1e6 s) + 2 |clip_begin| + 3 times the clip's
-/// latest time. The tolerance is a distance: the time is early by at most the tolerance over the speed at which the
-/// solids come together. By default that is 5 ms at 1 m a second, and a quarter of a second at 0.02 m a second. The
-/// time is finite where the solids only pass each other that closely. Times are the same bits on every processor, for
-/// any number of threads, any split of the batch and exchanged motions. A later end of the interval changes no time.
+/// the clip's discs. T is the time of the next path key (after the last one: 1e6 s) + 2 |clip_begin| + 3 times the clip's latest time. The
+/// tolerance is a distance: the time is early by at most the tolerance over the speed at which the solids come together. By default that is
+/// 5 ms at 1 m a second, and a quarter of a second at 0.02 m a second. The time is finite where the solids only pass each other that
+/// closely. Times are the same bits on every processor, for any number of threads, any split of the batch and exchanged motions. A later
+/// end of the interval changes no time.
 ///
 /// Units:   seconds within +-1e6, metres within +-1e9, headings within +-1e9 rad, a turn of at most 1e3 rad from key to key.
 /// Sizes:   as many times as pairs, which name motions by index. A motion may be paired with itself.
@@ -53,8 +53,8 @@ struct TimeInterval {
 ///          is missing, keys that do not ascend or are not within these units; and,
 ///          naming the pair, on a search of more than 1e8 steps, most of them from key to key of clips within reach.
 /// Threads: runs in the caller's TBB arena. Allocates for the motions and for each task.
-/// Cost:    grows with the keys of the paths and, while two bodies are within reach of each other, with the rounds of clips that loop. Of
-///          bodies that stand, and of which both loop in the same time or one stands still, two rounds are looked at.
+/// Cost:    grows with the keys of the paths and, while two bodies are within reach of each other, with the cycles of clips that loop. For
+///          bodies at rest, of which both loop with the same period or one does not move, only two cycles are searched.
 void first_contact(std::span<const Motion> motions, std::span<const Pair> pairs, const TimeInterval& interval,
                    std::span<double> times, double tolerance = 0.005);
 

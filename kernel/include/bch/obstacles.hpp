@@ -94,9 +94,9 @@ ObstacleSet obstacles_from_wkt(std::string_view text, Polygons polygons = Polygo
 // agent's reach, and 9e-15 of the distances to the two ends of a segment together.
 //
 // A body is compared only with obstacles whose heights meet its own, as between agents with a z: touching counts, and heights are widened
-// by their rounding. The query ignores all other obstacles, their segments and their areas. Its heights are metres
-// above the agent's z, or above 0 if agents have none. Sets keep them with ShapeSetPlan::heights; a body without
-// heights is infinite, and meets obstacles at all heights.
+// by their rounding. The query ignores all other obstacles, their segments and their areas. A body's heights are metres above the agent's
+// z, or above 0 if agents have none. Sets keep them with ShapeSetPlan::heights; a body without heights is infinite, and meets obstacles at
+// all heights.
 //
 // Sizes:   one answer per agent.
 // Errors:  throw std::invalid_argument, before anything is written, as validate(shapes, agents) and the query of pairs.
@@ -140,10 +140,10 @@ void within(const BodySet& bodies, const Agents& agents, const ObstacleSet& obst
 void clearance(const BodySet& bodies, const Agents& agents, const ObstacleSet& obstacles,
                const BodyClearanceAnswers& answers, const BodyClearanceOptions& options = {});
 
-/// Measures how far each agent is from the nearest obstacle: the least gap between a disc of its cut and a segment, or
-/// 0 where they overlap, an area holds a disc or the agent's outline a whole path. The direction leads from the agent
-/// to the obstacle. `discs` has the agent's disc and the number of the segment; of equal gaps the first disc counts,
-/// and then the first segment. `points` are both relative to the agent's position.
+/// Measures how far each agent is from the nearest obstacle: the least gap between a disc of its cut and a segment, or 0 where they
+/// overlap, a disc is inside an area, or a whole path is inside the agent's outline. The direction leads from the agent to the obstacle.
+/// `discs` has the agent's disc and the number of the segment; of equal gaps the first disc counts, and then the first segment. `points`
+/// are both relative to the agent's position.
 ///
 /// The distance of a disc that a segment crosses is negative with Overlap::deepest. Its direction is that to the segment's nearest point,
 /// or (1, 0) where that point is the disc's centre. An agent that is inside an area and touches none of its segments then has its distance
@@ -172,7 +172,7 @@ void clearance(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& 
 /// One move frees an agent of a convex area or a single segment, if its new position is right to 1e-7 of its reach; for other obstacles,
 /// call again after the move. The depth is 0, and the direction (0, 0), where nothing is touched, even if the outline
 /// encloses a whole path that no disc overlaps.
-/// Cost:    n log n for n segments that are near an agent, or as near as the farthest of those that it crosses.
+/// Cost:    n log n, n being the segments near the agent or no farther than the farthest that it crosses.
 void penetration(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
                  std::span<Penetration> out, const Implementation* implementation = nullptr);
 
@@ -195,7 +195,7 @@ void time_of_impact(const ShapeSet& shapes, const Agents& agents, const Displace
 /// Sizes:   as many times as motions.
 /// Errors:  throws std::invalid_argument, before anything is written, as first_contact() of pairs. Each segment that is near counts as
 ///          a step.
-/// Cost:    of a body that stands, two rounds of a clip that loops are looked at.
+/// Cost:    for a body at rest, only two cycles of a looping clip are searched.
 void first_contact(std::span<const Motion> motions, const ObstacleSet& obstacles,
                    const TimeInterval& interval, std::span<double> times, double tolerance = 0.005);
 

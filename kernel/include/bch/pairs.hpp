@@ -67,8 +67,8 @@ struct ClearanceAnswers {
 ///
 /// The distance of overlapping agents is negative with Overlap::deepest: the deepest overlap of two discs. The direction then leads
 /// from one centre to the other or, where these coincide, is (1, 0) from the agent with the lower index to
-/// the other. The radii of the discs limit the depth, so with fine cuts penetration() says more. It measures discs
-/// only. So it is positive for an agent inside another's outline whose discs overlap none of the other's.
+/// the other. The radii of the discs limit the depth, so with fine cuts penetration() says more. Overlap::deepest measures discs only. So
+/// the distance is positive for an agent inside another's outline whose discs overlap none of the other's.
 ///
 /// With leaves = Leaves::segments, where both shapes have exact leaves, the distance is that of the outlines: the least of a
 /// segment of one and a segment of the other, and 0 where they come within the margin of exact leaves. It is never larger than that of
@@ -104,9 +104,8 @@ void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pai
 /// a disc of one's cut is within the distance of a disc of the other's. With culling data this takes about the time of collide(),
 /// and clearance() takes several times as much.
 ///
-/// Only the discs of the cuts count, as in clearance() by discs: more pairs are within a distance of 0 than
-/// collide. An agent inside another's outline is within every distance of it. Agents with disjoint ranges of height are
-/// within none.
+/// Only the discs of the cuts count, as in clearance() by discs, so within() at distance 0 holds for more pairs than collide(). An agent
+/// inside another's outline is within every distance of it. Agents with disjoint ranges of height are within none.
 ///
 /// The answer is 1 wherever clearance() returns a finite distance of at most the given one, and wherever outlines are as close.
 /// clearance() is at most the given distance plus 1.4 um per metre of that distance and of the radii of the agents' largest discs where
@@ -228,8 +227,8 @@ void penetration(const BodySet& bodies, const Agents& agents, std::span<const Pa
 /// spread directions, to separate from the second: until no segments of the two outlines meet or, where collide() tests
 /// discs, no discs of the cuts overlap. The agents may remain interlocked: no line need separate them. So the depth is
 /// at most that of penetration(), up to rounding. collide() answers 0 afterwards; where it answers 0 before, the depth
-/// is 0. It grows from there on, and may jump where a gap opens or closes. Sizes, symmetry, directions and errors are
-/// those of penetration(), and of collide() for leaves; the bits are the same on every processor.
+/// is 0. It grows from 0 at contact, and may jump where a gap opens or closes. Sizes, symmetry, directions and errors are those of
+/// penetration(), and of collide() for leaves; the bits are the same on every processor.
 /// Memory:  allocates in every call. Threads: runs in the caller's TBB arena.
 void nearest_free(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                   std::uint32_t directions, std::span<Penetration> out, const CollideOptions& options = {});

@@ -20,10 +20,10 @@ namespace bch {
 
 // What a collision is. Two agents collide at their levels if a disc a of one cut overlaps a disc b of the other, and
 // each of a and its ancestors overlaps each of b and its ancestors. They also collide if a contour of one lies inside a
-// contour of the other, where the set keeps outlines. Touching counts. Discs are the smallest around their primitives.
-// A point that two outlines have in common lies in all of these discs, so this is the tightest answer that discs can
-// give, and a deeper cut never adds a collision. With exact leaves (Leaves::segments, at depth all_depths) two leaves
-// count only if their segments meet, too. In a set without outlines discs alone decide.
+// contour of the other, where the set keeps outlines. Touching counts. Each disc is the smallest around its primitives (segments of the
+// outline). A point that two outlines have in common lies in all of these discs, so this is the tightest answer that discs can give, and a
+// deeper cut never adds a collision. With exact leaves (Leaves::segments, at depth all_depths) two leaves count only if their segments
+// meet, too. In a set without outlines discs alone decide.
 //
 // The rules that all queries share. A query over pairs writes one result per pair into spans of the caller, and allocates nothing
 // unless its header says so. Where a pair or an agent can have many results, an object finds them and keeps them in its memory until

@@ -112,7 +112,7 @@ class Clearances(NamedTuple):
     distance: Float32  #: (n,), metres
     direction: Float32  #: (n, 2), unit vectors from the first agent to the second; of bodies (n, 3)
     discs: UInt32  #: (n, 2), the nearest disc, or sphere, of each agent; 0xffffffff: none
-    points: Float32  #: (n, 2, 2), the nearest point of each agent, relative to its own position, metres; of bodies (n, 2, 3)
+    points: Float32  #: (n, 2, 2), the nearest point of each agent, relative to its position, in the world's axes, metres; of bodies (n, 2, 3)
 
 
 class Resolved(NamedTuple):
@@ -120,7 +120,7 @@ class Resolved(NamedTuple):
 
     x: Float64  #: (n,), where the agents are, metres
     y: Float64  #: (n,)
-    left: UInt32  #: (m, 2), the pairs of agents that still collide
+    left: UInt32  #: (m, 2), unresolved: the pairs of agents that still collide
     touch_walls: UInt32  #: (k,), the agents that still touch an obstacle
     sweeps: int  #: how many were made
 
@@ -196,7 +196,7 @@ class Crowd:
         Returns
         -------
         (n, 2) uint32
-            Each pair once, the lower index first, ordered by position.
+            Each pair once, the lower index first, in the order of a grid over the agents, not of indices.
         """
         how, _ = options(threads=threads)
         chosen = _filter(agents, category, mask, excluded)
@@ -219,7 +219,7 @@ class Crowd:
         Returns
         -------
         (n, 2) uint32
-            Each pair once, the lower index first, ordered by position.
+            Each pair once, the lower index first, in the order of a grid over the agents, not of indices.
         """
         how, _ = options(leaves=leaves, threads=threads, implementation=implementation)
         chosen = _filter(agents, category, mask, excluded)
@@ -340,8 +340,8 @@ class Crowd:
     ) -> Resolved:
         """Move agents on the ground, as little as it can, until no two bodies collide and nobody touches an obstacle.
 
-        Each sweep moves all agents at once. It separates pairs that collide by their `nearest_free` moves, and keeps pairs that
-        are near each other apart. Agents do not turn. Where there is no room, pairs are left after the last sweep.
+        Each sweep moves all agents at once. It separates pairs that collide by their `nearest_free` moves, and keeps other nearby
+        pairs from coming into collision. Agents do not turn. Where there is no room, pairs are left after the last sweep.
 
         Parameters
         ----------
@@ -388,7 +388,8 @@ class Crowd:
     def nearest(self, most: int) -> Neighbours:
         """Return for each agent of the last answer, which has to be of `clearances`, the nearest others, at most so many, the nearest first.
 
-        Crowd models such as ORCA take these as neighbours. Distances are between bodies, not between discs.
+        Crowd models such as ORCA take these as neighbours. The order is that of the distances of `clearances`, not of the agents'
+        centres.
         """
         return self._neighbours(lib.bch_crowd_nearest, bounded(most, "most", 0, 2**32 - 1))
 

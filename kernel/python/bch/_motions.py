@@ -43,7 +43,7 @@ def animate(model: BodyModel, clip: int, *, error: float = 0.005, loops: Optiona
     clip : int
         Index in `Character.clips` of the model's character.
     error : float
-        How much more spheres may protrude between two keys than in a pose, metres.
+        By how much spheres may protrude from those of a pose at most, between keys more than 9 ms apart, metres.
     loops : bool, optional
         Whether the clip is played over and over, its end followed by its beginning at once. None: if its last pose is its first one.
     """
@@ -104,7 +104,7 @@ def first_contact(
 ) -> Float64:
     """Find when the two movers of each pair first touch, or each mover an obstacle.
 
-    Bodies of spheres meet each other in space; beside discs and obstacles they count as seen from above.
+    Bodies of spheres meet each other in space. With discs or obstacles, both count as seen from above.
 
     Parameters
     ----------

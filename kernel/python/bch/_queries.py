@@ -306,7 +306,7 @@ class Nearest(NamedTuple):
     distance: Float32  #: (n,), metres; infinite beyond the largest distance
     direction: Float32  #: (n, 2), unit vectors from the first agent to the second; of bodies (n, 3)
     discs: UInt32  #: (n, 2), the nearest disc, or sphere, of each agent; with obstacles, a disc and a segment; 0xffffffff: none
-    points: Float32  #: (n, 2, 2), the nearest point of each agent, relative to its own position, metres; of bodies (n, 2, 3)
+    points: Float32  #: (n, 2, 2), the nearest point of each agent, relative to its position, in the world's axes, metres; of bodies (n, 2, 3)
 
 
 def _measure(
@@ -422,7 +422,7 @@ def penetration(
     implementation: Optional[str] = None,
     out: Optional[Records] = None,
 ) -> Records:
-    """Measure how far the first agent of each pair has to move to separate from the second, and in which direction.
+    """Measure how far the first agent of each pair has to move until a line separates the discs of the two, and in which direction.
 
     Use it for pairs that collide. The depth may be positive where nothing overlaps yet, if one agent reaches around the other.
 
@@ -432,7 +432,7 @@ def penetration(
         Bodies move on the ground, until a line separates them as seen from above.
     agents : Agents
     pairs : (n, 2) uint32, or Obstacles
-        With obstacles (ShapeSet only), the depth is the longest of the moves that leave each obstacle by itself.
+        With obstacles (ShapeSet only), each obstacle has a shortest way out of it alone; the depth is the longest of these.
     directions : int, or (n, 2) float32
         The number of evenly spread directions to try, an even number from 2 to 256, of which the best one counts; or one
         direction per pair. Not for obstacles.
@@ -512,7 +512,7 @@ def time_of_impact(
     implementation: Optional[str] = None,
     out: Optional[Float32] = None,
 ) -> Float32:
-    """Find when the two agents of each pair first touch while they move without turning.
+    """Find when discs (of bodies: spheres) of the two agents of each pair first touch while they move without turning.
 
     The time is never later than the first contact of the outlines. It is 0 where the agents collide already, even if one is
     inside the other.

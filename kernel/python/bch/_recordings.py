@@ -169,18 +169,18 @@ def read_trajectory(
 class Check(NamedTuple):
     """The result of `check`: who runs into whom in a recording. Ids are those of the file; depths and positions are in metres."""
 
-    #: first, second, from, to, worst (frames), x, y, depth, frames, kind, after: overlaps in successive frames, and passes. A
-    #: pass happens `after` of a frame (a fraction) after the frame `worst`; `x` and `y` are the position of the first person
-    #: then.
+    #: first, second, from, to, worst (frames), x, y, depth, frames, kind, after: overlaps in successive frames, and passes. `worst`
+    #: is the frame of the deepest overlap, or the frame before a pass, which follows it by `after` frames (a fraction). `x` and
+    #: `y` are the position of the first person at that time.
     events: Records
     #: frame, seconds, people, overlapping, overlapping_pairs, in_walls, density (people per square metre within 1 m of a person, the mean
     #: over all people)
     frames: Records
     #: frame, first, second (an id, or a wall's number), depth, gap, x and y (unit vector: the move of the first), kind
     pairs: Records
-    #: Counts of the whole recording: person_frames, overlapping, near_pairs (pairs of people in a frame within 1.2 m) ... And `by_density`,
-    #: a mapping for each class of density, with the same counts of people with at least `from` and less than the next class's people per
-    #: square metre within a metre of them.
+    #: Counts of the whole recording: person_frames, overlapping, near_pairs (pairs of people in a frame within 1.2 m) ... And `by_density`:
+    #: the same counts per class of density, as a list of mappings. `from` is the least density of a class, in people per square metre
+    #: within 1 m of the person.
     summary: Dict[str, Any]
     assumptions: List[str]  #: what is assumed where the file does not say, and what was found about the characters
     #: What seems to be wrong: columns that are not read, people who are too fast or too slow, headings in degrees, walls without a segment.
@@ -282,7 +282,7 @@ def check(
     heading : (n,) numbers, optional
         Radians, counter-clockwise from +x; NaN: the direction in which the person walks.
     stature : (n,) numbers, optional
-        Heights of people, metres or `unit`, from 1 to 2.5 m; NaN: by the id.
+        Heights of people, metres or `unit`, from 1 to 2.5 m; NaN: drawn from a normal distribution, seeded by the id.
     characters : sequence of Character, or ShapeSet
         The bodies of the people, assigned by id or as rows name them, and scaled to the people's statures; by default built-in
         pedestrians. Each character needs a clip that walks straight on, and should have one that stands. Alternatively a set that
@@ -303,8 +303,8 @@ def check(
     max_distance : float
         Also report pairs with gaps up to this distance, metres.
     max_pairs : int
-        The most pairs of people near each other, in a frame or in some 4096 rows; 0: 4 million plus 100 per person. More are
-        an error, because each takes memory.
+        Limit of pairs of people near each other, in one frame or in the frames that one task checks (about 4096 rows); 0: 4
+        million plus 100 per person. More are an error, because each takes memory.
     walls : Obstacles, or a geometry as `Obstacles.from_wkt` takes, optional
         Walls to use instead of the geometry of the recording. Polygons of a geometry are the floor that people walk on, and their
         rings are walls.

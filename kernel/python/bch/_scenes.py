@@ -98,7 +98,8 @@ def plan_scene(
     character : (n,) uint32, optional
         The index of each agent's character in a list of characters; by default the first one.
     depth : (n,) uint32, optional
-        Level of detail: the cut depth that each agent needs, such as `depth_at_density` returns; by default ALL_DEPTHS.
+        Level of detail: the depth of the disc tree that each agent needs, such as `depth_at_density` returns; by default
+        ALL_DEPTHS.
     outlines : bool
         Whether to keep outlines, as `Plan` does.
     heights : bool

@@ -57,9 +57,9 @@ REST_POSE = 0xFFFFFFFF
 
 
 class Plan(NamedTuple):
-    """The data of its shapes that a scene will use; nothing else is built or stored."""
+    """What a scene will use of its shapes; nothing else is built or stored."""
 
-    depths: Sequence[int] = (ALL_DEPTHS,)  #: levels of detail, ascending: cut depths of the hierarchies
+    depths: Sequence[int] = (ALL_DEPTHS,)  #: levels of detail, ascending: depths of the disc trees; 0: one disc, ALL_DEPTHS: all discs
     outlines: bool = True  #: keep outlines, without which discs alone decide
     culling: bool = True  #: keep culling data, which lets queries skip most of their work; changes no answer
     heights: bool = False  #: keep the heights of bodies, for agents at different heights
@@ -88,7 +88,7 @@ def depth_at_density(people_per_square_metre: float) -> int: ...
 @overload
 def depth_at_density(people_per_square_metre: Float64) -> UInt32: ...
 def depth_at_density(people_per_square_metre: Union[float, Float64]) -> Union[int, UInt32]:
-    """Return the coarsest cut depth whose false collisions stop a walking person at most once a second at a density.
+    """Return the coarsest depth of the disc trees whose false collisions stop a walking person at most once a second at a density.
 
     Densities are in people per square metre; for an array, one depth per entry.
     """
@@ -121,7 +121,10 @@ class Clip(NamedTuple):
 
 
 class Character:
-    """A character: a mesh, a skeleton and clips. `default_male`, `default_female` and `import_character` make one."""
+    """A character: a mesh, a skeleton and clips. `default_male`, `default_female` and `import_character` make one.
+
+    `height` is that of an imported file's rest pose, metres; 0 for other characters.
+    """
 
     __slots__ = ("_handle", "_pointer", "name", "notes", "joints", "vertices", "triangles", "height", "clips")
 
@@ -249,7 +252,7 @@ def default_bulky_male() -> Character:
 def default_pedestrian(sex: str = "male", stature: float = 1.75, shoulders: float = 0.0) -> Character:
     """Make a pedestrian for recorded and simulated crowds: the built-in man or woman, scaled to a stature.
 
-    Clip k is one stride at a speed of 0.03 k m/s, from 0 to 2.19 m/s, and begins when the left heel touches the ground. The arms are
+    Clip k is one stride at a speed of k * 0.03 m/s, from 0 to 2.19 m/s, and begins when the left heel touches the ground. The arms are
     kept close to the body. The origin of the shape is under the head, because cameras track heads.
 
     Parameters
@@ -384,6 +387,9 @@ class ShapeSet:
     """A set of shapes of bodies, ready for queries. Any number of threads may query a set at once.
 
     `ShapeSet.load` maps a baked file, `bake` makes a set from characters, and `ShapeSetBuilder` makes one from bodies of your own.
+
+    Attributes: `depths`, the depth of each level; `outlines`, whether outlines are kept, else discs alone decide; `exact_leaves`,
+    whether leaves="segments" has an effect at some level of some shape; `has_heights`, whether agents may have a z.
     """
 
     __slots__ = ("_owner", "_pointer", "shape_count", "depths", "has_heights", "outlines", "exact_leaves", "nbytes")

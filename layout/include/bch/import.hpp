@@ -85,13 +85,13 @@ struct ImportedCharacter {
 /// Joints:  the nodes that carry vertices, and the nodes above them. root_joint carries the root motion, in most skeletons the hips: of the
 ///          joints of the trunk, the lowest that a clip moves by more than 0.5 m, else the topmost that moves. It is -1 without bones.
 /// Clips:   those of other files are matched by joint name, without any namespace ("mixamorig:"). Local rotations are copied without
-///          retargeting. The topmost joints also take positions, in the character's axes and scaled by the ratio of the skeletons' bone
-///          lengths, whatever their units. Scales are ignored, and other joints keep the character's own lengths. A clip of another
-///          skeleton is refused unless force_clips is set. The skeleton counts as another if it shares no bone with the character's (two
-///          joints, one the parent of the other, by name), if less than half of the clip's channels move the character and its file has
-///          less than half of the character's joints, or if its joints are oriented differently: the mean cosine between the bones'
-///          directions, each in its parent joint's frame, is below 0.7. A note names each clip of another file in which a pose reaches
-///          farther than 1.5 times the rest pose.
+///          retargeting, except that those of the topmost joints are converted to the character's axes. So are the positions of these,
+///          scaled by the ratio of the skeletons' bone lengths, whatever their units. Scales are ignored, and other joints keep the
+///          character's own lengths. A clip of another skeleton is refused unless force_clips is set. The skeleton counts as another if it
+///          shares no bone with the character's (two joints, one the parent of the other, by name), if less than half of the clip's
+///          channels move the character and its file has less than half of the character's joints, or if its joints are oriented
+///          differently: the mean cosine between the bones' directions, each in its parent joint's frame, is below 0.7. A note names each
+///          clip of another file in which a pose reaches farther than 1.5 times the rest pose.
 /// Returns: a character that validate() accepts; the same files give the same character.
 /// Errors:  throws ImportError.
 ImportedCharacter import_character(const std::filesystem::path& file, const ImportOptions& options = {});

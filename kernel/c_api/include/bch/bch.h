@@ -173,7 +173,7 @@ typedef struct bch_character_arrays {
   const uint32_t* triangles; /**< three vertices each */
   size_t triangle_count;
   const int32_t* parents;    /**< of joints: an earlier joint, or -1 */
-  const bch_affine3* rests;  /**< of joints, in the parent's frame; NULL: none is moved */
+  const bch_affine3* rests;  /**< of joints, in the parent's frame; NULL: identities */
   const char* const* joint_names; /**< or NULL */
   size_t joint_count;
   const uint32_t* bone_joints;
@@ -195,7 +195,7 @@ typedef struct bch_character_info {
   uint32_t size;    /**< sizeof(bch_character_info) */
   uint32_t joints;
   uint32_t clips;
-  float height;     /**< of the rest pose, metres; 0 for the built-in ones, which have none */
+  float height;     /**< of an imported file's rest pose, metres; 0 for other characters */
   uint64_t vertices;
   uint64_t triangles;
   const char* name;  /**< lives as long as the character, like the next */
@@ -302,7 +302,7 @@ typedef struct bch_shape_set_info {
   uint32_t levels;
   int32_t has_heights;  /**< not 0: agents may have a z */
   int32_t outlines;     /**< not 0: outlines are kept, else discs alone decide */
-  int32_t exact_leaves; /**< not 0: some level of some shape has them */
+  int32_t exact_leaves; /**< not 0: BCH_SEGMENTS has an effect at some level of some shape */
   uint64_t bytes;
   const uint32_t* depths; /**< one per level; lives as long as the set */
 } bch_shape_set_info;
@@ -379,7 +379,8 @@ BCH_API bch_status bch_shape_set_builder_create(const bch_plan* plan, bch_shape_
  * shapes that were added before are still there. */
 BCH_API bch_status bch_shape_set_builder_add_poses(bch_shape_set_builder* builder, const bch_character* character,
                                                    const bch_pose* poses, size_t count, const bch_work* work);
-/** Adds the shapes of `count` poses given by arrays, as bch_shape_set_builder_add_poses() does of clips. Their origin is the rest pose. */
+/** Adds the shapes of `count` poses given by arrays, as bch_shape_set_builder_add_poses() does of clips. For
+ * them bch_shape_set_get_origin() gives the rest pose. */
 BCH_API bch_status bch_shape_set_builder_add_own_poses(bch_shape_set_builder* builder, const bch_character* character,
                                                        const bch_pose_arrays* poses, size_t count,
                                                        const bch_work* work);
@@ -594,21 +595,21 @@ typedef struct bch_penetration_depth {
   float unused; /**< padding */
   double x, y;  /**< the direction in which the first agent moves, a unit vector */
 } bch_penetration_depth;
-/** Measures how far the first agent of each pair has to move to be free, along the best of `directions` evenly spread directions. Their
- * number is even and from 2 to 256; 16 to 32 are usual. */
+/** Measures how far the first agent of each pair has to move until a line separates the discs of the two, along the best of `directions`
+ * evenly spread directions. Their number is even and from 2 to 256; 16 to 32 are usual. */
 BCH_API bch_status bch_penetration(const bch_shape_set* set, const bch_agents* agents, const bch_pair* pairs,
                                    size_t count, uint32_t directions, const bch_query_options* options,
                                    bch_penetration_depth* depths);
-/** Measures the shortest such way after which bch_collide() by `leaves` answers 0: the two may stay entangled. 0: they do not collide. */
+/** Measures the shortest such move after which bch_collide() by `leaves` answers 0: the two may stay interlocked. 0: they do not collide. */
 BCH_API bch_status bch_nearest_free(const bch_shape_set* set, const bch_agents* agents, const bch_pair* pairs,
                                     size_t count, uint32_t directions, const bch_query_options* options,
                                     bch_penetration_depth* depths);
-/** Measures how far the first agent of each pair has to move to be free along a given direction, which may have any length. */
+/** Measures the same as bch_penetration() along a given direction, which may have any length. */
 BCH_API bch_status bch_penetration_along(const bch_shape_set* set, const bch_agents* agents, const bch_pair* pairs,
                                          size_t count, const bch_vec2* directions,
                                          const bch_query_options* options, bch_penetration_depth* depths);
-/** Finds when the agents of each pair first touch while the first moves by (x, y) relative to the second: a time from 0 to 1, or
- * infinity. */
+/** Finds when discs of the agents of each pair first touch while the first moves by (x, y) relative to the second: a time from 0 to 1,
+ * or infinity. */
 BCH_API bch_status bch_time_of_impact(const bch_shape_set* set, const bch_agents* agents, const bch_pair* pairs,
                                       size_t count, const double* x, const double* y,
                                       const bch_query_options* options, float* times);
@@ -712,7 +713,7 @@ BCH_API bch_status bch_crowd_penetrations(bch_crowd* crowd, const bch_shape_set*
 /** Returns the pairs of the last answer by agent, one row per agent of the crowd. */
 BCH_API bch_status bch_crowd_by_agent(bch_crowd* crowd, bch_neighbour_rows* neighbours);
 /** Returns for each agent of the last answer, which has to be of bch_crowd_clearances() or bch_crowd_body_clearances(), the nearest others,
- * at most so many, the nearest first: what crowd models avoid (ORCA's neighbours), by bodies in place of discs. */
+ * at most so many, the nearest first: what crowd models avoid (ORCA's neighbours), by the distances of that answer, not of centres. */
 BCH_API bch_status bch_crowd_nearest(bch_crowd* crowd, uint32_t most, bch_neighbour_rows* neighbours);
 /** Finds the obstacles that each agent collides with, one row per agent, ascending. */
 BCH_API bch_status bch_crowd_obstacles(bch_crowd* crowd, const bch_shape_set* set, const bch_agents* agents,

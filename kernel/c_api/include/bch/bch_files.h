@@ -147,7 +147,8 @@ typedef struct bch_check_options {
   const bch_clip_speed* clip_speeds; /**< of the baked set, which does not say how fast people walk in its clips */
   size_t clip_speed_count;
   double facing; /**< of the baked set: the direction that people face, radians from +x */
-  /** The most pairs of people near each other, in a frame or in some 4096 rows; more are BCH_TOO_LARGE. 0: 4 million and 100 a person. */
+  /** The most pairs of people near each other, in a frame or in the frames of a task (about 4096 rows); more are BCH_TOO_LARGE.
+   * 0: 4 million and 100 a person. */
   size_t max_pairs;
   /** Of a body, of people who have bodies of spheres in place of outlines, posed at their times and compared in space: 64, 128, 256 or 512, and of
    * characters that the library has no models of up to 4096. 0: outlines. There is neither a baked set nor another depth or leaves then. */
