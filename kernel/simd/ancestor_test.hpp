@@ -114,8 +114,8 @@ class AncestorTest {
     }
   }
 
-  /// Decides most cases, with one test a node. The point is the one of the line of the centres that divides
-  /// it as the radii do, so that it lies in both cut discs.
+  /// Decides most cases, with one test a node. The point is the one of the line between the centres that divides it as the radii do, so
+  /// that it lies in both cut discs.
   Comparison compare_with_leaves() const noexcept {
     const auto b_in_a = trees_.b_in_a.template in_lanes<Float>();
     const float share = a_.radius / (a_.radius + b_.radius);

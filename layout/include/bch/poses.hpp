@@ -192,9 +192,8 @@ std::vector<Affine3d> grounded(const Character& character, const Transforms& map
 class PoseShaper {
  public:
   /// Prepares the mesh of a character, which must outlive this object and must be valid (see validate()). Shapes are made for sets of
-  /// a plan: hierarchies end at its deepest cut. A plan of depth 0 alone needs no outlines: the
-  /// outermost vertices give its discs in a third of the time. `threshold`, in metres, is the radius below which a disc is
-  /// not divided.
+  /// a plan: hierarchies end at its deepest cut. A plan of depth 0 alone, without heights, needs no outlines: the outermost vertices give
+  /// its discs in a third of the time. `threshold`, in metres, is the radius below which a disc is not divided.
   /// Errors:  throws std::invalid_argument on a bad plan.
   explicit PoseShaper(const Character& character, const ShapeSetPlan& plan = {}, float threshold = 0.01f);
   /// Refuses a character that nothing would keep.
