@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <vector>
 
 #include <bch/pairs.hpp>
 
@@ -100,10 +101,12 @@ Penetration best_way(const SpaceFrame& frame, const Axes& axes, Search& search, 
 
 constexpr std::size_t pairs_at_once = 64;
 
-/// Answers pairs: find(pairs, hits) tells which collide, and best(searches, a, b) finds the way of one that does, a < b.
+/// Answers pairs: find(pairs, hits) tells which collide, and best(searches, a, b) finds the way of one that does, a < b. Searches need memory,
+/// so `out` is written once all have ended.
 template <class Find, class Best>
 void answer_pairs(std::span<const Pair> pairs, std::span<Penetration> out, const Find& find,
                   const Best& best) {
+  std::vector<Penetration> ways(pairs.size());
   for_pair_ranges(pairs.size(), pairs_at_once, [&](std::size_t begin, std::size_t size) {
     const auto searches = std::make_unique<Searches>();
     std::uint8_t hits[pairs_at_once];
@@ -113,9 +116,10 @@ void answer_pairs(std::span<const Pair> pairs, std::span<Penetration> out, const
       const auto [a, b] = std::minmax(first, second);
       Penetration way = hits[k] != 0 ? best(*searches, a, b) : Penetration{0, 1, 0};
       if (second < first) way.x = -way.x, way.y = -way.y;
-      out[begin + k] = way;
+      ways[begin + k] = way;
     }
   });
+  std::copy(ways.begin(), ways.end(), out.begin());
 }
 
 /// Holds the agents of a pair of shapes alone, the first of which moves.
