@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <memory>
 #include <vector>
 
 #include <bch/pairs.hpp>
@@ -16,6 +15,7 @@
 #include "kernel/penetration/free_search.hpp"
 #include "kernel/penetration/spread_axes.hpp"
 #include "kernel/runtime/pair_validation.hpp"
+#include "kernel/runtime/spares.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 #include "kernel/simd/segment_test.hpp"
 #include "layout/base/floating_point_state.hpp"
@@ -107,8 +107,9 @@ template <class Find, class Best>
 void answer_pairs(std::span<const Pair> pairs, std::span<Penetration> out, const Find& find,
                   const Best& best) {
   std::vector<Penetration> ways(pairs.size());
+  Spares<Searches> spares;
   for_pair_ranges(pairs.size(), pairs_at_once, [&](std::size_t begin, std::size_t size) {
-    const auto searches = std::make_unique<Searches>();
+    const auto searches = spares.borrow([] { return Searches(); });
     std::uint8_t hits[pairs_at_once];
     find(pairs.subspan(begin, size), hits);
     for (std::size_t k = 0; k < size; ++k) {

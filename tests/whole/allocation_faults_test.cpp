@@ -203,15 +203,11 @@ TEST_F(AllocationFaults, Queries) {
         SCOPED_TRACE(with_memory.name);
         expect_ok(with_memory.run_query());
         if (!with_memory.needs_memory && before.size() == with_memory.answers().size()) continue;
-        const std::size_t step = with_memory.name == "nearest free" ? 31 : 1;  // every pair allocates
-        fail_each(
-            1,
-            [&](Attempt& attempt) {
-              const CQuery query = all_queries(scene)[q];  // whose object has no memory yet
-              attempt(query.run_query, [&] { return query.answers() == before; });
-              EXPECT_TRUE(query.answers() == with_memory.answers());
-            },
-            step);
+        fail_each(1, [&](Attempt& attempt) {
+          const CQuery query = all_queries(scene)[q];  // whose object has no memory yet
+          attempt(query.run_query, [&] { return query.answers() == before; });
+          EXPECT_TRUE(query.answers() == with_memory.answers());
+        });
       }
     }
   }
