@@ -8,7 +8,6 @@
 #include <string_view>
 
 #include "bench/base/interrupt.hpp"
-#include "layout/baked/checksum.hpp"
 
 namespace bch::cli {
 
@@ -56,14 +55,13 @@ class OutputFile {
   std::optional<RemoveOnSignal> removed_;
 };
 
-/// Writes a file in pieces of a megabyte, and computes its checksum meanwhile; without a name, it writes nothing.
+/// Writes a file in pieces of a megabyte; without a name, it writes nothing.
 class StreamedFile {
  public:
-  explicit StreamedFile(const std::string& file, std::string_view begin = {}) : name_(file), waiting_(begin) {
+  explicit StreamedFile(const std::string& file, std::string_view begin = {}) : waiting_(begin) {
     if (!file.empty()) file_.emplace(file);
   }
   explicit operator bool() const { return file_.has_value(); }
-  const std::string& name() const { return name_; }
 
   void add(std::string_view bytes) {
     if (!file_) return;
@@ -85,7 +83,6 @@ class StreamedFile {
     waiting_.clear();
   }
 
-  std::string name_;
   std::optional<OutputFile> file_;
   std::string waiting_;
 };

@@ -36,7 +36,7 @@ double speed_of(const detail::CharacterEntry& member, std::uint32_t clip) {
 /// Characters without a walk stand where they are.
 detail::CharacterEntry member_of(const LoadedCharacter& loaded) {
   try {
-    return detail::cast_member(loaded.character, file_name(loaded));
+    return detail::character_entry(loaded.character, file_name(loaded));
   } catch (const std::invalid_argument&) {
     detail::CharacterEntry member{};
     member.name = file_name(loaded);

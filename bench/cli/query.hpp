@@ -95,7 +95,7 @@ struct ObstacleOptions {
 /// Errors:  throws InputError where there are more, which find() says by std::length_error.
 template <class Find>
 auto within_limit(std::size_t most, const std::string& file, const AgentTable& table, const Find& find) {
-  if (most == 0) most = detail::usual_most_pairs(table.id.size());
+  if (most == 0) most = detail::usual_max_pairs(table.id.size());
   try {
     return find(most);
   } catch (const std::length_error&) {

@@ -61,10 +61,8 @@ Question read_question(const QueryCommandOptions& options, std::size_t shapes, s
   return question;
 }
 
-using Write = std::function<void(const std::string&)>;
-
 /// Writes the table of answers, piece by piece.
-void answer(const QueryCommandOptions& options, const AskedSet& set, Question& question, const Write& write) {
+void answer(const QueryCommandOptions& options, const AskedSet& set, Question& question) {
   constexpr std::size_t at_once = 65'536;  // pairs, of which each may have many contacts
   auto& [table, pairs, obstacle_set] = question;
   const ObstacleSet* const obstacles = obstacle_set ? &*obstacle_set : nullptr;
@@ -89,13 +87,13 @@ void answer(const QueryCommandOptions& options, const AskedSet& set, Question& q
     const std::span<const Pair> some = all.subspan(begin, std::min(at_once, all.size() - begin));
     lines += kind.rows(
         {set, table, some, how, options.directions, options.only_direction(), options.points, obstacles});
-    write(lines);
+    write_standard_data(lines);
     lines.clear();
     begin += some.size();
   } while (begin < all.size());
 }
 
-void query_character(const QueryCommandOptions& options, const Write& write) {
+void query_character(const QueryCommandOptions& options) {
   std::vector<std::uint32_t> depths = options.answer.cut_depths();
   const CostLimits& limits = options.shapes.limits;
   const LoadedCharacter from = load_character(options.character, options.shapes.import_options());
@@ -111,42 +109,38 @@ void query_character(const QueryCommandOptions& options, const Write& write) {
   const BuiltShapes built = build_shapes({&from, 1}, used, options.shapes.threshold, plan, limits);
   const ShapeSet set(built.shapes, plan);
   guard.reset();
-  answer(options, &set, question, write);
+  answer(options, &set, question);
   std::fputs(notes_text({&from, 1}).c_str(), stderr);  // standard output is for data
 }
 
 /// Bodies of spheres are posed, not built.
-void query_spheres(const QueryCommandOptions& options, const Write& write) {
+void query_spheres(const QueryCommandOptions& options) {
   const std::vector<LoadedCharacter> from{load_character(options.character, options.shapes.import_options())};
   const auto sources = list_shapes(from, options.shapes.poses);
   Question question = read_question(options, sources.size(), 1);
   const Threads threads(options.answer.threads);
   const auto used = keep_used(sources, question.table);
   const BodySet bodies = posed_bodies(make_models(from, options.kind.spheres), used);
-  answer(options, &bodies, question, write);
+  answer(options, &bodies, question);
   std::fputs(notes_text(from).c_str(), stderr);  // standard output is for data
 }
 
-void query_baked(const QueryCommandOptions& options, const Write& write) {
+void query_baked(const QueryCommandOptions& options) {
   const BakedShapes baked = load_baked_for(options.character, options.answer);
   Question question = read_question(options, baked.set.shape_count(), baked.set.level_count());
   if (options.compares_heights(question.table) && !baked.set.has_heights())
     throw InputError(options.character + ": was baked without heights, which agents with a z and " +
                      "--obstacle-heights need; bake it with --heights");
   const Threads threads(options.answer.threads);
-  answer(options, &baked.set, question, write);
-}
-
-void answer_all(const CLI::App& command, const QueryCommandOptions& options, const Write& write) {
-  if (options.kind.bodies == "spheres") return query_spheres(options, write);
-  if (!is_baked(options.character)) return query_character(options, write);
-  require_unsettled(command, options.character);
-  query_baked(options, write);
+  answer(options, &baked.set, question);
 }
 
 void run_query(const CLI::App& command, const QueryCommandOptions& options) {
   require_fitting(command, options);
-  answer_all(command, options, write_standard_data);
+  if (options.kind.bodies == "spheres") return query_spheres(options);
+  if (!is_baked(options.character)) return query_character(options);
+  require_unsettled(command, options.character);
+  query_baked(options);
 }
 
 }  // namespace

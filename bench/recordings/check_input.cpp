@@ -99,7 +99,7 @@ detail::Cast cast_of(const CheckInput& input, const std::optional<BakedShapes>& 
   const std::vector<std::string> notes = notes_of(characters);
   for (LoadedCharacter& loaded : characters) {
     try {
-      cast.push_back(detail::cast_member(std::move(loaded.character), file_name(loaded)));
+      cast.push_back(detail::character_entry(std::move(loaded.character), file_name(loaded)));
     } catch (const std::invalid_argument& error) {
       throw InputError(error.what());
     }

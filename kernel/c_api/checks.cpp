@@ -110,7 +110,7 @@ Cast cast_of(const bch_check_options& options) {
   Cast cast;
   for (const bch_character* character : std::span(options.characters, options.character_count)) {
     const bch_character& own = object_of(character, "options->characters");
-    cast.push_back(cast_member(*own.character, own.name));
+    cast.push_back(character_entry(*own.character, own.name));
   }
   return cast;
 }

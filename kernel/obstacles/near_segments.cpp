@@ -122,7 +122,7 @@ std::span<LocalSegment> NearSegments::find_on_way(const ObstaclePlace& place, Ve
 }
 
 void NearSegments::prepare(std::span<const NearQuery> queries) {
-  queries_ = queries, body_ = {}, asked_.reset();
+  queries_ = queries, body_ = {}, held_.reset();
   boxes_.clear();
   for (const auto& [place, centre, distance, body] : queries)
     boxes_.push_back(box_about(place, in_world(place, centre), distance, {0, 0}));
@@ -143,7 +143,7 @@ void NearSegments::prepare(std::span<const NearQuery> queries) {
 }
 
 std::span<LocalSegment> NearSegments::take(std::size_t query) {
-  body_ = queries_[query].body, asked_.reset();
+  body_ = queries_[query].body, held_.reset();
   const std::uint32_t begin = prepared_end_[query];
   return sorted(std::span(prepared_).subspan(begin, prepared_end_[query + 1] - begin));
 }
@@ -157,9 +157,9 @@ std::span<LocalSegment> NearSegments::sorted(std::span<LocalSegment> segments) {
 
 std::span<const std::uint32_t> NearSegments::areas_that_hold(const ObstaclePlace& place, Vec2 point) {
   const Vector from = place.turned(point.x, point.y);
-  const QueryName asked{place.x, place.y, from.x, from.y};
-  if (asked == asked_) return areas_;
-  asked_ = asked;
+  const AgentPoint at{place.x, place.y, from.x, from.y};
+  if (at == held_) return areas_;
+  held_ = at;
   areas_.clear(), about_.clear();
   const double wide = rounding_of(place), x = place.x + from.x, y = place.y + from.y;
   Box ray{x - wide, y - wide, x + wide, y + wide};

@@ -143,16 +143,16 @@ class NearSegments {
   /// Sorts the segments that were found by their numbers.
   std::span<LocalSegment> sorted(std::span<LocalSegment> segments);
 
-  /// Represents a point that was asked about: the agent's position, and the way from there.
-  struct QueryName {
+  /// Represents a point in the world: the agent's position, and the way from there.
+  struct AgentPoint {
     double x, y, way_x, way_y;
-    friend bool operator==(const QueryName&, const QueryName&) = default;
+    friend bool operator==(const AgentPoint&, const AgentPoint&) = default;
   };
 
   const Implementation& implementation_;
   const ObstacleView& obstacles_;
   std::vector<std::uint32_t> about_, areas_;
-  std::optional<QueryName> asked_;  ///< what areas_ hold
+  std::optional<AgentPoint> held_;  ///< what areas_ hold
   std::vector<Box> boxes_;
   std::vector<BoxHit> hits_, next_;
   NearestBoxes nearest_boxes_;

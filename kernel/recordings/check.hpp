@@ -44,7 +44,7 @@ struct CheckOptions {
   std::size_t people_at_once =
       100'000;  ///< about so many, of many frames; the answers are the same for any number
   std::size_t max_pairs =
-      0;  ///< of neighbours, in some 4 096 person-frames, or in one frame; 0: usual_most_pairs()
+      0;  ///< of neighbours, in some 4 096 person-frames, or in one frame; 0: usual_max_pairs()
 };
 
 /// Reports that a recording has more pairs of neighbours than are held at once. The message names the frame.

@@ -9,6 +9,12 @@
 namespace bch::detail {
 namespace {
 
+/// Returns whom an overlap is about, a pair of a frame or an event: what the pairs of a frame are in the order of.
+template <class Overlap>
+auto who(const Overlap& overlap) {
+  return std::tie(overlap.first, overlap.is_wall, overlap.second);
+}
+
 OverlapEvent pass_of(const CheckedPair& pair, const Walker& first) {
   return {pair.first,
           pair.second,
@@ -54,14 +60,10 @@ void EventLog::add(const CheckedFrame& frame) {
 std::vector<OverlapEvent> EventLog::finish() {
   closed_.insert(closed_.end(), open_.begin(), open_.end());
   open_.clear();
-  sort_events(closed_);
-  return std::move(closed_);
-}
-
-void sort_events(std::vector<OverlapEvent>& events) {
-  std::sort(events.begin(), events.end(), [](const OverlapEvent& a, const OverlapEvent& b) {
+  std::sort(closed_.begin(), closed_.end(), [](const OverlapEvent& a, const OverlapEvent& b) {
     return std::tie(a.from, a.first, a.is_wall, a.second) < std::tie(b.from, b.first, b.is_wall, b.second);
   });
+  return std::move(closed_);
 }
 
 }  // namespace bch::detail

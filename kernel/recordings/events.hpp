@@ -3,18 +3,11 @@
 
 #pragma once
 
-#include <tuple>
 #include <vector>
 
 #include "kernel/recordings/check.hpp"
 
 namespace bch::detail {
-
-/// Returns whom an overlap is about, a pair of a frame or an event: what the pairs of a frame are in the order of.
-template <class Overlap>
-auto who(const Overlap& overlap) {
-  return std::tie(overlap.first, overlap.is_wall, overlap.second);
-}
 
 /// Joins overlaps of frames one after the other to events. Each pass is an event of its own.
 class EventLog {
@@ -28,8 +21,5 @@ class EventLog {
   std::vector<OverlapEvent> open_, still_open_;  ///< in the order of a frame's pairs
   std::vector<OverlapEvent> closed_;
 };
-
-/// Sorts events by their first frames, then ids.
-void sort_events(std::vector<OverlapEvent>& events);
 
 }  // namespace bch::detail

@@ -104,7 +104,7 @@ void FrameRun::let_go() {
 /// Finds the neighbours among the people, as if each frame stood far from the others.
 std::span<const Pair> FrameRun::find(BroadPhase& phase, const ShapeSetView& shapes,
                                      Strided<std::uint32_t> shape_of, double margin) const {
-  const std::size_t most = options_.max_pairs > 0 ? options_.max_pairs : usual_most_pairs(size());
+  const std::size_t most = options_.max_pairs > 0 ? options_.max_pairs : usual_max_pairs(size());
   try {
     return phase.find(shapes, {shape_of, own(block_->apart_x()), own(block_->y()), own(block_->heading())},
                       margin, most);

@@ -134,7 +134,7 @@ void sort_walks(CharacterEntry& member) {
   });
 }
 
-CharacterEntry cast_member(Character character, const std::string& name) {
+CharacterEntry character_entry(Character character, const std::string& name) {
   CharacterEntry member{name, std::move(character), 0, {}, {}, {}, {}};
   Skinner skinner(member.character);
   const auto clips =

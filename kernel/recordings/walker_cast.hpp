@@ -48,7 +48,7 @@ struct CharacterEntry {
 /// at 0.3 m/s or more, is a walk; one in which it hardly moves and something else does is an idle; the others, which turn, are
 /// left out, and so are walks of another direction than most.
 /// Errors:  throws std::invalid_argument, naming the character, where no clip is a walk.
-CharacterEntry cast_member(Character character, const std::string& name);
+CharacterEntry character_entry(Character character, const std::string& name);
 
 /// Sorts the walks of a member by ascending speed.
 void sort_walks(CharacterEntry& member);

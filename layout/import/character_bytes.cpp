@@ -10,14 +10,14 @@ namespace {
 
 template <class Archive>
 void pass(Archive& archive, ImportedCharacter& imported) {
-  CharacterFields passage(archive);
+  CharacterFields fields(archive);
   ImportReport& r = imported.report;
   std::uint64_t clips = r.clips.size();
-  passage.all(imported.character, r.format, r.meshes, r.vertices, r.triangles, r.dropped_faces,
-              r.dropped_vertices, r.bones, r.height, r.notes, clips);
+  fields.all(imported.character, r.format, r.meshes, r.vertices, r.triangles, r.dropped_faces,
+             r.dropped_vertices, r.bones, r.height, r.notes, clips);
   for (std::uint64_t i = 0; i < clips; ++i) {
     auto& [name, seconds, channels, channels_in_file] = archive.element(r.clips, i);
-    passage.all(name, seconds, channels, channels_in_file);
+    fields.all(name, seconds, channels, channels_in_file);
   }
 }
 

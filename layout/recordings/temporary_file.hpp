@@ -3,7 +3,9 @@
 
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <span>
 
 #include "layout/recordings/row.hpp"
@@ -29,7 +31,12 @@ class TemporaryFile {
  private:
   int file_ = -1;
 
+  static std::filesystem::path folder();
   [[noreturn]] static void fail(const char* what);
+
+  // One call of the system: it returns how many bytes it took, or less than 0, and then errno says why.
+  std::ptrdiff_t write_some(std::span<const std::byte> bytes);
+  std::ptrdiff_t read_some(std::uint64_t at, std::span<std::byte> bytes) const;
 };
 
 }  // namespace bch::detail::trajectory

@@ -6,24 +6,11 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
-#include <filesystem>
 #include <string>
 
 #include "layout/recordings/temporary_file.hpp"
-#include "layout/recordings/trajectory.hpp"
 
 namespace bch::detail::trajectory {
-namespace {
-
-std::filesystem::path folder() {
-  std::error_code error;
-  std::filesystem::path path = std::filesystem::temp_directory_path(error);
-  if (error) throw TrajectoryError("the folder for temporary files is not there: " + error.message());
-  return path;
-}
-
-}  // namespace
 
 TemporaryFile::TemporaryFile() {
   std::string name = (folder() / "bch-rows-XXXXXX").string();
@@ -36,33 +23,18 @@ TemporaryFile::~TemporaryFile() {
   close(file_);
 }
 
-void TemporaryFile::fail(const char* what) {
-  const std::string reason = std::strerror(errno);
-  throw TrajectoryError(folder().string() + ": " + what + " for rows that have to be sorted: " + reason);
+std::ptrdiff_t TemporaryFile::write_some(std::span<const std::byte> bytes) {
+  ssize_t written;
+  do written = write(file_, bytes.data(), bytes.size());
+  while (written < 0 && errno == EINTR);
+  return written;
 }
 
-void TemporaryFile::append(std::span<const Row> rows) {
-  const char* bytes = reinterpret_cast<const char*>(rows.data());
-  for (std::size_t left = rows.size_bytes(); left > 0;) {
-    const ssize_t written = write(file_, bytes, left);
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail("no more can be written");
-    bytes += written;
-    left -= static_cast<std::size_t>(written);
-  }
-}
-
-void TemporaryFile::read(std::uint64_t first, std::span<Row> rows) const {
-  char* bytes = reinterpret_cast<char*>(rows.data());
-  auto at = static_cast<off_t>(first * sizeof(Row));
-  for (std::size_t left = rows.size_bytes(); left > 0;) {
-    const ssize_t got = pread(file_, bytes, left, at);
-    if (got < 0 && errno == EINTR) continue;
-    if (got <= 0) fail("nothing can be read");
-    bytes += got;
-    at += got;
-    left -= static_cast<std::size_t>(got);
-  }
+std::ptrdiff_t TemporaryFile::read_some(std::uint64_t at, std::span<std::byte> bytes) const {
+  ssize_t got;
+  do got = pread(file_, bytes.data(), bytes.size(), static_cast<off_t>(at));
+  while (got < 0 && errno == EINTR);
+  return got;
 }
 
 }  // namespace bch::detail::trajectory

@@ -85,8 +85,8 @@ struct Skin {
 /// The characters, as people have them.
 struct Bodies {
   std::map<std::string, Character> characters{
-      {"default:male", detail::cast_member(default_male(), "").character},
-      {"default:female", detail::cast_member(default_female(), "").character}};
+      {"default:male", detail::character_entry(default_male(), "").character},
+      {"default:female", detail::character_entry(default_female(), "").character}};
 
   Skin skin_of(const Moment& moment, std::size_t i) const {
     const Character& character = characters.at(moment.character[i]);

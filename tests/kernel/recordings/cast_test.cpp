@@ -29,7 +29,7 @@ TEST(Cast, WalksAsItsClipsSay) {
     std::swap(person.to_ground.rows[0][k], person.to_ground.rows[1][k]);
     person.to_ground.rows[1][k] *= -1;
   }
-  const CharacterEntry member = cast_member(person, "somebody");
+  const CharacterEntry member = character_entry(person, "somebody");
   EXPECT_NEAR(member.height, 1.8, 0.05);
   ASSERT_EQ(member.walks.size(), 2u);
   EXPECT_NEAR(member.clips[member.walks[0]].speed, speed / 2, 0.1);
@@ -44,16 +44,16 @@ TEST(Cast, WalksAsItsClipsSay) {
   EXPECT_EQ(cast_pose({&member, 1}, {}, walker, 1).clip, 1u);
   walker.speed = 0.1;
   EXPECT_EQ(cast_pose({&member, 1}, {}, walker, 1).clip, 0u);
-  const CharacterEntry half = cast_member(scaled(member, member.height / 2), "half of him");
+  const CharacterEntry half = character_entry(scaled(member, member.height / 2), "half of him");
   EXPECT_NEAR(half.height, member.height / 2, 1e-3);
   EXPECT_NEAR(half.clips[half.walks[1]].speed, member.clips[member.walks[1]].speed / 2, 1e-3);
   // It walks along +x, as those people do that need no turn.
-  const CharacterEntry straight = cast_member(default_pedestrian(Sex::male, 1.8), "him");
+  const CharacterEntry straight = character_entry(default_pedestrian(Sex::male, 1.8), "him");
   for (std::size_t row = 0; row < 3; ++row)
     for (std::size_t k = 0; k < 4; ++k)
       EXPECT_NEAR(member.character.to_ground.rows[row][k], straight.character.to_ground.rows[row][k], 0.02);
   person.clips = {};
-  EXPECT_THROW(cast_member(person, "nobody"), std::invalid_argument);
+  EXPECT_THROW(character_entry(person, "nobody"), std::invalid_argument);
 }
 
 std::string complaint(const NamedMotion& named, const Cast& cast) {
@@ -63,7 +63,7 @@ std::string complaint(const NamedMotion& named, const Cast& cast) {
 /// Rows choose the body, the clip and the time in it; what they leave open is chosen as without them.
 TEST(Cast, PlaysWhatRowsName) {
   Cast cast;
-  for (const char* const name : {"a.glb", "b.glb"}) cast.push_back(cast_member(default_male(), name));
+  for (const char* const name : {"a.glb", "b.glb"}) cast.push_back(character_entry(default_male(), name));
   const auto seconds = [&](std::uint32_t clip) { return cast[0].clips[clip].seconds; };
   const std::vector<NamedMotion> named{{"b", cast[0].clips[1].name, "f:1"}, {"a.glb", "", "f:2"}};
   const auto motions = cast_motions(named, cast);

@@ -201,7 +201,7 @@ TEST(CheckOfBodies, AnswersAreThoseOfQueriesOfEveryPair) {
   options.bodies = pedestrians;
   expect_answers(options);
 
-  const Cast cast{cast_member(default_female(), "female"), cast_member(default_male(), "male")};
+  const Cast cast{character_entry(default_female(), "female"), character_entry(default_male(), "male")};
   const std::vector<BodyModel> own = body_models(cast, spheres);
   options.cast = cast;
   options.bodies = own;
