@@ -52,7 +52,7 @@ class PairKernel {
         shapes_(*arguments.shapes),
         miss_(shapes_.shape_contours != nullptr ? may_contain : apart),
         axis_test_(shapes_, at_),
-        profiles_(shapes_, at_, arguments.prefetch_shapes),
+        profiles_(shapes_, at_, arguments),
         traversal_(shapes_, arguments) {}
 
   /// Answers the pairs that were placed.
@@ -159,7 +159,7 @@ class PairKernel {
     open_.drop_if(
         open_,
         [&](std::uint32_t pair) {
-          const std::uint32_t is_apart = axis_test_.apart(pair, odd);
+          const std::uint32_t is_apart = axis_test_.apart(pair, odd, profiles_.excess(pair));
           codes_[pair] = static_cast<std::uint8_t>(overlap * (is_apart ^ 1));
           return is_apart;
         },

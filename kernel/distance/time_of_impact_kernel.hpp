@@ -84,15 +84,17 @@ class TimeOfImpactKernel {
           [](std::uint32_t) {});
   }
 
-  /// Returns the slack of supports on the way. Discs touch by the measure at 16 u D more than by collide()'s
+  /// Returns the slack of supports on the way. Supports may be those of outlines, of which discs stick out. Discs touch by the measure at 16 u D more than by collide()'s
   /// test, D <= S + |t|. Beside what supports have room for, in layout/base/rounding.hpp, the way's product
   /// with a direction is off by 3 u |v|, the differences by 2 u (|t| + |v|), and |t| may be 2 S + |v|: 30 u S
   /// + 18 u |t| + 11 u |v|. Only the proof needs it: supports have room for more than tests have found.
   float slack(std::uint32_t pair) const noexcept {
     constexpr float share = 0x1p-18f;
     static_assert(double{share} >= 30 * rounding::unit_roundoff, "the most of the three");
-    return share * (reach(pair) + __builtin_fabsf(at_.tx[pair]) + __builtin_fabsf(at_.ty[pair]) +
-                    __builtin_fabsf(x_[pair]) + __builtin_fabsf(y_[pair]));
+    const float excess =
+        shapes_.profiles[at_.shape_a[pair]].excess + shapes_.profiles[at_.shape_b[pair]].excess;
+    return excess + share * (reach(pair) + __builtin_fabsf(at_.tx[pair]) + __builtin_fabsf(at_.ty[pair]) +
+                             __builtin_fabsf(x_[pair]) + __builtin_fabsf(y_[pair]));
   }
 
   float reach(std::uint32_t pair) const noexcept {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "kernel/simd/arguments.hpp"
 #include "kernel/simd/placements.hpp"
 #include "kernel/simd/record_fields.hpp"
 #include "layout/format/shape_set_view.hpp"
@@ -25,8 +26,12 @@ class ProfileTest {
     std::uint32_t near = 0;      ///< likely hits: test these for a hit first
   };
 
-  ProfileTest(const ShapeSetView& shapes, const RelativeTransforms<Simd>& at, bool prefetch) noexcept
-      : shapes_(shapes), at_(at), prefetch_(prefetch) {}
+  ProfileTest(const ShapeSetView& shapes, const RelativeTransforms<Simd>& at,
+              const Arguments& arguments) noexcept
+      : shapes_(shapes),
+        at_(at),
+        prefetch_(arguments.prefetch_shapes),
+        discs_decide_(arguments.exact_leaves ? 0.0f : 1.0f) {}
 
   /// Finds, for all pairs of the chunk, the line between the centres, and the sectors of both profiles along it.
   /// `row_a`, `row_b`: the rows of the roots; null where they are in order.
@@ -37,6 +42,7 @@ class ProfileTest {
     find_profiles(at_.shape_b, record_b_, count);
     of_a_.template load<stride>(records, record_a_, count, prefetch_);
     of_b_.template load<stride>(records, record_b_, count, prefetch_);
+    find_excess(row_a, row_b);
     find_sectors();
     for_whole_registers<Simd>(count, [&](std::uint32_t k) {
       record_a_[k] += record_of(sector_a_[k]);
@@ -56,7 +62,8 @@ class ProfileTest {
     const Float distance = Simd::load(distance_ + k), coincident(1e-20f);
     // Of a sector: field 0 is inner, 1 outer of the pair's level (see choose_outer()), 2 extent, 3 shallow_outer.
     const Float outer_a = field(of_a_, 1, k), outer_b = field(of_b_, 1, k);
-    Float inner = field(of_a_, 0, k) + field(of_b_, 0, k), outer = outer_a + outer_b;
+    Float inner = field(of_a_, 0, k) + field(of_b_, 0, k),
+          outer = outer_a + outer_b + Simd::load(excess_ + k);
     if constexpr (KnowsGaps<Simd>) {
       inner = inner + Float(sure_gap) * Simd::load(at_.gap + k);
       outer = outer + Simd::load(at_.bound_gap + k);
@@ -67,6 +74,9 @@ class ProfileTest {
                         Simd::bits(distance <= outer_b - field(of_a_, 2, k)),
             .near = Simd::bits(distance < inner + Float(near_share) * (outer - inner))};
   }
+
+  /// Returns how far discs of the pair, where these decide, stick out of what supports and profiles hold, after look(). Metres.
+  float excess(std::uint32_t pair) const noexcept { return excess_[pair]; }
 
  private:
   using Float = typename Simd::Float;
@@ -82,6 +92,21 @@ class ProfileTest {
 
   static Float field(const Fields& of, std::uint32_t i, std::uint32_t k) noexcept {
     return Simd::load(of.field[i] + k);
+  }
+
+  /// Computes the excess of each pair, from the headers of both profiles.
+  void find_excess(const std::uint32_t* row_a, const std::uint32_t* row_b) noexcept {
+    for (std::uint32_t k = 0; k < at_.whole_registers(); k += Simd::width) {
+      const Float discs_decide =
+          xsimd::max(xsimd::max(field(of_a_, 3, k), field(of_b_, 3, k)), Float(discs_decide_));
+      Simd::store(excess_ + k, discs_decide * (field(of_a_, 2, k) + field(of_b_, 2, k)));
+    }
+    if (row_a == nullptr) return;
+    // Discs decide if either shape is not at its deepest level.
+    for_whole_registers<Simd>(at_.whole_registers(), [&](std::uint32_t k) {
+      const float both = of_a_.field[2][k] + of_b_.field[2][k];
+      excess_[k] = (row_a[k] < first_row) | (row_b[k] < first_row) ? both : excess_[k];
+    });
   }
 
   /// Writes the bound of the pair's level into field 1, outer: that of the deepest level is there, that of the others is field 3. A single
@@ -129,8 +154,9 @@ class ProfileTest {
   const ShapeSetView& shapes_;
   const RelativeTransforms<Simd>& at_;
   const bool prefetch_;
+  const float discs_decide_;  ///< 1 where no segments do, else 0
   alignas(64) std::uint32_t record_a_[chunk_size], record_b_[chunk_size];
-  alignas(64) float distance_[chunk_size], sector_a_[chunk_size], sector_b_[chunk_size];
+  alignas(64) float distance_[chunk_size], sector_a_[chunk_size], sector_b_[chunk_size], excess_[chunk_size];
   Fields of_a_, of_b_;
 };
 

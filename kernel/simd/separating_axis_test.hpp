@@ -37,16 +37,13 @@ class SeparatingAxisTest {
   /// Finds the directions of all pairs of the chunk.
   void place_directions() noexcept { directions_.place(); }
 
-  /// Returns whether a line across one of A's even directions, or of its odd ones, separates the pair.
-  std::uint32_t apart(std::uint32_t pair, unsigned odd) const noexcept {
+  /// Returns whether a line across one of A's even directions, or of its odd ones, separates the pair. `excess`: ProfileTest's.
+  std::uint32_t apart(std::uint32_t pair, unsigned odd, float excess) const noexcept {
     std::uint32_t separated = 0;
-    Float gap(0.0f);
-    if constexpr (KnowsGaps<Simd>) gap = Float(at_.bound_gap[pair]);
+    if constexpr (KnowsGaps<Simd>) excess += at_.bound_gap[pair];
     directions_.search_along(pair, odd, rows(pair, odd),
                              [&](unsigned, Float distance, Float of_a, Float of_b) {
-                               Float extent = of_a + of_b;
-                               if constexpr (KnowsGaps<Simd>) extent = extent + gap;
-                               separated |= Simd::bits(extent < distance);
+                               separated |= Simd::bits(of_a + of_b + Float(excess) < distance);
                              });
     return separated != 0;
   }

@@ -103,7 +103,8 @@
 ///     21.2 u S + 4 * 59 u S + 6 u S  <=  264 u S                                                             (2)
 ///
 /// Discs that the float test accepts are at most 23 u S apart, so supports enlarged by 287 u P each, and by the 5.2 u P of
-/// their own rounding (support_float, layout/culling/supports.cpp), never separate them: support_margin. Only
+/// their own rounding (support_float, layout/culling/supports.cpp), never separate them: support_margin. Those of outlines never
+/// separate segments that meet, which are at most (segment_price) apart. Only
 /// this proof needs all of it; tests fail where it has the other sign.
 ///
 /// V. Exact leaves: segments. Two segments are compared in double (kernel/simd/segment_test.hpp), B's ends placed by the floats
@@ -244,6 +245,9 @@ static_assert(price >=
 constexpr double segment_price = 1.7e-6;
 static_assert(segment_price >=
               segment_margin + terms::segment_place * unit_roundoff + outline_grid_steps * 0x1p-22);
+
+static_assert(support_margin >=
+              segment_price + (terms::support_error + terms::support_float) * unit_roundoff);
 
 /// The documented domain; beyond it the library throws.
 constexpr double smallest_reach = 1e-6;   // metres

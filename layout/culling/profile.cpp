@@ -22,7 +22,7 @@
 /// inner: a disc of `margin` about each point of the sector, out to there, touches no contour. So the point that both
 /// have still belongs to both when B is moved by 40 u S and lies 40 u P beside its line. Sums and comparison: 6 u S (sums).
 /// outer: the same error along and across the line, and the 23 u S by which discs that the test accepts may be apart:
-/// 23 + 40 + 40 + 6 < 110 u S, where supports are enlarged by 320 u P.
+/// 23 + 40 + 40 + 6 < 110 u S, where supports are enlarged by 320 u P. Segments that meet are less than 29 u S apart, (segment_price).
 /// extent: the same without the 23 u S, on top of what outer has to spare.
 /// Tests see the sign of `margin`; only this proof needs all of it.
 namespace bch::detail {
@@ -37,6 +37,8 @@ constexpr double along = 40, across = 40, sums = 6;  // in units of u
 static_assert(margin >= (along + across + sums) * rounding::unit_roundoff);
 static_assert(rounding::support_margin >=
               (rounding::terms::query_error + along + across + sums) * rounding::unit_roundoff);
+static_assert(rounding::support_margin >=
+              rounding::segment_price + (along + across + sums) * rounding::unit_roundoff);
 
 constexpr std::uint32_t quadrant = profile_sectors / 4;
 
@@ -222,6 +224,26 @@ Outer outer(const Profile& profile, const float* x, const float* y, const float*
     result[k] = static_cast<float>(farthest + rounding::support_margin * reach);
   }
   return result;
+}
+
+Bounds outline_bounds(const Profile& profile, const Outline& outline, double reach) {
+  const PointDiscs points(outline);
+  const float *const x = points.x.data(), *const y = points.y.data(), *const radius = points.radius.data();
+  return {supports(x, y, radius, points.count(), reach), outer(profile, x, y, radius, points.count(), reach)};
+}
+
+/// Between two directions a bound is that of the corner of two lines. Lines that are farther by d have a corner that is farther by d over
+/// the cosine of half of their angle, 1.0048 of d at most. Outer bounds are compared as they are.
+float excess(const Bounds& discs, const Bounds& smaller) {
+  constexpr double of_corner = 1.005;
+  static_assert(support_directions == 32);
+  double most = 0;
+  for (std::uint32_t k = 0; k < support_stride; ++k)
+    most = std::max(most, of_corner * (static_cast<double>(discs.supports[k]) -
+                                       static_cast<double>(smaller.supports[k])));
+  for (std::uint32_t k = 0; k < profile_sectors; ++k)
+    most = std::max(most, static_cast<double>(discs.outer[k]) - static_cast<double>(smaller.outer[k]));
+  return rounding::round_up(most);
 }
 
 }  // namespace bch::detail

@@ -9,6 +9,7 @@
 #include <bch/outline.hpp>
 
 #include "layout/culling/interior.hpp"
+#include "layout/culling/supports.hpp"
 #include "layout/format/shape_set_view.hpp"
 
 namespace bch::detail {
@@ -35,5 +36,18 @@ Profile profile(const Outline& outline, const Interior& interior, double reach);
 using Outer = std::array<float, profile_sectors>;
 Outer outer(const Profile& profile, const float* x, const float* y, const float* radius, std::uint32_t count,
             double reach);
+
+/// Holds the bounds of a shape about its profile's centre, along directions and by sectors.
+struct Bounds {
+  Supports supports;
+  Outer outer;
+};
+
+/// Bounds an outline with contours. `reach` is that of the shape, metres.
+Bounds outline_bounds(const Profile& profile, const Outline& outline, double reach);
+
+/// Returns how far discs stick out of what smaller bounds hold, metres: with that added, the smaller bounds hold the discs,
+/// between two directions as well.
+float excess(const Bounds& discs, const Bounds& smaller);
 
 }  // namespace bch::detail

@@ -4,7 +4,6 @@
 #include "layout/culling/supports.hpp"
 
 #include <numbers>
-#include <vector>
 
 #include "layout/base/build_implementation.hpp"
 #include "layout/base/heading.hpp"
@@ -28,6 +27,11 @@ struct Directions {
 };
 
 }  // namespace
+
+PointDiscs::PointDiscs(const Outline& outline) : radius(outline.points.size()) {
+  x.reserve(radius.size()), y.reserve(radius.size());
+  for (const Vec2& point : outline.points) x.push_back(point.x), y.push_back(point.y);
+}
 
 /// Computes the supports in float, which is off by 0.71 u of the reach for the direction, 1.42 u for the
 /// products, u and 2 u for the sums: (support_float) of rounding.hpp.

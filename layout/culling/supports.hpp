@@ -6,8 +6,10 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include <bch/geometry.hpp>
+#include <bch/outline.hpp>
 
 #include "layout/format/shape_set_view.hpp"
 
@@ -20,8 +22,17 @@ namespace bch::detail {
 /// Two sets are apart when along some direction the sum of their supports is less than the distance of their
 /// origins. Between two directions a support is at most that of the corner where the two supporting lines
 /// meet; rounding.hpp says how much the heights are enlarged so that the float test never separates discs
-/// that the float test of discs lets overlap.
+/// that the float test of discs lets overlap, nor segments that meet.
 using Supports = std::array<float, support_stride>;
+
+/// Holds the points of an outline as discs without a radius.
+struct PointDiscs {
+  explicit PointDiscs(const Outline& outline);
+
+  std::uint32_t count() const noexcept { return static_cast<std::uint32_t>(x.size()); }
+
+  std::vector<float> x, y, radius;
+};
 
 /// Computes the supports of discs. `reach` is that of rounding.hpp, in metres.
 Supports supports(std::span<const Disc> discs, double reach);

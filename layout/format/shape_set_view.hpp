@@ -97,7 +97,8 @@ constexpr std::uint32_t max_leaf_segments = 127;
 constexpr std::uint32_t profile_sectors = 32;
 struct Sector {
   float inner;  ///< the largest contour's inside goes on to there
-  float outer;  ///< upper bound of the support function of the deepest level's cut in the sector's directions
+  float
+      outer;  ///< upper bound of the support function of the outline in the sector's directions, or of the deepest cut without segments
   float extent;         ///< lower bound of the contour's support function in the opposite directions
   float shallow_outer;  ///< like outer, of all levels that are more than a disc and not the deepest
 };
@@ -105,7 +106,9 @@ struct Sector {
 /// Represents a shape along lines from a centre: a record, and then as large a record for each sector.
 struct Profile {
   float x, y;  ///< the centre
-  float unused[2];
+  /// How far discs of the deepest cut stick out of the outline, which supports and `outer` bound; 0 where these bound discs. Metres.
+  float excess;
+  float discs_decide;  ///< 1 where a leaf of the deepest cut has no segments, else 0
   Sector sectors[profile_sectors];
 };
 static_assert(sizeof(Profile) == (1 + profile_sectors) * sizeof(Sector) && sizeof(Sector) == 16);

@@ -64,7 +64,7 @@ void ShapeFlattener::flatten(const Shape& shape, FlatShape& flat) {
   add_levels(shape, flat);
   if (!plan_.outlines) return;
   add_outline(shape, flat);
-  add_segments(shape.hierarchy, flat);
+  add_segments(shape, flat);
 }
 
 void ShapeFlattener::require(const Shape& shape) const {
@@ -83,7 +83,7 @@ void ShapeFlattener::add_levels(const Shape& shape, FlatShape& flat) {
   flattener_.begin(shape.hierarchy);
   for (std::size_t k = 0; k < plan_.depths.size(); ++k) {
     flattener_.flatten(plan_.depths[k], flat.levels[k]);
-    if (has_culling()) add_culling(k, flat);
+    if (has_culling()) add_culling(shape, k, flat);
   }
 }
 
@@ -103,16 +103,30 @@ void ShapeFlattener::add_interior(const Shape& shape, FlatShape& flat) {
 
 /// Adds the culling data of the level that was made flat last. Single discs need none above the deepest
 /// level.
-void ShapeFlattener::add_culling(std::size_t level, FlatShape& flat) const {
+void ShapeFlattener::add_culling(const Shape& shape, std::size_t level, FlatShape& flat) const {
   const bool deepest = level + 1 == plan_.depths.size();
   if (flat.levels[level].is_single() && !deepest) return;
-  const Outer outer = flattener_.outer(flat.profile);
-  if (deepest) flat.supports = flattener_.supports();
-  for (std::uint32_t k = 0; k < profile_sectors; ++k) {
-    Sector& sector = flat.profile.sectors[k];
-    float& limit = deepest ? sector.outer : sector.shallow_outer;
-    limit = deepest ? outer[k] : std::max(limit, outer[k]);
+  auto& sectors = flat.profile.sectors;
+  const Outer outer_of_discs = flattener_.outer(flat.profile);
+  if (!deepest) {
+    for (std::uint32_t k = 0; k < profile_sectors; ++k)
+      sectors[k].shallow_outer = std::max(sectors[k].shallow_outer, outer_of_discs[k]);
+    return;
   }
+  const Bounds discs{flattener_.supports(), outer_of_discs};
+  const bool by_segments = has_segments(shape, flat);
+  const Bounds bounds =
+      by_segments ? outline_bounds(flat.profile, shape.outline, shape.hierarchy.reach) : discs;
+  flat.supports = bounds.supports;
+  for (std::uint32_t k = 0; k < profile_sectors; ++k) sectors[k].outer = bounds.outer[k];
+  flat.profile.excess = excess(discs, bounds);
+  flat.profile.discs_decide = by_segments ? 0.0f : 1.0f;
+}
+
+/// Returns whether the deepest level has exact leaves.
+bool ShapeFlattener::has_segments(const Shape& shape, const FlatShape& flat) const {
+  return plan_.outlines && plan_.depths.back() == all_depths && !flat.levels.back().is_single() &&
+         shape.hierarchy.of_segments && shape.outline.contours() > 0;
 }
 
 void ShapeFlattener::add_outline(const Shape& shape, FlatShape& flat) {
@@ -127,12 +141,11 @@ void ShapeFlattener::add_outline(const Shape& shape, FlatShape& flat) {
   }
 }
 
-void ShapeFlattener::add_segments(const Hierarchy& hierarchy, FlatShape& flat) {
+void ShapeFlattener::add_segments(const Shape& shape, FlatShape& flat) {
   flat.leaf_segments.clear();
+  if (!has_segments(shape, flat)) return;
+  const Hierarchy& hierarchy = shape.hierarchy;
   const Outline& outline = flat.outline;
-  if (plan_.depths.back() != all_depths || flat.levels.back().is_single() || !hierarchy.of_segments ||
-      outline.contours() == 0)
-    return;
   // Each contour's first point follows its last one, which moves the points of the contours after it.
   moved_.resize(outline.points.size());
   for (std::uint32_t c = 0; c < outline.contours(); ++c)
@@ -145,6 +158,9 @@ void ShapeFlattener::add_segments(const Hierarchy& hierarchy, FlatShape& flat) {
       held_.push_back(moved_[hierarchy.source[k]]);
     add_leaf(held_, leaf++, flat.levels.back().count, flat.leaf_segments);
   }
+  if (has_culling() &&
+      std::count(flat.leaf_segments.begin(), flat.leaf_segments.begin() + flat.levels.back().count, 0u) > 0)
+    flat.profile.discs_decide = 1;
 }
 
 }  // namespace bch::detail

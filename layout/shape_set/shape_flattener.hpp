@@ -18,7 +18,9 @@ namespace bch::detail {
 struct FlatShape {
   double reach = 0;
   std::vector<Bvh8> levels;  ///< one a depth
-  Supports supports;  ///< of the deepest level; this and the next two only with the plan's culling data
+  /// Of the outline where the deepest level has segments, else of that level's discs. This and the next two only with the plan's culling
+  /// data.
+  Supports supports;
   Profile profile;
   DiscBlock inscribed;
   // Only with the plan's outlines.
@@ -57,8 +59,9 @@ class ShapeFlattener {
   bool has_culling() const;
   void add_levels(const Shape& shape, FlatShape& flat);
   void add_interior(const Shape& shape, FlatShape& flat);
-  void add_culling(std::size_t level, FlatShape& flat) const;
-  void add_segments(const Hierarchy& hierarchy, FlatShape& flat);
+  void add_culling(const Shape& shape, std::size_t level, FlatShape& flat) const;
+  bool has_segments(const Shape& shape, const FlatShape& flat) const;
+  void add_segments(const Shape& shape, FlatShape& flat);
 
   ShapeSetPlan plan_;
   Flattener flattener_;

@@ -43,8 +43,9 @@ void verify_shape(const Verifier& verifier) {
   verify_contours(verifier, outline);
   if (outline.contours() > 0) verify_segments(verifier);
   if (verifier.arrays().profiles.empty()) return;
-  verify_supports(verifier);
-  verify_profile(verifier, outline);
+  const DeepestBounds bounds = deepest_bounds(verifier, outline);
+  verify_supports(verifier, bounds.stored.supports);
+  verify_profile(verifier, outline, bounds);
   verify_inside(verifier, outline);
 }
 

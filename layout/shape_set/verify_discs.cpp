@@ -59,12 +59,20 @@ void verify_reach(const Verifier& verifier) {
                         shortest(most) + " m");
 }
 
-void verify_supports(const Verifier& verifier) {
+DeepestBounds deepest_bounds(const Verifier& verifier, const Outline& outline) {
+  const std::uint32_t deepest = verifier.levels() - 1;
+  const CutDiscs cut = verifier.cut(deepest);
+  const Profile& profile = verifier.arrays().profiles[verifier.shape];
+  const Bounds discs{supports(cut.x, cut.y, cut.radius, cut.count, verifier.reach),
+                     outer(profile, cut.x, cut.y, cut.radius, cut.count, verifier.reach)};
+  const bool has_segments = verifier.arrays().trees[verifier.root(deepest)].segments != no_segments;
+  return {discs, has_segments ? outline_bounds(profile, outline, verifier.reach) : discs};
+}
+
+void verify_supports(const Verifier& verifier, const Supports& expected) {
   const std::uint32_t deepest = verifier.levels() - 1,
                       row = verifier.arrays().roots[verifier.root(deepest)].row;
   if (row < first_row) return;
-  const CutDiscs discs = verifier.cut(deepest);
-  const Supports expected = supports(discs.x, discs.y, discs.radius, discs.count, verifier.reach);
   const float* stored = verifier.arrays().support.data() + std::size_t{row} * support_stride;
   for (std::uint32_t k = 0; k < support_stride; ++k)
     verifier.compare("support", deepest, "number " + std::to_string(k), static_cast<double>(stored[k]),

@@ -93,24 +93,23 @@ Interior extremes_of(const Outline& outline) {
   return interior;
 }
 
-/// What the library stored as outer and shallow_outer.
-void verify_outer(const Verifier& verifier, const Profile& stored) {
+/// What the library stored as outer, shallow_outer and excess.
+void verify_outer(const Verifier& verifier, const Profile& stored, const DeepestBounds& bounds) {
   Outer shallow{};
-  const std::uint32_t deepest = verifier.levels() - 1;
-  for (std::uint32_t level = 0; level <= deepest; ++level) {
+  for (std::uint32_t level = 0; level + 1 < verifier.levels(); ++level) {
     const CutDiscs discs = verifier.cut(level);
-    if (level < deepest && discs.count == 1) continue;
+    if (discs.count == 1) continue;
     const Outer of_level = outer(stored, discs.x, discs.y, discs.radius, discs.count, verifier.reach);
-    for (std::uint32_t k = 0; k < profile_sectors; ++k)
-      if (level < deepest)
-        shallow[k] = std::max(shallow[k], of_level[k]);
-      else
-        verifier.compare("profiles", no_level, "outer of sector " + std::to_string(k),
-                         static_cast<double>(stored.sectors[k].outer), static_cast<double>(of_level[k]));
+    for (std::uint32_t k = 0; k < profile_sectors; ++k) shallow[k] = std::max(shallow[k], of_level[k]);
   }
-  for (std::uint32_t k = 0; k < profile_sectors; ++k)
-    verifier.compare("profiles", no_level, "shallow_outer of sector " + std::to_string(k),
-                     static_cast<double>(stored.sectors[k].shallow_outer), static_cast<double>(shallow[k]));
+  const auto compare = [&](const std::string& what, float value, float expected) {
+    verifier.compare("profiles", no_level, what, static_cast<double>(value), static_cast<double>(expected));
+  };
+  for (std::uint32_t k = 0; k < profile_sectors; ++k) {
+    compare("outer of sector " + std::to_string(k), stored.sectors[k].outer, bounds.stored.outer[k]);
+    compare("shallow_outer of sector " + std::to_string(k), stored.sectors[k].shallow_outer, shallow[k]);
+  }
+  compare("excess", stored.excess, excess(bounds.discs, bounds.stored));
 }
 
 /// Nothing is ever wrong with minus infinity, which is stored where nothing is known.
@@ -190,9 +189,9 @@ void verify_contours(const Verifier& verifier, const Outline& outline) {
                     shortest(verifier.reach) + " m, and the outline reaches to " + shortest(farthest) + " m");
 }
 
-void verify_profile(const Verifier& verifier, const Outline& outline) {
+void verify_profile(const Verifier& verifier, const Outline& outline, const DeepestBounds& bounds) {
   const Profile& stored = verifier.arrays().profiles[verifier.shape];
-  verify_outer(verifier, stored);
+  verify_outer(verifier, stored, bounds);
   // Made from the reach before it was rounded up.
   const float reach = std::nextafter(static_cast<float>(verifier.reach), 0.0f);
   const Profile expected = profile(outline, extremes_of(outline), static_cast<double>(reach));

@@ -13,6 +13,7 @@
 #include <bch/shapes.hpp>
 
 #include "layout/base/shortest.hpp"
+#include "layout/culling/profile.hpp"
 #include "layout/format/cut_discs.hpp"
 #include "layout/format/shape_arrays.hpp"
 #include "layout/shape_set/verify.hpp"
@@ -54,8 +55,13 @@ bool may_be_part(const Disc& part, const Disc& whole, double tolerance);
 void verify_tree(const Verifier& verifier, std::uint32_t level);
 void verify_levels(const Verifier& verifier);
 void verify_reach(const Verifier& verifier);
-void verify_supports(const Verifier& verifier);
-void verify_profile(const Verifier& verifier, const Outline& outline);
+/// Holds the bounds of a shape's deepest cut, and what a set stores: those of the outline where that cut has segments.
+struct DeepestBounds {
+  Bounds discs, stored;
+};
+DeepestBounds deepest_bounds(const Verifier& verifier, const Outline& outline);
+void verify_supports(const Verifier& verifier, const Supports& expected);
+void verify_profile(const Verifier& verifier, const Outline& outline, const DeepestBounds& bounds);
 void verify_inside(const Verifier& verifier, const Outline& outline);
 void verify_contours(const Verifier& verifier, const Outline& outline);
 void verify_cover(const Verifier& verifier, const Outline& outline, std::uint32_t level);
