@@ -63,6 +63,9 @@ int run(int argc, char** argv) {
   for (const auto& character : scene.characters()) names += (names.empty() ? "" : ", ") + character.source;
   benchmark::AddCustomContext("characters", names);
   add_collide(scene);
+#ifdef BCH_HAS_COUNTED_KERNELS
+  add_stages(scene);
+#endif
   add_queries(scene);
   add_crowds(scene);
   add_bodies();

@@ -54,6 +54,8 @@ std::vector<const Implementation*> supported_implementations();
 /// collide/<workload>/<leaves>/<instruction set>[/threads:<n>]: collide();
 /// collide/<workload>/<kind>: structures of others.
 void add_collide(Scene& scene);
+/// stages/<workload>/<instruction set>: the times of the pair kernel's stages.
+void add_stages(Scene& scene);
 /// <query>/<workload>/<instruction set|reference>[/threads:<n>]: the queries beside collide(), and
 /// clearance/near_miss/<fcl_walls|fcl_segments>.
 void add_queries(Scene& scene);

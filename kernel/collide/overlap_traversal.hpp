@@ -12,6 +12,7 @@
 #include "kernel/simd/disc_pairs.hpp"
 #include "kernel/simd/gaps.hpp"
 #include "kernel/simd/segment_test.hpp"
+#include "kernel/simd/stage.hpp"
 #include "kernel/simd/tree_nodes.hpp"
 #include "layout/format/shape_set_view.hpp"
 
@@ -90,9 +91,12 @@ class OverlapTraversal {
   /// takes such functions for ones without effects when their parameters are changed a little, and drops the calls.
   [[gnu::noipa]] void rounds(std::uint32_t enough) noexcept {
     while (size_ > enough) {
+      const std::uint32_t tests = size_;
       test();
-      verify();
+      end_stage<Simd>(Stage::blocks, tests);
+      end_stage<Simd>(Stage::leaves, verify());
       step();
+      end_stage<Simd>(Stage::blocks, 0);
     }
   }
 
@@ -121,20 +125,21 @@ class OverlapTraversal {
   }
 
   /// Clears the hits of leaves whose segments do not meet or whose ancestors do not all overlap, up to each pair's
-  /// first confirmed hit.
-  [[gnu::always_inline]] void verify() noexcept {
+  /// first confirmed hit. Returns how many pairs have such hits.
+  [[gnu::always_inline]] std::uint32_t verify() noexcept {
     // Leaf discs within their gap are a hit, whatever is above them.
-    if constexpr (KnowsGaps<Simd>) return;
+    if constexpr (KnowsGaps<Simd>) return 0;
     std::uint16_t found[verified_together + 1];
-    std::uint32_t count = 0;
+    std::uint32_t count = 0, all = 0;
     for (std::uint32_t k = 0; k < size_; ++k) {
       const Open& at = open_[slots_[k]];
       found[count] = static_cast<std::uint16_t>(k);
       count += (at.a & at.b) / leaf_window & static_cast<std::uint32_t>(hits_[k] != 0);
       if (count == verified_together) [[unlikely]]
-        verify(found, count), count = 0;
+        verify(found, count), all += count, count = 0;
     }
     verify(found, count);
+    return all + count;
   }
 
   void verify(std::uint16_t* which, std::uint32_t count) noexcept {

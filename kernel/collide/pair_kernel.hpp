@@ -13,6 +13,7 @@
 #include "kernel/simd/placements.hpp"
 #include "kernel/simd/profile_test.hpp"
 #include "kernel/simd/separating_axis_test.hpp"
+#include "kernel/simd/stage.hpp"
 #include "layout/format/shape_set_view.hpp"
 #include "layout/simd/lanes.hpp"
 
@@ -34,6 +35,7 @@ class PairKernel {
     for (; begin < end; begin += chunk_size) {
       kernel.at_.place(arguments, begin, end);
       if constexpr (KnowsGaps<Simd>) kernel.at_.set_gaps(arguments, begin);
+      end_stage<Simd>(Stage::place, kernel.at_.size);
       kernel.answer_chunk(begin);
       kernel.traversal_.run(open_traversals - chunk_size);
     }
@@ -79,6 +81,7 @@ class PairKernel {
                      shapes_.reach[at_.shape_a[pair]] + shapes_.reach[at_.shape_b[pair]],
                      segment_margin(pair), gaps_of(pair));
     }
+    end_stage<Simd>(Stage::add, open_.size);
   }
 
   /// Returns whether both agents have the same cut, place and heading, so that they collide. Testing them would be
@@ -147,15 +150,17 @@ class PairKernel {
   /// areas that meet are a hit, wherever their outlines are.
   [[gnu::noinline]] void cull() noexcept {
     compare_profiles();
+    end_stage<Simd>(Stage::profiles, at_.size);
     axis_test_.place_directions();
-    separate(0);
-    accept<block_width / 2>(near_);
-    accept<block_width>(open_);
-    separate(1);
+    separate(0, Stage::even_supports);
+    accept<block_width / 2>(near_, Stage::inscribed_four);
+    accept<block_width>(open_, Stage::inscribed_eight);
+    separate(1, Stage::odd_supports);
   }
 
   /// Rejects the open pairs that supports along even directions, or odd ones, show to be apart.
-  void separate(unsigned odd) noexcept {
+  void separate(unsigned odd, Stage stage) noexcept {
+    const std::uint32_t tests = open_.size;
     open_.drop_if(
         open_,
         [&](std::uint32_t pair) {
@@ -166,16 +171,19 @@ class PairKernel {
         [&](std::uint32_t pair) __attribute__((always_inline)) {
           if (in_.prefetch_shapes) axis_test_.prefetch(pair, odd);
         });
+    end_stage<Simd>(stage, tests);
   }
 
   /// Accepts the pairs of a list by the first `count` inscribed discs of either shape, and leaves the others open.
   template <unsigned count>
-  void accept(List& list) noexcept {
+  void accept(List& list, Stage stage) noexcept {
+    const std::uint32_t tests = list.size;
     list.drop_if(
         open_, [&](std::uint32_t pair) { return inscribed_discs_overlap<count>(pair); },
         [&](std::uint32_t pair) __attribute__((always_inline)) {
           if (in_.prefetch_shapes) prefetch_inscribed(pair);
         });
+    end_stage<Simd>(stage, tests);
   }
 
   /// Answers the pairs that profiles decide, and lists the others by whether they are likely hits.
