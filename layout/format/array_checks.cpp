@@ -172,7 +172,7 @@ void profiles(const ShapeArrays& a) {
   for (std::size_t s = 0; s < a.profiles.size(); ++s) {
     const Profile& profile = a.profiles[s];
     std::uint32_t bad = beyond(profile.x, largest_length) | beyond(profile.y, largest_length);
-    bad |= beyond(profile.excess, largest_length) | beyond(-profile.excess, 0);
+    bad |= negative_or_beyond(profile.excess, largest_length);
     if (profile.discs_decide != 0 && profile.discs_decide != 1) reject("profiles", s, "no profile");
     const float* values = &profile.sectors[0].inner;
     for (std::uint32_t i = 0; i < may_be_unknown.size(); ++i)
