@@ -158,27 +158,39 @@ class OverlapTraversal {
       is_sure |= std::uint32_t{meeting == Meeting::sure} << i;
       near[i] |= std::uint64_t{meeting == Meeting::near} << owner % block_pairs;
     };
-    const auto for_trees = [&](auto use) {
-      for (std::uint32_t i = 0; i < count; ++i) {
-        const Open& at = open_[slots_[which[i]]];
-        if (at.margin > 0) use(i, at, shapes_.trees[at.root_a], shapes_.trees[at.root_b]);
-      }
-    };
-    for_trees([&](std::uint32_t i, const Open& at, const Tree& a, const Tree& b) {
+    Compared compared[verified_together + 1];
+    std::uint32_t pairs = 0, all_hits = 0;
+    for (std::uint32_t i = 0; i < count; ++i) {
+      const std::uint32_t slot = slots_[which[i]];
+      const Open& at = open_[slot];
       near[i] = 0;
+      if (at.margin == 0) [[unlikely]]
+        continue;
       is_compared |= std::uint32_t{1} << i;
-      segments_.prefetch_words(a, at.a), segments_.prefetch_words(b, at.b);
-    });
-    for_trees([&](std::uint32_t, const Open& at, const Tree& a, const Tree& b) {
-      segments_.prefetch_points(a, at.a), segments_.prefetch_points(b, at.b);
-    });
-    for_trees([&](std::uint32_t i, const Open& at, const Tree& a, const Tree& b) {
-      for (std::uint64_t hits = hits_[which[i]]; hits != 0; hits &= hits - 1) {
-        const auto [disc_a, disc_b] = first_hit(at, hits);
-        const std::uint32_t owner = i * block_pairs + static_cast<unsigned>(__builtin_ctzll(hits));
-        segments_.add(slots_[which[i]], a, disc_a, b, disc_b, owner, on_meeting);
-      }
-    });
+      const Tree &a = shapes_.trees[at.root_a], &b = shapes_.trees[at.root_b];
+      const Compared& added = compared[pairs++] = {segments_.row(a, at.a & ~leaf_window),
+                                                   segments_.row(b, at.b & ~leaf_window),
+                                                   a.count,
+                                                   b.count,
+                                                   hits_[which[i]],
+                                                   slot,
+                                                   i * block_pairs};
+      all_hits += static_cast<unsigned>(__builtin_popcountll(added.hits));
+      segments_.prefetch_words(added.a), segments_.prefetch_words(added.b);
+    }
+    for (std::uint32_t k = 0; k < pairs; ++k) {
+      segments_.prefetch_points(compared[k].a, compared[k].leaves_a);
+      segments_.prefetch_points(compared[k].b, compared[k].leaves_b);
+    }
+    // One loop over the hits of all pairs, because only the end of a loop is predicted wrongly.
+    for (std::uint32_t k = 0; all_hits > 0; --all_hits) {
+      Compared& at = compared[k];
+      const auto bit = static_cast<unsigned>(__builtin_ctzll(at.hits));
+      segments_.add(at.slot, at.a, bit / block_width, at.b, bit % block_width, at.first_owner + bit,
+                    on_meeting);
+      at.hits &= at.hits - 1;
+      k += at.hits == 0;
+    }
     segments_.finish(on_meeting);
     std::uint32_t left = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -219,6 +231,14 @@ class OverlapTraversal {
       count = left;
     }
   }
+
+  /// Represents two windows whose leaves are compared by their segments.
+  struct Compared {
+    typename SegmentTest<Simd, Open>::Row a, b;
+    std::uint32_t leaves_a, leaves_b;  ///< of the trees
+    std::uint64_t hits;
+    std::uint32_t slot, first_owner;
+  };
 
   struct LeafPair {
     std::uint32_t a, b;  ///< places among the nodes

@@ -293,7 +293,7 @@ class ContactKernel {
     bool meet = false;
     const auto on_meeting = [&](std::uint32_t, Meeting meeting) { meet |= meeting != Meeting::none; };
     SegmentTest<Simd, Placed> test(shapes_, &placed_);
-    test.add(0, a, disc_a, b, disc_b, 0, on_meeting);
+    test.add(0, test.row(a, disc_a), 0, test.row(b, disc_b), 0, 0, on_meeting);
     test.finish(on_meeting);
     return meet;
   }

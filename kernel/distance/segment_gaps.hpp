@@ -76,8 +76,8 @@ class SegmentGaps : private SegmentBatch<Simd, PlacedSegments> {
       const Leaves& leaves = open_[i];
       Search& search = *leaves.search;
       if (leaves.gap > search.best()) continue;
-      if (!this->collect(leaves.number, search.tree_a(), leaves.a, search.tree_b(), leaves.b, i,
-                         [this] { measure_all(); }))
+      if (!this->collect(leaves.number, this->row(search.tree_a(), leaves.a), 0,
+                         this->row(search.tree_b(), leaves.b), 0, i, [this] { measure_all(); }))
         search.take_discs(leaves.gap < 0 ? 0 : leaves.gap, leaves.a, leaves.b);
     }
     measure_all();

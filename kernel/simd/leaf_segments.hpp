@@ -25,16 +25,26 @@ struct LeafSegments {
     }
   };
 
-  const std::uint32_t* word(const Tree& tree, std::uint32_t leaf) const noexcept {
-    return words + tree.segments + (leaf - tree.discs);
+  /// Holds leaves of a tree from one on.
+  struct Row {
+    const std::uint32_t* words;  ///< of all of the tree's leaves
+    std::uint32_t first;         ///< leaf of the tree
+    std::uint32_t points;        ///< where those of the shape begin
+
+    std::uint32_t word(std::uint32_t i) const noexcept { return words[first + i]; }
+    List segments(std::uint32_t i) const noexcept {
+      const std::uint32_t of_leaf = word(i);
+      if (of_leaf < leaf_list) [[likely]]
+        return {points + (of_leaf & leaf_first_mask), of_leaf >> leaf_count_shift, nullptr};
+      const std::uint32_t* const list = words + (of_leaf & ~leaf_list);
+      return {points, *list, list + 1};
+    }
+  };
+
+  Row row(const Tree& tree, std::uint32_t leaf) const noexcept {
+    return {words + tree.segments, leaf - tree.discs, tree.points};
   }
-  List segments(const Tree& tree, std::uint32_t leaf) const noexcept {
-    const std::uint32_t of_leaf = *word(tree, leaf);
-    if (of_leaf < leaf_list) [[likely]]
-      return {tree.points + (of_leaf & leaf_first_mask), of_leaf >> leaf_count_shift, nullptr};
-    const std::uint32_t* const list = words + tree.segments + (of_leaf & ~leaf_list);
-    return {tree.points, *list, list + 1};
-  }
+  List segments(const Tree& tree, std::uint32_t leaf) const noexcept { return row(tree, leaf).segments(0); }
 };
 
 }  // namespace bch::detail

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <bit>
 #include <cstdint>
 
 #include "kernel/simd/leaf_segments.hpp"
@@ -75,16 +76,18 @@ class SegmentBatch {
   SegmentBatch(const ShapeSetView& shapes, const Placed* placed) noexcept
       : leaves_{shapes.leaf_segments}, points_(shapes.points), placed_(placed) {}
 
-  /// Prefetches the words of a leaf window, or the points that they name.
-  [[gnu::always_inline]] void prefetch_words(const Tree& tree, std::uint32_t window) const noexcept {
-    __builtin_prefetch(leaves_.word(tree, window & ~leaf_window));
+  using Row = typename LeafSegments<Simd>::Row;
+  Row row(const Tree& tree, std::uint32_t leaf) const noexcept { return leaves_.row(tree, leaf); }
+
+  /// Prefetches the words of eight leaves, or the points that they name.
+  [[gnu::always_inline]] static void prefetch_words(const Row& row) noexcept {
+    __builtin_prefetch(row.words + row.first);
   }
-  [[gnu::always_inline]] void prefetch_points(const Tree& tree, std::uint32_t window) const noexcept {
-    const std::uint32_t* const words = leaves_.word(tree, window & ~leaf_window);
-    const std::uint32_t last = tree.count < block_width ? tree.count - 1 : block_width - 1;
-    const std::uint32_t asked[] = {0, last / 2, last};
-    for (const std::uint32_t i : asked)
-      __builtin_prefetch(points_ + tree.points + (words[i] & leaf_first_mask));
+  [[gnu::always_inline]] void prefetch_points(const Row& row, std::uint32_t leaves) const noexcept {
+    const std::uint32_t last = leaves < block_width ? leaves - 1 : block_width - 1;
+    const std::uint32_t chosen[] = {0, last / 2, last};
+    for (const std::uint32_t i : chosen)
+      __builtin_prefetch(points_ + row.points + (row.word(i) & leaf_first_mask));
   }
 
  protected:
@@ -96,26 +99,35 @@ class SegmentBatch {
   static_assert(capacity % Simd::width == 0);
   static_assert(sizeof(Placed) % sizeof(double) == 0 && alignof(Placed) == alignof(double));
 
-  /// Collects all segments of a leaf of A with all of a leaf of B, named by the places of their discs among
-  /// ShapeSetView::nodes; calls finish() before where there is no room for more. Both trees have segments. `owner`: the caller's number,
-  /// which owner() returns.
+  /// Collects all segments of leaf i of a row of A with all of leaf j of a row of B; calls finish() before where there is no room
+  /// for more. Both trees have segments. `owner`: the caller's number, which owner() returns.
   /// Returns: false where a leaf has too many, so that discs decide.
   template <class Finish>
-  [[gnu::always_inline]] bool collect(std::uint32_t placed, const Tree& a, std::uint32_t leaf_a,
-                                      const Tree& b, std::uint32_t leaf_b, std::uint32_t owner,
-                                      Finish finish) noexcept {
-    const auto of_a = leaves_.segments(a, leaf_a), of_b = leaves_.segments(b, leaf_b);
-    if (of_a.count * of_b.count == 0) [[unlikely]]
-      return false;
-    for (std::uint32_t i = 0; i < of_a.count; ++i)
-      for (std::uint32_t j = 0; j < of_b.count; ++j) {
+  [[gnu::always_inline]] bool collect(std::uint32_t placed, const Row& a, std::uint32_t i, const Row& b,
+                                      std::uint32_t j, std::uint32_t owner, Finish finish) noexcept {
+    const std::uint32_t word_a = a.word(i), word_b = b.word(j);
+    const std::uint32_t columns = word_b >> leaf_count_shift, count = (word_a >> leaf_count_shift) * columns;
+    if (size_ + few > capacity) [[unlikely]]
+      finish();
+    // The most common case without a branch on the counts: what is written behind `count` is written over.
+    if ((word_a | word_b) < leaf_list && count - 1 < few) [[likely]] {
+      fill(segment_a_, quotients.of[columns - 1], a.points + (word_a & leaf_first_mask));
+      fill(segment_b_, rests.of[columns - 1], b.points + (word_b & leaf_first_mask));
+      fill(index_, zeros, placed);
+      fill(owner_, zeros, owner);
+      size_ += count;
+      return true;
+    }
+    const auto of_a = a.segments(i), of_b = b.segments(j);
+    for (std::uint32_t k = 0; k < of_a.count; ++k)
+      for (std::uint32_t l = 0; l < of_b.count; ++l) {
         if (size_ == capacity) [[unlikely]]
           finish();
-        segment_a_[size_] = of_a.point(i), segment_b_[size_] = of_b.point(j);
+        segment_a_[size_] = of_a.point(k), segment_b_[size_] = of_b.point(l);
         index_[size_] = placed;
         owner_[size_++] = owner;
       }
-    return true;
+    return of_a.count * of_b.count != 0;
   }
 
   /// Calls test(k) for every register of pairs, which returns bits of lanes, and use(k, lane) for those that are set.
@@ -167,6 +179,35 @@ class SegmentBatch {
   }
 
  private:
+  /// The most pairs of segments of two leaves that are collected without a loop over them. Nearly all leaves have one to three segments.
+  static constexpr std::uint32_t few = 8;
+  /// Holds two numbers of 32 bits each, which are added at once.
+  using Two = std::uint64_t;
+  struct Pattern {
+    Two of[few][few / 2];
+  };
+  /// Returns, for pair k of two leaves, the second of which has 1, 2 ... segments, k divided by that number, or the rest.
+  static constexpr Pattern pattern(bool rest) {
+    Pattern result{};
+    for (std::uint32_t columns = 1; columns <= few; ++columns)
+      for (std::uint32_t k = 0; k < few; ++k)
+        result.of[columns - 1][k / 2] |= Two{rest ? k % columns : k / columns} << (k % 2 * 32);
+    return result;
+  }
+  static constexpr Pattern quotients = pattern(false), rests = pattern(true);
+  static constexpr Two zeros[few / 2] = {};
+
+  /// Writes `few` sums of a number and a pattern's. (Both halves of a word are in the order of memory on little-endian processors alone.)
+  [[gnu::always_inline]] void fill(std::uint32_t* to, const Two* pattern,
+                                   std::uint32_t number) const noexcept {
+    static_assert(std::endian::native == std::endian::little);
+    const Two twice = number * Two{0x1'0000'0001};
+    for (std::uint32_t k = 0; k < few / 2; ++k) {
+      const Two sum = pattern[k] + twice;
+      __builtin_memcpy(to + size_ + 2 * k, &sum, sizeof sum);
+    }
+  }
+
   const LeafSegments<Simd> leaves_;
   const Vec2* const points_;
   const Placed* const placed_;

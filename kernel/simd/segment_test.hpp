@@ -35,14 +35,15 @@ template <class Simd, class Placed>
 class SegmentTest : private SegmentBatch<Simd, Placed> {
  public:
   using SegmentBatch<Simd, Placed>::SegmentBatch, SegmentBatch<Simd, Placed>::prefetch_words,
-      SegmentBatch<Simd, Placed>::prefetch_points;
+      SegmentBatch<Simd, Placed>::prefetch_points, SegmentBatch<Simd, Placed>::row;
+  using typename SegmentBatch<Simd, Placed>::Row;
 
-  /// Collects all segments of a leaf of A with all of a leaf of B. `use(owner, meeting)` is called for each pair of segments that
-  /// meets, now or in finish(), and for leaves of too many segments as if some met.
+  /// Collects all segments of leaf i of a row of A with all of leaf j of a row of B. `use(owner, meeting)` is called for each pair of
+  /// segments that meets, now or in finish(), and for leaves of too many segments as if some met.
   template <class Use>
-  [[gnu::always_inline]] void add(std::uint32_t placed, const Tree& a, std::uint32_t leaf_a, const Tree& b,
-                                  std::uint32_t leaf_b, std::uint32_t owner, Use use) noexcept {
-    if (!this->collect(placed, a, leaf_a, b, leaf_b, owner, [&] { finish(use); })) [[unlikely]]
+  [[gnu::always_inline]] void add(std::uint32_t placed, const Row& a, std::uint32_t i, const Row& b,
+                                  std::uint32_t j, std::uint32_t owner, Use use) noexcept {
+    if (!this->collect(placed, a, i, b, j, owner, [&] { finish(use); })) [[unlikely]]
       use(owner, Meeting::near);
   }
 
