@@ -30,7 +30,6 @@ class OverlapTraversal {
   OverlapTraversal(const ShapeSetView& shapes, const Arguments& arguments) noexcept
       : shapes_(shapes),
         codes_(arguments.codes),
-        prefetch_(arguments.prefetch_shapes),
         exact_leaves_(arguments.exact_leaves),
         segments_(shapes, open_) {}
 
@@ -103,7 +102,7 @@ class OverlapTraversal {
   [[gnu::always_inline]] void test() noexcept {
     const float* const nodes = shapes_.nodes;
     for (std::uint32_t k = 0; k < size_; ++k) {
-      if (prefetch_ && k + tests_ahead < size_) {
+      if (k + tests_ahead < size_) {
         const Open& next = open_[slots_[k + tests_ahead]];
         Nodes::prefetch(nodes, next.a, next.stride_a);
         Nodes::prefetch(nodes, next.b, next.stride_b);
@@ -298,7 +297,7 @@ class OverlapTraversal {
 
   const ShapeSetView& shapes_;
   std::uint8_t* const codes_;
-  const bool prefetch_, exact_leaves_;
+  const bool exact_leaves_;
   std::uint32_t size_ = 0, numbered_ = 0;
   std::uint16_t slots_[capacity];  ///< a permutation: first those of open pairs, then free ones
   Open open_[capacity];
