@@ -31,7 +31,7 @@ class OverlapTraversal {
       : shapes_(shapes),
         codes_(arguments.codes),
         exact_leaves_(arguments.exact_leaves),
-        segments_(shapes, open_) {}
+        segments_(shapes, placed_) {}
 
   /// Adds a pair: `pair` is where its answer goes in codes, `miss` what it is unless a traversal finds an overlap.
   /// `reach`: of the two shapes together. `margin`: of their segments, 0 where discs decide. `gaps` are looked at where
@@ -160,20 +160,19 @@ class OverlapTraversal {
     Compared compared[verified_together + 1];
     std::uint32_t pairs = 0, all_hits = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
-      const std::uint32_t slot = slots_[which[i]];
-      const Open& at = open_[slot];
+      const Open& at = open_[slots_[which[i]]];
       near[i] = 0;
       if (at.margin == 0) [[unlikely]]
         continue;
       is_compared |= std::uint32_t{1} << i;
+      placed_[i] = {at.b_in_a, at.margin};
       const Tree &a = shapes_.trees[at.root_a], &b = shapes_.trees[at.root_b];
       const Compared& added = compared[pairs++] = {segments_.row(a, at.a & ~leaf_window),
                                                    segments_.row(b, at.b & ~leaf_window),
                                                    a.count,
                                                    b.count,
                                                    hits_[which[i]],
-                                                   slot,
-                                                   i * block_pairs};
+                                                   i};
       all_hits += static_cast<unsigned>(__builtin_popcountll(added.hits));
       segments_.prefetch_words(added.a), segments_.prefetch_words(added.b);
     }
@@ -185,7 +184,7 @@ class OverlapTraversal {
     for (std::uint32_t k = 0; all_hits > 0; --all_hits) {
       Compared& at = compared[k];
       const auto bit = static_cast<unsigned>(__builtin_ctzll(at.hits));
-      segments_.add(at.slot, at.a, bit / block_width, at.b, bit % block_width, at.first_owner + bit,
+      segments_.add(at.pair, at.a, bit / block_width, at.b, bit % block_width, at.pair * block_pairs + bit,
                     on_meeting);
       at.hits &= at.hits - 1;
       k += at.hits == 0;
@@ -233,10 +232,10 @@ class OverlapTraversal {
 
   /// Represents two windows whose leaves are compared by their segments.
   struct Compared {
-    typename SegmentTest<Simd, Open>::Row a, b;
+    typename SegmentTest<Simd>::Row a, b;
     std::uint32_t leaves_a, leaves_b;  ///< of the trees
     std::uint64_t hits;
-    std::uint32_t slot, first_owner;
+    std::uint32_t pair;  ///< of those compared
   };
 
   struct LeafPair {
@@ -304,7 +303,8 @@ class OverlapTraversal {
   std::uint64_t hits_[capacity];
   AncestorPath<Simd> above_a_[verified_together],
       above_b_[verified_together];  ///< of those that are verified
-  SegmentTest<Simd, Open> segments_;
+  PlacedSegments placed_[verified_together];
+  SegmentTest<Simd> segments_;
   Frame frames_[capacity][max_frames + 2];
 };
 

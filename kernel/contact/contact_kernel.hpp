@@ -72,11 +72,6 @@ class ContactKernel {
   }
 
  private:
-  struct Placed {
-    Transform b_in_a;
-    double margin;  ///< 0, or segments decide where leaves overlap: metres
-  };
-
   /// Holds nodes of the columns, from left to right.
   struct Nodes {
     static constexpr std::uint32_t capacity = 32;
@@ -292,7 +287,7 @@ class ContactKernel {
                      std::uint32_t disc_b) const noexcept {
     bool meet = false;
     const auto on_meeting = [&](std::uint32_t, Meeting meeting) { meet |= meeting != Meeting::none; };
-    SegmentTest<Simd, Placed> test(shapes_, &placed_);
+    SegmentTest<Simd> test(shapes_, &placed_);
     test.add(0, test.row(a, disc_a), 0, test.row(b, disc_b), 0, 0, on_meeting);
     test.finish(on_meeting);
     return meet;
@@ -329,10 +324,10 @@ class ContactKernel {
   RelativeTransforms<Simd> at_;
 
   // State of the current pair.
-  bool swapped_;  ///< the first agent is B
-  Placed placed_;
-  float reach_;  ///< of both shapes
-  bool held_;    ///< nodes of either hold their discs with room enough for the other's reach
+  bool swapped_;           ///< the first agent is B
+  PlacedSegments placed_;  ///< with a margin of 0, discs decide
+  float reach_;            ///< of both shapes
+  bool held_;              ///< nodes of either hold their discs with room enough for the other's reach
   const float* nodes_;
   Tree rows_, columns_;
   std::uint32_t first_row_, first_column_;  ///< where their discs begin

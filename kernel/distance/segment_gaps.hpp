@@ -13,12 +13,6 @@
 
 namespace bch::detail {
 
-/// Holds the placement of two agents' shapes, and the margin of both, metres; see rounding.hpp, V.
-struct PlacedSegments {
-  Transform b_in_a;
-  double margin;
-};
-
 /// Measures, for clearance(), the gaps between segments that exact leaves hold, lane = pair of segments. In double, with B's ends as the
 /// floats of the placement put them:
 ///
@@ -46,12 +40,11 @@ struct PlacedSegments {
 ///     void take_segments(float w, uint32 a, uint32 b)   named by the points where they begin
 ///     void take_discs(float gap, uint32 a, uint32 b)    of leaves with too many segments
 template <class Simd, class Search>
-class SegmentGaps : private SegmentBatch<Simd, PlacedSegments> {
+class SegmentGaps : private SegmentBatch<Simd> {
  public:
   static constexpr std::uint32_t max_searches = 32;  ///< whose leaves are put by at a time
 
-  explicit SegmentGaps(const ShapeSetView& shapes) noexcept
-      : SegmentBatch<Simd, PlacedSegments>(shapes, places_) {}
+  explicit SegmentGaps(const ShapeSetView& shapes) noexcept : SegmentBatch<Simd>(shapes, places_) {}
 
   /// Says where the shapes of a search are.
   void place(std::uint32_t search, const Transform& b_in_a, double margin) noexcept {
@@ -85,7 +78,7 @@ class SegmentGaps : private SegmentBatch<Simd, PlacedSegments> {
   }
 
  private:
-  using Batch = SegmentBatch<Simd, PlacedSegments>;
+  using Batch = SegmentBatch<Simd>;
   using Float = typename Simd::Float;
   using Double = typename Simd::Double;
   using Batch::parts;

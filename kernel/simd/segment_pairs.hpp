@@ -67,13 +67,18 @@ struct SegmentPair {
   }
 };
 
-/// Collects pairs of segments of leaves, one of either shape, for a test of many side by side. `Placed` has a Transform b_in_a and a
-/// double margin, which is that of both shapes together.
-template <class Simd, class Placed>
+/// Holds the placement of two agents' shapes, and the margin of both, metres; see rounding.hpp, V.
+struct PlacedSegments {
+  Transform b_in_a;
+  double margin;
+};
+
+/// Collects pairs of segments of leaves, one of either shape, for a test of many side by side.
+template <class Simd>
 class SegmentBatch {
  public:
   /// Takes the placements that add() names by index.
-  SegmentBatch(const ShapeSetView& shapes, const Placed* placed) noexcept
+  SegmentBatch(const ShapeSetView& shapes, const PlacedSegments* placed) noexcept
       : leaves_{shapes.leaf_segments}, points_(shapes.points), placed_(placed) {}
 
   using Row = typename LeafSegments<Simd>::Row;
@@ -97,10 +102,10 @@ class SegmentBatch {
       Simd::width / Simd::doubles;  ///< registers of doubles for one of floats
   static constexpr std::uint32_t capacity = 64;
   static_assert(capacity % Simd::width == 0);
-  static_assert(sizeof(Placed) % sizeof(double) == 0 && alignof(Placed) == alignof(double));
 
   /// Collects all segments of leaf i of a row of A with all of leaf j of a row of B; calls finish() before where there is no room
-  /// for more. Both trees have segments. `owner`: the caller's number, which owner() returns.
+  /// for more. Both trees have segments. `placed` and the caller's number `owner`, which owner() returns, are
+  /// below 2^16.
   /// Returns: false where a leaf has too many, so that discs decide.
   template <class Finish>
   [[gnu::always_inline]] bool collect(std::uint32_t placed, const Row& a, std::uint32_t i, const Row& b,
@@ -113,8 +118,7 @@ class SegmentBatch {
     if ((word_a | word_b) < leaf_list && count - 1 < few) [[likely]] {
       fill(segment_a_, quotients.of[columns - 1], a.points + (word_a & leaf_first_mask));
       fill(segment_b_, rests.of[columns - 1], b.points + (word_b & leaf_first_mask));
-      fill(index_, zeros, placed);
-      fill(owner_, zeros, owner);
+      fill(owner_, zeros, placed << 16 | owner);
       size_ += count;
       return true;
     }
@@ -124,8 +128,7 @@ class SegmentBatch {
         if (size_ == capacity) [[unlikely]]
           finish();
         segment_a_[size_] = of_a.point(k), segment_b_[size_] = of_b.point(l);
-        index_[size_] = placed;
-        owner_[size_++] = owner;
+        owner_[size_++] = placed << 16 | owner;
       }
     return of_a.count * of_b.count != 0;
   }
@@ -135,7 +138,7 @@ class SegmentBatch {
   [[gnu::always_inline]] void test_all(Test test, Use use) noexcept {
     for (std::uint32_t k = size_; k % Simd::width != 0; ++k)
       segment_a_[k] = segment_a_[size_ - 1], segment_b_[k] = segment_b_[size_ - 1],
-      index_[k] = index_[size_ - 1];
+      owner_[k] = owner_[size_ - 1];
     for (std::uint32_t k = 0; k < size_; k += Simd::width) {
       std::uint32_t open = test(k);
       if (size_ - k < Simd::width) open &= (std::uint32_t{1} << (size_ - k)) - 1;
@@ -145,7 +148,7 @@ class SegmentBatch {
   }
 
   /// Returns what was collected at place k: its owner, and the points where the segments begin.
-  std::uint32_t owner(std::uint32_t k) const noexcept { return owner_[k]; }
+  std::uint32_t owner(std::uint32_t k) const noexcept { return owner_[k] & 0xffff; }
   std::uint32_t segment_a(std::uint32_t k) const noexcept { return segment_a_[k]; }
   std::uint32_t segment_b(std::uint32_t k) const noexcept { return segment_b_[k]; }
 
@@ -155,9 +158,11 @@ class SegmentBatch {
   /// Loads the pairs of a register of floats, in registers of doubles.
   void load(std::uint32_t k, Pair (&pairs)[parts]) const noexcept {
     Float p[4], q[4], place[4];
+    alignas(64) std::uint32_t index[Simd::width];
+    for (std::uint32_t lane = 0; lane < Simd::width; ++lane) index[lane] = owner_[k + lane] >> 16;
     Simd::template load_records<2>(&points_->x, segment_a_ + k, p);
     Simd::template load_records<2>(&points_->x, segment_b_ + k, q);
-    Simd::template load_records<sizeof(Placed) / sizeof(float)>(&placed_->b_in_a.c, index_ + k, place);
+    Simd::template load_records<sizeof(PlacedSegments) / sizeof(float)>(&placed_->b_in_a.c, index, place);
     Double of_p[4][parts], of_q[4][parts], of_place[4][parts];
     for (unsigned i = 0; i < 4; ++i) {
       Simd::to_double(p[i], of_p[i]);
@@ -169,7 +174,7 @@ class SegmentBatch {
                                        of_place[3][part]};
       double margins[Simd::doubles];
       for (std::uint32_t lane = 0; lane < Simd::doubles; ++lane)
-        margins[lane] = placed_[index_[k + part * Simd::doubles + lane]].margin;
+        margins[lane] = placed_[index[part * Simd::doubles + lane]].margin;
       pairs[part] = {{{of_p[0][part], of_p[1][part]},
                       {of_p[2][part], of_p[3][part]},
                       b_in_a.apply(of_q[0][part], of_q[1][part]),
@@ -179,8 +184,8 @@ class SegmentBatch {
   }
 
  private:
-  /// The most pairs of segments of two leaves that are collected without a loop over them. Nearly all leaves have one to three segments.
-  static constexpr std::uint32_t few = 8;
+  /// The most pairs of segments of two leaves that are collected without a loop over them. Most leaves have one or two segments.
+  static constexpr std::uint32_t few = 4;
   /// Holds two numbers of 32 bits each, which are added at once.
   using Two = std::uint64_t;
   struct Pattern {
@@ -210,10 +215,10 @@ class SegmentBatch {
 
   const LeafSegments<Simd> leaves_;
   const Vec2* const points_;
-  const Placed* const placed_;
+  const PlacedSegments* const placed_;
   std::uint32_t size_ = 0;
   std::uint32_t segment_a_[capacity], segment_b_[capacity];
-  std::uint32_t index_[capacity], owner_[capacity];
+  std::uint32_t owner_[capacity];
 };
 
 }  // namespace bch::detail

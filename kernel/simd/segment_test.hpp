@@ -31,12 +31,12 @@ double segment_margin(const ShapeSetView& shapes, std::uint32_t shape_a, std::ui
 /// Tests exact leaves: whether segments of leaves meet, lane = pair.
 /// Every operation is one in double of a fixed sequence, which baselines/ writes down again;
 /// layout/base/rounding.hpp, V, says why no two outlines that meet are missed.
-template <class Simd, class Placed>
-class SegmentTest : private SegmentBatch<Simd, Placed> {
+template <class Simd>
+class SegmentTest : private SegmentBatch<Simd> {
  public:
-  using SegmentBatch<Simd, Placed>::SegmentBatch, SegmentBatch<Simd, Placed>::prefetch_words,
-      SegmentBatch<Simd, Placed>::prefetch_points, SegmentBatch<Simd, Placed>::row;
-  using typename SegmentBatch<Simd, Placed>::Row;
+  using SegmentBatch<Simd>::SegmentBatch, SegmentBatch<Simd>::prefetch_words,
+      SegmentBatch<Simd>::prefetch_points, SegmentBatch<Simd>::row;
+  using typename SegmentBatch<Simd>::Row;
 
   /// Collects all segments of leaf i of a row of A with all of leaf j of a row of B. `use(owner, meeting)` is called for each pair of
   /// segments that meets, now or in finish(), and for leaves of too many segments as if some met.
@@ -56,7 +56,7 @@ class SegmentTest : private SegmentBatch<Simd, Placed> {
   }
 
  private:
-  using Batch = SegmentBatch<Simd, Placed>;
+  using Batch = SegmentBatch<Simd>;
   using Float = typename Simd::Float;
   using Double = typename Simd::Double;
   using Batch::parts, Batch::capacity;
