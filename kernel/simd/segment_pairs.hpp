@@ -158,8 +158,12 @@ class SegmentBatch {
   /// Loads the pairs of a register of floats, in registers of doubles.
   void load(std::uint32_t k, Pair (&pairs)[parts]) const noexcept {
     Float p[4], q[4], place[4];
-    alignas(64) std::uint32_t index[Simd::width];
-    for (std::uint32_t lane = 0; lane < Simd::width; ++lane) index[lane] = owner_[k + lane] >> 16;
+    static_assert(sizeof(PlacedSegments) == 3 * sizeof(double));
+    alignas(64) std::uint32_t index[Simd::width], margin_index[Simd::width];
+    for (std::uint32_t lane = 0; lane < Simd::width; ++lane) {
+      index[lane] = owner_[k + lane] >> 16;
+      margin_index[lane] = 3 * index[lane];
+    }
     Simd::template load_records<2>(&points_->x, segment_a_ + k, p);
     Simd::template load_records<2>(&points_->x, segment_b_ + k, q);
     Simd::template load_records<sizeof(PlacedSegments) / sizeof(float)>(&placed_->b_in_a.c, index, place);
@@ -172,14 +176,11 @@ class SegmentBatch {
     for (std::uint32_t part = 0; part < parts; ++part) {
       const TransformOf<Double> b_in_a{of_place[0][part], of_place[1][part], of_place[2][part],
                                        of_place[3][part]};
-      double margins[Simd::doubles];
-      for (std::uint32_t lane = 0; lane < Simd::doubles; ++lane)
-        margins[lane] = placed_[index[part * Simd::doubles + lane]].margin;
       pairs[part] = {{{of_p[0][part], of_p[1][part]},
                       {of_p[2][part], of_p[3][part]},
                       b_in_a.apply(of_q[0][part], of_q[1][part]),
                       b_in_a.apply(of_q[2][part], of_q[3][part])},
-                     Simd::load(margins)};
+                     Simd::gather(&placed_->margin, margin_index + part * Simd::doubles)};
     }
   }
 
