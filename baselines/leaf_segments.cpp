@@ -6,61 +6,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "baselines/segment_meeting.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/format/shape_set_view.hpp"
 
 namespace bch::baselines {
-namespace {
-
-using Segment = std::array<Point2, 2>;
-
-Point2 minus(Point2 a, Point2 b) {
-  return {a.x - b.x, a.y - b.y};
-}
-
-/// The sides of a segment's line on which two points lie: one value each, and the least value of a point at a
-/// distance of one margin from the line.
-struct Sides {
-  double first, second, margin;
-
-  Sides(const Segment& of, const Segment& points, double distance) {
-    const Point2 way = minus(of[1], of[0]);
-    const auto side = [&](Point2 point) {
-      const Point2 to = minus(point, of[0]);
-      return way.x * to.y - way.y * to.x;
-    };
-    first = side(points[0]), second = side(points[1]);
-    margin = distance * (std::abs(way.x) + std::abs(way.y));
-  }
-
-  bool on_one_side() const { return std::min(first, second) > margin || std::max(first, second) < -margin; }
-  bool on_both_sides() const {
-    const double sure = detail::rounding::sure_share * margin;
-    return std::max(first, second) > sure && std::min(first, second) < -sure;
-  }
-};
-
-double square_distance(Point2 point, const Segment& segment) {
-  const Point2 way = minus(segment[1], segment[0]), to = minus(point, segment[0]);
-  const double square = way.x * way.x + way.y * way.y;
-  double share = 0;
-  if (square > 0) share = std::clamp((to.x * way.x + to.y * way.y) / square, 0.0, 1.0);
-  const double x = to.x - share * way.x, y = to.y - share * way.y;
-  return x * x + y * y;
-}
-
-double square_of_ends(const Segment& p, const Segment& q) {
-  return std::min({square_distance(p[0], q), square_distance(p[1], q), square_distance(q[0], p),
-                   square_distance(q[1], p)});
-}
-
-}  // namespace
 
 bool segments_meet(Segment p, Segment q, double margin) noexcept {
-  const Sides of_p(p, q, margin), of_q(q, p, margin);
-  if (of_p.on_one_side() || of_q.on_one_side()) return false;
-  if (of_p.on_both_sides() && of_q.on_both_sides()) return true;
-  return square_of_ends(p, q) <= margin * margin;
+  return meeting(p, q, margin) != Meeting::none;
 }
 
 float segment_gap(Segment p, Segment q, double margin) noexcept {

@@ -16,8 +16,8 @@ double rise(const Agents& agents, std::uint32_t a, std::uint32_t b) {
   return agents.z.empty() ? 0 : agents.z[b] - agents.z[a];
 }
 
-FloatPlacement float_placement(const Agents& agents, std::uint32_t a, std::uint32_t b,
-                               const detail::UnitVector& u, const detail::UnitVector& v) {
+FloatPlacement between(const Agents& agents, std::uint32_t a, std::uint32_t b, const detail::UnitVector& u,
+                       const detail::UnitVector& v) {
   const float dx = static_cast<float>(agents.x[b] - agents.x[a]);
   const float dy = static_cast<float>(agents.y[b] - agents.y[a]);
   return {u.cosine * v.cosine + u.sine * v.sine, u.cosine * v.sine - u.sine * v.cosine,
@@ -32,14 +32,14 @@ double without_dust(double value) {
 
 FloatPlacement float_placement(const Agents& agents, Pair pair) noexcept {
   const auto [a, b] = std::minmax(pair.first, pair.second);
-  return float_placement(agents, a, b, detail::unit_vector(agents.heading[a]),
-                         detail::unit_vector(agents.heading[b]));
+  return between(agents, a, b, detail::unit_vector(agents.heading[a]),
+                 detail::unit_vector(agents.heading[b]));
 }
 
 FloatPlacement float_placement(const Agents& agents, Pair pair,
                                std::span<const detail::UnitVector> directions) noexcept {
   const auto [a, b] = std::minmax(pair.first, pair.second);
-  return float_placement(agents, a, b, directions[a], directions[b]);
+  return between(agents, a, b, directions[a], directions[b]);
 }
 
 Placement placement(const Agents& agents, Pair pair) noexcept {

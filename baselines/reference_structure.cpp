@@ -10,14 +10,16 @@
 
 #include "baselines/disc_tree.hpp"
 #include "baselines/kind_rows.hpp"
+#include "baselines/nested_contours.hpp"
 #include "baselines/placement.hpp"
+#include "baselines/segment_lists.hpp"
 #include "baselines/traversal_stack.hpp"
 #include "layout/hierarchy/paper_hierarchies.hpp"
 
-// The kinds "reference" and "paper_descent": the paper's descent of two binary trees by their smallest discs,
-// one pair at a time, into the larger disc first. "reference" is what the batch kernel's speed is measured
-// against, so both are written to be fast; it verifies what the descent finds, because that meets some pairs
-// of ancestors and not all.
+// The kinds "reference", "reference_segments" and "paper_descent": the paper's descent of two binary trees by their
+// smallest discs, one pair at a time, into the larger disc first. The batch kernel's speed is measured against the first
+// two, so all are written to be fast. "reference" verifies what the descent finds, because that meets some pairs of
+// ancestors and not all. "reference_segments" has exact leaves and counts containment, as collide() does.
 
 namespace bch::baselines {
 namespace {
@@ -53,8 +55,15 @@ struct Visit {
   Centre centre_b;
 };
 
+/// What makes a hit of two leaves whose discs overlap.
+enum class HitBy : std::uint8_t {
+  descent,    ///< nothing else
+  ancestors,  ///< all discs above them overlap
+  segments,   ///< the same, and their segments meet; at nodes above the leaves, ancestors alone
+};
+
 /// Tests both children before it goes on with one of them: their tests do not wait for each other, and fewer
-/// branches are mispredicted than by a stack of pairs yet to be tested. True as soon as accept(a, b) is true
+/// branches are mispredicted than by a stack of pairs yet to be tested. True as soon as accept(visit) is true
 /// of two leaves whose discs overlap.
 /// Precondition: `open` has room for the sum of the trees' heights.
 template <class Counts, class Accept>
@@ -69,7 +78,7 @@ bool any_leaves_overlap(const Node* nodes, Visit at, const FloatPlacement& place
     Visit first = at, second = at;
     bool first_hit = false, second_hit = false;
     if (end_a && end_b) {
-      if (accept(at.a, at.b)) return true;
+      if (accept(at)) return true;
     } else if (end_b || (!end_a && a.radius >= b.radius)) {
       first.a = at.a + 1;
       second.a = a.second_child;
@@ -123,15 +132,19 @@ bool ancestors_overlap(const Node* nodes, Pair roots, std::uint32_t a, std::uint
 
 class ContourHierarchies final : public Structure {
  public:
-  explicit ContourHierarchies(bool verifies) : verifies_(verifies) {}
+  explicit ContourHierarchies(HitBy hit_by) : hit_by_(hit_by) {}
 
-  void add(const Hierarchy& hierarchy) {
+  void add(const Shape& shape) {
+    const Hierarchy& hierarchy = shape.hierarchy;
     const auto root = static_cast<std::uint32_t>(nodes_.size());
     for (const auto& [disc, second] : hierarchy.nodes)
       nodes_.push_back({disc.x, disc.y, disc.radius, second == 0 ? 0 : root + second});
     roots_.push_back(root);
     sizes_.push_back(hierarchy.nodes.size());
     highest_ = std::max(highest_, std::size_t{detail::height(hierarchy)});
+    if (hit_by_ != HitBy::segments) return;
+    segments_.add(shape);
+    contours_.add(shape.outline);
   }
 
   bool query(const Agents& agents, Pair pair, std::uint32_t max_depth) const override {
@@ -142,7 +155,10 @@ class ContourHierarchies final : public Structure {
     Room room(highest_);
     return meet(agents, pair, max_depth, room, AddCounts{counts});
   }
-  std::size_t bytes(std::uint32_t shape) const override { return sizes_.at(shape) * sizeof(Node); }
+  std::size_t bytes(std::uint32_t shape) const override {
+    const std::size_t nodes = sizes_.at(shape) * sizeof(Node);
+    return hit_by_ == HitBy::segments ? nodes + segments_.bytes(shape) : nodes;
+  }
   std::uint32_t shape_count() const override { return static_cast<std::uint32_t>(roots_.size()); }
 
  private:
@@ -166,26 +182,38 @@ class ContourHierarchies final : public Structure {
     const FloatPlacement place = float_placement(agents, pair);
     const Node* const nodes = nodes_.data();
     const Visit start{roots.first, roots.second, max_depth, max_depth, placed(place, nodes[roots.second])};
-    return any_leaves_overlap(
-        nodes, start, place, room.open.data(), counts, [&](std::uint32_t a, std::uint32_t b) {
-          return !verifies_ || ancestors_overlap(nodes, roots, a, b, place, room.path.data(), counts);
-        });
+    const auto verified = [&](const Visit& at) {
+      return ancestors_overlap(nodes, roots, at.a, at.b, place, room.path.data(), counts);
+    };
+    const auto search = [&](auto accept) {
+      return any_leaves_overlap(nodes, start, place, room.open.data(), counts, accept);
+    };
+    if (hit_by_ == HitBy::descent) return search([](const Visit&) { return true; });
+    if (hit_by_ == HitBy::ancestors) return search(verified);
+    const double margin = segments_.margin(agents.shape[first], agents.shape[second]);
+    return search([&](const Visit& at) {
+             if (margin < 0 || at.left_a == 0 || at.left_b == 0) return verified(at);
+             const Meeting found = segments_.closest(place, margin, at.a, at.b, counts);
+             return found == Meeting::sure || (found == Meeting::near && verified(at));
+           }) ||
+           contours_.query(agents, pair, place);
   }
 
-  bool verifies_;
+  HitBy hit_by_;
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> roots_;  ///< per shape
   std::vector<std::size_t> sizes_;    ///< per shape: nodes
+  SegmentLists segments_;             ///< for HitBy::segments, as the contours
+  NestedContours contours_;
   std::size_t highest_ = 0;
 };
 
-std::unique_ptr<Structure> build(std::span<const Body> bodies, bool verifies) {
-  auto all = std::make_unique<ContourHierarchies>(verifies);
+std::unique_ptr<Structure> build(std::span<const Body> bodies, HitBy hit_by) {
+  auto all = std::make_unique<ContourHierarchies>(hit_by);
   for (std::size_t i = 0; i < bodies.size(); ++i) {
-    const Hierarchy& hierarchy = bodies[i].shape.hierarchy;
-    if (hierarchy.nodes.empty())
+    if (bodies[i].shape.hierarchy.nodes.empty())
       throw std::invalid_argument("body " + std::to_string(i) + ": a hierarchy without nodes");
-    all->add(hierarchy);
+    all->add(bodies[i].shape);
   }
   return all;
 }
@@ -193,11 +221,15 @@ std::unique_ptr<Structure> build(std::span<const Body> bodies, bool verifies) {
 }  // namespace
 
 std::unique_ptr<Structure> build_reference(std::span<const Body> bodies, const BuildOptions&) {
-  return build(bodies, true);
+  return build(bodies, HitBy::ancestors);
+}
+
+std::unique_ptr<Structure> build_reference_segments(std::span<const Body> bodies, const BuildOptions&) {
+  return build(bodies, HitBy::segments);
 }
 
 std::unique_ptr<Structure> build_paper_descent(std::span<const Body> bodies, const BuildOptions&) {
-  return build(bodies, false);
+  return build(bodies, HitBy::descent);
 }
 
 }  // namespace bch::baselines

@@ -18,6 +18,8 @@ namespace {
 
 constexpr Kind own_kinds[] = {
     {"reference", "cylinders over the outline, depth first", Truth::none, true, true, build_reference},
+    {"reference_segments", "the same with exact leaves, and outlines inside others", Truth::none, true, true,
+     build_reference_segments},
     {"paper_descent", "the same, whose hits nothing verifies", Truth::none, true, true, build_paper_descent},
     {"single", "one cylinder a pose", Truth::none, true, false, build_single},
     {"fixed", "one cylinder for all poses", Truth::none, false, false, build_fixed},

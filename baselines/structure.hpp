@@ -88,7 +88,8 @@ struct Kind {
 
 /// Returns every kind that this build has, in the order of reports:
 ///   reference        the paper's contour hierarchy and descent, scalar, whose hits are verified; whether outlines cross
-///   paper_descent    the same as the paper has it: the first leaf discs that it finds are the answer
+///   reference_segments  the same with exact leaves; also whether an outline contains the other: what collide() answers
+///   paper_descent    the first one as the paper has it: the first leaf discs that it finds are the answer
 ///   single           the root disc of each contour hierarchy
 ///   fixed            one disc for every pose, around the agent's position
 ///   bch_projected    hierarchy of discs over all triangles seen from above
@@ -97,8 +98,7 @@ struct Kind {
 ///   obb_contour_2d   rectangles instead of boxes over the outline's segments
 ///   obb_projected    boxes over all triangles seen from above
 ///   fcl_obb_full, fcl_obbrss_full, fcl_obb_contour, fcl_obb_segments, fcl_obbrss_contour
-///                    the Flexible Collision Library's trees over triangles, and over outlines as vertical
-///                    walls, or as one upright triangle a segment; only where the build found FCL
+///                    the Flexible Collision Library's trees over triangles, over outlines as walls, or as one upright triangle a segment
 std::span<const Kind> kinds();
 
 /// Returns the kind of a name. Errors: throws std::invalid_argument naming the kinds that there are.

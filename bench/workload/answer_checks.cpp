@@ -65,6 +65,8 @@ std::string wrong_structure(Scene& scene, const Workload& workload, const baseli
   std::string wrong;
   if (kind.name == "reference")
     wrong = compare(hits, scene.boundary(Leaves::discs, workload), "brute force", false);
+  if (kind.name == "reference_segments")
+    wrong = compare(hits, scene.expected(Leaves::segments, workload), "brute force", false);
   if (kind.name == "paper_descent") wrong = expect_no_miss("reference", "reference");
   const baselines::Kind* const peer = kind.exact == Truth::none ? nullptr : peer_of(kind);
   if (peer != nullptr && wrong.empty())

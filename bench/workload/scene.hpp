@@ -99,6 +99,7 @@ std::string wrong_answers(const baselines::Reference& reference, const Agents& a
 ///   mesh, projection       outlines or meshes that meet are seen by what projects them
 ///   never_misses_outlines  1 wherever the outlines meet
 ///   reference              the same bits as brute force over all discs, where outlines cross
+///   reference_segments     the same bits as brute force over all segments, and containment
 ///   paper_descent          1 wherever the reference says so
 /// An exact structure that went down to max_depth only must not miss anything that it sees at all depths.
 std::string wrong_structure(Scene& scene, const Workload& workload, const baselines::Kind& kind,

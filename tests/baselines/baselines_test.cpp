@@ -316,7 +316,7 @@ TEST_F(Depths, ExactHitsStayHitsAtEveryDepth) {
     EXPECT_EQ(hits(*structure, scene, 100), deepest) << kind.name;
     if (kind.name == "paper_descent") continue;  // what it hits depends on its way down
     // Boxes stick out of those above, so single answers may come back; numbers shrink.
-    const bool only_shrinks = kind.name == "reference" || kind.name == "bch_projected";
+    const bool only_shrinks = kind.name.starts_with("reference") || kind.name == "bch_projected";
     std::vector<std::uint8_t> before(deepest.size(), 1);
     for (const std::uint32_t depth : {0u, 1u, 2u, 3u, 4u, 6u, 8u, 12u}) {
       const auto at_depth = hits(*structure, scene, depth);
@@ -382,14 +382,14 @@ bool by_truth(Truth exact, bool mesh, bool outline, bool projection) {
 TEST(Kinds, HaveTheirNames) {
   std::set<std::string_view> names;
   for (const Kind& kind : baselines::kinds()) names.insert(kind.name);
-  for (const char* name : {"reference", "paper_descent", "single", "fixed", "bch_projected", "obb_full",
-                           "obb_contour", "obb_contour_2d", "obb_projected"})
+  for (const char* name : {"reference", "reference_segments", "paper_descent", "single", "fixed",
+                           "bch_projected", "obb_full", "obb_contour", "obb_contour_2d", "obb_projected"})
     EXPECT_TRUE(names.contains(name)) << name;
-  EXPECT_TRUE(names.size() == 9 || names.size() == 14) << names.size();
+  EXPECT_TRUE(names.size() == 10 || names.size() == 15) << names.size();
   EXPECT_EQ(&baselines::kind("obb_full"), &baselines::kind("obb_full"));
   EXPECT_TRUE(complaint([] {
                 baselines::kind("obb");
-              }).starts_with("no structure 'obb' (known: reference, paper_descent,"));
+              }).starts_with("no structure 'obb' (known: reference, reference_segments,"));
 }
 
 TEST(Kinds, AnswerInAnyOrderOneByOneAndCounted) {
@@ -500,7 +500,7 @@ TEST(BadInput, BodiesAreNamedWithWhatIsWrong) {
     EXPECT_EQ(build([](Body&) {}), "accepted");
     const std::string hierarchy = build([](Body& body) { body.shape.hierarchy.nodes.clear(); });
     const bool uses_hierarchy =
-        kind.name == "reference" || kind.name == "paper_descent" || kind.name == "single";
+        kind.name.starts_with("reference") || kind.name == "paper_descent" || kind.name == "single";
     EXPECT_EQ(hierarchy, uses_hierarchy ? "body 1: a hierarchy without nodes" : "accepted");
     const std::string outline = build([](Body& body) { body.shape.outline = {}; });
     EXPECT_EQ(outline, kind.exact == Truth::outline ? "body 1: outline: contour offsets do not fit 0 points"

@@ -89,6 +89,10 @@ class Answers {
         const bool exact_hit = exact.boundary(agents, scene.pairs[i], Method::depth_first);
         ASSERT_LE(exact_hit, hits[i] != 0) << "exact leaves add a collision";
         ASSERT_GE(exact_hit, crossing[i] != 0) << "exact leaves miss outlines that meet";
+        if (plan.depths[level] == all_depths) {
+          ASSERT_EQ(segments->query(agents, scene.pairs[i]),
+                    exact.solid(agents, scene.pairs[i], Method::depth_first));
+        }
         if (i % slow_share == 0) check_slowly(agents, scene.pairs[i], hits[i] == 1);
         refuted += hits[i] != met[i];
       }
@@ -107,7 +111,8 @@ class Answers {
   std::vector<Shape> shapes = shapes_of(bodies);
   ShapeSetPlan plan{all_levels()};
   std::unique_ptr<Structure> fast = baselines::kind("reference").build(bodies, {}),
-                             descent = baselines::kind("paper_descent").build(bodies, {}), outlines;
+                             descent = baselines::kind("paper_descent").build(bodies, {}),
+                             segments = baselines::kind("reference_segments").build(bodies, {}), outlines;
 
  private:
   void check_slowly(const Agents& agents, Pair pair, bool hit) const {

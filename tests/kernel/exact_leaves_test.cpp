@@ -3,6 +3,7 @@
 
 #include "baselines/oracle.hpp"
 #include "baselines/reference.hpp"
+#include "baselines/structure.hpp"
 #include "kernel/runtime/all_options.hpp"
 #include "kernel/runtime/tasks.hpp"
 #include "layout/base/rounding.hpp"
@@ -80,6 +81,36 @@ TEST_F(ExactLeaves, EqualBruteForceWhereOutlinesTouch) {
   const test::Questions questions =
       questions_about(random, set, touching_scene(random, shapes, test::samples(20'000)));
   expect_answers(set, questions, test::BruteForce(shapes, {}).answers(set, questions), "touching");
+}
+
+/// What the kernel's speed is measured against answers as it does: at random, where outlines touch, and inside each other.
+TEST_F(ExactLeaves, EqualTheScalarDescent) {
+  std::vector<baselines::Body> bodies;
+  for (const Shape& shape : shapes) bodies.push_back({{}, {}, shape});
+  const auto descent = baselines::kind("reference_segments").build(bodies, {});
+  Scene scenes[] = {touching_scene(random, shapes, test::samples(50'000)), {}};
+  test::PairScene anywhere = random_scene(random, set, test::samples(50'000));
+  scenes[1].crowd = std::move(anywhere.crowd), scenes[1].pairs = std::move(anywhere.pairs);
+  std::size_t hit = 0, nested = 0, asked = 0;
+  for (Scene& scene : scenes) {
+    scene.crowd.level.clear();
+    const Agents agents = scene.crowd.agents();
+    const auto expected = answers(set, agents, scene.pairs);
+    std::vector<std::uint8_t> hits(scene.pairs.size(), 77);
+    descent->query(agents, scene.pairs, hits);
+    for (std::size_t i = 0; i < hits.size(); ++i) {
+      ASSERT_EQ(hits[i], expected[i]) << "pair " << i;
+      if (!hits[i]) continue;
+      const Oracle exact = oracle(shapes, agents, scene.pairs[i]);
+      nested += !exact.cross() && exact.nested();
+    }
+    hit += static_cast<std::size_t>(std::count(hits.begin(), hits.end(), 1));
+    asked += hits.size();
+  }
+  std::printf("%zu pairs, %zu hits, %zu of them inside the other\n", asked, hit, nested);
+  EXPECT_GT(hit, asked / 10);
+  EXPECT_LT(hit, asked * 9 / 10);
+  EXPECT_GT(nested, asked / 1000);
 }
 
 /// Where segments meet, so do leaf discs and all discs above them.
