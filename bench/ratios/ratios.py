@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 the bch authors
 
-"""Runs bch_ratios and prints its times, their ratios and the project's goals for them, table by table. The rows of a table come from one
-run, whose repetitions take turns, so ratios hold on a busy machine, too.
+"""Runs bch_ratios and prints its times and their ratios, table by table. The rows of a table come from one run, whose repetitions take turns,
+so ratios hold on a busy machine, too. Goals stand in bench/README.md.
 
 Examples: bench/ratios/ratios.py --table kernel --table leaves
           bench/ratios/ratios.py --table crowd --runs 3 -- --agents=2000
@@ -20,55 +20,49 @@ import statistics
 import subprocess
 import sys
 
-# A line: the table | a value, or two of which the ratio counts | the goal, and what else to know. A value is the time of a benchmark in ns an
+# A line: the table | a value, or two of which the ratio counts | what else to know. A value is the time of a benchmark in ns an
 # item, or NAME#COUNTER. {a,b} stands for each of these, {1} for what the line's first braces stand for, *
-# for anything, the same on both sides, ISA for each instruction set that is wider than one lane, BEST for the widest that runs here. Three goals
-# are those with AVX-512, AVX2 and SSE2.
-GOALS = """
-kernel | collide/colliding/reference / collide/colliding/discs/ISA | >= 24 15 10, aim 50 with AVX-512
-kernel | collide/{near_miss,no_hit}/reference / collide/{1}/discs/ISA | >= 10 7 5, aim 20 with AVX-512
-kernel | collide/crowd/reference / collide/crowd/discs/ISA | >= 16 11 8, aim 30 with AVX-512
-leaves | collide/{crowd,colliding,near_miss,no_hit}/segments/ISA / collide/{1}/discs/ISA | <= 1.3, aim 1.1
-peers | collide/colliding/fcl_obb_contour / collide/colliding/discs/BEST | >= 200
+# for anything, the same on both sides, ISA for each instruction set that is wider than one lane, BEST for the widest that runs here.
+TABLES = """
+kernel | collide/{colliding,near_miss,no_hit,crowd}/reference_segments / collide/{1}/segments/ISA |
+kernel | collide/{colliding,near_miss,no_hit,crowd}/reference / collide/{1}/discs/ISA |
+leaves | collide/{crowd,colliding,near_miss,no_hit}/segments/ISA / collide/{1}/discs/ISA |
+peers | collide/colliding/fcl_obb_contour / collide/colliding/discs/BEST |
 peers | collide/colliding/fcl_obb_segments / collide/colliding/discs/BEST | one triangle a segment
-peers | collide/colliding/obb_contour_2d / collide/colliding/discs/BEST | >= 40
-calls | threads/1 / threads/2 | >= 1.9
-calls | batches/16 / batches/512 | <= 1.6
-crowd | crowd/1000000/step | <= 120, aim 50
-crowd | crowd/1000000/step / crowd/10000/step | <= 1.3
-crowd | crowd/1000000/step#MiB | <= 1024
+peers | collide/colliding/obb_contour_2d / collide/colliding/discs/BEST |
+calls | threads/1 / threads/2 |
+calls | batches/16 / batches/512 |
+crowd | crowd/1000000/step |
+crowd | crowd/1000000/step / crowd/10000/step |
+crowd | crowd/1000000/step#MiB |
 crowd | crowd/1000000/pairs |
-distances | clearance/crowd/BEST / collide/crowd/discs/BEST | <= 6
-distances | clearance/candidates/BEST / collide/candidates/discs/BEST | <= 8
+distances | clearance/crowd/BEST / collide/crowd/discs/BEST |
+distances | clearance/candidates/BEST / collide/candidates/discs/BEST |
 distances | exact_clearance/crowd/BEST / collide/crowd/discs/BEST |
-distances | within/crowd/BEST / collide/crowd/discs/BEST | <= 1.3
-distances | time_of_impact/crowd/BEST / collide/crowd/discs/BEST | <= 4
-distances | clearance/near_miss/reference / clearance/near_miss/BEST | >= 12
+distances | within/crowd/BEST / collide/crowd/discs/BEST |
+distances | time_of_impact/crowd/BEST / collide/crowd/discs/BEST |
+distances | clearance/near_miss/reference / clearance/near_miss/BEST |
 distances | within/near_miss/reference / within/near_miss/BEST |
-distances | time_of_impact/near_miss/reference / time_of_impact/near_miss/BEST | >= 10
+distances | time_of_impact/near_miss/reference / time_of_impact/near_miss/BEST |
 distances | {clearance,within,time_of_impact}/near_miss/{avx512,avx2,sse2,scalar} |
-distances | clearance/near_miss/fcl_walls / clearance/near_miss/BEST | >= 150
+distances | clearance/near_miss/fcl_walls / clearance/near_miss/BEST |
 distances | clearance/near_miss/fcl_walls / exact_clearance/near_miss/BEST |
 distances | clearance/near_miss/fcl_segments / {clearance,exact_clearance}/near_miss/BEST |
 responses | {contacts,penetration,collisions}/crowd/BEST / collide/crowd/discs/BEST |
 responses | {contacts,penetration}/crowd/reference / {1}/crowd/BEST | brute force
-obstacles | obstacles/collide | <= 60
-obstacles | obstacles/{clearance,clearance_unlimited} | <= 200
-obstacles | obstacles/clearance_exact |
-obstacles | obstacles/loop / obstacles/collide | >= 500
-bodies | bodies/contacts | <= 10000
-bodies | bodies/loop / bodies/contacts | >= 20
-shapes | shapes/5000 / shapes/200 | <= 1.8
-shapes | shapes/50000 / shapes/200 | <= 3
+obstacles | obstacles/{collide,clearance,clearance_exact,clearance_unlimited} |
+obstacles | obstacles/loop / obstacles/collide |
+bodies | bodies/contacts |
+bodies | bodies/loop / bodies/contacts |
+shapes | shapes/5000 / shapes/200 |
+shapes | shapes/50000 / shapes/200 |
+plans | plans/{single_cylinder,depth_3,depth_6,mixed,all_discs,one_frame}/query / plans/all/query |
 plans | plans/{single_cylinder,depth_3,depth_6,all,mixed,all_discs,one_frame}/{bake,query} |
-spheres | spheres/128/crowd/avx2 / collide/crowd/segments/avx2 | <= 1.1
-spheres | spheres/256/crowd/avx2 / collide/crowd/segments/avx2 | <= 1.4
-spheres | spheres/512/crowd/avx2 / collide/crowd/segments/avx2 | <= 2.1
-spheres | spheres_clearance/256/crowd/avx2 / clearance/crowd/avx2 | <= 1.8
-spheres | spheres_clearance/512/crowd/avx2 / clearance/crowd/avx2 | <= 2.5
+spheres | spheres/{128,256,512}/crowd/avx2 / collide/crowd/segments/avx2 |
+spheres | spheres_clearance/{256,512}/crowd/avx2 / clearance/crowd/avx2 |
 construction | construction/*/ISA/{skin,outline,hierarchy,levels,interior} |
-construction | construction/*/ISA/{pose,all} | <= 45000 45000 90000
-construction | construction/*/clipper / construction/*/BEST/outline | >= 1000
+construction | construction/*/ISA/{pose,all} |
+construction | construction/*/clipper / construction/*/BEST/outline |
 load | load/{map,read} |
 paper | collide/{paper500,paper500_cached,colliding}/discs/BEST / collide/{1}/reference |
 paper | collide/{paper500,paper500_cached,colliding}/obb_contour / collide/{1}/reference | 4630 ns / 2660 ns = 1.7 in the paper
@@ -76,7 +70,6 @@ paper | collide/{paper500,paper500_cached,colliding}/obb_projected / collide/{1}
 paper | collide/{paper500,paper500_cached,colliding}/{obb_contour_2d,fcl_obb_contour,fcl_obb_segments} / collide/{1}/reference |
 """
 ISAS = ("avx512", "avx2", "sse2")
-MOST_PAIRED = 1.03  # of a build over another one
 NO_COUNTERS = set(
     "name family_index per_family_instance_index run_name run_type repetitions repetition_index threads iterations".split()
     + "real_time cpu_time time_unit per_item".split()
@@ -84,9 +77,9 @@ NO_COUNTERS = set(
 
 
 def rows_of(table):
-    """The lines of a table: values and goal."""
-    lines = [[field.strip() for field in line.split("|")] for line in GOALS.strip().splitlines()]
-    return [(values, goal) for name, values, goal in lines if name == table]
+    """The lines of a table: values and note."""
+    lines = [[field.strip() for field in line.split("|")] for line in TABLES.strip().splitlines()]
+    return [(values, note) for name, values, note in lines if name == table]
 
 
 def benchmark_of(value):
@@ -104,7 +97,7 @@ def expand_names(values, names):
 
 
 def expand(values, names):
-    """All values that a line stands for, and their instruction set."""
+    """All values that a line stands for."""
     groups = re.findall(r"\{([^}]*,[^}]*)\}", values)
     for choice in itertools.product(*(group.split(",") for group in groups)):
         chosen = iter(choice)
@@ -112,22 +105,22 @@ def expand(values, names):
         text = re.sub(r"\{(\d)\}", lambda match: choice[int(match[1]) - 1], text)
         for isa in ISAS if "ISA" in text else [*ISAS, "scalar"] if "BEST" in text else [""]:
             found = list(expand_names(text.replace("ISA", isa).replace("BEST", isa), names))
-            yield from ((each, isa) for each in found)
+            yield from found
             if found and "BEST" in text:
                 break
 
 
 def benchmarks_of(table, names):
     """The benchmarks that a table needs, in its order."""
-    used = [benchmark_of(value) for values, _ in rows_of(table) for each, _ in expand(values, names) for value in each]
+    used = [benchmark_of(value) for values, _ in rows_of(table) for each in expand(values, names) for value in each]
     return list(dict.fromkeys(used))
 
 
 class Results:
     """What benchmarks took in seconds an item, repetition by repetition, and what they counted."""
 
-    def __init__(self, documents):
-        self.taken, self.counters = {}, {}
+    def __init__(self, documents, typical):
+        self.typical, self.taken, self.counters = typical, {}, {}
         for run in (run for document in documents for run in document["benchmarks"] if run["run_type"] == "iteration"):
             name = run["run_name"].removesuffix("/real_time")
             if run.get("error_occurred"):
@@ -135,8 +128,8 @@ class Results:
             self.taken.setdefault(name, []).append(run["per_item"])
             self.counters[name] = {key: value for key, value in run.items() if key not in NO_COUNTERS}
 
-    def time(self, name, typical=statistics.median):
-        return 1e9 * typical(self.taken[name])
+    def time(self, name):
+        return 1e9 * self.typical(self.taken[name])
 
     def value(self, value):
         name = benchmark_of(value)
@@ -147,19 +140,6 @@ class Results:
 
 def text_of(number):
     return f"{number:.2f}" if number < 10 else f"{number:.1f}" if number < 1000 else f"{number:,.0f}".replace(",", " ")
-
-
-def judge(value, goal, isa):
-    """Returns: whether the goal is met, and what to say of it."""
-    match = re.match(r"([<>]=) ([\d. ]+)(.*)", goal)
-    if not match:
-        return True, goal
-    bounds = match[2].split()
-    bound = float(bounds[ISAS.index(isa) if len(bounds) > 1 else 0])
-    over = value / bound - 1
-    if match[1] == ">=":
-        return over >= 0, (f"PASS (needs {bound:g})" if over >= 0 else f"needs {bound:g}: {-100 * over:.0f} % short") + match[3]
-    return over <= 0, (f"PASS (at most {bound:g})" if over <= 0 else f"at most {bound:g}: {100 * over:.0f} % over") + match[3]
 
 
 def print_times(names, results):
@@ -190,37 +170,30 @@ def label_of(each):
 
 
 def print_table(table, results):
-    """Prints times, then goals. Returns: whether all are met."""
+    """Prints times, then ratios."""
     names = set(results.taken)
     print_times(benchmarks_of(table, names), results)
-    all_met = True
-    for values, goal in rows_of(table):
+    for values, note in rows_of(table):
         rows = list(expand(values, names))
         if not rows:
             print(f"  {values}: not in this build")
-        for each, isa in rows:
-            if len(each) == 1 and not goal and "#" not in each[0]:
+        for each in rows:
+            if len(each) == 1 and "#" not in each[0]:
                 continue  # a time that stands above
             value = results.value(each[0]) / (results.value(each[1]) if len(each) > 1 else 1)
-            unit = "x" if len(each) > 1 else "" if "#" in each[0] else "ns"
-            met, said = judge(value, goal, isa)
-            all_met = all_met and met
-            print(f"  {label_of(each):70} {text_of(value):>8} {unit:2}  {said}".rstrip())
-    return all_met
+            print(f"  {label_of(each):70} {text_of(value):>8} {'x' if len(each) > 1 else '':2}  {note}".rstrip())
 
 
-def print_paired(names, ours, theirs, typical):
-    """Prints both times and their ratio. Returns: whether the mean ratio is allowed."""
+def print_paired(names, ours, theirs):
+    """Prints both times and their ratio."""
     ratios = []
     for name in (name for name in names if name in theirs.taken):
-        own, other = ours.time(name, typical), theirs.time(name, typical)
+        own, other = ours.time(name), theirs.time(name)
         ratios.append(own / other)
         print(f"  {name:70} {text_of(own):>9} / {text_of(other):>9} ns {ratios[-1]:6.3f} x")
     if not ratios:
         raise SystemExit("the other program has no benchmark of these names")
-    mean = statistics.geometric_mean(ratios)
-    print(f"  mean {mean:.3f} x   {judge(mean, f'<= {MOST_PAIRED}', '')[1]}")
-    return mean <= MOST_PAIRED
+    print(f"  mean {statistics.geometric_mean(ratios):.3f} x")
 
 
 def list_benchmarks(program, options):
@@ -249,7 +222,7 @@ def run(program, names, options, repetitions):
 
 
 def run_table(table, arguments):
-    """Runs a table's benchmarks and prints it. Returns: whether all goals are met."""
+    """Runs a table's benchmarks and prints it."""
     names = benchmarks_of(table, list_benchmarks(arguments.program, arguments.options))
     if arguments.against:
         programs, documents = [arguments.program, arguments.against], ([], [])
@@ -259,32 +232,32 @@ def run_table(table, arguments):
     else:
         documents = ([run(arguments.program, names, arguments.options, arguments.runs)],)
     print(f"# {table}: {arguments.runs} runs, load {os.getloadavg()[0]:.1f}", flush=True)
-    results = [Results(each) for each in documents]
-    return print_paired(names, *results, arguments.typical) if arguments.against else print_table(table, results[0])
+    results = [Results(each, arguments.typical) for each in documents]
+    if arguments.against:
+        print_paired(names, *results)
+    else:
+        print_table(table, results[0])
 
 
 def main():
     root = pathlib.Path(__file__).resolve().parents[2]
-    all_tables = list(dict.fromkeys(line.split()[0] for line in GOALS.strip().splitlines()))
+    all_tables = list(dict.fromkeys(line.split()[0] for line in TABLES.strip().splitlines()))
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--table", nargs="+", action="extend", choices=all_tables, metavar="NAME", help=f"of {', '.join(all_tables)} [all]")
     parser.add_argument("--program", default=str(root / "build/release/bch_ratios"), help="[build/release/bch_ratios]")
     parser.add_argument("--runs", type=int, default=9, help="how often each benchmark is timed; its time is the median [9]")
     parser.add_argument("--against", metavar="PROGRAM", help="another build, run in turns with the program: prints the ratios of both builds' times")
-    parser.add_argument("--min", dest="typical", action="store_const", const=min, default=statistics.median, help="with --against: the least time")
+    parser.add_argument("--min", dest="typical", action="store_const", const=min, default=statistics.median, help="the least time, not the median")
     parser.add_argument("--json", metavar="FILE", type=argparse.FileType(), help="read what --benchmark_format=json wrote instead of running")
-    parser.add_argument("--strict", action="store_true", help="exit code 1 where a goal is missed")
     parser.add_argument("options", nargs="*", help="options of the program, after --")
     arguments = parser.parse_args()
-    results = Results([json.load(arguments.json)]) if arguments.json else None
-    all_met = True
+    results = Results([json.load(arguments.json)], arguments.typical) if arguments.json else None
     for table in arguments.table or all_tables:
         if results is None:
-            all_met = run_table(table, arguments) and all_met
+            run_table(table, arguments)
         elif benchmarks_of(table, set(results.taken)):
             print(f"# {table}")
-            all_met = print_table(table, results) and all_met
-    sys.exit(arguments.strict and not all_met)
+            print_table(table, results)
 
 
 if __name__ == "__main__":
