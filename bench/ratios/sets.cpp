@@ -64,7 +64,7 @@ std::function<std::uint32_t(double)> always(std::uint32_t depth) {
 
 /// Who looks stands in the middle of the crowd, 58 m wide.
 std::uint32_t by_distance(double metres) {
-  return metres < 5 ? all_depths : metres < 10 ? 6 : metres < 20 ? 3 : 0;
+  return metres < 20 ? all_depths : 0;
 }
 
 /// The scene's crowd, and its shapes and levels as a plan for it has them.

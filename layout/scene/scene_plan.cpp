@@ -85,9 +85,7 @@ std::vector<std::uint32_t> different(std::vector<std::uint32_t> depths) {
 }  // namespace
 
 std::uint32_t depth_at_density(double people_per_square_metre) {
-  if (people_per_square_metre < 1.1) return 0;
-  if (people_per_square_metre < 2.3) return 3;
-  return people_per_square_metre < 3.0 ? 6 : all_depths;
+  return people_per_square_metre < 1.1 ? 0 : all_depths;
 }
 
 ScenePlan plan_scene(std::span<const ScenePlan::Agent> agents, const SceneUse& use) {

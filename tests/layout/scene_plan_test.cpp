@@ -55,12 +55,12 @@ TEST(ScenePlan, DepthFollowsTheDensity) {
   std::vector<ScenePlan::Agent> agents;
   for (const double density : {0.5, 1.2, 2.7, 5.0}) agents.push_back({{0, {}}, 7, density});
   const ScenePlan plan = plan_scene(agents, {.density_depth = depth_at_density});
-  EXPECT_EQ(plan.set.depths, (std::vector<std::uint32_t>{0, 3, 6, all_depths}));
-  EXPECT_EQ(plan.agent_level, (std::vector<std::uint8_t>{0, 1, 2, 3}));
+  EXPECT_EQ(plan.set.depths, (std::vector<std::uint32_t>{0, all_depths}));
+  EXPECT_EQ(plan.agent_level, (std::vector<std::uint8_t>{0, 1, 1, 1}));
   // The coarser of both: 6 at seven metres.
   const ScenePlan both = plan_scene(agents, {.depth = depth_at, .density_depth = depth_at_density});
-  EXPECT_EQ(both.set.depths, (std::vector<std::uint32_t>{0, 3, 6}));
-  EXPECT_EQ(both.agent_level, (std::vector<std::uint8_t>{0, 1, 2, 2}));
+  EXPECT_EQ(both.set.depths, (std::vector<std::uint32_t>{0, 6}));
+  EXPECT_EQ(both.agent_level, (std::vector<std::uint8_t>{0, 1, 1, 1}));
   for (const double wrong : {-0.5, std::numeric_limits<double>::infinity(), static_cast<double>(nan)}) {
     agents[1].density = wrong;
     EXPECT_THROW(plan_scene(agents), std::invalid_argument) << wrong;

@@ -88,8 +88,9 @@ def depth_at_density(people_per_square_metre: float) -> int: ...
 @overload
 def depth_at_density(people_per_square_metre: Float64) -> UInt32: ...
 def depth_at_density(people_per_square_metre: Union[float, Float64]) -> Union[int, UInt32]:
-    """Return the coarsest depth of the disc trees whose false collisions stop a walking person at most once a second at a density.
+    """Return the depth of the disc trees at a density.
 
+    It is 0 where false collisions of single cylinders stop a walking person at most once a second, else ALL_DEPTHS.
     Densities are in people per square metre; for an array, one depth per entry.
     """
     if isinstance(people_per_square_metre, np.ndarray):

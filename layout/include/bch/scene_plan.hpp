@@ -54,8 +54,8 @@ struct ScenePlan {
   std::vector<std::uint8_t> agent_level;   ///< one per agent: Agents::level
 };
 
-/// Returns the coarsest cut depth whose false collisions stop a walking person at most once a second at a density, or
-/// all_depths if no depth does. It was measured (`bch_lab report --experiment detail`).
+/// Returns 0, the single cylinder, at a density at which its false collisions stop a walking person at most once a second, else
+/// all_depths. Depths between save memory, but little time. It was measured (`bch_lab report --experiment detail`).
 std::uint32_t depth_at_density(double people_per_square_metre);
 
 /// Plans which shapes a scene needs, each once, at which depths and with which further data.

@@ -36,7 +36,7 @@ People two_streams(std::uint32_t count, std::uint32_t shapes) {
     people.x.push_back(uniform(20)), people.y.push_back(0.5 + uniform(5));
     people.heading.push_back(i % 2 == 0 ? 0 : 3.14159265);
   }
-  people.level.assign(count, 2);
+  people.level.assign(count, 1);
   return people;
 }
 
@@ -61,8 +61,7 @@ void part(People& people, bch::Crowd& crowd, const bch::ShapeSet& bodies, const 
 int main() {
   // [bodies]
   const bch::Character characters[] = {bch::default_male(), bch::default_female()};
-  const bch::ShapeSet bodies =
-      bch::bake(characters, {.poses = 50, .plan = {.depths = {0, 3, bch::all_depths}}});
+  const bch::ShapeSet bodies = bch::bake(characters, {.poses = 50, .plan = {.depths = {0, bch::all_depths}}});
   // [bodies]
   People people = two_streams(60, bodies.shape_count());
 
@@ -79,7 +78,7 @@ int main() {
   // [walls]
 
   // [levels]
-  for (std::size_t i = 0; i < people.x.size(); ++i) people.level[i] = people.x[i] < 10 ? 2 : 1;
+  for (std::size_t i = 0; i < people.x.size(); ++i) people.level[i] = people.x[i] < 10 ? 1 : 0;
   // [levels]
 
   for (int step = 0; step < 200; ++step) {

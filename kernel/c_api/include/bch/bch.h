@@ -1115,7 +1115,7 @@ BCH_API bch_status bch_free_until(const bch_motion* motion, const bch_motion* ot
 /** Measures the density around each agent in people per square metre: the agents within a radius, over the area of that circle. */
 BCH_API bch_status bch_local_densities(const double* x, const double* y, size_t count, double radius,
                                        double* densities);
-/** Finds the coarsest cut depth whose false collisions stop a walking person at most once a second at a density. */
+/** Finds the cut depth at a density: 0 where single cylinders stop a walker falsely at most once a second, else BCH_ALL_DEPTHS. */
 BCH_API bch_status bch_depth_at_density(double people_per_square_metre, uint32_t* depth);
 
 /** Describes the agents of a scene to plan, with one entry per agent in each array. */
