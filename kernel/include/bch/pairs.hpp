@@ -223,12 +223,13 @@ void penetration(const BodySet& bodies, const Agents& agents, std::span<const Pa
                  std::uint32_t directions, std::span<Penetration> out,
                  const Implementation* implementation = nullptr);
 
-/// Measures how far the first agent of each pair has to move on the ground, along the best of `directions` evenly
-/// spread directions, to separate from the second: until no segments of the two outlines meet or, where collide() tests
-/// discs, no discs of the cuts overlap. The agents may remain interlocked: no line need separate them. So the depth is
-/// at most that of penetration(), up to rounding. collide() answers 0 afterwards; where it answers 0 before, the depth
-/// is 0. It grows from 0 at contact, and may jump where a gap opens or closes. Sizes, symmetry, directions and errors are those of
-/// penetration(), and of collide() for leaves; the bits are the same on every processor.
+/// Measures how far the first agent of each pair has to move on the ground, along the best of `directions`
+/// evenly spread directions, to separate from the second: until no segments of the two outlines meet or,
+/// where collide() tests discs, no discs of the cuts overlap. The agents may remain interlocked: no line need
+/// separate them. So the depth is at most that of penetration(), up to rounding. collide() answers 0
+/// afterwards; where it answers 0 before, the depth is 0. It grows from 0 at contact, and may jump where a
+/// gap opens or closes. Sizes, symmetry, directions and errors are those of penetration(), and of collide()
+/// for leaves; the bits are the same on every processor.
 /// Memory:  allocates in every call. Threads: runs in the caller's TBB arena.
 void nearest_free(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                   std::uint32_t directions, std::span<Penetration> out, const CollideOptions& options = {});
