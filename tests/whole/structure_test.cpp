@@ -243,6 +243,22 @@ TEST(PublicSurface, IsWhatIsWrittenDown) {
   EXPECT_LE(names.size(), 150u);
 }
 
+/// What is longer is in a chapter, such as kernel/accuracy.md.
+TEST(PublicSurface, HasShortCommentsAndNarrowLines) {
+  for (const auto& [name, text] : public_headers({layout_headers, kernel_headers, mpi_headers})) {
+    std::istringstream lines(text);
+    std::size_t number = 0, of_comment = 0;
+    for (std::string line; std::getline(lines, line);) {
+      ++number;
+      const std::size_t first = line.find_first_not_of(' ');
+      of_comment = first != line.npos && line.compare(first, 2, "//") == 0 ? of_comment + 1 : 0;
+      EXPECT_LE(line.size(), 110u) << name << ":" << number;
+      EXPECT_LE(of_comment, 8u) << name << ":" << number;
+    }
+    EXPECT_GT(number, 20u) << name;
+  }
+}
+
 TEST(PublicSurface, NeedsTheStandardLibraryAlone) {
   std::size_t found = 0;
   const std::regex allowed("[a-z_]+|(layout|kernel)/include/bch/[a-z_]+\\.hpp");

@@ -28,12 +28,13 @@ struct CrowdOptions {
   };
 
   Period period = {};
-  /// Limits the candidates of a call, which throws std::length_error beyond: n agents at one place are n^2 / 2 pairs.
+  /// Limits the candidates of a call, which throws std::length_error beyond: n agents at one place are n^2 /
+  /// 2 pairs.
   std::size_t max_pairs = std::numeric_limits<std::size_t>::max();
 };
 
-/// Selects the pairs of a crowd that queries are about, as physics engines do. Two agents are a pair if each one's mask has a bit
-/// of the other's category.
+/// Selects the pairs of a crowd that queries are about, as physics engines do.
+/// Two agents are a pair if each one's mask has a bit of the other's category.
 /// Sizes:   as many categories and masks as agents, or none: then category 1, and a mask of all bits.
 struct PairFilter {
   std::span<const std::uint32_t> category = {};
@@ -45,16 +46,10 @@ struct PairFilter {
 ///
 ///     bch::Crowd crowd;
 ///     for (const auto [a, b] : crowd.collisions(shapes, {shape, x, y, heading})) ...
-/// Order:   pairs come in the order of a grid over the agents, row by row, not of indices, so agents of neighbouring pairs are mostly in
-///          cache. Answers and their order are the same for any number of threads and every implementation.
-/// Period:  agents meet across periodic boundaries; positions count modulo the period. A period has to exceed 4 R + 2 m, where R is the
-///          farthest reach of a body and m the margin. Obstacles do not repeat: let walls extend beyond the borders by the reach of a
-///          body.
-/// Memory:  answers are valid until the next call. The object keeps its memory, about 72 bytes an agent and 24 a candidate beside
-///          the answers; a call like an earlier one allocates nothing.
-/// Errors:  throws std::invalid_argument like validate(shapes, agents), and on options out of range. The last answer is then lost.
-/// Threads: runs in the caller's TBB arena; one call at a time. Unlike other queries, calls are isolated: while a
-///          thread waits in one, it runs no other tasks. So one Crowd per TBB thread is enough.
+/// Memory:  answers are valid until the next call; the object keeps its memory, so create it once.
+/// Errors:  throws std::invalid_argument like validate(shapes, agents), and on options out of range.
+/// Threads: runs in the caller's TBB arena; one call at a time. One Crowd per TBB thread is enough.
+/// See:     "Crowds" in kernel/accuracy.md, for the order of pairs, periods and memory.
 class Crowd {
  public:
   /// Names an agent of a pair as seen from the other.
@@ -64,7 +59,8 @@ class Crowd {
     friend bool operator==(const Neighbour&, const Neighbour&) = default;
   };
 
-  /// Views the pairs of an answer, each once, with first < second. It is valid until the next call of the Crowd.
+  /// Views the pairs of an answer, each once, with first < second.
+  /// It is valid until the next call of the Crowd.
   class Pairs {
    public:
     Pairs() = default;
@@ -76,7 +72,8 @@ class Crowd {
     const Pair& operator[](std::size_t i) const noexcept { return pairs_[i]; }
     std::span<const Pair> span() const noexcept { return pairs_; }
 
-    /// Returns the same pairs by agent: one row per agent of the crowd, ascending by neighbour. Rows are made at the first call.
+    /// Returns the same pairs by agent: one row per agent of the crowd, ascending by neighbour.
+    /// Rows are made at the first call.
     /// Errors:  throws std::length_error beyond 2^32 - 1 pairs.
     Rows<Neighbour> by_agent() const;
 
@@ -98,12 +95,13 @@ class Crowd {
     Rows<DiscPair> contacts;  ///< one row per pair, none empty
   };
 
-  /// Represents an overlap of two spheres, in space. The normal leads from the first agent's sphere to the second's; where centres coincide
-  /// it is (1, 0, 0). Moving the second agent by depth * normal separates the two spheres.
+  /// Represents an overlap of two spheres in space.
+  /// The normal leads from the first agent's sphere to the second's; where centres coincide it is (1, 0, 0).
+  /// Moving the second agent by depth * normal separates the two spheres.
   struct SphereContact {
     DiscPair spheres;  ///< their numbers, as in BodySet::spheres()
-    Vec3
-        point;  ///< of the first sphere, the deepest in the second; relative to the first agent's position, metres
+    /// The point of the first sphere that is deepest in the second, from the first agent's position, metres.
+    Vec3 point;
     Vec3 normal;
     float depth;  ///< metres
     friend bool operator==(const SphereContact&, const SphereContact&) = default;
@@ -114,7 +112,8 @@ class Crowd {
     Rows<SphereContact> contacts;  ///< one row per pair, none empty
   };
 
-  /// Holds the pairs that are near each other. Arrays have one value per pair; their meaning is that of ClearanceAnswers.
+  /// Holds the pairs that are near each other. Arrays have one value per pair; their meaning is that of
+  /// ClearanceAnswers.
   struct Clearances {
     Pairs pairs;
     std::span<const float> distance;
@@ -122,14 +121,15 @@ class Crowd {
     std::span<const DiscPair> discs;
     std::span<const NearestPoints> points;
 
-    /// Returns for each agent the nearest others, at most so many, the nearest first; of equal distances the lower agent first. With
-    /// Overlap::deepest the deepest overlap is the nearest. Crowd models such as ORCA take these as neighbours. The order is that of the
-    /// distances of clearances(), not of the agents' centres.
+    /// Returns the nearest others of each agent, at most `most`, in the order of clearances().
+    /// Of equal distances the lower agent comes first. With Overlap::deepest the deepest overlap is the
+    /// nearest. Crowd models such as ORCA take these as neighbours.
     /// Errors:  throws std::length_error beyond 2^32 - 1 pairs.
     Rows<Neighbour> nearest(std::uint32_t most) const { return pairs.nearest(distance, most); }
   };
 
-  /// Holds the bodies of spheres that are near each other. The meaning of arrays is that of BodyClearanceAnswers.
+  /// Holds the bodies of spheres that are near each other. The meaning of arrays is that of
+  /// BodyClearanceAnswers.
   struct BodyClearances {
     Pairs pairs;
     std::span<const float> distance;
@@ -141,7 +141,7 @@ class Crowd {
     Rows<Neighbour> nearest(std::uint32_t most) const { return pairs.nearest(distance, most); }
   };
 
-  /// Holds the pairs that collide, and how far the first agent of each has to move to separate from the second.
+  /// Holds the pairs that collide, and for each the move of its first agent that separates the two.
   struct Penetrations {
     Pairs pairs;
     std::span<const Penetration> penetrations;  ///< one per pair
@@ -154,8 +154,8 @@ class Crowd {
     double gap = 0.001;             ///< metres, clearance to leave between separated agents
     double largest_step = 0.05;     ///< metres, limit of an agent's move in a sweep
     double largest_shift = std::numeric_limits<double>::infinity();  ///< metres, limit of its total move
-    /// Weights the moves of agents, from 0 (fixed) to 1. Of two agents, the one with half the mobility moves half as
-    /// far.
+    /// Weights the moves of agents, from 0 (fixed) to 1. Of two agents, the one with half the mobility moves
+    /// half as far.
     std::span<const double> mobility = {};   ///< none: 1 each
     const ObstacleSet* obstacles = nullptr;  ///< walls that bodies must not touch, either
     const Implementation* implementation = nullptr;
@@ -175,10 +175,10 @@ class Crowd {
   Crowd& operator=(Crowd&&) noexcept;
   ~Crowd();
 
-  /// Finds the pairs whose root discs, at the agents' levels, overlap or come within a margin of each other. They contain every pair
-  /// that collides, and every pair with a clearance of at most the margin. For time_of_impact() the margin has to be twice the longest
-  /// displacement of an agent. Root discs of a returned pair may be farther apart than the margin, by a few millionths of the margin, of
-  /// their radii and of their shapes' reaches.
+  /// Finds the pairs whose root discs, at the agents' levels, come within a margin of each other.
+  /// They contain every pair that collides, and every pair with a clearance of at most the margin. For
+  /// time_of_impact() the margin has to be twice the longest displacement of an agent. Root discs may be
+  /// farther apart by a few millionths of the margin, of their radii and of their shapes' reaches.
   /// Units:   the margin is metres, from 0 to 2e9.
   Pairs candidates(const ShapeSet& shapes, const Agents& agents, double margin = 0,
                    const PairFilter& filter = {}) &;
@@ -187,35 +187,31 @@ class Crowd {
   Pairs collisions(const ShapeSet& shapes, const Agents& agents, const CollideOptions& options = {},
                    const PairFilter& filter = {}) &;
 
-  // Queries of bodies of spheres answer as those of shapes do. Candidates are pairs whose discs, as seen from above, and whose heights come
-  // within the margin of each other.
+  // Queries of bodies of spheres answer as those of shapes do. Candidates are pairs whose discs, as seen from
+  // above, and whose heights come within the margin of each other.
   Pairs candidates(const BodySet& bodies, const Agents& agents, double margin = 0,
                    const PairFilter& filter = {}) &;
   Pairs collisions(const BodySet& bodies, const Agents& agents,
                    const Implementation* implementation = nullptr, const PairFilter& filter = {}) &;
 
-  /// Finds all pairs of discs that make agents collide. A pair of discs counts if the discs overlap, all ancestors of
-  /// the one overlap all ancestors of the other, and, with exact leaves, segments of the two meet; see Leaves. A pair
-  /// that collides only because one agent is wholly inside the other's outline has no contacts.
-  ///
-  /// The deepest overlap of a pair does not grow from 0 when two agents come together, because ancestors decide as
-  /// well. For continuous forces use clearances() with Overlap::deepest, or penetration() of all pairs that are near.
-  /// The contacts of bodies of discs (shape_from_discs()) are all overlaps of their discs, as in mechanical crowd
-  /// models.
+  /// Finds all pairs of discs that make agents collide.
+  /// They overlap, all ancestors of one overlap all ancestors of the other, and with exact leaves segments of
+  /// the two meet; see Leaves. A pair that collides only because one agent is inside the other's outline has
+  /// none. For forces use clearances() with Overlap::deepest; "Contacts" in kernel/accuracy.md says why.
   /// Order:   contacts of a pair by the first discs, then the second discs.
   Contacts contacts(const ShapeSet& shapes, const Agents& agents, const CollideOptions& options = {},
                     const PairFilter& filter = {}) &;
 
-  /// Finds the contacts of given pairs: one row per pair, empty where there are none. Two equal cuts of n discs at one place have at
-  /// most n^2 contacts. A pair in the other order has the same contacts with their two discs exchanged, sorted in that order.
-  /// An agent may be paired with itself.
-  /// Errors:  also like collide(), and on a period, which given pairs cannot have; std::bad_alloc or std::length_error
-  ///          where memory does not hold the contacts.
+  /// Finds the contacts of given pairs: one row per pair, empty where there are none.
+  /// A pair in the other order has the same contacts with their two discs exchanged, sorted in that order. An
+  /// agent may be paired with itself. Two equal cuts of n discs at one place have at most n^2 contacts.
+  /// Errors:  also like collide(), and on a period, which given pairs cannot have; std::bad_alloc or
+  ///          std::length_error where memory does not hold the contacts.
   Rows<DiscPair> contacts(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                           const CollideOptions& options = {}) &;
 
-  /// Finds all pairs of spheres that overlap, as collide() tests them, of bodies that collide: contacts for a physics
-  /// engine. A pair has hundreds where bodies are deep in each other; clearances() with Overlap::deepest has the
+  /// Finds all pairs of spheres that overlap, of bodies that collide: contacts for a physics engine.
+  /// A pair has hundreds where bodies are deep in each other; clearances() with Overlap::deepest returns the
   /// deepest alone.
   /// Order:   contacts of a pair by the first spheres, then the second spheres.
   BodyContacts contacts(const BodySet& bodies, const Agents& agents,
@@ -228,8 +224,9 @@ class Crowd {
   Clearances clearances(const ShapeSet& shapes, const Agents& agents, const ClearanceOptions& options,
                         const PairFilter& filter = {}) &;
 
-  /// Finds the same of bodies of spheres, in space. With Overlap::deepest it has a contact of each pair that collides: where the deepest
-  /// two spheres overlap, with a normal and a depth that grows from 0, for physics.
+  /// Finds the same of bodies of spheres, in space.
+  /// With Overlap::deepest it has one contact of each pair that collides: where the deepest two spheres
+  /// overlap, with a normal and a depth that grows from 0, for physics.
   BodyClearances clearances(const BodySet& bodies, const Agents& agents, const BodyClearanceOptions& options,
                             const PairFilter& filter = {}) &;
 
@@ -239,17 +236,17 @@ class Crowd {
   Penetrations penetrations(const BodySet& bodies, const Agents& agents, std::uint32_t directions = 16,
                             const Implementation* implementation = nullptr, const PairFilter& filter = {}) &;
 
-  /// Finds the obstacles that each agent collides with: one row per agent, ascending. An agent has none exactly where collide() with
-  /// obstacles answers 0.
+  /// Finds the obstacles that each agent collides with: one row per agent, ascending.
+  /// An agent has none exactly where collide() with obstacles answers 0.
   Rows<std::uint32_t> obstacles(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
                                 const CollideOptions& options = {}) &;
   Rows<std::uint32_t> obstacles(const BodySet& bodies, const Agents& agents, const ObstacleSet& obstacles,
                                 const Implementation* implementation = nullptr) &;
 
-  /// Moves agents on the ground, as little as it can, until no two bodies collide and nobody touches a wall. Each sweep
-  /// moves all agents at once. It separates pairs that collide by their nearest_free() moves, and keeps other nearby pairs from coming into
-  /// collision. Agents do not turn. Where there is no room, pairs are left after the last sweep. With a period, agents may leave it:
-  /// positions count modulo the period.
+  /// Moves agents on the ground until no two bodies collide and nobody touches a wall.
+  /// Moves are as short as it can make them, and agents do not turn. Each sweep moves all agents at once;
+  /// where there is no room, pairs are left after the last one. With a period, agents may leave it: positions
+  /// count modulo the period. See "A crowd without overlaps" in kernel/README.md.
   /// Memory:  allocates in every sweep, as nearest_free() does.
   /// Errors:  also on an odd number of directions, and on lengths and mobilities out of range.
   Resolved resolve(const BodySet& bodies, const Agents& agents, const ResolveOptions& options,

@@ -18,20 +18,17 @@ struct Kernels;
 
 namespace bch {
 
-// What a collision is. Two agents collide at their levels if a disc a of one cut overlaps a disc b of the other, and
-// each of a and its ancestors overlaps each of b and its ancestors. They also collide if a contour of one lies inside a
-// contour of the other, where the set keeps outlines. Touching counts. Each disc is the smallest around its primitives (segments of the
-// outline). A point that two outlines have in common lies in all of these discs, so this is the tightest answer that discs can give, and a
-// deeper cut never adds a collision. With exact leaves (Leaves::segments, at depth all_depths) two leaves count only if their segments
-// meet, too. In a set without outlines discs alone decide.
-//
-// The rules that all queries share. A query over pairs writes one result per pair into spans of the caller, and allocates nothing
-// unless its header says so. Where a pair or an agent can have many results, an object finds them and keeps them in its memory until
-// its next call.
-//
-// Threads: any number of queries may read one ShapeSet at once; nothing may replace its shapes meanwhile. The work runs in the
-//          caller's TBB arena: call from tbb::task_arena(n).execute() for n threads. Each thread needs 320 KiB of stack.
-//          While a query waits for its tasks, TBB may run other tasks on the thread, so hold no lock. With an Executor it runs there.
+// What a collision is. Two agents collide at their levels if a disc a of one cut overlaps a disc b of the
+// other, and each of a and its ancestors overlaps each of b and its ancestors. They also collide if a contour
+// of one lies inside a contour of the other. Touching counts. With exact leaves (Leaves::segments, at depth
+// all_depths) two leaves count only if their segments meet, too. See "The answer" in kernel/README.md.
+
+// The rules that all queries share. A query over pairs writes one result per pair into spans of the caller,
+// and allocates nothing unless its header says so. Any number of queries may read one ShapeSet at once;
+// nothing may replace its shapes meanwhile. The work runs in the caller's TBB arena (call from
+// tbb::task_arena(n).execute() for n threads) or by an Executor. Each thread needs 320 KiB of stack. While a
+// query waits for its tasks, TBB may run other tasks on the thread, so hold no lock. Results have the same
+// bits on every processor, for any number of threads and any split of the batch.
 
 /// Describes one compilation of the queries for an instruction set. All implementations give the same bits.
 struct Implementation {
@@ -43,25 +40,28 @@ struct Implementation {
 /// Returns all implementations that were compiled, the best first; the last one runs everywhere.
 std::span<const Implementation> implementations() noexcept;
 
-/// Returns the first implementation that this processor supports, unless the environment variable BCH_ISA names another one.
-/// BCH_ISA is read once.
+/// Returns the best implementation that this processor supports, or the one that BCH_ISA names.
+/// The environment variable BCH_ISA is read once.
 /// Errors:  throws std::invalid_argument if BCH_ISA names an unknown or unsupported one.
 const Implementation& best_implementation();
 
 /// Returns an implementation by its name.
-/// Errors:  throws std::invalid_argument on an unknown name, naming the known ones, or on one that this processor does not run.
+/// Errors:  throws std::invalid_argument on an unknown name, naming the known ones, or on one that this
+///          processor does not run.
 const Implementation& implementation(std::string_view name);
 
 /// Runs the tasks of queries: a caller's own task system in place of TBB. Answers are the same bits.
 struct Executor {
-  /// Calls task(data, i) once for each i from 0 to count, on any threads and in any order, and returns when all have ended. Tasks throw
-  /// nothing; a task may call it again. While it waits it may run other tasks on the thread, but no query by the same Crowd.
+  /// Calls task(data, i) once for each i from 0 to count, on any threads, and returns when all have ended.
+  /// Tasks may run in any order and throw nothing; a task may call run() again. While run() waits it may run
+  /// other tasks on the thread, but no query by the same Crowd.
   void (*run)(void* context, std::size_t count, void (*task)(void* data, std::size_t i),
               void* data) = nullptr;
   void* context = nullptr;    ///< given to run()
   std::uint32_t threads = 1;  ///< tasks that run at once; a query is divided into at most 8 tasks per thread
 
-  /// Runs the tasks of all queries from now on by an executor. One without run() brings back what the library was built with.
+  /// Runs the tasks of all queries from now on by an executor.
+  /// One without run() brings back what the library was built with.
   /// Errors:  throws std::invalid_argument on other than 1 to 1024 threads.
   /// Threads: no query may run meanwhile.
   static void set(const Executor& executor);
@@ -69,13 +69,16 @@ struct Executor {
 
 /// Selects what clearance() returns for pairs whose discs overlap.
 enum class Overlap {
-  zero,     ///< a distance of 0, without a direction or discs: such pairs cost hardly more than in collide()
-  deepest,  ///< the deepest overlap of two discs, as a negative distance, and its direction: a depth for forces where cuts are coarse
+  zero,  ///< a distance of 0, without a direction or discs: such pairs cost hardly more than in collide()
+  /// The deepest overlap of two discs, as a negative distance, and its direction: a depth for forces where
+  /// cuts are coarse.
+  deepest,
 };
 
 /// Holds the options of collide() and of what else finds who collides.
 struct CollideOptions {
-  /// Selects one of implementations(); null selects best_implementation(), which may throw where BCH_ISA is set.
+  /// Selects one of implementations().
+  /// Null selects best_implementation(), which may throw where BCH_ISA is set.
   const Implementation* implementation = nullptr;
   Leaves leaves = Leaves::segments;
 };
@@ -83,13 +86,15 @@ struct CollideOptions {
 /// Holds the options of clearance().
 struct ClearanceOptions {
   const Implementation* implementation = nullptr;  ///< as in CollideOptions
-  /// Limits the distances of interest, metres, not negative; may be infinite. Pairs farther apart get an infinite distance and nothing
-  /// else. The smaller the limit, the sooner they are rejected.
+  /// Limits the distances of interest, metres, not negative; may be infinite.
+  /// Pairs farther apart get an infinite distance and nothing else. The smaller the limit, the sooner they
+  /// are rejected.
   double max_distance = std::numeric_limits<double>::infinity();
   Overlap overlap = Overlap::zero;
-  /// Selects what distances are measured from: discs or, where shapes have exact leaves, segments of the outlines. Segments give the
-  /// distance of the outlines. Discs give up to 3 cm less and take about a seventh of the time. Overlap::deepest always
-  /// measures discs.
+  /// Selects what distances are measured from: discs or, where shapes have exact leaves, segments of
+  /// outlines.
+  /// Segments give the distance of the outlines. Discs give up to 3 cm less and take about a seventh of the
+  /// time. Overlap::deepest always measures discs.
   Leaves leaves = Leaves::discs;
 };
 
@@ -100,19 +105,21 @@ struct BodyClearanceOptions {
   Overlap overlap = Overlap::zero;
 };
 
-/// Names two discs by their numbers in the cuts of a pair's agents, in the order of ShapeSet::discs() and cut().
+/// Names two discs by their numbers in the cuts of a pair's agents.
+/// The order is that of ShapeSet::discs() and cut().
 struct DiscPair {
   std::uint32_t first;   ///< a disc of the pair's first agent
   std::uint32_t second;  ///< a disc of its second agent
   friend bool operator==(const DiscPair&, const DiscPair&) = default;
 
-  /// Stands for the discs of a pair that has none in clearance(): it is beyond max_distance, or overlaps with Overlap::zero.
+  /// Stands for the discs of a pair that has none in clearance().
+  /// Such a pair is beyond max_distance, or overlaps with Overlap::zero.
   static const DiscPair none;
 };
 inline constexpr DiscPair DiscPair::none{0xffffffff, 0xffffffff};
 
-/// Views rows of different lengths in one array (CSR): row i is values[offsets[i]] .. values[offsets[i + 1]]. The memory belongs to
-/// the object that returned the rows.
+/// Views rows of different lengths in one array (CSR): row i is values[offsets[i]] .. values[offsets[i + 1]].
+/// The memory belongs to the object that returned the rows.
 template <class Value>
 struct Rows {
   std::span<const std::uint64_t> offsets;  ///< one more than rows
@@ -124,7 +131,8 @@ struct Rows {
   }
 };
 
-/// Checks the agents of a query, and throws the errors of collide() on bad sizes, shapes, levels, positions or headings.
+/// Checks the agents of a query.
+/// Errors:  throws those of collide() on bad sizes, shapes, levels, positions or headings.
 void validate(const ShapeSet& shapes, const Agents& agents);
 
 }  // namespace bch

@@ -22,8 +22,8 @@ template <class Value>
 class Strided {
  public:
   constexpr Strided() = default;
-  /// Takes the first of `size` values that are `stride` bytes apart. A stride that is no multiple of the value's alignment is an error
-  /// of the query.
+  /// Takes the first of `size` values that are `stride` bytes apart.
+  /// A stride that is no multiple of the value's alignment is an error of the query.
   constexpr Strided(const Value* first, std::size_t size, std::size_t stride = sizeof(Value)) noexcept
       : first_(first), size_(size), stride_(stride) {}
   /// Takes an array: a vector, a span, an array.
@@ -88,8 +88,8 @@ class Headings {
   constexpr Headings() = default;
   constexpr Headings(const Numbers& angles) noexcept  // NOLINT(google-explicit-constructor): views are
       : x_(angles) {}
-  /// Takes unit vectors (cosine, sine): where an agent's +x points in the world. Their lengths are from 0.999 to 1.001,
-  /// and queries normalise them.
+  /// Takes unit vectors (cosine, sine): where an agent's +x points in the world.
+  /// Their lengths are from 0.999 to 1.001, and queries normalise them.
   constexpr Headings(const Numbers& x, const Numbers& y) noexcept : x_(x), y_(y), are_directions_(true) {}
   template <class Range>
   requires std::is_constructible_v<Numbers, const Range&>
@@ -110,23 +110,25 @@ class Headings {
 };
 
 /// Views a crowd as a simulator holds it: one entry per agent in each array; nothing is copied.
-/// A heading turns a shape about its agent's position. At a heading of 0 the built-in characters face +x, and those of files stand as
-/// import.hpp says. A turn of the root within a clip is part of the shape, not of the heading.
-/// Units:   metres and radians, counter-clockwise, on the ground plane; |x|, |y|, |z| <= 1e9 m and |heading| <=
-///          1e9 rad.
+/// A heading turns a shape about its agent's position. At a heading of 0 the built-in characters face +x, and
+/// those of files stand as import.hpp says. A rotation of the root within a clip is part of the shape, not of
+/// the heading.
+/// Units:   metres and radians, counter-clockwise, on the ground plane; |x|, |y|, |z| <= 1e9 m and |heading|
+///          <= 1e9 rad.
 struct Agents {
   Strided<std::uint32_t> shape;  ///< index into the ShapeSet or BodySet
   Numbers x;
   Numbers y;
   Headings heading;
   Strided<std::uint8_t> level = {};  ///< index into the set's depths; empty: the last level for all
-  /// Gives the heights of the grounds that agents stand on: floors, steps, a stage. Empty: one ground for all, and
-  /// heights of shapes are ignored. Agents with a z collide only if their ranges of height intersect, too; a ShapeSet
-  /// then needs ShapeSetPlan::heights.
+  /// Gives the heights of the grounds that agents stand on: floors, steps, a stage.
+  /// Empty: one ground for all, and heights of shapes are ignored. Agents with a z collide only if their
+  /// ranges of height intersect, too; a ShapeSet then needs ShapeSetPlan::heights.
   Numbers z = {};
 
   std::size_t size() const noexcept { return shape.size(); }
-  /// Returns the index of an agent's root, that of its shape and level, in arrays with level_count entries per shape.
+  /// Returns the index of an agent's root, by its shape and level.
+  /// It is one into arrays with level_count entries per shape.
   std::size_t root(std::size_t agent, std::size_t level_count) const noexcept {
     return shape[agent] * level_count + (level.empty() ? level_count - 1 : level[agent]);
   }

@@ -27,11 +27,13 @@ struct Key {
   Value value;
 };
 
-/// Selects how values between two keys are computed: linear blends them (rotations spherically), step keeps the earlier
-/// one, cubic is a Hermite spline through the keys with the curve's tangents.
+/// Selects how values between two keys are computed.
+/// Linear blends them (rotations spherically), step keeps the earlier one, cubic is a Hermite spline through
+/// the keys with the curve's tangents.
 enum class Interpolation : std::uint8_t { linear, step, cubic };
 
-/// Describes the interpolation of one part of a channel between its keys. Only cubic has tangents, one pair per key.
+/// Describes the interpolation of one part of a channel between its keys. Only cubic has tangents, one pair
+/// per key.
 template <class Value>
 struct Curve {
   /// Holds the derivatives of a value at a key, per second: `in` just before the key, `out` just after it.
@@ -43,8 +45,8 @@ struct Curve {
   std::vector<Tangents> tangents;
 };
 
-/// Describes the motion of one joint relative to its parent, with keys in order of time. A part without keys stays as it is in the
-/// joint's rest transform.
+/// Describes the motion of one joint relative to its parent, with keys in order of time.
+/// A part without keys stays as it is in the joint's rest transform.
 struct Channel {
   std::uint32_t joint = 0;
   std::vector<Key<Vec3>> positions;
@@ -62,8 +64,9 @@ struct Clip {
   std::vector<Channel> channels;  ///< at most one per joint
 };
 
-/// Describes a bone, which moves vertices: a joint, and its inverse bind matrix, from the mesh's own frame into the joint's frame in the
-/// bind pose, which may differ from Joint::rest.
+/// Describes a bone, which moves vertices: a joint and its inverse bind matrix.
+/// The matrix maps the mesh's own frame to the joint's frame in the bind pose, which may differ from
+/// Joint::rest.
 struct Bone {
   std::uint32_t joint = 0;
   Affine3 inverse_bind;
@@ -90,12 +93,12 @@ struct Character {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<Clip> clips;
   Affine3 to_ground;  ///< maps the file's frame to the world: metres, z up
-  /// Selects the joint whose (x, y) is a shape's origin. -1: a mesh without skeleton, whose origin is the centre of its
-  /// bounding rectangle.
+  /// Selects the joint whose (x, y) is a shape's origin. -1: a mesh without skeleton, whose origin is the
+  /// centre of its bounding rectangle.
   std::int32_t root_joint = -1;
 };
 
-/// Checks all that the types above promise: indices, order of joints and keys, finite values, unit quaternions, tangents, weights.
+/// Checks all that the types above promise: indices, order of joints and keys, finite values, weights ...
 /// Errors:  throws std::invalid_argument naming the character, the place and the value.
 void validate(const Character& character);
 
@@ -106,41 +109,31 @@ struct PoseTime {
   float seconds = 0;
 };
 
-/// Returns the poses at the middles of `count` equal intervals of the character's clips laid end to end. The same
-/// arguments give the same poses everywhere. A character without clips has one pose, the rest pose.
+/// Returns the poses at the middles of `count` equal intervals of the character's clips laid end to end.
+/// The same arguments give the same poses everywhere. A character without clips has one pose, the rest pose.
 std::vector<PoseTime> sample_poses(const Character& character, std::uint32_t count);
 
-/// Returns the built-in man. He is 1.88 m tall, the woman of default_female() 1.74 m. Each is one
-/// closed skin of about 2 850 triangles with 27 joints and 212 s of walking, turning, side-stepping and idling. They stand
-/// in for the two characters of the paper's table 1 and were tuned to its statistics: the smallest disc around a pose seen
-/// from above has a mean radius of 0.42 m (man) and 0.34 m (woman) and a deviation of about 0.05 m.
-///
-/// Units:   metres, z up, facing +x at rest. Each call takes about ten milliseconds and returns the same bits.
-///
-/// Source:  body and motion after published measures (see layout/default_character: body_shape.hpp, walking.cpp, stepping.cpp,
-///          idling.cpp); the paper is Stuvel et al., "Hierarchical structures for collision checking between
-///          virtual characters", Computer Animation and Virtual Worlds 25, 2014.
+/// Returns the built-in man: 1.88 m tall, a closed skin of about 2 850 triangles, 27 joints, 212 s of clips.
+/// The clips are walking, turning, side-stepping and idling. He faces +x at rest. "Characters" in
+/// layout/README.md compares him with the paper's character.
+/// Units:   metres, z up. Each call takes about ten milliseconds and returns the same bits.
 Character default_male();
-/// Returns the built-in woman; see default_male().
+/// Returns the built-in woman, 1.74 m tall; see default_male().
 Character default_female();
-/// Returns a bulky man. He is like default_male(), but with the volume that the means of the paper's table 1 imply for its man,
-/// about 0.137 m3.
+/// Returns a bulky man, who is like default_male() but has the volume of the man of the paper's table 1.
+/// That is about 0.137 m3, by the means of the table.
 Character default_bulky_male();
 
 /// Selects the sex of a pedestrian's body.
 enum class Sex { female, male };
 
-/// Returns a pedestrian for recorded and simulated crowds: the built-in man or woman of a given stature. The pedestrian walks at every
-/// speed and keeps the arms close. The shape's origin is the point below the head, which is what cameras track. Clip k is one stride (two
-/// steps) at 0.03 k m/s, k = 0 to 73: it begins and ends with the left heel's contact, in the same pose, and can be repeated. The step
-/// frequency is 1.3 Hz + 0.5 Hz per m/s: about 2 Hz and 0.7 m at 1.4 m/s. The step length goes to 0 with the speed. `shoulders` is the turn
-/// of the shoulder line from square to the walking direction, counter-clockwise: people turn them when they pass each other closely.
-/// Units:   metres, radians; a stature from 0.8 to 2.4, a turn from -1 to 1.
-/// Source:  A. Pachi, T. Ji, "Frequency and velocity of people walking", The Structural Engineer 83, 2005 (2.0 Hz at 1.4 m/s, steps of
-///          0.75 m of men and 0.67 m of women); A. Jelic, C. Appert-Rolland, S. Lemercier, J. Pettre, "Properties of pedestrians
-///          walking in line: stepping behavior", Phys. Rev. E 86, 2012 (in lines, step lengths are proportional to the speed, and
-///          durations vary much less).
-/// Errors:  throws std::invalid_argument on another stature or turn.
+/// Returns a pedestrian for recorded and simulated crowds: the built-in man or woman of a given stature.
+/// Clip k is one stride (two steps) at 0.03 k m/s, k = 0 to 73, and can be repeated. The shape's origin is
+/// the point below the head, which is what cameras track. `shoulders` rotates the shoulder line from square
+/// to the walking direction, counter-clockwise. "Characters" in layout/README.md has the gait and its
+/// sources.
+/// Units:   metres, radians; a stature from 0.8 to 2.4, a rotation from -1 to 1.
+/// Errors:  throws std::invalid_argument on another stature or rotation.
 Character default_pedestrian(Sex sex, double stature, double shoulders = 0);
 
 /// Returns the number of strides, of two steps each, that a pedestrian takes in a second.

@@ -33,8 +33,8 @@ struct Quaternion {
   friend bool operator==(const Quaternion&, const Quaternion&) = default;
 };
 
-/// Represents an affine map, row-major: a 3 x 3 linear part, and the translation in column 3. It maps a point to rows *
-/// (x, y, z, 1).
+/// Represents an affine map, row-major: a 3 x 3 linear part, and the translation in column 3.
+/// It maps a point to rows * (x, y, z, 1).
 struct Affine3 {
   float rows[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
   friend bool operator==(const Affine3&, const Affine3&) = default;
@@ -57,7 +57,8 @@ struct Sphere {
   friend bool operator==(const Sphere&, const Sphere&) = default;
 };
 
-/// Holds the range of heights of a body or of a part of one, metres above the ground that its agent stands on; all heights by default.
+/// Holds the range of heights of a body or of a part of one; all heights by default.
+/// Units:   metres above the ground that its agent stands on.
 struct Heights {
   float bottom = -std::numeric_limits<float>::infinity();
   float top = std::numeric_limits<float>::infinity();

@@ -18,16 +18,17 @@ constexpr std::uint32_t all_depths = 0xffffffff;
 /// Source:  Stuvel, Magnenat-Thalmann, Thalmann, Egges, van der Stappen, "Hierarchical structures for
 ///          collision checking between virtual characters", Computer Animation and Virtual Worlds 25, 2014.
 struct Hierarchy {
-  /// Represents a primitive that a hierarchy encloses: a triangle, or a segment (c equals b), or a point (all equal).
+  /// Represents a primitive that a hierarchy encloses: a triangle, or a segment (c equals b), or a point (all
+  /// equal).
   struct Primitive {
     Vec2 a, b, c;
   };
 
-  /// Represents a node of the binary tree. Nodes are in depth-first order: the first child of an inner node is the next
-  /// node.
+  /// Represents a node of the binary tree, whose nodes are in depth-first order.
+  /// The first child of an inner node is the next node.
   struct Node {
-    /// Encloses the node's primitives: it is the smallest such disc, enlarged only by what rounding needs. It need not enclose
-    /// the discs of the nodes below.
+    /// Encloses the node's primitives: the smallest such disc, enlarged only by what rounding needs.
+    /// It need not enclose the discs of the nodes below.
     Disc disc;
     std::uint32_t second_child = 0;  ///< 0: a leaf
 
@@ -51,22 +52,24 @@ struct Hierarchy {
 };
 static_assert(sizeof(Hierarchy::Node) == 16);
 
-/// Checks what other functions rely on: at least one node, children after their parents, finite discs with a radius above 0 and
-/// a centre within the reach, a reach of 1e-6 to 1e6 m.
+/// Checks what other functions rely on.
+/// That is at least one node, children after their parents, finite discs with a radius above 0 and a centre
+/// within the reach, and a reach of 1e-6 to 1e6 m.
 /// Errors:  throws std::invalid_argument naming the node and the value.
 void validate(const Hierarchy& hierarchy);
 
-/// Builds the paper's contour hierarchy. A line splits a node's segments: perpendicular to their longer extent, through
-/// their length-weighted centroid. A segment goes to the side of its midpoint. If a side is empty, the other axis is
-/// tried, then the segments are halved by count. A lone segment longer than twice the threshold is halved. A node is a
-/// leaf if its smallest enclosing disc has a radius below the threshold, or if it is a lone segment.
+/// Builds the paper's contour hierarchy. A line splits a node's segments: perpendicular to their longer
+/// extent, through their length-weighted centroid. A segment goes to the side of its midpoint. If a side is
+/// empty, the other axis is tried, then the segments are halved by count. A lone segment longer than twice
+/// the threshold is halved. A node is a leaf if its smallest enclosing disc has a radius below the threshold,
+/// or if it is a lone segment.
 /// Units:   metres; the threshold is positive and finite.
 /// Returns: the hierarchy with its primitives.
 /// Errors:  throws std::invalid_argument on a bad outline or threshold, std::length_error beyond 2^22 nodes.
 Hierarchy contour_hierarchy(const Outline& outline, float threshold);
 
-/// Returns the nodes at a depth and the leaves above it, in depth-first order: a covering of the shape with one disc
-/// each. Depth 0 is the single cylinder; all_depths selects the leaves.
+/// Returns the nodes at a depth and the leaves above it, in depth-first order: a covering of the shape.
+/// Depth 0 is the single cylinder; all_depths selects the leaves.
 std::vector<std::uint32_t> cut(const Hierarchy& hierarchy, std::uint32_t depth);
 
 }  // namespace bch

@@ -23,10 +23,10 @@ class ImportError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Holds the options of import_character(): values that override those of the file, and limits. In Collada, `scale` is
-/// relative to metres, because assimp applies the file's own unit. The up axis becomes z and nothing else turns: in a
-/// file that is y up, x stays and z becomes -y. So a y-up character that faces +z, as in glTF, faces -y at heading 0:
-/// it walks along heading - pi/2.
+/// Holds the options of import_character(): values that override those of the file, and limits.
+/// In Collada, `scale` is relative to metres, because assimp applies the file's own unit. The up axis becomes
+/// z and nothing else turns: in a file that is y up, x stays and z becomes -y. So a y-up character that faces
+/// +z, as in glTF, faces -y at heading 0: it walks along heading - pi/2.
 struct ImportOptions {
   /// Selects the axis of a file's frame that points up.
   enum class UpAxis : std::uint8_t { x, y, z };
@@ -66,32 +66,10 @@ struct ImportedCharacter {
   ImportReport report;
 };
 
-/// Reads a character from a file. glTF 2 and PLY are read directly; assimp reads FBX, Collada, MD5, IQM, OBJ and STL. Clips come from
-/// files of these formats and from BVH. Of IQM, assimp reads only the rest pose.
-/// Files:   up to 1 GiB. A file may name others that lie in the same folder, such as a glTF file's buffer; no
-///          further file is read, wherever a link or a path leads.
-/// Meshes:  all of the scene, instances included. Polygons are cut into triangles, which cover a simple one exactly
-///          once. Vertices equal in position and influences become one. Weights, each from 0 to 1 (1.001 for
-///          rounding), are normalised, and any number of them is kept; FBX's are normalised by their sum. A vertex
-///          without weights in a mesh with bones takes those of the nearest vertex that has some.
-/// Frame:   to_ground leads to metres, z up, and never mirrors. Where neither file nor format tells the unit
-///          or the up axis, they are guessed from the rest pose, and a note says so.
-/// glTF:    the default scene. Required extensions are refused by name, except KHR_mesh_quantization,
-///          KHR_draco_mesh_compression and those of materials, textures and lights. Morph targets with weights
-///          other than 0 are refused.
-/// FBX:     nodes and keys by the documentation's chain of transforms; blend shapes other than at 0 percent, additive link modes and
-///          layers that move the same property are refused. The chapter on layout has a table.
-/// Collada: stepped keys, and Bezier curves of one number; other curves are refused by name.
-/// Joints:  the nodes that carry vertices, and the nodes above them. root_joint carries the root motion, in most skeletons the hips: of the
-///          joints of the trunk, the lowest that a clip moves by more than 0.5 m, else the topmost that moves. It is -1 without bones.
-/// Clips:   those of other files are matched by joint name, without any namespace ("mixamorig:"). Local rotations are copied without
-///          retargeting, except that those of the topmost joints are converted to the character's axes. So are the positions of these,
-///          scaled by the ratio of the skeletons' bone lengths, whatever their units. Scales are ignored, and other joints keep the
-///          character's own lengths. A clip of another skeleton is refused unless force_clips is set. The skeleton counts as another if it
-///          shares no bone with the character's (two joints, one the parent of the other, by name), if less than half of the clip's
-///          channels move the character and its file has less than half of the character's joints, or if its joints are oriented
-///          differently: the mean cosine between the bones' directions, each in its parent joint's frame, is below 0.7. A note names each
-///          clip of another file in which a pose reaches farther than 1.5 times the rest pose.
+/// Reads a character from a file of glTF 2, PLY, FBX, Collada, MD5, IQM, OBJ or STL; clips also from BVH.
+/// The file has up to 1 GiB and may name others in the same folder; no further file is read, wherever a path
+/// leads. All meshes of the scene count. Units become metres, z up; what is guessed is in the report's notes.
+/// "Characters" in layout/README.md says what each format may contain and how clips are matched.
 /// Returns: a character that validate() accepts; the same files give the same character.
 /// Errors:  throws ImportError.
 ImportedCharacter import_character(const std::filesystem::path& file, const ImportOptions& options = {});
@@ -99,19 +77,20 @@ ImportedCharacter import_character(const std::filesystem::path& file, const Impo
 /// Holds the limits of import_in_child().
 struct ImportLimits {
   std::chrono::milliseconds time{60'000};
-  /// Limits the bytes of address space beyond what this process has when the import begins. Builds with sanitizers, which need
-  /// far more, set no such limit.
+  /// Limits the bytes of address space beyond what this process has when the import begins.
+  /// Builds with sanitizers, which need far more, set no such limit.
   std::size_t memory = std::size_t{2} << 30;
   std::function<bool()> go_on =
       {};  ///< called twenty times a second on the caller's thread; returning false ends the import
 };
 
-/// Imports a character from an untrusted file, as import_character() does, in a child process: assimp crashes on some malformed files.
-/// The child reads the file within limits and returns the character; no code of assimp runs in this process.
-/// Errors:  throws ImportError, also on a file that crashes or exhausts the child; std::runtime_error where no child can be
-///          created.
-/// Threads: the child is a fork with only the caller's thread. A lock that another thread holds at that moment stays locked in the
-///          child, except the C library's own, and the import may then run into its time limit.
+/// Imports a character from an untrusted file in a child process: assimp crashes on some malformed files.
+/// The child reads the file as import_character() does, within limits; no code of assimp runs in this
+/// process.
+/// Errors:  throws ImportError, also on a file that crashes or exhausts the child; std::runtime_error where
+///          no child can be created.
+/// Threads: the child is a fork with only the caller's thread. A lock that another thread holds then, except
+///          the C library's own, stays locked in the child, and the import may run into its time limit.
 ImportedCharacter import_in_child(const std::filesystem::path& file, const ImportOptions& options = {},
                                   const ImportLimits& limits = {});
 

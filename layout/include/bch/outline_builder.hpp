@@ -20,22 +20,15 @@ struct BuildImplementation;
 
 namespace bch {
 
-/// Finds the outline of one mesh in pose after pose: the boundary of the unbounded face of the closed union
-/// of its triangles, seen from above.
-///
-/// Vertices are snapped to a grid of 2^-23 of the power of two above the reach (0.12 um for a person). On the
-/// grid the result is exact, except for points where edges cross: each is rounded to the nearest grid point.
-/// Every vertex of a triangle is inside the outline or within 1.5 grid steps of it. Triangles may be open,
-/// non-manifold, duplicated or degenerate. Holes are left out, even if only contact closes them. A triangle without
-/// area is a whisker, traversed there and back; a triangle that is a point is left out.
-///
-/// The result depends only on the union, not on how it is made of triangles: a contour begins at its
-/// lexicographically smallest vertex before rounding, no corner is straight, and contours are in the order of
-/// where they begin.
+/// Finds the outline of one mesh in pose after pose: the outer boundary of its triangles, seen from above.
+/// The result is exact on a grid of 2^-23 of the power of two above the reach (0.12 um for a person).
+/// Triangles may be open, non-manifold, duplicated or degenerate; holes are left out. The result depends only
+/// on the union, not on how it is made of triangles. "Outlines" in layout/README.md has the rules.
 class OutlineBuilder {
  public:
-  /// Prepares the mesh. A bind pose makes building fast: edges near each other in it are processed
-  /// together, and vertices at one place in it are merged in every pose that does not separate them.
+  /// Prepares the mesh; a bind pose makes building fast.
+  /// Edges near each other in it are processed together, and vertices at one place in it are merged in every
+  /// pose that does not separate them.
   /// Sizes:   triangle indices are below `vertices`; the bind pose has as many positions, or none.
   /// Errors:  throws std::invalid_argument on no triangles, an index out of range, a bind pose of another
   ///          length or with a position that is not finite. Vertices that no triangle uses do not count.
@@ -45,8 +38,8 @@ class OutlineBuilder {
   OutlineBuilder& operator=(OutlineBuilder&&) noexcept;
   ~OutlineBuilder();
 
-  /// Writes the outline of a pose into `outline`, whose memory is used again; allocates nothing once the
-  /// longest outline has been built.
+  /// Writes the outline of a pose into `outline`, whose memory is used again.
+  /// Allocates nothing once the longest outline has been built.
   /// Units:   metres; the ground is x-y.
   /// Errors:  throws std::invalid_argument on another number of positions than of vertices, a coordinate that
   ///          is not finite, a reach outside 1e-6 to 1e6 m, or when every triangle is a point.
@@ -69,31 +62,34 @@ class OutlineBuilder {
 
 /// Says what of a mesh outline() finds.
 struct OutlineOptions {
-  /// Clips the mesh at two heights, metres, and leaves out what is below and above; infinite ones clip nothing. A
-  /// clipped mesh is prepared anew in every pose.
+  /// Clips the mesh at two heights, metres; infinite ones clip nothing.
+  /// A clipped mesh is prepared anew in every pose.
   Heights between = {};
-  /// Also finds the holes of the union, as clockwise contours after the counter-clockwise one that is around them, and
-  /// what lies in the holes. No contour then visits a point twice, and parts without area are left out. It takes some
-  /// hundred times as long.
+  /// Also finds the holes of the union, as clockwise contours, and what lies in the holes.
+  /// They follow the counter-clockwise contour that is around them. No contour then visits a point twice, and
+  /// parts without area are left out. It takes some hundred times as long.
   bool holes = false;
   /// Called as BakeOptions::progress, with the poses of outlines() done so far. Returning false cancels.
   std::function<bool(std::size_t done, std::size_t total)> progress = {};
 };
 
-/// Finds the outline of a mesh as it stands: the exact union of its triangles seen from above. OutlineBuilder says what that is;
-/// between heights where there is nothing, or nothing but points and what is within 1e-6 m of the origin, it has no contours.
+/// Finds the outline of a mesh as it stands: the exact union of its triangles seen from above.
+/// See OutlineBuilder. Between heights where there is nothing, or nothing but points and what is within 1e-6
+/// m of the origin, it has no contours.
 /// Sizes:   triangle indices are below positions.size(); vertices that no triangle uses do not count.
-/// Errors:  throws std::invalid_argument on no triangles, an index out of range, a coordinate that is not finite (a
-///          height only where some cut), a reach outside 1e-6 to 1e6 m, and heights that are NaN or do not ascend.
+/// Errors:  throws std::invalid_argument on no triangles, an index out of range, a coordinate that is not
+///          finite (a height only where some cut), a reach outside 1e-6 to 1e6 m, and heights that are NaN or
+///          do not ascend.
 Outline outline(std::span<const Vec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles,
                 const OutlineOptions& options = {});
 /// Finds the outline of a character in a pose, relative to the root joint's (x, y); see PoseShaper::shape().
 Outline outline(const Character& character, PoseTime at = {}, const OutlineOptions& options = {});
 
-/// Finds the outlines of a mesh in many poses, on all threads of the caller's TBB arena. The mesh is prepared once for
-/// all poses.
+/// Finds the outlines of a mesh in many poses, on all threads of the caller's TBB arena.
+/// The mesh is prepared once for all poses.
 /// Sizes:   one pose of so many vertices after the other.
-/// Errors:  as outline(), with the number of the pose, and std::system_error of std::errc::operation_canceled where it is cancelled.
+/// Errors:  as outline(), with the number of the pose, and std::system_error of std::errc::operation_canceled
+///          where it is cancelled.
 std::vector<Outline> outlines(std::span<const Vec3> positions, std::size_t vertices,
                               std::span<const std::array<std::uint32_t, 3>> triangles,
                               const OutlineOptions& options = {});

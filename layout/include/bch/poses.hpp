@@ -23,7 +23,8 @@
 
 namespace bch {
 
-/// Maps a point as Affine3 does, in double: a joint's transform keeps all digits on its way through the skeleton.
+/// Maps a point as Affine3 does, in double.
+/// A joint's transform keeps all digits on its way through the skeleton.
 struct Affine3d {
   double rows[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
   friend bool operator==(const Affine3d&, const Affine3d&) = default;
@@ -40,14 +41,14 @@ class Transforms {
   requires std::convertible_to<const Range&, std::span<const Affine3d>> Transforms(const Range& maps)
       : Transforms(of(std::span<const Affine3d>(maps))) {}
 
-  /// Refers to maps written row by row: three rows of four numbers. A map begins `stride` numbers after the one before: 16, where a
-  /// fourth row follows.
+  /// Refers to maps written row by row: three rows of four numbers.
+  /// A map begins `stride` numbers after the one before: 16, where a fourth row follows.
   template <std::floating_point Number>
   static Transforms row_major(const Number* first, std::size_t count, std::size_t stride = 12) {
     return {first, count, stride, 4, 1, std::same_as<Number, double>};
   }
-  /// Refers to 4x4 matrices written column by column, as OpenGL, glTF, glm and Eigen keep them. Matrices for row vectors, written row by
-  /// row (Direct3D, Unreal), lie in memory the same way.
+  /// Refers to 4x4 matrices written column by column, as OpenGL, glTF, glm and Eigen keep them.
+  /// Matrices for row vectors, written row by row (Direct3D, Unreal), lie in memory the same way.
   template <std::floating_point Number>
   static Transforms column_major(const Number* first, std::size_t count, std::size_t stride = 16) {
     return {first, count, stride, 1, 4, std::same_as<Number, double>};
@@ -72,24 +73,24 @@ class Transforms {
   bool is_double_;
 };
 
-/// Poses a character by the transforms of all joints, each in the frame of its parent, or for a joint without parent in
-/// the character's own frame, which Character::to_ground maps to the world.
+/// Poses a character by the transforms of all joints, each in the frame of its parent.
+/// That of a joint without parent is the character's own frame, which Character::to_ground maps to the world.
 struct LocalPose {
   Transforms joints;
 };
 
-/// Poses a character by the world transforms of all joints: metres, z up. As in a clip, the root joint's (x, y) becomes
-/// the shape's origin.
+/// Poses a character by the world transforms of all joints: metres, z up.
+/// As in a clip, the root joint's (x, y) becomes the shape's origin.
 struct WorldPose {
   Transforms joints;
 };
 
-/// Poses a character by the bone matrices of a renderer, in the order of Character::bones: each is the world transform
-/// of a bone's joint times the bone's inverse_bind.
+/// Poses a character by the bone matrices of a renderer, in the order of Character::bones.
+/// Each is the world transform of a bone's joint times the bone's inverse_bind.
 struct SkinningPalette {
   Transforms bones;
-  /// Gives the world point that becomes the shape's origin. Without a root joint it has no effect, and the origin is
-  /// the centre of the bounding rectangle.
+  /// Gives the world point that becomes the shape's origin.
+  /// Without a root joint it has no effect, and the origin is the centre of the bounding rectangle.
   double x = 0, y = 0;
 };
 
@@ -98,7 +99,8 @@ struct PosedVertices {
   std::span<const Vec3> positions;
 };
 
-/// Names a pose in one of the ways above, or by a time in a clip. It refers to the caller's arrays and is used before they change.
+/// Names a pose in one of the ways above, or by a time in a clip.
+/// It refers to the caller's arrays and is used before they change.
 class Pose {
  public:
   using Kinds = std::variant<PoseTime, LocalPose, WorldPose, SkinningPalette, PosedVertices>;
@@ -131,23 +133,25 @@ std::uint32_t find_joint(const Character& character, std::string_view name);
 
 // A PoseShaper has functions of these names that keep their memory.
 
-/// Returns the transforms of all joints at a time of a clip. As a LocalPose or a WorldPose they give the clip's shape, bit for bit.
+/// Returns the transforms of all joints at a time of a clip.
+/// As a LocalPose or a WorldPose they give the clip's shape, bit for bit.
 /// Errors:  throws std::invalid_argument on a clip that does not exist or a time outside 0 to Clip::seconds.
 std::vector<Affine3d> joint_transforms(const Character& character, PoseTime at,
                                        JointFrame frame = JointFrame::parent);
 
-/// Returns the joint transforms of a mean of poses, in the frames of the parents. Positions and scales are weighted means; rotations
-/// are normalised weighted sums of quaternions, each with the sign that is nearer to the sum before it. Weights need not sum to 1.
-/// Errors:  throws std::invalid_argument on a weight below 0 or not finite, no weight above 0, a clip that does not exist or a time outside
-///          0 to Clip::seconds.
+/// Returns the joint transforms of a mean of poses, in the frames of the parents.
+/// Positions and scales are weighted means; rotations are normalised weighted sums of quaternions, each with
+/// the sign that is nearer to the sum before it. Weights need not sum to 1.
+/// Errors:  throws std::invalid_argument on a weight below 0 or not finite, no weight above 0, a clip that
+///          does not exist or a time outside 0 to Clip::seconds.
 std::vector<Affine3d> blend(const Character& character, std::span<const WeightedPose> poses);
 
 /// Returns the positions of all vertices in a pose: metres, z up, relative to the origin of the shape.
 /// Errors:  as PoseShaper::shape().
 std::vector<Vec3> pose_vertices(const Character& character, const Pose& pose);
 
-/// Converts the axes and units of another program to ours: x forwards, y left, z up, metres, headings in radians,
-/// counter-clockwise.
+/// Converts the axes and units of another program to ours.
+/// Ours are x forwards, y left, z up, metres, and headings in radians, counter-clockwise.
 ///
 ///     agents.x[i] = AxisSystem::unity.position(at.x, at.y, at.z)[0];
 ///     shaper.shape(WorldPose{AxisSystem::unity.transforms(Transforms::column_major(matrices, joints))});
@@ -156,7 +160,8 @@ struct AxisSystem {
   double metres = 1;  ///< metres per unit of its lengths
   double yaw = 1;     ///< radians counter-clockwise per unit of its headings
 
-  /// Returns Character::to_ground of a character whose vertices and joints are in these axes: its LocalPose needs no conversion.
+  /// Returns Character::to_ground of a character whose vertices and joints are in these axes.
+  /// Its LocalPose then needs no conversion.
   Affine3 to_ground() const;
   Vec3 point(const Vec3& theirs) const;
   std::array<double, 3> position(double x, double y, double z) const;
@@ -170,7 +175,8 @@ struct AxisSystem {
   static const AxisSystem
       unreal;  ///< z up, x forwards, left-handed, centimetres; degrees about z, clockwise seen from above
   static const AxisSystem gltf;  ///< y up, z forwards, right-handed, metres; radians
-  /// Y up, nodes look along -z, right-handed, metres; radians. A model of a glTF file looks along z there, as in gltf.
+  /// Y up, nodes look along -z, right-handed, metres; radians.
+  /// A model of a glTF file looks along z there, as in gltf.
   static const AxisSystem godot;
   static const AxisSystem ros;  ///< REP 103: our own axes and units
 };
@@ -182,18 +188,22 @@ inline constexpr AxisSystem AxisSystem::gltf{{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}};
 inline constexpr AxisSystem AxisSystem::godot{{{0, 0, -1}, {-1, 0, 0}, {0, 1, 0}}};
 inline constexpr AxisSystem AxisSystem::ros{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
-/// Returns Character::to_ground * map for each map: joint or bone matrices of the character's model space become those of the world, for a
-/// WorldPose or a SkinningPalette.
+/// Returns Character::to_ground * map for each map.
+/// Joint or bone matrices of the character's model space become those of the world, for a WorldPose or a
+/// SkinningPalette.
 std::vector<Affine3d> grounded(const Character& character, const Transforms& maps);
 
-/// Makes shapes of one character in pose after pose: it poses the mesh, finds the outline of the union of its triangles, and builds
-/// the contour hierarchy that splits at the centroid. It keeps its memory: a pose allocates nothing once the largest shape has been
-/// made. Only one thread may use an object at a time, and one that was moved from can only be assigned to or destroyed.
+/// Makes shapes of one character in pose after pose.
+/// It poses the mesh, finds the outline of the union of its triangles, and builds the contour hierarchy that
+/// splits at the centroid. It keeps its memory: a pose allocates nothing once the largest shape has been
+/// made.
+/// Threads: one at a time may use an object. One that was moved from can only be assigned to or destroyed.
 class PoseShaper {
  public:
-  /// Prepares the mesh of a character, which must outlive this object and must be valid (see validate()). Shapes are made for sets of
-  /// a plan: hierarchies end at its deepest cut. A plan of depth 0 alone, without heights, needs no outlines: the outermost vertices give
-  /// its discs in a third of the time. `threshold`, in metres, is the radius below which a disc is not divided.
+  /// Prepares the mesh of a valid character (see validate()), which must outlive this object.
+  /// Shapes are made for sets of a plan: hierarchies end at its deepest cut. A plan of depth 0 alone, without
+  /// heights, needs no outlines: the outermost vertices give its discs in a third of the time. `threshold`,
+  /// in metres, is the radius below which a disc is not divided.
   /// Errors:  throws std::invalid_argument on a bad plan.
   explicit PoseShaper(const Character& character, const ShapeSetPlan& plan = {}, float threshold = 0.01f);
   /// Refuses a character that nothing would keep.
@@ -202,28 +212,27 @@ class PoseShaper {
   PoseShaper& operator=(PoseShaper&&) noexcept;
   ~PoseShaper();
 
-  /// Sets the largest number of nodes of a hierarchy, 2^22 by default. Shapes of more nodes throw std::length_error.
+  /// Sets the largest number of nodes of a hierarchy, 2^22 by default. Shapes of more nodes throw
+  /// std::length_error.
   void limit_nodes(std::size_t most);
 
-  /// Makes the shape of a pose: a time of a clip, joint transforms, bone matrices or posed vertices. Keys of a clip are interpolated as the
-  /// channels' curves say; a channel holds its first value before its first key and its last one after its last key. The root joint's
-  /// ground translation is removed from the shape, its rotation is not. (From bone matrices SkinningPalette::x and y are removed, from
-  /// vertices nothing.)
-  /// Returns: the shape down to the deepest depth, valid until the next call. It has primitives where that depth is all_depths, because
-  ///          exact leaves need them. With the plan's heights it also has the heights of the body.
-  /// Errors:  throws std::invalid_argument on a clip that does not exist, a time outside 0 to Clip::seconds, transforms or vertices of
-  ///          another number than the character has or that are not finite, and as OutlineBuilder and contour_hierarchy() do,
-  ///          std::domain_error on a position that is not finite. The shape made before is lost.
+  /// Makes the shape of a pose: a time of a clip, joint transforms, bone matrices or posed vertices.
+  /// The root joint's ground translation is removed, its rotation is not. Between keys, a clip's curves
+  /// decide. The shape is valid until the next call. It has primitives if the deepest depth is all_depths.
+  /// Errors:  throws std::invalid_argument on a clip or time out of range, on transforms or vertices of
+  ///          another number than the character has or that are not finite, and as OutlineBuilder and
+  ///          contour_hierarchy() do; std::domain_error on a position that is not finite. The shape made
+  ///          before is lost.
   const Shape& shape(const Pose& pose);
 
-  /// Makes the outline of a pose, the first step of shape(), for callers that need only outlines or time each step. It makes
-  /// none for a plan of depth 0 alone without heights.
+  /// Makes the outline of a pose, the first step of shape(), for callers that need only outlines.
+  /// It makes none for a plan of depth 0 alone without heights.
   const Shape& make_outline(const Pose& pose);
   /// Makes the hierarchy over the last outline, the second step of shape().
   const Shape& make_hierarchy();
 
-  // Like the functions of these names above, in memory of this object: valid until the next call of any of its functions that takes a pose
-  // or a time.
+  // Like the functions of these names above, in memory of this object: valid until the next call of any of
+  // its functions that takes a pose or a time.
   std::span<const Affine3d> joint_transforms(PoseTime at, JointFrame frame = JointFrame::parent);
   std::span<const Affine3d> blend(std::span<const WeightedPose> poses);
   std::span<const Vec3> pose_vertices(const Pose& pose);
@@ -241,15 +250,16 @@ struct BakeOptions {
       {};  ///< which poses of which characters, for instance ScenePlan::shapes; none: `poses`
   ShapeSetPlan plan = {};
   float threshold = 0.01f;  ///< metres; the radius below which discs are not divided
-  /// Called on the caller's thread, at most twenty times a second, with the shapes made so far. Returning false
-  /// cancels.
+  /// Called on the caller's thread, at most twenty times a second, with the shapes made so far. Returning
+  /// false cancels.
   std::function<bool(std::size_t done, std::size_t total)> progress = {};
 };
 
-/// Makes a set of characters in many poses, on all threads of the caller's TBB arena: the same bytes for any number of them.
-/// Errors:  throws std::invalid_argument as validate(Character) does, on a bad plan and on a character that is not there; what
-///          PoseShaper::shape() throws, with the names of the character, clip and time; std::length_error on a set
-///          that is too large; and std::system_error of std::errc::operation_canceled where it is cancelled.
+/// Makes a set of characters in many poses, on all threads of the caller's TBB arena, with the same bytes.
+/// Errors:  throws std::invalid_argument as validate(Character) does, on a bad plan and on a character that
+///          is not there; what PoseShaper::shape() throws, with the names of the character, clip and time;
+///          std::length_error on a set that is too large; and std::system_error of
+///          std::errc::operation_canceled where it is cancelled.
 ShapeSet bake(std::span<const Character> characters, const BakeOptions& options = {});
 /// Makes a set of one character.
 ShapeSet bake(const Character& character, const BakeOptions& options = {});

@@ -23,25 +23,25 @@ struct ShapeSetView;
 
 namespace bch {
 
-/// Represents a body seen from above: a pose of a character, a footprint, a cylinder. The outline may be empty. Then
-/// the discs decide alone: containment without overlapping discs is no collision.
+/// Represents a body seen from above: a pose of a character, a footprint, a cylinder.
+/// The outline may be empty. Then the discs decide alone: containment without overlapping discs is no
+/// collision.
 struct Shape {
   Outline outline;
   Hierarchy hierarchy;
   Heights heights = {};  ///< by default the body takes part at every height
 };
 
-/// Makes a shape of given discs, such as the three to fifty of a body in mechanical crowd models. The discs are enlarged
-/// only by the rounding margin, and queries number them as they are given. The shape has no outline. Neighbouring discs
-/// should follow each other, because nodes of the hierarchy group them in that order. shape_from_capsules() makes
-/// circles that have outlines.
+/// Makes a shape of given discs, such as the three to fifty of a body in mechanical crowd models.
+/// The discs are enlarged only by the rounding margin, and queries number them as they are given. The shape
+/// has no outline. Neighbouring discs should follow each other, because nodes group them in that order.
 /// Cost:    6 ms for 50 discs.
-/// Errors:  throws std::invalid_argument on no discs or more than 4096, on a disc that is not finite or without a radius, naming it, or
-///          on a reach outside 1e-6 to 1e6 m.
+/// Errors:  throws std::invalid_argument on no discs or more than 4096, on a disc that is not finite or
+///          without a radius, naming it, or on a reach outside 1e-6 to 1e6 m.
 Shape shape_from_discs(std::span<const Disc> discs);
 
-/// Makes a shape of given polygons, a wheelchair's for instance, as outline_from_polygons() takes them. Its exact leaves
-/// are the polygons themselves.
+/// Makes a shape of given polygons, a wheelchair's for instance, as outline_from_polygons() takes them.
+/// Its exact leaves are the polygons themselves.
 /// Units:   metres; the threshold is that of contour_hierarchy().
 /// Errors:  throws std::invalid_argument as outline_from_polygons() and contour_hierarchy() do.
 Shape shape_from_polygons(std::span<const std::vector<Vec2>> polygons, float threshold = 0.01f);
@@ -53,26 +53,29 @@ struct Capsule {
   float radius;
 };
 
-/// Makes a shape of given capsules, such as the limbs of a body. The outline encloses each capsule in a polygon that is nowhere
-/// farther from it than a tolerance.
-/// Units:   metres; the tolerance is more than 2^-20 of the capsules' reach, the threshold is that of contour_hierarchy().
-/// Errors:  throws std::invalid_argument on no capsules, on a capsule without a radius or beyond 1e6 m, naming it, on a tolerance that is
-///          not positive or too small, and as shape_from_polygons().
+/// Makes a shape of given capsules, such as the limbs of a body.
+/// The outline encloses each capsule in a polygon that is nowhere farther from it than a tolerance.
+/// Units:   metres; the tolerance is more than 2^-20 of the capsules' reach, the threshold is that of
+///          contour_hierarchy().
+/// Errors:  throws std::invalid_argument on no capsules, on a capsule without a radius or beyond 1e6 m,
+///          naming it, on a tolerance that is not positive or too small, and as shape_from_polygons().
 Shape shape_from_capsules(std::span<const Capsule> capsules, float tolerance = 0.001f,
                           float threshold = 0.01f);
 
-/// Describes discs that move through a part of a clip. Each disc goes straight on from key to key: its centre and its radius are linear in
-/// time. With heights they are spheres.
+/// Describes discs that move through a part of a clip; with heights they are spheres.
+/// Each disc goes straight on from key to key: its centre and its radius are linear in time.
 struct AnimatedChunk {
   std::vector<double> times;     ///< of the keys, at least two, ascending; seconds of the clip
   std::uint32_t disc_count = 0;  ///< the number of discs at each key
   std::vector<Disc> keys;        ///< times.size() * disc_count, key by key; in the shape's frame, metres
-  /// Heights of the centres of spheres, as many as keys; of all chunks or none. Discs without heights are cylinders of infinite height.
+  /// Heights of the centres of spheres, as many as keys; of all chunks or none.
+  /// Discs without heights are cylinders of infinite height.
   std::vector<float> z = {};
   friend bool operator==(const AnimatedChunk&, const AnimatedChunk&) = default;
 };
 
-/// Describes a clip as moving discs: chunks that follow one another in time, each beginning when the one before it ends.
+/// Describes a clip as moving discs: chunks that follow one another in time, each beginning when the one
+/// before it ends.
 struct AnimatedDiscs {
   std::vector<AnimatedChunk> chunks;  ///< from the clip's beginning to its end
   bool loops = false;                 ///< whether the clip repeats; it then lasts at least 1 ms
@@ -81,24 +84,17 @@ struct AnimatedDiscs {
 };
 
 /// Checks that moving discs are well-formed, as AnimatedShape needs them.
-/// Errors:  throws std::invalid_argument on heights of which the bottom is above the top or NaN; naming the chunk, on no chunks,
-///          on fewer than two keys, on times that are not finite, not within +-1e6 s, do not ascend or leave a gap; on no discs or
-///          more than 4096, or another number of them than in the keys; naming the disc and key, on one that is not finite or of a
-///          radius below 0; on heights that are not finite, not within +-1e6 m, fewer than discs, or not of all chunks; on a loop of
-///          less than 1 ms, and on a reach outside 1e-6 to 1e6 m.
+/// Times are finite, within +-1e6 s, ascend and leave no gap; a chunk has at least two keys and 1 to 4096
+/// discs; heights are of all chunks or none, within +-1e6 m; a loop lasts at least 1 ms; the reach is 1e-6 to
+/// 1e6 m.
+/// Errors:  throws std::invalid_argument on anything else, naming the chunk, the disc and the key.
 void validate(const AnimatedDiscs& discs);
 
-/// Represents an animated body: a clip of a character, or other moving discs or spheres. Its solid at a time is its
-/// discs, which are spheres where they have heights.
-///
-/// The discs are in a tree whose nodes are discs that move as these do, and hold them at every time. At the time where
-/// two chunks join, the later chunk's discs count; first_contact() also compares the earlier chunk's when it reaches
-/// that time from before. Times outside the clip are clamped or, if the clip loops, wrap around, even if its last pose
-/// is not its first.
-///
-/// Numbers are kept in 16 bits. Discs of animate() are kept exactly; other discs are rounded outward, so that they hold
-/// the given ones and protrude from them by less than 0.15 mm per metre of the reach. An object that was moved from can
-/// only be assigned to or destroyed.
+/// Represents an animated body: a clip of a character, or other moving discs or spheres.
+/// Times outside the clip are clamped or, if the clip loops, wrap around, even if its last pose is not its
+/// first. Discs of animate() are kept exactly; others are rounded outward to 16 bits, by less than 0.15 mm
+/// per metre of reach. "Animated shapes" in layout/README.md describes the tree. An object that was moved
+/// from can only be assigned to or destroyed.
 class AnimatedShape {
  public:
   /// Checks moving discs and builds the tree over them.
@@ -116,16 +112,18 @@ class AnimatedShape {
   const Heights& heights() const noexcept { return heights_; }
   /// Returns whether its discs are spheres.
   bool in_space() const noexcept;
-  /// Returns the radius about the agent's position that holds all discs at every time, as seen from above, metres.
+  /// Returns the radius about the agent's position that holds all discs at every time, metres.
+  /// Spheres count as seen from above.
   double reach() const noexcept;
   std::size_t bytes() const noexcept;
-  /// Returns the discs at a time, as they are kept, in the order in which they were given; spheres as seen from above.
+  /// Returns the discs at a time, as they are kept, in the order in which they were given.
+  /// Spheres are discs as seen from above.
   std::vector<Disc> discs(double seconds) const;
   /// Returns the spheres at a time, likewise; none of a body that is not in space.
   std::vector<Sphere> spheres(double seconds) const;
-  /// Returns the body at a time as a shape without outline, whose leaves are its discs. They are numbered in the order of the current
-  /// chunk's tree, not in that of discs(): the numbers can change from chunk to chunk. A set takes the shape, and so does a BuiltShape for
-  /// a DynamicShapeSet.
+  /// Returns the body at a time as a shape without outline, whose leaves are its discs.
+  /// They are numbered in the order of the current chunk's tree, not in that of discs(): numbers can change
+  /// from chunk to chunk. A set takes the shape, and so does a BuiltShape for a DynamicShapeSet.
   /// Cost:    a few us for 200 discs, less than making it flat.
   Shape shape(double seconds) const;
   /// Writes that shape into `shape`, and reuses its memory.
@@ -143,9 +141,9 @@ class AnimatedShape {
 /// Selects what makes two leaves meet.
 enum class Leaves {
   discs,  ///< their discs overlap
-  /// Their discs overlap, and their outline segments come within the rounding margin, 1.7 um per metre of both reaches
-  /// (exact leaves). This applies to agents at depth all_depths whose shapes have exact leaves. Otherwise, and for
-  /// leaves of more than 127 segments, discs decide.
+  /// Their discs overlap, and their segments come within 1.7 um per metre of both reaches (exact leaves).
+  /// This applies to agents at depth all_depths whose shapes have exact leaves. Otherwise, and for leaves of
+  /// more than 127 segments, discs decide.
   segments,
 };
 
@@ -153,12 +151,14 @@ enum class Leaves {
 struct ShapeSetPlan {
   /// Lists the levels of detail: cut depths, ascending. Level k of every shape is its cut at depths[k].
   std::vector<std::uint32_t> depths = {all_depths};
-  /// Says whether to keep the outlines. Without them discs alone decide: containment without overlapping discs is no
-  /// hit, and there are no exact leaves. Exact leaves exist at depth all_depths, for shapes whose cut is more than one
-  /// disc and whose hierarchy has its primitives.
+  /// Says whether to keep the outlines.
+  /// Without them discs alone decide: containment without overlapping discs is no hit, and there are no exact
+  /// leaves. Exact leaves exist at depth all_depths, for shapes whose cut is more than one disc and whose
+  /// hierarchy has its primitives.
   bool outlines = true;
-  /// Says whether to keep culling data, which lets queries skip most traversals: 32-DOPs, profiles and, with outlines,
-  /// inscribed discs. It changes no answer, and does not pay for a set that answers few queries.
+  /// Says whether to keep culling data, which lets queries skip most traversals and changes no answer.
+  /// It consists of 32-DOPs, profiles and, with outlines, inscribed discs, and does not pay for a set that
+  /// answers few queries.
   bool culling = true;
   /// Says whether to keep the heights of bodies, which agents at different heights need; see Agents::z.
   bool heights = false;
@@ -166,16 +166,19 @@ struct ShapeSetPlan {
 };
 
 /// Checks that a plan is one that ShapeSet takes.
-/// Errors:  throws std::invalid_argument on a plan without depths, with more than 255, or with depths out of order.
+/// Errors:  throws std::invalid_argument on a plan without depths, with more than 255, or with depths out of
+///          order.
 void validate(const ShapeSetPlan& plan);
 
-/// Holds the flat form of many shapes for batch queries: structure of arrays, aligned to cache lines, immutable. An object that was
-/// moved from can only be assigned to or destroyed.
+/// Holds the flat form of many shapes for batch queries: structure of arrays, aligned to cache lines,
+/// immutable.
+/// An object that was moved from can only be assigned to or destroyed.
 class ShapeSet {
  public:
   /// Makes shapes flat, each at all depths of a plan, and copies what it needs of them.
-  /// Errors:  throws std::invalid_argument on a plan that validate() rejects and, naming the shape, on a hierarchy, or on a
-  ///          non-empty outline that the plan uses, if validate() rejects it; std::length_error beyond 2^31 floats in the nodes' arrays.
+  /// Errors:  throws std::invalid_argument on a plan that validate() rejects and, naming the shape, on a
+  ///          hierarchy or a non-empty outline (if the plan uses it) that validate() rejects;
+  ///          std::length_error beyond 2^31 floats in the nodes' arrays.
   explicit ShapeSet(std::span<const Shape> shapes, const ShapeSetPlan& plan = {});
   ShapeSet(ShapeSet&&) noexcept;
   ShapeSet& operator=(ShapeSet&&) noexcept;
@@ -197,8 +200,8 @@ class ShapeSet {
   /// Returns the discs of a shape's cut, in the order in which queries number them.
   /// Errors:  throws std::out_of_range on an index out of range.
   std::vector<Disc> discs(std::uint32_t shape, std::uint32_t level) const;
-  /// Returns the radius about an agent's position that holds all discs of its shape, at every level and heading, metres.
-  /// Cost:    linear in the discs.
+  /// Returns the radius that holds all discs of a shape at every level and heading, metres.
+  /// It is one about the agent's position. Takes time linear in the discs.
   /// Errors:  throws std::out_of_range on an index out of range.
   float bounding_radius(std::uint32_t shape) const;
 
@@ -217,9 +220,10 @@ class ShapeSet {
   std::unique_ptr<State> state_;
 };
 
-/// Holds a shape in its flat form, ready to be added to a set. Preparing shapes is nearly all the work of making a set; an object keeps
-/// its memory for the next shape. Only one thread may use it at a time, and an object that was moved from can only be assigned to or
-/// destroyed.
+/// Holds a shape in its flat form, ready to be added to a set.
+/// Preparing shapes is nearly all the work of making a set; an object keeps its memory for the next shape. An
+/// object that was moved from can only be assigned to or destroyed.
+/// Threads: one at a time may use an object.
 class BuiltShape {
  public:
   /// Takes the plan of the sets that the shapes are for.
@@ -230,8 +234,8 @@ class BuiltShape {
   ~BuiltShape();
 
   /// Makes a shape flat, in place of the previous one.
-  /// Errors:  throws std::invalid_argument as ShapeSet does, with `index` as the shape's number; then call prepare()
-  ///          again.
+  /// Errors:  throws std::invalid_argument as ShapeSet does, with `index` as the shape's number; then call
+  ///          prepare() again.
   void prepare(const Shape& shape, std::size_t index);
 
   // For the library's own parts, which alone know these types.
@@ -244,11 +248,13 @@ class BuiltShape {
   std::unique_ptr<State> state_;
 };
 
-/// Builds a set shape by shape, without all shapes in memory. The set is the same, byte for byte, as ShapeSet makes of all at once.
-/// An object that was moved from can only be assigned to or destroyed.
+/// Builds a set shape by shape, without all shapes in memory.
+/// The set is the same, byte for byte, as ShapeSet makes of all at once. An object that was moved from can
+/// only be assigned to or destroyed.
 class ShapeSetBuilder {
  public:
-  /// Begins an empty set of a plan. `expected_shapes` is an estimate for which memory is reserved; any number may be added.
+  /// Begins an empty set of a plan.
+  /// `expected_shapes` is an estimate for which memory is reserved; any number may be added.
   /// Errors:  throws std::invalid_argument on a bad plan.
   explicit ShapeSetBuilder(const ShapeSetPlan& plan, std::size_t expected_shapes = 0);
   ShapeSetBuilder(ShapeSetBuilder&&) noexcept;
@@ -256,17 +262,18 @@ class ShapeSetBuilder {
   ~ShapeSetBuilder();
 
   /// Adds a shape that was prepared with the same plan.
-  /// Errors:  throws std::length_error beyond 2^31 floats in the nodes' arrays or 2^32 roots. Shapes that were added before are then
-  ///          unchanged.
+  /// Errors:  throws std::length_error beyond 2^31 floats in the nodes' arrays or 2^32 roots. Shapes that
+  ///          were added before are then unchanged.
   void add(const BuiltShape& shape);
-  /// Returns the set of the shapes so far. It can be queried until the next call of another function; more shapes may follow.
+  /// Returns the set of the shapes so far.
+  /// It can be queried until the next call of another function; more shapes may follow.
   const ShapeSet& set();
   /// Returns the set of the shapes that were added. Where memory runs out, the shapes stay in the builder.
   ShapeSet finish() &&;
 
   // For the library's own parts, which alone know these types.
-  /// Returns the nodes of the shapes so far, as the set is going to have them, or none for sets of only roots. They are
-  /// valid until the next call of another function.
+  /// Returns the nodes of the shapes so far, or none for sets of only roots.
+  /// They are as the set is going to have them, and valid until the next call of another function.
   std::span<const float> nodes() const noexcept;
   /// Returns the present end of the set, for rollback().
   detail::BuilderMark mark() const noexcept;
@@ -278,40 +285,39 @@ class ShapeSetBuilder {
   std::unique_ptr<State> state_;
 };
 
-/// Holds a set whose shapes are replaced while it lives, for characters whose poses are new in every frame. Queries take
-/// set() like any other, and answer as for a set that was built from the present shapes.
-///
-/// Each array of a shape (nodes, supports, contours, points) has a place of fixed size. An array that outgrows its place moves
-/// to a new one at the end, 1.5 times as large as it needs. So after some frames every place is
-/// large enough and nothing is allocated any more. All places together take at most 4.5 times what the largest shapes
-/// need. An object that was moved from can only be assigned to or destroyed.
+/// Holds a set whose shapes are replaced while it lives, for characters whose poses are new in every frame.
 ///
 ///     PoseShaper shaper(character);                  // each thread has its own shaper and prepared shape
 ///     BuiltShape prepared(dynamic.set().plan());
 ///     prepared.prepare(shaper.shape({clip, seconds}), shape);
 ///     if (!dynamic.try_replace(shape, prepared)) later.push_back(shape);  // for replace(), by one thread
+/// See:     "Plans" in layout/README.md, for how memory grows and after some frames no longer does.
 class DynamicShapeSet {
  public:
-  /// Copies a set, another one's set() for instance, with its plan and without its unused gaps. A copy of a roots-only
-  /// set accepts only single-disc shapes.
+  /// Copies a set, another one's set() for instance, with its plan and without its unused gaps.
+  /// A copy of a roots-only set accepts only single-disc shapes. One that was moved from can only be assigned
+  /// to or destroyed.
   explicit DynamicShapeSet(const ShapeSet& start);
   DynamicShapeSet(DynamicShapeSet&&) noexcept;
   DynamicShapeSet& operator=(DynamicShapeSet&&) noexcept;
   ~DynamicShapeSet();
 
-  /// Returns the present shapes. Once a shape has been replaced, the set can be queried and copied but not baked, because its
-  /// arrays may have gaps. To bake it, copy it.
+  /// Returns the present shapes.
+  /// Once a shape has been replaced, the set can be queried and copied but not baked, because its arrays may
+  /// have gaps. To bake it, copy it.
   const ShapeSet& set() const noexcept;
 
-  /// Replaces a shape by one that was prepared with set().plan(), if the new one fits into its place. Threads may replace
-  /// different shapes at the same time, while no query runs. Allocates nothing.
-  /// Returns: whether it fitted. If not, the set is unchanged and replace() is needed. Nor does the first single-disc shape of a one-level
-  ///          set fit, because replace() has to update the set.
-  /// Errors:  throws std::out_of_range on an index out of range, std::invalid_argument on a shape of another plan.
+  /// Replaces a shape by one that was prepared with set().plan(), if the new one fits into its place.
+  /// Threads may replace different shapes at the same time, while no query runs. Allocates nothing.
+  /// Returns: whether it fitted. If not, the set is unchanged and replace() is needed. Nor does the first
+  ///          single-disc shape of a one-level set fit, because replace() has to update the set.
+  /// Errors:  throws std::out_of_range on an index out of range, std::invalid_argument on a shape of another
+  ///          plan.
   bool try_replace(std::uint32_t shape, const BuiltShape& by);
 
-  /// Replaces a shape, if need be in a new place. Only one thread may call it at a time: arrays may move, and earlier views of set()
-  /// are then invalid. Takes time linear in the number of shapes where try_replace() would refuse.
+  /// Replaces a shape, if need be in a new place.
+  /// Only one thread may call it at a time: arrays may move, and earlier views of set() are then invalid.
+  /// Takes time linear in the number of shapes where try_replace() would refuse.
   /// Errors:  as try_replace(); std::length_error as ShapeSet. The shape is then the previous one.
   void replace(std::uint32_t shape, const BuiltShape& by);
 

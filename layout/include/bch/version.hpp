@@ -3,8 +3,8 @@
 
 #pragma once
 
-/// Gives the version of these headers. Until 1.0, a change of the public surface raises the minor number; CHANGELOG.md lists the
-/// changes. The build reads the numbers from here.
+/// Gives the version of these headers, from which the build reads it.
+/// Until 1.0, a change of the public surface raises the minor number; CHANGELOG.md lists the changes.
 #define BCH_VERSION_MAJOR 0
 #define BCH_VERSION_MINOR 4
 #define BCH_VERSION_PATCH 0

@@ -19,7 +19,8 @@
 
 namespace bch {
 
-/// Reports an error on one rank, on which all ranks agreed. Each rank throws it with the same message, which names the failed rank.
+/// Reports an error on one rank, on which all ranks agreed.
+/// Each rank throws it with the same message, which names the failed rank.
 class RankError : public std::runtime_error {
  public:
   RankError(int failed, const std::string& message) : std::runtime_error(message), rank(failed) {}
@@ -31,35 +32,20 @@ struct DistributedCrowdOptions {
   /// The side of the squares that ranks own, metres, at least 1; 0: four times the largest radius.
   double cell = 0;
   double imbalance = 1.04;  ///< the most work of a rank over the mean, beyond which the crowd is cut anew
-  /// Gives the work of an agent beside its pairs, in pairs: 0 balances pairs, about 1.3 balances time, and about 600 balances
-  /// characters, who are posed anew.
+  /// Gives the work of an agent in addition to its pairs, in pairs.
+  /// 0 balances pairs, about 1.3 balances time, and about 600 balances characters, who are posed anew.
   double agent_pairs = 0;
   bool heights = false;  ///< whether z counts; the set has to know the heights of bodies then
 };
 
-/// Holds a crowd on all ranks of a communicator. Each agent belongs to one rank: the owner of the square of the ground on which it
-/// stands. Squares follow each other along a Hilbert curve, and a rank owns those between two cuts of the curve. The cuts are placed so
-/// that all ranks answer the same number of pairs.
+/// Holds a crowd on all ranks of a communicator; each agent belongs to one rank.
 ///
 ///     bch::DistributedCrowd crowd(MPI_COMM_WORLD, shapes, agents);  // any agents on any rank
-///     for (;;) {
-///       crowd.update();                                             // each to its rank, and neighbours' copies
-///       for (const bch::Pair& pair : crowd.collide_all()) ...       // ids
-///       for (bch::DistributedCrowd::Agent& agent : crowd.agents()) ...           // moves
-///     }
-///
-/// The answer is that of one process which has all agents in the order of their ids, bit by bit. The pairs of all ranks together are
-/// those of Crowd::collisions(); each is on one rank, the owner of the lower id. The answer is the same for any number of ranks and threads, and
-/// wherever the crowd is cut.
-///
-/// Agents have shapes of a set, or are characters that are posed anew in every step. For characters, update() makes the shapes of poses on
-/// each rank that needs them. So no shape ever travels, only its character, clip and time, 12 bytes.
-///
-/// All calls except agents(), halo() and counters() are collective: each rank makes them, in the same order, with the same options.
-/// Errors:  where a rank throws, for bad input or want of memory, all ranks throw RankError with its message. The crowd can then only
-///          be destroyed. Where a rank ends or does not make the call, MPI ends the others or they wait, as with MPI's own calls.
-/// Threads: runs in the caller's TBB arena. MPI is called only from the calling thread, and has to be initialised for
-///          MPI_THREAD_FUNNELED at least. Two threads must not use one crowd at once.
+///     crowd.update();                                               // agents to their ranks, and copies
+///     for (const bch::Pair& pair : crowd.collide_all()) ...         // ids
+/// See:     kernel/distributed/README.md, for the division, the calls that are collective, and threads.
+/// Errors:  where a rank throws, all ranks throw RankError with its message; the crowd can then only be
+///          destroyed.
 class DistributedCrowd {
  public:
   /// Describes an agent of a crowd that several processes share.
@@ -97,12 +83,13 @@ class DistributedCrowd {
   };
 
   /// Takes the agents that this rank knows, each known by one rank; update() brings them to their owners.
-  /// Lifetime: the set outlives the crowd. It is the same on every rank: a baked file that each of them maps, for instance.
+  /// Lifetime: the set outlives the crowd. It is the same on every rank: a baked file that each of them maps,
+  ///          for instance.
   /// Errors:  as all calls; std::runtime_error where MPI was not initialised for threads.
   DistributedCrowd(MPI_Comm comm, const ShapeSet& shapes, std::vector<Agent> agents,
                    const DistributedCrowdOptions& options = {});
-  /// Takes agents who are characters, each in its own pose; their `shape` is an index into the characters. Each agent is known by one
-  /// rank. Poses become shapes as by PoseShaper and ShapeSet with this plan.
+  /// Takes agents who are characters, each in its own pose; `shape` is then an index into the characters.
+  /// Each agent is known by one rank. Poses become shapes as by PoseShaper and ShapeSet with this plan.
   /// Lifetime: the characters outlive the crowd. They and the plan are the same on every rank.
   /// Errors:  as the other constructor; also on a character or plan that is not valid.
   DistributedCrowd(MPI_Comm comm, std::span<const Character> characters, const ShapeSetPlan& plan,
@@ -111,21 +98,22 @@ class DistributedCrowd {
   DistributedCrowd& operator=(DistributedCrowd&&) noexcept;
   ~DistributedCrowd();
 
-  /// Returns the agents of this rank, which a simulator moves, adds and removes as it likes. Call update() afterwards; it puts them in
-  /// the order of their ids.
+  /// Returns the agents of this rank, which a simulator moves, adds and removes as it likes.
+  /// Call update() afterwards; it puts them in the order of their ids.
   std::vector<Agent>& agents() noexcept;
-  /// Returns copies of other ranks' agents, as they were in the last update(). They are the agents that come as near to this rank's
-  /// squares as its agents may reach.
+  /// Returns copies of other ranks' agents, as they were in the last update().
+  /// They are the agents that come as near to this rank's squares as its agents may reach.
   std::span<const Agent> halo() const noexcept;
 
-  /// Brings every agent to its owner, and copies of it to the ranks that need them. It cuts the crowd anew if the pairs of the last query
-  /// were unbalanced.
-  /// Units:   metres; the margin is the largest distance that clearances() will be asked for, the same on all ranks. It is not negative,
-  ///          and with two of the largest radii at most 16 squares.
+  /// Brings every agent to its owner, and copies of it to the ranks that need them.
+  /// It divides the crowd anew if the pairs of the last query were unbalanced.
+  /// Units:   metres; the margin is the largest max_distance of clearances(), the same on all ranks. It is
+  ///          not negative, and with two of the largest radii at most 16 squares.
   /// Errors:  names the agent, by its id, and the value that an agent must not have.
   void update(double margin = 0);
 
-  /// Returns the pairs of ids that collide, first < second, as of the last update(). This rank owns the first agent of each.
+  /// Returns the pairs of ids that collide, first < second, as of the last update(). This rank owns the first
+  /// agent of each.
   /// Memory:  the answer is valid until the next call of a query.
   std::span<const Pair> collide_all(const CollideOptions& options = {});
   /// Returns the pairs of ids that are at most max_distance apart, likewise, with their clearance.
