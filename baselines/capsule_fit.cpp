@@ -37,18 +37,18 @@ FittedCapsule about(std::span<const SkinPoint> points, const Ends& ends) {
   double weight = 0;
   for (const SkinPoint& p : points) {
     weight += p.weight;
-    fit.radius += p.weight * p.normal.dot(way_from(ends, p.at));
+    fit.radius += p.weight * p.normal.dot(offset_from(ends, p.at));
   }
   fit.radius = std::max(fit.radius / weight, least_radius);
   double outside = 0;
   for (const SkinPoint& p : points) {
     fit.error += p.weight * square_error(p, fit);
-    outside = std::max(outside, way_from(ends, p.at).norm() - fit.radius);
+    outside = std::max(outside, offset_from(ends, p.at).norm() - fit.radius);
   }
   fit.error += growth_weight * weight * outside * outside;
-  const Vector3d way = ends[1] - ends[0];
-  if (way.norm() > 0) {
-    const Vector3d along = way.normalized();
+  const Vector3d axis = ends[1] - ends[0];
+  if (axis.norm() > 0) {
+    const Vector3d along = axis.normalized();
     const Extent range = extent(points, along);
     const double below = std::max(0.0, range.low - (ends[0].dot(along) - fit.radius)),
                  above = std::max(0.0, ends[1].dot(along) + fit.radius - range.high);
@@ -59,14 +59,14 @@ FittedCapsule about(std::span<const SkinPoint> points, const Ends& ends) {
 
 }  // namespace
 
-Vector3d way_from(const Ends& segment, const Vector3d& p) {
-  const Vector3d way = segment[1] - segment[0], to = p - segment[0];
-  const double square = way.squaredNorm();
-  return to - (square > 0 ? std::clamp(to.dot(way) / square, 0.0, 1.0) : 0.0) * way;
+Vector3d offset_from(const Ends& segment, const Vector3d& p) {
+  const Vector3d axis = segment[1] - segment[0], to = p - segment[0];
+  const double square = axis.squaredNorm();
+  return to - (square > 0 ? std::clamp(to.dot(axis) / square, 0.0, 1.0) : 0.0) * axis;
 }
 
 double square_error(const SkinPoint& point, const FittedCapsule& capsule) {
-  return (way_from(capsule.ends, point.at) - capsule.radius * point.normal).squaredNorm();
+  return (offset_from(capsule.ends, point.at) - capsule.radius * point.normal).squaredNorm();
 }
 
 FittedCapsule rough_capsule(std::span<const SkinPoint> points) {

@@ -34,6 +34,6 @@ FittedCapsule rough_capsule(std::span<const SkinPoint> points);
 FittedCapsule best_capsule(std::span<const SkinPoint> points);
 
 /// Returns the way to a point from the nearest one of a segment.
-Eigen::Vector3d way_from(const std::array<Eigen::Vector3d, 2>& segment, const Eigen::Vector3d& p);
+Eigen::Vector3d offset_from(const std::array<Eigen::Vector3d, 2>& segment, const Eigen::Vector3d& p);
 
 }  // namespace bch::baselines

@@ -33,7 +33,7 @@ using Mask = std::int32_t __attribute__((vector_size(capsule_lanes * sizeof(floa
 [[gnu::always_inline]] inline Lanes larger(const Lanes& a, const Lanes& b) {
   return a > b ? a : b;
 }
-[[gnu::always_inline]] inline Lanes share(const Lanes& lanes) {
+[[gnu::always_inline]] inline Lanes clamp_to_unit(const Lanes& lanes) {
   return smaller(larger(lanes, Lanes{}), Lanes{} + 1.0f);
 }
 
@@ -115,9 +115,9 @@ struct Placed {
   const Lanes uu = ux * ux + uy * uy + uz * uz + tiny, vv = vx * vx + vy * vy + vz * vz + tiny;
   const Lanes uv = ux * vx + uy * vy + uz * vz, uw = ux * wx + uy * wy + uz * wz,
               vw = vx * wx + vy * wy + vz * wz;
-  const Lanes first = share((uv * vw - uw * vv) / (larger(uu * vv - uv * uv, Lanes{}) + tiny));
-  const Lanes t = share((uv * first + vw) / vv);
-  const Lanes s = share((uv * t - uw) / uu);
+  const Lanes first = clamp_to_unit((uv * vw - uw * vv) / (larger(uu * vv - uv * uv, Lanes{}) + tiny));
+  const Lanes t = clamp_to_unit((uv * first + vw) / vv);
+  const Lanes s = clamp_to_unit((uv * t - uw) / uu);
   const Lanes dx = wx + s * ux - t * vx, dy = wy + s * uy - t * vy, dz = wz + s * uz - t * vz;
   const Lanes r = load(a[Field::radius]) + load(b[Field::radius]);
   return bits(dx * dx + dy * dy + dz * dz <= r * r);

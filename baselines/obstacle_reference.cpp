@@ -22,8 +22,8 @@ struct Line {
 
   Line(const Agents& agents, std::uint32_t agent, const std::array<double, 4>& segment) {
     const auto [ax, ay, bx, by] = segment;
-    const double way_x = bx - ax, way_y = by - ay, length = std::sqrt(way_x * way_x + way_y * way_y);
-    const double u = length > 0 ? way_x / length : 1, v = length > 0 ? way_y / length : 0;
+    const double edge_x = bx - ax, edge_y = by - ay, length = std::sqrt(edge_x * edge_x + edge_y * edge_y);
+    const double u = length > 0 ? edge_x / length : 1, v = length > 0 ? edge_y / length : 0;
     const double dx = ax - agents.x[agent], dy = ay - agents.y[agent];
     const detail::Rotation turn = detail::rotation(agents.heading[agent]);
     x = turn.cosine * u + turn.sine * v, y = turn.cosine * v - turn.sine * u;
@@ -68,8 +68,8 @@ bool encloses(const ReferenceObstacle& obstacle, const Agents& agents, std::uint
 
 double square_distance(Point2 p, Point2 a, Point2 b) {
   const double x = b.x - a.x, y = b.y - a.y, square = x * x + y * y;
-  const double share = square > 0 ? std::clamp(((p.x - a.x) * x + (p.y - a.y) * y) / square, 0.0, 1.0) : 0.0;
-  const double dx = p.x - a.x - share * x, dy = p.y - a.y - share * y;
+  const double t = square > 0 ? std::clamp(((p.x - a.x) * x + (p.y - a.y) * y) / square, 0.0, 1.0) : 0.0;
+  const double dx = p.x - a.x - t * x, dy = p.y - a.y - t * y;
   return dx * dx + dy * dy;
 }
 

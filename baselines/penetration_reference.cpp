@@ -29,30 +29,31 @@ double support(const CutLists& cuts, const Agents& agents, std::uint32_t agent, 
 }
 
 /// Returns how far `mover` has to move until it is before `other`, without slack.
-double way(const CutLists& cuts, const Agents& agents, std::uint32_t mover, std::uint32_t other,
-           Vector along) {
+double depth_along(const CutLists& cuts, const Agents& agents, std::uint32_t mover, std::uint32_t other,
+                   Vector along) {
   const double dx = agents.x[other] - agents.x[mover], dy = agents.y[other] - agents.y[mover];
   return support(cuts, agents, other, along) + support(cuts, agents, mover, {-along.x, -along.y}) +
          (dx * along.x + dy * along.y);
 }
 
-Way with_slack(const CutLists& cuts, const Agents& agents, Pair pair, double way, Vector along) {
+PenetrationDepth with_slack(const CutLists& cuts, const Agents& agents, Pair pair, double depth_along,
+                            Vector along) {
   const double reach = static_cast<double>(cuts.reach(agents, std::min(pair.first, pair.second))) +
                        static_cast<double>(cuts.reach(agents, std::max(pair.first, pair.second)));
-  const double depth =
-      (way + 40 * detail::rounding::unit_roundoff * reach) * (1 + 4 * detail::rounding::unit_roundoff);
+  const double depth = (depth_along + 40 * detail::rounding::unit_roundoff * reach) *
+                       (1 + 4 * detail::rounding::unit_roundoff);
   return {depth > 0 ? detail::rounding::round_up(depth) : 0.0f, along.x, along.y};
 }
 
 }  // namespace
 
-Way penetration_along(const CutLists& cuts, const Agents& agents, Pair pair, Vec2 direction) {
+PenetrationDepth penetration_along(const CutLists& cuts, const Agents& agents, Pair pair, Vec2 direction) {
   const double x = direction.x, y = direction.y, length = std::sqrt(x * x + y * y);
   const Vector along{x / length, y / length};
-  return with_slack(cuts, agents, pair, way(cuts, agents, pair.first, pair.second, along), along);
+  return with_slack(cuts, agents, pair, depth_along(cuts, agents, pair.first, pair.second, along), along);
 }
 
-Way penetration(const CutLists& cuts, const Agents& agents, Pair pair, std::uint32_t k) {
+PenetrationDepth penetration(const CutLists& cuts, const Agents& agents, Pair pair, std::uint32_t k) {
   const auto [a, b] = std::minmax(pair.first, pair.second);
   double least = HUGE_VAL;
   Vector best{0, 0};
@@ -60,7 +61,7 @@ Way penetration(const CutLists& cuts, const Agents& agents, Pair pair, std::uint
     const detail::Rotation turn = detail::rotation(2 * std::numbers::pi * i / k);
     for (const double sign : {1.0, -1.0}) {
       const Vector along{sign * turn.cosine, sign * turn.sine};
-      const double each = way(cuts, agents, a, b, along);
+      const double each = depth_along(cuts, agents, a, b, along);
       if (each < least) least = each, best = along;
     }
   }

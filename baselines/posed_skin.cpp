@@ -102,8 +102,8 @@ PosedSkin::PosedSkin(const Character& character, std::span<const std::vector<Aff
   visible_ = visible_vertices(character.triangles, positions_[0], normals_[0]);
 }
 
-std::vector<SkinPoint> PosedSkin::seen_from(std::uint32_t joint,
-                                            std::span<const std::uint32_t> vertices) const {
+std::vector<SkinPoint> PosedSkin::in_frame_of(std::uint32_t joint,
+                                              std::span<const std::uint32_t> vertices) const {
   std::vector<SkinPoint> points;
   for (std::size_t pose = 0; pose < poses(); ++pose) {
     const Eigen::Affine3d back = map(0, joint) * map(pose, joint).inverse();

@@ -35,7 +35,7 @@ class PosedSkin {
   /// Returns the transform of a joint in a pose.
   const Eigen::Affine3d& map(std::size_t pose, std::uint32_t joint) const { return maps_[pose][joint]; }
   /// Returns where a joint sees vertices in all poses, pose by pose: in metres, as they are in the first pose.
-  std::vector<SkinPoint> seen_from(std::uint32_t joint, std::span<const std::uint32_t> vertices) const;
+  std::vector<SkinPoint> in_frame_of(std::uint32_t joint, std::span<const std::uint32_t> vertices) const;
   SkinPoint point(std::size_t pose, std::size_t vertex) const {
     return {positions_[pose][vertex], normals_[pose][vertex], areas_[vertex]};
   }

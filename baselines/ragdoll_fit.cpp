@@ -77,7 +77,7 @@ class Fit {
   }
 
   void measure(Group& group) const {
-    group.error = rough_capsule(skin_.seen_from(group.joint, group.vertices)).error;
+    group.error = rough_capsule(skin_.in_frame_of(group.joint, group.vertices)).error;
   }
 
   double total_error() const {
@@ -153,10 +153,10 @@ class Fit {
   }
 
   std::optional<std::array<Group, 2>> halved(const Group& group, int axis) const {
-    const auto seen =
-        skin_.seen_from(group.joint, group.vertices);  // the first of these are those of the first pose
+    const auto in_frame =
+        skin_.in_frame_of(group.joint, group.vertices);  // the first of these are those of the first pose
     std::vector<double> along;
-    for (std::size_t i = 0; i < group.vertices.size(); ++i) along.push_back(seen[i].at[axis]);
+    for (std::size_t i = 0; i < group.vertices.size(); ++i) along.push_back(in_frame[i].at[axis]);
     const auto [low, high] = std::minmax_element(along.begin(), along.end());
     const double middle = (*low + *high) / 2;
     std::array<Group, 2> halves;
@@ -173,7 +173,7 @@ class Fit {
   std::vector<FittedCapsule> fitted() const {
     std::vector<FittedCapsule> capsules;
     for (const Group& group : groups_)
-      capsules.push_back(best_capsule(skin_.seen_from(group.joint, group.vertices)));
+      capsules.push_back(best_capsule(skin_.in_frame_of(group.joint, group.vertices)));
     return capsules;
   }
 
@@ -222,7 +222,7 @@ class Fit {
     for_capsules(fits,
                  [&](std::uint32_t v, std::size_t g, const SkinPoint& point, const FittedCapsule& capsule) {
                    double& most = outside[v * groups_.size() + g];
-                   most = std::max(most, way_from(capsule.ends, point.at).norm() - capsule.radius);
+                   most = std::max(most, offset_from(capsule.ends, point.at).norm() - capsule.radius);
                  });
     std::vector<double> grown(groups_.size());
     for_least(outside, [&](std::uint32_t, std::size_t g, double by) { grown[g] = std::max(grown[g], by); });

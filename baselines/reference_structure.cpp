@@ -148,12 +148,12 @@ class ContourHierarchies final : public Structure {
   }
 
   bool query(const Agents& agents, Pair pair, std::uint32_t max_depth) const override {
-    Room room(highest_);
-    return meet(agents, pair, max_depth, room, NoCounts{});
+    TraversalScratch scratch(highest_);
+    return meet(agents, pair, max_depth, scratch, NoCounts{});
   }
   bool query(const Agents& agents, Pair pair, std::uint32_t max_depth, TestCounts& counts) const override {
-    Room room(highest_);
-    return meet(agents, pair, max_depth, room, AddCounts{counts});
+    TraversalScratch scratch(highest_);
+    return meet(agents, pair, max_depth, scratch, AddCounts{counts});
   }
   std::size_t bytes(std::uint32_t shape) const override {
     const std::size_t nodes = sizes_.at(shape) * sizeof(Node);
@@ -162,31 +162,32 @@ class ContourHierarchies final : public Structure {
   std::uint32_t shape_count() const override { return static_cast<std::uint32_t>(roots_.size()); }
 
  private:
-  struct Room {
-    explicit Room(std::size_t height) : open(2 * height + 1), path(height + 1) {}
+  struct TraversalScratch {
+    explicit TraversalScratch(std::size_t height) : open(2 * height + 1), path(height + 1) {}
     Scratch<Visit> open;
     Scratch<Node> path;
   };
 
   void answer(const Agents& agents, std::span<const Pair> pairs, std::span<std::uint8_t> hits,
               std::uint32_t max_depth) const override {
-    Room room(highest_);
+    TraversalScratch scratch(highest_);
     for (std::size_t i = 0; i < pairs.size(); ++i)
-      hits[i] = meet(agents, pairs[i], max_depth, room, NoCounts{}) ? 1 : 0;
+      hits[i] = meet(agents, pairs[i], max_depth, scratch, NoCounts{}) ? 1 : 0;
   }
 
   template <class Counts>
-  bool meet(const Agents& agents, Pair pair, std::uint32_t max_depth, Room& room, Counts counts) const {
+  bool meet(const Agents& agents, Pair pair, std::uint32_t max_depth, TraversalScratch& scratch,
+            Counts counts) const {
     const auto [first, second] = std::minmax(pair.first, pair.second);
     const Pair roots{roots_[agents.shape[first]], roots_[agents.shape[second]]};
     const FloatPlacement place = float_placement(agents, pair);
     const Node* const nodes = nodes_.data();
     const Visit start{roots.first, roots.second, max_depth, max_depth, placed(place, nodes[roots.second])};
     const auto verified = [&](const Visit& at) {
-      return ancestors_overlap(nodes, roots, at.a, at.b, place, room.path.data(), counts);
+      return ancestors_overlap(nodes, roots, at.a, at.b, place, scratch.path.data(), counts);
     };
     const auto search = [&](auto accept) {
-      return any_leaves_overlap(nodes, start, place, room.open.data(), counts, accept);
+      return any_leaves_overlap(nodes, start, place, scratch.open.data(), counts, accept);
     };
     if (hit_by_ == HitBy::descent) return search([](const Visit&) { return true; });
     if (hit_by_ == HitBy::ancestors) return search(verified);

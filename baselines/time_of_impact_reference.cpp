@@ -15,14 +15,14 @@ namespace {
 constexpr float never = std::numeric_limits<float>::infinity();
 
 /// A's way relative to B, in A's frame.
-struct RelativeWay {
+struct RelativeMotion {
   float x, y;
 };
 
 /// Returns the time at which two discs of the cuts touch; kernel/distance/time_of_impact_measure.hpp derives
 /// the formula.
-float contact(const Step& at, RelativeWay way) noexcept {
-  const double x = at.x, y = at.y, vx = way.x, vy = way.y, sum = at.radius_sum;
+float contact(const Step& at, RelativeMotion motion) noexcept {
+  const double x = at.x, y = at.y, vx = motion.x, vy = motion.y, sum = at.radius_sum;
   const double square = x * x + y * y;
   if (square <= sum * sum * (1 + 0x1p-22)) return 0;
   const double radius = sum + 0x1p-20 * std::sqrt(square);
@@ -37,8 +37,8 @@ float contact(const Step& at, RelativeWay way) noexcept {
 
 /// A time before which nothing below two discs touches, or never: by how far the moving disc's front has to
 /// go, and by how near it comes until `most`.
-float earliest(const Step& at, RelativeWay way, float slack, float most) noexcept {
-  const double x = at.x, y = at.y, vx = way.x, vy = way.y;
+float earliest(const Step& at, RelativeMotion motion, float slack, float most) noexcept {
+  const double x = at.x, y = at.y, vx = motion.x, vy = motion.y;
   const double radius =
       static_cast<double>(at.radius_sum) + static_cast<double>(slack) + 0x1p-17 * (std::abs(x) + std::abs(y));
   const double square = vx * vx + vy * vy, towards = x * vx + y * vy;
@@ -60,19 +60,22 @@ float TimeOfImpactReference::query(const Agents& agents, Pair pair, double x, do
   const double sign = pair.first <= pair.second ? 1 : -1;
   const auto dx = static_cast<float>(sign * x), dy = static_cast<float>(sign * y);
   if (dx == 0 && dy == 0) return any_hit(cuts_, agents, pair) ? 0 : never;
-  const RelativeWay way{heading.cosine * dx + heading.sine * dy, heading.cosine * dy - heading.sine * dx};
+  const RelativeMotion motion{heading.cosine * dx + heading.sine * dy,
+                              heading.cosine * dy - heading.sine * dx};
   float soonest = never;
   if (method == Method::brute_force) {
     for (const Disc& p : a.discs)
-      for (const Disc& q : b.discs) soonest = std::min(soonest, contact(step(place, p, q), way));
+      for (const Disc& q : b.discs) soonest = std::min(soonest, contact(step(place, p, q), motion));
     return soonest;
   }
   const float slack = 0x1p-17f * (a.reach + b.reach);
   const auto most = [&] { return std::min(soonest, 1.0f); };
   search(
       place, a.nodes.data(), b.nodes.data(), open_,
-      [&](const Step& at) { return earliest(at, way, slack, most()); }, most,
-      [&](std::uint32_t, std::uint32_t, const Step& at) { soonest = std::min(soonest, contact(at, way)); });
+      [&](const Step& at) { return earliest(at, motion, slack, most()); }, most,
+      [&](std::uint32_t, std::uint32_t, const Step& at) {
+        soonest = std::min(soonest, contact(at, motion));
+      });
   return soonest;
 }
 

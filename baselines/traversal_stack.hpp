@@ -40,18 +40,18 @@ struct NodePair {
 /// ways down, so the sum of the trees' heights is enough.
 class TraversalStack {
  public:
-  explicit TraversalStack(std::size_t capacity) : room_(capacity) {}
+  explicit TraversalStack(std::size_t capacity) : storage_(capacity) {}
 
   bool empty() const noexcept { return top_ == bottom_; }
   void push(const NodePair& pair) noexcept {
-    assert(top_ - bottom_ < static_cast<std::ptrdiff_t>(room_.size()));
+    assert(top_ - bottom_ < static_cast<std::ptrdiff_t>(storage_.size()));
     *top_++ = pair;
   }
   NodePair pop() noexcept { return *--top_; }
 
  private:
-  Scratch<NodePair> room_;
-  NodePair* const bottom_ = room_.data();
+  Scratch<NodePair> storage_;
+  NodePair* const bottom_ = storage_.data();
   NodePair* top_ = bottom_;
 };
 

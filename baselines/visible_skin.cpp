@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector3d;
 using Corners = std::array<std::uint32_t, 3>;
 
-constexpr double shortest_way = 0.001;  // metres: of what is nearer, a vertex is a part
+constexpr double min_hit_distance = 0.001;  // metres: of what is nearer, a vertex is a part
 constexpr int rays_around = 8, rays_needed = 3;
 
 /// Source: T. Moeller, B. Trumbore, "Fast, minimum storage ray-triangle intersection", Journal of Graphics Tools 2, 1997.
@@ -24,7 +24,7 @@ bool meets(const Vector3d& from, const Vector3d& along, const Vector3d& a, const
   if (determinant == 0) return false;
   const Vector3d to = from - a, q = to.cross(ab);
   const double u = to.dot(p) / determinant, v = along.dot(q) / determinant;
-  return u >= 0 && v >= 0 && u + v <= 1 && ac.dot(q) / determinant > shortest_way;
+  return u >= 0 && v >= 0 && u + v <= 1 && ac.dot(q) / determinant > min_hit_distance;
 }
 
 }  // namespace

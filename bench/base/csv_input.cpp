@@ -24,7 +24,7 @@ using detail::trajectory::Fields;
 using detail::trajectory::LineReader;
 
 /// The longest way of an agent: two agents' ways apart are within the limit of time_of_impact().
-constexpr double largest_way = detail::rounding::largest_position / 2;
+constexpr double largest_displacement = detail::rounding::largest_position / 2;
 
 /// A place in a file, for messages.
 struct Place {
@@ -144,8 +144,8 @@ AgentTable read_agents(const std::string& file, std::uint32_t shapes, std::uint3
   CsvRows rows(file, {"id", "shape", "x", "y", "heading", "z", "level", "dx", "dy", "mobility"});
   rows.require({"id", "shape", "x", "y", "heading"});
   const bool has_z = rows.has("z"), has_level = rows.has("level"), has_mobility = rows.has("mobility");
-  const bool has_way = moving || rows.has("dx") || rows.has("dy");
-  if (has_way) rows.require({"dx", "dy"});
+  const bool has_displacement = moving || rows.has("dx") || rows.has("dy");
+  if (has_displacement) rows.require({"dx", "dy"});
   while (rows.next()) {
     const Place place = rows.place();
     const auto number = [&](const char* column, double limit) {
@@ -160,9 +160,9 @@ AgentTable read_agents(const std::string& file, std::uint32_t shapes, std::uint3
     if (has_mobility) table.mobility.push_back(number("mobility", HUGE_VAL));
     if (has_mobility && !(table.mobility.back() >= 0 && table.mobility.back() <= 1))
       place.reject("mobility", rows["mobility"], "is not within 0 to 1");
-    if (!has_way) continue;
-    table.dx.push_back(number("dx", largest_way));
-    table.dy.push_back(number("dy", largest_way));
+    if (!has_displacement) continue;
+    table.dx.push_back(number("dx", largest_displacement));
+    table.dy.push_back(number("dy", largest_displacement));
   }
   return table;
 }

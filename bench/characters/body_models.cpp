@@ -58,8 +58,8 @@ std::vector<BodyModel> make_models(std::span<const LoadedCharacter> characters, 
   Progress bar("placing spheres", steps * characters.size());
   for (const LoadedCharacter& loaded : characters) try {
       std::size_t done = 0;
-      const auto advance_to = [&](double share) {
-        for (; static_cast<double>(done) < share * steps; ++done) bar.advance();
+      const auto advance_to = [&](double fraction) {
+        for (; static_cast<double>(done) < fraction * steps; ++done) bar.advance();
         return true;
       };
       auto model = model_of_library(loaded.character, spheres);

@@ -12,7 +12,7 @@
 namespace bch::cli {
 namespace {
 
-constexpr std::chrono::milliseconds between_looks{50};
+constexpr std::chrono::milliseconds check_interval{50};
 
 std::string names_of(std::span<const LoadedCharacter> characters) {
   if (characters.size() == 1) return characters.front().source;
@@ -39,7 +39,7 @@ CostGuard::~CostGuard() {
 
 void CostGuard::watch() {
   std::unique_lock lock(mutex_);
-  while (!over_.wait_for(lock, between_looks, [this] { return is_over_; })) {
+  while (!over_.wait_for(lock, check_interval, [this] { return is_over_; })) {
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin_;
     if (taken.count() > seconds_)
       exit_now(exit_bad_input, fmt::format("{}: building and writing its shapes takes more than {:g} s; "

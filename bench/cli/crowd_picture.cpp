@@ -53,10 +53,11 @@ struct Window {
 
 Window middle_of(const CrowdPicture& picture) {
   constexpr double aspect = view_width / view_height;
-  constexpr double room = 1;  // for those who stand at the edge, metres
+  constexpr double border_metres = 1;  // for those who stand at the edge, metres
   const double middle = picture.crowd.side / 2;
   const bool whole = static_cast<double>(picture.crowd.size()) <= whole_crowd;
-  const double h = whole ? picture.crowd.side + room : std::sqrt(window_agents / picture.density / aspect);
+  const double h =
+      whole ? picture.crowd.side + border_metres : std::sqrt(window_agents / picture.density / aspect);
   return {middle - h * aspect / 2, middle - h / 2, h * aspect, h};
 }
 
@@ -266,12 +267,12 @@ CrowdPicture picture_of(std::span<const Shape> shapes, const Crowd& crowd, const
     else if (single.hits[p] != 0)
       picture.cleared.push_back(answers.pairs[p]);
   picture.key = body_of(shapes.front(), std::min(drawn.depth, 4u));
-  const double share =
+  const double fraction =
       single.hit_count == 0 ? 0 : static_cast<double>(drawn.cleared) / static_cast<double>(single.hit_count);
   picture.title =
       fmt::format("{} agents, {:g} per m²: depth {} clears {} of {} collisions at depth 0 ({:.1f} %)",
                   grouped(crowd.size()), density, depth_name(drawn.depth), grouped(drawn.cleared),
-                  grouped(single.hit_count), 100 * share);
+                  grouped(single.hit_count), 100 * fraction);
   picture.parts_are = fmt::format("Discs and collisions at depth {}.", depth_name(drawn.depth));
   return picture;
 }

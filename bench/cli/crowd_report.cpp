@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::uint32_t max_runs = 15;
 constexpr std::uint32_t least_runs = 3;
-constexpr double enough_seconds = 0.5;  ///< for one level, once there were least_runs
+constexpr double min_total_seconds = 0.5;  ///< for one level, once there were least_runs
 
 /// Runs the batch until the time is known, the first time unmeasured.
 void answer_level(const ShapeSet& set, const Agents& agents, std::span<const Pair> pairs,
@@ -30,7 +30,7 @@ void answer_level(const ShapeSet& set, const Agents& agents, std::span<const Pai
   collide(set, agents, pairs, level.hits, options);
   std::vector<double> seconds;
   double total = 0;
-  while (seconds.size() < least_runs || (seconds.size() < max_runs && total < enough_seconds)) {
+  while (seconds.size() < least_runs || (seconds.size() < max_runs && total < min_total_seconds)) {
     const bench::Stopwatch watch(0);
     collide(set, agents, pairs, level.hits, options);
     seconds.push_back(watch.nanoseconds() / 1e9);
@@ -118,7 +118,7 @@ double bytes_per_shape(const CrowdRun& run) {
 }
 
 /// Part of the collisions at depth 0 that a level clears: of single cylinders.
-double share_cleared(const CrowdRun& run, const LevelAnswers& level) {
+double fraction_cleared(const CrowdRun& run, const LevelAnswers& level) {
   const std::uint64_t single = run.answers.levels.front().hit_count;
   return single == 0 ? 0 : static_cast<double>(level.cleared) / static_cast<double>(single);
 }
@@ -147,7 +147,7 @@ std::string level_table(const CrowdRun& run) {
   for (const LevelAnswers& level : run.answers.levels)
     out += fmt::format("{:>5} {:>9.1f} {:>13} {:>10} {:>9.1f}\n", depth_name(level.depth), level.discs,
                        grouped(level.hit_count),
-                       level.depth == 0 ? "-" : fmt::format("{:.1f} %", 100 * share_cleared(run, level)),
+                       level.depth == 0 ? "-" : fmt::format("{:.1f} %", 100 * fraction_cleared(run, level)),
                        level.nanoseconds_per_pair);
   return out;
 }
@@ -158,7 +158,7 @@ std::string conclusion(const CrowdRun& run) {
   const std::string which =
       finest.depth == all_depths ? "The full hierarchy" : fmt::format("Depth {}", finest.depth);
   return fmt::format("{} clears {:.1f} % of the single cylinder's collisions.\n", which,
-                     100 * share_cleared(run, finest));
+                     100 * fraction_cleared(run, finest));
 }
 
 /// A baked file has settled what concerns shapes.
@@ -225,7 +225,7 @@ nlohmann::ordered_json json_report(const CrowdRun& run) {
                               {"discs_per_shape", level.discs},
                               {"hits", level.hit_count},
                               {"cleared", level.cleared},
-                              {"cleared_share", share_cleared(run, level)},
+                              {"cleared_share", fraction_cleared(run, level)},
                               {"nanoseconds_per_pair", level.nanoseconds_per_pair},
                               {"runs", level.runs}});
   return json;

@@ -107,8 +107,8 @@ void inspect_table(const InspectOptions& options, const LoadedCharacter& from,
 void require_verified(const std::string& file, const ShapeSet& set) {
   constexpr std::size_t most = 20;
   std::vector<std::string> lines;
-  for (const detail::Finding& finding : detail::verify(set, most + 1))
-    lines.push_back(file + ": " + text_of(finding));
+  for (const detail::Inconsistency& inconsistency : detail::verify(set, most + 1))
+    lines.push_back(file + ": " + text_of(inconsistency));
   if (lines.size() > most) lines.back() = file + ": and more";
   if (!lines.empty()) throw InputErrors(std::move(lines));
 }

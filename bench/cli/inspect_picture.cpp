@@ -124,7 +124,7 @@ void draw_discs_at(Svg& svg, const AnimatedShape& shape, const Placement& placem
   draw_discs(svg, discs);
 }
 
-void draw_moment(const Drawing& drawing, Pixel corner) {
+void draw_pose(const Drawing& drawing, Pixel corner) {
   Svg& svg = drawing.svg;
   const double seconds = drawing.view.seconds;
   const Placement placement = drawing.at_time.placement(corner, large);
@@ -138,7 +138,7 @@ void draw_moment(const Drawing& drawing, Pixel corner) {
 }
 
 /// The way of each centre from key to key of the chunk.
-void draw_ways(const Drawing& drawing, Pixel corner) {
+void draw_paths(const Drawing& drawing, Pixel corner) {
   Svg& svg = drawing.svg;
   const AnimatedChunk& chunk = drawing.chunk;
   const Placement placement = drawing.at_time.placement(corner, large);
@@ -164,8 +164,8 @@ std::string draw_animated(const AnimatedView& view) {
   const Drawing drawing(view, svg);
   svg.text({border, 38}, "title", title);
   svg.text({border, 62}, "caption", text_of(facts_of(view.discs)) + ".");
-  draw_moment(drawing, {border, head});
-  draw_ways(drawing, {border + large + gap, head});
+  draw_pose(drawing, {border, head});
+  draw_paths(drawing, {border + large + gap, head});
   return std::move(svg).finish();
 }
 

@@ -29,11 +29,11 @@
 namespace bch::cli {
 
 /// Refers to what agents have: shapes, or bodies of spheres.
-using AskedSet = std::variant<const ShapeSet*, const BodySet*>;
+using AnySet = std::variant<const ShapeSet*, const BodySet*>;
 
 /// Holds the input of a query.
 struct QueryInput {
-  AskedSet set;
+  AnySet set;
   const AgentTable& table;
   std::span<const Pair> pairs;
   detail::AllOptions options;
@@ -76,7 +76,7 @@ std::string query_help();
 /// Returns all pairs that collide or, with a finite max_distance, are within it, in the order of the agents' lines. `what`: "within" counts
 /// as that query does, also who stands inside whom; else distances count alone.
 /// Errors:  throws std::length_error where there are more pairs of neighbours than `most`.
-std::vector<Pair> all_pairs(const AskedSet& set, const AgentTable& table, const std::string& what,
+std::vector<Pair> all_pairs(const AnySet& set, const AgentTable& table, const std::string& what,
                             const detail::AllOptions& options, std::size_t most);
 
 /// Holds the options of a command that takes obstacles.

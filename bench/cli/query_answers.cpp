@@ -97,22 +97,22 @@ template <class Set, class About>
 constexpr bool of_pairs_alone = std::is_same_v<Set, BodySet>&& std::is_same_v<About, ObstacleSet>;
 
 std::string penetration_rows(const QueryInput& input) {
-  std::vector<Penetration> ways(input.size());
+  std::vector<Penetration> depths(input.size());
   const Agents agents = input.table.agents();
   run_query(input, [&]<class Set, class About>(const Set& set, const About& about) {
     if constexpr (std::is_same_v<About, ObstacleSet>) {
-      if constexpr (!of_pairs_alone<Set, About>) penetration(set, agents, about, ways, input.options);
+      if constexpr (!of_pairs_alone<Set, About>) penetration(set, agents, about, depths, input.options);
     } else if (input.direction) {
       const std::vector<Vec2> along(input.pairs.size(), *input.direction);
-      penetration_along(set, agents, about, along, ways, input.options);
+      penetration_along(set, agents, about, along, depths, input.options);
     } else {
-      penetration(set, agents, about, input.directions, ways, input.options);
+      penetration(set, agents, about, input.directions, depths, input.options);
     }
   });
   std::string out;
-  for (std::size_t i = 0; i < ways.size(); ++i)
-    out += fmt::format("{},{},{},{}\n", ids(input, i), plain(ways[i].depth), plain_part(ways[i].x),
-                       plain_part(ways[i].y));
+  for (std::size_t i = 0; i < depths.size(); ++i)
+    out += fmt::format("{},{},{},{}\n", ids(input, i), plain(depths[i].depth), plain_part(depths[i].x),
+                       plain_part(depths[i].y));
   return out;
 }
 
@@ -258,7 +258,7 @@ std::string query_help() {
   return text;
 }
 
-std::vector<Pair> all_pairs(const AskedSet& set, const AgentTable& table, const std::string& what,
+std::vector<Pair> all_pairs(const AnySet& set, const AgentTable& table, const std::string& what,
                             const detail::AllOptions& options, std::size_t most) {
   return std::visit([&](const auto* of) { return all_pairs_of(*of, table, what, options, most); }, set);
 }

@@ -62,7 +62,7 @@ Question read_question(const QueryCommandOptions& options, std::size_t shapes, s
 }
 
 /// Writes the table of answers, piece by piece.
-void answer(const QueryCommandOptions& options, const AskedSet& set, Question& question) {
+void answer(const QueryCommandOptions& options, const AnySet& set, Question& question) {
   constexpr std::size_t at_once = 65'536;  // pairs, of which each may have many contacts
   auto& [table, pairs, obstacle_set] = question;
   const ObstacleSet* const obstacles = obstacle_set ? &*obstacle_set : nullptr;

@@ -36,7 +36,7 @@ class Scenery {
  private:
   /// Represents a part of the crowd that is equally dense in an area.
   struct Layer {
-    double share;
+    double fraction;
     double half_side;           ///< of a square, of which streets take a tenth
     bool rows, columns;         ///< streets
     double inner, outer, x, y;  ///< of a ring, where outer is not 0

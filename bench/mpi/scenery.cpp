@@ -26,13 +26,13 @@ const std::vector<std::string> scenery_kinds = {"uniform", "spot", "stadium", "s
 
 Scenery::Scenery(const std::string& kind, std::uint64_t agents, double density) {
   const double area = static_cast<double>(agents) / density, half = std::sqrt(area) / 2;
-  const auto square = [](double share, double half_side) {
-    return Layer{share, half_side, false, false, 0, 0, 0, 0};
+  const auto square = [](double fraction, double half_side) {
+    return Layer{fraction, half_side, false, false, 0, 0, 0, 0};
   };
-  const auto ring = [&](double share, double times_density, double inner, double x) {
-    const double ring_area = share * area / times_density;
+  const auto ring = [&](double fraction, double times_density, double inner, double x) {
+    const double ring_area = fraction * area / times_density;
     const double outer = std::sqrt(ring_area / (pi * (1 - inner * inner)));
-    return Layer{share, 0, false, false, inner * outer, outer, x, x};
+    return Layer{fraction, 0, false, false, inner * outer, outer, x, x};
   };
   const auto streets = [&](bool rows) {
     const double half_side = std::sqrt(area / 2 * (block / street_width)) / 2;
@@ -60,7 +60,7 @@ bool Scenery::Layer::holds(double px, double py) const {
 DistributedCrowd::Agent Scenery::agent(std::uint64_t number, std::uint32_t shapes) const {
   detail::Random random(number);
   const double chosen = random.uniform(1);
-  const Layer& layer = chosen < layers_[0].share ? layers_[0] : layers_.back();
+  const Layer& layer = chosen < layers_[0].fraction ? layers_[0] : layers_.back();
   DistributedCrowd::Agent agent;
   agent.heading = 2 * pi * random.uniform(1);
   agent.id = static_cast<std::uint32_t>(number);

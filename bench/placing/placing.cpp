@@ -127,8 +127,8 @@ std::vector<PathKey> arc(const PathKey& begin, double speed, double turn, double
   for (int k = 1; k <= steps; ++k) {
     const PathKey& last = path.back();
     const double time = seconds * k / steps, middle = begin.heading + turn * (last.time + time) / 2;
-    const double way = speed * (time - last.time);
-    path.push_back({time, last.x + way * std::cos(middle), last.y + way * std::sin(middle),
+    const double distance = speed * (time - last.time);
+    path.push_back({time, last.x + distance * std::cos(middle), last.y + distance * std::sin(middle),
                     begin.heading + turn * time});
   }
   return path;

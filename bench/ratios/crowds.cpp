@@ -60,17 +60,17 @@ Contender all_at_once(Scene& scene, int threads) {
 Contender in_batches(Scene& scene, std::size_t most) {
   const Workload& workload = scene.workload("colliding");
   const std::size_t size = std::min(most, workload.pairs.size());
-  const std::size_t asked = workload.pairs.size() / size * size;
+  const std::size_t used = workload.pairs.size() / size * size;
   const auto hits = std::make_shared<Hits>(scene.expected(Leaves::discs, workload));
-  std::fill_n(hits->begin(), asked, std::uint8_t{2});
-  const auto call = [&set = scene.set(), &workload, hits, size, asked] {
+  std::fill_n(hits->begin(), used, std::uint8_t{2});
+  const auto call = [&set = scene.set(), &workload, hits, size, used] {
     const std::span<const Pair> pairs = workload.pairs;
-    for (std::size_t i = 0; i < asked; i += size)
+    for (std::size_t i = 0; i < used; i += size)
       collide(set, workload.agents(), pairs.subspan(i, size), std::span(*hits).subspan(i, size), disc_query);
   };
   call();
   require_right("batches", workload, wrong_kernel(scene, workload, Leaves::discs, *hits));
-  return {call, asked};
+  return {call, used};
 }
 
 /// What a simulator does in every step: finds the pairs and answers them. Several crowds in turn, because a

@@ -47,12 +47,12 @@ struct FloorPlan {
   /// Adds a side of a room, with a door: two lines of so many pieces each.
   void add_wall(double from_x, double from_y, bool upright, double length, std::uint32_t pieces) {
     for (const double begin : {0.0, (length + door) / 2}) {
-      std::vector<double> along, beside;
+      std::vector<double> along, across;
       for (std::uint32_t i = 0; i <= pieces; ++i) {
         along.push_back((upright ? from_y : from_x) + begin + (length - door) / 2 * i / pieces);
-        beside.push_back(upright ? from_x : from_y);
+        across.push_back(upright ? from_x : from_y);
       }
-      upright ? add(beside, along, false) : add(along, beside, false);
+      upright ? add(across, along, false) : add(along, across, false);
     }
   }
 };
@@ -153,8 +153,8 @@ Contender by_loop(const Floor& floor) {
         const bool is_near = std::ranges::any_of(obstacle.segments, [&](const auto& ends) {
           const double x = ends[2] - ends[0], y = ends[3] - ends[1];
           const double px = agents.x[i] - ends[0], py = agents.y[i] - ends[1];
-          const double share = std::clamp((px * x + py * y) / (x * x + y * y), 0.0, 1.0);
-          const double dx = px - share * x, dy = py - share * y;
+          const double t = std::clamp((px * x + py * y) / (x * x + y * y), 0.0, 1.0);
+          const double dx = px - t * x, dy = py - t * y;
           return dx * dx + dy * dy <= radius * radius;
         });
         hit = hit || (is_near && floor.reference.collides(agents, i, obstacle));

@@ -155,18 +155,18 @@ struct ContactsQuery : Question {
 
 struct PenetrationQuery : Question {
   using Question::Question;
-  std::vector<Penetration> ways = std::vector<Penetration>(pairs.size());
+  std::vector<Penetration> depths = std::vector<Penetration>(pairs.size());
   baselines::CutLists cuts{scene.shapes(), {}};
 
   void run_query(const detail::AllOptions& options) {
-    penetration(scene.set(), agents, pairs, penetration_directions, ways, options);
+    penetration(scene.set(), agents, pairs, penetration_directions, depths, options);
   }
   auto search(std::size_t i, Method) {
     return baselines::penetration(cuts, agents, pairs[i], penetration_directions);
   }
   bool is_right(std::size_t i, Method method) {
     const auto [depth, x, y] = search(i, method);
-    return ways[i] == Penetration{depth, x, y};
+    return depths[i] == Penetration{depth, x, y};
   }
 };
 

@@ -48,10 +48,10 @@ class Packing {
   /// Each of two goes half of the shortest way apart, but no more than a short step, so that those who reach around each
   /// other stop as soon as they can. Returns: whether somebody overlapped somebody.
   bool step(bch::Crowd& finder) {
-    const auto [pairs, ways] = finder.penetrations(set_, crowd_.agents(), 32);
+    const auto [pairs, depths] = finder.penetrations(set_, crowd_.agents(), 32);
     for (std::size_t k = 0; k < pairs.size(); ++k) {
-      const double half = static_cast<double>(std::min(0.5f * ways[k].depth + beyond, longest));
-      const double x = half * ways[k].x, y = half * ways[k].y;
+      const double half = static_cast<double>(std::min(0.5f * depths[k].depth + beyond, longest));
+      const double x = half * depths[k].x, y = half * depths[k].y;
       const auto [i, j] = pairs[k];
       crowd_.x[i] += x, crowd_.y[i] += y;
       crowd_.x[j] -= x, crowd_.y[j] -= y;

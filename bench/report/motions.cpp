@@ -45,8 +45,9 @@ void run_motions(Run& run) {
   std::vector<double> found(scene.pairs().size());
   const auto time = [&](const std::string& how, const auto& search) {
     for (const bool touching : {false, true}) {
-      const std::vector<Pair> asked = scene.pairs(touching);
-      costs.add({how, touching ? "touching" : "free", microseconds_of(asked.size(), [&] { search(asked); })});
+      const std::vector<Pair> queried = scene.pairs(touching);
+      costs.add(
+          {how, touching ? "touching" : "free", microseconds_of(queried.size(), [&] { search(queried); })});
     }
     search(scene.pairs());
   };

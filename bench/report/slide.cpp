@@ -16,7 +16,7 @@ namespace bch::report {
 namespace {
 
 constexpr double step = 0.001, resolution = 1e-6;  // metres
-constexpr double max_beside = 0.5;                 // metres, of the paper
+constexpr double max_offset = 0.5;                 // metres, of the paper
 constexpr int max_draws = 100;
 constexpr double not_detected = std::numeric_limits<double>::quiet_NaN();
 
@@ -67,7 +67,7 @@ SlideCases::SlideCases(std::span<const Shape> shapes, std::uint32_t cases, std::
 void SlideCases::draw(detail::Random& random, std::size_t of) {
   crowd_.heading[2 * of] = random.uniform(2 * std::numbers::pi);
   crowd_.heading[2 * of + 1] = random.uniform(2 * std::numbers::pi);
-  crowd_.y[2 * of] = random.uniform(2 * max_beside) - max_beside;
+  crowd_.y[2 * of] = random.uniform(2 * max_offset) - max_offset;
 }
 
 std::vector<double> SlideCases::contacts(const Answer& answer) const {

@@ -264,9 +264,10 @@ void Trial::store_outlines_in_contact(double x, double y, double gap) {
   PlacedSpecimen away = b;
   away.x = a.x + far * x, away.y = a.y + far * y;
   // In a's frame it is a that moves.
-  const QuadVector way = turned_back(baselines::quad_rotation(a.heading), {far * x, far * y});
+  const QuadVector displacement = turned_back(baselines::quad_rotation(a.heading), {far * x, far * y});
   const long double time =
-      oracle(a, away, x, y).time_of_impact(static_cast<long double>(way.x), static_cast<long double>(way.y));
+      oracle(a, away, x, y)
+          .time_of_impact(static_cast<long double>(displacement.x), static_cast<long double>(displacement.y));
   const double distance = time <= 1 ? static_cast<double>(far * (1 - time)) : 0;
   b.x = a.x + (distance + gap) * x;
   b.y = a.y + (distance + gap) * y;

@@ -56,9 +56,9 @@ void cut(Character& character, double relief, detail::Random& random) {
       const float length =
           (detail::to_eigen(character.vertices[a]) - detail::to_eigen(character.vertices[b])).norm();
       const Eigen::Vector3f normal = (normals[a].normalized() + normals[b].normalized()).normalized();
-      const auto share = static_cast<float>(random.uniform(2 * relief) - relief);
+      const auto fraction = static_cast<float>(random.uniform(2 * relief) - relief);
       Vec3& at = character.vertices.back();
-      at = detail::vec3(detail::to_eigen(at) + share * length * normal);
+      at = detail::vec3(detail::to_eigen(at) + fraction * length * normal);
     }
     return found->second;
   };

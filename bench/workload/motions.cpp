@@ -28,9 +28,9 @@ namespace bch::bench {
 namespace {
 
 constexpr double never = std::numeric_limits<double>::infinity();
-constexpr double near = 1;          // metres
-constexpr double motion_room = 12;  // metres: the side of the square
-constexpr double speed = 1.3;       // metres a second
+constexpr double near = 1;        // metres
+constexpr double area_side = 12;  // metres: the side of the square
+constexpr double speed = 1.3;     // metres a second
 constexpr double tolerance = 0.005, rounding = 1e-5;
 
 double distance(const PathKey& a, const PathKey& b) {
@@ -105,7 +105,7 @@ MotionScene::MotionScene(std::span<const AnimatedClip> clips, std::uint32_t pair
     : clips_(clips) {
   detail::Random random(seed);
   while (pairs_.size() < pairs) {
-    const PathKey begin{0, random.uniform(motion_room), random.uniform(motion_room),
+    const PathKey begin{0, random.uniform(area_side), random.uniform(area_side),
                         random.uniform(2 * std::numbers::pi)};
     std::vector<PathKey> path = arc(begin, speed, random.uniform(1) - 0.5, seconds);
     const auto index = static_cast<std::uint32_t>(paths_.size());

@@ -15,9 +15,10 @@
 namespace bch::detail {
 
 /// Returns a vector of length 1 along another; of no length: along x.
-inline SpacePoint unit_of(const SpacePoint& way) noexcept {
-  const double length = std::sqrt(dot(way, way));
-  return length > 0 ? SpacePoint{way.x / length, way.y / length, way.z / length} : SpacePoint{1, 0, 0};
+inline SpacePoint unit_of(const SpacePoint& offset) noexcept {
+  const double length = std::sqrt(dot(offset, offset));
+  return length > 0 ? SpacePoint{offset.x / length, offset.y / length, offset.z / length}
+                    : SpacePoint{1, 0, 0};
 }
 
 /// Represents a sphere of an agent: relative to the agent's position, in the world's axes.
@@ -62,8 +63,8 @@ class AgentPair {
    private:
     friend class AgentPair;
     Spheres(const AgentSphere& a, const AgentSphere& b, const SpacePoint& between) : a_(a), b_(b) {
-      const SpacePoint way = between + (b.centre - a.centre);
-      length_ = std::sqrt(dot(way, way)), unit_ = unit_of(way);
+      const SpacePoint offset = between + (b.centre - a.centre);
+      length_ = std::sqrt(dot(offset, offset)), unit_ = unit_of(offset);
     }
 
     AgentSphere a_, b_;

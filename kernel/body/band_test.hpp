@@ -84,7 +84,7 @@ class BandTest {
   static constexpr std::uint32_t equal_bands = 1 | 1 << (body_bands + 1) | 1 << 2 * (body_bands + 1);
   static_assert(body_bands == 3);
   static constexpr unsigned half = support_directions / 2;
-  static constexpr unsigned beside = half / 8;  ///< 45 degrees, in directions of one half
+  static constexpr unsigned quarter_turn = half / 8;  ///< 45 degrees, in directions of one half
   static constexpr float infinite = __builtin_inff();
   static constexpr float low[] = {-infinite, band_planes[0], band_planes[1]};
   static constexpr float high[] = {band_planes[0], band_planes[1], infinite};
@@ -105,7 +105,7 @@ class BandTest {
     const unsigned middle = first_at_most(overlap, Simd::least(least));
     const auto [c, s, tx, ty] = bodies.b_in_a.ground;
     for (unsigned i = 0; i < Reach::axes; ++i) {
-      const unsigned k = (middle + (i + half - 1) * beside) % half;
+      const unsigned k = (middle + (i + half - 1) * quarter_turn) % half;
       const float x = SupportDirections<Simd>::direction_x[0][k],
                   y = SupportDirections<Simd>::direction_y[0][k];
       of_a.x[i] = -x, of_a.y[i] = -y, of_a.most[i] = -from_b[k];

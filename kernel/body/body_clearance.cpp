@@ -29,11 +29,11 @@ struct Writer {
   const BodySetView& bodies;
   const Agents& agents;
   const BodyClearanceAnswers& answers;
-  float enough;
+  float stop_below;
 
   void store(std::size_t i, Pair pair, const NearestSpheres& nearest) const {
     if (nearest.a == no_slot) return store_alone(answers, i, std::numeric_limits<float>::infinity());
-    if (nearest.distance <= enough) return store_alone(answers, i, 0);
+    if (nearest.distance <= stop_below) return store_alone(answers, i, 0);
     answers.distance[i] = nearest.distance;
     if (answers.direction.empty() && answers.spheres.empty() && answers.points.empty()) return;
     const auto [a, b] = std::minmax(pair.first, pair.second);
@@ -63,13 +63,13 @@ void clearance(const BodySet& bodies, const Agents& agents, std::span<const Pair
   const Implementation& implementation = chosen(options.implementation, "clearance");
   const BodySetView& view = bodies.view();
   require_valid(implementation, view.ground, agents, pairs);
-  const float enough = options.overlap == Overlap::zero ? 0 : -std::numeric_limits<float>::infinity();
+  const float stop_below = options.overlap == Overlap::zero ? 0 : -std::numeric_limits<float>::infinity();
   const BodyClearanceArguments arguments{
       {arguments_for(view.ground, agents, pairs), &view},
       rounding::round_down(std::min(options.max_distance, double{largest_limit})),
-      enough,
+      stop_below,
       nullptr};
-  const Writer writer{view, agents, answers, enough};
+  const Writer writer{view, agents, answers, stop_below};
   for_pair_ranges(pairs.size(), pairs_at_once, [&](std::size_t begin, std::size_t size) {
     NearestSpheres nearest[pairs_at_once];
     BodyClearanceArguments part = arguments;

@@ -21,7 +21,7 @@ struct NearestSpheres {
 struct BodyClearanceArguments {
   BodyArguments in;         ///< without codes
   float limit;              ///< distances above it are not looked for
-  float enough;             ///< one at or below it ends a search
+  float stop_below;         ///< one at or below it ends a search
   NearestSpheres* nearest;  ///< as many as pairs
 };
 

@@ -40,8 +40,8 @@ class BodyClearanceKernel {
     Reach of_a, of_b;
     if (!(bands_.find_reach_of_all(pair, bodies, of_a, of_b) <= bodies.margin()))
       return {bodies.gap, no_slot, no_slot};
-    leaves_.begin(bodies, set, at_.shape_a[pair], at_.shape_b[pair], arguments_.enough);
-    if (leaves_.bound_by_cores()) return {arguments_.enough, 0, 0};
+    leaves_.begin(bodies, set, at_.shape_a[pair], at_.shape_b[pair], arguments_.stop_below);
+    if (leaves_.bound_by_cores()) return {arguments_.stop_below, 0, 0};
     of_a.widen(leaves_.bodies().margin()), of_b.widen(leaves_.bodies().margin());
     return leaves_.search(of_a, of_b);
   }

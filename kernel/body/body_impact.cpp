@@ -25,15 +25,15 @@ namespace {
 /// Finds the first contact of two bodies that do not collide.
 class FirstImpact {
  public:
-  FirstImpact(const float* a, const float* b, const SpaceFrame& frame, const SpacePoint& way)
-      : spheres_(a, b, frame), way_(way) {
+  FirstImpact(const float* a, const float* b, const SpaceFrame& frame, const SpacePoint& displacement)
+      : spheres_(a, b, frame), displacement_(displacement) {
     slack_ = 0x1p-16 * (double{header_of(a).reach} + double{header_of(b).reach} + frame.distance());
   }
 
   float time() {
-    spheres_.visit(
-        [&](const Cylinder& a, const Cylinder& b) { return !is_late(bound_of_contact(a, b, way_, slack_)); },
-        [&](std::uint32_t, std::uint32_t, const Sphere& a, const Sphere& b) { compare(a, b); });
+    spheres_.visit([&](const Cylinder& a,
+                       const Cylinder& b) { return !is_late(bound_of_contact(a, b, displacement_, slack_)); },
+                   [&](std::uint32_t, std::uint32_t, const Sphere& a, const Sphere& b) { compare(a, b); });
     return is_found_ ? static_cast<float>(best_) : std::numeric_limits<float>::infinity();
   }
 
@@ -43,12 +43,12 @@ class FirstImpact {
 
   void compare(const Sphere& a, const Sphere& b) {
     const SpacePoint between{double{b.x - a.x}, double{b.y - a.y}, double{b.z - a.z}};
-    const double time = time_of_contact(between, way_, double{a.radius + b.radius});
+    const double time = time_of_contact(between, displacement_, double{a.radius + b.radius});
     if (time <= best_) best_ = time, is_found_ = true;
   }
 
   NearSpheres spheres_;
-  SpacePoint way_;
+  SpacePoint displacement_;
   double slack_, best_ = 1;
   bool is_found_ = false;
 };
@@ -75,9 +75,10 @@ void time_of_impact(const BodySet& bodies, const Agents& agents, std::span<const
       const auto [a, b] = std::minmax(pairs[i].first, pairs[i].second);
       const double sign = pairs[i].second < pairs[i].first ? -1 : 1;
       const SpaceFrame frame(agents, a, b);
-      const SpacePoint way = frame.way(sign * displacements.x[i], sign * displacements.y[i],
-                                       displacements.z.empty() ? 0 : sign * displacements.z[i]);
-      times[i] = FirstImpact(view.record(agents.shape[a]), view.record(agents.shape[b]), frame, way).time();
+      const SpacePoint displacement = frame.way(sign * displacements.x[i], sign * displacements.y[i],
+                                                displacements.z.empty() ? 0 : sign * displacements.z[i]);
+      times[i] =
+          FirstImpact(view.record(agents.shape[a]), view.record(agents.shape[b]), frame, displacement).time();
     }
   });
 }

@@ -21,8 +21,8 @@ class NearestLeaves {
  public:
   /// Takes two bodies, whose gap is the limit, and the numbers of their spheres. `enough`: see BodyClearanceArguments.
   void begin(const PlacedBodies& bodies, const BodySetView& set, std::uint32_t body_a, std::uint32_t body_b,
-             float enough) noexcept {
-    bodies_ = bodies, set_ = &set, body_a_ = body_a, body_b_ = body_b, enough_ = enough;
+             float stop_below) noexcept {
+    bodies_ = bodies, set_ = &set, body_a_ = body_a, body_b_ = body_b, stop_below_ = stop_below;
     nearest_ = {bodies.gap, no_slot, no_slot};
   }
 
@@ -30,7 +30,7 @@ class NearestLeaves {
   bool bound_by_cores() noexcept {
     for (unsigned i = 0; i < core_spheres; i += 8)
       for (unsigned j = 0; j < core_spheres; j += 8)
-        if (bound_by(core_of(bodies_.a, i), core_of(bodies_.b, j)) && enough_ >= 0) return true;
+        if (bound_by(core_of(bodies_.a, i), core_of(bodies_.b, j)) && stop_below_ >= 0) return true;
     return false;
   }
 
@@ -49,7 +49,7 @@ class NearestLeaves {
   using Float = typename Simd::Float;
   using Mask = typename Simd::Mask;
 
-  bool is_done() const noexcept { return bodies_.gap <= enough_; }
+  bool is_done() const noexcept { return bodies_.gap <= stop_below_; }
 
   /// Bounds the distance by that of 8 x 8 spheres, which need not be exact. Returns whether some overlap.
   [[gnu::noinline]] bool bound_by(Balls a, Balls b) noexcept {
@@ -229,7 +229,7 @@ class NearestLeaves {
   PlacedBodies bodies_;
   const BodySetView* set_;
   std::uint32_t body_a_, body_b_;
-  float enough_;
+  float stop_below_;
   NearestSpheres nearest_;
   Leaves leaves_;
   static constexpr std::uint32_t max_bounds = 2 * Leaves::max_leaves;

@@ -17,7 +17,7 @@ struct PlacedBodies {
 
   /// Returns the gap that bounds allow, so that none misses what the test of spheres accepts, where they have a margin for reaches.
   [[gnu::always_inline]] float wide_gap() const noexcept {
-    return gap + static_cast<float>(rounding::bound_share) * __builtin_fabsf(gap);
+    return gap + static_cast<float>(rounding::bound_gap_margin) * __builtin_fabsf(gap);
   }
   /// Returns how much more other bounds have to reach, metres.
   [[gnu::always_inline]] float margin() const noexcept {

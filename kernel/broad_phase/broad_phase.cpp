@@ -78,15 +78,15 @@ void BroadPhase::find_in_class(const CrowdGrid& grid, std::uint32_t size_class, 
     while (i < class_end && discs_.cell(i) < cell) ++i;
     return i;
   };
-  std::size_t beside_end = begin;
+  std::size_t row_end = begin;
   std::size_t above = discs_.first_from(discs_.cell(begin) + up - 1, begin, class_end), above_end = above;
   for (std::size_t i = begin; i < end;) {
     const std::uint64_t here = discs_.cell(i);
-    beside_end = skip_below(here + 2, beside_end);
+    row_end = skip_below(here + 2, row_end);
     above = skip_below(here + up - 1, above);
     above_end = skip_below(here + up + 2, std::max(above, above_end));
     for (; i < end && discs_.cell(i) == here; ++i) {
-      list.add_overlapping(discs_, i, i + 1, beside_end, count);
+      list.add_overlapping(discs_, i, i + 1, row_end, count);
       list.add_overlapping(discs_, i, above, above_end, count);
     }
   }

@@ -25,11 +25,12 @@ constexpr double centre_rounding = 0x1p-50;
 
 /// The amount by which clearance() may be too small, with D up to the margin and twice both reaches, in units
 /// of u: a share of the margin and a share of both reaches. Each of two agents takes half of it.
-constexpr double share_of_margin = 0x1p-18, share_of_reach = 128 * rounding::unit_roundoff;
-static_assert(2 * share_of_margin >= clearance_terms::short_of_distance * rounding::unit_roundoff);
-static_assert(share_of_reach >= (clearance_terms::short_of_reach + 2 * clearance_terms::short_of_distance) *
-                                    rounding::unit_roundoff);
-static_assert(share_of_reach >= rounding::terms::query_error * rounding::unit_roundoff,
+constexpr double fraction_of_margin = 0x1p-18, fraction_of_reach = 128 * rounding::unit_roundoff;
+static_assert(2 * fraction_of_margin >= clearance_terms::short_of_distance * rounding::unit_roundoff);
+static_assert(fraction_of_reach >=
+              (clearance_terms::short_of_reach + 2 * clearance_terms::short_of_distance) *
+                  rounding::unit_roundoff);
+static_assert(fraction_of_reach >= rounding::terms::query_error * rounding::unit_roundoff,
               "what collide() may accept");
 
 /// A root disc that is enlarged by half of the margin, and by more than clearance() may tell too little,
@@ -40,7 +41,7 @@ double pruning_radius(const ShapeSetView& shapes, std::size_t root, double margi
   const bool has_outer = margin > 0 && shapes.trees != nullptr;
   const double radius = has_outer ? shapes.trees[root].outer : r;
   const double reach = std::abs(static_cast<double>(x)) + std::abs(static_cast<double>(y)) + radius;
-  return radius + share_of_reach * reach + (0.5 + share_of_margin) * margin;
+  return radius + fraction_of_reach * reach + (0.5 + fraction_of_margin) * margin;
 }
 
 struct PruningDisc {

@@ -101,8 +101,8 @@ bch_status bch_body_model_make(const bch_character* character, const bch_body_op
     required(model, "model");
     BodyOptions how{.spheres = options.spheres, .draft = options.draft != 0};
     if (const auto report = Work::function_of(work))
-      how.progress = [=](double share) {
-        return report(static_cast<std::size_t>(share * progress_parts),
+      how.progress = [=](double fraction) {
+        return report(static_cast<std::size_t>(fraction * progress_parts),
                       static_cast<std::size_t>(progress_parts));
       };
     hand_out(std::make_unique<bch_body_model>(make_body(of, how)), model);
@@ -239,10 +239,10 @@ bch_status bch_time_of_impact_bodies(const bch_body_set* set, const bch_agents* 
                                      const bch_query_options* options, float* times) {
   return guarded([&] {
     const PairCallOn<bch_body_set> call(set, agents, pairs, count, options);
-    Displacements ways{array_of(x, count, "x"), array_of(y, count, "y")};
-    if (z != nullptr) ways.z = array_of(z, count, "z");
+    Displacements displacements{array_of(x, count, "x"), array_of(y, count, "y")};
+    if (z != nullptr) displacements.z = array_of(z, count, "z");
     const auto to = array_of(times, count, "times");
-    call.run([&] { time_of_impact(call.shapes, call.agents, call.pairs, ways, to, call.options); });
+    call.run([&] { time_of_impact(call.shapes, call.agents, call.pairs, displacements, to, call.options); });
   });
 }
 

@@ -41,9 +41,9 @@ using Call = CallOn<bch_shape_set>;
 /// Holds the arguments of a query of pairs.
 template <class Handle>
 struct PairCallOn : CallOn<Handle> {
-  PairCallOn(const Handle* set, const bch_agents* of, const bch_pair* asked, std::size_t count,
+  PairCallOn(const Handle* set, const bch_agents* of, const bch_pair* queried, std::size_t count,
              const bch_query_options* given)
-      : CallOn<Handle>(set, of, given), pairs(same_array<Pair>(asked, count, "pairs")) {}
+      : CallOn<Handle>(set, of, given), pairs(same_array<Pair>(queried, count, "pairs")) {}
 
   const std::span<const Pair> pairs;
 };

@@ -38,10 +38,10 @@ bch_status bch_first_contact(const bch_motion* motions, size_t motion_count, con
                              double* times) {
   return guarded([&] {
     const std::vector<Motion> all = motions_of(motions, motion_count, "motions");
-    const auto asked = same_array<Pair>(pairs, count, "pairs");
+    const auto queried = same_array<Pair>(pairs, count, "pairs");
     const auto answers = array_of(times, count, "times");
     all_or_none(answers, [&](std::span<double> into) {
-      on_threads(threads, [&] { first_contact(all, asked, {from, to}, into, tolerance); });
+      on_threads(threads, [&] { first_contact(all, queried, {from, to}, into, tolerance); });
     });
   });
 }

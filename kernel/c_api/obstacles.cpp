@@ -144,10 +144,10 @@ bch_status bch_obstacles_time_of_impact(const bch_shape_set* set, const bch_agen
   return guarded([&] {
     const ObstacleCall call(set, agents, obstacles, options);
     const std::size_t count = call.agents.size();
-    const Displacements ways{array_of(x, count, "x"), array_of(y, count, "y")};
+    const Displacements displacements{array_of(x, count, "x"), array_of(y, count, "y")};
     const auto to = array_of(times, count, "times");
     call.run_query(to, [&](auto into) {
-      time_of_impact(call.shapes, call.agents, ways, call.obstacles, into, call.options);
+      time_of_impact(call.shapes, call.agents, displacements, call.obstacles, into, call.options);
     });
   });
 }

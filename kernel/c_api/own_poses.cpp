@@ -114,10 +114,10 @@ bch_status bch_character_blend(const bch_character* character, const bch_pose* p
   return guarded([&] {
     const Character& of = *object_of(character, "character").character;
     const auto times = array_of(poses, count, "poses");
-    const auto shares = array_of(weights, count, "weights");
+    const auto fractions = array_of(weights, count, "weights");
     check_poses(of, times);
     std::vector<WeightedPose> all;
-    for (std::size_t i = 0; i < count; ++i) all.push_back({{times[i].clip, times[i].seconds}, shares[i]});
+    for (std::size_t i = 0; i < count; ++i) all.push_back({{times[i].clip, times[i].seconds}, fractions[i]});
     write(blend(of, all), rows);
   });
 }

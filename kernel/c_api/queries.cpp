@@ -89,8 +89,8 @@ bch_status bch_time_of_impact(const bch_shape_set* set, const bch_agents* agents
                               const bch_query_options* options, float* times) {
   return guarded([&] {
     const PairCall call(set, agents, pairs, count, options);
-    const Displacements ways{array_of(x, count, "x"), array_of(y, count, "y")};
+    const Displacements displacements{array_of(x, count, "x"), array_of(y, count, "y")};
     const auto to = array_of(times, count, "times");
-    call.run([&] { time_of_impact(call.shapes, call.agents, call.pairs, ways, to, call.options); });
+    call.run([&] { time_of_impact(call.shapes, call.agents, call.pairs, displacements, to, call.options); });
   });
 }

@@ -131,9 +131,9 @@ bch_status bch_shape_set_verify(const bch_shape_set* set, size_t most, bch_findi
                                 size_t* count) {
   return guarded([&] {
     required(count, "count");
-    const std::vector<detail::Finding> found = detail::verify(set_of(set), most);
+    const std::vector<detail::Inconsistency> found = detail::verify(set_of(set), most);
     if (finding != nullptr)
-      for (const detail::Finding& each : found) finding(user, text_of(each).c_str());
+      for (const detail::Inconsistency& each : found) finding(user, text_of(each).c_str());
     *count = found.size();
   });
 }

@@ -50,13 +50,14 @@ class ContactKernel {
   /// Appends the contacts of pairs to those at offsets[begin], as far as there is room, and writes where each pair's end.
   /// Returns: one past the last pair that was answered.
   static std::size_t append(const Arguments& in, std::size_t begin, std::size_t end, std::uint64_t* offsets,
-                            DiscPair* contacts, std::uint64_t room) noexcept {
+                            DiscPair* contacts, std::uint64_t capacity) noexcept {
     ContactKernel kernel(in);
     while (begin < end) {
       kernel.at_.place(in, begin, end);
       for (std::uint32_t k = 0; k < kernel.at_.size; ++k, ++begin) {
-        kernel.look_at(begin - k, k);
-        if (room - offsets[begin] < std::uint64_t{kernel.rows_.count} * kernel.columns_.count) return begin;
+        kernel.begin_pair(begin - k, k);
+        if (capacity - offsets[begin] < std::uint64_t{kernel.rows_.count} * kernel.columns_.count)
+          return begin;
         const DiscPair* const last = kernel.place_all(contacts + offsets[begin]);
         offsets[begin + 1] = static_cast<std::uint64_t>(last - contacts);
       }
@@ -87,14 +88,14 @@ class ContactKernel {
     for (; begin < end; begin += kernel.at_.size) {
       kernel.at_.place(in, begin, end);
       for (std::uint32_t k = 0; k < kernel.at_.size; ++k) {
-        kernel.look_at(begin, k);
+        kernel.begin_pair(begin, k);
         use(kernel, begin + k);
       }
     }
   }
 
   /// Looks at one pair of agents, of which the lower index is A; see RelativeTransforms.
-  void look_at(std::size_t begin, std::uint32_t k) noexcept {
+  void begin_pair(std::size_t begin, std::uint32_t k) noexcept {
     const Pair pair = in_.pairs[begin + k];
     swapped_ = pair.second < pair.first;
     placed_.b_in_a = at_.transform(k);
@@ -194,7 +195,7 @@ class ContactKernel {
                      Use& use) const noexcept {
     std::uint64_t hits = overlaps_of(rows, node) & mask;
     if (node >= leaf_window) {
-      hits &= (first_row_of_pairs << seen_lanes(node, next) & first_row_of_pairs) * first_column_of_pairs;
+      hits &= (first_row_of_pairs << done_lanes(node, next) & first_row_of_pairs) * first_column_of_pairs;
       if (hits != 0) hits = verified(rows, node, hits);
       if (hits != 0) use(node, hits);
       return;
@@ -204,10 +205,10 @@ class ContactKernel {
   }
 
   /// Returns how many of a window's discs an earlier window has shown, which ended before `next`.
-  static std::uint32_t seen_lanes(std::uint32_t window, std::uint32_t& next) noexcept {
-    const std::uint32_t seen = next > window ? next - window : 0;
+  static std::uint32_t done_lanes(std::uint32_t window, std::uint32_t& next) noexcept {
+    const std::uint32_t done = next > window ? next - window : 0;
     next = window + block_width > next ? window + block_width : next;
-    return seen < block_width ? seen : block_width;
+    return done < block_width ? done : block_width;
   }
 
   /// Places all contacts of a pair. Returns: one past the last.

@@ -56,14 +56,14 @@ void DiscContacts::add_empty_rows(const Arguments& arguments, std::span<const Pa
 /// In one pass, with memory for as many contacts as there were before.
 void DiscContacts::find_of_few_discs(const Implementation& implementation, const Arguments& arguments,
                                      std::size_t pairs) {
-  constexpr std::size_t least_room = block_width * block_width;
+  constexpr std::size_t least_capacity = block_width * block_width;
   offsets_.resize(pairs + 1);
   offsets_[0] = 0;
   for (std::size_t done = 0;;) {
     done = implementation.kernels->append_contacts(arguments, done, pairs, offsets_.data(), contacts_.data(),
                                                    contacts_.size());
     if (done == pairs) return;
-    contacts_.resize(2 * contacts_.size() + least_room);
+    contacts_.resize(2 * contacts_.size() + least_capacity);
   }
 }
 
@@ -76,18 +76,18 @@ Rows<DiscPair> DiscContacts::find_valid(const ShapeSet& shapes, const Agents& ag
   Arguments arguments = arguments_for(view, agents, pairs);
   arguments.exact_leaves = exact_leaves(shapes, leaves, "contacts");
   const bool by_height = !agents.z.empty();
-  std::span<const Pair> asked = pairs;
+  std::span<const Pair> queried = pairs;
   try {
     if (by_height) {
       meeting_.clear();
       std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(meeting_),
                    [&](Pair pair) { return heights_meet(arguments, pair); });
-      asked = meeting_, arguments.pairs = meeting_.data();
+      queried = meeting_, arguments.pairs = meeting_.data();
     }
-    if (is_light(shapes, asked.size()))
-      find_of_few_discs(implementation, arguments, asked.size());
+    if (is_light(shapes, queried.size()))
+      find_of_few_discs(implementation, arguments, queried.size());
     else
-      find_in_two_passes(implementation, arguments, asked.size());
+      find_in_two_passes(implementation, arguments, queried.size());
     if (by_height) add_empty_rows(arguments, pairs);
   } catch (...) {
     *this = {};

@@ -54,7 +54,7 @@ struct CrowdMemory {
                   double height_margin = 0);
   /// Finds those of bodies of spheres that may be within a distance.
   Candidates find(const BodySet& bodies, const Agents& agents, double within, const PairFilter& filter) {
-    const double margin = within * (1 + rounding::bound_share);
+    const double margin = within * (1 + rounding::bound_gap_margin);
     return find(bodies.view().ground, agents, margin, filter, margin);
   }
   Candidates find(const ShapeSet& shapes, const Agents& agents, double within, const PairFilter& filter) {
@@ -65,9 +65,9 @@ struct CrowdMemory {
   }
   std::span<const Pair> named(std::span<const Pair> candidates);
   /// Keeps the candidates i for which keeps(i), and makes them the pairs of the answer.
-  template <class Keeps>
-  std::span<const Pair> keep(std::span<const Pair> candidates, const Keeps& keeps) {
-    kept.select(candidates.size(), keeps);
+  template <class Predicate>
+  std::span<const Pair> keep(std::span<const Pair> candidates, const Predicate& predicate) {
+    kept.select(candidates.size(), predicate);
     kept.gather(pairs, [&](std::size_t i) { return named(candidates[i]); });
     return pairs;
   }
@@ -106,14 +106,14 @@ struct CrowdMemory {
   /// Asks run_query() for the distances of the candidates and what goes with them, and keeps those that are near.
   template <class RunQuery, class... Value>
   Crowd::Pairs keep_near(std::span<const Pair> candidates, const RunQuery& run_query,
-                         AnswersOfPairs<Value>&... beside) {
+                         AnswersOfPairs<Value>&... others) {
     distance.of_candidates.resize(candidates.size());
-    (beside.of_candidates.resize(candidates.size()), ...);
+    (others.of_candidates.resize(candidates.size()), ...);
     run_query();
     keep(candidates,
          [&](std::size_t i) { return distance.of_candidates[i] < std::numeric_limits<float>::infinity(); });
     distance.keep(kept);
-    (beside.keep(kept), ...);
+    (others.keep(kept), ...);
     return kept_pairs();
   }
   Crowd::Pairs kept_pairs() { return {pairs, *this}; }

@@ -14,13 +14,13 @@ namespace bch::detail {
 class KeptItems {
  public:
   /// Keeps item i of `count` where keeps(i).
-  template <class Keeps>
-  void select(std::size_t count, const Keeps& keeps) {
+  template <class Predicate>
+  void select(std::size_t count, const Predicate& predicate) {
     const std::size_t blocks = (count + block - 1) / block;
     begin_.assign(blocks + 1, 0);
     const auto visit = [&](std::size_t b, const auto& use) {
       for (std::size_t i = b * block; i < std::min((b + 1) * block, count); ++i)
-        if (keeps(i)) use(i);
+        if (predicate(i)) use(i);
     };
     for_ranges(blocks, 1, [&](std::size_t first, std::size_t last) {
       for (std::size_t b = first; b < last; ++b) visit(b, [&](std::size_t) { ++begin_[b + 1]; });

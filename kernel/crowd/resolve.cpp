@@ -60,10 +60,11 @@ void shorten(double& x, double& y, double most) {
 
 /// Adds that an agent comes nearer to another, or to nobody, which is a wall, by no more than there is room for; below 0 it has to go so far
 /// away. The direction leads to the other.
-void add_room(SeparationSolver& solver, std::uint32_t first, std::uint32_t second, const Vec3& direction,
-              double room) {
+void limit_approach(SeparationSolver& solver, std::uint32_t first, std::uint32_t second,
+                    const Vec3& direction, double clearance_left) {
   const double x{direction.x}, y{direction.y}, length = std::sqrt(x * x + y * y);
-  if (length >= least_on_ground) solver.add(first, second, -x / length, -y / length, -room / length);
+  if (length >= least_on_ground)
+    solver.add(first, second, -x / length, -y / length, -clearance_left / length);
 }
 
 }  // namespace
@@ -143,7 +144,8 @@ class Sweeps {
     for (std::size_t i = 0; i < candidates.pairs.size(); ++i) {
       if (!(distance[i] > 0 && double{distance[i]} <= reach_)) continue;
       const auto [first, second] = memory_.named(candidates.pairs[i]);
-      add_room(of_.solver, first, second, direction[i], std::max(0.0, double{distance[i]} - options_.gap));
+      limit_approach(of_.solver, first, second, direction[i],
+                     std::max(0.0, double{distance[i]} - options_.gap));
     }
   }
 
@@ -159,9 +161,9 @@ class Sweeps {
       const bool touches = distance <= 0;
       if (touches) of_.touch_walls.push_back(i);
       is_open_ |= touches && of_.solver.mobility(i) > 0;
-      const double room = distance - options_.gap;
-      add_room(of_.solver, i, SeparationSolver::nobody, of_.wall_direction[i],
-               touches ? room : std::max(0.0, room));
+      const double clearance_left = distance - options_.gap;
+      limit_approach(of_.solver, i, SeparationSolver::nobody, of_.wall_direction[i],
+                     touches ? clearance_left : std::max(0.0, clearance_left));
     }
   }
 

@@ -23,14 +23,14 @@ void SeparationSolver::push(Constraint& constraint) {
                      b = of.second == nobody ? Displacement{} : displacements_[of.second];
   const double missing = of.least - ((a.x - b.x) * of.x + (a.y - b.y) * of.y);
   const double before = of.pushed;
-  constraint.pushed = std::max(0.0, before + of.share * missing);
-  const auto go = [&](std::uint32_t agent, double way) {
+  constraint.pushed = std::max(0.0, before + of.effective_mass * missing);
+  const auto move = [&](std::uint32_t agent, double distance) {
     if (agent == nobody) return;
-    displacements_[agent].x += way * mobility(agent) * of.x;
-    displacements_[agent].y += way * mobility(agent) * of.y;
+    displacements_[agent].x += distance * mobility(agent) * of.x;
+    displacements_[agent].y += distance * mobility(agent) * of.y;
   };
-  go(of.first, of.pushed - before);
-  go(of.second, before - of.pushed);
+  move(of.first, of.pushed - before);
+  move(of.second, before - of.pushed);
 }
 
 void SeparationSolver::solve() {

@@ -45,8 +45,8 @@ class SeparationSolver {
   struct Constraint {
     std::uint32_t first, second;
     double x, y, least;
-    double share;       ///< of a metre that is missing, by which each agent goes times its mobility
-    double pushed = 0;  ///< in all
+    double effective_mass;  ///< of a metre that is missing, by which each agent goes times its mobility
+    double pushed = 0;      ///< in all
   };
 
   void push(Constraint& constraint);

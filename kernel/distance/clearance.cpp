@@ -38,7 +38,7 @@ class RangeAnswers {
   /// At most `ApartPairs::capacity` pairs.
   void write() {
     // A set of roots alone is as quickly searched. Segments are measured only of pairs that do not collide.
-    if (arguments_.enough == 0 && shapes_.trees != nullptr) {
+    if (arguments_.stop_below == 0 && shapes_.trees != nullptr) {
       open_.take_apart(implementation_, arguments_.in, pairs_);
       for (std::size_t i = 0; i < pairs_.size(); ++i) store_alone(answers_, i, 0);
     } else {
@@ -72,7 +72,7 @@ class RangeAnswers {
     const std::size_t i = open_.index(k);
     const NearestFeatures& nearest = found.nearest();
     if (nearest.a == no_node) return store_alone(answers_, i, std::numeric_limits<float>::infinity());
-    if (nearest.distance <= arguments_.enough) return store_alone(answers_, i, 0);
+    if (nearest.distance <= arguments_.stop_below) return store_alone(answers_, i, 0);
     const bool is_turned = open_.pairs()[k].second < open_.pairs()[k].first;
     answers_.distance[i] = nearest.distance;
     if (!answers_.direction.empty()) answers_.direction[i] = found.direction(is_turned ? -1 : 1);
@@ -105,13 +105,13 @@ void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pai
   const ShapeSetView& view = shapes.view();
   require_valid(implementation, view, agents, pairs);
 
-  const float enough = options.overlap == Overlap::zero ? 0 : -std::numeric_limits<float>::infinity();
+  const float stop_below = options.overlap == Overlap::zero ? 0 : -std::numeric_limits<float>::infinity();
   // How deep discs overlap is asked of discs.
   const bool of_segments =
       exact_leaves(shapes, options.leaves, "clearance") && options.overlap == Overlap::zero;
   ClearanceArguments arguments{arguments_for(view, agents, {}),
                                rounding::round_down(std::min(options.max_distance, double{largest_limit})),
-                               enough, nullptr};
+                               stop_below, nullptr};
   arguments.in.exact_leaves = of_segments;
   const auto part = [](auto span, std::size_t begin, std::size_t size) {
     return span.empty() ? span : span.subspan(begin, size);

@@ -31,7 +31,7 @@ struct NearestFeatures {
 struct ClearanceArguments {
   Arguments in;              ///< without codes; with exact_leaves, of which trees have segments
   float limit;               ///< distances above it are not looked for; below far_beyond
-  float enough;              ///< one at or below it ends a search of trees, and is then given as -infinity
+  float stop_below;          ///< one at or below it ends a search of trees, and is then given as -infinity
   NearestFeatures* nearest;  ///< as many as pairs
 };
 

@@ -81,7 +81,7 @@ class ClearanceKernel {
 
   /// Returns what the next search of the kernel is to measure.
   Measure measure(std::uint32_t pair) noexcept {
-    Measure measure(arguments_.limit, arguments_.enough, reach(pair));
+    Measure measure(arguments_.limit, arguments_.stop_below, reach(pair));
     const Tree &a = shapes_.trees[at_.root_a[pair]], &b = shapes_.trees[at_.root_b[pair]];
     if (!arguments_.in.exact_leaves || a.segments == no_segments || b.segments == no_segments) return measure;
     const double margin = segment_margin<Simd>(shapes_, at_.shape_a[pair], at_.shape_b[pair]);

@@ -43,8 +43,8 @@ class ClearanceMeasure {
   using Segments = SegmentGaps<Simd, ClearanceMeasure>;
 
   /// Takes the limit and the reach: `reach` is S, metres. A gap at or below `enough` ends the search; nothing is nearer.
-  ClearanceMeasure(float limit, float enough, float reach) noexcept
-      : enough_(enough), slack_(slack_per_reach * reach) {
+  ClearanceMeasure(float limit, float stop_below, float reach) noexcept
+      : stop_below_(stop_below), slack_(slack_per_reach * reach) {
     search_within({limit, false, no_node, no_node});
   }
   ClearanceMeasure() = default;
@@ -156,7 +156,7 @@ class ClearanceMeasure {
     const float gap = max_gap(nearest.distance);
     if (gap < best_) bound_by(gap);
     // No comparison with these holds.
-    if (nearest.distance <= enough_)
+    if (nearest.distance <= stop_below_)
       nearest_.distance = best_ = -__builtin_inff(), most_ = __builtin_nanf("");
   }
 
@@ -181,7 +181,7 @@ class ClearanceMeasure {
   float margin_;
   Nearest nearest_;
   float best_;
-  float enough_, slack_;
+  float stop_below_, slack_;
   float most_;  ///< what is compared with instead of the best
 };
 

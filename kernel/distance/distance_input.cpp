@@ -14,24 +14,24 @@ namespace bch::detail {
 namespace {
 
 /// Begins the message about one of what is asked.
-std::string place(const QueryName& asked, std::size_t i) {
-  return std::string(asked.query) + ": " + asked.one + " " + std::to_string(i) + ": ";
+std::string place(const QueryName& context, std::size_t i) {
+  return std::string(context.query) + ": " + context.one + " " + std::to_string(i) + ": ";
 }
 
-void check_size_or_none(const QueryName& asked, std::size_t size, const char* what) {
-  if (size != 0) check_size(asked, size, what);
+void check_size_or_none(const QueryName& context, std::size_t size, const char* what) {
+  if (size != 0) check_size(context, size, what);
 }
 
 /// Requires the sizes of all answers but the discs or spheres, and the options.
 template <class Answers, class Options>
-void require_valid_answers(const QueryName& asked, const Answers& answers, const Options& options) {
-  check_size(asked, answers.distance.size(), "distances");
-  check_size_or_none(asked, answers.direction.size(), "directions");
-  check_size_or_none(asked, answers.points.size(), "points");
+void require_valid_answers(const QueryName& context, const Answers& answers, const Options& options) {
+  check_size(context, answers.distance.size(), "distances");
+  check_size_or_none(context, answers.direction.size(), "directions");
+  check_size_or_none(context, answers.points.size(), "points");
   if (!(options.max_distance >= 0))
-    throw std::invalid_argument(std::string(asked.query) + ": a max_distance of " +
+    throw std::invalid_argument(std::string(context.query) + ": a max_distance of " +
                                 shortest(options.max_distance) + " m");
-  require_choice(asked.query, "overlap is", static_cast<int>(options.overlap), "zero (0) and deepest (1)");
+  require_choice(context.query, "overlap is", static_cast<int>(options.overlap), "zero (0) and deepest (1)");
 }
 
 template <class Answers>
@@ -43,45 +43,46 @@ void store_distance(const Answers& answers, std::size_t i, float distance) noexc
 
 }  // namespace
 
-void require_valid(const QueryName& asked, const ClearanceAnswers& answers, const ClearanceOptions& options) {
-  check_size_or_none(asked, answers.discs.size(), "discs");
-  require_valid_answers(asked, answers, options);
+void require_valid(const QueryName& context, const ClearanceAnswers& answers,
+                   const ClearanceOptions& options) {
+  check_size_or_none(context, answers.discs.size(), "discs");
+  require_valid_answers(context, answers, options);
 }
 
-void require_valid(const QueryName& asked, const BodyClearanceAnswers& answers,
+void require_valid(const QueryName& context, const BodyClearanceAnswers& answers,
                    const BodyClearanceOptions& options) {
-  check_size_or_none(asked, answers.spheres.size(), "spheres");
-  require_valid_answers(asked, answers, options);
+  check_size_or_none(context, answers.spheres.size(), "spheres");
+  require_valid_answers(context, answers, options);
 }
 
-void require_distances(const QueryName& asked, std::span<const double> distances) {
+void require_distances(const QueryName& context, std::span<const double> distances) {
   const bool one_for_all = distances.size() == 1;
-  if (!one_for_all) check_size(asked, distances.size(), "distances");
+  if (!one_for_all) check_size(context, distances.size(), "distances");
   for (std::size_t i = 0; i < distances.size(); ++i)
     if (!(distances[i] >= 0))
-      throw std::invalid_argument((one_for_all ? std::string(asked.query) + ": " : place(asked, i)) +
+      throw std::invalid_argument((one_for_all ? std::string(context.query) + ": " : place(context, i)) +
                                   "a distance of " + shortest(distances[i]) + " m");
 }
 
-void require_valid(const QueryName& asked, const Displacements& displacements, std::size_t times) {
-  check_size(asked, displacements.x.size(), "displacements in x");
-  check_size(asked, displacements.y.size(), "displacements in y");
-  check_size_or_none(asked, displacements.z.size(), "displacements in z");
-  check_size(asked, times, "times");
+void require_valid(const QueryName& context, const Displacements& displacements, std::size_t times) {
+  check_size(context, displacements.x.size(), "displacements in x");
+  check_size(context, displacements.y.size(), "displacements in y");
+  check_size_or_none(context, displacements.z.size(), "displacements in z");
+  check_size(context, times, "times");
   const auto good = [](double length) { return std::abs(length) <= rounding::largest_position; };
   for (std::size_t i = 0; i < displacements.x.size(); ++i)
     if (!good(displacements.x[i]) || !good(displacements.y[i]))
-      throw std::invalid_argument(place(asked, i) + "displacement (" + shortest(displacements.x[i]) + ", " +
+      throw std::invalid_argument(place(context, i) + "displacement (" + shortest(displacements.x[i]) + ", " +
                                   shortest(displacements.y[i]) + ") m is not within +-1e9");
   for (std::size_t i = 0; i < displacements.z.size(); ++i)
     if (!good(displacements.z[i]))
-      throw std::invalid_argument(place(asked, i) + "displacement in z of " + shortest(displacements.z[i]) +
+      throw std::invalid_argument(place(context, i) + "displacement in z of " + shortest(displacements.z[i]) +
                                   " m is not within +-1e9");
 }
 
-void require_on_ground(const QueryName& asked, const Displacements& displacements) {
+void require_on_ground(const QueryName& context, const Displacements& displacements) {
   if (!displacements.z.empty())
-    throw std::invalid_argument(std::string(asked.query) +
+    throw std::invalid_argument(std::string(context.query) +
                                 ": expected no displacements in z of outlines, found " +
                                 std::to_string(displacements.z.size()));
 }

@@ -15,15 +15,16 @@ namespace bch::detail {
 // Errors: each throws std::invalid_argument naming the query, the pair or agent where each has a value, and the value.
 
 /// Requires of clearance() the sizes of its answers, and its options.
-void require_valid(const QueryName& asked, const ClearanceAnswers& answers, const ClearanceOptions& options);
-void require_valid(const QueryName& asked, const BodyClearanceAnswers& answers,
+void require_valid(const QueryName& context, const ClearanceAnswers& answers,
+                   const ClearanceOptions& options);
+void require_valid(const QueryName& context, const BodyClearanceAnswers& answers,
                    const BodyClearanceOptions& options);
 /// Requires of within() one distance, or as many as it answers, none of them negative or NaN.
-void require_distances(const QueryName& asked, std::span<const double> distances);
+void require_distances(const QueryName& context, std::span<const double> distances);
 /// Requires of time_of_impact() the sizes of displacements and times, and displacements within the limits.
-void require_valid(const QueryName& asked, const Displacements& displacements, std::size_t times);
+void require_valid(const QueryName& context, const Displacements& displacements, std::size_t times);
 /// Refuses displacements in z.
-void require_on_ground(const QueryName& asked, const Displacements& displacements);
+void require_on_ground(const QueryName& context, const Displacements& displacements);
 
 /// Writes the distance of a pair or an agent without anything beside it.
 void store_alone(const ClearanceAnswers& answers, std::size_t i, float distance) noexcept;

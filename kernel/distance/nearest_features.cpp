@@ -24,9 +24,9 @@ Vec2 rounded(PlanePoint v) {
 }
 
 /// Returns the share of a way at which it is nearest to a point, from where it begins.
-double nearest_share(PlanePoint way, PlanePoint to_point) {
-  const double square = way.x * way.x + way.y * way.y;
-  return square > 0 ? std::clamp((to_point.x * way.x + to_point.y * way.y) / square, 0.0, 1.0) : 0;
+double nearest_t(PlanePoint edge, PlanePoint to_point) {
+  const double square = edge.x * edge.x + edge.y * edge.y;
+  return square > 0 ? std::clamp((to_point.x * edge.x + to_point.y * edge.y) / square, 0.0, 1.0) : 0;
 }
 
 }  // namespace
@@ -69,25 +69,24 @@ PlacedFeatures::Segments PlacedFeatures::segments() const {
   const auto [first, second] = pair_;
   Segments found{segment(nearest_.a), segment(nearest_.b), {}};
   const Rotation of_a = rotation(agents_.heading[first]), of_b = rotation(agents_.heading[second]);
-  const PlanePoint way_a = turned(of_a, found.a.way), way_b = turned(of_b, found.b.way);
+  const PlanePoint edge_a = turned(of_a, found.a.edge), edge_b = turned(of_b, found.b.edge);
   const PlanePoint from_a = turned(of_a, found.a.from), from_b = turned(of_b, found.b.from);
   const PlanePoint apart{agents_.x[second] - agents_.x[first] + (from_b.x - from_a.x),
                          agents_.y[second] - agents_.y[first] + (from_b.y - from_a.y)};
-  const auto between = [&](double share_a, double share_b) {
-    return PlanePoint{apart.x + share_b * way_b.x - share_a * way_a.x,
-                      apart.y + share_b * way_b.y - share_a * way_a.y};
+  const auto between = [&](double t_a, double t_b) {
+    return PlanePoint{apart.x + t_b * edge_b.x - t_a * edge_a.x, apart.y + t_b * edge_b.y - t_a * edge_a.y};
   };
   double least = std::numeric_limits<double>::infinity();
-  const auto take = [&](double share_a, double share_b) {
-    const PlanePoint at = between(share_a, share_b);
+  const auto take = [&](double t_a, double t_b) {
+    const PlanePoint at = between(t_a, t_b);
     const double square = at.x * at.x + at.y * at.y;
     if (square >= least) return;
-    least = square, found.a.share = share_a, found.b.share = share_b, found.between = at;
+    least = square, found.a.t = t_a, found.b.t = t_b, found.between = at;
   };
   for (const double end : {0.0, 1.0}) {
     const PlanePoint to_b = between(0, end), to_a = between(end, 0);
-    take(nearest_share(way_a, to_b), end);
-    take(end, nearest_share(way_b, PlanePoint{-to_a.x, -to_a.y}));
+    take(nearest_t(edge_a, to_b), end);
+    take(end, nearest_t(edge_b, PlanePoint{-to_a.x, -to_a.y}));
   }
   return found;
 }

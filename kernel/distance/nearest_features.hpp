@@ -47,9 +47,9 @@ class PlacedFeatures {
   };
   /// Represents a segment of an agent, in its frame, and the share of its length at which it is nearest to the other one.
   struct Segment {
-    PlanePoint from, way;
-    double share;
-    PlanePoint nearest() const noexcept { return from + share * way; }
+    PlanePoint from, edge;
+    double t;
+    PlanePoint nearest() const noexcept { return from + t * edge; }
   };
   struct Segments {
     Segment a, b;

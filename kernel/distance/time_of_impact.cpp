@@ -25,15 +25,16 @@ void answer(const Implementation& implementation, TimeOfImpactArguments argument
             std::span<const Pair> pairs, const double* x, const double* y, float* times) {
   ApartPairs open;
   open.take_apart(implementation, arguments.in, pairs);
-  float way_x[ApartPairs::capacity], way_y[ApartPairs::capacity], found[ApartPairs::capacity];
+  float displacement_x[ApartPairs::capacity], displacement_y[ApartPairs::capacity],
+      found[ApartPairs::capacity];
   for (std::size_t k = 0; k < open.size(); ++k) {
     const std::size_t i = open.index(k);
     const auto [first, second] = pairs[i];
     const double sign = second < first ? -1 : 1;
-    way_x[k] = static_cast<float>(sign * x[i]), way_y[k] = static_cast<float>(sign * y[i]);
+    displacement_x[k] = static_cast<float>(sign * x[i]), displacement_y[k] = static_cast<float>(sign * y[i]);
   }
   arguments.in.pairs = open.pairs().data();
-  arguments.x = way_x, arguments.y = way_y, arguments.time = found;
+  arguments.x = displacement_x, arguments.y = displacement_y, arguments.time = found;
   implementation.kernels->time_of_impact(arguments, 0, open.size());
   std::fill_n(times, pairs.size(), 0.0f);
   for (std::size_t k = 0; k < open.size(); ++k)

@@ -40,7 +40,7 @@ class TimeOfImpactKernel {
   void answer_chunk(std::size_t begin, std::size_t end) noexcept {
     at_.place(arguments_.in, begin, end);
     const std::uint32_t size = at_.size;
-    turn_ways(arguments_.x + begin, arguments_.y + begin);
+    rotate_displacements(arguments_.x + begin, arguments_.y + begin);
     float* const time = arguments_.time + begin;
     open_.size = 0;
     for (std::uint32_t k = 0; k < size; ++k) {
@@ -60,7 +60,7 @@ class TimeOfImpactKernel {
   }
 
   /// Turns the ways into A's frame.
-  void turn_ways(const float* x, const float* y) noexcept {
+  void rotate_displacements(const float* x, const float* y) noexcept {
     for (std::uint32_t k = 0; k < at_.size; ++k) {
       const auto [cosine, sine] = at_.heading(k);
       x_[k] = cosine * x[k] + sine * y[k];
@@ -89,11 +89,12 @@ class TimeOfImpactKernel {
   /// with a direction is off by 3 u |v|, the differences by 2 u (|t| + |v|), and |t| may be 2 S + |v|: 30 u S
   /// + 18 u |t| + 11 u |v|. Only the proof needs it: supports have room for more than tests have found.
   float slack(std::uint32_t pair) const noexcept {
-    constexpr float share = 0x1p-18f;
-    static_assert(double{share} >= 30 * rounding::unit_roundoff, "the most of the three");
+    constexpr float relative_error = 0x1p-18f;
+    static_assert(double{relative_error} >= 30 * rounding::unit_roundoff, "the most of the three");
     const float excess =
         shapes_.profiles[at_.shape_a[pair]].excess + shapes_.profiles[at_.shape_b[pair]].excess;
-    return excess + share * (reach(pair) + __builtin_fabsf(at_.tx[pair]) + __builtin_fabsf(at_.ty[pair]) +
+    return excess +
+           relative_error * (reach(pair) + __builtin_fabsf(at_.tx[pair]) + __builtin_fabsf(at_.ty[pair]) +
                              __builtin_fabsf(x_[pair]) + __builtin_fabsf(y_[pair]));
   }
 

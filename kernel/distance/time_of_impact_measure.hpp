@@ -34,9 +34,9 @@ constexpr double root_reach = 19, root_distance = 7, difference_reach = 15, diff
 constexpr double bound_reach = 94, bound_distance = 35;
 static_assert(bound_reach >= at_contact_reach + root_reach + difference_reach);
 static_assert(bound_distance >= at_contact_distance + root_distance + difference_distance);
-constexpr double inexact_way = 6;  // of S, where approximate_sqrt() is exact
-constexpr double slack = 256;      // of F
-static_assert(slack >= bound_reach + bound_distance + inexact_way);
+constexpr double displacement_error = 6;  // of S, where approximate_sqrt() is exact
+constexpr double slack = 256;             // of F
+static_assert(slack >= bound_reach + bound_distance + displacement_error);
 
 }  // namespace time_of_impact_terms
 
@@ -122,9 +122,9 @@ class TimeOfImpactMeasure {
       Simd::store(turned + stride + k, ux * y - uy * x);
       Simd::store(turned + 2 * stride + k, of_a(a.radius()) + slack);
     }
-    const Transform on_way{unit_x_ * at.c + unit_y_ * at.s, unit_x_ * at.s - unit_y_ * at.c,
-                           unit_x_ * at.tx + unit_y_ * at.ty, unit_x_ * at.ty - unit_y_ * at.tx};
-    visit_disc_pairs<Simd>(on_way, Discs{turned, stride, 2 * stride}, b,
+    const Transform moved{unit_x_ * at.c + unit_y_ * at.s, unit_x_ * at.s - unit_y_ * at.c,
+                          unit_x_ * at.tx + unit_y_ * at.ty, unit_x_ * at.ty - unit_y_ * at.tx};
+    visit_disc_pairs<Simd>(moved, Discs{turned, stride, 2 * stride}, b,
                            [=](unsigned k, Float along, Float aside, Float radius) {
                              const Float half = Simd::approximate_sqrt(radius * radius - aside * aside);
                              // Pairs whose root is NaN never touch.

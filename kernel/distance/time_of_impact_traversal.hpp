@@ -42,8 +42,8 @@ class TimeOfImpactTraversal {
   }
 
   /// Runs rounds until at most so many pairs are open.
-  void run(std::uint32_t enough) noexcept {
-    while (fresh_.size + returning_.size > enough) {
+  void run(std::uint32_t max_open) noexcept {
+    while (fresh_.size + returning_.size > max_open) {
       bound();
       find_least(fresh_);
       find_least(returning_);
@@ -150,12 +150,12 @@ class TimeOfImpactTraversal {
       const Open& open = open_[windows_.pair[k]];
       const auto [x, y, r] = disc_pair<Simd>(open.b_in_a, discs_a(open), discs_b(open), open.which);
       x_[k] = x, y_[k] = y, r_[k] = r;
-      way_x_[k] = open.measure.x(), way_y_[k] = open.measure.y();
+      displacement_x_[k] = open.measure.x(), displacement_y_[k] = open.measure.y();
     }
     for (std::uint32_t k = 0; k < windows_.size; k += Simd::doubles)
-      Simd::store(time_ + k, Measure::template time_of<Double>(Simd::load(x_ + k), Simd::load(y_ + k),
-                                                               Simd::load(r_ + k), Simd::load(way_x_ + k),
-                                                               Simd::load(way_y_ + k)));
+      Simd::store(time_ + k, Measure::template time_of<Double>(
+                                 Simd::load(x_ + k), Simd::load(y_ + k), Simd::load(r_ + k),
+                                 Simd::load(displacement_x_ + k), Simd::load(displacement_y_ + k)));
     for (std::uint32_t k = 0; k < windows_.size; ++k) {
       Open& open = open_[windows_.pair[k]];
       open.measure.take(time_[k]);
@@ -199,7 +199,7 @@ class TimeOfImpactTraversal {
   Slots windows_, missed_;
   std::uint32_t numbered_ = 0;
   alignas(64) double x_[capacity] = {}, y_[capacity] = {}, r_[capacity] = {};
-  double way_x_[capacity] = {}, way_y_[capacity] = {}, time_[capacity];
+  double displacement_x_[capacity] = {}, displacement_y_[capacity] = {}, time_[capacity];
   Open open_[capacity];
   Frame frames_[capacity][max_frames + 1];
 };

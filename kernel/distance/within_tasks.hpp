@@ -41,9 +41,9 @@ void for_within_tasks(const Implementation& implementation, const ShapeSetView& 
 /// Requires the sizes, and the distances.
 inline void require_within(std::span<const Pair> pairs, std::span<const double> distances,
                            std::span<const std::uint8_t> answers) {
-  const QueryName asked{"within", "pair", pairs.size()};
-  check_size(asked, answers.size(), "answers");
-  require_distances(asked, distances);
+  const QueryName context{"within", "pair", pairs.size()};
+  check_size(context, answers.size(), "answers");
+  require_distances(context, distances);
 }
 
 }  // namespace bch::detail

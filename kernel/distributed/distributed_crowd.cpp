@@ -8,7 +8,7 @@
 
 #include "kernel/distributed/agreement.hpp"
 #include "kernel/distributed/crowd_state.hpp"
-#include "kernel/distributed/room.hpp"
+#include "kernel/distributed/resize.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 
 namespace bch {
@@ -49,7 +49,7 @@ std::span<const Pair> DistributedCrowd::collide_all(const CollideOptions& option
     without_tasks_from_outside([&] {
       state.find_pairs(0);
       const Stopwatch watch(state.counters.answer_seconds);
-      resize_with_room(state.hits, state.pairs.size());
+      resize_with_spare(state.hits, state.pairs.size());
       collide(state.shapes(), state.columns.agents(), state.pairs, state.hits, options);
       keep_hits(state.columns, state.pairs, state.hits, state.colliding);
     });
@@ -65,7 +65,7 @@ std::span<const DistributedCrowd::Distance> DistributedCrowd::clearances(const C
     without_tasks_from_outside([&] {
       state.find_pairs(options.max_distance);
       const Stopwatch watch(state.counters.answer_seconds);
-      resize_with_room(state.metres, state.pairs.size());
+      resize_with_spare(state.metres, state.pairs.size());
       clearance(state.shapes(), state.columns.agents(), state.pairs, {.distance = state.metres}, options);
       keep_near(state.columns, state.pairs, state.metres, state.near);
     });

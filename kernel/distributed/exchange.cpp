@@ -8,7 +8,7 @@
 #include <numeric>
 
 #include "kernel/distributed/agreement.hpp"
-#include "kernel/distributed/room.hpp"
+#include "kernel/distributed/resize.hpp"
 
 namespace bch::detail {
 namespace {
@@ -70,7 +70,7 @@ void exchange_with_all(const OwnComm& comm, const AgentType& type, const Outbox&
   MPI_Alltoall(out.counts.data(), 1, MPI_INT, counts.data(), 1, MPI_INT, comm.get());
   agree(comm.get(), [&] {
     from = offsets_of(counts);
-    resize_with_room(in, before + static_cast<std::size_t>(sum_of(counts)));
+    resize_with_spare(in, before + static_cast<std::size_t>(sum_of(counts)));
   });
   MPI_Alltoallv(out.agents.data(), out.counts.data(), to.data(), type.get(), in.data() + before,
                 counts.data(), from.data(), type.get(), comm.get());
@@ -111,7 +111,7 @@ void NeighbourGraph::exchange(const OwnComm& comm, const AgentType& type, const 
   counts.resize(ranks_.size());
   agree(comm.get(), [&] {
     from = offsets_of(counts);
-    resize_with_room(in, static_cast<std::size_t>(sum_of(counts)));
+    resize_with_spare(in, static_cast<std::size_t>(sum_of(counts)));
   });
   MPI_Neighbor_alltoallv(out.agents.data(), out.counts.data(), to.data(), type.get(), in.data(),
                          counts.data(), from.data(), type.get(), graph_);

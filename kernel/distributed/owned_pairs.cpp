@@ -7,7 +7,7 @@
 #include <limits>
 #include <utility>
 
-#include "kernel/distributed/room.hpp"
+#include "kernel/distributed/resize.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 
 namespace bch::detail {
@@ -25,7 +25,7 @@ void compact(std::size_t count, std::vector<Kept>& kept, const Keep& keep, const
       for (auto [i, end] = block(b); i < end; ++i) begins[b + 1] += keep(i) ? 1 : 0;
   });
   for (std::size_t b = 1; b < begins.size(); ++b) begins[b] += begins[b - 1];
-  resize_with_room(kept, begins.back());
+  resize_with_spare(kept, begins.back());
   for_ranges(begins.size() - 1, 1, [&](std::size_t first, std::size_t last) {
     for (std::size_t b = first, place = begins[b]; b < last; ++b)
       for (auto [i, end] = block(b); i < end; ++i)
@@ -36,10 +36,10 @@ void compact(std::size_t count, std::vector<Kept>& kept, const Keep& keep, const
 }  // namespace
 
 void CrowdColumns::resize(std::size_t size, bool heights) {
-  for (auto* const column : {&id, &shape}) resize_with_room(*column, size);
-  for (auto* const column : {&x, &y, &heading}) resize_with_room(*column, size);
-  for (auto* const column : {&level, &is_own}) resize_with_room(*column, size);
-  resize_with_room(z, heights ? size : 0);
+  for (auto* const column : {&id, &shape}) resize_with_spare(*column, size);
+  for (auto* const column : {&x, &y, &heading}) resize_with_spare(*column, size);
+  for (auto* const column : {&level, &is_own}) resize_with_spare(*column, size);
+  resize_with_spare(z, heights ? size : 0);
 }
 
 void CrowdColumns::set(std::size_t i, const DistributedCrowd::Agent& agent, bool own) {

@@ -23,16 +23,16 @@ constexpr double max_slack_of_bands = hull_overlap / 4;  ///< metres
 constexpr double asides[] = {0, 0.4142, -0.4142, 1, -1, 2.4142, -2.4142};
 
 /// The way of one body relative to another between two times.
-struct RelativeWay {
-  double x, y, z, way_x, way_y, way_z;
+struct RelativeMotion {
+  double x, y, z, move_x, move_y, move_z;
 
-  RelativeWay(const PathKey& a, const PathKey& b, const PathKey& a_end, const PathKey& b_end)
+  RelativeMotion(const PathKey& a, const PathKey& b, const PathKey& a_end, const PathKey& b_end)
       : x(a.x - b.x),
         y(a.y - b.y),
         z(a.z - b.z),
-        way_x(a_end.x - b_end.x - x),
-        way_y(a_end.y - b_end.y - y),
-        way_z(a_end.z - b_end.z - z) {}
+        move_x(a_end.x - b_end.x - x),
+        move_y(a_end.y - b_end.y - y),
+        move_z(a_end.z - b_end.z - z) {}
 
   double distance() const noexcept { return std::sqrt(x * x + y * y); }
 
@@ -47,17 +47,17 @@ struct RelativeWay {
 
   /// Returns between which times, of 0 to 1, the heights differ by at most a height; never, where there is none.
   std::pair<double, double> times_level(double height) const noexcept {
-    if (std::abs(z) <= height && std::abs(z + way_z) <= height) return {0, 1};
-    if (way_z == 0) return {never, never};
-    const double one = (-height - z) / way_z, other = (height - z) / way_z;
+    if (std::abs(z) <= height && std::abs(z + move_z) <= height) return {0, 1};
+    if (move_z == 0) return {never, never};
+    const double one = (-height - z) / move_z, other = (height - z) / move_z;
     const double from = std::max(std::min(one, other), 0.0), to = std::min(std::max(one, other), 1.0);
     return from <= to ? std::pair(from, to) : std::pair(never, never);
   }
 
   /// Returns between which times, of 0 to 1, the distance is at most a radius as seen from above; never, where there is none.
   std::pair<double, double> times_within(double radius) const noexcept {
-    const double a = way_x * way_x + way_y * way_y, b = x * way_x + y * way_y,
-                 c = x * x + y * y - radius * radius, across = x * way_y - y * way_x;
+    const double a = move_x * move_x + move_y * move_y, b = x * move_x + y * move_y,
+                 c = x * x + y * y - radius * radius, across = x * move_y - y * move_x;
     const double square = a * radius * radius - across * across;  // b^2 - a c, exact enough on long ways, too
     if (c > 0 && (b >= 0 || square < 0)) return {never, never};
     if (!(a > 0)) return {0, 1};
@@ -81,8 +81,8 @@ double ContactSearch::first(const MotionFacts& a, const MotionFacts& b, double f
     const double end = std::min(a_->path_end(time), b_->path_end(time));
     const double until = is_finite(end) ? end : to + 1;
     slack_ = slack_of_places + (a_->time_slack(time) + b_->time_slack(time));
-    const RelativeWay way(a_->pose(time), b_->pose(time), a_->pose(until), b_->pose(until));
-    const auto [enter, leave] = way.times_within(reaches + slack_, heights + slack_);
+    const RelativeMotion relative(a_->pose(time), b_->pose(time), a_->pose(until), b_->pose(until));
+    const auto [enter, leave] = relative.times_within(reaches + slack_, heights + slack_);
     limit_.count(1);
     if (enter <= 1) {
       const double length = until - time,
@@ -93,7 +93,7 @@ double ContactSearch::first(const MotionFacts& a, const MotionFacts& b, double f
       time = end;
     } else {
       // Farther apart, and that for as long as both take at their greatest speed.
-      const double gap = way.distance() - reaches - slack_, speed = a.path_speed + b.path_speed;
+      const double gap = relative.distance() - reaches - slack_, speed = a.path_speed + b.path_speed;
       const bool waits = gap > 0 && speed > 0;
       time = std::max(end, waits ? std::nextafter(time + gap / speed * (1 - root_rounding), time) : end);
     }
@@ -135,10 +135,10 @@ double ContactSearch::first_near(double from, double end, double to, unsigned le
 bool ContactSearch::hulls_are_apart(double from, double end, unsigned level) const {
   const PathKey a = a_->pose(from), b = b_->pose(from), a_end = a_->pose(end), b_end = b_->pose(end);
   const PlanePoint between{b.x - a.x, b.y - a.y}, at_end{b_end.x - a_end.x, b_end.y - a_end.y},
-      way = at_end - between;
-  const double square = squared_length(way);
-  const double nearest = square > 0 ? std::clamp(-dot(between, way) / square, 0.0, 1.0) : 0;
-  const PlanePoint line = between + nearest * way;
+      relative = at_end - between;
+  const double square = squared_length(relative);
+  const double nearest = square > 0 ? std::clamp(-dot(between, relative) / square, 0.0, 1.0) : 0;
+  const PlanePoint line = between + nearest * relative;
   if (squared_length(line) == 0) return false;
   const auto along = [&](double aside) {
     const PlanePoint direction = line + aside * PlanePoint{-line.y, line.x};
@@ -172,9 +172,9 @@ double ContactSearch::first_between(double from, double end) {
   return first_halving(from, end, tolerance_, [&](double begin, double last) {
     limit_.count(1);
     place(begin, last);
-    const double bend = nodes_a_.bend() + nodes_b_.bend();
-    room_ = bend + slack_;
-    return std::pair(first_of_nodes(), bend);
+    const double deviation = nodes_a_.deviation() + nodes_b_.deviation();
+    margin_ = deviation + slack_;
+    return std::pair(first_of_nodes(), deviation);
   });
 }
 
@@ -190,7 +190,7 @@ double ContactSearch::first_of_nodes() {
   const AnimatedTreeChunk &a = nodes_a_.chunk(), &b = nodes_b_.chunk();
   double first = never, last = 1;
   open_.clear();
-  const double of_roots = first_overlap(nodes_a_[0], nodes_b_[0], room_, last);
+  const double of_roots = first_overlap(nodes_a_[0], nodes_b_[0], margin_, last);
   if (of_roots <= last) open_.push_back({0, 0, of_roots});
   while (!open_.empty()) {
     const Open at = open_.back();
@@ -219,7 +219,7 @@ void ContactSearch::open_children(PlacedNodes& nodes, std::uint32_t node, const 
   const NodeRange children = nodes.divide(node);
   const std::size_t before = open_.size();
   std::array<double, animated_width> times;
-  nodes.first_overlaps(children.begin, other, room_, last, times);
+  nodes.first_overlaps(children.begin, other, margin_, last, times);
   for (std::uint32_t child = children.begin; child < children.end; ++child) {
     const double time = times[child - children.begin];
     if (!(time <= last)) continue;

@@ -72,7 +72,7 @@ class ContactSearch {
   StepLimit limit_;
   bool in_space_ = false;  ///< whether both bodies are of spheres
   double slack_ = 0;
-  double room_ = 0;  ///< what two discs are enlarged by in an interval
+  double margin_ = 0;  ///< what two discs are enlarged by in an interval
   MovingBody* a_ = nullptr;
   MovingBody* b_ = nullptr;
   PlacedNodes nodes_a_, nodes_b_;

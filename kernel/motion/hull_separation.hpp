@@ -31,37 +31,38 @@ class ReachAlong {
   ReachAlong(const MovingBody& body, unsigned level, const PathKey& begin, const PathKey& end,
              const PlanePoint& direction) noexcept
       : step_(body.tree().hulls.step),
-        share_(body.hull_share(begin.time, level)),
-        share_at_end_(body.hull_share(end.time, level)),
+        fraction_(body.hull_fraction(begin.time, level)),
+        fraction_at_end_(body.hull_fraction(end.time, level)),
         turns_(begin.heading != end.heading),
-        first_(seen(direction, begin.heading)),
-        last_(turns_ ? seen(direction, end.heading) : first_) {
+        first_(in_body_frame(direction, begin.heading)),
+        last_(turns_ ? in_body_frame(direction, end.heading) : first_) {
     const double turn = end.heading - begin.heading;
-    bend_ = turn * turn / 8 * body.tree().reach * length(direction);
+    deviation_ = turn * turn / 8 * body.tree().reach * length(direction);
   }
 
   /// Says that of the whole body, or of one of its bands, in the window.
   Reach of(const HullWindow::Extents& extents) const noexcept {
     const HullDirection::Extent first = first_.extent(extents);
-    const double growth = first.to - first.from, from = step_ * (first.from + growth * share_);
-    if (!turns_) return {from, step_ * (first.from + growth * share_at_end_), 0};
+    const double growth = first.to - first.from, from = step_ * (first.from + growth * fraction_);
+    if (!turns_) return {from, step_ * (first.from + growth * fraction_at_end_), 0};
     const HullDirection::Extent last = last_.extent(extents);
     const double growth_of_last = last.to - last.from;
-    return {from, step_ * (last.from + growth_of_last * share_at_end_),
-            std::max(0.0, step_ * (growth - growth_of_last) * (share_at_end_ - share_)) / 4 + bend_};
+    return {
+        from, step_ * (last.from + growth_of_last * fraction_at_end_),
+        std::max(0.0, step_ * (growth - growth_of_last) * (fraction_at_end_ - fraction_)) / 4 + deviation_};
   }
 
  private:
-  static HullDirection seen(const PlanePoint& direction, double heading) noexcept {
+  static HullDirection in_body_frame(const PlanePoint& direction, double heading) noexcept {
     const Rotation r = rotation(heading);
     return HullDirection(
         {r.cosine * direction.x + r.sine * direction.y, r.cosine * direction.y - r.sine * direction.x});
   }
 
-  double step_, share_, share_at_end_;
+  double step_, fraction_, fraction_at_end_;
   bool turns_;
   HullDirection first_, last_;  ///< as the body sees the direction at both ends
-  double bend_ = 0;
+  double deviation_ = 0;
 };
 
 /// Represents a line along which two bodies are looked at, and how far their positions are apart along it at both ends of the interval.
@@ -82,8 +83,8 @@ struct LineBetween {
 inline bool bands_meet(std::uint32_t a, std::uint32_t b, double low, double high) noexcept {
   const auto bottom = [](std::uint32_t band) { return band == 0 ? -never : band * hull_band; };
   const auto top = [](std::uint32_t band) { return band + 1 == hull_bands ? never : (band + 1) * hull_band; };
-  constexpr double enough = hull_overlap / 2;  // the other half is for rounding
-  return std::min(top(a) + high, top(b)) - std::max(bottom(a) + low, bottom(b)) > enough;
+  constexpr double min_overlap = hull_overlap / 2;  // the other half is for rounding
+  return std::min(top(a) + high, top(b)) - std::max(bottom(a) + low, bottom(b)) > min_overlap;
 }
 
 }  // namespace bch::detail

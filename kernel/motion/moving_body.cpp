@@ -13,7 +13,7 @@ namespace bch::detail {
 namespace {
 
 /// Returns the share of the time between two others that has gone by; none where these are the same, as rounding may make them.
-double share_between(double from, double to, double time) noexcept {
+double fraction_between(double from, double to, double time) noexcept {
   return from < to ? std::clamp((time - from) / (to - from), 0.0, 1.0) : 0;
 }
 
@@ -49,8 +49,8 @@ double MovingBody::time_slack(double time) const noexcept {
   const PathKey &from = path[next_on_path_ - 1], &to = path[next_on_path_];
   const double x = to.x - from.x, y = to.y - from.y, z = to.z - from.z,
                turn = std::abs(to.heading - from.heading);
-  const double share = std::min(1.0, rounding / (to.time - from.time));
-  return of_discs + share * (std::sqrt(x * x + y * y + z * z) + turn * tree().reach);
+  const double fraction = std::min(1.0, rounding / (to.time - from.time));
+  return of_discs + fraction * (std::sqrt(x * x + y * y + z * z) + turn * tree().reach);
 }
 
 PathKey MovingBody::pose(double time) const noexcept {
@@ -114,8 +114,8 @@ void MovingBody::begin_round(double round) noexcept {
   shift_ = facts_->clip_begin - tree().begin() + round * tree().length();
 }
 
-double MovingBody::share(double time) const noexcept {
-  return share_between(time_of(key_), time_of(key_ + 1), time);
+double MovingBody::fraction(double time) const noexcept {
+  return fraction_between(time_of(key_), time_of(key_ + 1), time);
 }
 
 double MovingBody::hull_end(unsigned level) const noexcept {
@@ -123,8 +123,8 @@ double MovingBody::hull_end(unsigned level) const noexcept {
   return moves ? hull(level).end + shift_ : clip_end_;
 }
 
-double MovingBody::hull_share(double time, unsigned level) const noexcept {
-  return share_between(hull(level).begin + shift_, hull(level).end + shift_, time);
+double MovingBody::hull_fraction(double time, unsigned level) const noexcept {
+  return fraction_between(hull(level).begin + shift_, hull(level).end + shift_, time);
 }
 
 }  // namespace bch::detail

@@ -47,7 +47,7 @@ class MovingBody {
   PathKey pose(double time) const noexcept;
   /// Returns the keys between which it is now: the first one, and which share of the time to the next has gone by at a time.
   std::size_t key() const noexcept { return key_; }
-  double share(double time) const noexcept;
+  double fraction(double time) const noexcept;
   /// Returns its hull through the window of chunks in which it is now, until when that goes on, and its share that has gone by.
   const HullWindow& hull(unsigned level) const noexcept {
     return tree().hulls.levels[level][chunk_ >> level];
@@ -55,7 +55,7 @@ class MovingBody {
   /// Likewise, of a body of spheres: the hulls of its bands.
   const HullBands& bands(unsigned level) const noexcept { return tree().hulls.bands[level][chunk_ >> level]; }
   double hull_end(unsigned level) const noexcept;
-  double hull_share(double time, unsigned level) const noexcept;
+  double hull_fraction(double time, unsigned level) const noexcept;
   const AnimatedTree& tree() const noexcept { return *facts_->tree; }
   const AnimatedTreeChunk& chunk() const noexcept { return tree().chunks[chunk_]; }
   /// Counts the chunks that began. Discs of one have nothing to do with those of another.

@@ -12,8 +12,8 @@ namespace bch::detail {
 /// the same of all discs.
 struct MovingDisc {
   double x, y, radius;
-  double way_x, way_y, growth;
-  double z = 0, way_z = 0;
+  double move_x, move_y, growth;
+  double z = 0, move_z = 0;
 };
 
 constexpr double never = std::numeric_limits<double>::infinity();
@@ -21,15 +21,15 @@ constexpr double never = std::numeric_limits<double>::infinity();
 /// Returns the first time from 0 to `last` at which two discs are at most `room` apart, or never. It is the first root of the square of
 /// the centres' distance less that of what the radii reach, f(s) = a s^2 + 2 b s + c, where c > 0: c / (-b + sqrt(b^2 - a c)), whatever
 /// the sign of a.
-inline double first_overlap(const MovingDisc& one, const MovingDisc& other, double room,
+inline double first_overlap(const MovingDisc& one, const MovingDisc& other, double margin,
                             double last) noexcept {
-  const double x = one.x - other.x, y = one.y - other.y, r = one.radius + other.radius + room;
-  const double way_x = one.way_x - other.way_x, way_y = one.way_y - other.way_y,
+  const double x = one.x - other.x, y = one.y - other.y, r = one.radius + other.radius + margin;
+  const double move_x = one.move_x - other.move_x, move_y = one.move_y - other.move_y,
                growth = one.growth + other.growth;
-  const double z = one.z - other.z, way_z = one.way_z - other.way_z;
+  const double z = one.z - other.z, move_z = one.move_z - other.move_z;
   const double c = x * x + y * y + z * z - r * r;
-  const double a = way_x * way_x + way_y * way_y + way_z * way_z - growth * growth;
-  const double b = x * way_x + y * way_y + z * way_z - r * growth;
+  const double a = move_x * move_x + move_y * move_y + move_z * move_z - growth * growth;
+  const double b = x * move_x + y * move_y + z * move_z - r * growth;
   const double square = b * b - a * c;
   const double divisor = std::sqrt(square > 0 ? square : 0) - b;
   // Choices of numbers alone, so that loops over discs are vectorised.

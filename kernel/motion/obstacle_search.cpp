@@ -15,7 +15,7 @@ namespace bch::detail {
 double ObstacleSearch::first(const MotionFacts& motion, double from, double to) {
   MovingBody body(motion);
   body_ = &body;
-  looked_inside_ = 0;
+  chunks_tested_ = 0;
   reach_ = motion.tree->reach;
   limit_.begin();
   for (double time = from; time <= to;) {
@@ -25,7 +25,7 @@ double ObstacleSearch::first(const MotionFacts& motion, double from, double to) 
     const bool stands = is_one_place(body_->pose(time), body_->pose(end));
     const double period = stands ? body_->period(time) : 0,
                  last = period > 0 ? std::min(end, time + 2 * period) : end;
-    const double found = first_on_way(time, last, to);
+    const double found = first_on_path(time, last, to);
     if (found <= to) return found;
     time = end;
   }
@@ -33,22 +33,22 @@ double ObstacleSearch::first(const MotionFacts& motion, double from, double to) 
 }
 
 /// Where the path goes straight on: halves ways that are long, but not where nothing is near.
-double ObstacleSearch::first_on_way(double from, double end, double to) {
+double ObstacleSearch::first_on_path(double from, double end, double to) {
   limit_.count(1);
   if (from > to || !search_about(from, end)) return never;
   const double half = from + (end - from) / 2;
   const PathKey a = body_->pose(from), b = body_->pose(end);
   const double x = b.x - a.x, y = b.y - a.y;
   if (x * x + y * y <= 4 * reach_ * reach_ || !(from < half && half < end)) return first_near(from, end, to);
-  const double sooner = first_on_way(from, half, to);
-  return sooner < never ? sooner : first_on_way(half, end, to);
+  const double sooner = first_on_path(from, half, to);
+  return sooner < never ? sooner : first_on_path(half, end, to);
 }
 
 /// Finds what is near on a way. Returns: whether something is.
 bool ObstacleSearch::search_about(double from, double end) {
   const PathKey a = body_->pose(from), b = body_->pose(end);
   const std::span<const LocalSegment> found =
-      near_.find_on_way({a.x, a.y, {1, 0}}, {0, 0}, reach_ + slack_, {b.x - a.x, b.y - a.y});
+      near_.find_along({a.x, a.y, {1, 0}}, {0, 0}, reach_ + slack_, {b.x - a.x, b.y - a.y});
   found_.clear();
   for (const LocalSegment& segment : found) found_.push_back(near_.obstacles().segments[segment.slot]);
   return !found_.empty() || is_in_area(a.x, a.y);
@@ -76,8 +76,8 @@ double ObstacleSearch::first_between(double from, double end) {
   return first_halving(from, end, tolerance_, [&](double begin, double last) {
     limit_.count(found_.size());
     place(begin, last);
-    room_ = nodes_.bend() + slack_;
-    return std::pair(first_of_nodes(), nodes_.bend());
+    margin_ = nodes_.deviation() + slack_;
+    return std::pair(first_of_nodes(), nodes_.deviation());
   });
 }
 
@@ -94,11 +94,11 @@ void ObstacleSearch::place(double from, double end) {
 
 bool ObstacleSearch::is_inside_where_a_chunk_begins(double time) {
   const std::uint32_t begun = body_->chunks_begun();
-  if (near_.obstacles().area_tree.levels == 0 || std::exchange(looked_inside_, begun) == begun) return false;
+  if (near_.obstacles().area_tree.levels == 0 || std::exchange(chunks_tested_, begun) == begun) return false;
   const PathKey pose = body_->pose(time);
   const Rotation turn = rotation(pose.heading);
   const AnimatedTreeChunk& chunk = body_->chunk();
-  const KeyPlace at{0, body_->key(), body_->share(time)};
+  const KeyPlace at{0, body_->key(), body_->fraction(time)};
   return std::any_of(chunk.leaf_of_disc.begin(), chunk.leaf_of_disc.end(), [&](std::uint32_t leaf) {
     const Disc disc = chunk.disc(at, leaf);
     const double x = disc.x, y = disc.y;
@@ -108,7 +108,7 @@ bool ObstacleSearch::is_inside_where_a_chunk_begins(double time) {
 
 void ObstacleSearch::open(std::uint32_t node, std::uint32_t segment, double last) {
   const StillSegment& still = segments_[segment];
-  const double time = first_overlap(nodes_[node], still, room_ + still.slack, last);
+  const double time = first_overlap(nodes_[node], still, margin_ + still.slack, last);
   if (time <= last) open_.push_back({node, segment, time});
 }
 

@@ -36,7 +36,7 @@ class ObstacleSearch {
   double first(const MotionFacts& motion, double from, double to);
 
  private:
-  double first_on_way(double from, double end, double to);
+  double first_on_path(double from, double end, double to);
   double first_near(double from, double end, double to);
   double first_between(double from, double end);
   double first_of_nodes();
@@ -55,9 +55,9 @@ class ObstacleSearch {
   double tolerance_;
   StepLimit limit_;
   double reach_ = 0, slack_ = 0;
-  double room_ = 0;  ///< what discs are enlarged by in an interval
+  double margin_ = 0;  ///< what discs are enlarged by in an interval
   MovingBody* body_ = nullptr;
-  std::uint32_t looked_inside_ = 0;  ///< chunks that had begun
+  std::uint32_t chunks_tested_ = 0;  ///< chunks that had begun
   PlacedNodes nodes_;
   std::vector<WorldSegment> found_;     ///< near the stretch
   std::vector<StillSegment> segments_;  ///< the same, in the interval

@@ -11,8 +11,8 @@ namespace bch::detail {
 
 /// Returns where a motion is at a time from one key of its path to the next.
 inline PathKey between_keys(const PathKey& from, const PathKey& to, double time) noexcept {
-  const double share = std::min((time - from.time) / (to.time - from.time), 1.0);
-  const auto blend = [=](double a, double b) { return a + (b - a) * share; };
+  const double fraction = std::min((time - from.time) / (to.time - from.time), 1.0);
+  const auto blend = [=](double a, double b) { return a + (b - a) * fraction; };
   return {time, blend(from.x, to.x), blend(from.y, to.y), blend(from.heading, to.heading),
           blend(from.z, to.z)};
 }

@@ -27,7 +27,7 @@ class PlacedNodes {
   /// as spheres, which it has then, or as discs seen from above.
   void place(const MovingBody& body, const PathKey& from, const PathKey& to, bool in_space);
 
-  double bend() const noexcept { return bend_; }
+  double deviation() const noexcept { return deviation_; }
   const AnimatedTreeChunk& chunk() const noexcept { return *chunk_; }
 
   /// Returns a node whose parent was divided, or the root.
@@ -44,7 +44,7 @@ class PlacedNodes {
     return children;
   }
   /// Finds the first times at which eight nodes and a disc are at most `room` apart, as first_overlap() does.
-  void first_overlaps(std::uint32_t from, const MovingDisc& other, double room, double last,
+  void first_overlaps(std::uint32_t from, const MovingDisc& other, double margin, double last,
                       std::array<double, animated_width>& times) const noexcept;
 
  private:
@@ -53,12 +53,12 @@ class PlacedNodes {
 
   const AnimatedTreeChunk* chunk_ = nullptr;
   NodesAtKey first_{}, last_{};
-  double share_ = 0, share_at_end_ = 0;
+  double fraction_ = 0, fraction_at_end_ = 0;
   Rotation turn_, turn_at_end_;
   double x_ = 0, y_ = 0, x_at_end_ = 0, y_at_end_ = 0;
   double z_ = 0, z_at_end_ = 0;
   bool in_space_ = false;
-  double bend_ = 0;
+  double deviation_ = 0;
   std::array<std::vector<double>, 8> discs_;  ///< per node: the members of its MovingDisc
   std::vector<std::uint32_t> placed_in_;      ///< per node with children: the interval that these are of
   std::uint32_t interval_ = 0;
@@ -68,10 +68,10 @@ class PlacedNodes {
 /// first_straight(from, end): the share of an interval at which there is one, or never, and what turning bends.
 template <class FirstStraight>
 double first_halving(double from, double end, double tolerance, const FirstStraight& first_straight) {
-  const auto [found, bend] = first_straight(from, end);
+  const auto [found, deviation] = first_straight(from, end);
   if (found == never) return never;
   const double time = std::min(from + found * (end - from), end), half = time + (end - time) / 2;
-  if (2 * bend <= tolerance || !(time < half && half < end)) return time;
+  if (2 * deviation <= tolerance || !(time < half && half < end)) return time;
   const double sooner = first_halving(time, half, tolerance, first_straight);
   return sooner < never ? sooner : first_halving(half, end, tolerance, first_straight);
 }

@@ -22,7 +22,7 @@ class TimesAbove {
  public:
   explicit TimesAbove(double last) noexcept : end_(last) {}
 
-  void keep(double value, double growth) noexcept {
+  void require_positive(double value, double growth) noexcept {
     if (value < 0)
       begin_ = std::max(begin_, growth > 0 ? -value / growth : never);
     else if (growth < 0)
@@ -39,21 +39,21 @@ class TimesAbove {
 ///
 /// Rounding: when the centre comes beside the segment is off by what its coordinates are. It is next to an end then, as near as to
 /// the line but for less than the room.
-inline double first_overlap(const MovingDisc& disc, const StillSegment& segment, double room,
+inline double first_overlap(const MovingDisc& disc, const StillSegment& segment, double margin,
                             double last) noexcept {
-  const double at_x = disc.x - segment.ax, at_y = disc.y - segment.ay, radius = disc.radius + room;
+  const double at_x = disc.x - segment.ax, at_y = disc.y - segment.ay, radius = disc.radius + margin;
   const double along = at_x * segment.x + at_y * segment.y, across = segment.x * at_y - segment.y * at_x;
-  const double along_way = disc.way_x * segment.x + disc.way_y * segment.y,
-               across_way = segment.x * disc.way_y - segment.y * disc.way_x;
-  TimesAbove beside(last);
-  beside.keep(radius - across, disc.growth - across_way);
-  beside.keep(radius + across, disc.growth + across_way);
-  if (beside.first() == never) return never;
-  beside.keep(along, along_way);
-  beside.keep(segment.length - along, -along_way);
+  const double along_move = disc.move_x * segment.x + disc.move_y * segment.y,
+               across_move = segment.x * disc.move_y - segment.y * disc.move_x;
+  TimesAbove times(last);
+  times.require_positive(radius - across, disc.growth - across_move);
+  times.require_positive(radius + across, disc.growth + across_move);
+  if (times.first() == never) return never;
+  times.require_positive(along, along_move);
+  times.require_positive(segment.length - along, -along_move);
   const MovingDisc from{segment.ax, segment.ay, 0, 0, 0, 0}, to{segment.bx, segment.by, 0, 0, 0, 0};
   return std::min(
-      {beside.first(), first_overlap(disc, from, room, last), first_overlap(disc, to, room, last)});
+      {times.first(), first_overlap(disc, from, margin, last), first_overlap(disc, to, margin, last)});
 }
 
 }  // namespace bch::detail

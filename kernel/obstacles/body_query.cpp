@@ -20,10 +20,10 @@ namespace {
 
 /// Returns how far to look for what is nearest to a body: not at all farther than it is, if that is known well enough. What is far is
 /// searched for one by one.
-double first_look(DistanceBounds nearest) noexcept {
-  constexpr double least_look = 0.5, step = 0.05;  // metres
+double first_distance(DistanceBounds nearest) noexcept {
+  constexpr double least_distance = 0.5, step = 0.05;  // metres
   if (is_infinite(nearest.most)) return step;
-  return std::max(step, std::min(nearest.most, std::max(least_look, 2 * nearest.least)));
+  return std::max(step, std::min(nearest.most, std::max(least_distance, 2 * nearest.least)));
 }
 
 bool is_touched(std::span<const LocalSegment> segments, float x, float y, float radius) noexcept {
@@ -54,16 +54,16 @@ bool leaf_is_held(const ShapeSetView& shapes, const ShapeTree<void>& own, std::u
 
 }  // namespace
 
-void BodyQuery::prepare(std::uint32_t begin, std::uint32_t end, double limit, Look look) {
-  choose(begin, end, limit, look);
+void BodyQuery::prepare(std::uint32_t begin, std::uint32_t end, double limit, SearchMode mode) {
+  choose(begin, end, limit, mode);
   queries_.clear(), bodies_.clear();
   const bool by_height = obstacles().heights != nullptr && shapes_.heights != nullptr;
   for (std::size_t i = 0; i < chosen_count_; ++i) {
-    const auto [agent, looked] = chosen_[i];
+    const auto [agent, searched] = chosen_[i];
     const ObstaclePlace place{agents_.x[agent], agents_.y[agent], rotation(agents_.heading[agent])};
     const std::uint32_t shape = agents_.shape[agent];
-    bodies_.push_back({shapes_, place, shape, level_of(agent), looked, i});
-    queries_.push_back({place, bodies_.back().centre(), bodies_.back().outer_radius() + looked, {}});
+    bodies_.push_back({shapes_, place, shape, level_of(agent), searched, i});
+    queries_.push_back({place, bodies_.back().centre(), bodies_.back().outer_radius() + searched, {}});
     if (by_height) queries_.back().body = {heights(shape, limit), agents_.z.empty() ? 0 : agents_.z[agent]};
   }
   near_.prepare(queries_);
@@ -77,7 +77,7 @@ Heights BodyQuery::heights(std::uint32_t shape, double limit) const noexcept {
 
 /// The distance of an agent's position tells who can be left out: those who have no segment near them, and are too large for an area to hold
 /// them. There is no branch that depends on the answer, so that the next agents' numbers are on their way.
-void BodyQuery::choose(std::uint32_t begin, std::uint32_t end, double limit, Look look) {
+void BodyQuery::choose(std::uint32_t begin, std::uint32_t end, double limit, SearchMode mode) {
   begin_ = begin;
   place_.resize(end - begin + std::size_t{1});
   chosen_.resize(end - begin + std::size_t{1});
@@ -85,12 +85,12 @@ void BodyQuery::choose(std::uint32_t begin, std::uint32_t end, double limit, Loo
   for (std::uint32_t agent = begin; agent < end; ++agent) {
     place_[agent - begin] = count;
     const DistanceBounds nearest = obstacles().distance_grid.bounds(agents_.x[agent], agents_.y[agent]);
-    const double looked = look == Look::touching ? 0 : std::min(limit, first_look(nearest));
+    const double searched = mode == SearchMode::touching ? 0 : std::min(limit, first_distance(nearest));
     const auto index = static_cast<std::uint32_t>(agents_.root(agent, shapes_.level_count));
     const Root& root = shapes_.roots[index];
     const double to_centre = std::abs(double{root.x}) + std::abs(double{root.y});
     const bool is_far = to_centre + outer_radius(shapes_, index) + limit < nearest.least;
-    chosen_[count] = {agent, looked};
+    chosen_[count] = {agent, searched};
     count += !(is_far & is_too_large_for_areas(root));
   }
   place_.back() = chosen_count_ = count;
@@ -100,20 +100,20 @@ bool BodyQuery::touches(const PlacedBody& body, std::span<const LocalSegment> se
   return implementation_.kernels->touches(arguments(body, segments));
 }
 
-NearestObstacle BodyQuery::nearest(std::uint32_t agent, double limit, double enough, bool inside) {
+NearestObstacle BodyQuery::nearest(std::uint32_t agent, double limit, double stop_below, bool inside) {
   const PlacedBody* const body = this->body(agent);
   NearestObstacle nearest{.gap = std::min(limit, farthest_gap), .body = body};
   if (body == nullptr) return nearest;
   ObstacleGap best{nearest.gap, no_disc, no_disc, no_disc, nullptr};
-  const auto look = [&](std::span<const LocalSegment> segments) {
+  const auto visit = [&](std::span<const LocalSegment> segments) {
     best.segment = nullptr;
-    implementation_.kernels->find_gap(arguments(*body, segments), enough, best);
+    implementation_.kernels->find_gap(arguments(*body, segments), stop_below, best);
     if (best.segment != nullptr)
-      nearest = {best.gap, best.point, best.disc, body, *best.segment, true, best.gap <= enough};
+      nearest = {best.gap, best.point, best.disc, body, *best.segment, true, best.gap <= stop_below};
   };
-  look(near_body(*body));
-  if (!nearest.is_near_enough) nearest.is_near_enough = inside && is_inside(*body);
-  if (!nearest.is_near_enough) look_outward(*body, enough, nearest, look);
+  visit(near_body(*body));
+  if (!nearest.is_within) nearest.is_within = inside && is_inside(*body);
+  if (!nearest.is_within) search_outward(*body, stop_below, nearest, visit);
   return nearest;
 }
 

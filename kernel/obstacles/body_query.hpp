@@ -27,7 +27,7 @@ struct PlacedBody {
   const ShapeSetView& shapes;
   ObstaclePlace place;
   std::uint32_t shape, level;
-  double looked;       ///< metres from its outer disc, within which segments were looked for
+  double searched;     ///< metres from its outer disc, within which segments were looked for
   std::size_t number;  ///< among the bodies that were prepared
 
   std::uint32_t root_index() const noexcept { return shape * shapes.level_count + level; }
@@ -46,11 +46,11 @@ struct NearestObstacle {
   std::uint32_t point = no_point, disc = 0;
   const PlacedBody* body = nullptr;
   LocalSegment segment = {};
-  bool is_found = false, is_near_enough = false;
+  bool is_found = false, is_within = false;
 };
 
 /// Selects which segments are looked for at first: those that touch a body, or those that the nearest one is among.
-enum class Look { touching, nearest };
+enum class SearchMode { touching, nearest };
 
 /// Implements the stages that answer an agent's queries against obstacles; it keeps its memory from agent to agent.
 class BodyQuery {
@@ -71,7 +71,7 @@ class BodyQuery {
 
   /// Asks for the obstacles about many agents at once, begin .. end: those that touch their outer discs, or to measure a distance those that are
   /// as near as the nearest one. near_body() then returns them. Agents from which all obstacles are farther than a limit are left out.
-  void prepare(std::uint32_t begin, std::uint32_t end, double limit, Look look);
+  void prepare(std::uint32_t begin, std::uint32_t end, double limit, SearchMode mode);
 
   /// Returns the segments that prepare() looked for about a body.
   std::span<LocalSegment> near_body(const PlacedBody& body) { return near_.take(body.number); }
@@ -98,9 +98,9 @@ class BodyQuery {
 
   /// Finds the least gap of an agent of at most `limit`, metres. The search ends where one is at most `enough` or, where `inside` counts, an area
   /// holds the agent or its outline a path.
-  NearestObstacle nearest(std::uint32_t agent, double limit, double enough, bool inside);
+  NearestObstacle nearest(std::uint32_t agent, double limit, double stop_below, bool inside);
   bool is_within(std::uint32_t agent, double distance) {
-    return nearest(agent, distance, distance, true).is_near_enough;
+    return nearest(agent, distance, distance, true).is_within;
   }
 
   /// Returns whether an area holds a disc of a body clear of its segments, with exact leaves something of its outline, or the outline of
@@ -122,10 +122,11 @@ class BodyQuery {
   /// at most `enough`. The segment that is nearest to the body's centre comes first: its gap, which is at most twice the outer radius
   /// larger than the least one can be, leaves few others to look at.
   template <class Nearest, class Visit>
-  void look_outward(const PlacedBody& body, double enough, const Nearest& nearest, const Visit& look) {
+  void search_outward(const PlacedBody& body, double stop_below, const Nearest& nearest, const Visit& visit) {
     constexpr double least_step = 0.05;  // metres
     const double outer = body.outer_radius();
-    for (double seen = body.looked; seen < nearest.gap && !(nearest.is_found && nearest.gap <= enough);) {
+    for (double seen = body.searched;
+         seen < nearest.gap && !(nearest.is_found && nearest.gap <= stop_below);) {
       double next = nearest.gap;
       if (!nearest.is_found && 2 * seen < next) {
         const double bound = near_.nearest_distance(body.place, body.centre()) - outer;
@@ -134,14 +135,14 @@ class BodyQuery {
         const double step = in_space_ ? std::max({bound, 2 * seen, least_step}) : bound;
         if (step > seen) next = std::min(next, step);
       }
-      look(near_.find(body.place, body.centre(), outer + next));
+      visit(near_.find(body.place, body.centre(), outer + next));
       seen = next;
     }
   }
 
  private:
   Heights heights(std::uint32_t shape, double limit) const noexcept;
-  void choose(std::uint32_t begin, std::uint32_t end, double limit, Look look);
+  void choose(std::uint32_t begin, std::uint32_t end, double limit, SearchMode mode);
   std::uint32_t level_of(std::uint32_t agent) const noexcept {
     return agents_.level.empty() ? shapes_.level_count - 1 : agents_.level[agent];
   }
@@ -167,7 +168,7 @@ class BodyQuery {
   /// Represents an agent that was not left out, and how far it looks.
   struct Chosen {
     std::uint32_t agent;
-    double looked;
+    double searched;
   };
   std::vector<Chosen> chosen_;
   std::size_t chosen_count_ = 0;

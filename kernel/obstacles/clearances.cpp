@@ -28,7 +28,7 @@ double square(Vector v) noexcept {
 
 /// What is nearest to an obstacle's segment, a disc's centre or a point of an outline, and the way from there, in the agent's frame.
 struct Nearest {
-  Vector from, way;
+  Vector from, offset;
   double radius;  ///< of the disc
 };
 
@@ -39,18 +39,18 @@ Nearest of_disc(const CutDiscs& discs, std::uint32_t disc, const LocalSegment& s
 
 /// Returns the nearest points of an outline's segment and an obstacle's that do not cross: an end of one, and what is nearest to it.
 Nearest of_outline(const Vec2* ends, const LocalSegment& segment) noexcept {
-  const double x = ends[0].x, y = ends[0].y, way_x = double{ends[1].x} - x, way_y = double{ends[1].y} - y;
-  const double length = square({way_x, way_y});
+  const double x = ends[0].x, y = ends[0].y, edge_x = double{ends[1].x} - x, edge_y = double{ends[1].y} - y;
+  const double length = square({edge_x, edge_y});
   Nearest nearest{{x, y}, to_nearest_point(segment, x, y), 0};
-  const auto take = [&](double share) {
-    const Vector at{x + share * way_x, y + share * way_y}, to = to_nearest_point(segment, at.x, at.y);
-    if (square(to) < square(nearest.way)) nearest = {at, to, 0};
+  const auto take = [&](double t) {
+    const Vector at{x + t * edge_x, y + t * edge_y}, to = to_nearest_point(segment, at.x, at.y);
+    if (square(to) < square(nearest.offset)) nearest = {at, to, 0};
   };
   take(1);
   for (const double end : {segment.from, segment.to}) {
     const double to_x = end * segment.x - segment.offset * segment.y - x,
                  to_y = end * segment.y + segment.offset * segment.x - y;
-    if (length > 0) take(std::clamp((to_x * way_x + to_y * way_y) / length, 0.0, 1.0));
+    if (length > 0) take(std::clamp((to_x * edge_x + to_y * edge_y) / length, 0.0, 1.0));
   }
   return nearest;
 }
@@ -66,10 +66,10 @@ void put(const ClearanceAnswers& answers, std::size_t i, const NearestObstacle& 
   const bool is_disc = nearest.point == no_point;
   const ShapeSetView& shapes = nearest.body->shapes;
   const std::uint32_t root = nearest.body->root_index();
-  const auto [at, way, radius] = is_disc ? of_disc(cut_discs(shapes, root), nearest.disc, nearest.segment)
-                                         : of_outline(shapes.points + nearest.point, nearest.segment);
-  const double length = std::sqrt(square(way));
-  const Vector turned = nearest.body->place.turned(way.x, way.y),
+  const auto [at, offset, radius] = is_disc ? of_disc(cut_discs(shapes, root), nearest.disc, nearest.segment)
+                                            : of_outline(shapes.points + nearest.point, nearest.segment);
+  const double length = std::sqrt(square(offset));
+  const Vector turned = nearest.body->place.turned(offset.x, offset.y),
                from = nearest.body->place.turned(at.x, at.y);
   const Vector unit = length > 0 ? Vector{turned.x / length, turned.y / length} : Vector{1, 0};
   if (!answers.direction.empty()) answers.direction[i] = to_float(unit);
@@ -134,11 +134,11 @@ void clearance(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& 
   const bool exact = exact_leaves(shapes, options.leaves, "clearance") && zero;
   const auto make = queries_of(shapes, agents, obstacles, options.implementation, "clearance",
                                exact ? Leaves::segments : Leaves::discs);
-  for_agents(agents.size(), make, options.max_distance, Look::nearest,
+  for_agents(agents.size(), make, options.max_distance, SearchMode::nearest,
              [&](BodyQuery& query, std::uint32_t agent) {
                const NearestObstacle nearest =
                    query.nearest(agent, options.max_distance, zero ? 0 : -infinite_gap, zero);
-               if (nearest.is_near_enough) return store_alone(answers, agent, 0);
+               if (nearest.is_within) return store_alone(answers, agent, 0);
                if (!nearest.is_found) return store_alone(answers, agent, static_cast<float>(infinite_gap));
                put(answers, agent, nearest);
              });
@@ -150,7 +150,7 @@ void clearance(const BodySet& bodies, const Agents& agents, const ObstacleSet& o
   require_valid({"clearance", "agent", agents.size()}, answers, options);
   const bool zero = options.overlap == Overlap::zero;
   const auto make = queries_of(bodies, agents, obstacles, options.implementation, "clearance");
-  for_agents(agents.size(), make, options.max_distance, Look::nearest,
+  for_agents(agents.size(), make, options.max_distance, SearchMode::nearest,
              [&](SphereQuery& query, std::uint32_t agent) {
                const SphereGap nearest = query.nearest(agent, options.max_distance);
                if (!nearest.is_found) return store_alone(answers, agent, static_cast<float>(infinite_gap));

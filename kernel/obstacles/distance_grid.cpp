@@ -28,7 +28,7 @@ class NearestSegments {
       : tree_(tree), segments_(segments) {}
 
   /// Looks about a disc. Returns: whether it was done; segments that cross each other all over take too long.
-  bool look(double x, double y, double radius) {
+  bool search(double x, double y, double radius) {
     constexpr std::size_t too_many = 200;
     found_.clear();
     double least = beyond_all, limit = beyond_all;
@@ -72,7 +72,7 @@ void measure_rows(const DistanceGridView& view, std::uint8_t* steps, std::size_t
   const auto y = [&](double at) { return view.y + at * view.side; };
   for (std::size_t column = 0; column < view.columns; column += cells_together) {
     const bool is_done =
-        near.look(x(static_cast<double>(column) + middle), y(static_cast<double>(row) + middle), radius);
+        near.search(x(static_cast<double>(column) + middle), y(static_cast<double>(row) + middle), radius);
     for (std::size_t r = row; r < std::min(row + cells_together, rows); ++r)
       for (std::size_t c = column; c < std::min(column + cells_together, view.columns); ++c) {
         const double distance =

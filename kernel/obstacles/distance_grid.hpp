@@ -39,13 +39,13 @@ struct DistanceGridView {
     const double column = nearest_of((at_x - x) * per_metre, last_column),
                  row = nearest_of((at_y - y) * per_metre, last_row);
     const double dx = at_x - (x + column * side), dy = at_y - (y + row * side);
-    const double way = __builtin_sqrt(dx * dx + dy * dy);
+    const double distance = __builtin_sqrt(dx * dx + dy * dy);
     const std::size_t cell = static_cast<std::size_t>(row) * columns + static_cast<std::size_t>(column);
     const double from_centre = step * steps[cell];
-    const double off =
-        rounding + 0x1p-20 * (from_centre + way) + 0x1p-47 * (__builtin_fabs(at_x) + __builtin_fabs(at_y));
+    const double off = rounding + 0x1p-20 * (from_centre + distance) +
+                       0x1p-47 * (__builtin_fabs(at_x) + __builtin_fabs(at_y));
     const double most = steps[cell] == far ? __builtin_inf() : from_centre + step;
-    return {from_centre - way - off, most + way + off};
+    return {from_centre - distance - off, most + distance + off};
   }
 
  private:

@@ -21,15 +21,16 @@ double rounding_of(const ObstaclePlace& place) noexcept {
 
 /// Returns how far boxes of segments may be that are within a distance: it is enlarged by what is rounded, and by what slack adds.
 double distance_of_boxes(const ObstaclePlace& place, double distance) noexcept {
-  return distance * (1 + 8 * slack_share) + rounding_of(place);
+  return distance * (1 + 8 * relative_slack) + rounding_of(place);
 }
 
 /// Returns a box about a disc on its way.
-Box box_about(const ObstaclePlace& place, Vector centre, double distance, Vector way) noexcept {
+Box box_about(const ObstaclePlace& place, Vector centre, double distance, Vector displacement) noexcept {
   const auto [x, y] = centre;
-  const double wide = distance_of_boxes(place, distance) + 0x1p-50 * (std::abs(way.x) + std::abs(way.y));
-  return {x + std::min(way.x, 0.0) - wide, y + std::min(way.y, 0.0) - wide, x + std::max(way.x, 0.0) + wide,
-          y + std::max(way.y, 0.0) + wide};
+  const double wide =
+      distance_of_boxes(place, distance) + 0x1p-50 * (std::abs(displacement.x) + std::abs(displacement.y));
+  return {x + std::min(displacement.x, 0.0) - wide, y + std::min(displacement.y, 0.0) - wide,
+          x + std::max(displacement.x, 0.0) + wide, y + std::max(displacement.y, 0.0) + wide};
 }
 
 /// Sorts numbers, and keeps one of each that is there an odd number of times.
@@ -48,11 +49,13 @@ void keep_odd(std::vector<std::uint32_t>& numbers) {
 /// Returns whether the way from one point to another crosses a segment, all in one frame. A vertex on the line of the way belongs to one side of it, for both of
 /// its segments, so that the parity of a ring's crossings tells whether the way leaves what it encloses. Neither end of the way may
 /// be next to the segment. `square`: that of the way's length; infinite: a ray.
-bool crosses(Vector from, Vector way, double square, Vector a, Vector b) noexcept {
+bool crosses(Vector from, Vector displacement, double square, Vector a, Vector b) noexcept {
   const double ax = a.x - from.x, ay = a.y - from.y, bx = b.x - from.x, by = b.y - from.y;
-  const double side_a = way.x * ay - way.y * ax, side_b = way.x * by - way.y * bx;
+  const double side_a = displacement.x * ay - displacement.y * ax,
+               side_b = displacement.x * by - displacement.y * bx;
   if ((side_a > 0) == (side_b > 0)) return false;
-  const double along_a = way.x * ax + way.y * ay, along_b = way.x * bx + way.y * by;
+  const double along_a = displacement.x * ax + displacement.y * ay,
+               along_b = displacement.x * bx + displacement.y * by;
   // A mean of both, with weights of one sign.
   const double along = (along_a * side_b - along_b * side_a) / (side_b - side_a);
   return along > 0 && along < square;
@@ -67,8 +70,8 @@ std::uint32_t NearSegments::descend(const BoxTreeView& tree) {
   for (std::uint32_t i = 0; i < count; ++i) hits_[i] = {i, 0};
   std::uint32_t size = count;
   for (std::uint32_t level = tree.levels; level-- > 0;) {
-    const std::size_t room = 8 * std::size_t{size};
-    if (next_.size() < room) next_.resize(2 * room);
+    const std::size_t capacity = 8 * std::size_t{size};
+    if (next_.size() < capacity) next_.resize(2 * capacity);
     size = implementation_.kernels->overlapping_boxes(tree.blocks + tree.level_begin[level], boxes_.data(),
                                                       hits_.data(), size, next_.data());
     hits_.swap(next_);
@@ -107,11 +110,11 @@ std::span<LocalSegment> NearSegments::find(const ObstaclePlace& place, Vec2 cent
   return sorted(memory_);
 }
 
-std::span<LocalSegment> NearSegments::find_on_way(const ObstaclePlace& place, Vec2 centre, double distance,
-                                                  Vector way) {
+std::span<LocalSegment> NearSegments::find_along(const ObstaclePlace& place, Vec2 centre, double distance,
+                                                 Vector displacement) {
   memory_.clear();
-  const bool moves = way.x != 0 || way.y != 0;
-  const Box box = box_about(place, in_world(place, centre), distance, way);
+  const bool moves = displacement.x != 0 || displacement.y != 0;
+  const Box box = box_about(place, in_world(place, centre), distance, displacement);
   for (const BoxHit& hit : overlapping(obstacles_.segment_tree, box)) {
     const LocalSegment& segment = put(place, hit.place, visited_);
     if (is_level(segment.obstacle, body_) &&
@@ -188,12 +191,12 @@ bool AreaSide::holds(Vec2 point) {
     is_known_ = true, first_ = at;
     return first_is_held_ = std::binary_search(areas.begin(), areas.end(), obstacle_);
   }
-  const Vector way{at.x - first_.x, at.y - first_.y};
-  const double square = way.x * way.x + way.y * way.y;
+  const Vector displacement{at.x - first_.x, at.y - first_.y};
+  const double square = displacement.x * displacement.x + displacement.y * displacement.y;
   bool is_held = first_is_held_;
   for (const LocalSegment& segment : segments_) {
     const WorldSegment& world = near_.obstacles().segments[segment.slot];
-    is_held ^= crosses(first_, way, square, {world.ax - place_.x, world.ay - place_.y},
+    is_held ^= crosses(first_, displacement, square, {world.ax - place_.x, world.ay - place_.y},
                        {world.bx - place_.x, world.by - place_.y});
   }
   return is_held;

@@ -74,8 +74,8 @@ class NearSegments {
   /// follow each other.
   std::span<LocalSegment> find(const ObstaclePlace& place, Vec2 centre, double distance);
   /// Finds at least those within a distance of a point that moves by `way` (in the world), in the same order.
-  std::span<LocalSegment> find_on_way(const ObstaclePlace& place, Vec2 centre, double distance,
-                                      ObstaclePlace::Vector way);
+  std::span<LocalSegment> find_along(const ObstaclePlace& place, Vec2 centre, double distance,
+                                     ObstaclePlace::Vector displacement);
   std::span<LocalSegment> found() const noexcept { return found_; }
 
   /// Returns a distance from a point of the agent's frame within which find() finds the nearest segment, and hardly any other; infinity:
@@ -134,7 +134,7 @@ class NearSegments {
           dy * world.x - dx * world.y,
           from,
           from + world.length,
-          slack_share * (std::abs(dx) + std::abs(dy) + world.length),
+          relative_slack * (std::abs(dx) + std::abs(dy) + world.length),
           slot,
           world.number,
           world.obstacle};
@@ -145,7 +145,7 @@ class NearSegments {
 
   /// Represents a point in the world: the agent's position, and the way from there.
   struct AgentPoint {
-    double x, y, way_x, way_y;
+    double x, y, displacement_x, displacement_y;
     friend bool operator==(const AgentPoint&, const AgentPoint&) = default;
   };
 

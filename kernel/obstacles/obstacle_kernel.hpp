@@ -31,8 +31,8 @@ class ObstacleKernel {
   /// Gaps of discs bound those of outlines: some leaf holds the nearest point of an outline, and its radius was
   /// enlarged by the same grid steps as the margin of exact leaves, and by query_margin, which is more than that margin
   /// and what halving moves. So its gap is below that of the outline.
-  static void find_gap(const ObstacleArguments& in, double enough, ObstacleGap& best) noexcept {
-    ObstacleKernel(in).search_all(enough, best);
+  static void find_gap(const ObstacleArguments& in, double stop_below, ObstacleGap& best) noexcept {
+    ObstacleKernel(in).search_all(stop_below, best);
   }
 
  private:
@@ -58,16 +58,16 @@ class ObstacleKernel {
     return own_.walk(visit, [](const OpenBlock& block) { return block.first(); });
   }
 
-  void search_all(double enough, ObstacleGap& best) noexcept {
+  void search_all(double stop_below, ObstacleGap& best) noexcept {
     std::uint32_t first = 0;
     double least = __builtin_inf();
     for (std::uint32_t i = 0; i < in_.count; ++i) {
       const double square = square_from_root(in_.segments[i]);
       if (square < least) least = square, first = i;
     }
-    if (in_.count != 0) search(in_.segments[first], enough, best);
-    for (std::uint32_t i = 0; i < in_.count && !is_enough(enough, best); ++i)
-      if (i != first) search(in_.segments[i], enough, best);
+    if (in_.count != 0) search(in_.segments[first], stop_below, best);
+    for (std::uint32_t i = 0; i < in_.count && !may_stop(stop_below, best); ++i)
+      if (i != first) search(in_.segments[i], stop_below, best);
   }
 
   using Double = typename Simd::Double;
@@ -157,8 +157,8 @@ class ObstacleKernel {
     return most;
   }
 
-  static bool is_enough(double enough, const ObstacleGap& best) noexcept {
-    return best.segment != nullptr && best.gap <= enough;
+  static bool may_stop(double stop_below, const ObstacleGap& best) noexcept {
+    return best.segment != nullptr && best.gap <= stop_below;
   }
 
   double square_from_root(const LocalSegment& segment) const noexcept {
@@ -175,14 +175,14 @@ class ObstacleKernel {
   }
 
   /// Visits what has the least bound first.
-  void search(const LocalSegment& segment, double enough, ObstacleGap& best) noexcept {
+  void search(const LocalSegment& segment, double stop_below, ObstacleGap& best) noexcept {
     double limit = limit_of(segment, best);
     const double reach = double{tree_.outer} + limit;
     if (reach < 0 || square_from_root(segment) > reach * reach) return;
     const auto visit = [&](std::uint32_t node, OpenBlock& block) {
       if (node < leaf_window) return open(segment, limit, block), false;
       if (take(segment, node, limit, best)) limit = limit_of(segment, best);
-      return is_enough(enough, best);
+      return may_stop(stop_below, best);
     };
     own_.walk(visit, [&](const OpenBlock& block) { return least(block, limit); });
   }
@@ -255,7 +255,7 @@ class ObstacleKernel {
     for (std::uint32_t i = 0; i < list.count; ++i) {
       const std::uint32_t point = list.point(i);
       const OutlineSegment<Simd> outline(in_.shapes->points + point, segment);
-      if (outline.is_beside((best.gap + margin() + segment.slack) * (1 + 0x1p-40))) continue;
+      if (outline.is_off_line((best.gap + margin() + segment.slack) * (1 + 0x1p-40))) continue;
       improved |= best.improve({outline.gap(margin()), point, 0, segment.number, &segment});
     }
     return improved;

@@ -88,7 +88,7 @@ WorldSegment segment_of(double ax, double ay, double bx, double by, std::uint32_
 
 /// Returns the box of a segment, enlarged by what LocalSegment::slack can add for its length.
 Box box_of(const WorldSegment& s) {
-  const double slack = 8 * slack_share * s.length;
+  const double slack = 8 * relative_slack * s.length;
   return {std::min(s.ax, s.bx) - slack, std::min(s.ay, s.by) - slack, std::max(s.ax, s.bx) + slack,
           std::max(s.ay, s.by) + slack};
 }

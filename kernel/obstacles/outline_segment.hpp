@@ -34,7 +34,7 @@ class OutlineSegment {
       : segment_(segment), p_(placed(ends[0], segment)), q_(placed(ends[1], segment)) {}
 
   /// Returns whether both ends are farther than so much on one side of the obstacle's line, as most are.
-  bool is_beside(double distance) const noexcept {
+  bool is_off_line(double distance) const noexcept {
     return (p_.y > distance && q_.y > distance) || (p_.y < -distance && q_.y < -distance);
   }
 
@@ -43,7 +43,7 @@ class OutlineSegment {
   /// which errors of double are nothing.
   Meeting meet(double margin) const noexcept {
     const double limit = margin + segment_.slack;
-    if (is_beside(limit)) return Meeting::none;
+    if (is_off_line(limit)) return Meeting::none;
     if (!cross()) return square_of_ends() <= limit * limit ? Meeting::near : Meeting::none;
     const double beyond = limit * (__builtin_fabs(q_.x - p_.x) + __builtin_fabs(q_.y - p_.y));
     const bool sure = __builtin_fabs(p_.y) > limit && __builtin_fabs(q_.y) > limit &&
@@ -88,9 +88,9 @@ class OutlineSegment {
   double square_from_outline(double along) const noexcept {
     const double x = q_.x - p_.x, y = q_.y - p_.y, to_x = along - p_.x, to_y = -p_.y;
     const double square = x * x + y * y;
-    double share = square > 0 ? (to_x * x + to_y * y) / square : 0;
-    share = share < 0 ? 0 : share > 1 ? 1 : share;
-    const double dx = to_x - share * x, dy = to_y - share * y;
+    double t = square > 0 ? (to_x * x + to_y * y) / square : 0;
+    t = t < 0 ? 0 : t > 1 ? 1 : t;
+    const double dx = to_x - t * x, dy = to_y - t * y;
     return dx * dx + dy * dy;
   }
   static double least(double a, double b) noexcept { return b < a ? b : a; }

@@ -17,7 +17,7 @@ namespace {
 
 template <class MakeQuery>
 void find_hits(const MakeQuery& make, std::span<std::uint8_t> hits) {
-  for_agents(hits.size(), make, 0, Look::touching, [&](auto& query, std::uint32_t agent) {
+  for_agents(hits.size(), make, 0, SearchMode::touching, [&](auto& query, std::uint32_t agent) {
     bool hit = false;
     query.visit_hits(agent, [&](std::uint32_t) { return hit = true, false; });
     hits[agent] = hit;
@@ -27,7 +27,7 @@ void find_hits(const MakeQuery& make, std::span<std::uint8_t> hits) {
 template <class MakeQuery>
 void find_near(const MakeQuery& make, std::span<const double> distances, std::span<std::uint8_t> answers) {
   const double most = distances.empty() ? 0 : *std::max_element(distances.begin(), distances.end());
-  for_agents(answers.size(), make, most, Look::nearest, [&](auto& query, std::uint32_t agent) {
+  for_agents(answers.size(), make, most, SearchMode::nearest, [&](auto& query, std::uint32_t agent) {
     answers[agent] = query.is_within(agent, distances[distances.size() == 1 ? 0 : agent]);
   });
 }
@@ -52,9 +52,9 @@ void within(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obs
             std::span<const double> distances, std::span<std::uint8_t> answers, Leaves leaves,
             const Implementation* wanted) {
   const FloatingPointStateGuard floats;
-  const QueryName asked{"within", "agent", agents.size()};
-  check_size(asked, answers.size(), "answers");
-  require_distances(asked, distances);
+  const QueryName context{"within", "agent", agents.size()};
+  check_size(context, answers.size(), "answers");
+  require_distances(context, distances);
   find_near(queries_of(shapes, agents, obstacles, wanted, "within", leaves), distances, answers);
 }
 
@@ -62,9 +62,9 @@ void within(const BodySet& bodies, const Agents& agents, const ObstacleSet& obst
             std::span<const double> distances, std::span<std::uint8_t> answers,
             const Implementation* wanted) {
   const FloatingPointStateGuard floats;
-  const QueryName asked{"within", "agent", agents.size()};
-  check_size(asked, answers.size(), "answers");
-  require_distances(asked, distances);
+  const QueryName context{"within", "agent", agents.size()};
+  check_size(context, answers.size(), "answers");
+  require_distances(context, distances);
   find_near(queries_of(bodies, agents, obstacles, wanted, "within"), distances, answers);
 }
 
@@ -74,7 +74,7 @@ template <class MakeQuery>
 Rows<std::uint32_t> ObstacleRows::find_all(std::size_t agents, const MakeQuery& make) {
   return rows_.collect(agents, agents_per_task, [&] {
     return [query = make()](std::size_t begin, std::size_t end, const auto& add) mutable {
-      for_prepared(query, begin, end, 0, Look::touching, [&](auto& prepared, std::uint32_t agent) {
+      for_prepared(query, begin, end, 0, SearchMode::touching, [&](auto& prepared, std::uint32_t agent) {
         add(agent, [&](std::vector<std::uint32_t>& all) {
           const auto first = static_cast<std::ptrdiff_t>(all.size());
           prepared.visit_hits(agent, [&](std::uint32_t obstacle) { return all.push_back(obstacle), true; });

@@ -23,22 +23,23 @@ constexpr std::size_t agents_together = 64;
 
 /// Calls answer(query, agent) for agents begin .. end, for which a query is prepared; those who are left out have no obstacle within a limit, metres.
 template <class Query, class Answer>
-void for_prepared(Query& query, std::size_t begin, std::size_t end, double limit, Look look,
+void for_prepared(Query& query, std::size_t begin, std::size_t end, double limit, SearchMode mode,
                   const Answer& answer) {
   for (std::size_t first = begin; first < end; first += agents_together) {
     const auto from = static_cast<std::uint32_t>(first),
                to = static_cast<std::uint32_t>(std::min(first + agents_together, end));
-    query.prepare(from, to, limit, look);
+    query.prepare(from, to, limit, mode);
     for (std::uint32_t agent = from; agent < to; ++agent) answer(query, agent);
   }
 }
 
 /// Calls answer(query, agent) for so many agents, in tasks, each of which makes a query.
 template <class MakeQuery, class Answer>
-void for_agents(std::size_t agents, const MakeQuery& make, double limit, Look look, const Answer& answer) {
+void for_agents(std::size_t agents, const MakeQuery& make, double limit, SearchMode mode,
+                const Answer& answer) {
   for_ranges(agents, agents_per_task, [&](std::size_t begin, std::size_t end) {
     auto query = make();
-    for_prepared(query, begin, end, limit, look, answer);
+    for_prepared(query, begin, end, limit, mode, answer);
   });
 }
 

@@ -8,9 +8,9 @@
 #include <bch/obstacles.hpp>
 
 #include "kernel/distance/distance_input.hpp"
+#include "kernel/obstacles/exit_moves.hpp"
 #include "kernel/obstacles/query_input.hpp"
 #include "kernel/obstacles/shape_tree.hpp"
-#include "kernel/obstacles/ways_out.hpp"
 #include "kernel/simd/tree_nodes.hpp"
 #include "layout/base/rounding.hpp"
 
@@ -25,11 +25,12 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// Returns when a disc on its way touches a segment: the least t in [0, 1], or infinity. Every quotient is of lengths
 /// that were not subtracted from each other where they are large.
-double touch_time(const LocalSegment& segment, const Disc& disc, Vector way) noexcept {
+double touch_time(const LocalSegment& segment, const Disc& disc, Vector displacement) noexcept {
   const double x = disc.x, y = disc.y, r = double{disc.radius} + segment.slack;
   if (segment.touches(x, y, double{disc.radius})) return 0;
   const double along = segment.along(x, y), across = segment.across(x, y);
-  const double forward = segment.x * way.x + segment.y * way.y, aside = segment.x * way.y - segment.y * way.x;
+  const double forward = segment.x * displacement.x + segment.y * displacement.y,
+               aside = segment.x * displacement.y - segment.y * displacement.x;
   double time = infinity;
   const double towards = across > 0 ? -aside : aside, left = std::abs(across) - r;
   if (towards > 0 && left >= 0) {
@@ -49,28 +50,28 @@ double touch_time(const LocalSegment& segment, const Disc& disc, Vector way) noe
 }
 
 /// Returns whether nothing in a disc can touch a segment before a time.
-bool passes(const LocalSegment& segment, const Disc& disc, Vector way, double time) noexcept {
+bool passes(const LocalSegment& segment, const Disc& disc, Vector displacement, double time) noexcept {
   const double x = disc.x, y = disc.y, r = (double{disc.radius} + segment.slack) * (1 + 0x1p-20);
   const double along = segment.along(x, y), across = segment.across(x, y);
-  const double forward = time * (segment.x * way.x + segment.y * way.y),
-               aside = time * (segment.x * way.y - segment.y * way.x);
+  const double forward = time * (segment.x * displacement.x + segment.y * displacement.y),
+               aside = time * (segment.x * displacement.y - segment.y * displacement.x);
   return along + std::max(forward, 0.0) + r < segment.from ||
          along + std::min(forward, 0.0) - r > segment.to || across + std::min(aside, 0.0) > r ||
          across + std::max(aside, 0.0) < -r;
 }
 
 /// Finds when a body touches a segment, if that is before `best`.
-void find_time(const PlacedBody& body, const LocalSegment& segment, Vector way, double& best) {
+void find_time(const PlacedBody& body, const LocalSegment& segment, Vector displacement, double& best) {
   const ShapeTree<void> own(body.shapes, body.root_index());
   const auto visit = [&](std::uint32_t node, OpenBlock& block) {
     const Discs discs = TreeNodes<void>::outer_discs(own.nodes, node, own.tree.stride);
     for (unsigned lane = 0; lane < block_width; ++lane) {
       const Disc disc{discs.x[lane], discs.y()[lane], discs.radius()[lane]};
-      if (!(disc.x < __builtin_inff()) || passes(segment, disc, way, std::min(best, 1.0))) continue;
+      if (!(disc.x < __builtin_inff()) || passes(segment, disc, displacement, std::min(best, 1.0))) continue;
       if (node < leaf_window)
         block.lanes |= 1u << lane;
       else
-        best = std::min(best, touch_time(segment, disc, way));
+        best = std::min(best, touch_time(segment, disc, displacement));
     }
     return best <= 0;
   };
@@ -78,15 +79,15 @@ void find_time(const PlacedBody& body, const LocalSegment& segment, Vector way, 
 }
 
 /// Returns when a body on its way touches an obstacle, or infinity.
-double impact(BodyQuery& query, const PlacedBody& body, Vector way_in_world) {
+double impact(BodyQuery& query, const PlacedBody& body, Vector world_displacement) {
   const Vec2 centre = body.centre();
   query.near_body(body);
   if (query.is_inside(body)) return 0;
-  const Vector way = body.place.turned_back(way_in_world.x, way_in_world.y);
+  const Vector displacement = body.place.turned_back(world_displacement.x, world_displacement.y);
   double best = infinity;
   for (const LocalSegment& segment :
-       query.near().find_on_way(body.place, centre, body.outer_radius(), way_in_world))
-    find_time(body, segment, way, best);
+       query.near().find_along(body.place, centre, body.outer_radius(), world_displacement))
+    find_time(body, segment, displacement, best);
   return best;
 }
 
@@ -97,9 +98,9 @@ void penetration(const ShapeSet& shapes, const Agents& agents, const ObstacleSet
   const FloatingPointStateGuard floats;
   check_size({"penetration", "agent", agents.size()}, out.size(), "answers");
   const auto make = queries_of(shapes, agents, obstacles, wanted, "penetration");
-  for_agents(agents.size(), make, 0, Look::touching, [&](BodyQuery& query, std::uint32_t agent) {
-    WayOut longest;
-    if (const PlacedBody* const body = query.body(agent)) longest = WaysOut(query, *body).longest();
+  for_agents(agents.size(), make, 0, SearchMode::touching, [&](BodyQuery& query, std::uint32_t agent) {
+    ExitMove longest;
+    if (const PlacedBody* const body = query.body(agent)) longest = ExitMoves(query, *body).longest();
     const auto [depth, direction] = longest;
     out[agent] = {depth > 0 ? rounding::round_up(depth) : 0.0f, direction.x, direction.y};
   });
@@ -114,7 +115,7 @@ void time_of_impact(const ShapeSet& shapes, const Agents& agents, const Displace
   double farthest = 0;
   for (std::size_t i = 0; i < agents.size(); ++i)
     farthest = std::max(farthest, std::abs(displacements.x[i]) + std::abs(displacements.y[i]));
-  for_agents(agents.size(), make, farthest, Look::touching, [&](BodyQuery& query, std::uint32_t agent) {
+  for_agents(agents.size(), make, farthest, SearchMode::touching, [&](BodyQuery& query, std::uint32_t agent) {
     const PlacedBody* const body = query.body(agent);
     times[agent] =
         body == nullptr

@@ -56,8 +56,8 @@ struct LocalSegment {
   return false;
 }
 
-constexpr double slack_share = 0x1p-49;
-static_assert(slack_share >= 2 * 8 * 0x1p-53);
+constexpr double relative_slack = 0x1p-49;
+static_assert(relative_slack >= 2 * 8 * 0x1p-53);
 
 /// Represents a segment in the world: its ends, the unit vector from the one to the other, which is (1, 0) where they are the same, and its
 /// length, metres.

@@ -43,14 +43,14 @@ double SphereQuery::rise(float bottom, float top, std::uint32_t obstacle) const 
 SphereGap SphereQuery::nearest(std::uint32_t agent, double limit) {
   SphereGap nearest{std::min(limit, farthest_gap)};
   if (!begin(agent)) return nearest;
-  const auto look = [&](std::span<const LocalSegment>) {
+  const auto visit = [&](std::span<const LocalSegment>) {
     near().any_obstacle([&](std::span<const LocalSegment> segments, std::uint32_t obstacle) {
       return improve(segments, obstacle, nearest), false;
     });
   };
-  look(near().found());
+  visit(near().found());
   visit_areas_beyond(*body_, [&](std::uint32_t area) { return improve({}, area, nearest), true; });
-  look_outward(*body_, -std::numeric_limits<double>::infinity(), nearest, look);
+  search_outward(*body_, -std::numeric_limits<double>::infinity(), nearest, visit);
   return nearest;
 }
 
@@ -64,16 +64,16 @@ void SphereQuery::improve(std::span<const LocalSegment> segments, std::uint32_t 
     return is_area && (segments.empty() || !is_clear(segment) || area.holds({x, y}));
   };
   // What is left out by bounds must not depend on their rounding.
-  const double room = 0x1p-44 * (std::abs(ground_) + double{header.reach} + std::abs(nearest.gap));
+  const double tolerance = 0x1p-44 * (std::abs(ground_) + double{header.reach} + std::abs(nearest.gap));
   const std::uint32_t stride = header.node_stride, size = header.leaf_size;
   const float* const nodes = record_ + record_nodes;
   for (std::uint32_t leaf = 0; leaf < header.leaf_count; ++leaf) {
     const float x = nodes[leaf], y = nodes[stride + leaf], radius = nodes[2 * stride + leaf];
     if (rise(nodes[3 * stride + leaf], nodes[4 * stride + leaf], obstacle) >
-        std::max(nearest.gap + room, 0.0))
+        std::max(nearest.gap + tolerance, 0.0))
       continue;
     const NearestSegment of_leaf = nearest_segment(segments, double{x}, double{y});
-    const double beyond = of_leaf.distance - double{radius} - (nearest.gap + room);
+    const double beyond = of_leaf.distance - double{radius} - (nearest.gap + tolerance);
     // All of a leaf is on one side only where it is clear of the segments, whose gap may be less than 0.
     const bool is_beyond = beyond > 0 && (!is_area || beyond + nearest.gap > 0);
     if (is_beyond && !is_held(of_leaf, x, y)) continue;

@@ -55,7 +55,7 @@ struct Kernels {
   /// Writes the contacts of pairs from `begin` on behind those that end at offsets[begin], as far as `room` contacts
   /// are enough, and where those of each pair end. Returns one past the last pair that was answered.
   std::size_t (*append_contacts)(const Arguments& arguments, std::size_t begin, std::size_t end,
-                                 std::uint64_t* offsets, DiscPair* contacts, std::uint64_t room) noexcept;
+                                 std::uint64_t* offsets, DiscPair* contacts, std::uint64_t capacity) noexcept;
   /// Writes the contacts of pair i to contacts[offsets[i]] ..
   /// contacts[offsets[i + 1]].
   void (*fill_contacts)(const Arguments& arguments, std::size_t begin, std::size_t end,
@@ -76,7 +76,7 @@ struct Kernels {
   /// Returns whether an agent touches the segments of an obstacle; see ObstacleKernel.
   bool (*touches)(const ObstacleArguments& arguments) noexcept;
   /// Finds the least gap between a disc of an agent and one of the segments, until it is at most `enough`.
-  void (*find_gap)(const ObstacleArguments& arguments, double enough, ObstacleGap& best) noexcept;
+  void (*find_gap)(const ObstacleArguments& arguments, double stop_below, ObstacleGap& best) noexcept;
 };
 
 }  // namespace bch::detail

@@ -88,10 +88,10 @@ const Implementation& chosen(const Implementation* wanted, const char* query) {
   return *wanted;
 }
 
-void check_size(const QueryName& asked, std::size_t size, const char* what) {
-  if (size != asked.count)
-    throw std::invalid_argument(std::string(asked.query) + ": " + std::to_string(asked.count) + " " +
-                                asked.one + "s but " + std::to_string(size) + " " + what);
+void check_size(const QueryName& context, std::size_t size, const char* what) {
+  if (size != context.count)
+    throw std::invalid_argument(std::string(context.query) + ": " + std::to_string(context.count) + " " +
+                                context.one + "s but " + std::to_string(size) + " " + what);
 }
 
 void require_choice(const char* query, const char* what, int value, const char* words) {

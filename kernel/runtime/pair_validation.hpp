@@ -31,7 +31,7 @@ struct QueryName {
 
 /// Requires that a query was given as many values as it answers, and that an option is 0 or 1.
 /// Errors of both: throw std::invalid_argument naming the query, what is wrong, and in `words` the two that there are.
-void check_size(const QueryName& asked, std::size_t size, const char* what);
+void check_size(const QueryName& context, std::size_t size, const char* what);
 void require_choice(const char* query, const char* what, int value, const char* words);
 
 /// Returns whether segments decide at some leaves: `leaves` selects them, and the set has them.

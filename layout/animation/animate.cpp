@@ -114,19 +114,19 @@ class ClipAnimator {
   double hold(std::size_t first, std::size_t last, Key& from, Key& to) const {
     double most = 0;
     for (std::size_t i = 0; i < from.size(); ++i) {
-      const SpacePoint begin = centre(from[i]), way = centre(to[i]) - begin;
-      const double r_from = samples_.radius(first, i, begin), r_to = samples_.radius(last, i, begin + way);
-      const auto even_radius = [&](double share) { return r_from + share * (r_to - r_from); };
+      const SpacePoint begin = centre(from[i]), move = centre(to[i]) - begin;
+      const double r_from = samples_.radius(first, i, begin), r_to = samples_.radius(last, i, begin + move);
+      const auto even_radius = [&](double fraction) { return r_from + fraction * (r_to - r_from); };
       double excess = 0;
       for (std::size_t k = first + 1; k < last; ++k) {
-        const double share = samples_.share(k, first, last);
-        excess = std::max(excess, samples_.radius(k, i, begin + share * way) - even_radius(share));
+        const double fraction = samples_.fraction(k, first, last);
+        excess = std::max(excess, samples_.radius(k, i, begin + fraction * move) - even_radius(fraction));
       }
       for (std::size_t k = first + 1; k < last; ++k) {
         const Sphere& sphere = samples_[k].spheres[i];
-        const double share = samples_.share(k, first, last);
-        const double aside = std::sqrt(squared_distance(begin + share * way, centre(sphere)));
-        most = std::max(most, aside + even_radius(share) + excess - double{sphere.radius});
+        const double fraction = samples_.fraction(k, first, last);
+        const double aside = std::sqrt(squared_distance(begin + fraction * move, centre(sphere)));
+        most = std::max(most, aside + even_radius(fraction) + excess - double{sphere.radius});
       }
       from[i].radius = std::max(from[i].radius, rounding::round_up(r_from + excess));
       to[i].radius = rounding::round_up(r_to + excess);

@@ -14,10 +14,10 @@
 namespace bch::detail {
 namespace {
 
-constexpr double wanted_bend = 0.0004;     ///< metres
-constexpr double longest_window = 0.0084;  ///< seconds
+constexpr double wanted_deviation = 0.0004;  ///< metres
+constexpr double longest_window = 0.0084;    ///< seconds
 /// What positions in float are off by, as a share of their size: of skinning (some ten operations deep), and of discs between keys.
-constexpr double rounding_share = 4e-6;
+constexpr double relative_rounding = 4e-6;
 
 }  // namespace
 
@@ -39,19 +39,19 @@ void ClipSamples::take(float from, float to) {
     const double acceleration = bounds_.acceleration_in_space(from);
     const float limit = key == keys.end() ? to : std::min(to, *key);
     const double left = double{limit} - double{from};
-    const double even = std::sqrt(8 * wanted_bend / std::max(acceleration, 1e-9));
+    const double even = std::sqrt(8 * wanted_deviation / std::max(acceleration, 1e-9));
     const double parts = std::ceil(left / std::min(longest_window, even));
     const float after = parts <= 1 ? limit : static_cast<float>(double{from} + left / parts);
     if (!(from < after)) throw std::invalid_argument("animate: vertices move too fast");
-    const double seconds = double{after} - double{from}, bend = acceleration * seconds * seconds / 8;
+    const double seconds = double{after} - double{from}, deviation = acceleration * seconds * seconds / 8;
     add(after);
     for (std::size_t i = samples_.size() - 2; i < samples_.size(); ++i) {
-      samples_[i].room = std::max(samples_[i].room, bend);
-      take_in(samples_[i], bend);
+      samples_[i].margin = std::max(samples_[i].margin, deviation);
+      take_in(samples_[i], deviation);
     }
     from = after;
   }
-  for (Sample& sample : samples_) sample.room += rounding_share * reach_;
+  for (Sample& sample : samples_) sample.margin += relative_rounding * reach_;
 }
 
 void ClipSamples::add(float seconds) {
@@ -74,13 +74,13 @@ void ClipSamples::add(float seconds) {
   }
 }
 
-void ClipSamples::take_in(const Sample& sample, double bend) {
-  const double room = bend + rounding_share * std::max(-sample.bottom, sample.top);
-  heights_ = {std::min(heights_.bottom, rounding::round_down(sample.bottom - room)),
-              std::max(heights_.top, -rounding::round_down(-sample.top - room))};
+void ClipSamples::take_in(const Sample& sample, double deviation) {
+  const double margin = deviation + relative_rounding * std::max(-sample.bottom, sample.top);
+  heights_ = {std::min(heights_.bottom, rounding::round_down(sample.bottom - margin)),
+              std::max(heights_.top, -rounding::round_down(-sample.top - margin))};
 }
 
-double ClipSamples::share(std::size_t i, std::size_t first, std::size_t last) const noexcept {
+double ClipSamples::fraction(std::size_t i, std::size_t first, std::size_t last) const noexcept {
   const double from = samples_[first].seconds, to = samples_[last].seconds;
   return (double{samples_[i].seconds} - from) / (to - from);
 }
@@ -91,7 +91,7 @@ double ClipSamples::radius(std::size_t i, std::size_t sphere, const SpacePoint& 
   for (std::uint32_t c = model_.corner_begin[sphere]; c < model_.corner_begin[sphere + 1]; ++c)
     square = std::max(square, squared_distance(sample.corners[c], centre));
   const double least = model_.least_radius.empty() ? 0 : double{model_.least_radius[sphere]};
-  return std::max(std::sqrt(square) + sample.room, least);
+  return std::max(std::sqrt(square) + sample.margin, least);
 }
 
 }  // namespace bch::detail

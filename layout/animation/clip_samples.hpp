@@ -30,7 +30,7 @@ class ClipSamples {
     std::vector<Sphere> spheres;
     std::vector<SpacePoint> corners;  ///< as BodyModel::corners
     double bottom, top;               ///< of corners
-    double room = 0;  ///< by which corners may leave their chords on either side, and are rounded
+    double margin = 0;  ///< by which corners may leave their chords on either side, and are rounded
   };
 
   /// Takes a valid model, which has to outlive this.
@@ -48,13 +48,13 @@ class ClipSamples {
   /// Returns the heights of the triangles from the beginning of the first samples that were taken to the end of the last ones, rounded outward.
   const Heights& heights() const noexcept { return heights_; }
   /// Returns the share of the time between two other samples that has gone by at one.
-  double share(std::size_t i, std::size_t first, std::size_t last) const noexcept;
+  double fraction(std::size_t i, std::size_t first, std::size_t last) const noexcept;
   /// Returns the radius of a sphere that holds its corners about a centre from the sample before to the one after.
   double radius(std::size_t i, std::size_t sphere, const SpacePoint& centre) const noexcept;
 
  private:
   void add(float seconds);
-  void take_in(const Sample& sample, double bend);
+  void take_in(const Sample& sample, double deviation);
 
   const BodyModel& model_;
   std::uint32_t clip_;

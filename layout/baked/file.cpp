@@ -57,11 +57,11 @@ std::uint64_t check_entry(const SectionEntry& entry, std::uint32_t number, std::
                       std::to_string(element_size));
   if (entry.offset != offset)
     reject(where, "begins at " + std::to_string(entry.offset) + ", not at " + std::to_string(offset));
-  const std::uint64_t room = file_size - offset;
-  if (entry.count > room / element_size)
+  const std::uint64_t left = file_size - offset;
+  if (entry.count > left / element_size)
     reject(where, std::to_string(entry.count) + " elements do not fit into the file");
   const std::uint64_t bytes = entry.count * element_size, zeros = baked::zeros_after(bytes);
-  if (zeros > room - bytes) reject(where, "the file ends before its zeros do");
+  if (zeros > left - bytes) reject(where, "the file ends before its zeros do");
   return offset + bytes + zeros;
 }
 
@@ -169,12 +169,12 @@ std::vector<BakedBody> bodies_of(const baked::BodyArrays& arrays) {
 
 BakedShapes load_baked(const std::filesystem::path& file, FileAccess access) {
   const std::string name = file.string();
-  const HeaderCheck look{baked::sections_offset, [&](std::span<const std::byte> first, std::uint64_t size) {
-                           read_preamble(first, size, name);
-                         }};
+  const HeaderCheck check{baked::sections_offset, [&](std::span<const std::byte> first, std::uint64_t size) {
+                            read_preamble(first, size, name);
+                          }};
   FileBytes from;
   try {
-    from = access == FileAccess::map ? map_file(file, look) : read_file(file, look);
+    from = access == FileAccess::map ? map_file(file, check) : read_file(file, check);
   } catch (const BakedFileError&) {
     throw;
   } catch (const std::runtime_error& error) {

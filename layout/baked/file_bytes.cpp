@@ -14,18 +14,18 @@
 namespace bch::detail {
 namespace {
 
-void accept(const OpenFile& from, const HeaderCheck& look) {
-  if (!look.accept) return;
-  std::vector<std::byte> first(std::min(look.bytes, from.size()));
+void accept(const OpenFile& from, const HeaderCheck& check) {
+  if (!check.accept) return;
+  std::vector<std::byte> first(std::min(check.bytes, from.size()));
   from.read(first);
-  look.accept(first, from.size());
+  check.accept(first, from.size());
 }
 
 }  // namespace
 
-FileBytes read_file(const std::filesystem::path& file, const HeaderCheck& look) {
+FileBytes read_file(const std::filesystem::path& file, const HeaderCheck& check) {
   const OpenFile from(file);
-  accept(from, look);
+  accept(from, check);
   // A system that promises more memory than it has would end some process later.
   if (from.size() > all_memory()) throw std::bad_alloc();
   const std::shared_ptr<void> memory(allocate_aligned(from.size()),
@@ -35,9 +35,9 @@ FileBytes read_file(const std::filesystem::path& file, const HeaderCheck& look) 
   return {bytes, memory};
 }
 
-FileBytes map_file(const std::filesystem::path& file, const HeaderCheck& look) {
+FileBytes map_file(const std::filesystem::path& file, const HeaderCheck& check) {
   const OpenFile from(file);
-  accept(from, look);
+  accept(from, check);
   if (from.size() == 0) return {};
   const std::shared_ptr<const void> memory = from.map();
   return {{static_cast<const std::byte*>(memory.get()), from.size()}, memory};

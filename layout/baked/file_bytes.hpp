@@ -28,12 +28,12 @@ struct HeaderCheck {
 /// Errors:  throw std::runtime_error naming the file and the reason; read_file() also on one that ends sooner than its
 ///          size promised; std::bad_alloc, read_file() also where the file is larger than all memory; what `look` throws.
 
-FileBytes read_file(const std::filesystem::path& file, const HeaderCheck& look = {});
+FileBytes read_file(const std::filesystem::path& file, const HeaderCheck& check = {});
 
 /// Maps a file without a copy: pages come from the file cache. While `memory` lives no process may write to
 /// the file or make it shorter: bytes that were checked would change, and reading those that are gone ends
 /// the process by SIGBUS. No kind of mapping prevents that. To replace the file (write another, rename it
 /// over this) is fine: the mapping keeps the old one.
-FileBytes map_file(const std::filesystem::path& file, const HeaderCheck& look = {});
+FileBytes map_file(const std::filesystem::path& file, const HeaderCheck& check = {});
 
 }  // namespace bch::detail

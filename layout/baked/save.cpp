@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 /// A file beside another one, which is removed unless it took that one's name.
 class TemporaryFile {
  public:
-  explicit TemporaryFile(const fs::path& beside) : path_(beside) {
+  explicit TemporaryFile(const fs::path& target) : path_(target) {
     std::random_device random;
     path_ += '.' + std::to_string(random()) + ".part";
   }

@@ -38,8 +38,8 @@ inline double length(const PlanePoint& v) {
 inline double squared_distance(const PlanePoint& p, const PlanePoint& a, const PlanePoint& b) {
   const PlanePoint edge = b - a, to = p - a;
   const double square = squared_length(edge);
-  const double share = square > 0 ? std::clamp(dot(to, edge) / square, 0.0, 1.0) : 0;
-  return squared_length(to - share * edge);
+  const double t = square > 0 ? std::clamp(dot(to, edge) / square, 0.0, 1.0) : 0;
+  return squared_length(to - t * edge);
 }
 inline PlanePoint lower(const PlanePoint& a, const PlanePoint& b) {
   return {std::min(a.x, b.x), std::min(a.y, b.y)};

@@ -228,8 +228,8 @@ static_assert(sure_share * segment_margin >= (terms::segment_place + terms::high
 /// The room of nodes about the discs that they hold, times the shape's reach, is enough for pairs whose reaches together are at most
 /// this times the lesser one: twice (query_error) of both, and what checking it rounds.
 constexpr double held_reaches = 3;
-constexpr double held_room = 47 * held_reaches * unit_roundoff;
-static_assert(held_room >= held_reaches * 2 * (terms::query_error + 8 * terms::higher) * unit_roundoff);
+constexpr double held_margin = 47 * held_reaches * unit_roundoff;
+static_assert(held_margin >= held_reaches * 2 * (terms::query_error + 8 * terms::higher) * unit_roundoff);
 
 /// The grid steps by which an outline is off: snapping moves a vertex by sqrt(1/2) of one, and rounding a
 /// crossing to the grid by as much again.

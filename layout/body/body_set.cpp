@@ -142,9 +142,9 @@ std::uint32_t BodySet::body_count() const noexcept {
 }
 
 std::size_t BodySet::bytes() const noexcept {
-  constexpr std::size_t beside_record =
+  constexpr std::size_t other_bytes =
       sizeof(std::uint64_t) + sizeof(Root) + sizeof(Heights) + 2 * sizeof(void*);
-  return state_->records.size() * sizeof(float) + body_count() * beside_record;
+  return state_->records.size() * sizeof(float) + body_count() * other_bytes;
 }
 
 std::vector<Sphere> BodySet::spheres(std::uint32_t body) const {

@@ -32,26 +32,27 @@ namespace {
 ///
 /// hold it, and reach out of the capsule by the excess of that over the radius.
 void add_row(const BodySet::Capsule& capsule, std::size_t number, float error, std::vector<Sphere>& spheres) {
-  const SpacePoint a = space_point(capsule.a), b = space_point(capsule.b), way = b - a;
-  const double radius = capsule.radius, length = std::sqrt(dot(way, way)),
+  const SpacePoint a = space_point(capsule.a), b = space_point(capsule.b), axis = b - a;
+  const double radius = capsule.radius, length = std::sqrt(dot(axis, axis)),
                // A NaN at either end makes the length one, where a maximum may drop it.
       reach = (length >= 0 ? std::sqrt(std::max(dot(a, a), dot(b, b))) : length) + radius;
   if (!(radius >= 0 && reach >= rounding::smallest_reach && reach <= rounding::largest_reach))
     refuse_capsule(number,
                    "expected a radius of at least 0 and a reach of 1e-6 to 1e6 m, found a radius of " +
                        shortest(capsule.radius) + " and a reach of " + shortest(reach));
-  const double spare = cover_rounding * (reach + double{error}), room = double{error} - 2 * spare;
-  if (!(room > 0))
+  const double spare = cover_rounding * (reach + double{error}), tolerance = double{error} - 2 * spare;
+  if (!(tolerance > 0))
     refuse_capsule(number, "expected an error above " + shortest(2 * cover_rounding * reach) + " m, found " +
                                shortest(error));
-  const double parts = std::max(1.0, std::ceil(length / (2 * std::sqrt(room * (2 * radius + room)))));
+  const double parts =
+      std::max(1.0, std::ceil(length / (2 * std::sqrt(tolerance * (2 * radius + tolerance)))));
   if (parts + 1 + static_cast<double>(spheres.size()) > max_spheres)
     refuse_capsule(number, "expected an error that " + std::to_string(max_spheres) + " spheres keep, found " +
                                shortest(error) + " m");
   const double half = length / parts / 2;
   const float held_by = static_cast<float>(std::sqrt(radius * radius + half * half) + spare);
   for (double i = 0; i <= parts; ++i) {
-    const auto [x, y, z] = rounded(a + i / parts * way);
+    const auto [x, y, z] = rounded(a + i / parts * axis);
     spheres.push_back({x, y, z, held_by});
     if (length == 0) return;
   }

@@ -156,8 +156,9 @@ class PrismCover {
     for (double step = size / 2; step > size / 32;) {
       bool is_better = false;
       for (int direction = 0; direction < 27; ++direction) {
-        const SpacePoint way{direction % 3 - 1.0, direction / 3 % 3 - 1.0, direction / 9 % 3 - 1.0};
-        const SpacePoint next = in_float(best + step * way);
+        const SpacePoint direction_of_step{direction % 3 - 1.0, direction / 3 % 3 - 1.0,
+                                           direction / 9 % 3 - 1.0};
+        const SpacePoint next = in_float(best + step * direction_of_step);
         const double deep = depth(next), over = piece.radius(next) - deep;
         if (excess <= error_ ? over <= error_ && deep > deepest : over < excess)
           best = next, deepest = deep, excess = over, is_better = true;

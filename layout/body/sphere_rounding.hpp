@@ -99,8 +99,8 @@ static_assert(bound_margin >= terms::nodes * unit_roundoff &&
               bound_margin >= terms::axes * unit_roundoff);
 
 /// The margin of bounds of spheres within a gap, times the gap.
-constexpr double bound_share = 128 * unit_roundoff;
-static_assert(bound_share >= terms::of_gap * unit_roundoff);
+constexpr double bound_gap_margin = 128 * unit_roundoff;
+static_assert(bound_gap_margin >= terms::of_gap * unit_roundoff);
 /// What distances of centres and gaps are multiplied with in clearance().
 constexpr float far_centres = 1 + 0x1p-21f, near_gap = 1 - 0x1.8p-20f;
 static_assert(double{far_centres} - 1 == terms::lifted * unit_roundoff &&

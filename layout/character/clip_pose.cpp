@@ -172,14 +172,14 @@ void ClipPose::place(PoseTime at, std::span<Affine3d> local) {
   }
 }
 
-void ClipPose::add(std::size_t joint, const Moved& by, double share) {
+void ClipPose::add(std::size_t joint, const Moved& by, double fraction) {
   const Rest& rest = rest_[joint];
   Sum& sum = sums_[joint];
   const Eigen::Quaterniond turn = by.rotation.value_or(rest.turn);
   // A sum only grows by what is on its side, so it has a direction.
-  sum.rotation += (sum.rotation.dot(turn.coeffs()) < 0 ? -share : share) * turn.coeffs();
-  sum.scaling += share * (by.scale ? by.scale->asDiagonal().toDenseMatrix() : linear_part(rest.scaling));
-  sum.position += share * by.position.value_or(translation_of(rest.whole));
+  sum.rotation += (sum.rotation.dot(turn.coeffs()) < 0 ? -fraction : fraction) * turn.coeffs();
+  sum.scaling += fraction * (by.scale ? by.scale->asDiagonal().toDenseMatrix() : linear_part(rest.scaling));
+  sum.position += fraction * by.position.value_or(translation_of(rest.whole));
   sum.is_moved = sum.is_moved || by.rotation || by.scale || by.position;
 }
 
@@ -189,11 +189,11 @@ void ClipPose::blend(std::span<const WeightedPose> poses, std::span<Affine3d> lo
                {Eigen::Vector4d::Zero(), Eigen::Matrix3d::Zero(), Eigen::Vector3d::Zero(), false});
   for (const auto& [at, weight] : poses) {
     find_channels(at);
-    const double share = static_cast<double>(weight) / total;
-    if (share == 1) return place(at, local);
-    if (share == 0) continue;
+    const double fraction = static_cast<double>(weight) / total;
+    if (fraction == 1) return place(at, local);
+    if (fraction == 0) continue;
     std::size_t guess = 0;
-    for (std::size_t j = 0; j < local.size(); ++j) add(j, moved(j, at.seconds, guess), share);
+    for (std::size_t j = 0; j < local.size(); ++j) add(j, moved(j, at.seconds, guess), fraction);
   }
   for (std::size_t j = 0; j < local.size(); ++j) {
     const Sum& sum = sums_[j];

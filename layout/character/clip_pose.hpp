@@ -51,7 +51,7 @@ class ClipPose {
   void find_channels(PoseTime at);
   std::size_t prefetch(float seconds) const;
   Moved moved(std::size_t joint, float seconds, std::size_t& guess) const;
-  void add(std::size_t joint, const Moved& by, double share);
+  void add(std::size_t joint, const Moved& by, double fraction);
 
   const Character* character_;
   std::vector<Rest> rest_;

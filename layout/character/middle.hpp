@@ -24,8 +24,8 @@ Vec2 middle_of(std::span<const Position> positions) {
 }
 
 template <class Position>
-void move_by(std::span<Position> positions, Vec2 way) {
-  for (Position& position : positions) position.x += way.x, position.y += way.y;
+void move_by(std::span<Position> positions, Vec2 offset) {
+  for (Position& position : positions) position.x += offset.x, position.y += offset.y;
 }
 
 }  // namespace bch::detail

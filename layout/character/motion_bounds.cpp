@@ -48,8 +48,8 @@ MotionBound between_keys(const std::vector<Key<Value>>& keys, float from, const 
 }
 
 MotionBound linear_motion(const Vec3& a, const Vec3& b, double seconds) {
-  const double way = (to_eigen(b) - to_eigen(a)).cast<double>().norm();
-  return {std::max(size_of(a), size_of(b)), way / seconds, 0};
+  const double distance = (to_eigen(b) - to_eigen(a)).cast<double>().norm();
+  return {std::max(size_of(a), size_of(b)), distance / seconds, 0};
 }
 
 template <class Value>

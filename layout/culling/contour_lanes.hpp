@@ -75,8 +75,8 @@ class ContourLanes {
     constexpr double quadrant = 0.25 * profile_sectors;
     const Batch x = load(x_, i), y = load(y_, i), zero(0.0);
     const Batch sum = xsimd::abs(x) + xsimd::abs(y);
-    const Batch share = Batch(quadrant) * xsimd::abs(y) / (sum + Batch(not_zero));
-    const Batch half = xsimd::select(x < zero, Batch(2 * quadrant) - share, share);
+    const Batch t = Batch(quadrant) * xsimd::abs(y) / (sum + Batch(not_zero));
+    const Batch half = xsimd::select(x < zero, Batch(2 * quadrant) - t, t);
     const Batch sector = xsimd::select(y < zero, Batch(4 * quadrant) - half, half);
     const Batch to_integer(0x1.8p52), nearest = (sector + to_integer) - to_integer;
     store(sector_, i, sector);
@@ -88,8 +88,8 @@ class ContourLanes {
     const Batch along_x = to_x - x, along_y = to_y - y;
     const Batch square = along_x * along_x + along_y * along_y;
     const Batch foot = (Batch(0.0) - (x * along_x + y * along_y)) / (square + Batch(not_zero));
-    const Batch share = xsimd::max(Batch(0.0), xsimd::min(Batch(1.0), foot));
-    const Batch there_x = x + share * along_x, there_y = y + share * along_y;
+    const Batch t = xsimd::max(Batch(0.0), xsimd::min(Batch(1.0), foot));
+    const Batch there_x = x + t * along_x, there_y = y + t * along_y;
     store(foot_, i, foot);
     store(square_distance_, i, there_x * there_x + there_y * there_y);
     store(turn_, i, x * to_y - y * to_x);

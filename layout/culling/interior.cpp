@@ -28,7 +28,7 @@ constexpr double longer_side = DiscCoverage::cells - 2 * static_cast<double>(dil
 static_assert(rounding::query_margin >= rounding::terms::query_error * rounding::unit_roundoff);
 
 /// A candidate with less than this share of its estimated radius is not sound.
-constexpr double least_share = 0.5;
+constexpr double least_fraction = 0.5;
 
 /// Opposite directions have the same line, so half of them suffice.
 struct Lines {
@@ -115,7 +115,7 @@ bool InteriorBuilder::choose(Contour contour, std::uint32_t count) {
 
 bool InteriorBuilder::is_sound(const CandidateDiscs& discs, std::uint32_t k, double unit) const {
   return is_inside(depths_.winding[k]) &&
-         depths_.distance[k] > least_share * static_cast<double>(discs.radius[k]) * unit;
+         depths_.distance[k] > least_fraction * static_cast<double>(discs.radius[k]) * unit;
 }
 
 /// Candidates that are not sound give way to points of a grid, and all get the radii that they really have:

@@ -106,8 +106,8 @@ struct Segment {
     clip.keep_positive(cross(right, a) + wider, cross(right, b) + wider);
     clip.keep_positive(cross(a, left) + wider, cross(b, left) + wider);
     if (clip.from > clip.to) return infinity;
-    const double share = std::clamp(foot, clip.from, clip.to);
-    const PlanePoint there{a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)};
+    const double t = std::clamp(foot, clip.from, clip.to);
+    const PlanePoint there{a.x + t * (b.x - a.x), a.y + t * (b.y - a.y)};
     return dot(there, there);
   }
 };

@@ -34,15 +34,15 @@ void BodySurface::cap(const Loop& loop) {
   if (low + 2 == high) faces.push_back({loop[low], loop[low + 1], loop[high], loop[high]});
 }
 
-BodySurface::Loop BodySurface::extrude(const Loop& base, const Eigen::Vector3d& way, double scale,
+BodySurface::Loop BodySurface::extrude(const Loop& base, const Eigen::Vector3d& offset, double scale,
                                        const SkinTag& tag) {
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();
   for (const std::uint32_t v : base) middle += positions[v] / static_cast<double>(base.size());
-  const Eigen::Vector3d direction = way.normalized();
+  const Eigen::Vector3d direction = offset.normalized();
   Loop top;
   for (const std::uint32_t v : base) {
     const Eigen::Vector3d arm = positions[v] - middle;
-    top.push_back(add(middle + way + scale * (arm - arm.dot(direction) * direction), tag));
+    top.push_back(add(middle + offset + scale * (arm - arm.dot(direction) * direction), tag));
   }
   strip(base, top, true);
   return top;

@@ -43,7 +43,7 @@ struct BodySurface {
 
   /// Returns a copy of `base` moved by `way`, flattened across it and scaled about its middle, joined to `base` by
   /// quads.
-  Loop extrude(const Loop& base, const Eigen::Vector3d& way, double scale, const SkinTag& tag);
+  Loop extrude(const Loop& base, const Eigen::Vector3d& offset, double scale, const SkinTag& tag);
 };
 
 /// Completes a left half (y >= 0) by its mirror image; vertices at y = 0 are shared.

@@ -23,11 +23,11 @@ std::vector<Weights> diffused(const BodySurface& surface, int rounds) {
   std::vector<Weights> next(weights.size());
   for (int round = 0; round < rounds; ++round) {
     for (std::size_t v = 0; v < weights.size(); ++v) {
-      const double share = 0.5 / static_cast<double>(around[v].size());
+      const double fraction = 0.5 / static_cast<double>(around[v].size());
       for (std::size_t j = 0; j < body_joint_count; ++j) {
         double sum = 0;
         for (const std::uint32_t n : around[v]) sum += weights[n][j];
-        next[v][j] = 0.5 * weights[v][j] + share * sum;
+        next[v][j] = 0.5 * weights[v][j] + fraction * sum;
       }
     }
     weights.swap(next);

@@ -54,21 +54,21 @@ double lowest_height(const std::vector<Vector3d>& points) {
 
 /// How far the pelvis goes while the points that carry stay where they are. The carrying share of a point
 /// falls off within millimetres of height, so that the load passes smoothly from foot to foot.
-Vector3d way_over_ground(const std::vector<Vector3d>& before, const std::vector<Vector3d>& after) {
+Vector3d ground_displacement(const std::vector<Vector3d>& before, const std::vector<Vector3d>& after) {
   const double softness = 0.006;
   const double low_before = lowest_height(before);
   const double low_after = lowest_height(after);
-  Vector3d way = Vector3d::Zero();
+  Vector3d displacement = Vector3d::Zero();
   double total = 0;
   for (std::size_t i = 0; i < before.size(); ++i) {
     const double height = std::max(before[i].z() - low_before, after[i].z() - low_after);
-    const double share = std::exp(-height / softness);
-    total += share;
-    way -= share * (after[i] - before[i]);
+    const double fraction = std::exp(-height / softness);
+    total += fraction;
+    displacement -= fraction * (after[i] - before[i]);
   }
-  way /= total;
-  way.z() = 0;
-  return way;
+  displacement /= total;
+  displacement.z() = 0;
+  return displacement;
 }
 
 std::vector<HumanPose> grounded(const Soles& soles, const std::vector<double>& times, Travel travel,
@@ -80,7 +80,7 @@ std::vector<HumanPose> grounded(const Soles& soles, const std::vector<double>& t
     HumanPose pose = motion(time);
     const std::vector<Vector3d> points = soles.place(pose);
     if (travel == Travel::by_feet) {
-      if (!poses.empty()) travelled += way_over_ground(before, points);
+      if (!poses.empty()) travelled += ground_displacement(before, points);
       before = points;
     }
     pose.pelvis += travelled;

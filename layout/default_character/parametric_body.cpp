@@ -110,9 +110,9 @@ void add_leg(BodySurface& surface, const BodyShape& shape, const Loop& hips) {
   const Vector3d front = surface.positions[hips.front()];
   const Vector3d back = surface.positions[hips.back()];
   Loop above = hips;
-  for (const double share : {0.75, 0.5, 0.25}) {
-    Vector3d p = front + share * (back - front);
-    p.z() = shape.stature * (0.466 - 0.006 * std::sin(pi * share));
+  for (const double fraction : {0.75, 0.5, 0.25}) {
+    Vector3d p = front + fraction * (back - front);
+    p.z() = shape.stature * (0.466 - 0.006 * std::sin(pi * fraction));
     above.push_back(surface.add(p, tag(pelvis, 0.5)));
   }
   for (std::size_t i = 0; i < shape.leg.size(); ++i) {

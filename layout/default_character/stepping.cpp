@@ -43,9 +43,9 @@ Feet feet_at(const Rhythm& rhythm, double seconds, const Stand& stand) {
   Feet feet;
   for (std::size_t f = 0; f < 2; ++f) {
     const double begin = f == rhythm.leader ? 0.04 : 0.5 * rhythm.period + 0.04;
-    const double share = std::clamp((t - begin) / rhythm.step, 0.0, 1.0);
-    feet.swing[f] = share;
-    feet.foot[f] = between(stand(period, f), stand(period + 1, f), ease(0, 1, share));
+    const double fraction = std::clamp((t - begin) / rhythm.step, 0.0, 1.0);
+    feet.swing[f] = fraction;
+    feet.foot[f] = between(stand(period, f), stand(period + 1, f), ease(0, 1, fraction));
   }
   return feet;
 }
@@ -82,8 +82,8 @@ void stand_on(HumanPose& pose, const Manner& manner, const Feet& feet, const std
 }  // namespace
 
 double ease(double begin, double end, double t) {
-  const double share = std::clamp((t - begin) / (end - begin), 0.0, 1.0);
-  return share * share * (3 - 2 * share);
+  const double fraction = std::clamp((t - begin) / (end - begin), 0.0, 1.0);
+  return fraction * fraction * (3 - 2 * fraction);
 }
 
 ArmPose hanging_arm(const Manner& manner) {

@@ -39,14 +39,14 @@ struct Measures {
 
 /// Heel and toes rise about a seventh of the turn of natural walking for each seventh of its step: about 30 degrees before the toes leave
 /// the ground, 15 at the heel's contact.
-Foot foot_at(const Measures& of, double share) {
+Foot foot_at(const Measures& of, double fraction) {
   const double ahead = 0.5 * of.stance * of.stride;
   const double off = 32 * degree * of.vigour, contact = -14 * degree * of.vigour;
-  if (share < of.stance) {
-    const double t = share / of.stance;
-    return {ahead - of.stride * share, 0, contact * (1 - ease(0, 0.16, t)) + off * ease(0.62, 1, t)};
+  if (fraction < of.stance) {
+    const double t = fraction / of.stance;
+    return {ahead - of.stride * fraction, 0, contact * (1 - ease(0, 0.16, t)) + off * ease(0.62, 1, t)};
   }
-  const double t = (share - of.stance) / (1 - of.stance);
+  const double t = (fraction - of.stance) / (1 - of.stance);
   const double clearance = 0.015 + 0.045 * of.vigour;
   return {-ahead + 2 * ahead * ease(0, 1, t), clearance * std::sin(pi * t),
           off + (contact - off) * ease(0, 0.75, t)};

@@ -48,8 +48,8 @@ LegAngles leg_angles(double phase, double reach) {
   angles.ankle = part * at(dorsiflexion, phase) * degree;
   // Between loading and heel rise the sole lies flat, which tables of three joints, each rounded and averaged
   // by itself, give only to some degrees.
-  const double share = phase - std::floor(phase);
-  const double flat = ease(0.05, 0.12, share) - ease(0.36, 0.46, share);
+  const double fraction = phase - std::floor(phase);
+  const double flat = ease(0.05, 0.12, fraction) - ease(0.36, 0.46, fraction);
   angles.ankle += flat * (angles.knee - angles.hip - angles.ankle);
   angles.toes = part * at(toe_extension, phase) * degree;
   return angles;

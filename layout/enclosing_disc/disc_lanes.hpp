@@ -64,7 +64,7 @@ class DiscLanes {
     const Batch scale = Batch(0.5) / (bx * cy - by * cx);
     const Point offset{(cy * ab - by * ca) * scale, (bx * ca - cx * ab) * scale};
     Basis result{a, b, c, {a.x + offset.x, a.y + offset.y}, offset.x * offset.x + offset.y * offset.y, {}};
-    const Mask beside_ca = ca >= ab + bc, beside_bc = bc >= ab + ca, beside_ab = ab >= bc + ca;
+    const Mask ca_spans = ca >= ab + bc, bc_spans = bc >= ab + ca, ab_spans = ab >= bc + ca;
     const auto drop = [&](const Mask& where, const Point& from, const Point& to, const Batch& square) {
       result.a = select(where, from, result.a);
       result.b = select(where, to, result.b);
@@ -72,10 +72,10 @@ class DiscLanes {
       result.centre = select(where, middle(from, to), result.centre);
       result.square_radius = select(where, Batch(0.25) * square, result.square_radius);
     };
-    drop(beside_ca, c, a, ca);
-    drop(beside_bc, b, c, bc);
-    drop(beside_ab, a, b, ab);
-    result.is_pair = beside_ca | beside_bc | beside_ab;
+    drop(ca_spans, c, a, ca);
+    drop(bc_spans, b, c, bc);
+    drop(ab_spans, a, b, ab);
+    result.is_pair = ca_spans | bc_spans | ab_spans;
     return result;
   }
 
@@ -217,7 +217,7 @@ class DiscLanes {
     /// Returns one of each set's points.
     Point start() const {
       Farthest first{point(0), Batch(0.0)};
-      if (is_shared_) share(first);
+      if (is_shared_) share_farthest(first);
       return first.point;
     }
 
@@ -231,12 +231,12 @@ class DiscLanes {
         keep_farther(even, q, square_distance(q, from));
       }
       keep_farther(odd, even.point, even.square);
-      if (is_shared_) share(odd);
+      if (is_shared_) share_farthest(odd);
       return odd;
     }
 
     /// Gives the last two lanes the farther one of their points.
-    static void share(Farthest& farthest) {
+    static void share_farthest(Farthest& farthest) {
       alignas(64) double x[width], y[width], square[width];
       farthest.point.x.store_aligned(x);
       farthest.point.y.store_aligned(y);

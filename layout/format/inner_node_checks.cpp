@@ -137,7 +137,7 @@ void inner_nodes(const ShapeArrays& a, LevelNodes& level) {
       reject_inner(nodes, 0, "the only node is not the cut's disc");
     return;
   }
-  const auto slack = static_cast<float>(rounding::held_room + 49 * rounding::unit_roundoff);
+  const auto slack = static_cast<float>(rounding::held_margin + 49 * rounding::unit_roundoff);
   PendingNodes open(nodes, level.open_nodes, slack * a.reach[level.root / a.depths.size()]);
   for (std::uint32_t k = 0; k < nodes.count(); ++k) open.add(k);
   if (nodes.is_above_disc(nodes.count())) reject_inner(nodes, nodes.count(), "padding is above a disc");

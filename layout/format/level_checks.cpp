@@ -128,7 +128,7 @@ void blocks(const ShapeArrays& a, LevelNodes& level) {
   level.discs = next;
 }
 
-void room(const ShapeArrays& a, LevelNodes& level) {
+void disc_extent(const ShapeArrays& a, LevelNodes& level) {
   const auto [top, discs, stride, count, outer, segments, points, nodes_hold_discs] = tree(a, level);
   const std::uint64_t after_discs = level.discs + 3 * std::uint64_t{stride};
   level.end =

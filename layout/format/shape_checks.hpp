@@ -40,7 +40,7 @@ void contour_discs(const ShapeArrays& a);
 // These functions check a level: level_checks.cpp.
 void order_of_levels(const ShapeArrays& a, LevelNodes& level);
 void blocks(const ShapeArrays& a, LevelNodes& level);
-void room(const ShapeArrays& a, LevelNodes& level);
+void disc_extent(const ShapeArrays& a, LevelNodes& level);
 void windows(const ShapeArrays& a, LevelNodes& level);
 void first_window(const ShapeArrays& a, LevelNodes& level);
 void number_of_windows(const ShapeArrays& a, LevelNodes& level);

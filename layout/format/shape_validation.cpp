@@ -51,7 +51,7 @@ constexpr Precondition all[] = {
      "and none begins with padding: kernels' stacks have that size.",
      nullptr, blocks},
     {"room", "A level has eight discs or more, with padding, and a block's room follows them.", nullptr,
-     room},
+     disc_extent},
     {"windows", "Windows lie among their level's discs.", nullptr, windows},
     {"first window",
      "First child after first child leads to the level's first disc, from which others are numbered.",

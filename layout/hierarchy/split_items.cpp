@@ -34,11 +34,11 @@ void store_fields(float* fields, Float a, Float b, Float c, Float d) {
 
 void SplitItems::begin(std::size_t most) {
   count = 0;
-  const std::size_t room = most + width;
-  if (items.size() >= room) return;
-  primitives.resize(room), halvings.resize(room);
-  for (auto& of_axis : middle) of_axis.resize(room);
-  items.resize(room);  // the last one, which tells that the others have room
+  const std::size_t capacity = most + width;
+  if (items.size() >= capacity) return;
+  primitives.resize(capacity), halvings.resize(capacity);
+  for (auto& of_axis : middle) of_axis.resize(capacity);
+  items.resize(capacity);  // the last one, which tells that the others have room
 }
 
 void SplitItems::add_contour(std::span<const Vec2> points, const EvenHalves& halves) {

@@ -24,11 +24,11 @@ Eigen::Quaterniond value_in(const aiQuatKey& key) {
           static_cast<double>(key.mValue.y), static_cast<double>(key.mValue.z)};
 }
 
-Eigen::Vector3d mixed(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double share) {
-  return a + share * (b - a);
+Eigen::Vector3d mixed(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double fraction) {
+  return a + fraction * (b - a);
 }
-Eigen::Quaterniond mixed(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b, double share) {
-  return a.slerp(share, b);
+Eigen::Quaterniond mixed(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b, double fraction) {
+  return a.slerp(fraction, b);
 }
 
 /// Returns what a list of keys says at a time in ticks; `otherwise` without any.
@@ -52,9 +52,9 @@ AiKey* copied(const std::vector<AiKey>& keys) {
 
 }  // namespace
 
-FbxTransform blend(const FbxTransform& a, const FbxTransform& b, double share) {
-  return transform_from(mixed(a.position, b.position, share), mixed(a.rotation, b.rotation, share),
-                        mixed(a.scale, b.scale, share));
+FbxTransform blend(const FbxTransform& a, const FbxTransform& b, double fraction) {
+  return transform_from(mixed(a.position, b.position, fraction), mixed(a.rotation, b.rotation, fraction),
+                        mixed(a.scale, b.scale, fraction));
 }
 
 FbxTransform shown_by(const aiNodeAnim& channel, double ticks, const FbxTransform& rest) {

@@ -16,7 +16,7 @@
 namespace bch::detail::importing {
 
 /// Returns what is shown between two keys.
-FbxTransform blend(const FbxTransform& a, const FbxTransform& b, double share);
+FbxTransform blend(const FbxTransform& a, const FbxTransform& b, double fraction);
 
 /// Returns what a channel shows at a time in ticks, of a node that rests so.
 FbxTransform shown_by(const aiNodeAnim& channel, double ticks, const FbxTransform& rest);

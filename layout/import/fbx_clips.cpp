@@ -78,7 +78,7 @@ class ClipCorrector {
 
  private:
   /// Where a value jumps, what comes just before a time differs from what is there.
-  struct Moment {
+  struct Sample {
     double seconds;
     FbxTransform before, pose;
   };
@@ -144,7 +144,7 @@ class ClipCorrector {
     return file_.chain.local(model, {&motions_, seconds, before});
   }
 
-  std::vector<Moment> moments(const FbxModel& model) {
+  std::vector<Sample> samples(const FbxModel& model) {
     std::set<double> times{first_, last_};
     for (const FbxMotion* const motion : FbxChain::motions_of(model, motions_))
       for (const FbxCurve* const curve : motion->curves) {
@@ -152,37 +152,37 @@ class ClipCorrector {
         for (const FbxCurve::Key& key : curve->keys)
           if (key.time > first_ && key.time < last_) times.insert(key.time);
       }
-    std::vector<Moment> list;
+    std::vector<Sample> list;
     list.reserve(times.size());
     for (const double time : times) list.push_back({time, at(model, time, true), at(model, time)});
     return list;
   }
 
   /// Tells whether what would be shown is what the file has.
-  bool is_right(const FbxModel& model, const std::vector<Moment>& moments, const Evaluation& shown) const {
-    for (std::size_t m = 0; m < moments.size(); ++m) {
-      const Moment& here = moments[m];
+  bool is_right(const FbxModel& model, const std::vector<Sample>& samples, const Evaluation& shown) const {
+    for (std::size_t m = 0; m < samples.size(); ++m) {
+      const Sample& here = samples[m];
       const Eigen::Affine3d map = shown(here.seconds).map;
       if (!agree(map, here.pose.map, key_rounding)) return false;
       if (m == 0) continue;
-      const Moment& last = moments[m - 1];
+      const Sample& last = samples[m - 1];
       if (!agree(map, here.before.map, key_rounding) || !passes(model, last, here, shown)) return false;
     }
     return true;
   }
 
   /// Tells the same of the time between two keys, of which nobody asks if they are near each other.
-  bool passes(const FbxModel& model, const Moment& from, const Moment& to, const Evaluation& shown) const {
+  bool passes(const FbxModel& model, const Sample& from, const Sample& to, const Evaluation& shown) const {
     const double seconds = to.seconds - from.seconds;
     if (seconds > baked) return follows(model, from, to, shown, kept);
     return agree(shown(from.seconds + seconds / 2).map, blend(from.pose, to.before, 0.5).map, kept);
   }
 
-  bool follows(const FbxModel& model, const Moment& from, const Moment& to, const Evaluation& shown,
-               double share_missed) const {
-    for (const double share : {0.25, 0.5, 0.75}) {
-      const double time = from.seconds + share * (to.seconds - from.seconds);
-      if (!agree(shown(time).map, at(model, time).map, share_missed)) return false;
+  bool follows(const FbxModel& model, const Sample& from, const Sample& to, const Evaluation& shown,
+               double tolerance) const {
+    for (const double fraction : {0.25, 0.5, 0.75}) {
+      const double time = from.seconds + fraction * (to.seconds - from.seconds);
+      if (!agree(shown(time).map, at(model, time).map, tolerance)) return false;
     }
     return true;
   }
@@ -194,7 +194,7 @@ class ClipCorrector {
       const Evaluation shown = [&](double seconds) {
         return shown_by(channel, (seconds - first_) * ticks_, rest);
       };
-      if (!is_right(*model, moments(*model), shown)) continue;
+      if (!is_right(*model, samples(*model), shown)) continue;
       channel.mNodeName = file_.node_of.at(model)->mName;
       std::erase(models, model);
       return true;
@@ -204,7 +204,7 @@ class ClipCorrector {
 
   /// Returns a channel that moves a model as the file has it; none if it rests.
   std::unique_ptr<aiNodeAnim> channel_of(const FbxModel& model) {
-    const std::vector<Moment> list = moments(model);
+    const std::vector<Sample> list = samples(model);
     FbxTransform rest = file_.chain.local(model, {});
     if (is_right(model, list, [&](double) { return rest; })) return nullptr;
     ChannelMaker maker(file_.document.file(), place_ + ", node '" + model.name + "':");
@@ -213,7 +213,7 @@ class ClipCorrector {
     };
     add(list.front().seconds, list.front().pose);
     for (std::size_t m = 1; m < list.size(); ++m) {
-      const Moment& here = list[m];
+      const Sample& here = list[m];
       if (here.seconds - list[m - 1].seconds > baked)
         add_between(model, list[m - 1], here, max_halvings, add);
       add(here.seconds, here.before);
@@ -225,7 +225,7 @@ class ClipCorrector {
   }
 
   template <class Add>
-  void add_between(const FbxModel& model, const Moment& from, const Moment& to, int halvings,
+  void add_between(const FbxModel& model, const Sample& from, const Sample& to, int halvings,
                    const Add& add) const {
     const double seconds = to.seconds - from.seconds;
     const Evaluation shown = [&](double time) {
@@ -233,7 +233,7 @@ class ClipCorrector {
     };
     if (halvings == 0 || follows(model, from, to, shown, made_anew)) return;
     const double middle = from.seconds + seconds / 2;
-    const Moment between{middle, at(model, middle), at(model, middle)};
+    const Sample between{middle, at(model, middle), at(model, middle)};
     add_between(model, from, between, halvings - 1, add);
     add(middle, between.pose);
     add_between(model, between, to, halvings - 1, add);

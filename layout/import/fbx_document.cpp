@@ -24,17 +24,17 @@ constexpr double usual_weight = 1.0 / 3;
 /// Evaluates the cubic Bezier curve from a key to the next.
 double between(const FbxCurve::Key& a, const FbxCurve::Key& b, double time) {
   const double seconds = b.time - a.time;
-  const double share = (time - a.time) / seconds;
+  const double fraction = (time - a.time) / seconds;
   const auto bezier = [](double p0, double p1, double p2, double p3, double u) {
     const double v = 1 - u;
     return v * v * v * p0 + 3 * v * v * u * p1 + 3 * v * u * u * p2 + u * u * u * p3;
   };
-  double u = share;
+  double u = fraction;
   if (a.weight != usual_weight || a.next_weight != usual_weight) {
     double low = 0, high = 1;
     for (int i = 0; i < 60; ++i) {
       u = (low + high) / 2;
-      (bezier(0, a.weight, 1 - a.next_weight, 1, u) < share ? low : high) = u;
+      (bezier(0, a.weight, 1 - a.next_weight, 1, u) < fraction ? low : high) = u;
     }
   }
   return bezier(a.value, a.value + a.weight * seconds * a.slope,

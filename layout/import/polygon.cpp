@@ -166,11 +166,11 @@ class EarClipper {
 
   /// Tells most edges from the triangle at little cost.
   static bool apart(const std::array<Point, 3>& t, const Point& a, const Point& b) {
-    const auto beside = [&](double Point::*axis) {
+    const auto is_separate = [&](double Point::*axis) {
       return std::max(a.*axis, b.*axis) < std::min({t[0].*axis, t[1].*axis, t[2].*axis}) ||
              std::min(a.*axis, b.*axis) > std::max({t[0].*axis, t[1].*axis, t[2].*axis});
     };
-    return beside(&Point::x) || beside(&Point::y);
+    return is_separate(&Point::x) || is_separate(&Point::y);
   }
 
   /// Returns whether a segment has a point inside the triangle: no line along an edge, or along the segment, parts the two.

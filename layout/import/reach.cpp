@@ -14,8 +14,8 @@
 namespace bch::detail::importing {
 namespace {
 
-constexpr double farthest_share = 1.5;  // of the rest pose's reach
-constexpr int steps = 16;               // poses of a clip, less one
+constexpr double max_ratio = 1.5;  // of the rest pose's reach
+constexpr int steps = 16;          // poses of a clip, less one
 
 /// Returns the text of a length, rounded to the millimetre.
 std::string text_of(double metres) {
@@ -34,9 +34,9 @@ void note_far_poses(const Character& character, std::size_t first_clip, ImportRe
       const float seconds = character.clips[c].seconds * static_cast<float>(step) / static_cast<float>(steps);
       farthest = std::max(farthest, reach(skinner.ground_pose({static_cast<std::uint32_t>(c), seconds})));
     }
-    if (farthest > farthest_share * rest)
+    if (farthest > max_ratio * rest)
       report.notes.push_back("clip '" + character.clips[c].name + "': a pose reaches " + text_of(farthest) +
-                             ", more than " + shortest(farthest_share) + " times the rest pose's " +
+                             ", more than " + shortest(max_ratio) + " times the rest pose's " +
                              text_of(rest));
   }
 }

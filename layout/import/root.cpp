@@ -8,9 +8,9 @@
 namespace bch::detail::importing {
 namespace {
 
-constexpr double skeleton_share = 0.9;    // of all weight: such a joint carries the body, not a limb
-constexpr double travel_of_clip = 0.5;    // metres: more than a body sways over its root
-constexpr double travel_of_noise = 1e-3;  // metres
+constexpr double skeleton_fraction = 0.9;  // of all weight: such a joint carries the body, not a limb
+constexpr double travel_of_clip = 0.5;     // metres: more than a body sways over its root
+constexpr double travel_of_noise = 1e-3;   // metres
 
 /// The joints that carry the body, from a root of the hierarchy down as long as one child carries it.
 struct Trunk {
@@ -35,7 +35,7 @@ Trunk find_trunk(const Character& character, const std::vector<bool>& bone_is_sk
       weight[static_cast<std::size_t>(character.joints[j].parent)] += weight[j];
   constexpr double all = 1 - 1e-9;
   for (std::size_t j = 0; j < size; ++j) {
-    if (weight[j] >= skeleton_share * total) trunk.joints.push_back(j);
+    if (weight[j] >= skeleton_fraction * total) trunk.joints.push_back(j);
     if (weight[j] >= all * total) trunk.ancestor = j;
   }
   if (trunk.joints.empty()) trunk.joints.push_back(0);
@@ -69,8 +69,8 @@ std::int32_t find_root_joint(const Character& character, const std::vector<bool>
   std::size_t root = trunk.ancestor;
   bool moves = false;
   for (const std::size_t joint : trunk.joints) {
-    const double way = travel(character, joint, scales[joint]);
-    if (way > travel_of_clip || (way > travel_of_noise && !moves)) {
+    const double distance = travel(character, joint, scales[joint]);
+    if (distance > travel_of_clip || (distance > travel_of_noise && !moves)) {
       root = joint;
       moves = true;
     }

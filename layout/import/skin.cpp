@@ -13,7 +13,7 @@ namespace bch::detail::importing {
 namespace {
 
 /// Float cannot tell a sum from one without such a share.
-constexpr double smallest_share = 1e-7;
+constexpr double smallest_weight = 1e-7;
 constexpr double sum_tolerance = 1e-3;
 /// What rounding may add to a weight of 1.
 constexpr float largest_weight = 1.001f;
@@ -63,7 +63,7 @@ double normalise(std::vector<Influence>& list) {
     const std::uint32_t bone = list[i].bone;
     double weight = 0;
     for (; i < list.size() && list[i].bone == bone; ++i) weight += static_cast<double>(list[i].weight);
-    if (weight / sum >= smallest_share) merged.push_back({bone, static_cast<float>(weight / sum)});
+    if (weight / sum >= smallest_weight) merged.push_back({bone, static_cast<float>(weight / sum)});
   }
   list = std::move(merged);
   return sum;
@@ -84,10 +84,10 @@ void fill_gaps(const aiMesh& mesh, InfluenceLists& lists) {
     float best = std::numeric_limits<float>::infinity();
     unsigned nearest = weighted.front();
     // Returns whether a vertex further along x may still be nearer.
-    const auto look = [&](unsigned candidate) {
-      const aiVector3D way = mesh.mVertices[candidate] - position;
-      if (way.x * way.x > best) return false;
-      const float distance = way.SquareLength();
+    const auto consider = [&](unsigned candidate) {
+      const aiVector3D offset = mesh.mVertices[candidate] - position;
+      if (offset.x * offset.x > best) return false;
+      const float distance = offset.SquareLength();
       if (distance < best) {
         best = distance;
         nearest = candidate;
@@ -95,9 +95,9 @@ void fill_gaps(const aiMesh& mesh, InfluenceLists& lists) {
       return true;
     };
     const auto middle = std::lower_bound(weighted.begin(), weighted.end(), v, before);
-    for (auto i = middle; i != weighted.end() && look(*i); ++i) {
+    for (auto i = middle; i != weighted.end() && consider(*i); ++i) {
     }
-    for (auto i = middle; i != weighted.begin() && look(*(i - 1)); --i) {
+    for (auto i = middle; i != weighted.begin() && consider(*(i - 1)); --i) {
     }
     lists[v] = given[nearest];
   }

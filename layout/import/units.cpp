@@ -129,8 +129,8 @@ Direction choose_up(const DeclaredFrame& declared, const ImportOptions& options,
     up.axis = rest.sizes().y() >= rest.sizes().z() ? ImportOptions::UpAxis::y : ImportOptions::UpAxis::z;
     source = ", guessed from the rest pose (set the up axis to override)";
   }
-  const bool reader_turned = !options.up && declared.told_up;
-  const std::string name = name_of(reader_turned ? *declared.told_up : up);
+  const bool reader_turned = !options.up && declared.reported_up;
+  const std::string name = name_of(reader_turned ? *declared.reported_up : up);
   report.notes.push_back((name == "z" ? "z up" : name + " up -> z up") + source);
   return up;
 }
@@ -162,7 +162,7 @@ float choose_scale(const SceneFile& file, const DeclaredFrame& declared, const I
 }
 
 /// A pose is relative to its root joint, so it does not show how far a clip takes the root.
-void check_ways(const SceneFile& file, const Character& character) {
+void check_displacements(const SceneFile& file, const Character& character) {
   const std::vector<double> scales = metres_above(character);
   for (const Clip& clip : character.clips)
     for (const Channel& channel : clip.channels)
@@ -197,7 +197,7 @@ DeclaredFrame declared_frame(const SceneFile& file) {
     frame.scale_source = format.scale_source;
   }
   if (file.format == "Collada Importer")
-    frame.told_up = up_before_reader(file.scene->mRootNode->mTransformation);
+    frame.reported_up = up_before_reader(file.scene->mRootNode->mTransformation);
   return frame;
 }
 
@@ -231,7 +231,7 @@ Direction settle_frame(const SceneFile& file, const DeclaredFrame& declared, con
 }
 
 void check_poses(const SceneFile& file, const Character& character) {
-  check_ways(file, character);
+  check_displacements(file, character);
   Skinner skinner(character);
   const auto check = [&](PoseTime at, const std::string& name) {
     std::span<const Vec3> positions;
@@ -245,10 +245,10 @@ void check_poses(const SceneFile& file, const Character& character) {
         file.reject(name + ": vertex " + std::to_string(v) + " is absurdly far away");
   };
   check(PoseTime{}, "rest pose");
-  constexpr std::array<float, 5> shares = {0.0f, 0.25f, 0.5f, 0.75f, 1.0f};
+  constexpr std::array<float, 5> fractions = {0.0f, 0.25f, 0.5f, 0.75f, 1.0f};
   for (std::uint32_t c = 0; c < character.clips.size(); ++c)
-    for (const float share : shares)
-      check({c, share * character.clips[c].seconds}, "clip '" + character.clips[c].name + "'");
+    for (const float fraction : fractions)
+      check({c, fraction * character.clips[c].seconds}, "clip '" + character.clips[c].name + "'");
 }
 
 float rest_height(const Character& character) {

@@ -22,9 +22,9 @@ struct Direction {
 /// Holds what a format or a file declares about itself.
 struct DeclaredFrame {
   std::optional<Direction> up;
-  std::optional<Direction> told_up;  ///< what the file declares, where the reader has turned that to `up`
-  std::optional<float> scale;        ///< metres per unit
-  std::string scale_source;          ///< for the note, such as "FBX unit scale factor 1"
+  std::optional<Direction> reported_up;  ///< what the file declares, where the reader has turned that to `up`
+  std::optional<float> scale;            ///< metres per unit
+  std::string scale_source;              ///< for the note, such as "FBX unit scale factor 1"
 };
 
 DeclaredFrame declared_frame(const SceneFile& file);

@@ -30,18 +30,18 @@ std::size_t choose(std::span<const OutlineTopology::EdgeTriangles> edges, const 
 }
 
 /// The sides of an edge, by its first use's direction, that a use's triangle is on; none where that is seen edge-on.
-int seen_beside(const OutlineTopology::EdgeUse& use, int side) {
+int sides_of(const OutlineTopology::EdgeUse& use, int side) {
   return use.direction > 0 || side == 0 ? side : side ^ (counter_clockwise | clockwise);
 }
 
 }  // namespace
 
-void CandidateList::begin(std::size_t room) {
+void CandidateList::begin(std::size_t capacity) {
   count_ = 0;
-  if (segments_.size() >= room + boxes_per_block) return;
-  islands_.resize(room + boxes_per_block);
-  boxes_.reserve(room + boxes_per_block);
-  segments_.resize(room + boxes_per_block);  // the last one, which tells that the others have room
+  if (segments_.size() >= capacity + boxes_per_block) return;
+  islands_.resize(capacity + boxes_per_block);
+  boxes_.reserve(capacity + boxes_per_block);
+  segments_.resize(capacity + boxes_per_block);  // the last one, which tells that the others have room
 }
 
 void CandidateList::finish(std::span<const GridPoint> island_points) {
@@ -85,15 +85,15 @@ void OutlineCandidates::find(const OutlineTopology& topology, std::span<const Gr
 void OutlineCandidates::add_uses(std::span<const GridPoint> points, EdgeUses uses,
                                  const OutlineTopology& topology, CandidateList& list) const {
   bool together = true;
-  int seen = 0;  // sides of the edge that have triangles
+  int sides = 0;  // sides of the edge that have triangles
   for (const auto& use : uses) {
     together &= points[use.a] == points[uses[0].a] && points[use.b] == points[uses[0].b];
-    seen |= seen_beside(use, sides_[use.triangle]);
+    sides |= sides_of(use, sides_[use.triangle]);
   }
   const auto add = [&](const auto& use) { list.add(points[use.a], points[use.b], topology.island[use.a]); };
   if (!together) {
     for (const auto& use : uses) add(use);
-  } else if (seen != (counter_clockwise | clockwise)) {
+  } else if (sides != (counter_clockwise | clockwise)) {
     add(uses[0]);
   }
 }

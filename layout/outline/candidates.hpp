@@ -21,7 +21,7 @@ namespace bch::detail {
 class CandidateList {
  public:
   /// Begins an empty list with room for so many segments.
-  void begin(std::size_t room);
+  void begin(std::size_t capacity);
   /// Adds a segment, unless it is a point. A point that goes through memory is best moved as one value; one that is not wanted
   /// is overwritten by the next.
   void add(GridPoint a, GridPoint b, std::uint32_t island) {
@@ -34,7 +34,7 @@ class CandidateList {
   void finish(std::span<const GridPoint> island_points);
 
   std::span<const Segment> segments() const { return {segments_.data(), count_}; }  ///< none is a point
-  std::size_t room() const { return segments_.size(); }  ///< for segments, and a block more
+  std::size_t capacity() const { return segments_.size(); }  ///< for segments, and a block more
   std::uint32_t island(std::size_t segment) const { return islands_[segment]; }
   std::span<const GridPoint> island_points() const { return island_points_; }
   const SegmentBoxes& boxes() const { return boxes_; }

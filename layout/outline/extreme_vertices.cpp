@@ -23,8 +23,8 @@ constexpr double slack = 0x1p-20;
 static_assert(slack >= (2 + 1 + 1) * 0x1p-24, "the differences, their squares, the sum");
 /// Looks for a farthest vertex end when it is no farther than that square over the disc's, which leaves a tenth of its
 /// radius; more would take longer than the few vertices that they leave out.
-constexpr double near_enough = 1.01;
-constexpr int max_looks = 4;
+constexpr double close_ratio = 1.01;
+constexpr int max_iterations = 4;
 
 /// The squares of four points' distances.
 Float squares_of(const GridPoint* points, Float from_x, Float from_y) {
@@ -59,10 +59,10 @@ void ExtremeVertices::find(std::span<const Vec2> positions) {
   const PlanePoint a = point(first), b = point(farthest_from(a.x, a.y, from_middle_));
   pivoting::Basis now = pivoting::basis(a, b);
   double at_most = 0;
-  for (int look = 0; look < max_looks; ++look) {
+  for (int iteration = 0; iteration < max_iterations; ++iteration) {
     const std::size_t last = farthest_from(now.centre.x, now.centre.y, from_middle_);
     at_most = (1 + slack) * static_cast<double>(from_middle_[last]);
-    if (at_most <= near_enough * now.square_radius) break;
+    if (at_most <= close_ratio * now.square_radius) break;
     now = pivoting::pivot(now, point(last));
   }
   const double at_least = (1 - slack) * now.square_radius;

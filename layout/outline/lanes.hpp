@@ -47,9 +47,9 @@ class OutlineLanes {
 
   /// Finds the candidates whose boxes meet that of the way, and tests them.
   /// Returns: how many are near.
-  static std::size_t find_near(const SegmentSearch& job, const SearchedWay& way) noexcept {
-    const std::size_t count = find_meeting(job, way);
-    test_near(job, way, count);
+  static std::size_t find_near(const SegmentSearch& job, const SearchedLine& searched) noexcept {
+    const std::size_t count = find_meeting(job, searched);
+    test_near(job, searched, count);
     return count;
   }
 
@@ -57,8 +57,8 @@ class OutlineLanes {
   /// and whether it touches its end. With O the start of the way, D its direction and (a, b) the candidate:
   /// side_a = D x (a - O), side_b = D x (b - O); their difference is the denominator, `along` the numerator
   /// and `at` the quotient of where on the way it is crossed. Numbers that fill a register follow those in job.near.
-  static void test_near(const SegmentSearch& job, const SearchedWay& way, std::size_t count) noexcept {
-    const Line line(way);
+  static void test_near(const SegmentSearch& job, const SearchedLine& searched, std::size_t count) noexcept {
+    const Line line(searched);
     for (std::size_t word = 0, i = 0; i < count; ++word) {
       std::uint64_t crossing = 0, ending = 0;
       const std::size_t begin = i, end = begin + 64 < count ? begin + 64 : count;
@@ -89,8 +89,8 @@ class OutlineLanes {
   struct Box {
     Cells min_x, min_y, max_x, max_y;
 
-    explicit Box(const SearchedWay& way) noexcept
-        : min_x(way.min_x), min_y(way.min_y), max_x(way.max_x), max_y(way.max_y) {}
+    explicit Box(const SearchedLine& searched) noexcept
+        : min_x(searched.min_x), min_y(searched.min_y), max_x(searched.max_x), max_y(searched.max_y) {}
 
     /// Returns the bits of a block's boxes that it meets.
     std::uint32_t meets(const BoxBlock& block) const noexcept {
@@ -108,8 +108,8 @@ class OutlineLanes {
   /// Writes the segments whose boxes meet that of the way, and zeros to fill a register: one candidate more, or
   /// one twice, does no harm.
   /// Returns: how many.
-  static std::size_t find_meeting(const SegmentSearch& job, const SearchedWay& way) noexcept {
-    const Box box(way);
+  static std::size_t find_meeting(const SegmentSearch& job, const SearchedLine& searched) noexcept {
+    const Box box(searched);
     std::uint32_t* end = job.near;
     for (std::size_t group = 0; group < job.group_count; group += groups_in_a_word) {
       std::uint64_t open = 0;
@@ -144,16 +144,16 @@ class OutlineLanes {
 
   /// Holds the way in every lane.
   struct Line {
-    Doubles from_x, from_y, to_x, to_y, way_x, way_y, at;
+    Doubles from_x, from_y, to_x, to_y, direction_x, direction_y, at;
 
-    explicit Line(const SearchedWay& way) noexcept
-        : from_x(way.from_x),
-          from_y(way.from_y),
-          to_x(way.to_x),
-          to_y(way.to_y),
-          way_x(to_x - from_x),
-          way_y(to_y - from_y),
-          at(way.at) {}
+    explicit Line(const SearchedLine& searched) noexcept
+        : from_x(searched.from_x),
+          from_y(searched.from_y),
+          to_x(searched.to_x),
+          to_y(searched.to_y),
+          direction_x(to_x - from_x),
+          direction_y(to_y - from_y),
+          at(searched.at) {}
 
     Found test(const SegmentSearch& job, std::size_t i) const noexcept {
       static_assert(sizeof(Segment) == 4 * sizeof(std::int32_t));
@@ -161,7 +161,8 @@ class OutlineLanes {
       Simd::template load_integers<4>(&job.segments->a.x, job.near + i, end);
       const Doubles zero(0.0), ax = end[0] - from_x, ay = end[1] - from_y, bx = end[2] - from_x,
                                by = end[3] - from_y;
-      const Doubles side_a = way_x * ay - way_y * ax, side_b = way_x * by - way_y * bx;
+      const Doubles side_a = direction_x * ay - direction_y * ax,
+                    side_b = direction_x * by - direction_y * bx;
       const auto a_right = side_a < zero, b_right = side_b < zero;
       const Doubles turn = bx * ay - by * ax, difference = side_a - side_b;
       const Doubles along = xsimd::select(a_right, -turn, turn),

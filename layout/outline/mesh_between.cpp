@@ -21,8 +21,8 @@ using Polygon = std::vector<Corner>;
 /// The order of the ends decides nothing: an edge always goes up.
 Corner crossing(Corner low, Corner high, double z) {
   if (high.z < low.z) std::swap(low, high);
-  const double share = (z - low.z) / (high.z - low.z);
-  return {low.x + (high.x - low.x) * share, low.y + (high.y - low.y) * share, z};
+  const double t = (z - low.z) / (high.z - low.z);
+  return {low.x + (high.x - low.x) * t, low.y + (high.y - low.y) * t, z};
 }
 
 /// Writes what of a convex polygon lies above a height, or below it.

@@ -46,7 +46,7 @@ struct SegmentSearch {
 };
 
 /// Holds the rest of a line from the place at `at` of it; the box is around it.
-struct SearchedWay {
+struct SearchedLine {
   std::int32_t from_x, from_y, to_x, to_y;
   double at;
   std::int16_t min_x, min_y, max_x, max_y;
@@ -56,8 +56,8 @@ struct SearchedWay {
 struct OutlineLoops {
   void (*find_sides)(const std::uint32_t* corners, std::size_t count, const GridPoint* points,
                      std::uint8_t* sides) noexcept;
-  std::size_t (*find_near)(const SegmentSearch& job, const SearchedWay& way) noexcept;
-  void (*test_near)(const SegmentSearch& job, const SearchedWay& way, std::size_t count) noexcept;
+  std::size_t (*find_near)(const SegmentSearch& job, const SearchedLine& searched) noexcept;
+  void (*test_near)(const SegmentSearch& job, const SearchedLine& searched, std::size_t count) noexcept;
 };
 
 }  // namespace bch::detail

@@ -50,11 +50,12 @@ void SegmentTree::set_leaf(Node& node, std::span<const Segment> segments) const 
   node = {empty_box, 0, 0, 0, 0, 0};
   for (const auto& [a, b] : segments) {
     for (const GridPoint p : {a, b}) enlarge(node.box, {p, p});
-    const GridVector way = b - a;
-    const double length = std::sqrt(static_cast<double>(dot(way, way)));
+    const GridVector edge = b - a;
+    const double length = std::sqrt(static_cast<double>(dot(edge, edge)));
     if (length <= node.length) continue;
     node.length = length;
-    node.normal_x = -static_cast<double>(way.y) / length, node.normal_y = static_cast<double>(way.x) / length;
+    node.normal_x = -static_cast<double>(edge.y) / length,
+    node.normal_y = static_cast<double>(edge.x) / length;
   }
   set_slab(node, segments);
 }

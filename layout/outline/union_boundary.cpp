@@ -16,7 +16,7 @@ namespace {
 struct GridEdge {
   GridPoint a, b;
 
-  GridVector way() const { return b - a; }
+  GridVector direction() const { return b - a; }
 };
 
 /// A part of an edge, by shares of it.
@@ -39,10 +39,10 @@ struct Tile {
 /// Keeps of a part of an edge what a triangle's edge has to its left, where the edge of the part, moved to its right by less than
 /// anything, is looked at.
 void keep_left_of(const GridEdge& side, const GridEdge& edge, Part& part) {
-  const GridVector way = side.way();
-  const std::int64_t at_begin = cross(way, edge.a - side.a), at_end = cross(way, edge.b - side.a);
+  const GridVector direction = side.direction();
+  const std::int64_t at_begin = cross(direction, edge.a - side.a), at_end = cross(direction, edge.b - side.a);
   if (at_begin == 0 && at_end == 0) {
-    if (dot(way, edge.way()) > 0) part.end = part.begin;
+    if (dot(direction, edge.direction()) > 0) part.end = part.begin;
   } else if (at_begin <= 0 && at_end <= 0) {
     part.end = part.begin;
   } else if (at_begin < 0) {
@@ -63,11 +63,12 @@ Part covered(const Tile& by, const GridEdge& edge) {
 
 /// The part of an edge that lies on another one of the same direction.
 Part shared(const GridEdge& other, const GridEdge& edge) {
-  const GridVector way = edge.way();
-  if (cross(way, other.way()) != 0 || cross(way, other.a - edge.a) != 0 || dot(way, other.way()) <= 0)
+  const GridVector direction = edge.direction();
+  if (cross(direction, other.direction()) != 0 || cross(direction, other.a - edge.a) != 0 ||
+      dot(direction, other.direction()) <= 0)
     return {all_of_it, {}};
-  const std::int64_t whole = dot(way, way);
-  const std::int64_t begin = dot(way, other.a - edge.a), end = dot(way, other.b - edge.a);
+  const std::int64_t whole = dot(direction, direction);
+  const std::int64_t begin = dot(direction, other.a - edge.a), end = dot(direction, other.b - edge.a);
   return {Fraction(std::clamp(begin, std::int64_t{0}, whole), whole),
           Fraction(std::clamp(end, std::int64_t{0}, whole), whole)};
 }
@@ -172,7 +173,7 @@ void add_gaps(const GridEdge& edge, std::vector<Part>& parts, std::vector<Bounda
   for (const Part& part : parts) {
     if (compare(at, part.begin) < 0) {
       const GridPoint begin = rounded({edge.a, edge.b, at}), end = rounded({edge.a, edge.b, part.begin});
-      if (!(begin == end)) pieces.push_back({begin, end, edge.way()});
+      if (!(begin == end)) pieces.push_back({begin, end, edge.direction()});
     }
     if (compare(at, part.end) < 0) at = part.end;
   }

@@ -56,14 +56,14 @@ class RingPath {
   }
 
   std::size_t next(const BoundaryPiece& from) const {
-    const GridVector way = from.direction;
+    const GridVector direction = from.direction;
     std::size_t first = none;
     int first_part = 4;
     for (std::size_t i = node(from.end); i < pieces_.size() && pieces_[i].begin == from.end; ++i) {
       if (used_[i] != 0) continue;
       const GridVector other = pieces_[i].direction;
-      const std::int64_t side = cross(way, other);
-      const int on_line = dot(way, other) > 0 ? 1 : 3;
+      const std::int64_t side = cross(direction, other);
+      const int on_line = dot(direction, other) > 0 ? 1 : 3;
       const int part = side < 0 ? 0 : side > 0 ? 2 : on_line;
       if (part > first_part || (part == first_part && cross(other, pieces_[first].direction) <= 0)) continue;
       first = i, first_part = part;

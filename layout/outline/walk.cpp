@@ -23,13 +23,14 @@ constexpr std::size_t many_candidates = 16384;
 /// last stretch; each further one is so many times as long as the one before.
 constexpr double shortest_piece = 64, more_than_last = 1.125, piece_growth = 4;
 
-double length_of(GridVector way) {
-  return std::sqrt(static_cast<double>(dot(way, way)));
+double length_of(GridVector direction) {
+  return std::sqrt(static_cast<double>(dot(direction, direction)));
 }
 
 GridPlace place_on(const Place& line, double at) {
-  const GridVector way = line.direction();
-  return {line.from.x + at * static_cast<double>(way.x), line.from.y + at * static_cast<double>(way.y)};
+  const GridVector direction = line.direction();
+  return {line.from.x + at * static_cast<double>(direction.x),
+          line.from.y + at * static_cast<double>(direction.y)};
 }
 
 /// The coordinates of a cell that steps are in.
@@ -41,7 +42,7 @@ std::int16_t cell(std::int32_t steps) {
 
 void OutlineWalk::begin(const CandidateList& candidates) {
   candidates_ = &candidates;
-  if (const std::size_t most = candidates.room(); near_.size() < most) {
+  if (const std::size_t most = candidates.capacity(); near_.size() < most) {
     for (std::vector<double>* const each : {&side_a_, &side_b_, &along_, &at_}) each->resize(most);
     for (std::vector<std::uint64_t>* const each : {&crossing_, &ending_}) each->resize(most / 64 + 1);
     near_.resize(most);  // the last one, which tells that the others have room
@@ -129,7 +130,7 @@ void OutlineWalk::for_each(const std::vector<std::uint64_t>& bits, Each each) co
 
 /// Fills `next` with the first way to the right after `here` and before the end of its line, if there is one within that
 /// share of the line.
-bool OutlineWalk::take_first_crossing(const Place& here, double share, Stretch& next) {
+bool OutlineWalk::take_first_crossing(const Place& here, double limit, Stretch& next) {
   constexpr std::size_t none = ~std::size_t{0};
   std::size_t first = none;
   Fraction nearest;
@@ -145,7 +146,7 @@ bool OutlineWalk::take_first_crossing(const Place& here, double share, Stretch& 
     return static_cast<std::int64_t>(std::abs(side_a_[i] - side_b_[i]));
   };
   for_each(crossing_, [&](std::size_t i) {
-    if (at_[i] > share) return;
+    if (at_[i] > limit) return;
     const Fraction at(static_cast<std::int64_t>(along_[i]), whole(i), at_[i]);
     if (compare(at, here.at) <= 0) return;
     const int order = first != none ? compare(at, nearest) : -1;
@@ -167,13 +168,13 @@ bool OutlineWalk::take_first_crossing(const Place& here, double share, Stretch& 
 /// from the end of its line: to the right of the line, straight on, to its left, and last back.
 void OutlineWalk::take_first_direction(const Place& here, Stretch& next) {
   const GridPoint at = here.to;
-  const GridVector way = here.direction();
+  const GridVector direction = here.direction();
   GridVector first{0, 0};
   int first_part = 4;
   std::uint32_t first_segment = 0;
   const auto consider = [&](GridPoint end, double side, std::uint32_t segment) {
     const GridVector other = end - at;
-    const int on_line = dot(way, other) > 0 ? 1 : 3;
+    const int on_line = dot(direction, other) > 0 ? 1 : 3;
     const int part = side < 0 ? 0 : side > 0 ? 2 : on_line;
     if (part > first_part || (part == first_part && cross(other, first) <= 0)) return;
     first = other, first_part = part;

@@ -50,7 +50,7 @@ class OutlineWalk {
   void for_each(const std::vector<std::uint64_t>& bits, Each each) const;
   void find_near_piece(const Place& here, double begin, double end);
   bool cross_in_pieces(const Stretch& now, Stretch& next);
-  bool take_first_crossing(const Place& here, double share, Stretch& next);
+  bool take_first_crossing(const Place& here, double limit, Stretch& next);
   void take_first_direction(const Place& here, Stretch& next);
   void touch(std::uint32_t segment);
 

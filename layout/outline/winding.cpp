@@ -22,11 +22,11 @@ static_assert(part_size % width == 0);
 
 /// Returns whether a point of the stretch's line is between the ends of the stretch.
 bool between(const Place& begin, const Place& end, GridPoint point) {
-  const GridVector way = begin.direction();
-  const bool along_x = way.x != 0;
+  const GridVector direction = begin.direction();
+  const bool along_x = direction.x != 0;
   const int from_begin = along_x ? compare_x(begin, point.x) : compare_y(begin, point.y);
   const int from_end = along_x ? compare_x(end, point.x) : compare_y(end, point.y);
-  const bool forward = along_x ? way.x > 0 : way.y > 0;
+  const bool forward = along_x ? direction.x > 0 : direction.y > 0;
   return forward ? from_begin <= 0 && from_end >= 0 : from_begin >= 0 && from_end <= 0;
 }
 

@@ -85,30 +85,30 @@ double FirstRows::extent() const {
 }
 
 /// The median of the ways from row to row of a person; nothing where nobody has two rows.
-std::optional<double> FirstRows::usual_way(ColumnOrder order) const {
+std::optional<double> FirstRows::median_distance(ColumnOrder order) const {
   const std::vector<Place> places = by_person(order);
-  std::vector<double> ways;
+  std::vector<double> distances;
   for (std::size_t i = 1; i < places.size(); ++i)
     if (places[i].first == places[i - 1].first && places[i].second != places[i - 1].second)
-      ways.push_back(std::hypot(places[i].x - places[i - 1].x, places[i].y - places[i - 1].y));
-  if (ways.empty()) return std::nullopt;
-  const auto middle = ways.begin() + static_cast<std::ptrdiff_t>(ways.size() / 2);
-  std::nth_element(ways.begin(), middle, ways.end());
+      distances.push_back(std::hypot(places[i].x - places[i - 1].x, places[i].y - places[i - 1].y));
+  if (distances.empty()) return std::nullopt;
+  const auto middle = distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2);
+  std::nth_element(distances.begin(), middle, distances.end());
   return *middle;
 }
 
-ColumnOrder FirstRows::order_by_ways() const {
+ColumnOrder FirstRows::order_by_distances() const {
   constexpr double clearly = 3, one_path = 12;
   if (places_.empty()) return ColumnOrder::unclear;
-  const std::optional<double> ids = usual_way(ColumnOrder::id_first),
-                              frames = usual_way(ColumnOrder::frame_first);
-  const auto is_way = [&](const std::optional<double>& way, const std::optional<double>& other) {
-    if (!way) return false;
-    return other ? *way < *other && clearly * *way <= *other : one_path * *way <= extent();
+  const std::optional<double> ids = median_distance(ColumnOrder::id_first),
+                              frames = median_distance(ColumnOrder::frame_first);
+  const auto is_better = [&](const std::optional<double>& distance, const std::optional<double>& other) {
+    if (!distance) return false;
+    return other ? *distance < *other && clearly * *distance <= *other : one_path * *distance <= extent();
   };
-  return is_way(ids, frames)   ? ColumnOrder::id_first
-         : is_way(frames, ids) ? ColumnOrder::frame_first
-                               : ColumnOrder::unclear;
+  return is_better(ids, frames)   ? ColumnOrder::id_first
+         : is_better(frames, ids) ? ColumnOrder::frame_first
+                                  : ColumnOrder::unclear;
 }
 
 bool FirstRows::may_be_one_person(double speed) const {
@@ -118,9 +118,9 @@ bool FirstRows::may_be_one_person(double speed) const {
   if (places.size() < 2 || places.size() >= few) return false;
   for (std::size_t i = 1; i < places.size(); ++i) {
     const Place &last = places[i - 1], &next = places[i];
-    const double way = std::hypot(next.x - last.x, next.y - last.y),
+    const double distance = std::hypot(next.x - last.x, next.y - last.y),
                  frames = static_cast<double>(next.second) - static_cast<double>(last.second);
-    if (next.first != last.first || !(way * speed <= fastest * frames)) return false;
+    if (next.first != last.first || !(distance * speed <= fastest * frames)) return false;
   }
   return true;
 }

@@ -34,7 +34,7 @@ class FirstRows {
 
   /// Tells ids from frames by the ways between rows: from frame to frame a person moves less than a third of the way to somebody else,
   /// and, alone, less than a twelfth of the extent of all rows.
-  ColumnOrder order_by_ways() const;
+  ColumnOrder order_by_distances() const;
   /// Returns whether these few rows have one number first and may be those of a person who is no faster than people
   /// run. `speed`: metres a second of a person who moves by one unit from frame to frame.
   bool may_be_one_person(double speed) const;
@@ -66,7 +66,7 @@ class FirstRows {
 
   std::vector<Place> by_person(ColumnOrder order) const;
   double extent() const;
-  std::optional<double> usual_way(ColumnOrder order) const;
+  std::optional<double> median_distance(ColumnOrder order) const;
 };
 
 }  // namespace bch::detail::trajectory

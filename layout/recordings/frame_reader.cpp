@@ -50,11 +50,11 @@ FrameReader::FrameReader(std::unique_ptr<RowSource> source, const TrajectoryOpti
 
 /// Reads all rows, sorts them if need be, and goes back to the first.
 Survey FrameReader::survey(Clock clock, const TrajectoryOptions& options) {
-  const auto look = [&] {
+  const auto check_cancelled = [&] {
     if (options.go_on && !options.go_on()) source_->places().reject("reading it was cancelled");
   };
   Survey found;
-  if (survey_ordered(*source_, found, look)) {
+  if (survey_ordered(*source_, found, check_cancelled)) {
     source_->rewind();
     return found;
   }
@@ -62,7 +62,7 @@ Survey FrameReader::survey(Clock clock, const TrajectoryOptions& options) {
   found = {};
   RowSorter sorter(options.sort_memory);
   while (const std::size_t count = source_->read(batch_)) {
-    look();
+    check_cancelled();
     const std::span<const Row> read(batch_.data(), count);
     if (clock == Clock::frames)
       for (const Row& row : read) found.add(row);
@@ -70,7 +70,7 @@ Survey FrameReader::survey(Clock clock, const TrajectoryOptions& options) {
   }
   sorted_ = std::move(sorter).finish();
   if (clock != Clock::frames) {  // whose steps in order matter
-    survey_ordered(*sorted_, found, look);
+    survey_ordered(*sorted_, found, check_cancelled);
     sorted_->rewind();
   }
   return found;

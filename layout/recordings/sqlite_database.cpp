@@ -17,7 +17,7 @@ constexpr int longest_value = 1 << 24;  // bytes: of a geometry
 
 // What reading may cost, in steps of SQLite's machine. A row takes 7 bytes at least, and 10 to 25 steps in all scans together. Pages
 // count too: a value that goes on over many is a step.
-constexpr int steps_a_look = 500;
+constexpr int steps_a_call = 500;
 constexpr std::uint64_t steps_a_byte = 4, steps_of_any_file = 1'000'000;
 constexpr std::uint64_t bytes_of_a_page_a_step = 16;
 
@@ -49,15 +49,15 @@ struct Found {
       return static_cast<std::uint64_t>(static_cast<unsigned char>(first[at]));
     };
     page_size = std::max<std::uint64_t>(512, byte(17) == 1 ? 65'536 : byte(16) * 256);
-    const std::filesystem::path log = beside("-wal"), index = beside("-shm");
+    const std::filesystem::path log = sibling("-wal"), index = sibling("-shm");
     bytes = size_of(file) + size_of(log);
     if (byte(19) != 2) return;  // has no log
     const bool is_empty = size_of(log) == 0;
-    lacks_log = is_empty && size_of(beside("-journal")) == 0 && !(is_there(log) && is_there(index));
+    lacks_log = is_empty && size_of(sibling("-journal")) == 0 && !(is_there(log) && is_there(index));
     lacks_index = !is_empty && !is_there(index);
   }
 
-  std::filesystem::path beside(const char* ending) const {
+  std::filesystem::path sibling(const char* ending) const {
     std::filesystem::path other = file;
     return other += ending;
   }
@@ -122,9 +122,9 @@ void SqliteDatabase::open() {
 
 /// Called by SQLite now and then. Trees that are graphs would have it read the same pages for ever.
 /// Returns: whether it has to end what it does.
-int SqliteDatabase::look(void* of) {
+int SqliteDatabase::on_progress(void* of) {
   auto& database = *static_cast<SqliteDatabase*>(of);
-  database.cost_ += steps_a_look;
+  database.cost_ += steps_a_call;
   for (const int counted : {SQLITE_DBSTATUS_CACHE_HIT, SQLITE_DBSTATUS_CACHE_MISS}) {
     int pages = 0, unused = 0;
     sqlite3_db_status(database.get(), counted, &pages, &unused, 1);
@@ -136,7 +136,7 @@ int SqliteDatabase::look(void* of) {
 
 void SqliteDatabase::restrict_it() {
   sqlite3* const db = handle_.get();
-  sqlite3_progress_handler(db, steps_a_look, look, this);
+  sqlite3_progress_handler(db, steps_a_call, on_progress, this);
   sqlite3_busy_timeout(db, locked_milliseconds);
   for (const int off :
        {SQLITE_DBCONFIG_TRUSTED_SCHEMA, SQLITE_DBCONFIG_ENABLE_TRIGGER, SQLITE_DBCONFIG_ENABLE_VIEW,

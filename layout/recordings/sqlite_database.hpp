@@ -78,7 +78,7 @@ class SqliteDatabase {
   std::shared_ptr<void> log_index_;  ///< which the handle uses
   std::unique_ptr<sqlite3, Close> handle_;
 
-  static int look(void* database);
+  static int on_progress(void* database);
   void open();
   void restrict_it();
   void run(const char* sql) const;

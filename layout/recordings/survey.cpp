@@ -39,10 +39,10 @@ void Survey::add(const Row& row) {
   ++rows;
 }
 
-bool survey_ordered(RowStream& rows, Survey& survey, const std::function<void()>& look) {
+bool survey_ordered(RowStream& rows, Survey& survey, const std::function<void()>& check_cancelled) {
   std::vector<Row> batch(4096);
   while (const std::size_t count = rows.read_keys(batch)) {
-    look();
+    check_cancelled();
     for (std::size_t i = 0; i < count; ++i) {
       if (survey.rows > 0 && batch[i].key < survey.last) return false;
       survey.add(batch[i]);

@@ -56,6 +56,6 @@ struct Survey {
 
 /// Counts rows until one has a smaller key than the row before, and calls `look`, which may throw, now and then.
 /// Returns: whether none has.
-bool survey_ordered(RowStream& rows, Survey& survey, const std::function<void()>& look);
+bool survey_ordered(RowStream& rows, Survey& survey, const std::function<void()>& check_cancelled);
 
 }  // namespace bch::detail::trajectory

@@ -190,7 +190,7 @@ class LayoutFinder {
         ", which are taken in that order: " + rows_.read_as(layout_.columns) + ".");
   }
 
-  [[noreturn]] void ask_for_columns(const char* such_as) const {
+  [[noreturn]] void require_columns(const char* such_as) const {
     places_.reject(layout_.first_line,
                    "has " + std::to_string(rows_.columns()) +
                        " columns without names: --columns has to name them in order, such as " + such_as +
@@ -203,15 +203,15 @@ class LayoutFinder {
     const std::size_t columns = rows_.columns();
     if (layout_.separator == ' ' && columns < 4) return juelich_columns;  // of which y lacks
     const bool are_known = layout_.separator == ' ' && columns <= 5 && rows_.have_places();
-    if (!are_known) ask_for_columns("id,frame,x,y or frame,id,x,skip,y");
-    ColumnOrder order = rows_.order_by_ways();
+    if (!are_known) require_columns("id,frame,x,y or frame,id,x,skip,y");
+    ColumnOrder order = rows_.order_by_distances();
     if (order == ColumnOrder::unclear && columns == 4 && !comments_.fps) order = rows_.order_by_steps();
     // Speeds are not known before unit and rate are, which are asked for then.
     const double speed = options_.unit.value_or(0) * options_.fps.value_or(0);
     const bool is_juelich = comments_.fps || (columns == 5 && rows_.may_be_one_person(speed));
     if (order == ColumnOrder::unclear && is_juelich) order = ColumnOrder::id_first;
     if (order == ColumnOrder::unclear || rows_.has_other_in_fifth(order))
-      ask_for_columns(columns == 4 ? "id,frame,x,y or frame,id,x,y"
+      require_columns(columns == 4 ? "id,frame,x,y or frame,id,x,y"
                                    : "id,frame,x,y,z or frame,id,x,y,z or frame,id,x,skip,y");
     return order == ColumnOrder::id_first ? juelich_columns : eth_columns;
   }

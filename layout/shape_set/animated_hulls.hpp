@@ -73,7 +73,7 @@ constexpr PlanePoint hull_direction(std::uint32_t k) noexcept {
 /// Represents a direction between two of those: `size` times (1 - share) of `first` and share of `second`.
 struct HullDirection {
   std::uint32_t first, second;
-  double share, size;
+  double fraction, size;
 
   /// Takes a vector that is not 0.
   explicit HullDirection(const PlanePoint& d) noexcept {
@@ -84,7 +84,7 @@ struct HullDirection {
     const auto whole = static_cast<std::uint32_t>(place);
     first = (whole + (along_x ? 0 : of_side) + (longer > 0 ? 0 : 2 * of_side)) % hull_directions;
     second = (first + 1) % hull_directions;
-    share = place - whole;
+    fraction = place - whole;
     size = std::abs(longer);
   }
 
@@ -95,7 +95,7 @@ struct HullDirection {
   /// Returns that at most: a body reaches no farther in the sum of two directions than the sum of how far it does in each.
   Extent extent(const HullWindow::Extents& extents) const noexcept {
     const HullWindow::Extent a = extents[first], b = extents[second];
-    return {size * (a.from + (b.from - a.from) * share), size * (a.to + (b.to - a.to) * share)};
+    return {size * (a.from + (b.from - a.from) * fraction), size * (a.to + (b.to - a.to) * fraction)};
   }
 };
 

@@ -35,8 +35,8 @@ Disc disc_around(const Disc& a, const Disc& b) {
   const double radius = (apart + double{a.radius} + double{b.radius}) / 2;
   if (radius <= double{a.radius}) return a;
   if (radius <= double{b.radius}) return b;
-  const double share = (radius - double{a.radius}) / apart;
-  return {static_cast<float>(double{a.x} + x * share), static_cast<float>(double{a.y} + y * share),
+  const double t = (radius - double{a.radius}) / apart;
+  return {static_cast<float>(double{a.x} + x * t), static_cast<float>(double{a.y} + y * t),
           rounding::round_up(radius)};
 }
 
@@ -52,7 +52,7 @@ class BinaryTree {
   /// Returns: the disc without room.
   Disc add_node(std::uint32_t node) {
     if (at_.chunk.is_leaf(node))
-      return hierarchy_.nodes.push_back({with_room(at_.node(node), room_of_leaves)}), at_.node(node);
+      return hierarchy_.nodes.push_back({enlarged(at_.node(node), margin_of_leaves)}), at_.node(node);
     return add_range(at_.chunk.children(node));
   }
 
@@ -64,11 +64,11 @@ class BinaryTree {
     const Disc first = add_range({nodes.begin, middle});
     hierarchy_.nodes[index].second_child = static_cast<std::uint32_t>(hierarchy_.nodes.size());
     const Disc both = disc_around(first, add_range({middle, nodes.end}));
-    hierarchy_.nodes[index].disc = with_room(both, room_of_nodes);
+    hierarchy_.nodes[index].disc = enlarged(both, margin_of_nodes);
     return both;
   }
 
-  Disc with_room(Disc disc, double margin) const {
+  Disc enlarged(Disc disc, double margin) const {
     disc.radius = rounding::round_up(double{disc.radius} + margin * hierarchy_.reach);
     return disc;
   }
@@ -88,10 +88,10 @@ void measure(const AnimatedTreeChunk& chunk, AnimatedTree& tree) {
       if (chunk.in_space) tree.height = std::max(tree.height, (std::abs(z) + radius) * (1 + 0x1p-48));
       if (key == 0) continue;
       const Disc before = chunk.disc(key - 1, leaf);
-      const double way = std::abs(x - double{before.x}) + std::abs(y - double{before.y}) +
-                         std::abs(z - double{chunk.z(key - 1, leaf)}) +
-                         std::abs(radius - double{before.radius});
-      tree.speed = std::max(tree.speed, way / (chunk.times[key] - chunk.times[key - 1]));
+      const double distance = std::abs(x - double{before.x}) + std::abs(y - double{before.y}) +
+                              std::abs(z - double{chunk.z(key - 1, leaf)}) +
+                              std::abs(radius - double{before.radius});
+      tree.speed = std::max(tree.speed, distance / (chunk.times[key] - chunk.times[key - 1]));
     }
 }
 

@@ -91,8 +91,9 @@ class Builder {
     discs_.reserve(chunk.keys.size());
     for (std::size_t i = 0; i < chunk.keys.size(); ++i)
       discs_.push_back(rounded(sphere_of(chunk, i), tree_.step));
-    const std::size_t keys = chunk.times.size(), looked_at = std::min<std::size_t>(keys, max_keys);
-    for (std::size_t i = 0; i < looked_at; ++i) sampled_keys_.push_back(i * (keys - 1) / (looked_at - 1));
+    const std::size_t keys = chunk.times.size(), sample_count = std::min<std::size_t>(keys, max_keys);
+    for (std::size_t i = 0; i < sample_count; ++i)
+      sampled_keys_.push_back(i * (keys - 1) / (sample_count - 1));
   }
 
   AnimatedTreeChunk build() {
@@ -177,9 +178,9 @@ class Builder {
       if (radius < least) least = radius, best = centre;
       if (away == 0) break;
       // As far as the farthest point of that disc draws it, towards which its centre lies.
-      const double share = radius / away / step;
-      x += (double{farthest->x} - x) * share, y += (double{farthest->y} - y) * share;
-      z += (double{farthest->z} - z) * share;
+      const double fraction = radius / away / step;
+      x += (double{farthest->x} - x) * fraction, y += (double{farthest->y} - y) * fraction;
+      z += (double{farthest->z} - z) * fraction;
     }
     best.radius = static_cast<float>(std::ceil(least * (1 + 0x1p-48)));
     return best;
@@ -243,9 +244,9 @@ class Builder {
     for (std::size_t key = 1; key < chunk_.times.size(); ++key)
       for (std::uint32_t i = 0; i < tree_.nodes(); ++i) {
         const Disc from = tree_.disc(key - 1, i), to = tree_.disc(key, i);
-        const double way = detail::length(double{to.x} - double{from.x}, double{to.y} - double{from.y});
-        tree_.speed = std::max(
-            tree_.speed, rounding::round_up(way * (1 + 0x1p-40) / (tree_.times[key] - tree_.times[key - 1])));
+        const double distance = detail::length(double{to.x} - double{from.x}, double{to.y} - double{from.y});
+        tree_.speed = std::max(tree_.speed, rounding::round_up(distance * (1 + 0x1p-40) /
+                                                               (tree_.times[key] - tree_.times[key - 1])));
       }
   }
 

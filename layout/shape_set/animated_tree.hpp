@@ -23,8 +23,8 @@ constexpr double shortest_loop = 0.001;
 /// Added to the radii of leaves at a time, and to those of nodes, times the reach: nodes have room to spare about the leaves below, also for
 /// what rounding both moves. That is at most 8 u of nodes that are rounded once, and, of those that are made of two others, three roundings
 /// each of up to 12 nodes between a leaf and the root.
-constexpr double room_of_leaves = rounding::query_margin,
-                 room_of_nodes = room_of_leaves + rounding::held_room + 48 * rounding::unit_roundoff;
+constexpr double margin_of_leaves = rounding::query_margin,
+                 margin_of_nodes = margin_of_leaves + rounding::held_margin + 48 * rounding::unit_roundoff;
 
 /// Holds the nodes of a chunk at a key, in the chunk's steps. Eight may be read from each on, beyond the last one, too.
 struct NodesAtKey {
@@ -41,10 +41,10 @@ struct NodeRange {
 /// Represents a time of a clip by its place among the keys: discs are (1 - share) of those at a key and share of those at the next one.
 struct KeyPlace {
   std::size_t chunk, key;
-  double share;  ///< from 0 to 1
+  double fraction;  ///< from 0 to 1
 
   float blend(float from, float to) const noexcept {
-    return static_cast<float>(double{from} + (double{to} - double{from}) * share);
+    return static_cast<float>(double{from} + (double{to} - double{from}) * fraction);
   }
 };
 

@@ -20,18 +20,18 @@ namespace {
 
 bool fits(const ShapeExtent& part, const ShapeExtent& whole) {
   bool all = true;
-  for_each_part([&](std::size_t needed, std::size_t room) { all &= needed <= room; }, part, whole);
+  for_each_part([&](std::size_t needed, std::size_t capacity) { all &= needed <= capacity; }, part, whole);
   return all;
 }
 
 /// One part of a shape, which gets a new place behind all others where it outgrew its own.
 /// Returns: how far that makes the end move.
-std::size_t grow(std::size_t needed, std::size_t room, std::size_t end, std::size_t& begin,
+std::size_t grow(std::size_t needed, std::size_t capacity, std::size_t end, std::size_t& begin,
                  std::size_t& size) {
   if (needed <= size) return 0;
   begin = end;
-  size = room;
-  return room;
+  size = capacity;
+  return capacity;
 }
 
 /// Returns whether a body has a level that is a single disc, or one that is not.
@@ -52,7 +52,7 @@ struct DynamicShapeSet::State {
   void require(std::uint32_t shape, const FlatBody& body) const;
   bool try_replace(std::uint32_t shape, const FlatBody& body);
   void replace(std::uint32_t shape, const FlatBody& body);
-  void make_place(std::uint32_t shape, const ShapeExtent& needed, const ShapeExtent& room);
+  void make_place(std::uint32_t shape, const ShapeExtent& needed, const ShapeExtent& capacity);
 
   ShapeSetPlan plan;
   std::uint32_t shapes;
@@ -118,23 +118,23 @@ void DynamicShapeSet::State::replace(std::uint32_t shape, const FlatBody& body) 
   };
   const Refresh refresh{*this};
   const ShapeExtent needed = extent_of(body.shape);
-  ShapeExtent room = needed;
-  for_each_part([](std::size_t& part) { part += part / 2; }, room);
-  make_place(shape, needed, room);
+  ShapeExtent capacity = needed;
+  for_each_part([](std::size_t& part) { part += part / 2; }, capacity);
+  make_place(shape, needed, capacity);
   storage.store(shape, body, places[shape].begin);
 }
 
 /// Parts that have room enough stay where they are.
 void DynamicShapeSet::State::make_place(std::uint32_t shape, const ShapeExtent& needed,
-                                        const ShapeExtent& room) {
+                                        const ShapeExtent& capacity) {
   auto [begin, size] = places[shape];
-  ShapeExtent to_lines = room, grown;
-  to_lines.nodes = next_line(room.nodes);
+  ShapeExtent to_lines = capacity, grown;
+  to_lines.nodes = next_line(capacity.nodes);
   for_each_part(
-      [](std::size_t& more, std::size_t least, std::size_t with_room, std::size_t behind, std::size_t& from,
-         std::size_t& length) { more = grow(least, with_room, behind, from, length); },
+      [](std::size_t& more, std::size_t least, std::size_t with_growth, std::size_t behind, std::size_t& from,
+         std::size_t& length) { more = grow(least, with_growth, behind, from, length); },
       grown, needed, to_lines, end, begin, size);
-  storage.make_room(end, grown);
+  storage.allocate(end, grown);
   places[shape] = {begin, size};
   for_each_part([](std::size_t& behind, std::size_t more) { behind += more; }, end, grown);
 }

@@ -15,7 +15,7 @@ bool nodes_hold_discs(const CutDiscs& discs, std::span<const InnerNode> inner, d
   if (discs.count == 1) return true;
   const auto holds = [&](const InnerNode& node, std::size_t disc) {
     const double x = double{discs.x[disc]} - double{node.x}, y = double{discs.y[disc]} - double{node.y};
-    return std::sqrt(x * x + y * y) + double{discs.radius[disc]} + rounding::held_room * reach <=
+    return std::sqrt(x * x + y * y) + double{discs.radius[disc]} + rounding::held_margin * reach <=
            double{node.radius};
   };
   for (std::uint32_t disc = 0; disc < discs.count; ++disc) {

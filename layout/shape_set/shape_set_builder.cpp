@@ -112,7 +112,7 @@ void ShapeSetBuilder::State::add(const FlatBody& flat) {
   const ShapeExtent size = extent_of(flat.shape);
   ShapeExtent at = end.extent;
   at.nodes = next_line(at.nodes);
-  storage.make_room(at, size);
+  storage.allocate(at, size);
   storage.store(end.shapes, flat, at);
   ++end.shapes;
   for_each_part([](std::size_t& behind, std::size_t from, std::size_t length) { behind = from + length; },
@@ -138,7 +138,7 @@ void ShapeSetBuilder::State::rollback(const BuilderMark& to) noexcept {
 /// Makes the arrays end where the shapes do. An add() that threw may have left more.
 void ShapeSetBuilder::State::close() {
   storage.resize(plan, end.shapes);
-  storage.make_room(end.extent, {});
+  storage.allocate(end.extent, {});
 }
 
 /// Single discs need blocks only to meet those that are not, and never contain what they do not overlap.

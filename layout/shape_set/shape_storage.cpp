@@ -85,7 +85,7 @@ void ShapeStorage::resize(const ShapeSetPlan& plan, std::size_t shapes) {
   if (plan.outlines) shape_contours.resize(shapes), segment_margin.resize(shapes);
 }
 
-void ShapeStorage::make_room(const ShapeExtent& at, const ShapeExtent& size) {
+void ShapeStorage::allocate(const ShapeExtent& at, const ShapeExtent& size) {
   // Kernels read a window's "children", and forget them.
   const std::size_t last_node = at.nodes + size.nodes + block_floats;
   if (last_node >= leaf_window) throw std::length_error("shape set: more than 2^31 numbers in nodes");

@@ -62,7 +62,7 @@ struct ShapeStorage {
   void resize(const ShapeSetPlan& plan, std::size_t shapes);
   /// Makes the others end with such an extent behind this place.
   /// Errors:  throws std::length_error beyond 2^31 floats of nodes or 2^32 of the others.
-  void make_room(const ShapeExtent& at, const ShapeExtent& size);
+  void allocate(const ShapeExtent& at, const ShapeExtent& size);
   /// Makes the others end at this place at the latest. Allocates nothing.
   void shorten(const ShapeExtent& end) noexcept;
   /// Writes a shape; there has to be room. Of arrays without elements nothing is written. Different shapes may be

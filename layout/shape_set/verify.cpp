@@ -54,24 +54,25 @@ void verify_shape(const Verifier& verifier) {
 
 namespace bch::detail {
 
-std::string text_of(const Finding& finding) {
+std::string text_of(const Inconsistency& inconsistency) {
   std::string text = "shape ";
-  text += std::to_string(finding.shape);
-  if (finding.level != Finding::no_level) text.append(", level ").append(std::to_string(finding.level));
-  return text.append(": ").append(finding.array).append(": ").append(finding.what);
+  text += std::to_string(inconsistency.shape);
+  if (inconsistency.level != Inconsistency::no_level)
+    text.append(", level ").append(std::to_string(inconsistency.level));
+  return text.append(": ").append(inconsistency.array).append(": ").append(inconsistency.what);
 }
 
-std::vector<Finding> verify(const ShapeSet& set, std::size_t most) {
+std::vector<Inconsistency> verify(const ShapeSet& set, std::size_t most) {
   const FloatingPointStateGuard floats;
-  std::vector<Finding> findings;
+  std::vector<Inconsistency> inconsistencies;
   const ShapeArrays& arrays = set.arrays();
-  for (std::uint32_t shape = 0; shape < set.shape_count() && findings.size() < most; ++shape) {
+  for (std::uint32_t shape = 0; shape < set.shape_count() && inconsistencies.size() < most; ++shape) {
     const double reach = set.roots_only()
                              ? verification::extent_of(arrays.roots[std::size_t{shape} * set.level_count()])
                              : static_cast<double>(arrays.reach[shape]);
-    verification::verify_shape({set, findings, most, shape, reach});
+    verification::verify_shape({set, inconsistencies, most, shape, reach});
   }
-  return findings;
+  return inconsistencies;
 }
 
 }  // namespace bch::detail

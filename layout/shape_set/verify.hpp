@@ -13,7 +13,7 @@
 namespace bch::detail {
 
 /// Describes a stored value that contradicts the rest of its set.
-struct Finding {
+struct Inconsistency {
   static constexpr std::uint32_t no_level = 0xffffffff;
 
   std::uint32_t shape;
@@ -23,7 +23,7 @@ struct Finding {
 };
 
 /// Returns a finding as one line: "shape 3, level 1: nodes: ...".
-std::string text_of(const Finding& finding);
+std::string text_of(const Inconsistency& inconsistency);
 
 /// Checks that a set gives right answers: it recomputes from discs and outlines everything else that the set stores, and compares.
 /// (Loading checks only that queries are safe.)
@@ -44,6 +44,6 @@ std::string text_of(const Finding& finding);
 /// Returns: at most `most` findings, shape after shape; none for a set that this library made.
 /// Precondition: the arrays of the set are safe to read, as those of every set that was built or loaded are.
 /// Cost:    about as much as making the flat shapes from their hierarchies.
-std::vector<Finding> verify(const ShapeSet& set, std::size_t most = 100);
+std::vector<Inconsistency> verify(const ShapeSet& set, std::size_t most = 100);
 
 }  // namespace bch::detail

@@ -54,7 +54,7 @@ void verify_reach(const Verifier& verifier) {
     most = level == 0 ? extent : std::min(most, extent);
   }
   if (verifier.reach < least - verifier.tolerance() || verifier.reach > most + verifier.tolerance())
-    verifier.report("reach", Finding::no_level,
+    verifier.report("reach", Inconsistency::no_level,
                     shortest(verifier.reach) + " m, and its discs say " + shortest(least) + " to " +
                         shortest(most) + " m");
 }

@@ -21,7 +21,7 @@
 namespace bch::detail::verification {
 namespace {
 
-constexpr std::uint32_t no_level = Finding::no_level;
+constexpr std::uint32_t no_level = Inconsistency::no_level;
 
 PlanePoint direction(std::uint32_t k, std::uint32_t of) {
   const double angle = 2 * std::numbers::pi * k / of;
@@ -29,20 +29,20 @@ PlanePoint direction(std::uint32_t k, std::uint32_t of) {
 }
 
 /// The share of a segment's way up to which a disc holds it, if it holds the point at `from`; else `from`.
-double held_up_to(const Disc& disc, PlanePoint a, PlanePoint way, double from) {
+double held_up_to(const Disc& disc, PlanePoint a, PlanePoint edge, double from) {
   const PlanePoint centre{static_cast<double>(disc.x), static_cast<double>(disc.y)};
-  const double radius = disc.radius, square = dot(way, way);
-  const PlanePoint to_a = a - centre, at{to_a.x + from * way.x, to_a.y + from * way.y};
+  const double radius = disc.radius, square = dot(edge, edge);
+  const PlanePoint to_a = a - centre, at{to_a.x + from * edge.x, to_a.y + from * edge.y};
   const double beyond = radius * radius - dot(at, at);
   if (beyond < 0) return from;
   if (square == 0) return 1;
-  const double along = dot(at, way);
+  const double along = dot(at, edge);
   return from + (std::sqrt(along * along + square * beyond) - along) / square;
 }
 
 bool is_covered(const CutDiscs& discs, PlanePoint a, PlanePoint b) {
-  const PlanePoint way = b - a;
-  const double half = 0.5 * length(way);
+  const PlanePoint edge = b - a;
+  const double half = 0.5 * length(edge);
   const PlanePoint middle{0.5 * (a.x + b.x), 0.5 * (a.y + b.y)};
   std::vector<Disc> near;
   for (std::uint32_t i = 0; i < discs.count; ++i) {
@@ -53,7 +53,7 @@ bool is_covered(const CutDiscs& discs, PlanePoint a, PlanePoint b) {
   }
   double at = 0;
   for (double next = 0; at < 1; at = next) {
-    for (const Disc& disc : near) next = std::max(next, held_up_to(disc, a, way, at));
+    for (const Disc& disc : near) next = std::max(next, held_up_to(disc, a, edge, at));
     if (next == at) return false;
   }
   return true;
@@ -69,9 +69,9 @@ Depth depth_in(std::span<const Vec2> contour, PlanePoint p) {
   Depth depth{HUGE_VAL, false};
   PlanePoint a = plane_point(contour.back()) - p;
   for (const Vec2 end : contour) {
-    const PlanePoint b = plane_point(end) - p, way = b - a;
-    const double square = dot(way, way), share = square > 0 ? std::clamp(-dot(a, way) / square, 0.0, 1.0) : 0;
-    depth.distance = std::min(depth.distance, length({a.x + share * way.x, a.y + share * way.y}));
+    const PlanePoint b = plane_point(end) - p, edge = b - a;
+    const double square = dot(edge, edge), t = square > 0 ? std::clamp(-dot(a, edge) / square, 0.0, 1.0) : 0;
+    depth.distance = std::min(depth.distance, length({a.x + t * edge.x, a.y + t * edge.y}));
     if ((a.y > 0) != (b.y > 0)) depth.inside ^= (a.x * b.y - a.y * b.x > 0) == (b.y > a.y);
     a = b;
   }
@@ -210,8 +210,8 @@ void verify_inside(const Verifier& verifier, const Outline& outline) {
     if (!(discs.x[i] < infinity)) continue;
     const Disc disc{discs.x[i], discs.y[i], discs.radius[i]};
     const Depth depth = contour.empty() ? Depth{0, false} : depth_in(contour, plane_point({disc.x, disc.y}));
-    const double room = depth.distance - 24 * rounding::unit_roundoff * verifier.reach;
-    if (!depth.inside || static_cast<double>(disc.radius) > room)
+    const double max_radius = depth.distance - 24 * rounding::unit_roundoff * verifier.reach;
+    if (!depth.inside || static_cast<double>(disc.radius) > max_radius)
       verifier.report(
           "inscribed", no_level,
           "disc " + std::to_string(i) + " at " + text_of(disc) + " is not inside the largest contour");

@@ -26,7 +26,7 @@ constexpr float infinity = std::numeric_limits<float>::infinity();
 /// Represents a shape of a set that is verified, and the list that takes the findings.
 struct Verifier {
   const ShapeSet& set;
-  std::vector<Finding>& findings;
+  std::vector<Inconsistency>& inconsistencies;
   std::size_t most;  ///< findings
   std::uint32_t shape;
   double reach;  ///< metres; of a set of roots alone what they extend to
@@ -40,7 +40,7 @@ struct Verifier {
   double tolerance() const { return 0x1p-19 * reach; }
 
   void report(const char* array, std::uint32_t level, const std::string& what) const {
-    if (findings.size() < most) findings.push_back({shape, level, array, what});
+    if (inconsistencies.size() < most) inconsistencies.push_back({shape, level, array, what});
   }
   /// Reports a stored length that is not what was recomputed.
   void compare(const char* array, std::uint32_t level, const std::string& place, double stored,

@@ -114,7 +114,7 @@ struct AnyLanes {
 
   /// Returns four floats for each group of four lanes: those where at(group) points.
   template <class At>
-  [[gnu::always_inline]] static Float broadcast_fours(At at) noexcept {
+  [[gnu::always_inline]] static Float broadcast_quads(At at) noexcept {
     return load(at(0));
   }
   /// Loads field after field of records of four floats, lane = record. They are picked from a table, each by an index of
@@ -126,7 +126,7 @@ struct AnyLanes {
 #pragma GCC unroll 4
     for (std::size_t i = 0; i < 4; ++i)
       record[i] =
-          Own::broadcast_fours([=](std::size_t group) { return table + stride * index[4 * group + i]; });
+          Own::broadcast_quads([=](std::size_t group) { return table + stride * index[4 * group + i]; });
     transpose(record, field);
   }
 

@@ -106,7 +106,7 @@ struct Lanes<xsimd::avx2, Own> : AnyLanes<xsimd::avx2, Own> {
     to[1] = _mm256_cvtps_pd(_mm_shuffle_ps(low, high, _MM_SHUFFLE(3, 1, 3, 1)));
   }
   template <class At>
-  [[gnu::always_inline]] static Float broadcast_fours(At at) noexcept {
+  [[gnu::always_inline]] static Float broadcast_quads(At at) noexcept {
     return _mm256_set_m128(_mm_loadu_ps(at(1)), _mm_loadu_ps(at(0)));
   }
   static Float to_float(const Double (&v)[2]) noexcept {
@@ -143,8 +143,8 @@ struct Lanes<xsimd::avx2, Own> : AnyLanes<xsimd::avx2, Own> {
     field[3] = _mm256_cvtepi32_pd(_mm_unpackhi_epi64(high01, high23));
   }
   static float least(Float values) noexcept {
-    const __m128 fours = _mm_min_ps(_mm256_castps256_ps128(values), _mm256_extractf128_ps(values, 1));
-    const __m128 pairs = _mm_min_ps(fours, _mm_movehl_ps(fours, fours));
+    const __m128 quads = _mm_min_ps(_mm256_castps256_ps128(values), _mm256_extractf128_ps(values, 1));
+    const __m128 pairs = _mm_min_ps(quads, _mm_movehl_ps(quads, quads));
     return _mm_cvtss_f32(_mm_min_ss(pairs, _mm_shuffle_ps(pairs, pairs, 1)));
   }
   static constexpr float approximation_error = 0x1p-11f;
@@ -186,7 +186,7 @@ struct Lanes<xsimd::avx512f, Own> : AnyLanes<xsimd::avx512f, Own> {
     return static_cast<std::uint32_t>(__builtin_popcount(bits));
   }
   template <class At>
-  [[gnu::always_inline]] static Float broadcast_fours(At at) noexcept {
+  [[gnu::always_inline]] static Float broadcast_quads(At at) noexcept {
     __m512 all = _mm512_castps128_ps512(_mm_loadu_ps(at(0)));
     all = _mm512_insertf32x4(all, _mm_loadu_ps(at(1)), 1);
     all = _mm512_insertf32x4(all, _mm_loadu_ps(at(2)), 2);

@@ -39,7 +39,7 @@ std::vector<Capsule> random_capsules(Random& random) {
 /// The distance from a segment is convex along the other one, so that thirds of it find the least.
 double segment_distance(const Segment& a, const Segment& b) {
   double low = 0, high = 1;
-  const auto at = [&](double t) { return baselines::way_from(b, a[0] + t * (a[1] - a[0])).norm(); };
+  const auto at = [&](double t) { return baselines::offset_from(b, a[0] + t * (a[1] - a[0])).norm(); };
   for (int i = 0; i < 60; ++i) {
     const double third = (high - low) / 3;
     (at(low + third) < at(high - third) ? high : low) += at(low + third) < at(high - third) ? -third : third;
@@ -144,9 +144,9 @@ double farthest_outside(const Character& character, PoseTime at, const std::vect
       const Vec3& p = positions[corner];
       double out = HUGE_VAL;
       for (const PosedCapsule& capsule : capsules)
-        out =
-            std::min(out, baselines::way_from(capsule.ends, {double{p.x}, double{p.y}, double{p.z}}).norm() -
-                              capsule.radius);
+        out = std::min(out,
+                       baselines::offset_from(capsule.ends, {double{p.x}, double{p.y}, double{p.z}}).norm() -
+                           capsule.radius);
       farthest = std::max(farthest, out);
     }
   return farthest;

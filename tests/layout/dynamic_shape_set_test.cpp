@@ -159,7 +159,7 @@ TEST(DynamicShapeSet, PlacesOfACopyDoNotReachIntoEachOther) {
   for (std::size_t s = 0; s < 2; ++s) {
     const BuiltShape shape = flat(shapes[s], plan);
     const detail::ShapeExtent size = detail::extent_of(shape.flat().shape);
-    tight.make_room(end, size);
+    tight.allocate(end, size);
     tight.store(s, shape.flat(), end);
     detail::for_each_part([](std::size_t& sum, std::size_t more) { sum += more; }, end, size);
   }

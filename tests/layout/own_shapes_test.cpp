@@ -15,7 +15,7 @@ namespace {
 using test::Random;
 
 /// How much larger than the smallest disc a node may be, times the reach.
-constexpr double room_of_nodes = detail::rounding::query_margin + detail::rounding::held_room + 1e-6;
+constexpr double room_of_nodes = detail::rounding::query_margin + detail::rounding::held_margin + 1e-6;
 
 std::vector<Disc> random_discs(Random& random, std::uint32_t count, double size = 0.5) {
   std::vector<Disc> discs;

@@ -77,7 +77,7 @@ struct DamagedArrays {
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-using detail::Finding;
+using detail::Inconsistency;
 using detail::verify;
 using detail::baked::Section;
 using Arrays = DamagedArrays;
@@ -361,7 +361,7 @@ const ShapeSetPlan plans[] = {{},
                               {{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, all_depths}, true}};
 
 void expect_nothing(const ShapeSet& set) {
-  for (const Finding& finding : verify(set, 5)) ADD_FAILURE() << text_of(finding);
+  for (const Inconsistency& finding : verify(set, 5)) ADD_FAILURE() << text_of(finding);
 }
 
 TEST(Verify, FindsNothingInSyntheticShapes) {
@@ -398,7 +398,7 @@ TEST(Verify, LooksAtBodiesOfDiscs) {
   bytes.section<float>(Section::nodes)[tree.discs + 2 * tree.stride + 1] += 0.125f;
   bytes.seal();
   bool said = false;
-  for (const Finding& finding : verify(bytes.load().set, 50))
+  for (const Inconsistency& finding : verify(bytes.load().set, 50))
     said |= finding.what.find("does not hold the discs below it") != std::string::npos;
   EXPECT_TRUE(said);
 }
@@ -474,7 +474,7 @@ TEST(Verify, NamesTheLie) {
     ASSERT_NO_THROW(validate(arrays.view())) << lie.array << ", " << lie.says;
     bool found = false;
     std::string all;
-    for (const Finding& finding : verify(ShapeSet(arrays.view(), nullptr))) {
+    for (const Inconsistency& finding : verify(ShapeSet(arrays.view(), nullptr))) {
       all += text_of(finding) + "\n";
       found |= finding.array == std::string(lie.array) && finding.what.find(lie.says) != std::string::npos;
     }

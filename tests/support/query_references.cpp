@@ -35,7 +35,9 @@ std::vector<PairAnswers> BruteForce::answers(const ShapeSet& set, const Question
       row.push_back({first, second});
     return row;
   };
-  const auto penetration = [](const baselines::Way& way) { return Penetration{way.depth, way.x, way.y}; };
+  const auto penetration = [](const baselines::PenetrationDepth& way) {
+    return Penetration{way.depth, way.x, way.y};
+  };
   for (std::size_t i = 0; i < of.pairs.size(); ++i) {
     const Pair pair = of.pairs[i];
     PairAnswers& all = answers[i];

@@ -28,13 +28,13 @@ SpacePoint cross(const SpacePoint& a, const SpacePoint& b) {
 using Weights = std::vector<std::pair<std::uint32_t, double>>;  ///< of bones, ascending
 
 /// Adds weights of bones, times a share.
-void add(Weights& to, const Weights& weights, double share) {
+void add(Weights& to, const Weights& weights, double fraction) {
   for (const auto& [bone, weight] : weights) {
     const auto at = std::lower_bound(to.begin(), to.end(), std::pair{bone, -1.0});
     if (at != to.end() && at->first == bone)
-      at->second += share * weight;
+      at->second += fraction * weight;
     else
-      to.insert(at, {bone, share * weight});
+      to.insert(at, {bone, fraction * weight});
   }
 }
 
@@ -198,8 +198,8 @@ std::vector<BodyCandidate> find_candidates(const Character& character, const Ski
     for (int i = 0; i < max_shrinks; ++i) {
       const std::uint32_t inside = grid.nearest(p.at - radius * p.normal, radius * (1 - 1e-6), p.at);
       if (inside == SkinGrid::none) break;
-      const SpacePoint way = p.at - all[inside].at;
-      radius = dot(way, way) / (2 * dot(p.normal, way));
+      const SpacePoint offset = p.at - all[inside].at;
+      radius = dot(offset, offset) / (2 * dot(p.normal, offset));
       touched = inside;
       if (radius < scale * least_radius) break;
     }

@@ -66,8 +66,8 @@ BodyModel make_body(const Character& character, const BodyOptions& options) {
   if (options.spheres < 1 || options.spheres > max_spheres)
     throw std::invalid_argument("make_body: expected 1 to " + std::to_string(max_spheres) +
                                 " spheres, found " + std::to_string(options.spheres));
-  const auto advance = [&](double share) {
-    if (options.progress && !options.progress(share))
+  const auto advance = [&](double fraction) {
+    if (options.progress && !options.progress(fraction))
       throw std::system_error(std::make_error_code(std::errc::operation_canceled), "make_body");
   };
   auto own = std::make_shared<const Character>(character);
@@ -84,12 +84,12 @@ BodyModel make_body(const Character& character, const BodyOptions& options) {
   const TrainingPoses poses(*own, skin, sample_poses(*own, chosen_in));
   const double chosen = options.draft ? 1 : 0.3;
   SphereChoice choice = choose_spheres(skin, candidates, poses, options.spheres, scale,
-                                       [&](double share) { advance(chosen * (0.2 + 0.8 * share)); });
+                                       [&](double fraction) { advance(chosen * (0.2 + 0.8 * fraction)); });
   if (options.draft) return assemble_model(std::move(own), skin, choice, poses);
   choice.spheres.resize(options.spheres, choice.spheres.front());  // the search gives pieces to the others
   const TrainingPoses training(*own, skin, repeated(sample_poses(*own, searched_poses)));
-  const SphereChoice better =
-      improve_spheres(skin, training, choice, [&](double share) { advance(chosen + (1 - chosen) * share); });
+  const SphereChoice better = improve_spheres(
+      skin, training, choice, [&](double fraction) { advance(chosen + (1 - chosen) * fraction); });
   BodyModel model = assemble_model(std::move(own), skin, better, training);
   advance(1);
   return model;

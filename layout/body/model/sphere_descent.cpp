@@ -75,16 +75,17 @@ void SphereDescent::note(std::uint32_t sphere, std::size_t pose, const Rotation&
                          sign * (cosine * normal[1] - sine * normal[0]), sign * normal[2]};
   const Space corner = fit_.at(ball.farthest[pose], pose);
   const float radius = std::max(ball.radius[pose], 1e-6f);
-  const Space way = {(corner[0] - ball.x[pose]) / radius, (corner[1] - ball.y[pose]) / radius,
-                     (corner[2] - ball.z[pose]) / radius};
+  const Space direction = {(corner[0] - ball.x[pose]) / radius, (corner[1] - ball.y[pose]) / radius,
+                           (corner[2] - ball.z[pose]) / radius};
   contacts[sphere] += leverage;
-  blame[sphere] += leverage * (1 - dot_of(outward, way));
+  blame[sphere] += leverage * (1 - dot_of(outward, direction));
   for (std::size_t i = 0; i < ball.influences.size(); ++i) {
     const auto& rows = fit_.training().map(pose, ball.influences[i].bone).rows;
-    const float share = leverage * ball.influences[i].weight / scale_of(rows);
+    const float scaled_weight = leverage * ball.influences[i].weight / scale_of(rows);
     for (std::size_t k = 0; k < 3; ++k)
       for (std::size_t row = 0; row < 3; ++row)
-        gradients_[sphere][i][k] += share * static_cast<float>(rows[row][k]) * (outward[row] - way[row]);
+        gradients_[sphere][i][k] +=
+            scaled_weight * static_cast<float>(rows[row][k]) * (outward[row] - direction[row]);
   }
 }
 

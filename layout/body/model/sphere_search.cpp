@@ -44,8 +44,8 @@ class SphereSearch {
                      static_cast<float>(fit_.balls.size());
     if (is_last) return;
     hand_over_farthest();
-    const double share = first_deleted + double{progress} * (last_deleted - first_deleted);
-    const double rounded_up_from_half = share * static_cast<double>(fit_.balls.size()) + 0.5;
+    const double fraction = first_deleted + double{progress} * (last_deleted - first_deleted);
+    const double rounded_up_from_half = fraction * static_cast<double>(fit_.balls.size()) + 0.5;
     replace(static_cast<std::size_t>(rounded_up_from_half));
   }
 
@@ -240,14 +240,14 @@ class SphereSearch {
   /// Returns the influences of a sphere whose centre went halfway to a point of the first pose.
   std::vector<SphereInfluence> moved(const Ball& ball, const Space& to) const {
     std::vector<SphereInfluence> influences = ball.influences;
-    const Space way = {0.5f * (to[0] - ball.x[0]), 0.5f * (to[1] - ball.y[0]), 0.5f * (to[2] - ball.z[0])};
+    const Space offset = {0.5f * (to[0] - ball.x[0]), 0.5f * (to[1] - ball.y[0]), 0.5f * (to[2] - ball.z[0])};
     for (SphereInfluence& influence : influences) {
       const auto& rows = fit_.training().map(0, influence.bone).rows;
       const float shrink = 1 / (scale_of(rows) * scale_of(rows));
       float* const centre[3] = {&influence.centre.x, &influence.centre.y, &influence.centre.z};
       for (std::size_t k = 0; k < 3; ++k)
         for (std::size_t row = 0; row < 3; ++row)
-          *centre[k] += shrink * static_cast<float>(rows[row][k]) * way[row];
+          *centre[k] += shrink * static_cast<float>(rows[row][k]) * offset[row];
     }
     return influences;
   }

@@ -46,16 +46,16 @@ std::optional<SlideContact> first_contact(const SlidingBody& first, const Slidin
     for (std::size_t begin = 0; begin < count && first.front[a] + second.front[begin] < least;
          begin += spheres_at_once) {
       const std::size_t width = std::min(spheres_at_once, count - begin);
-      float way[spheres_at_once];
+      float distance[spheres_at_once];
       const float x = first.x[a], y = first.y[a], z = first.z[a], radius = first.radius[a];
       for (std::size_t k = 0; k < width; ++k) {
         const std::size_t b = begin + k;
         const float across = second.y[b] - y, up = second.z[b] - z, sum = second.radius[b] + radius;
         const float left = sum * sum - across * across - up * up;
-        way[k] = left >= 0 ? second.x[b] - x - std::sqrt(std::max(left, 0.0f)) : never_met;
+        distance[k] = left >= 0 ? second.x[b] - x - std::sqrt(std::max(left, 0.0f)) : never_met;
       }
       for (std::size_t k = 0; k < width; ++k)
-        if (way[k] < least) least = way[k], met_a = a, met_b = begin + k;
+        if (distance[k] < least) least = distance[k], met_a = a, met_b = begin + k;
     }
   }
   if (least == never_met) return {};

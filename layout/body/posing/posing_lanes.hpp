@@ -34,8 +34,8 @@ class PosingLanes {
   }
 
   static float take_roots(const SphereFields& of, std::uint32_t count, const float* least,
-                          float share) noexcept {
-    const Float enlarged(share);
+                          float scale) noexcept {
+    const Float enlarged(scale);
     Float reach(0.0f);
     for (std::uint32_t s = 0; s < count; s += Simd::width) {
       const Float x = Simd::load(of.x + s), y = Simd::load(of.y + s), z = Simd::load(of.z + s);

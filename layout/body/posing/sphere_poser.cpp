@@ -32,7 +32,7 @@ VertexBlend blend_of(const BodyModel& model) {
   return {begin, influences};
 }
 
-Float half_way(const SpaceRow& a, const SpaceRow& b) {
+Float midpoint(const SpaceRow& a, const SpaceRow& b) {
   return Float(0.5f) * (Float::load_aligned(&a.x) + Float::load_aligned(&b.x));
 }
 
@@ -77,7 +77,7 @@ void SpherePoser::place_points(const Pose& pose) {
     move_by(all.first(blended), {-middle.x, -middle.y});
   }
   SpaceRow* to = points_.data() + blended;
-  for (const auto [a, b] : cuts_) half_way(points_[a], points_[b]).store_aligned(&(to++)->x);
+  for (const auto [a, b] : cuts_) midpoint(points_[a], points_[b]).store_aligned(&(to++)->x);
 }
 
 /// Sets radii to the distances of the farthest corners, and enlarges them by what was rounded, so that queries miss nothing. With P the

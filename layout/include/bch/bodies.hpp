@@ -72,7 +72,7 @@ struct BodyOptions {
   bool draft = false;
   /// Called on the caller's thread, at most twenty times a second, with the part done, from 0 to 1.
   /// Returning false cancels.
-  std::function<bool(double share)> progress = {};
+  std::function<bool(double fraction)> progress = {};
 };
 
 /// Makes the model of a character: spheres inside its skin, bound to its bones. The same bits on every

@@ -129,11 +129,11 @@ TEST_F(ObstacleHall, TakesNoMoreThanItsNearestSegments) {
       const Agents agents = crowd.agents();
       const detail::ShapeSetView shapes_view = set.view();
       detail::BodyQuery query(best_implementation(), shapes_view, agents, obstacles.view(), false);
-      query.prepare(0, 20, infinity, detail::Look::nearest);
+      query.prepare(0, 20, infinity, detail::SearchMode::nearest);
       std::size_t looked_at = 0;
       for (std::uint32_t i = 0; i < 20; ++i) {
         const auto nearest = query.nearest(i, infinity, 0, true);
-        EXPECT_EQ(nearest.is_near_enough, is_area);
+        EXPECT_EQ(nearest.is_within, is_area);
         looked_at = std::max(looked_at, query.near().found().size());
       }
       EXPECT_LE(looked_at, segments / 50) << at;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "kernel/obstacles/ways_out.hpp"
+#include "kernel/obstacles/exit_moves.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,14 +13,14 @@ bool has_length(const LocalSegment& segment) noexcept {
   return segment.from < segment.to;
 }
 
-void keep_longer(WayOut& longest, const WayOut& way) noexcept {
-  if (way.depth > longest.depth) longest = way;
+void keep_longer(ExitMove& longest, const ExitMove& move) noexcept {
+  if (move.depth > longest.depth) longest = move;
 }
 
 }  // namespace
 
-WayOut WaysOut::longest() {
-  WayOut longest;
+ExitMove ExitMoves::longest() {
+  ExitMove longest;
   std::vector<std::uint32_t> areas;  // that hold the body clear of their segments
   query_.near_body(body_);
   query_.near().any_obstacle([&](std::span<const LocalSegment> segments, std::uint32_t obstacle) {
@@ -38,24 +38,24 @@ WayOut WaysOut::longest() {
   return longest;
 }
 
-void WaysOut::find_touched(std::span<const LocalSegment> segments) {
+void ExitMoves::find_touched(std::span<const LocalSegment> segments) {
   touched_.clear();
   for (const LocalSegment& segment : segments)
     if (is_touched(segment)) touched_.push_back(&segment);
 }
 
-bool WaysOut::is_touched(const LocalSegment& segment) const noexcept {
+bool ExitMoves::is_touched(const LocalSegment& segment) const noexcept {
   for (std::uint32_t i = 0; i < discs_.count; ++i)
     if (segment.touches(double{discs_.x[i]}, double{discs_.y[i]}, double{discs_.radius[i]})) return true;
   return false;
 }
 
-bool WaysOut::is_post() const noexcept {
+bool ExitMoves::is_post() const noexcept {
   return std::none_of(touched_.begin(), touched_.end(),
                       [](const LocalSegment* segment) { return has_length(*segment); });
 }
 
-WayOut WaysOut::from_post(const LocalSegment& post) const {
+ExitMove ExitMoves::from_post(const LocalSegment& post) const {
   // The point in the agent's frame, and the disc.
   const double px = post.from * post.x - post.offset * post.y, py = post.from * post.y + post.offset * post.x;
   double deepest = std::numeric_limits<double>::infinity(), ux = 1, uy = 0;
@@ -76,25 +76,25 @@ WayOut WaysOut::from_post(const LocalSegment& post) const {
   return {with_margin(depth, across), {x, y}};
 }
 
-WayOut WaysOut::shortest(std::span<const LocalSegment> segments) {
+ExitMove ExitMoves::shortest(std::span<const LocalSegment> segments) {
   hull_.clear();
   for (const LocalSegment* const segment : touched_) {
     const WorldSegment& world = in_world(*segment);
     hull_.add({world.ax, world.ay}), hull_.add({world.bx, world.by});
   }
   hull_.close();
-  WayOut shortest{std::numeric_limits<double>::infinity(), {}};
+  ExitMove shortest{std::numeric_limits<double>::infinity(), {}};
   for (const LocalSegment& segment : segments) {
     if (!has_length(segment)) continue;
     const int side = query_.obstacles().outside[segment.number];
     if (!(side != 0 && has_all_behind(segment, side)) && !is_touched(segment)) continue;
-    const WayOut way = over(segment, side == 0 ? beside_touched(segment) : Range{});
-    if (way.depth < shortest.depth) shortest = way;
+    const ExitMove move = over(segment, side == 0 ? touched_range(segment) : Range{});
+    if (move.depth < shortest.depth) shortest = move;
   }
   return shortest;
 }
 
-bool WaysOut::has_all_behind(const LocalSegment& segment, int side) const {
+bool ExitMoves::has_all_behind(const LocalSegment& segment, int side) const {
   const WorldSegment& line = in_world(segment);
   return hull_.most([&](EndsHull::Point end) {
     const double dx = end.x - line.ax, dy = end.y - line.ay;
@@ -102,7 +102,7 @@ bool WaysOut::has_all_behind(const LocalSegment& segment, int side) const {
   }) <= segment.slack;
 }
 
-WaysOut::Range WaysOut::beside_touched(const LocalSegment& segment) const {
+ExitMoves::Range ExitMoves::touched_range(const LocalSegment& segment) const {
   const WorldSegment& line = in_world(segment);
   const auto along = [&](EndsHull::Point end) {
     const double dx = end.x - line.ax, dy = end.y - line.ay;
@@ -112,7 +112,7 @@ WaysOut::Range WaysOut::beside_touched(const LocalSegment& segment) const {
 }
 
 /// An area has no nearest segment where a set has numbers that are no lengths. One search serves all areas, however many there are.
-WayOut WaysOut::longest_out_of(std::span<const std::uint32_t> areas) {
+ExitMove ExitMoves::longest_out_of(std::span<const std::uint32_t> areas) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   struct Nearest {
     LocalSegment segment = {};
@@ -137,13 +137,13 @@ WayOut WaysOut::longest_out_of(std::span<const std::uint32_t> areas) {
     for (const Nearest& of : nearest) most = std::max(most, of.square);
     limit = NearSegments::limit_of(body_.place, std::sqrt(most));
   });
-  WayOut longest;
+  ExitMove longest;
   for (const auto& [segment, square] : nearest)
     if (square < infinity) keep_longer(longest, over(segment, {}));
   return longest;
 }
 
-WayOut WaysOut::over(const LocalSegment& segment, Range range) const {
+ExitMove ExitMoves::over(const LocalSegment& segment, Range range) const {
   int side = query_.obstacles().outside[segment.number];
   double depth = depth_towards(side == 0 ? 1 : side, segment, range);
   if (side == 0) {
@@ -156,7 +156,7 @@ WayOut WaysOut::over(const LocalSegment& segment, Range range) const {
 }
 
 /// Returns how far discs beside the range have to move towards a side of a segment, 1 the left one, until none is across.
-double WaysOut::depth_towards(int side, const LocalSegment& segment, Range range) const noexcept {
+double ExitMoves::depth_towards(int side, const LocalSegment& segment, Range range) const noexcept {
   double depth = 0;
   for (std::uint32_t i = 0; i < discs_.count; ++i) {
     const double x = discs_.x[i], y = discs_.y[i], r = double{discs_.radius[i]} + segment.slack;
@@ -167,7 +167,7 @@ double WaysOut::depth_towards(int side, const LocalSegment& segment, Range range
   return depth;
 }
 
-double WaysOut::with_margin(double depth, const LocalSegment& segment) const noexcept {
+double ExitMoves::with_margin(double depth, const LocalSegment& segment) const noexcept {
   // For the rounding of the depth to float, and of the new position.
   const double margin = 0x1p-20 * body_.outer_radius() + 2 * segment.slack;
   return (depth + margin) * (1 + 0x1p-22);

@@ -15,19 +15,19 @@
 namespace bch::detail {
 
 /// A way out over a segment.
-struct WayOut {
+struct ExitMove {
   double depth = 0;
   ObstaclePlace::Vector direction = {0, 0};  ///< in the world
 };
 
 /// Finds the ways out of the obstacles that a body touches, and of the areas that hold it.
-class WaysOut {
+class ExitMoves {
  public:
-  WaysOut(BodyQuery& query, const PlacedBody& body)
+  ExitMoves(BodyQuery& query, const PlacedBody& body)
       : query_(query), body_(body), discs_(cut_discs(body.shapes, body.root_index())) {}
 
   /// Returns the longest of the ways out of each obstacle.
-  WayOut longest();
+  ExitMove longest();
 
  private:
   /// Holds the stretch of a segment's line on which discs count.
@@ -40,16 +40,16 @@ class WaysOut {
   /// Returns whether no segment that is touched has a direction.
   bool is_post() const noexcept;
   /// Returns the way away from a point: that of the disc that overlaps it the deepest.
-  WayOut from_post(const LocalSegment& post) const;
+  ExitMove from_post(const LocalSegment& post) const;
   /// Returns the shortest way out of an obstacle: over a segment that is touched, or one that has all of those behind it.
-  WayOut shortest(std::span<const LocalSegment> segments);
+  ExitMove shortest(std::span<const LocalSegment> segments);
   /// Returns whether all that is touched is behind a segment, seen from the side that is outside.
   bool has_all_behind(const LocalSegment& segment, int side) const;
   /// Returns the stretch of a segment's line beside which the touched segments are.
-  Range beside_touched(const LocalSegment& segment) const;
+  Range touched_range(const LocalSegment& segment) const;
   /// Returns the longest of the ways out of areas, which ascend, each over the segment that is the nearest to the body's centre.
-  WayOut longest_out_of(std::span<const std::uint32_t> areas);
-  WayOut over(const LocalSegment& segment, Range range) const;
+  ExitMove longest_out_of(std::span<const std::uint32_t> areas);
+  ExitMove over(const LocalSegment& segment, Range range) const;
   double depth_towards(int side, const LocalSegment& segment, Range range) const noexcept;
   double with_margin(double depth, const LocalSegment& segment) const noexcept;
   const WorldSegment& in_world(const LocalSegment& segment) const noexcept {
