@@ -14,7 +14,7 @@ namespace bch::baselines {
 template <class Node>
 struct BoxHierarchy {
   const Node* nodes;
-  std::uint32_t height;  ///< edges on the longest way down
+  std::uint32_t height;  ///< edges on the longest path down
 };
 
 /// Walks both trees depth first, descending into the box with the longer side. True as soon as boxes at

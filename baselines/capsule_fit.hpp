@@ -33,7 +33,7 @@ FittedCapsule rough_capsule(std::span<const SkinPoint> points);
 /// Returns the capsule of the least error near the rough one.
 FittedCapsule best_capsule(std::span<const SkinPoint> points);
 
-/// Returns the way to a point from the nearest one of a segment.
+/// Returns the vector to a point from the nearest one of a segment.
 Eigen::Vector3d offset_from(const std::array<Eigen::Vector3d, 2>& segment, const Eigen::Vector3d& p);
 
 }  // namespace bch::baselines

@@ -15,7 +15,7 @@ constexpr std::uint32_t max_capsules = 32;  // as many as a mask has bits
 constexpr std::uint32_t whole_box = 8;      // floats
 
 /// Orders the fields of posed capsules, each of them an array of whole lanes, behind a box about the whole ragdoll (its low corner, its
-/// high corner, two numbers without meaning): one end, the way to the other end, the radius, and a box about the capsule. Lanes behind the
+/// high corner, two numbers without meaning): one end, the vector to the other end, the radius, and a box about the capsule. Lanes behind the
 /// last capsule repeat it.
 struct Field {
   enum : std::uint32_t {

@@ -9,7 +9,7 @@ namespace bch::baselines {
 
 /// Counts what a query did.
 struct TestCounts {
-  std::uint64_t nodes = 0;      ///< pairs of discs, boxes or other volumes tested on the way down
+  std::uint64_t nodes = 0;      ///< pairs of discs, boxes or other volumes tested on the path down
   std::uint64_t leaves = 0;     ///< pairs of triangles or segments tested
   std::uint64_t ancestors = 0;  ///< pairs of discs tested to verify hits
 };

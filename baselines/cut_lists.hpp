@@ -30,7 +30,7 @@ struct CutList {
 /// all discs above them. `place` is that of B's agent, seen from A's.
 bool any_hit(const FloatPlacement& place, const CutList& a, const CutList& b);
 
-/// Holds the discs of every cut that a plan names: what references that look at all pairs of discs start
+/// Holds the discs of every cut that a plan names: what references that examine all pairs of discs start
 /// from.
 class CutLists {
  public:

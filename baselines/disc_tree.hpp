@@ -36,7 +36,7 @@ inline bool all_overlap(const FloatPlacement& place, std::span<const Disc> path_
   return true;
 }
 
-/// Returns the next node on the way down from a node to one below it, which their order tells.
+/// Returns the next node on the path down from a node to one below it, which their order tells.
 template <class Node>
 std::uint32_t towards(const Node* nodes, std::uint32_t from, std::uint32_t below) noexcept {
   return below < nodes[from].second_child ? from + 1 : nodes[from].second_child;
@@ -55,7 +55,7 @@ inline std::vector<Disc> path_to(const Hierarchy::Node* nodes, std::uint32_t nod
 struct DiscTree {
   const Hierarchy::Node* nodes;
   std::uint32_t depth;   ///< nodes at this depth count as leaves
-  std::uint32_t height;  ///< edges on the longest way down
+  std::uint32_t height;  ///< edges on the longest path down
 
   bool ends_at(std::uint32_t node, std::uint32_t at_depth) const noexcept {
     return at_depth == depth || nodes[node].is_leaf();

@@ -30,7 +30,7 @@ double square_in_double(Vec2 p, const Disc& from) {
 ExactDisc tight_disc(const Hierarchy& hierarchy, std::uint32_t node) {
   const Disc& disc = hierarchy.nodes[node].disc;
   const QuadVector centre{disc.x, disc.y};
-  // Only what double may mistake for the farthest is looked at slowly.
+  // Only what double may mistake for the farthest is examined slowly.
   double rough = 0;
   visit_held(hierarchy, node, [&](Vec2 p) { rough = std::max(rough, square_in_double(p, disc)); });
   Quad farthest = 0;

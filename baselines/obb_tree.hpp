@@ -48,7 +48,7 @@ static_assert(sizeof(ObbNode) == 64);
 struct ObbTree {
   std::vector<ObbNode> nodes;
   std::vector<Facet> facets;  ///< in the order of the leaves
-  std::uint32_t height = 0;   ///< edges on the longest way from the root to a leaf
+  std::uint32_t height = 0;   ///< edges on the longest path from the root to a leaf
 
   std::size_t bytes() const { return nodes.size() * sizeof(ObbNode) + facets.size() * sizeof(Facet); }
 };

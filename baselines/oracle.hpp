@@ -33,7 +33,7 @@ class Oracle {
   bool nested() const;
 
   /// Returns the least t in [0, 1] at which the outlines have a point in common if a has moved by t (x, y),
-  /// in its own frame; or infinity. Every corner on its way against every segment.
+  /// in its own frame; or infinity. Every corner along its displacement against every segment.
   long double time_of_impact(long double x, long double y) const;
 
   /// Returns the smallest distance between points of the outlines, metres; 0 where they cross.

@@ -34,7 +34,7 @@ inline Point2 exact(Vec2 p) noexcept {
 }
 
 /// Holds the placement in double, for tests of triangles and segments. A point of the second shape is placed
-/// by place() and rounded to double there. Those doubles, beside the floats of the first shape, ARE the input
+/// by place() and rounded to double there. Those doubles, together with the floats of the first shape, ARE the input
 /// of the exact tests: each has one right answer for them, however the structures arrive at it. Against exact
 /// arithmetic with the exact headings a placed point is off by 6e-10 of its distance from its agent, which is
 /// the error of layout/base/heading.hpp, and by 4 units in the last place of the distance between the agents.

@@ -15,7 +15,7 @@
 #include "baselines/structure.hpp"
 
 // Ragdolls: capsules on the bones of a character, as physics engines have them. A contender: fast, small, and without a promise, since
-// capsules on bones hold a skin in no pose but those that somebody looked at.
+// capsules on bones hold a skin in no pose but those that somebody examined.
 
 namespace bch::baselines {
 

@@ -37,7 +37,7 @@ struct Centre {
   float x, y;
 };
 
-/// Places a disc of B as discs_overlap() does. The result is kept beside B's node while the traversal
+/// Places a disc of B as discs_overlap() does. The result is kept with B's node while the traversal
 /// descends on A's side.
 Centre placed(const FloatPlacement& place, const Node& b) noexcept {
   return {place.x + (place.cosine * b.x - place.sine * b.y),

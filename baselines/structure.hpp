@@ -79,7 +79,7 @@ struct Kind {
   std::string_view summary;
   Truth exact;                 ///< what the answer at all depths equals
   bool never_misses_outlines;  ///< at every depth, true wherever the outlines have a point in common
-  bool has_depth;              ///< max_depth is looked at
+  bool has_depth;              ///< max_depth counts
   /// Builds the structure over bodies. Errors: throws std::invalid_argument naming the body and the value: no
   /// triangles, an index out of range, a coordinate that is not finite or beyond the limits of rounding.hpp,
   /// an outline or hierarchy without points or nodes where the kind needs one; a radius that is not positive.

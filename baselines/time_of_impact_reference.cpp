@@ -14,7 +14,7 @@ namespace {
 
 constexpr float never = std::numeric_limits<float>::infinity();
 
-/// A's way relative to B, in A's frame.
+/// A's displacement relative to B, in A's frame.
 struct RelativeMotion {
   float x, y;
 };

@@ -20,7 +20,7 @@ class TimeOfImpactReference {
       : trees_(shapes, plan), cuts_(shapes, plan) {}
 
   /// Returns the time of impact as time_of_impact() does: the first agent moves by (x, y) relative to the
-  /// second. The time is 0 where discs of the cuts overlap at the start. If the way is zero in float, it is 0
+  /// second. The time is 0 where discs of the cuts overlap at the start. If the displacement is zero in float, it is 0
   /// where the two collide, and infinite elsewhere. `depth_first` visits the child that is met sooner first
   /// and skips what is met later than the first contact so far. Not for two threads at a time.
   float query(const Agents& agents, Pair pair, double x, double y, Method method);

@@ -23,7 +23,7 @@ namespace {
 using detail::trajectory::Fields;
 using detail::trajectory::LineReader;
 
-/// The longest way of an agent: two agents' ways apart are within the limit of time_of_impact().
+/// The longest displacement of an agent: two such displacements apart are within the limit of time_of_impact().
 constexpr double largest_displacement = detail::rounding::largest_position / 2;
 
 /// A place in a file, for messages.

@@ -36,7 +36,7 @@ class RemoveOnSignal {
   RemoveOnSignal& operator=(const RemoveOnSignal&) = delete;
 
  private:
-  std::size_t place_;  ///< where handlers look for it
+  std::size_t place_;  ///< where handlers search for it
 };
 
 }  // namespace bch::cli

@@ -33,7 +33,7 @@ struct Unfinished {
   char name[RemoveOnSignal::longest_name + 1];
 };
 static_assert(std::atomic<int>::is_always_lock_free);
-/// Never freed: a handler on another thread may still look at one when its owner has gone.
+/// Never freed: a handler on another thread may still examine one when its owner has gone.
 Unfinished unfinished[RemoveOnSignal::max_files];
 
 OnRequest on_request = OnRequest::say_so;
@@ -55,7 +55,7 @@ void remove_unfinished() {
 }
 
 /// Leaves from here instead of setting a flag: an import or a batch may be far from the next place that would
-/// look at one.
+/// examine one.
 extern "C" [[gnu::no_sanitize_address]] void leave(int signal) {
   leave_saying(exit_signal + signal, "bch: interrupted\n");
 }

@@ -49,7 +49,7 @@ class Svg {
   void scale(double left, double right, double y);
   void text(Pixel at, std::string_view classes, std::string_view words);
 
-  /// Begins a path of closed curves. Points that cannot be told apart from their neighbours are left out.
+  /// Begins a path of closed curves. Points that cannot be distinguished from their neighbours are left out.
   void begin_path();
   void add_closed_curve(std::span<const Pixel> points);
   void end_path();

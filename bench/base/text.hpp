@@ -57,7 +57,7 @@ inline std::string escaped(std::string_view text) {
   return markup;
 }
 
-/// Writes a line of what is known: a name, and beside it, in a column of its own, the text, see printable_line().
+/// Writes a line of what is known: a name, and next to it, in a column of its own, the text, see printable_line().
 inline std::string fact(std::string_view name, std::string_view text) {
   return fmt::format("{:<12}{}\n", name, printable_line(text));
 }

@@ -23,7 +23,7 @@
 namespace bch::cli {
 
 /// Builds a set of all sources' shapes in parallel, with a progress bar. No more than some dozens of shapes a
-/// thread are in memory beside the set. The bytes are the same for any number of threads.
+/// thread are in memory in addition to the set. The bytes are the same for any number of threads.
 /// Errors:  as build_shapes() throws.
 ShapeSet bake_shapes(std::span<const LoadedCharacter> characters, std::span<const PoseId> sources,
                      double threshold, const ShapeSetPlan& plan, const CostLimits& limits = {});
@@ -67,7 +67,7 @@ constexpr std::uint32_t animated_spheres = 256;
 AnimatedDiscs animate_clip(const BodyModel& model, const std::string& name, std::uint32_t clip,
                            const AnimateOptions& how = {});
 
-/// Makes moving spheres of clips in parallel, with a progress bar, as a baked file has them beside origins_of().
+/// Makes moving spheres of clips in parallel, with a progress bar, as a baked file has them with origins_of().
 std::vector<BakedClip> bake_clips(std::span<const LoadedCharacter> characters, std::span<const ClipOf> clips);
 
 /// Returns what a baked file says about the origins of its shapes. Characters go by their sources' file

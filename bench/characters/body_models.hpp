@@ -22,7 +22,7 @@ struct BodyKind {
   std::uint32_t spheres = 256;      ///< of a body
 
   void add_to(CLI::App& command);
-  /// Errors:  throws UsageError on --spheres beside outlines.
+  /// Errors:  throws UsageError on --spheres together with outlines.
   bool are_spheres(const CLI::App& command) const;
 };
 

@@ -27,7 +27,7 @@ struct BakeOptions {
   bool heights = false;
   std::vector<std::string> animated;  ///< names of clips
   std::uint32_t spheres = 0;          ///< of models; none: 0
-  bool shapes_too = true;             ///< beside models
+  bool shapes_too = true;             ///< in addition to models
 };
 
 void run_bake(const BakeOptions& options) {

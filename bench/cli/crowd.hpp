@@ -111,7 +111,7 @@ CrowdPicture picture_of(std::span<const Shape> shapes, const Crowd& crowd, const
 
 /// Draws the middle of the crowd from above as SVG: outlines filled, parts over them. Colours show whether an
 /// agent collides, only its cylinder does, or neither. They differ in lightness as much as in hue, so
-/// that they can be told apart with colour blindness and in grey print.
+/// that they can be distinguished with colour blindness and in grey print.
 std::string draw_crowd(const CrowdPicture& picture);
 
 /// Holds the milliseconds that frames took.

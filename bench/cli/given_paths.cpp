@@ -18,7 +18,7 @@
 namespace bch::cli {
 namespace {
 
-/// A way that is read: when it began, and its keys since.
+/// A path that is read: when it began, and its keys since.
 struct BegunPath {
   double begin;
   std::vector<PathKey> keys;
@@ -32,7 +32,7 @@ struct BegunPath {
   }
 };
 
-/// Lets a way end at a time.
+/// Lets a path end at a time.
 void end_at(double seconds, std::vector<PathKey>& keys) {
   PathKey last = bench::at(keys, seconds);
   last.time = seconds;

@@ -108,7 +108,7 @@ const AnimatedChunk& chunk_at(const AnimatedDiscs& discs, double seconds);
 std::string text_of(const AnimatedView& view);
 nlohmann::ordered_json json_of(const AnimatedView& view);
 
-/// Draws the discs at the time on the body's outline and, from key to key, the ways of the discs.
+/// Draws the discs at the time on the body's outline and, from key to key, the paths of the discs.
 std::string draw_animated(const AnimatedView& view);
 
 /// Loads a file that a user named.

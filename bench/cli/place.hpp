@@ -42,14 +42,14 @@ nlohmann::ordered_json json_report(const PlaceRun& run);
 /// clip_time.
 std::string csv_report(const PlaceRun& run);
 
-/// The ways of the people of a recording, each from time 0 on.
+/// The paths of the people of a recording, each from time 0 on.
 struct GivenPaths {
   std::vector<bench::GivenPath> paths;   ///< by ascending id
   std::vector<std::string> assumptions;  ///< of what the file does not say
   double width = 0, depth = 0;           ///< of the rectangle that holds all paths, metres; at least 1 m
 };
 
-/// Reads a recording as `bch check` does, with headings as there, and keeps so many seconds of each way. Who arrives sooner stands there.
+/// Reads a recording as `bch check` does, with headings as there, and keeps so many seconds of each path. Who arrives sooner stands there.
 /// Errors:  throws TrajectoryError, naming the file and the line.
 GivenPaths read_paths(const std::string& file, double seconds);
 

@@ -48,7 +48,7 @@ struct QueryInput {
 /// Represents one of the questions that --what names.
 struct QueryKind {
   const char* name;
-  const char* columns;  ///< beside first,second
+  const char* columns;  ///< after first,second
   const char* help;     ///< what they are, in the words of --help
   /// Returns the answer as CSV, without the header, in the order of the pairs or agents.
   std::string (*rows)(const QueryInput& input);

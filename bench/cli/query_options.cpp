@@ -24,7 +24,7 @@ std::pair<double, double> numbers_of(const std::string& text) {
           parse_number(text.substr(comma + 1)).value_or(none)};
 }
 
-/// Refuses options that mean nothing beside the others.
+/// Refuses options that mean nothing in combination with the others.
 void require_no_misfits(const CLI::App& command, const QueryCommandOptions& options) {
   const bool collide = options.what == "collide", within = options.what == "within",
              clearance = options.what == "clearance", walls = !options.obstacles.file.empty(),

@@ -93,7 +93,7 @@ class Crowd {
   }
 
   void add(PlacedPerson person) {
-    // A moved vector keeps its elements where they are, and with them what motions look at.
+    // A moved vector keeps its elements where they are, and with them what motions examine.
     people_.push_back(std::move(person));
     motions_.push_back(motion_of(people_.back()));
   }

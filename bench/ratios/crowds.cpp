@@ -105,7 +105,7 @@ struct Steps {
   }
 };
 
-/// Several small crowds, or a large one, checked after the first step, whose memory is told.
+/// Several small crowds, or a large one, checked after the first step, whose memory is reported.
 Contender step_contender(Scene& scene, std::uint32_t agents, std::uint32_t crowds) {
   std::shared_ptr<Steps> steps;
   tbb::task_arena arena(2);

@@ -23,7 +23,7 @@
 #include "kernel/runtime/all_options.hpp"
 #include "layout/base/heading.hpp"
 
-// Each query beside collide() is a struct with the same members:
+// Each query other than collide() is a struct with the same members:
 //   run_query()            asks the kernel for all pairs
 //   search(i, ...)   asks the reference for a pair: a scalar search with the same pruning, or brute force
 //   is_right(i, ...) compares the kernel's last answer for a pair with that
@@ -116,7 +116,7 @@ struct WithinQuery : Question {
 
 /// All walk where they are heading.
 struct TimeOfImpactQuery : Question {
-  std::vector<double> x, y;  ///< relative ways of pairs
+  std::vector<double> x, y;  ///< relative displacements of pairs
   std::vector<float> times = std::vector<float>(pairs.size());
   baselines::TimeOfImpactReference reference{scene.shapes(), {}};
 

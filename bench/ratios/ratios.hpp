@@ -56,7 +56,7 @@ std::vector<const Implementation*> supported_implementations();
 void add_collide(Scene& scene);
 /// stages/<workload>/<instruction set>: the times of the pair kernel's stages.
 void add_stages(Scene& scene);
-/// <query>/<workload>/<instruction set|reference>[/threads:<n>]: the queries beside collide(), and
+/// <query>/<workload>/<instruction set|reference>[/threads:<n>]: the queries other than collide(), and
 /// clearance/near_miss/<fcl_walls|fcl_segments>.
 void add_queries(Scene& scene);
 /// threads/<n>, batches/<size>: one query of many pairs, and queries of a few; crowd/<agents>/<step|pairs>: pairs and

@@ -152,7 +152,7 @@ Table pose_times(const std::vector<BodySubject>& all, std::size_t shapes, std::u
 
 }  // namespace
 
-/// What each kind of bodies errs, beside the time of a pair, the bytes of a pose and the time to make one.
+/// The error of each kind of bodies, with the time of a pair, the bytes of a pose and the time to make one.
 void run_bodies(Run& run) {
   BodySubjects bodies(run.scene);
   bodies.add_outlines();

@@ -45,7 +45,7 @@ class Packing {
   }
 
  private:
-  /// Each of two goes half of the shortest way apart, but no more than a short step, so that those who reach around each
+  /// Each of two goes half of the shortest separating move, but no more than a short step, so that those who reach around each
   /// other stop as soon as they can. Returns: whether somebody overlapped somebody.
   bool step(bch::Crowd& finder) {
     const auto [pairs, depths] = finder.penetrations(set_, crowd_.agents(), 32);

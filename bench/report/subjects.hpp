@@ -78,7 +78,7 @@ struct MeanTests {
 /// Holds the mean size of trees over shapes; NaN of a structure whose tree is not accessible.
 struct TreeSize {
   double nodes = unknown;
-  double height = unknown;  ///< edges on the longest way from the root to a leaf
+  double height = unknown;  ///< edges on the longest path from the root to a leaf
 };
 /// Returns the size of hierarchies.
 TreeSize tree_size(std::span<const Shape> shapes);

@@ -208,7 +208,7 @@ bool plain_hit(const PlacedSpecimen& a, const PlacedSpecimen& b) {
   return plain_heights_meet<Real>(a, b) && PlainDiscs<Real>(a).hit(PlainDiscs<Real>(b));
 }
 
-/// The part of an outline that goes far along a direction, segment by segment, where there is too much of it to look at all.
+/// The part of an outline that goes far along a direction, segment by segment, where there is too much of it to examine all.
 Outline front(const Outline& outline, const PlacedSpecimen& placed, double x, double y) {
   constexpr std::size_t most = 200;  // points
   if (outline.points.size() <= most) return outline;

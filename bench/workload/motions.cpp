@@ -176,7 +176,7 @@ double SampledMotions::first_contact(const Pair& pair) const {
   Hits hits(batch);
   for (std::uint32_t from = 0; from < samples_; from += batch) {
     const std::uint32_t count = std::min(batch, samples_ - from);
-    // Agents that are together, because those between the ones of pairs are looked at, too.
+    // Agents that are together, because those between the ones of pairs are examined, too.
     const auto together = [&](const auto& all) {
       std::remove_cvref_t<decltype(all)> some(2 * batch);
       std::copy_n(all.begin() + pair.first * samples_ + from, count, some.begin());

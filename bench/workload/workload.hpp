@@ -64,7 +64,7 @@ std::span<const std::string_view> workload_names();
 Workload random_pairs(std::string_view name, std::uint64_t seed, std::span<const Shape> shapes,
                       std::uint32_t pairs, const std::function<bool(const Agents&, Pair)>& wanted);
 
-/// The density and the seed of the crowd, and of others that are measured beside it.
+/// The density and the seed of the crowd, and of others that are measured with it.
 constexpr double agents_per_square_metre = 3;
 constexpr std::uint64_t crowd_seed = 34;
 

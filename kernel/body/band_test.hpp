@@ -54,7 +54,7 @@ class BandTest {
   }
 
   /// Finds, for the bands of an open pair of them, what of either body reaches the other one, along the axis on which they overlap
-  /// least and those 45 degrees beside it.
+  /// least and those 45 degrees from it.
   void find_reach(std::uint32_t pair, const PlacedBodies& bodies, std::uint32_t bands, Reach& of_a,
                   Reach& of_b) const noexcept {
     find_axes(pair, bodies, supports(bodies.a, bands / body_bands), supports(bodies.b, bands % body_bands),

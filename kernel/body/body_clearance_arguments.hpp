@@ -20,7 +20,7 @@ struct NearestSpheres {
 /// Holds the input and output of the clearance kernel of bodies.
 struct BodyClearanceArguments {
   BodyArguments in;         ///< without codes
-  float limit;              ///< distances above it are not looked for
+  float limit;              ///< distances above it are not searched for
   float stop_below;         ///< one at or below it ends a search
   NearestSpheres* nearest;  ///< as many as pairs
 };

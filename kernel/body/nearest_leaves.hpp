@@ -19,7 +19,7 @@ namespace bch::detail {
 template <class Simd>
 class NearestLeaves {
  public:
-  /// Takes two bodies, whose gap is the limit, and the numbers of their spheres. `enough`: see BodyClearanceArguments.
+  /// Takes two bodies, whose gap is the limit, and the numbers of their spheres. `stop_below`: see BodyClearanceArguments.
   void begin(const PlacedBodies& bodies, const BodySetView& set, std::uint32_t body_a, std::uint32_t body_b,
              float stop_below) noexcept {
     bodies_ = bodies, set_ = &set, body_a_ = body_a, body_b_ = body_b, stop_below_ = stop_below;
@@ -68,7 +68,7 @@ class NearestLeaves {
   }
   using Leaves = ClippedLeaves<Simd>;
 
-  /// Measures leaves of rows from `begin` on whose nodes are near enough, first those whose nodes are nearest, so that the distance soon is
+  /// Measures leaves of rows from `begin` on whose nodes are sufficiently near, first those whose nodes are nearest, so that the distance soon is
   /// nearly what it will be. Returns the end of these rows.
   std::uint32_t measure_rows(std::uint32_t begin) noexcept {
     const auto shift =
@@ -140,7 +140,7 @@ class NearestLeaves {
     return -Simd::least(least);
   }
 
-  /// Bounds how far nodes are apart, and lists those that are near enough; `least` is the least of their bounds. Returns how many.
+  /// Bounds how far nodes are apart, and lists those that are sufficiently near; `least` is the least of their bounds. Returns how many.
   std::uint32_t list_near(std::uint32_t begin, std::uint32_t end, std::uint32_t shift,
                           float& least) noexcept {
     const Float most(bodies_.margin());

@@ -20,7 +20,7 @@ struct Cylinder {
   double x, y, radius, bottom, top;
 };
 
-/// Places B in A's frame as layout/base/rounding.hpp has it, and turns ways into that frame.
+/// Places B in A's frame as layout/base/rounding.hpp has it, and rotates displacements into that frame.
 class SpaceFrame {
  public:
   SpaceFrame(const Agents& agents, std::uint32_t a, std::uint32_t b) : of_a_(unit_vector(agents.heading[a])) {

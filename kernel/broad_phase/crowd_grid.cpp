@@ -24,7 +24,7 @@ constexpr double radius_of_cell = 0.5 * (1 - 0x1p-10);
 constexpr double centre_rounding = 0x1p-50;
 
 /// The amount by which clearance() may be too small, with D up to the margin and twice both reaches, in units
-/// of u: a share of the margin and a share of both reaches. Each of two agents takes half of it.
+/// of u: a fraction of the margin and a fraction of both reaches. Each of two agents takes half of it.
 constexpr double fraction_of_margin = 0x1p-18, fraction_of_reach = 128 * rounding::unit_roundoff;
 static_assert(2 * fraction_of_margin >= clearance_terms::short_of_distance * rounding::unit_roundoff);
 static_assert(fraction_of_reach >=

@@ -94,7 +94,7 @@ class ContactKernel {
     }
   }
 
-  /// Looks at one pair of agents, of which the lower index is A; see RelativeTransforms.
+  /// Examines one pair of agents, of which the lower index is A; see RelativeTransforms.
   void begin_pair(std::size_t begin, std::uint32_t k) noexcept {
     const Pair pair = in_.pairs[begin + k];
     swapped_ = pair.second < pair.first;
@@ -113,7 +113,7 @@ class ContactKernel {
     first_row_ = rows_.discs, first_column_ = columns_.discs;
   }
 
-  /// Looks at a pair of single discs in windows of its own, because the set has none.
+  /// Examines a pair of single discs in windows of its own, because the set has none.
   void visit_single_discs(const Root& row_disc, const Root& column_disc) noexcept {
     for (DiscBlock& single : singles_)
       for (unsigned i = 0; i < block_width; ++i)

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t contact_grain = 256;  ///< pairs a task; each may have thousands of contacts
 
-/// Bodies of eight discs or less have so many floats of nodes, beside padding at the end of all; and one thread answers so many of their
+/// Bodies of eight discs or less have so many floats of nodes, plus padding at the end of all; and one thread answers so many of their
 /// pairs before others would have begun.
 constexpr std::size_t light_floats = 64, max_light_pairs = 2048;
 bool is_light(const ShapeSet& shapes, std::size_t pairs) {

@@ -22,7 +22,7 @@ double wrapped(double at, double period) noexcept {
   return result < period ? result : 0;
 }
 
-/// Returns how far from its position an agent is looked for at most, beside the rounding of the broad phase.
+/// Returns how far from its position an agent is searched for at most, plus the rounding of the broad phase.
 double farthest_reach(const ShapeSetView& shapes, const Agents& agents, double margin) noexcept {
   const CrowdBounds all = bounds(shapes, agents, margin, 0, agents.size());
   return (all.offset + all.max_radius) * (1 + 0x1p-18);

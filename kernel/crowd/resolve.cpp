@@ -18,9 +18,9 @@
 #include "layout/base/floating_point_state.hpp"
 #include "layout/base/shortest.hpp"
 
-// A sweep is a step of a solver of contacts. Pairs that collide are to move by their shortest ways, nearest_free(); pairs that are near are
+// A sweep is a step of a solver of contacts. Pairs that collide are to move by their shortest moves, nearest_free(); pairs that are near are
 // to stay apart along the direction of their clearances, so that nobody is pushed into somebody else. The displacements that do both, and
-// are the smallest, are found for all agents together. Along other ways than their own, bodies are farther or nearer than these lines say, and
+// are the smallest, are found for all agents together. Along other directions than their own, bodies are farther or nearer than these lines say, and
 // so there are several sweeps. Those who are entangled may push each other to and fro for ever: now and then pairs are to move until a
 // line separates them, as penetration() says, which costs them more room.
 
@@ -58,7 +58,7 @@ void shorten(double& x, double& y, double most) {
   x *= most / length, y *= most / length;
 }
 
-/// Adds that an agent comes nearer to another, or to nobody, which is a wall, by no more than there is room for; below 0 it has to go so far
+/// Adds that an agent comes nearer to another, or to nobody, which is a wall, by no more than `clearance_left`; below 0 it has to go so far
 /// away. The direction leads to the other.
 void limit_approach(SeparationSolver& solver, std::uint32_t first, std::uint32_t second,
                     const Vec3& direction, double clearance_left) {

@@ -45,7 +45,7 @@ class SeparationSolver {
   struct Constraint {
     std::uint32_t first, second;
     double x, y, least;
-    double effective_mass;  ///< of a metre that is missing, by which each agent goes times its mobility
+    double effective_mass;  ///< each agent moves by this times its mobility for each missing metre
     double pushed = 0;      ///< in all
   };
 

@@ -48,7 +48,7 @@ class RangeAnswers {
   }
 
  private:
-  /// Not inlined, so that what it keeps on the stack is not there beside the other kernel.
+  /// Not inlined, so that what it keeps on the stack is not there with the other kernel.
   [[gnu::noinline]] void search() noexcept {
     NearestFeatures nearest[ApartPairs::capacity];
     arguments_.in.pairs = open_.pairs().data();

@@ -23,14 +23,14 @@ struct NearestFeatures {
   /// The places of the discs among ShapeSetView::nodes, 0 in a set of roots alone; or the points where the segments begin; or no_node.
   std::uint32_t a, b;
   // Discs alone have the following.
-  float x, y;          ///< way from A's centre to B's, in A's frame
+  float x, y;          ///< vector from A's centre to B's, in A's frame
   float cosine, sine;  ///< A's heading
 };
 
 /// Holds the input and output of a clearance kernel. These are plain pointers for the reason that Arguments states.
 struct ClearanceArguments {
   Arguments in;              ///< without codes; with exact_leaves, of which trees have segments
-  float limit;               ///< distances above it are not looked for; below far_beyond
+  float limit;               ///< distances above it are not searched for; below far_beyond
   float stop_below;          ///< one at or below it ends a search of trees, and is then given as -infinity
   NearestFeatures* nearest;  ///< as many as pairs
 };

@@ -29,7 +29,7 @@ namespace bch::detail {
 /// 1 - 2^-18 in place of near, exceeds D' - (R_A + R_B) by 17.7 u S + 7.6 u D for the distance (D' <= D + 2
 /// S), and 9 u S + 4 u D for what follows (R_A + R_B <= D' + S, or v' is below any v), with 3 u S + u D more
 /// where the slack is added to the sum of radii; v falls short of D - (r_A + r_B) by 15.7 u S + 26.6 u D. All
-/// together: 45.4 u S, for which `slack` = 64 u S is taken off beside, and 39.2 u D, for which nearer takes
+/// together: 45.4 u S, for which `slack` = 64 u S is taken off as well, and 39.2 u D, for which nearer takes
 /// 64. So v' <= v, and leaving out what is above the best never loses a tie. Its root is approximate_sqrt(),
 /// shortened by more than that is off. These sums are static_asserts in clearance_terms.hpp. A test sees the
 /// slack: without it, tests/kernel/queries_test.cpp finds other discs than brute force does, where a
@@ -42,7 +42,7 @@ class ClearanceMeasure {
 
   using Segments = SegmentGaps<Simd, ClearanceMeasure>;
 
-  /// Takes the limit and the reach: `reach` is S, metres. A gap at or below `enough` ends the search; nothing is nearer.
+  /// Takes the limit and the reach: `reach` is S, metres. A gap at or below `stop_below` ends the search; nothing is nearer.
   ClearanceMeasure(float limit, float stop_below, float reach) noexcept
       : stop_below_(stop_below), slack_(slack_per_reach * reach) {
     search_within({limit, false, no_node, no_node});

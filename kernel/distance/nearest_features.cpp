@@ -23,7 +23,7 @@ Vec2 rounded(PlanePoint v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y)};
 }
 
-/// Returns the share of a way at which it is nearest to a point, from where it begins.
+/// Returns the parameter t of a segment at which it is nearest to a point, from where it begins.
 double nearest_t(PlanePoint edge, PlanePoint to_point) {
   const double square = edge.x * edge.x + edge.y * edge.y;
   return square > 0 ? std::clamp((to_point.x * edge.x + to_point.y * edge.y) / square, 0.0, 1.0) : 0;

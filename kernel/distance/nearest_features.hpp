@@ -45,7 +45,7 @@ class PlacedFeatures {
   struct Disc {
     double x, y, radius;
   };
-  /// Represents a segment of an agent, in its frame, and the share of its length at which it is nearest to the other one.
+  /// Represents a segment of an agent, in its frame, and the parameter t at which it is nearest to the other one.
   struct Segment {
     PlanePoint from, edge;
     double t;

@@ -27,7 +27,7 @@ namespace bch::detail {
 ///
 /// Below D by no more than m, 8.9 u S, the grids, and (4.6 + 8 + 1) u D: (segment_price), and 0.9 um per metre of D.
 ///
-/// Which leaves have to be looked at. The nearest points of two outlines lie in two leaves that hold their segments. The gap of the
+/// Which leaves have to be examined. The nearest points of two outlines lie in two leaves that hold their segments. The gap of the
 /// discs of these is at most D, see ClearanceMeasure, and so at most w + 2 m + 14 u D: max_gap(). And some pair of leaves has a w of at most
 /// sqrt(D'^2 + r_A^2 + r_B^2), where D' is the distance of the centres: half of a smallest disc, whichever, has a point of what it holds on
 /// its edge, and so one that is no farther from a point at D' than sqrt(D'^2 + r^2). So what is nearest is sought among discs

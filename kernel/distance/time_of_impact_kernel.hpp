@@ -16,7 +16,7 @@
 namespace bch::detail {
 
 /// Finds the first contact of every pair, none of which collides now. The kernel works chunk by chunk. It
-/// places B in A's frame, separates by their supports the pairs that a line keeps apart on all of the way,
+/// places B in A's frame, separates by their supports the pairs that a line keeps apart during all of the displacement,
 /// and traverses the trees of the rest.
 template <class Simd>
 class TimeOfImpactKernel {
@@ -59,7 +59,7 @@ class TimeOfImpactKernel {
     }
   }
 
-  /// Turns the ways into A's frame.
+  /// Turns the displacements into A's frame.
   void rotate_displacements(const float* x, const float* y) noexcept {
     for (std::uint32_t k = 0; k < at_.size; ++k) {
       const auto [cosine, sine] = at_.heading(k);
@@ -84,8 +84,9 @@ class TimeOfImpactKernel {
           [](std::uint32_t) {});
   }
 
-  /// Returns the slack of supports on the way. Supports may be those of outlines, of which discs stick out. Discs touch by the measure at 16 u D more than by collide()'s
-  /// test, D <= S + |t|. Beside what supports have room for, in layout/base/rounding.hpp, the way's product
+  /// Returns the slack of supports during the displacement. Supports may be those of outlines, beyond which discs protrude. Discs touch by
+  /// the measure at 16 u D more than by collide()'s test, D <= S + |t|. In addition to what supports have room for, in
+  /// layout/base/rounding.hpp, the displacement's product
   /// with a direction is off by 3 u |v|, the differences by 2 u (|t| + |v|), and |t| may be 2 S + |v|: 30 u S
   /// + 18 u |t| + 11 u |v|. Only the proof needs it: supports have room for more than tests have found.
   float slack(std::uint32_t pair) const noexcept {
@@ -120,7 +121,7 @@ class TimeOfImpactKernel {
 
   const TimeOfImpactArguments& arguments_;
   const ShapeSetView shapes_;
-  alignas(64) float x_[chunk_size], y_[chunk_size];  ///< the chunk's ways
+  alignas(64) float x_[chunk_size], y_[chunk_size];  ///< the chunk's displacements
   RelativeTransforms<Simd> at_;
   SeparatingAxisTest<Simd> axis_test_;
   std::uint32_t row_a_[chunk_size], row_b_[chunk_size];  ///< of the supports, where they are not in order

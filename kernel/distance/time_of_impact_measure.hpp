@@ -52,7 +52,7 @@ static_assert(slack >= bound_reach + bound_distance + displacement_error);
 /// who collides needs the time 0 by its discs as well.
 ///
 /// Never too late, in the notation of layout/base/rounding.hpp. Where the tight discs touch at the true time
-/// t, the exact way between their centres is r_tight long. (x, y) is off by 8.1 u |b| + 5.6 u |d| + u D; v is
+/// t, the exact displacement between their centres is r_tight long. (x, y) is off by 8.1 u |b| + 5.6 u |d| + u D; v is
 /// rotated as d is, so t v is off by 4.6 u t |v|, and t |v| <= D + r_A + r_B; |d| <= |a| + |b| + D; and r is
 /// off by u (r_A + r_B). In all that is 13.7 u |b| + 5.6 u |a| + 5.6 u (r_A + r_B) + 11.2 u D, of which the
 /// first three are at most 14.9 u S, as in (1'). Published radii have 16.5 u S to spare, R adds 16 u D. So at
@@ -63,18 +63,18 @@ static_assert(slack >= bound_reach + bound_distance + displacement_error);
 /// itself, so that such a loss moves the contact by less than 2^-28 of what that does. The last product takes
 /// off 4 u for the rounding to float.
 ///
-/// Bounds are how far A has come when discs (C, R') that hold the two touch, enlarged. What is along the way
-/// and aside is computed at once, from discs of both sides turned into the way's frame by (w_x, w_y), which
+/// Bounds are how far A has come when discs (C, R') that hold the two touch, enlarged. What is along the displacement
+/// and aside is computed at once, from discs of both sides turned into the displacement's frame by (w_x, w_y), which
 /// is v / |v| made shorter by `rough` of it: so are all lengths but the radii. At T the centres are within
-/// R'_A + R'_B + 16 u D, also of discs that move apart, and rounding brings 20 u S and 4 u D beside, with D
+/// R'_A + R'_B + 16 u D, also of discs that move apart, and rounding adds 20 u S and 4 u D, with D
 /// <= D' + 2 S: 60 u S + 20 u D'. The turn adds 2 u of each coefficient of B's placement, of |d| and of A's
 /// centre, and rounds two sums more: 6 u P_B + 2 u P_A + 3 u |d| + u D', where centres are within 1.42
 /// reaches; with 2.5 u D' for (w_x, w_y) itself either length is off by 13 u S + 7 u D'. The squares' 3 u
 /// make that 19 u S + 7 u D' of the root, the difference is later by 15 u S + 8 u D'. A radius enlarged by 94
-/// u S + 35 u D' makes up for all, and `slack` is 256 u F, with S <= F and D' <= F: enough beside for the
-/// squares of discs that touch on the way to differ by far more than their rounding, so that a root of what
+/// u S + 35 u D' makes up for all, and `slack` is 256 u F, with S <= F and D' <= F: enough, too, for the
+/// squares of discs that touch during the displacement to differ by far more than their rounding, so that a root of what
 /// is not above 0, NaN, is that of discs that never touch. As radii are not made shorter, the root is longer
-/// than its part of the way by more than approximate_sqrt() is off; where that is exact, (w_x, w_y) is off by as
+/// than its part of the displacement by more than approximate_sqrt() is off; where that is exact, (w_x, w_y) is off by as
 /// much as 3 u R' <= 6 u S, for which slack has room. A time T is compared as T |v|, shorter as lengths are
 /// and then a 2^18th longer, for what |v| and the products are off by. Bounds below 0 only have to stay
 /// there.
@@ -91,7 +91,7 @@ class TimeOfImpactMeasure {
   TimeOfImpactMeasure(float x, float y, float farthest) noexcept
       : x_(x), y_(y), slack_(slack_per_length * farthest), time_(__builtin_inff()) {
     const float square = x * x + y * y, length = __builtin_sqrtf(square);
-    // No bound of a way that is shorter than that is above 0.
+    // No bound of a displacement that is shorter than that is above 0.
     const float per_length = square < 1e-30f ? 0 : (1 - Simd::approximation_error) / length;
     unit_x_ = x * per_length, unit_y_ = y * per_length;
     length_ = length * ((1 - Simd::approximation_error) * (1 + 0x1p-18f));
@@ -102,7 +102,7 @@ class TimeOfImpactMeasure {
   float time() const noexcept { return time_; }
 
   /// Returns the limit of bounds: what is below a bound above it is later than the time so far, or than the
-  /// end of the way.
+  /// end of the displacement.
   float limit() const noexcept { return best() * length_; }
 
   /// Calls visit(k, bound) for every register of pairs as visit_disc_pairs() does; far_beyond for those that
@@ -168,7 +168,7 @@ class TimeOfImpactMeasure {
 
   float x_, y_, slack_;
   float unit_x_, unit_y_;
-  float length_;  ///< of the way, in units of bounds
+  float length_;  ///< of the displacement, in units of bounds
   float time_;
 };
 

@@ -72,7 +72,7 @@ class TimeOfImpactTraversal {
   struct Open {
     Transform b_in_a;
     Measure measure;
-    std::uint32_t a, b;  ///< the nodes to look at
+    std::uint32_t a, b;  ///< the nodes to examine
     std::uint32_t stride_a, stride_b;
     Frame *frame, *bottom;  ///< of these nodes, and the first
     std::size_t pair;

@@ -9,7 +9,7 @@
 
 namespace bch::detail {
 
-// What would lead an agent astray before a query looks at it. Each throws std::invalid_argument that names the agent and the value.
+// What would lead an agent astray before a query examines it. Each throws std::invalid_argument that names the agent and the value.
 
 /// Requires that an agent is somewhere. `heights`: whether z counts.
 void require_valid(const DistributedCrowd::Agent& agent, bool heights);

@@ -30,7 +30,7 @@ double largest(const std::vector<double>& radii) {
   return radii.empty() ? 0 : *std::ranges::max_element(radii);
 }
 
-/// How near an agent and any other may have to be looked at, by the agent's shape. Enlarged by more than what is rounded in
+/// How near an agent and any other may have to be examined, by the agent's shape. Enlarged by more than what is rounded in
 /// comparing positions with squares, and by more than the broad phase's margins.
 std::vector<double> reaches(const std::vector<double>& radii, double margin) {
   std::vector<double> metres;

@@ -13,7 +13,7 @@
 namespace bch::detail {
 
 /// Holds the agents of a rank and the copies of others', as queries take them: in the order of their ids, as one process has them,
-/// because of two agents the first one's place in memory decides whose frame a pair is looked at in.
+/// because of two agents the first one's place in memory decides whose frame a pair is examined in.
 struct CrowdColumns {
   std::vector<std::uint32_t> id, shape;
   std::vector<double> x, y, z, heading;

@@ -19,10 +19,10 @@ namespace {
 
 constexpr double max_slack_of_bands = hull_overlap / 4;  ///< metres
 
-/// Slopes of the lines along which bands are looked at: tangents of eighths of half a round.
+/// Slopes of the lines along which bands are examined: tangents of eighths of half a round.
 constexpr double asides[] = {0, 0.4142, -0.4142, 1, -1, 2.4142, -2.4142};
 
-/// The way of one body relative to another between two times.
+/// The motion of one body relative to another between two times.
 struct RelativeMotion {
   double x, y, z, move_x, move_y, move_z;
 
@@ -58,7 +58,8 @@ struct RelativeMotion {
   std::pair<double, double> times_within(double radius) const noexcept {
     const double a = move_x * move_x + move_y * move_y, b = x * move_x + y * move_y,
                  c = x * x + y * y - radius * radius, across = x * move_y - y * move_x;
-    const double square = a * radius * radius - across * across;  // b^2 - a c, exact enough on long ways, too
+    const double square =
+        a * radius * radius - across * across;  // b^2 - a c, exact enough on long paths, too
     if (c > 0 && (b >= 0 || square < 0)) return {never, never};
     if (!(a > 0)) return {0, 1};
     const double root = std::sqrt(std::max(square, 0.0));
@@ -185,7 +186,7 @@ void ContactSearch::place(double from, double end) {
   nodes_b_.place(*b_, {from, 0, 0, b.heading}, {end, 0, 0, b_end.heading}, in_space_);
 }
 
-/// What may touch sooner is looked at first.
+/// What may touch sooner is examined first.
 double ContactSearch::first_of_nodes() {
   const AnimatedTreeChunk &a = nodes_a_.chunk(), &b = nodes_b_.chunk();
   double first = never, last = 1;

@@ -15,7 +15,7 @@ namespace bch::detail {
 /// Says how far a body reaches in a direction of the world through an interval of time, from its position, times the direction's length: at
 /// both ends, and by how much more than what lies evenly between these at most.
 ///
-/// Derivation: in the body's frame it reaches E(d, s) in direction d at a share s of the interval, at most, linear in s. It turns from
+/// Derivation: in the body's frame it reaches E(d, s) in direction d at a fraction s of the interval, at most, linear in s. It turns from
 /// R0 to R1, and a vector turned at s is at most turn^2 / 8 of its length away from (1 - s) of what it is turned by R0 and s of
 /// what by R1. So it reaches (1 - s) E(d0, s) + s E(d1, s) + turn^2 / 8 reach, where d0 and d1 are the direction as the body sees it at
 /// both ends. The first two are s (1 - s) (E(d0, 1) - E(d0, 0) - E(d1, 1) + E(d1, 0)) more than what lies evenly between E(d0, 0) and
@@ -65,7 +65,7 @@ class ReachAlong {
   double deviation_ = 0;
 };
 
-/// Represents a line along which two bodies are looked at, and how far their positions are apart along it at both ends of the interval.
+/// Represents a line along which two bodies are examined, and how far their positions are apart along it at both ends of the interval.
 struct LineBetween {
   ReachAlong a, b;
   double away, away_at_end;

@@ -12,7 +12,7 @@
 namespace bch::detail {
 namespace {
 
-/// Returns the share of the time between two others that has gone by; none where these are the same, as rounding may make them.
+/// Returns the fraction of the time between two others that has gone by; none where these are the same, as rounding may make them.
 double fraction_between(double from, double to, double time) noexcept {
   return from < to ? std::clamp((time - from) / (to - from), 0.0, 1.0) : 0;
 }
@@ -80,7 +80,7 @@ double MovingBody::period(double time) noexcept {
   return is_infinite(clip_end(time)) ? 0 : std::numeric_limits<double>::infinity();
 }
 
-/// Before its beginning and after its end a clip stands still: at the first or last key, in share().
+/// Before its beginning and after its end a clip stands still: at the first or last key, in fraction().
 void MovingBody::find_key(double time) noexcept {
   begin_round(tree().loops ? std::floor((time - facts_->clip_begin) / tree().length()) : 0);
   const KeyPlace place = key_place(tree(), time - shift_);

@@ -45,10 +45,10 @@ class MovingBody {
   double time_slack(double time) const noexcept;
   /// Returns where the body is until path_end().
   PathKey pose(double time) const noexcept;
-  /// Returns the keys between which it is now: the first one, and which share of the time to the next has gone by at a time.
+  /// Returns the keys between which it is now: the first one, and which fraction of the time to the next has gone by at a time.
   std::size_t key() const noexcept { return key_; }
   double fraction(double time) const noexcept;
-  /// Returns its hull through the window of chunks in which it is now, until when that goes on, and its share that has gone by.
+  /// Returns its hull through the window of chunks in which it is now, until when that goes on, and the fraction of it that has gone by.
   const HullWindow& hull(unsigned level) const noexcept {
     return tree().hulls.levels[level][chunk_ >> level];
   }

@@ -18,7 +18,7 @@ struct MovingDisc {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// Returns the first time from 0 to `last` at which two discs are at most `room` apart, or never. It is the first root of the square of
+/// Returns the first time from 0 to `last` at which two discs are at most `margin` apart, or never. It is the first root of the square of
 /// the centres' distance less that of what the radii reach, f(s) = a s^2 + 2 b s + c, where c > 0: c / (-b + sqrt(b^2 - a c)), whatever
 /// the sign of a.
 inline double first_overlap(const MovingDisc& one, const MovingDisc& other, double margin,

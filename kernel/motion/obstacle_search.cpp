@@ -32,7 +32,7 @@ double ObstacleSearch::first(const MotionFacts& motion, double from, double to) 
   return never;
 }
 
-/// Where the path goes straight on: halves ways that are long, but not where nothing is near.
+/// Where the path goes straight on: halves paths that are long, but not where nothing is near.
 double ObstacleSearch::first_on_path(double from, double end, double to) {
   limit_.count(1);
   if (from > to || !search_about(from, end)) return never;
@@ -44,7 +44,7 @@ double ObstacleSearch::first_on_path(double from, double end, double to) {
   return sooner < never ? sooner : first_on_path(half, end, to);
 }
 
-/// Finds what is near on a way. Returns: whether something is.
+/// Finds what is near on a path. Returns: whether something is.
 bool ObstacleSearch::search_about(double from, double end) {
   const PathKey a = body_->pose(from), b = body_->pose(end);
   const std::span<const LocalSegment> found =
@@ -112,7 +112,7 @@ void ObstacleSearch::open(std::uint32_t node, std::uint32_t segment, double last
   if (time <= last) open_.push_back({node, segment, time});
 }
 
-/// What may touch sooner is looked at first.
+/// What may touch sooner is examined first.
 double ObstacleSearch::first_of_nodes() {
   double first = never, last = 1;
   open_.clear();

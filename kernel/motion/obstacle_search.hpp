@@ -18,7 +18,7 @@ namespace bch::detail {
 /// motions, of which one is the segments that are near.
 ///
 /// A path is cut into stretches no longer than twice the reach; the segments within reach of one are found by the tree of boxes. Discs are enlarged by
-/// what turning bends and by `slack_`, which has what ContactSearch derives, for one body, with the reach twice: no node is
+/// the deviation from a chord by rotation and by `slack_`, which has what ContactSearch derives, for one body, with the reach twice: no node is
 /// farther than three reaches from where a stretch begins, and no end of a segment that it touches farther than another one. Coordinates of a segment
 /// that is long or far are off by 2^-48 of these at most: StillSegment::slack. Twice that is at most 1.8e-14 of the distances to both its
 /// ends together, as OutlineSegment derives for half of it.

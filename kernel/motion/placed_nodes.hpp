@@ -16,10 +16,10 @@ namespace bch::detail {
 
 /// Holds the nodes of a moving body over an interval within which its path goes straight on, it turns evenly, and its discs move straight
 /// on from key to key: each as a disc that moves straight on from where it is in the beginning to where it is in the end. What
-/// turning makes of that is at most bend() away from it.
+/// turning makes of that is at most deviation() away from it.
 ///
-/// Derivation: a centre is p(s) = R(h + turn s) (c + way s), 0 <= s <= 1, beside the straight way of the body. Its second derivative
-/// is turn^2 R c(s), turned by half a round, and 2 turn R way, turned by a quarter: no longer than turn^2 reach + 2 |turn| |way|.
+/// Derivation: a centre is p(s) = R(h + turn s) (c + v s), 0 <= s <= 1, plus the straight path of the body. Its second derivative
+/// is turn^2 R c(s), turned by half a round, and 2 turn R v, turned by a quarter: no longer than turn^2 reach + 2 |turn| |v|.
 /// A curve is at most an eighth of that away from the straight line between its ends, at equal s.
 class PlacedNodes {
  public:
@@ -43,7 +43,7 @@ class PlacedNodes {
     if (placed_in_[node] != interval_) placed_in_[node] = interval_, place_eight(children.begin);
     return children;
   }
-  /// Finds the first times at which eight nodes and a disc are at most `room` apart, as first_overlap() does.
+  /// Finds the first times at which eight nodes and a disc are at most `margin` apart, as first_overlap() does.
   void first_overlaps(std::uint32_t from, const MovingDisc& other, double margin, double last,
                       std::array<double, animated_width>& times) const noexcept;
 
@@ -64,8 +64,8 @@ class PlacedNodes {
   std::uint32_t interval_ = 0;
 };
 
-/// Finds a first contact in an interval of time, and halves what is behind it until turning bends less than half the tolerance.
-/// first_straight(from, end): the share of an interval at which there is one, or never, and what turning bends.
+/// Finds a first contact in an interval of time, and halves what is behind it until rotation deviates from the chord by less than half the tolerance.
+/// first_straight(from, end): the fraction of an interval at which there is one, or never, and the deviation from a chord by rotation.
 template <class FirstStraight>
 double first_halving(double from, double end, double tolerance, const FirstStraight& first_straight) {
   const auto [found, deviation] = first_straight(from, end);

@@ -10,7 +10,7 @@
 
 namespace bch::detail {
 
-/// Counts the steps of a search, most of them from key to key of clips within reach, and ends one that short loops, long ways or fine
+/// Counts the steps of a search, most of them from key to key of clips within reach, and ends one that short loops, long paths or fine
 /// tolerances make endless to all intents. An hour of clips with a hundred keys a second has 400 000.
 class StepLimit {
  public:
@@ -29,7 +29,7 @@ class StepLimit {
 };
 
 /// Returns what find() finds.
-/// Errors:  throws std::invalid_argument with the name of what was looked at, where the limit is reached.
+/// Errors:  throws std::invalid_argument with the name of what was examined, where the limit is reached.
 template <class Name, class Find>
 double within_limit(const char* query, const Name& name, const Find& find) {
   try {

@@ -34,11 +34,11 @@ class TimesAbove {
   double begin_ = 0, end_;
 };
 
-/// Returns the first time from 0 to `last` at which a disc is at most `room` from a segment, or never: from one of the ends, or from the
-/// line, where its centre is beside the segment.
+/// Returns the first time from 0 to `last` at which a disc is at most `margin` from a segment, or never: from one of the ends, or from the
+/// line, where its centre projects onto the segment.
 ///
-/// Rounding: when the centre comes beside the segment is off by what its coordinates are. It is next to an end then, as near as to
-/// the line but for less than the room.
+/// Rounding: when the centre projects onto the segment is off by what its coordinates are. It is next to an end then, as near as to
+/// the line but for less than the margin.
 inline double first_overlap(const MovingDisc& disc, const StillSegment& segment, double margin,
                             double last) noexcept {
   const double at_x = disc.x - segment.ax, at_y = disc.y - segment.ay, radius = disc.radius + margin;

@@ -18,7 +18,7 @@
 namespace bch::detail {
 namespace {
 
-/// Returns how far to look for what is nearest to a body: not at all farther than it is, if that is known well enough. What is far is
+/// Returns how far to search for what is nearest to a body: not at all farther than it is, if that is known well enough. What is far is
 /// searched for one by one.
 double first_distance(DistanceBounds nearest) noexcept {
   constexpr double least_distance = 0.5, step = 0.05;  // metres

@@ -27,7 +27,7 @@ struct PlacedBody {
   const ShapeSetView& shapes;
   ObstaclePlace place;
   std::uint32_t shape, level;
-  double searched;     ///< metres from its outer disc, within which segments were looked for
+  double searched;     ///< metres from its outer disc, within which segments were searched for
   std::size_t number;  ///< among the bodies that were prepared
 
   std::uint32_t root_index() const noexcept { return shape * shapes.level_count + level; }
@@ -49,7 +49,7 @@ struct NearestObstacle {
   bool is_found = false, is_within = false;
 };
 
-/// Selects which segments are looked for at first: those that touch a body, or those that the nearest one is among.
+/// Selects which segments are searched for at first: those that touch a body, or those that the nearest one is among.
 enum class SearchMode { touching, nearest };
 
 /// Implements the stages that answer an agent's queries against obstacles; it keeps its memory from agent to agent.
@@ -73,7 +73,7 @@ class BodyQuery {
   /// as near as the nearest one. near_body() then returns them. Agents from which all obstacles are farther than a limit are left out.
   void prepare(std::uint32_t begin, std::uint32_t end, double limit, SearchMode mode);
 
-  /// Returns the segments that prepare() looked for about a body.
+  /// Returns the segments that prepare() searched for about a body.
   std::span<LocalSegment> near_body(const PlacedBody& body) { return near_.take(body.number); }
 
   /// Returns the body of an agent that was prepared; null where it was left out.
@@ -96,7 +96,7 @@ class BodyQuery {
     if (!stop) visit_areas_beyond(*body, found);
   }
 
-  /// Finds the least gap of an agent of at most `limit`, metres. The search ends where one is at most `enough` or, where `inside` counts, an area
+  /// Finds the least gap of an agent of at most `limit`, metres. The search ends where one is at most `stop_below` or, where `inside` counts, an area
   /// holds the agent or its outline a path.
   NearestObstacle nearest(std::uint32_t agent, double limit, double stop_below, bool inside);
   bool is_within(std::uint32_t agent, double distance) {
@@ -118,9 +118,9 @@ class BodyQuery {
   }
 
  protected:
-  /// Calls look(segments) farther and farther away than prepare() did, until nothing beyond can be nearer than what it found, or that is
-  /// at most `enough`. The segment that is nearest to the body's centre comes first: its gap, which is at most twice the outer radius
-  /// larger than the least one can be, leaves few others to look at.
+  /// Calls visit(segments) farther and farther away than prepare() did, until nothing beyond can be nearer than what it found, or that is
+  /// at most `stop_below`. The segment that is nearest to the body's centre comes first: its gap, which is at most twice the outer radius
+  /// larger than the least one can be, leaves few others to examine.
   template <class Nearest, class Visit>
   void search_outward(const PlacedBody& body, double stop_below, const Nearest& nearest, const Visit& visit) {
     constexpr double least_step = 0.05;  // metres
@@ -165,7 +165,7 @@ class BodyQuery {
   const Agents& agents_;
   NearSegments near_;
   const bool exact_leaves_, in_space_;
-  /// Represents an agent that was not left out, and how far it looks.
+  /// Represents an agent that was not left out, and how far its search goes.
   struct Chosen {
     std::uint32_t agent;
     double searched;

@@ -26,7 +26,7 @@ double square(Vector v) noexcept {
   return v.x * v.x + v.y * v.y;
 }
 
-/// What is nearest to an obstacle's segment, a disc's centre or a point of an outline, and the way from there, in the agent's frame.
+/// What is nearest to an obstacle's segment, a disc's centre or a point of an outline, and the vector from there, in the agent's frame.
 struct Nearest {
   Vector from, offset;
   double radius;  ///< of the disc
@@ -130,7 +130,7 @@ void clearance(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& 
   const FloatingPointStateGuard floats;
   require_valid({"clearance", "agent", agents.size()}, answers, options);
   const bool zero = options.overlap == Overlap::zero;
-  // How deep discs overlap is asked of discs.
+  // How deep discs overlap is measured from discs.
   const bool exact = exact_leaves(shapes, options.leaves, "clearance") && zero;
   const auto make = queries_of(shapes, agents, obstacles, options.implementation, "clearance",
                                exact ? Leaves::segments : Leaves::discs);

@@ -14,14 +14,14 @@ struct BoxTreeView;
 struct WorldSegment;
 
 /// Says how far a point is from the nearest segment at least, and at most where that can be told, metres. (A search that finds nothing
-/// looks farther.)
+/// searches farther.)
 struct DistanceBounds {
   double least, most;
 };
 
-/// Holds the distances of the centres of square cells from the nearest segment, in steps of a cell's side. A point that is `way` from a
+/// Holds the distances of the centres of square cells from the nearest segment, in steps of a cell's side. A point that is `distance` from a
 /// centre is at most so much nearer to a segment or farther from it, in a cell or outside of all, so one number tells which agents have
-/// nothing near them, and how far others have to look. A byte each, so that they stay in near caches.
+/// nothing near them, and how far others have to search. A byte each, so that they stay in near caches.
 struct DistanceGridView {
   static constexpr double steps_a_side = 16;
   static constexpr std::uint8_t far = 255;  ///< as many steps or more

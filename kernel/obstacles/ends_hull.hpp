@@ -12,7 +12,7 @@
 namespace bch::detail {
 
 /// Holds the ends of segments, and tells the largest value that a linear function has at one of them. Only corners of their convex hull
-/// can have it; there it ascends to a largest value and descends again, so that n ends are asked n times in n log n steps.
+/// can have it; there it ascends to a largest value and descends again, so that n queries of n ends take n log n steps.
 ///
 /// The hull is found in double: an end that is taken for one inside reaches out of it by no more than what rounding moves ends.
 class EndsHull {

@@ -131,7 +131,7 @@ ExitMove ExitMoves::longest_out_of(std::span<const std::uint32_t> areas) {
     if (square < of_area.square || (square == of_area.square && segment.number < of_area.segment.number))
       of_area = {segment, square};
     missing -= is_first;
-    // With many areas the limit is set once: it is near enough then, and looking for the largest number takes time.
+    // With many areas the limit is set once: it is sufficiently near then, and looking for the largest number takes time.
     if (missing != 0 || (!is_first && areas.size() > 1)) return;
     double most = 0;
     for (const Nearest& of : nearest) most = std::max(most, of.square);
@@ -155,7 +155,7 @@ ExitMove ExitMoves::over(const LocalSegment& segment, Range range) const {
   return {with_margin(depth, segment), {-side * world.y, side * world.x}};
 }
 
-/// Returns how far discs beside the range have to move towards a side of a segment, 1 the left one, until none is across.
+/// Returns how far discs within the range have to move towards a side of a segment, 1 the left one, until none is across.
 double ExitMoves::depth_towards(int side, const LocalSegment& segment, Range range) const noexcept {
   double depth = 0;
   for (std::uint32_t i = 0; i < discs_.count; ++i) {

@@ -14,19 +14,19 @@
 
 namespace bch::detail {
 
-/// A way out over a segment.
+/// A move out over a segment.
 struct ExitMove {
   double depth = 0;
   ObstaclePlace::Vector direction = {0, 0};  ///< in the world
 };
 
-/// Finds the ways out of the obstacles that a body touches, and of the areas that hold it.
+/// Finds the moves out of the obstacles that a body touches, and of the areas that hold it.
 class ExitMoves {
  public:
   ExitMoves(BodyQuery& query, const PlacedBody& body)
       : query_(query), body_(body), discs_(cut_discs(body.shapes, body.root_index())) {}
 
-  /// Returns the longest of the ways out of each obstacle.
+  /// Returns the longest of the moves out of each obstacle.
   ExitMove longest();
 
  private:
@@ -39,15 +39,15 @@ class ExitMoves {
   bool is_touched(const LocalSegment& segment) const noexcept;
   /// Returns whether no segment that is touched has a direction.
   bool is_post() const noexcept;
-  /// Returns the way away from a point: that of the disc that overlaps it the deepest.
+  /// Returns the move away from a point: that of the disc that overlaps it the deepest.
   ExitMove from_post(const LocalSegment& post) const;
-  /// Returns the shortest way out of an obstacle: over a segment that is touched, or one that has all of those behind it.
+  /// Returns the shortest move out of an obstacle: over a segment that is touched, or one that has all of those behind it.
   ExitMove shortest(std::span<const LocalSegment> segments);
   /// Returns whether all that is touched is behind a segment, seen from the side that is outside.
   bool has_all_behind(const LocalSegment& segment, int side) const;
-  /// Returns the stretch of a segment's line beside which the touched segments are.
+  /// Returns the stretch of a segment's line onto which the touched segments are.
   Range touched_range(const LocalSegment& segment) const;
-  /// Returns the longest of the ways out of areas, which ascend, each over the segment that is the nearest to the body's centre.
+  /// Returns the longest of the moves out of areas, which ascend, each over the segment that is the nearest to the body's centre.
   ExitMove longest_out_of(std::span<const std::uint32_t> areas);
   ExitMove over(const LocalSegment& segment, Range range) const;
   double depth_towards(int side, const LocalSegment& segment, Range range) const noexcept;

@@ -24,7 +24,7 @@ double distance_of_boxes(const ObstaclePlace& place, double distance) noexcept {
   return distance * (1 + 8 * relative_slack) + rounding_of(place);
 }
 
-/// Returns a box about a disc on its way.
+/// Returns a box about a disc during its displacement.
 Box box_about(const ObstaclePlace& place, Vector centre, double distance, Vector displacement) noexcept {
   const auto [x, y] = centre;
   const double wide =
@@ -46,9 +46,9 @@ void keep_odd(std::vector<std::uint32_t>& numbers) {
   numbers.resize(kept);
 }
 
-/// Returns whether the way from one point to another crosses a segment, all in one frame. A vertex on the line of the way belongs to one side of it, for both of
-/// its segments, so that the parity of a ring's crossings tells whether the way leaves what it encloses. Neither end of the way may
-/// be next to the segment. `square`: that of the way's length; infinite: a ray.
+/// Returns whether the segment from one point to another crosses a segment, all in one frame. A vertex on the line of that segment belongs to one side of it, for both of
+/// its segments, so that the parity of a ring's crossings tells whether the segment leaves what it encloses. Neither end of it may
+/// be next to the segment. `square`: that of its length; infinite: a ray.
 bool crosses(Vector from, Vector displacement, double square, Vector a, Vector b) noexcept {
   const double ax = a.x - from.x, ay = a.y - from.y, bx = b.x - from.x, by = b.y - from.y;
   const double side_a = displacement.x * ay - displacement.y * ax,

@@ -49,7 +49,7 @@ struct StandingBody {
   double ground = 0;
 };
 
-/// Represents a disc that is asked about, of an agent's frame.
+/// Represents the disc of a query, of an agent's frame.
 struct NearQuery {
   ObstaclePlace place;
   Vec2 centre;
@@ -73,7 +73,7 @@ class NearSegments {
   /// Finds all segments within a distance of a point of the agent's frame, in the order of their numbers, so that those of an obstacle
   /// follow each other.
   std::span<LocalSegment> find(const ObstaclePlace& place, Vec2 centre, double distance);
-  /// Finds at least those within a distance of a point that moves by `way` (in the world), in the same order.
+  /// Finds at least those within a distance of a point that moves by `displacement` (in the world), in the same order.
   std::span<LocalSegment> find_along(const ObstaclePlace& place, Vec2 centre, double distance,
                                      ObstaclePlace::Vector displacement);
   std::span<LocalSegment> found() const noexcept { return found_; }
@@ -143,7 +143,7 @@ class NearSegments {
   /// Sorts the segments that were found by their numbers.
   std::span<LocalSegment> sorted(std::span<LocalSegment> segments);
 
-  /// Represents a point in the world: the agent's position, and the way from there.
+  /// Represents a point in the world: the agent's position, and the vector from there.
   struct AgentPoint {
     double x, y, displacement_x, displacement_y;
     friend bool operator==(const AgentPoint&, const AgentPoint&) = default;
@@ -165,7 +165,7 @@ class NearSegments {
 };
 
 /// Tells whether an area holds points that are clear of its segments. The first one is compared with the whole area, and
-/// others by the way from there.
+/// others by the vector from there.
 class AreaSide {
  public:
   AreaSide(NearSegments& near, const ObstaclePlace& place, std::span<const LocalSegment> segments,

@@ -26,7 +26,7 @@ class ObstacleKernel {
   static bool touches(const ObstacleArguments& in) noexcept { return ObstacleKernel(in).meets_any(); }
 
   /// Finds the least gap between a disc of the cut and a segment, or between the outline and a segment where exact leaves decide. The
-  /// search ends at one of at most `enough`. The segment that is nearest to the root comes first: few others improve on it.
+  /// search ends at one of at most `stop_below`. The segment that is nearest to the root comes first: few others improve on it.
   ///
   /// Gaps of discs bound those of outlines: some leaf holds the nearest point of an outline, and its radius was
   /// enlarged by the same grid steps as the margin of exact leaves, and by query_margin, which is more than that margin

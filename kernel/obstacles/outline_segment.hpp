@@ -20,7 +20,7 @@ namespace bch::detail {
 ///
 /// Never larger than the distance D of the outlines: the outline's points are as far off as rounding.hpp, V, says of one shape, which
 /// m holds, and the rest rounds as LocalSegment says. What s rounds itself, 2^-51 of it, is in the second half of slack and, as s is at most
-/// as long as the way to the segment's ends and the reach, in m. Below D by no more than m, twice slack, and the rounding to float. With A and B
+/// as long as the distance to the segment's ends and the reach, in m. Below D by no more than m, twice slack, and the rounding to float. With A and B
 /// the distances of the segment's ends from the agent, |dx| + |dy| <= sqrt(2) A, and the length is at most A + B, so that
 ///
 ///     2 slack = 2^-48 (|dx| + |dy| + length)  <=  2^-48 ((1 + sqrt(2)) A + B)  <=  8.6e-15 (A + B)

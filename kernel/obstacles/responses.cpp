@@ -23,7 +23,7 @@ namespace {
 using Vector = ObstaclePlace::Vector;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Returns when a disc on its way touches a segment: the least t in [0, 1], or infinity. Every quotient is of lengths
+/// Returns when a disc during its displacement touches a segment: the least t in [0, 1], or infinity. Every quotient is of lengths
 /// that were not subtracted from each other where they are large.
 double touch_time(const LocalSegment& segment, const Disc& disc, Vector displacement) noexcept {
   const double x = disc.x, y = disc.y, r = double{disc.radius} + segment.slack;
@@ -78,7 +78,7 @@ void find_time(const PlacedBody& body, const LocalSegment& segment, Vector displ
   if (best > 0) own.walk(visit, [](const OpenBlock& block) { return block.first(); });
 }
 
-/// Returns when a body on its way touches an obstacle, or infinity.
+/// Returns when a body during its displacement touches an obstacle, or infinity.
 double impact(BodyQuery& query, const PlacedBody& body, Vector world_displacement) {
   const Vec2 centre = body.centre();
   query.near_body(body);

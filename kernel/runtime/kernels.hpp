@@ -52,7 +52,7 @@ struct Kernels {
   /// .. counts[end].
   void (*count_contacts)(const Arguments& arguments, std::size_t begin, std::size_t end,
                          std::uint64_t* counts) noexcept;
-  /// Writes the contacts of pairs from `begin` on behind those that end at offsets[begin], as far as `room` contacts
+  /// Writes the contacts of pairs from `begin` on behind those that end at offsets[begin], as far as `capacity` contacts
   /// are enough, and where those of each pair end. Returns one past the last pair that was answered.
   std::size_t (*append_contacts)(const Arguments& arguments, std::size_t begin, std::size_t end,
                                  std::uint64_t* offsets, DiscPair* contacts, std::uint64_t capacity) noexcept;
@@ -75,7 +75,7 @@ struct Kernels {
                                      std::uint32_t count, BoxHit* out) noexcept;
   /// Returns whether an agent touches the segments of an obstacle; see ObstacleKernel.
   bool (*touches)(const ObstacleArguments& arguments) noexcept;
-  /// Finds the least gap between a disc of an agent and one of the segments, until it is at most `enough`.
+  /// Finds the least gap between a disc of an agent and one of the segments, until it is at most `stop_below`.
   void (*find_gap)(const ObstacleArguments& arguments, double stop_below, ObstacleGap& best) noexcept;
 };
 

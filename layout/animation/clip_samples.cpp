@@ -16,7 +16,7 @@ namespace {
 
 constexpr double wanted_deviation = 0.0004;  ///< metres
 constexpr double longest_window = 0.0084;    ///< seconds
-/// What positions in float are off by, as a share of their size: of skinning (some ten operations deep), and of discs between keys.
+/// What positions in float are off by, relative to their size: of skinning (some ten operations deep), and of discs between keys.
 constexpr double relative_rounding = 4e-6;
 
 }  // namespace

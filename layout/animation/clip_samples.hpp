@@ -47,7 +47,7 @@ class ClipSamples {
   double reach() const noexcept { return reach_; }
   /// Returns the heights of the triangles from the beginning of the first samples that were taken to the end of the last ones, rounded outward.
   const Heights& heights() const noexcept { return heights_; }
-  /// Returns the share of the time between two other samples that has gone by at one.
+  /// Returns the fraction of the time between two other samples that has gone by at one.
   double fraction(std::size_t i, std::size_t first, std::size_t last) const noexcept;
   /// Returns the radius of a sphere that holds its corners about a centre from the sample before to the one after.
   double radius(std::size_t i, std::size_t sphere, const SpacePoint& centre) const noexcept;

@@ -18,7 +18,7 @@ struct FileBytes {
   std::shared_ptr<const void> memory;
 };
 
-/// Looks at the first bytes of a file, and at its size, before the rest is read or mapped. It throws to refuse the file.
+/// Examines the first bytes of a file, and its size, before the rest is read or mapped. It throws to refuse the file.
 struct HeaderCheck {
   std::size_t bytes;  ///< as many as the file has, if it has fewer
   std::function<void(std::span<const std::byte> first, std::uint64_t size)> accept;
@@ -26,7 +26,7 @@ struct HeaderCheck {
 
 /// Both are for regular files.
 /// Errors:  throw std::runtime_error naming the file and the reason; read_file() also on one that ends sooner than its
-///          size promised; std::bad_alloc, read_file() also where the file is larger than all memory; what `look` throws.
+///          size promised; std::bad_alloc, read_file() also where the file is larger than all memory; what `check` throws.
 
 FileBytes read_file(const std::filesystem::path& file, const HeaderCheck& check = {});
 

@@ -21,7 +21,7 @@
 ///
 /// Names in parentheses are those of the constants below, in namespace terms, in units of u. Every sum of this text is a
 /// static_assert over them, so that a margin below what the text asks for does not compile. The other derivations of the
-/// project stand beside their margins and end in static_asserts of the same kind.
+/// project stand next to their margins and end in static_asserts of the same kind.
 ///
 /// The query (every kernel and the reference, same operations, same order; no contraction):
 ///
@@ -65,7 +65,7 @@
 ///     13.7 u |b| + 5.6 u |a| + 9.1 u (r_A + r_B)  <=  16.5 u P_B + 10.7 u P_A  <=  16.5 u S                  (1')
 ///
 /// by Cauchy: (contact_error). No miss: where two outlines meet, a cut disc of either has the common point, and so has every
-/// node above it, up to the root. So every pair of a node of one way up and a node of the other has tight discs with D <= r_A +
+/// node above it, up to the root. So every pair of a node of one path up and a node of the other has tight discs with D <= r_A +
 /// r_B, exactly. Published radii add (contact_error) P each, so the float test accepts all these pairs, and they are what a hit
 /// is: see <bch/query.hpp>. A traversal may leave out what is below a pair that the float test does not accept, because no pair
 /// below is a hit by that definition; nothing has to be proved of that. More sources belong to the shape and are added
@@ -85,7 +85,7 @@
 /// (1 + 2^(k - 23)) 2^E: 8.6 u P after any number of halvings.
 ///
 /// What the margin costs: where the float test accepts, D is at most the tight radii and what was added,
-/// (25.5 + 2) u S with the rounding up, and 23 u S by (1), beside the grid, whose step is at most 2^-22 P:
+/// (25.5 + 2) u S with the rounding up, and 23 u S by (1), plus the grid, whose step is at most 2^-22 P:
 ///
 ///     (price)    a false positive has a gap of at most 50.5 u S + 1.5 * 2^-22 S = 3.4e-6 S
 ///
@@ -127,7 +127,7 @@
 ///
 ///     sure_share * segment_margin > segment_place
 ///
-/// The price, in the same way as above: segments that meet are at most the margin and (segment_place) apart,
+/// The price, by the same steps as above: segments that meet are at most the margin and (segment_place) apart,
 ///
 ///     (segment_price)    (13 + 8.9) u S + 1.5 * 2^-22 S = 1.7e-6 S
 ///
@@ -136,17 +136,17 @@
 /// (position) that is flushed loses 1.2e-38, where u P is 6e-14 m or more. (overflow) |d| <= 2e9 sqrt(2) m (limits below),
 /// squared 8e18.
 ///
-/// VII. Heights. Planes cut outlines between heights. A corner in a plane is lower + (upper - lower) share, where share
-/// = (h - z) / (z' - z), all in double: the two differences and the quotient leave 3 * 2^-53 of a share that is at most 1, however
+/// VII. Heights. Planes cut outlines between heights. A corner in a plane is lower + (upper - lower) t, where t
+/// = (h - z) / (z' - z), all in double: the two differences and the quotient leave 3 * 2^-53 of a t that is at most 1, however
 /// level the edge is, and the rest 3 roundings of lengths up to 2 P. That is below 2^-49 P, and so below 2^-25 of a grid step, which is at
 /// least 2^-24 P of the whole mesh. The corner is rounded to the grid as a vertex is; the sum stays below 1.5 grid steps (grid).
-/// Heights of agents at different grounds are compared in double with a slack of 1e-9 m and 2^-50 of the difference, beside which the
+/// Heights of agents at different grounds are compared in double with a slack of 1e-9 m and 2^-50 of the difference, compared with which the
 /// rounding of two sums of lengths up to 1e6 m is nothing.
 ///
-/// VIII. Nodes that hold the discs below them, as those of bodies made of discs do, overlap wherever the discs do, if there is room to
-/// spare, (held_room). The float test accepts discs with D <= r_A + r_B + (query_error) S. With R >= |C - c| + r + room, a node of A and a
+/// VIII. Nodes that hold the discs below them, as those of bodies made of discs do, overlap wherever the discs do, if there is a margin to
+/// spare, (held_margin). The float test accepts discs with D <= r_A + r_B + (query_error) S. With R >= |C - c| + r + margin, a node of A and a
 /// disc of B are at most R_A + r_B - room_A + (query_error) S apart, and the test accepts what is at most R_A + r_B - (query_error) S apart. So
-/// the room of either shape has to be 2 (query_error) S; that of two nodes adds up. Rooms are shares of their own shape's reach: they are
+/// the margin of either shape has to be 2 (query_error) S; that of two nodes adds up. Margins are fractions of their own shape's reach: they are
 /// enough where S is at most (held_reaches) times the lesser reach.
 namespace bch::detail::rounding {
 
@@ -216,16 +216,16 @@ constexpr double support_margin = 320 * unit_roundoff;
 static_assert(support_margin >=
               (terms::support_error + terms::query_error + terms::support_float) * unit_roundoff);
 
-/// The distance within which two segments meet: this times the sum of the shapes' reaches, beside the grid steps
+/// The distance within which two segments meet: this times the sum of the shapes' reaches, plus the grid steps
 /// of both.
 constexpr double segment_margin = 13 * unit_roundoff;
 static_assert(segment_margin >= (terms::segment_place + terms::higher) * unit_roundoff);
-/// The share of the margin by which all ends have to be beyond the other's line, so that a crossing is sure.
+/// The fraction of the margin by which all ends have to be beyond the other's line, so that a crossing is sure.
 constexpr double sure_share = 0.7;
 static_assert(terms::root_2 * sure_share < 1);
 static_assert(sure_share * segment_margin >= (terms::segment_place + terms::higher) * unit_roundoff);
 
-/// The room of nodes about the discs that they hold, times the shape's reach, is enough for pairs whose reaches together are at most
+/// The margin of nodes about the discs that they hold, times the shape's reach, is enough for pairs whose reaches together are at most
 /// this times the lesser one: twice (query_error) of both, and what checking it rounds.
 constexpr double held_reaches = 3;
 constexpr double held_margin = 47 * held_reaches * unit_roundoff;

@@ -88,7 +88,7 @@ void set_translation(Affine3d& map, const Eigen::Vector3d& translation) {
 }
 
 /// Returns the sum of weights.
-/// Errors:  throws std::invalid_argument on one that is no share, or where nothing has a share.
+/// Errors:  throws std::invalid_argument on a negative or non-finite weight, or where all weights are 0.
 double total_weight(std::span<const WeightedPose> poses) {
   double total = 0;
   for (std::size_t i = 0; i < poses.size(); ++i) {

@@ -13,7 +13,7 @@ namespace {
 using Simd = BaseLanes;
 using Double = Simd::Double;
 
-/// A way with a cosine of at least that needs so many terms: the first one left out is below 1e-9.
+/// An arc with a cosine of at least that needs so many terms: the first one left out is below 1e-9.
 constexpr double nearest_to_series = 0.9;
 constexpr int terms = 7;
 

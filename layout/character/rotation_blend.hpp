@@ -7,7 +7,7 @@
 
 namespace bch::detail {
 
-/// Returns the rotation at a share t, from 0 to 1, of the shorter way from a to b, which is passed at constant speed. It
+/// Returns the rotation at a parameter t, from 0 to 1, of the shorter arc from a to b, which is passed at constant speed. It
 /// is computed by multiplications and square roots alone, so it has the same bits everywhere, unlike the trigonometry of
 /// a maths library.
 /// Returns: a unit quaternion, to 1e-9.

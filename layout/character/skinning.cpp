@@ -95,7 +95,7 @@ void Skinner::place_joints() {
   }
 }
 
-/// The root's way is taken out in double and before the vertices are touched: a pose metres away from the
+/// The root's translation is taken out in double and before the vertices are touched: a pose metres away from the
 /// file's origin would otherwise lose bits that the same pose at the origin keeps.
 void Skinner::place_bones() {
   double origin[2] = {};

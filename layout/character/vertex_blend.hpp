@@ -18,7 +18,7 @@
 
 namespace bch::detail {
 
-/// Holds the share of a bone in the place of a point, and where the point is in that bone's frame.
+/// Holds the weight of a bone in the position of a point, and where the point is in that bone's frame.
 struct PointInfluence {
   std::uint32_t bone;
   float weight;

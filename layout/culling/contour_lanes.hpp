@@ -48,7 +48,7 @@ class ContourLanes {
 
   // These functions describe segment i.
 
-  /// Returns the point where the segment's line comes nearest to the centre, as a share of the way to its end.
+  /// Returns the point where the segment's line comes nearest to the centre, as the parameter t from its beginning to its end.
   double foot(std::size_t i) const noexcept { return foot_[i]; }
   double square_distance(std::size_t i) const noexcept { return square_distance_[i]; }
   bool turns_left(std::size_t i) const noexcept { return turn_[i] >= 0; }
@@ -68,8 +68,8 @@ class ContourLanes {
   static Batch load(const Array& of, std::size_t i) noexcept { return Simd::load(&of[i]); }
   static void store(Array& to, std::size_t i, const Batch& value) noexcept { Simd::store(&to[i], value); }
 
-  /// Finds the sectors that a stretch of the contour passes through. A sector takes an equal share of |y| / (|x| +
-  /// |y|). From the line at one end, which is at most `quadrant` long in those terms, a point is that share times (|x|
+  /// Finds the sectors that a stretch of the contour passes through. A sector takes an equal fraction of |y| / (|x| +
+  /// |y|). From the line at one end, which is at most `quadrant` long in those terms, a point is that fraction times (|x|
   /// + |y|) over its length away.
   void find_sectors(std::size_t i) noexcept {
     constexpr double quadrant = 0.25 * profile_sectors;

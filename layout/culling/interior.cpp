@@ -27,7 +27,7 @@ constexpr double longer_side = DiscCoverage::cells - 2 * static_cast<double>(dil
 /// meet then. (Their centres are floats, and exact.)
 static_assert(rounding::query_margin >= rounding::terms::query_error * rounding::unit_roundoff);
 
-/// A candidate with less than this share of its estimated radius is not sound.
+/// A candidate with less than this fraction of its estimated radius is not sound.
 constexpr double least_fraction = 0.5;
 
 /// Opposite directions have the same line, so half of them suffice.
@@ -118,7 +118,7 @@ bool InteriorBuilder::is_sound(const CandidateDiscs& discs, std::uint32_t k, dou
          depths_.distance[k] > least_fraction * static_cast<double>(discs.radius[k]) * unit;
 }
 
-/// Candidates that are not sound give way to points of a grid, and all get the radii that they really have:
+/// Candidates that are not sound are replaced by points of a grid, and all get the radii that they really have:
 /// a contour with whiskers, or with corners closer than the samples, is worth it. Returns how many there are.
 std::uint32_t InteriorBuilder::offer_measured() {
   constexpr std::uint32_t row = 8;

@@ -84,7 +84,7 @@ class InteriorBuilder {
   Touches nearest_;                     ///< of the chosen ones
   DiscCoverage coverage_;
   CandidateDiscs stored_;  ///< the chosen centres in metres, as floats
-  ContourDepths depths_;   ///< of the last discs looked at
+  ContourDepths depths_;   ///< of the last discs examined
 };
 
 /// Chooses the inscribed discs of one shape.

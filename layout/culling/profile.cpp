@@ -98,7 +98,7 @@ struct Clip {
 /// A segment, seen from the origin.
 struct Segment {
   PlanePoint a, b;
-  double foot;  ///< where its line comes nearest: share of the way from a to b
+  double foot;  ///< where its line comes nearest: the parameter t from a to b
 
   /// Square of the distance of what lies between two boundaries, each moved out by `wider`.
   double square_distance_in(PlanePoint right, PlanePoint left, double wider) const {

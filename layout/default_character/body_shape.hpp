@@ -27,7 +27,7 @@ struct LimbSection {
   double along;  ///< arm: metres from the shoulder; leg: height as a fraction of the stature
   double front, back, outer, inner;
   BodyJoint joint;
-  BodyJoint next;  ///< the joint whose share is `mix`
+  BodyJoint next;  ///< the joint whose weight is `mix`
   double mix = 0;
   double forward = 0;  ///< offset of the middle along +x
 };
@@ -36,7 +36,7 @@ struct LimbSection {
 struct FootSection {
   double top_x, top_z, sole_x, sole_z;
   double outer, inner;
-  double toes;  ///< share of the toe joint
+  double toes;  ///< weight of the toe joint
 };
 
 /// Represents a bulge of the skin: vertices near `centre` move along `by`, falling off as a Gaussian.

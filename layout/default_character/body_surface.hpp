@@ -41,7 +41,7 @@ struct BodySurface {
   /// Fills a loop by quads from side to side; corner 0 and the last corner are neighbours on one side.
   void cap(const Loop& loop);
 
-  /// Returns a copy of `base` moved by `way`, flattened across it and scaled about its middle, joined to `base` by
+  /// Returns a copy of `base` moved by `offset`, flattened across it and scaled about its middle, joined to `base` by
   /// quads.
   Loop extrude(const Loop& base, const Eigen::Vector3d& offset, double scale, const SkinTag& tag);
 };

@@ -52,7 +52,7 @@ double lowest_height(const std::vector<Vector3d>& points) {
   return low;
 }
 
-/// How far the pelvis goes while the points that carry stay where they are. The carrying share of a point
+/// How far the pelvis goes while the points that carry stay where they are. The carrying weight of a point
 /// falls off within millimetres of height, so that the load passes smoothly from foot to foot.
 Vector3d ground_displacement(const std::vector<Vector3d>& before, const std::vector<Vector3d>& after) {
   const double softness = 0.006;

@@ -11,7 +11,7 @@ namespace bch::detail {
 
 constexpr double degree = std::numbers::pi / 180;
 
-/// Says how a person moves, beside the lengths of the bones. Angles in radians, lengths in metres.
+/// Says how a person moves, in addition to the lengths of the bones. Angles in radians, lengths in metres.
 struct Manner {
   JointPositions joints;
   double stature;
@@ -35,7 +35,8 @@ Motion walking(const Manner& manner, const Gait& gait);
 struct Stride {
   double speed;  ///< metres a second
   double strides_per_second;
-  double shoulders = 0;  ///< how far they are turned against the way, radians, counter-clockwise
+  double shoulders =
+      0;  ///< how far they are turned against the direction of walking, radians, counter-clockwise
 };
 Motion striding(const Manner& manner, const Stride& stride);
 

@@ -18,7 +18,7 @@ constexpr double ball = 0.13;  ///< metres from the ankle to the ball of the foo
 constexpr double heel = 0.05;  ///< and to the heel, about which the toes rise
 constexpr double natural_step = 0.415;  ///< of the stature
 
-/// A foot at a share of its stride, from its heel's contact on.
+/// A foot at a fraction of its stride, from its heel's contact on.
 struct Foot {
   double x;      ///< ahead of the pelvis, metres
   double lift;   ///< metres
@@ -29,7 +29,7 @@ struct Foot {
 struct Measures {
   double stride;  ///< metres
   double vigour;  ///< the step over a natural one, 1 at most
-  double stance;  ///< share of the stride that a foot is on the ground
+  double stance;  ///< fraction of the stride that a foot is on the ground
 
   Measures(const Manner& manner, const Stride& of)
       : stride(of.speed / of.strides_per_second),

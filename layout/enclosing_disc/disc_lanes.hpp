@@ -134,7 +134,7 @@ class DiscLanes {
     }
 
     /// Solves sets of more than four points, by pivoting. Farthest points are those from the centre as a float, so
-    /// that the last look at them gives the radius too. Which of two is the farthest may then be decided by rounding;
+    /// that the last pass over them gives the radius, too. Which of two is the farthest may then be decided by rounding;
     /// whether one is outside is asked of the exact disc.
     void solve_large() const {
       const Point a = farthest(start()).point, b = farthest(a).point;

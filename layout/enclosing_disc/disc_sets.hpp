@@ -21,7 +21,7 @@ struct SolvedDisc {
   double square_radius;
 };
 
-/// The share of a square radius beyond which a point counts as outside. If it were closer to 1 than the
+/// The fraction of a square radius beyond which a point counts as outside. If it were closer to 1 than the
 /// rounding of a circumcentre, pivoting would never end.
 constexpr double disc_slack = 1 + 1e-13;
 /// The most pivots of a disc. Each enlarges it, and ten suffice in practice. The last scan makes the answer

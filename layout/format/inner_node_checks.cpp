@@ -10,7 +10,7 @@
 #include "layout/format/cut_discs.hpp"
 #include "layout/format/shape_checks.hpp"
 
-// Inner nodes: that their links make a tree, so that every way up ends at the root; and that their discs are no larger than
+// Inner nodes: that their links make a tree, so that every path up ends at the root; and that their discs are no larger than
 // what lies below them needs, which bounds the time of a pair.
 
 namespace bch::detail::shape_checks {

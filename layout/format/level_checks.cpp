@@ -121,7 +121,7 @@ void blocks(const ShapeArrays& a, LevelNodes& level) {
     }
     if (block + block_floats > a.nodes.size()) reject("nodes", block, "the block ends beyond the array");
     const float* x = a.nodes.data() + block;
-    // first_disc() follows the first disc's name before padding is looked at.
+    // first_disc() follows the first disc's name before padding is examined.
     if (x[0] == infinity) reject("nodes", block, "begins with padding");
     next = require_children(x, block, next, windows);
   }

@@ -11,7 +11,7 @@ namespace bch::detail {
 
 /// The number of discs of a block.
 constexpr std::uint32_t block_width = 8;
-/// The longest way, in blocks, from a root block to a leaf. Kernels size their stacks by it.
+/// The longest path, in blocks, from a root block to a leaf. Kernels size their stacks by it.
 constexpr std::uint32_t max_wide_levels = 10;
 
 /// Directions of supports, and the floats that a set's supports take; see supports.hpp.

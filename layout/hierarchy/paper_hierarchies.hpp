@@ -11,7 +11,7 @@
 
 namespace bch::detail {
 
-// The hierarchies of the paper beside contour_hierarchy(), which the laboratory and tests compare.
+// The hierarchies of the paper other than contour_hierarchy(), which the laboratory and tests compare.
 
 /// Selects the position of the plane that divides a node's segments. The plane's normal is the axis of the larger extent.
 enum class SplitRule {
@@ -35,7 +35,7 @@ Hierarchy projected_hierarchy(std::span<const Vec2> vertices,
 /// Errors:  throws std::invalid_argument unless the radius is from 1e-6 to 1e6 m.
 Hierarchy fixed_cylinder(float radius);
 
-/// Returns the height of the tree: the number of edges on the longest way from the root to a leaf.
+/// Returns the height of the tree: the number of edges on the longest path from the root to a leaf.
 std::uint32_t height(const Hierarchy& hierarchy);
 
 }  // namespace bch::detail

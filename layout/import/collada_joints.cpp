@@ -12,7 +12,7 @@ namespace {
 
 using NodesByName = std::multimap<std::string_view, const XmlElement*>;
 
-/// The joints of skins. assimp looks for a joint among the names and ids of all nodes, then among their sids.
+/// The joints of skins. assimp searches for a joint among the names and ids of all nodes, then among their sids.
 class JointRewriter {
  public:
   explicit JointRewriter(ColladaText& collada) : collada_(collada) {

@@ -44,7 +44,7 @@ struct FbxScene {
   FbxModel read_model(FbxId id) const;
 };
 
-/// Tells whether two transforms are the same except for rounding: linear parts to a share, translations to a share of themselves or of one.
+/// Tells whether two transforms are the same except for rounding: linear parts to a relative tolerance, translations to a fraction of themselves or of one.
 bool agree(const Eigen::Affine3d& a, const Eigen::Affine3d& b, double fraction);
 
 void correct_fbx_meshes(FbxScene& file, aiScene& scene);

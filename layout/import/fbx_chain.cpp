@@ -22,7 +22,7 @@ constexpr const char* names[fbx_parts] = {"Lcl Translation",      "Lcl Rotation"
 
 constexpr std::int64_t child_first = 0, usual = 1, no_parent_scale = 2;  // kinds of inheritance
 
-constexpr double same = 1e-5;  // of shares
+constexpr double same = 1e-5;  // relative
 
 bool is_uniform(const Vector3d& scale) {
   return (scale.array() - scale.x()).abs().maxCoeff() <= same * std::abs(scale.x());

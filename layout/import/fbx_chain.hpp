@@ -55,7 +55,7 @@ struct FbxMotion {
 };
 using FbxMotions = std::unordered_map<const FbxModel*, std::array<std::optional<FbxMotion>, fbx_parts>>;
 
-/// Names a moment of a clip, or the one just before it, which differs where a value jumps.
+/// Names a time of a clip, or the one just before it, which differs where a value jumps.
 struct FbxTime {
   const FbxMotions* motions = nullptr;  ///< none: at rest
   double seconds = 0;

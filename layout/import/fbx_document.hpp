@@ -27,7 +27,7 @@ struct FbxCurve {
     double value;
     std::uint32_t flags;         ///< how the value goes on to the next key
     double slope, next_slope;    ///< behind this key and before the next, per second, where the flags say so
-    double weight, next_weight;  ///< the share of the time up to the next key that a tangent reaches
+    double weight, next_weight;  ///< the fraction of the time up to the next key that a tangent reaches
   };
   std::vector<Key> keys;
 

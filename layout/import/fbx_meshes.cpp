@@ -148,7 +148,7 @@ class MeshCorrector {
       if (!listed.insert(mesh.mBones[b]).second) mesh.mBones[b] = nullptr;
   }
 
-  /// Weights are shares of their sum, such as percents.
+  /// Weights are fractions of their sum, such as percents.
   static void normalise(aiMesh& mesh) {
     std::vector<double> sums(mesh.mNumVertices);
     bool beyond = false;

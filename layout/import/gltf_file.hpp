@@ -29,7 +29,7 @@ constexpr std::size_t max_values = std::size_t{1} << 28;
 /// Returns whether a file is glTF, judged by its beginning or its extension.
 bool is_gltf(const std::filesystem::path& file);
 
-/// Holds the bytes of an element's first component and the way to the next element.
+/// Holds the bytes of an element's first component and the stride to the next element.
 struct Elements {
   const char* bytes = nullptr;
   std::size_t stride = 0;

@@ -46,7 +46,7 @@ int sign_of_sum(const std::array<double, 6>& terms) {
   return 0;
 }
 
-/// Returns 1 where the way a, b, c turns left, -1 where it turns right, 0 on a line; exactly.
+/// Returns 1 where the path a, b, c turns left, -1 where it turns right, 0 on a line; exactly.
 int turn(const Point& a, const Point& b, const Point& c) {
   return sign_of_sum({a.x * b.y, -(a.y * b.x), b.x * c.y, -(b.y * c.x), c.x * a.y, -(c.y * a.x)});
 }
@@ -143,7 +143,7 @@ class EarClipper {
     return fault;
   }
 
-  /// Returns whether the way from a to b, or a part of it, goes back along that from s to t. Then there may be no inside beside it.
+  /// Returns whether the segment from a to b, or a part of it, goes back along that from s to t. Then there may be no inside next to it.
   static bool runs_back(const Point& s, const Point& t, const Point& a, const Point& b) {
     if (turn(s, t, a) != 0 || turn(s, t, b) != 0) return false;
     const auto meets = [&](double Point::*axis) {

@@ -12,7 +12,7 @@
 namespace bch::detail::importing {
 namespace {
 
-/// Float cannot tell a sum from one without such a share.
+/// Float cannot tell a sum from one without such a weight.
 constexpr double smallest_weight = 1e-7;
 constexpr double sum_tolerance = 1e-3;
 /// What rounding may add to a weight of 1.

@@ -9,7 +9,7 @@
 namespace bch::detail {
 namespace {
 
-/// The way round which a triangle goes, seen from above; 0: it is seen edge-on, or nearly.
+/// The orientation of a triangle seen from above; 0: it is seen edge-on, or nearly.
 constexpr std::uint8_t counter_clockwise = 1, clockwise = 2;
 
 /// Writes the numbers of the edges that do not have a triangle on either side. Without a branch: one that is

@@ -18,7 +18,7 @@ using Float = Simd::Float;
 
 /// Vertices whose squares fill a register.
 constexpr std::size_t block = Simd::width;
-/// A square, in float of coordinates that float holds, is off by less than this share of it.
+/// A square, in float of coordinates that float holds, is off by less than this fraction of it.
 constexpr double slack = 0x1p-20;
 static_assert(slack >= (2 + 1 + 1) * 0x1p-24, "the differences, their squares, the sum");
 /// Looks for a farthest vertex end when it is no farther than that square over the disc's, which leaves a tenth of its

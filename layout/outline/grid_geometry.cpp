@@ -12,7 +12,7 @@ int compare_coordinate(std::int64_t from, std::int64_t direction, const Fraction
 }
 
 /// floor(from + direction * at + 1/2). In double the sum is off by less than 2^-27, which matters only where it
-/// is about half way between two steps.
+/// is about half-way between two steps.
 std::int32_t rounded_coordinate(std::int32_t from, std::int64_t direction, const Fraction& at) {
   const double place = static_cast<double>(from) + static_cast<double>(direction) * at.value + 0.5;
   auto floor = static_cast<std::int64_t>(place);

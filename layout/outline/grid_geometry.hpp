@@ -45,7 +45,7 @@ inline bool same_direction(GridVector a, GridVector b) {
   return cross(a, b) == 0 && dot(a, b) > 0;
 }
 
-/// Holds part of the way along a segment: numerator / denominator in 0 to 1, denominator > 0.
+/// Holds part of the distance along a segment: numerator / denominator in 0 to 1, denominator > 0.
 struct Fraction {
   std::int64_t numerator = 0, denominator = 1;
   double value = 0;  ///< the quotient, correctly rounded

@@ -45,7 +45,7 @@ class OutlineLanes {
     }
   }
 
-  /// Finds the candidates whose boxes meet that of the way, and tests them.
+  /// Finds the candidates whose boxes meet that of the searched line, and tests them.
   /// Returns: how many are near.
   static std::size_t find_near(const SegmentSearch& job, const SearchedLine& searched) noexcept {
     const std::size_t count = find_meeting(job, searched);
@@ -53,10 +53,10 @@ class OutlineLanes {
     return count;
   }
 
-  /// Says of each of `count` candidates that stand in job.near whether its line crosses the way's from left to right further on than way.at (or equally far, as far as doubles tell) and before its end,
-  /// and whether it touches its end. With O the start of the way, D its direction and (a, b) the candidate:
+  /// Says of each of `count` candidates that stand in job.near whether its line crosses the searched line from left to right further on than searched.at (or equally far, as far as doubles tell) and before its end,
+  /// and whether it touches its end. With O the start of the searched line, D its direction and (a, b) the candidate:
   /// side_a = D x (a - O), side_b = D x (b - O); their difference is the denominator, `along` the numerator
-  /// and `at` the quotient of where on the way it is crossed. Numbers that fill a register follow those in job.near.
+  /// and `at` the quotient of where on it the candidate is crossed. Numbers that fill a register follow those in job.near.
   static void test_near(const SegmentSearch& job, const SearchedLine& searched, std::size_t count) noexcept {
     const Line line(searched);
     for (std::size_t word = 0, i = 0; i < count; ++word) {
@@ -85,7 +85,7 @@ class OutlineLanes {
     std::uint64_t crossing, ending;
   };
 
-  /// Holds the box of the way in every lane.
+  /// Holds the box of the searched line in every lane.
   struct Box {
     Cells min_x, min_y, max_x, max_y;
 
@@ -105,7 +105,7 @@ class OutlineLanes {
     }
   };
 
-  /// Writes the segments whose boxes meet that of the way, and zeros to fill a register: one candidate more, or
+  /// Writes the segments whose boxes meet that of the searched line, and zeros to fill a register: one candidate more, or
   /// one twice, does no harm.
   /// Returns: how many.
   static std::size_t find_meeting(const SegmentSearch& job, const SearchedLine& searched) noexcept {
@@ -142,7 +142,7 @@ class OutlineLanes {
     return end + count;
   }
 
-  /// Holds the way in every lane.
+  /// Holds the searched line in every lane.
   struct Line {
     Doubles from_x, from_y, to_x, to_y, direction_x, direction_y, at;
 

@@ -27,7 +27,7 @@ class SegmentTree {
   /// near each other.
   void assign(std::span<const Segment> segments);
 
-  /// Writes the numbers of segments that may come within a step of the way between two places, all that do, in
+  /// Writes the numbers of segments that may come within a step of the line between two places, all that do, in
   /// ascending order. `near` has room for all segments.
   /// Returns: how many were written.
   std::size_t find(GridPlace from, GridPlace to, std::uint32_t* near) const;

@@ -15,7 +15,7 @@ namespace bch::detail {
 /// Holds what a mesh's connectivity says about outlines in every pose. Vertices are numbered anew, in the order of
 /// their old numbers and without those that no triangle uses.
 struct OutlineTopology {
-  /// Represents an edge of two triangles that use it in opposite directions, and in an array beside it these triangles: a pose
+  /// Represents an edge of two triangles that use it in opposite directions, and in a parallel array these triangles: a pose
   /// reads all of the latter and few of the former.
   struct ManifoldEdge {
     std::uint32_t a, b;

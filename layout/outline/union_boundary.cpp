@@ -19,7 +19,7 @@ struct GridEdge {
   GridVector direction() const { return b - a; }
 };
 
-/// A part of an edge, by shares of it.
+/// A part of an edge, by fractions of it.
 struct Part {
   Fraction begin, end;
 
@@ -37,7 +37,7 @@ struct Tile {
 };
 
 /// Keeps of a part of an edge what a triangle's edge has to its left, where the edge of the part, moved to its right by less than
-/// anything, is looked at.
+/// anything, is examined.
 void keep_left_of(const GridEdge& side, const GridEdge& edge, Part& part) {
   const GridVector direction = side.direction();
   const std::int64_t at_begin = cross(direction, edge.a - side.a), at_end = cross(direction, edge.b - side.a);

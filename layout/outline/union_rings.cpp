@@ -17,8 +17,8 @@ bool begins_before(const BoundaryPiece& a, const BoundaryPiece& b) {
 }
 
 /// Joins pieces. As many end at a point as begin there, so that a path goes on until it is back where it began; where it comes to a
-/// point again, what lies between is a ring. Of several ways it takes the first one counter-clockwise from where it comes, which
-/// keeps to one region beside the union.
+/// point again, what lies between is a ring. Of several edges it takes the first one counter-clockwise from where it comes, which
+/// keeps to one region next to the union.
 class RingPath {
  public:
   explicit RingPath(std::vector<BoundaryPiece> pieces)

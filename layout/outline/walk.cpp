@@ -19,7 +19,7 @@ constexpr std::size_t max_stretches_per_segment = 256;
 /// From so many candidates on, more than poses of characters have, they are found through the tree.
 constexpr std::size_t many_candidates = 16384;
 
-/// A way is searched in pieces. The first one is of at least so many steps, and so many times as long as the
+/// A line is searched in pieces. The first one is of at least so many steps, and so many times as long as the
 /// last stretch; each further one is so many times as long as the one before.
 constexpr double shortest_piece = 64, more_than_last = 1.125, piece_growth = 4;
 
@@ -85,7 +85,7 @@ void OutlineWalk::walk(GridPoint start, std::vector<Stretch>& contour) {
                          std::to_string(start.y) + ") on the grid does not return");
 }
 
-/// Looks at the candidates near the way from a place to the end of its line.
+/// Examines the candidates near the line from a place to the end of its line.
 void OutlineWalk::find_near(const Place& here, GridPoint rounded_here) {
   const GridPoint from = rounded_here, to = here.to;
   near_count_ =
@@ -94,7 +94,7 @@ void OutlineWalk::find_near(const Place& here, GridPoint rounded_here) {
                                   cell(std::max(from.x + 1, to.x)), cell(std::max(from.y + 1, to.y))});
 }
 
-/// Finds the candidates near the part of the line between two shares of it, through the tree.
+/// Finds the candidates near the part of the line between two fractions of it, through the tree.
 void OutlineWalk::find_near_piece(const Place& here, double begin, double end) {
   near_count_ = tree_.find(place_on(here, begin), place_on(here, end), near_.data());
   std::fill_n(near_.begin() + static_cast<std::ptrdiff_t>(near_count_), boxes_per_block, 0u);
@@ -128,8 +128,8 @@ void OutlineWalk::for_each(const std::vector<std::uint64_t>& bits, Each each) co
       each(64 * word + static_cast<std::size_t>(std::countr_zero(open)));
 }
 
-/// Fills `next` with the first way to the right after `here` and before the end of its line, if there is one within that
-/// share of the line.
+/// Fills `next` with the first branch to the right after `here` and before the end of its line, if there is one within that
+/// fraction of the line.
 bool OutlineWalk::take_first_crossing(const Place& here, double limit, Stretch& next) {
   constexpr std::size_t none = ~std::size_t{0};
   std::size_t first = none;
@@ -164,7 +164,7 @@ bool OutlineWalk::take_first_crossing(const Place& here, double limit, Stretch& 
   return true;
 }
 
-/// Fills `next` with the first way counter-clockwise from where `here` comes from, of all that candidates offer
+/// Fills `next` with the first branch counter-clockwise from where `here` comes from, of all that candidates offer
 /// from the end of its line: to the right of the line, straight on, to its left, and last back.
 void OutlineWalk::take_first_direction(const Place& here, Stretch& next) {
   const GridPoint at = here.to;

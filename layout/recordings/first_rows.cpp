@@ -84,7 +84,7 @@ double FirstRows::extent() const {
   return std::hypot(high.x - low.x, high.y - low.y);
 }
 
-/// The median of the ways from row to row of a person; nothing where nobody has two rows.
+/// The median of the distances from row to row of a person; nothing where nobody has two rows.
 std::optional<double> FirstRows::median_distance(ColumnOrder order) const {
   const std::vector<Place> places = by_person(order);
   std::vector<double> distances;

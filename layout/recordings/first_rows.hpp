@@ -32,7 +32,7 @@ class FirstRows {
   /// Returns whether most rows begin with two whole numbers, as ids and frames are, and two coordinates.
   bool have_places() const { return places_.size() > others_; }
 
-  /// Tells ids from frames by the ways between rows: from frame to frame a person moves less than a third of the way to somebody else,
+  /// Tells ids from frames by the distances between rows: from frame to frame a person moves less than a third of the distance to somebody else,
   /// and, alone, less than a twelfth of the extent of all rows.
   ColumnOrder order_by_distances() const;
   /// Returns whether these few rows have one number first and may be those of a person who is no faster than people
@@ -41,7 +41,7 @@ class FirstRows {
   /// Tells ids from frames by the steps between different numbers: frames of ETH/UCY have a common divisor above 1, as each tenth is
   /// there, and ids have none.
   ColumnOrder order_by_steps() const;
-  /// Returns whether a fifth column is no height: below 0 somewhere, as headings are, or varying along a person's way where the third or
+  /// Returns whether a fifth column is no height: below 0 somewhere, as headings are, or varying along a person's path where the third or
   /// the fourth never does, as ETH's y behind its heights.
   bool has_other_in_fifth(ColumnOrder order) const;
 

@@ -133,7 +133,7 @@ class JuPedSim final : public RowSource {
 
   void report_none() { recording_.assumptions.emplace_back("There are no walls: the file has no geometry."); }
 
-  /// Returns how many different values a column has, beside none and an empty text. SQLite would keep them all, which may be long and share their pages.
+  /// Returns how many different values a column has, other than none and an empty text. SQLite would keep them all, which may be long and share their pages.
   std::size_t different(const std::string& column, const std::string& table) const {
     SqliteStatement values(database_,
                            "SELECT " + column + " FROM " + table + " WHERE length(" + column + ") > 0");

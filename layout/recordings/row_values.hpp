@@ -88,7 +88,7 @@ class RowValues {
 
   void end(Row& row) { row.motion = motions_.find(character_, clip_, places_, row.number); }
 
-  /// Adds what the rows told until now.
+  /// Adds what the rows have given so far.
   void describe(Recording& recording) const {
     heights_.describe(recording.assumptions);
     recording.motions = motions_.all();

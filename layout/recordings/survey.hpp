@@ -54,7 +54,7 @@ struct Survey {
   void add(const Row& row);
 };
 
-/// Counts rows until one has a smaller key than the row before, and calls `look`, which may throw, now and then.
+/// Counts rows until one has a smaller key than the row before, and calls `check_cancelled`, which may throw, now and then.
 /// Returns: whether none has.
 bool survey_ordered(RowStream& rows, Survey& survey, const std::function<void()>& check_cancelled);
 

@@ -100,7 +100,7 @@ class TrajectoryReader {
   virtual std::string place_of(std::uint64_t row) const = 0;
 };
 
-/// Opens a recording, whose format is told by its content: JuPedSim's SQLite (versions 1 to 3), PeTrack's and Juelich's text,
+/// Opens a recording, whose format is recognised by its content: JuPedSim's SQLite (versions 1 to 3), PeTrack's and Juelich's text,
 /// HDF5 of the Pedestrian Dynamics Data Archive and of JuPedSim, Pathfinder's CSV, CSV with a header, TrajNet++'s ndjson, ETH/UCY columns.
 /// The file is read once to its end, to learn what info() says, and again for the frames. It is not trusted.
 /// Memory:  grows with the people of a frame and with options.sort_memory, not with the rows. Files whose frames are out of

@@ -57,7 +57,7 @@ HullKey hull_key(const AnimatedTreeChunk& chunk, std::size_t key, double reach, 
   return hull;
 }
 
-/// Returns the hull through a window, whose ends are larger by what the keys between depart from the straight way. Between two keys the
+/// Returns the hull through a window, whose ends are larger by what the keys between depart from the straight path. Between two keys the
 /// extent of discs that move straight on is convex.
 HullWindow window_of(std::span<const HullKey> keys, double step) {
   const double begin = keys.front().time, seconds = keys.back().time - begin;

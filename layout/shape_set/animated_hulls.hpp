@@ -70,7 +70,7 @@ constexpr PlanePoint hull_direction(std::uint32_t k) noexcept {
   }
 }
 
-/// Represents a direction between two of those: `size` times (1 - share) of `first` and share of `second`.
+/// Represents a direction between two of those: `size` times (1 - fraction) of `first` and fraction of `second`.
 struct HullDirection {
   std::uint32_t first, second;
   double fraction, size;

@@ -114,7 +114,7 @@ class Builder {
   }
 
  private:
-  static constexpr std::size_t max_keys = 8;  ///< that a split looks at
+  static constexpr std::size_t max_keys = 8;  ///< that a split examines
 
   const Sphere& disc(std::size_t key, std::uint32_t i) const { return discs_[key * chunk_.disc_count + i]; }
 

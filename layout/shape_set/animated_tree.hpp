@@ -38,7 +38,7 @@ struct NodeRange {
   std::uint32_t begin, end;
 };
 
-/// Represents a time of a clip by its place among the keys: discs are (1 - share) of those at a key and share of those at the next one.
+/// Represents a time of a clip by its place among the keys: discs are (1 - fraction) of those at a key and fraction of those at the next one.
 struct KeyPlace {
   std::size_t chunk, key;
   double fraction;  ///< from 0 to 1

@@ -103,7 +103,7 @@ void DynamicShapeSet::State::require(std::uint32_t shape, const FlatBody& body) 
 bool DynamicShapeSet::State::try_replace(std::uint32_t shape, const FlatBody& body) {
   require(shape, body);
   if (!fits(extent_of(body.shape), places[shape].size)) return false;
-  // Else set has to learn of single discs, or a kernel would not look for them.
+  // Else set has to learn of single discs, or a kernel would not search for them.
   if (set.view().rows_in_order && has_level(body, true)) return false;
   storage.store(shape, body, places[shape].begin);
   return true;

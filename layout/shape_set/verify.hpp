@@ -18,11 +18,11 @@ struct Inconsistency {
 
   std::uint32_t shape;
   std::uint32_t level;  ///< or no_level, where the array has none
-  const char* array;    ///< the name of the array, as findings and errors of loading have it
+  const char* array;    ///< the name of the array, as inconsistencies and errors of loading have it
   std::string what;     ///< the value, its place, and what the rest requires
 };
 
-/// Returns a finding as one line: "shape 3, level 1: nodes: ...".
+/// Returns an inconsistency as one line: "shape 3, level 1: nodes: ...".
 std::string text_of(const Inconsistency& inconsistency);
 
 /// Checks that a set gives right answers: it recomputes from discs and outlines everything else that the set stores, and compares.
@@ -41,7 +41,7 @@ std::string text_of(const Inconsistency& inconsistency);
 /// The following facts do not follow from a set and are not checked: that discs and outlines are those of a
 /// character; that a disc is the smallest; and, without outlines, that no discs are missing.
 ///
-/// Returns: at most `most` findings, shape after shape; none for a set that this library made.
+/// Returns: at most `most` inconsistencies, shape after shape; none for a set that this library made.
 /// Precondition: the arrays of the set are safe to read, as those of every set that was built or loaded are.
 /// Cost:    about as much as making the flat shapes from their hierarchies.
 std::vector<Inconsistency> verify(const ShapeSet& set, std::size_t most = 100);

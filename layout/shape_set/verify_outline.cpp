@@ -28,7 +28,7 @@ PlanePoint direction(std::uint32_t k, std::uint32_t of) {
   return {std::cos(angle), std::sin(angle)};
 }
 
-/// The share of a segment's way up to which a disc holds it, if it holds the point at `from`; else `from`.
+/// The fraction of a segment's path up to which a disc holds it, if it holds the point at `from`; else `from`.
 double held_up_to(const Disc& disc, PlanePoint a, PlanePoint edge, double from) {
   const PlanePoint centre{static_cast<double>(disc.x), static_cast<double>(disc.y)};
   const double radius = disc.radius, square = dot(edge, edge);

@@ -23,11 +23,11 @@ namespace bch::detail::verification {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// Represents a shape of a set that is verified, and the list that takes the findings.
+/// Represents a shape of a set that is verified, and the list that takes the inconsistencies.
 struct Verifier {
   const ShapeSet& set;
   std::vector<Inconsistency>& inconsistencies;
-  std::size_t most;  ///< findings
+  std::size_t most;  ///< inconsistencies
   std::uint32_t shape;
   double reach;  ///< metres; of a set of roots alone what they extend to
 

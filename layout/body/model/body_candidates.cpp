@@ -27,7 +27,7 @@ SpacePoint cross(const SpacePoint& a, const SpacePoint& b) {
 }
 using Weights = std::vector<std::pair<std::uint32_t, double>>;  ///< of bones, ascending
 
-/// Adds weights of bones, times a share.
+/// Adds weights of bones, times a fraction.
 void add(Weights& to, const Weights& weights, double fraction) {
   for (const auto& [bone, weight] : weights) {
     const auto at = std::lower_bound(to.begin(), to.end(), std::pair{bone, -1.0});

@@ -22,7 +22,7 @@ struct SphereChoice {
 
 /// Chooses at most so many candidates that hold all pieces in all poses when they are grown by as little as possible: always the one that
 /// holds most of the pieces that are left. Pieces that no candidate can hold go to the chosen one that has to grow least.
-/// `advance`: is called with the share that is done.
+/// `advance`: is called with the fraction that is done.
 SphereChoice choose_spheres(const SkinPieces& skin, std::span<const BodyCandidate> candidates,
                             const TrainingPoses& poses, std::uint32_t most, double scale,
                             const std::function<void(double)>& advance);

@@ -29,7 +29,7 @@ class SphereDescent {
 
   /// Makes slides, whose number is slides_a_round, and steps of at most that length, metres. Counts anew.
   void round(float length);
-  /// Forgets the way that a sphere went.
+  /// Forgets the path that a sphere went.
   void restart(std::uint32_t sphere) { descents_[sphere].assign(fit_.balls[sphere].influences.size(), {}); }
 
   static constexpr int steps_a_round = 100, slides_a_round = 100 * steps_a_round;

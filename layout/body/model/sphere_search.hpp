@@ -16,7 +16,7 @@ constexpr std::uint32_t searched_poses = 24;
 
 /// Moves, deletes and splits spheres, and hands their pieces over, until random slides of the body against itself in other poses meet as
 /// late as possible: what collides first is what has to be better. A fixed number of rounds with a fixed seed.
-/// `advance`: is called with the share that is done.
+/// `advance`: is called with the fraction that is done.
 SphereChoice improve_spheres(const SkinPieces& skin, const TrainingPoses& poses, const SphereChoice& choice,
                              const std::function<void(double)>& advance);
 

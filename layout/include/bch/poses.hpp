@@ -118,7 +118,7 @@ class Pose {
   Kinds kind_;
 };
 
-/// Names a pose of a clip and its share in a blend.
+/// Names a pose of a clip and its weight in a blend.
 struct WeightedPose {
   PoseTime at;
   float weight = 1;
