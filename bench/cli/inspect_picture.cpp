@@ -23,6 +23,10 @@ constexpr const char* panel_css = R"(.key { font-size: 14px }
 .outline { fill: #a9bccb; stroke: #3f566b; stroke-width: 1.1; stroke-linejoin: round }
 .discs { fill: #d55e00; fill-opacity: .14; stroke: #a84300; stroke-width: .9 }
 .scale { fill: none; stroke: #1c2733; stroke-width: 2 }
+@media (prefers-color-scheme: dark) {
+.ground { fill: #12161b } .panel { fill: #1d242b; stroke: #38424c } text, .caption { fill: #dde4ea }
+.outline { fill: #5b7286; stroke: #b7c8d6 } .discs { fill: #ff9a4a; stroke: #ffae6b } .scale { stroke: #f2f5f8 }
+}
 )";
 
 /// What all panels share.
@@ -137,7 +141,7 @@ void draw_pose(const Drawing& drawing, Pixel corner) {
                        drawing.view.outline != nullptr ? " on the body" : ""));
 }
 
-/// The way of each centre from key to key of the chunk.
+/// The path of each centre from key to key of the chunk.
 void draw_paths(const Drawing& drawing, Pixel corner) {
   Svg& svg = drawing.svg;
   const AnimatedChunk& chunk = drawing.chunk;
