@@ -422,7 +422,7 @@ TEST(Readme, ShowsTheLinesThatCiRuns) {
 
 TEST(Readme, IsShort) {
   const std::string readme = read_text(source / "README.md");
-  EXPECT_LE(std::count(readme.begin(), readme.end(), '\n'), 160);
+  EXPECT_LE(std::count(readme.begin(), readme.end(), '\n'), 140);
   EXPECT_LE(readme.size(), 10'240u);
 }
 
