@@ -36,12 +36,12 @@ double depth_along(const CutLists& cuts, const Agents& agents, std::uint32_t mov
          (dx * along.x + dy * along.y);
 }
 
-PenetrationDepth with_slack(const CutLists& cuts, const Agents& agents, Pair pair, double depth_along,
+PenetrationDepth with_slack(const CutLists& cuts, const Agents& agents, Pair pair, double least,
                             Vector along) {
   const double reach = static_cast<double>(cuts.reach(agents, std::min(pair.first, pair.second))) +
                        static_cast<double>(cuts.reach(agents, std::max(pair.first, pair.second)));
-  const double depth = (depth_along + 40 * detail::rounding::unit_roundoff * reach) *
-                       (1 + 4 * detail::rounding::unit_roundoff);
+  const double depth =
+      (least + 40 * detail::rounding::unit_roundoff * reach) * (1 + 4 * detail::rounding::unit_roundoff);
   return {depth > 0 ? detail::rounding::round_up(depth) : 0.0f, along.x, along.y};
 }
 

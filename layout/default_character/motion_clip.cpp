@@ -62,9 +62,9 @@ Vector3d ground_displacement(const std::vector<Vector3d>& before, const std::vec
   double total = 0;
   for (std::size_t i = 0; i < before.size(); ++i) {
     const double height = std::max(before[i].z() - low_before, after[i].z() - low_after);
-    const double fraction = std::exp(-height / softness);
-    total += fraction;
-    displacement -= fraction * (after[i] - before[i]);
+    const double weight = std::exp(-height / softness);
+    total += weight;
+    displacement -= weight * (after[i] - before[i]);
   }
   displacement /= total;
   displacement.z() = 0;

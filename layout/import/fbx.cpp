@@ -112,10 +112,10 @@ Eigen::Affine3d FbxScene::map_of(const aiMatrix4x4& matrix) {
   return map;
 }
 
-bool agree(const Eigen::Affine3d& a, const Eigen::Affine3d& b, double fraction) {
+bool agree(const Eigen::Affine3d& a, const Eigen::Affine3d& b, double tolerance) {
   const double linear = std::max(1.0, b.linear().cwiseAbs().maxCoeff());
-  return (a.linear() - b.linear()).cwiseAbs().maxCoeff() <= fraction * linear &&
-         (a.translation() - b.translation()).norm() <= fraction * (1 + b.translation().norm());
+  return (a.linear() - b.linear()).cwiseAbs().maxCoeff() <= tolerance * linear &&
+         (a.translation() - b.translation()).norm() <= tolerance * (1 + b.translation().norm());
 }
 
 std::vector<std::string> correct_fbx(const std::filesystem::path& file, aiScene& scene) {

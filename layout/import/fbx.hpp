@@ -45,7 +45,7 @@ struct FbxScene {
 };
 
 /// Tells whether two transforms are the same except for rounding: linear parts to a relative tolerance, translations to a fraction of themselves or of one.
-bool agree(const Eigen::Affine3d& a, const Eigen::Affine3d& b, double fraction);
+bool agree(const Eigen::Affine3d& a, const Eigen::Affine3d& b, double tolerance);
 
 void correct_fbx_meshes(FbxScene& file, aiScene& scene);
 void correct_fbx_clips(FbxScene& file, aiScene& scene);
