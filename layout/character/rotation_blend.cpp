@@ -20,7 +20,7 @@ constexpr int terms = 7;
 /// sin(t angle) / sin(angle) of two t, by what is missing of the angle's cosine to 1.
 /// Source:  D. Eberly, "A fast and accurate algorithm for computing SLERP", Journal of Graphics, GPU, and Game
 ///          Tools 15, 2011.
-Double weights(Double t, double missing) {
+Double slerp_weights(Double t, double missing) {
   const Double one(1.0), square = t * t;
   Double sum = one;
   for (int i = terms; i > 0; --i)
@@ -59,7 +59,7 @@ Eigen::Quaterniond slerp(const Quaternion& a, const Quaternion& b, float t) {
     along = first_half ? 2 * along : 2 * along - 1;
     cosine = std::sqrt(0.5 + 0.5 * cosine);
   }
-  const Double weight = weights(Simd::of<double>(1 - along, along), 1 - cosine);
+  const Double weight = slerp_weights(Simd::of<double>(1 - along, along), 1 - cosine);
   const Four sum = Simd::lane(weight, 0) * from + Simd::lane(weight, 1) * to;
   const Four unit = 1 / std::sqrt(dot(sum, sum)) * sum;
   Eigen::Quaterniond result;
