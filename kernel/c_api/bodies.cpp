@@ -269,10 +269,18 @@ bch_status bch_penetration_bodies(const bch_body_set* set, const bch_agents* age
 bch_status bch_nearest_free_bodies(const bch_body_set* set, const bch_agents* agents, const bch_pair* pairs,
                                    size_t count, uint32_t directions, const bch_query_options* options,
                                    bch_penetration_depth* depths) {
+  return bch_nearest_free_bodies_touches(set, agents, pairs, count, directions, options, depths, nullptr);
+}
+
+bch_status bch_nearest_free_bodies_touches(const bch_body_set* set, const bch_agents* agents,
+                                           const bch_pair* pairs, size_t count, uint32_t directions,
+                                           const bch_query_options* options, bch_penetration_depth* depths,
+                                           bch_touch* touches) {
   return guarded([&] {
     const PairCallOn<bch_body_set> call(set, agents, pairs, count, options);
     const auto to = penetrations(depths, count);
-    call.run([&] { nearest_free(call.shapes, call.agents, call.pairs, directions, to, call.options); });
+    const auto ends = touches_of(touches, count);
+    call.run([&] { nearest_free(call.shapes, call.agents, call.pairs, directions, to, call.options, ends); });
   });
 }
 

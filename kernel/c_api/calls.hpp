@@ -112,4 +112,10 @@ inline std::span<Penetration> penetrations(bch_penetration_depth* depths, std::s
   return same_array<Penetration>(depths, count, "depths");
 }
 
+/// Views an array that may be missing.
+inline std::span<Penetration::Touch> touches_of(bch_touch* touches, std::size_t count) {
+  if (touches == nullptr) return {};
+  return same_array<Penetration::Touch>(touches, count, "touches");
+}
+
 }  // namespace bch::c_api

@@ -65,11 +65,12 @@ bch_status bch_penetration(const bch_shape_set* set, const bch_agents* agents, c
 
 bch_status bch_nearest_free(const bch_shape_set* set, const bch_agents* agents, const bch_pair* pairs,
                             size_t count, uint32_t directions, const bch_query_options* options,
-                            bch_penetration_depth* depths) {
+                            bch_penetration_depth* depths, bch_touch* touches) {
   return guarded([&] {
     const PairCall call(set, agents, pairs, count, options);
     const auto to = penetrations(depths, count);
-    call.run([&] { nearest_free(call.shapes, call.agents, call.pairs, directions, to, call.options); });
+    const auto ends = touches_of(touches, count);
+    call.run([&] { nearest_free(call.shapes, call.agents, call.pairs, directions, to, call.options, ends); });
   });
 }
 

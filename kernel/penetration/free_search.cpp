@@ -4,6 +4,7 @@
 #include "kernel/penetration/free_search.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <type_traits>
 
 namespace bch::detail {
@@ -14,6 +15,11 @@ static_assert(FreeIntervals::Simd::width == 4, "leaves have whole registers");
 
 float largest(Float values) noexcept {
   return -FreeIntervals::Simd::least(-values);
+}
+
+/// Returns what all lanes hold.
+float lane_of(Float all) noexcept {
+  return FreeIntervals::Simd::least(all);
 }
 
 Float clamped(Float value, Float limit) noexcept {
@@ -49,6 +55,42 @@ FreeSegments::FreeSegments(const FreeLanes& a, const FreeLanes& b, float by) noe
   add_side(*this, b, m - a.half_along, w - a.half_across, margin);
   add_side(*this, b, m + a.half_along, w + a.half_across, margin);
   low = low - margin, high = high + margin;
+}
+
+FreeTouch FreeSpheres::touch(const FreeLanes& a, const FreeLanes& b, float end, float margin) noexcept {
+  const float radius = lane_of(a.radius) - margin;
+  const FreeTouch::Vector centre{lane_of(a.along), lane_of(a.across), lane_of(a.z)};
+  const float x = centre.along + end - lane_of(b.along), y = centre.across - lane_of(b.across),
+              z = centre.up - lane_of(b.z), length = std::sqrt(x * x + y * y + z * z);
+  const FreeTouch::Vector normal{x / length, y / length, z / length};
+  return {{centre.along - radius * normal.along, centre.across - radius * normal.across,
+           centre.up - radius * normal.up},
+          normal};
+}
+
+FreeTouch FreeSegments::touch(const FreeLanes& a, const FreeLanes& b, float end, float margin) noexcept {
+  FreeTouch touch;
+  float most = -1;
+  const Float m = b.along - a.along - Float(end), w = b.across - a.across;
+  // The end of the other segment is at (along, across) from A, and at (m, w) from the middle of the side.
+  const auto compare_side = [&](const FreeLanes& side, Float to_m, Float to_w, Float along, Float across) {
+    FreeIntervals part;
+    part.low = Float(__builtin_inff()), part.high = -part.low;
+    add_side(part, side, to_m, to_w, Float(margin));
+    const float x = lane_of(side.half_along), y = lane_of(side.half_across),
+                length = std::sqrt(x * x + y * y);
+    if (!(largest(part.high) >= -4 * margin && std::abs(y) > most * length)) return;
+    most = std::abs(y) / length;
+    touch = {{lane_of(along), lane_of(across)}, {most, std::copysign(x / length, x * y > 0 ? -1.0f : 1.0f)}};
+  };
+  for (const Float sign : {Float(-1.0f), Float(1.0f)}) {
+    const Float to_b_along = sign * b.half_along, to_b_across = sign * b.half_across;
+    compare_side(a, m + to_b_along, w + to_b_across, b.along + to_b_along - Float(end),
+                 b.across + to_b_across);
+    const Float to_a_along = sign * a.half_along, to_a_across = sign * a.half_across;
+    compare_side(b, m - to_a_along, w - to_a_across, a.along + to_a_along, a.across + to_a_across);
+  }
+  return touch;
 }
 
 template <class Intervals>
@@ -253,25 +295,47 @@ float FreeSearch<Intervals>::next(float place) {
 template <class Intervals>
 float FreeSearch<Intervals>::after_gap(float place) const {
   float begin = __builtin_inff(), end = place;
-  const auto compare = [&](std::uint32_t leaf_a, std::uint32_t j) {
+  visit_intervals([&](float, float high) { return high >= place; },
+                  [&](std::uint32_t, std::uint32_t, float low, float high) {
+                    if (low >= place && low < begin) begin = low, end = high;
+                  });
+  return end;
+}
+
+template <class Intervals>
+FreeTouch FreeSearch<Intervals>::touch(float place) const {
+  float end = -__builtin_inff();
+  std::uint32_t of_a = 0, of_b = 0;
+  visit_intervals([&](float low, float high) { return low <= place && high >= end; },
+                  [&](std::uint32_t i, std::uint32_t j, float, float high) {
+                    if (high <= place && high > end) end = high, of_a = i, of_b = j;
+                  });
+  if (end == -__builtin_inff()) return {};
+  return Intervals::touch(a_.elements.one(of_a), b_.elements.one(of_b), end, margin_);
+}
+
+template <class Intervals>
+template <class MayCount, class Use>
+void FreeSearch<Intervals>::visit_intervals(const MayCount& may_count, const Use& use) const {
+  const auto visit_row = [&](std::uint32_t first, std::uint32_t j) {
     const FreeLanes b = b_.elements.one(j);
-    for (std::uint32_t i = a_.first(leaf_a); i < a_.first(leaf_a + 1); i += Simd::width) {
+    for (std::uint32_t i = first; i < first + a_.leaf_size; i += Simd::width) {
       const Intervals of(a_.elements.load(i), b, margin_);
       float low[Simd::width], high[Simd::width];
-      Simd::store(low, Simd::select(of.are_some, of.low, Float(-__builtin_inff())));
-      Simd::store(high, of.high);
+      Simd::store(low, of.low);
+      Simd::store(high, Simd::select(of.are_some, of.high, Float(-__builtin_inff())));
       for (std::uint32_t lane = 0; lane < Simd::width; ++lane)
-        if (low[lane] >= place && low[lane] < begin) begin = low[lane], end = high[lane];
+        if (low[lane] <= high[lane]) use(i + lane, j, low[lane], high[lane]);
     }
   };
   const Rounds &a = a_.nodes, &b = b_.nodes;
   for (std::uint32_t i = 0; i < a_.leaves; ++i)
     for (std::uint32_t k = 0; k < b_.leaves; ++k) {
-      const float radius = a.radius[i] + b.radius[k] + node_slack_, w = b.across[k] - a.across[i];
-      if (w > radius || -w > radius || b.along[k] - a.along[i] + radius < place) continue;
-      for (std::uint32_t j = b_.first(k); j < b_.first(k + 1); ++j) compare(i, j);
+      const float radius = a.radius[i] + b.radius[k] + node_slack_, w = b.across[k] - a.across[i],
+                  m = b.along[k] - a.along[i];
+      if (w > radius || -w > radius || !may_count(m - radius, m + radius)) continue;
+      for (std::uint32_t j = b_.first(k); j < b_.first(k + 1); ++j) visit_row(a_.first(i), j);
     }
-  return end;
 }
 
 template class FreeSearch<FreeSpheres>;

@@ -44,6 +44,15 @@ struct FreeLanes {
       slope;  ///< of a segment: along by across; 0 where it lies along the direction, to the margin
 };
 
+/// Holds where A touches an element of B, as seen from A's position, and a unit vector from B to A. Both are along a direction, across it,
+/// and up.
+struct FreeTouch {
+  struct Vector {
+    float along = 0, across = 0, up = 0;
+  };
+  Vector point, normal = {1, 0, 0};
+};
+
 /// Spheres, or discs. Let z be how much higher B's is, and r_A what its radius is with the margin:
 ///
 ///     R = r_A + r_B,    s = sqrt(R^2 - (w^2 + z^2)),    the two overlap at t  <=>  m - s < t < m + s
@@ -51,6 +60,8 @@ struct FreeLanes {
 /// where s is real.
 struct FreeSpheres : FreeIntervals {
   FreeSpheres(const FreeLanes& a, const FreeLanes& b, float margin) noexcept;
+  /// Returns where two, each in all lanes, touch at the end of their interval.
+  static FreeTouch touch(const FreeLanes& a, const FreeLanes& b, float end, float margin) noexcept;
 };
 
 /// Segments: what A's has to move by for the two to meet fills a parallelogram about (m, w), whose sides are the segments. The interval is
@@ -58,6 +69,9 @@ struct FreeSpheres : FreeIntervals {
 /// where they leave the strip. A side along the line, to the margin, counts as a whole.
 struct FreeSegments : FreeIntervals {
   FreeSegments(const FreeLanes& a, const FreeLanes& b, float margin) noexcept;
+  /// Returns where two touch: at the side of the parallelogram by which the line leaves it, or of two at a corner the one that is more
+  /// across the line.
+  static FreeTouch touch(const FreeLanes& a, const FreeLanes& b, float end, float margin) noexcept;
 };
 
 /// Finds how far A has to move along directions until no element of it overlaps one of B: for one pair after the other, in memory of its own.
@@ -80,6 +94,8 @@ class FreeSearch {
   float next(float place);
   /// Returns the end of the interval that begins next from a place in none on; or the same, where no more begins.
   float after_gap(float place) const;
+  /// Returns where the elements touch whose interval is the last one to end on the way to a place in none.
+  FreeTouch touch(float place) const;
 
  private:
   using Simd = FreeIntervals::Simd;
@@ -117,6 +133,9 @@ class FreeSearch {
   /// Calls use(slot) for elements of a leaf of B that may overlap some of a leaf of A where A has moved.
   template <class Use>
   void visit_elements(std::uint32_t leaf_a, std::uint32_t leaf_b, float moved, const Use& use);
+  /// Calls use(i, j, low, high) for elements of A and B and their interval, of leaves whose interval may_count(low, high).
+  template <class MayCount, class Use>
+  void visit_intervals(const MayCount& may_count, const Use& use) const;
   /// Keeps the deepest two elements of two leaves for bound(), if they overlap.
   void keep_sample(std::uint32_t leaf_a, std::uint32_t leaf_b);
   /// Goes from a place to the ends of intervals of two leaves.

@@ -73,12 +73,28 @@ struct Way {
   bool is_end = false;  ///< the place is the answer
 };
 
-/// Returns the best way of a pair that collides, as seen from the agent with the lower index. The way that may be the shortest is followed by
+/// Holds a move, and where it ends, which is searched where somebody asks for it.
+struct Answer {
+  Penetration move{0, 1, 0};
+  bool has_touch = false;
+  Penetration::Touch touch{{0, 0, 0}, {0, 0, 0}};
+};
+
+Penetration::Touch in_world(const FreeTouch& touch, const Way& way) {
+  const auto turned = [&](const FreeTouch::Vector& v) {
+    const double along{v.along}, across{v.across};
+    return Vec3{static_cast<float>(along * way.x + across * way.y),
+                static_cast<float>(along * way.y - across * way.x), v.up};
+  };
+  return {turned(touch.point), turned(touch.normal)};
+}
+
+/// Finds the best way of a pair that collides, as seen from the agent with the lower index. The way that may be the shortest is followed by
 /// a step, until it has ended. Along a direction of A's frame the answer is not before bound(x, y). Where A has left all intervals,
 /// finish(search, way) says whether that is the answer, or goes on.
 template <class Search, class Bound, class Finish>
-Penetration best_way(const SpaceFrame& frame, const Axes& axes, Search& search, const Bound& bound,
-                     const Finish& finish) {
+void find_best_way(const SpaceFrame& frame, const Axes& axes, Search& search, const Bound& bound,
+                   const Finish& finish, Answer& answer) {
   std::array<Way, max_directions> ways;
   const std::uint32_t count = 2 * axes.count;
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -90,23 +106,43 @@ Penetration best_way(const SpaceFrame& frame, const Axes& axes, Search& search, 
   for (const Way* turned = nullptr;;) {
     Way& way = *std::min_element(ways.begin(), ways.begin() + count,
                                  [](const Way& left, const Way& right) { return left.place < right.place; });
-    if (way.is_end) return {way.place, way.x, way.y};
     if (&way != turned) search.turn(way.to_x, way.to_y);
     turned = &way;
+    if (way.is_end) {
+      answer.move = {way.place, way.x, way.y};
+      if (answer.has_touch) answer.touch = in_world(search.touch(way.place), way);
+      return;
+    }
     const float next = search.next(way.place);
     if (next == way.place) finish(search, way);
     way.place = std::max(way.place, next);
   }
 }
 
+/// Returns the answer of a pair as seen from the agent with the higher index, which moves in place of the other.
+Answer from_b(const Agents& agents, std::uint32_t a, std::uint32_t b, const Answer& from_a) {
+  const auto& [depth, x, y] = from_a.move;
+  Answer answer = from_a;
+  answer.move = {depth, -x, -y};
+  if (depth == 0) return answer;
+  Vec3 &point = answer.touch.point, &normal = answer.touch.normal;
+  const double z = agents.z.empty() ? 0 : agents.z[a] - agents.z[b];
+  point.x = static_cast<float>(double{point.x} + (agents.x[a] - agents.x[b] + double{depth} * x));
+  point.y = static_cast<float>(double{point.y} + (agents.y[a] - agents.y[b] + double{depth} * y));
+  point.z = static_cast<float>(double{point.z} + z);
+  normal = {-normal.x, -normal.y, -normal.z};
+  return answer;
+}
+
 constexpr std::size_t pairs_at_once = 64;
 
-/// Answers pairs: find(pairs, hits) tells which collide, and best(searches, a, b) finds the way of one that does, a < b. Searches need memory,
-/// so `out` is written once all have ended.
+/// Answers pairs: find(pairs, hits) tells which collide, and best(searches, a, b, answer) finds the way of one that does, a < b. Searches
+/// need memory, so answers are written once all have ended.
 template <class Find, class Best>
-void answer_pairs(std::span<const Pair> pairs, std::span<Penetration> out, const Find& find,
-                  const Best& best) {
+void answer_pairs(const Agents& agents, std::span<const Pair> pairs, std::span<Penetration> out,
+                  std::span<Penetration::Touch> to_touches, const Find& find, const Best& best) {
   std::vector<Penetration> ways(pairs.size());
+  std::vector<Penetration::Touch> touches(to_touches.size());
   Spares<Searches> spares;
   for_pair_ranges(pairs.size(), pairs_at_once, [&](std::size_t begin, std::size_t size) {
     const auto searches = spares.borrow([] { return Searches(); });
@@ -115,12 +151,22 @@ void answer_pairs(std::span<const Pair> pairs, std::span<Penetration> out, const
     for (std::size_t k = 0; k < size; ++k) {
       const auto [first, second] = pairs[begin + k];
       const auto [a, b] = std::minmax(first, second);
-      Penetration way = hits[k] != 0 ? best(*searches, a, b) : Penetration{0, 1, 0};
-      if (second < first) way.x = -way.x, way.y = -way.y;
-      ways[begin + k] = way;
+      Answer answer;
+      answer.has_touch = !touches.empty();
+      if (hits[k] != 0) best(*searches, a, b, answer);
+      if (second < first) answer = from_b(agents, a, b, answer);
+      ways[begin + k] = answer.move;
+      if (answer.has_touch) touches[begin + k] = answer.touch;
     }
   });
   std::copy(ways.begin(), ways.end(), out.begin());
+  std::copy(touches.begin(), touches.end(), to_touches.begin());
+}
+
+void check_sizes(std::span<const Pair> pairs, std::span<Penetration> out,
+                 std::span<Penetration::Touch> touches) {
+  check_size({"nearest_free", "pair", pairs.size()}, out.size(), "answers");
+  if (!touches.empty()) check_size({"nearest_free", "pair", pairs.size()}, touches.size(), "touches");
 }
 
 /// Holds the agents of a pair of shapes alone, the first of which moves.
@@ -176,7 +222,7 @@ class OutlineWays {
     answer(implementation_, arguments, 0, pairs.size());
   }
 
-  Penetration best(Searches& searches, std::uint32_t a, std::uint32_t b) const {
+  void best(Searches& searches, std::uint32_t a, std::uint32_t b, Answer& answer) const {
     const SpaceFrame frame(agents_, a, b);
     const AgentDiscs of_a(view_, agents_, a), of_b(view_, agents_, b);
     const double reaches = double{of_a.reach} + double{of_b.reach};
@@ -198,14 +244,14 @@ class OutlineWays {
         add_discs(is_a ? of_a.discs : of_b.discs, placed, body);
       });
       auto& search = searches.begin(searches.spheres, sphere_slack * reaches, reaches);
-      return best_way(frame, axes_, search, bound, finish);
+      return find_best_way(frame, axes_, search, bound, finish, answer);
     }
     take(searches, frame, [&](bool is_a, const auto& placed, FreeBody& body) {
       add_segments(view_, agents_.shape[is_a ? a : b], placed, body);
     });
     const double margin = segment_margin<BaseLanes>(view_, agents_.shape[a], agents_.shape[b]);
     auto& search = searches.begin(searches.segments, margin + segment_slack * reaches, reaches);
-    return best_way(frame, axes_, search, bound, finish);
+    find_best_way(frame, axes_, search, bound, finish, answer);
   }
 
  private:
@@ -255,14 +301,15 @@ class OutlineWays {
 }  // namespace
 
 void nearest_free(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs,
-                  std::uint32_t directions, std::span<Penetration> out, const Implementation* wanted) {
+                  std::uint32_t directions, std::span<Penetration> out, const Implementation* wanted,
+                  std::span<Penetration::Touch> touches) {
   const FloatingPointStateGuard floats;
-  check_size({"nearest_free", "pair", pairs.size()}, out.size(), "answers");
+  check_sizes(pairs, out, touches);
   const Implementation& implementation = chosen(wanted, "nearest_free");
   const BodySetView& view = bodies.view();
   require_valid(implementation, view.ground, agents, pairs);
   const Axes axes = spread_axes("nearest_free", directions);
-  const auto best = [&](Searches& searches, std::uint32_t a, std::uint32_t b) {
+  const auto best = [&](Searches& searches, std::uint32_t a, std::uint32_t b, Answer& answer) {
     const float *const of_a = view.record(agents.shape[a]), *const of_b = view.record(agents.shape[b]);
     const SpaceFrame frame(agents, a, b);
     take_record(of_a, unmoved, searches.a);
@@ -271,12 +318,12 @@ void nearest_free(const BodySet& bodies, const Agents& agents, std::span<const P
     const double reaches = double{header_of(of_a).reach} + double{header_of(of_b).reach};
     auto& search = searches.begin(searches.spheres, sphere_slack * reaches, reaches);
     search.sample();
-    return best_way(
+    find_best_way(
         frame, axes, search, [&](float x, float y) { return search.bound(x, y); },
-        [](const auto&, Way& way) { way.is_end = true; });
+        [](const auto&, Way& way) { way.is_end = true; }, answer);
   };
   answer_pairs(
-      pairs, out,
+      agents, pairs, out, touches,
       [&](std::span<const Pair> some, std::uint8_t* hits) {
         find_hits(implementation, view, agents, some, hits);
       },
@@ -284,17 +331,21 @@ void nearest_free(const BodySet& bodies, const Agents& agents, std::span<const P
 }
 
 void nearest_free(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
-                  std::uint32_t directions, std::span<Penetration> out, const CollideOptions& options) {
+                  std::uint32_t directions, std::span<Penetration> out, const CollideOptions& options,
+                  std::span<Penetration::Touch> touches) {
   const FloatingPointStateGuard floats;
-  check_size({"nearest_free", "pair", pairs.size()}, out.size(), "answers");
+  check_sizes(pairs, out, touches);
   const bool exact = exact_leaves(shapes, options.leaves, "nearest_free");
   const Implementation& implementation = chosen(options.implementation, "nearest_free");
   require_valid(implementation, shapes.view(), agents, pairs);
   const Axes axes = spread_axes("nearest_free", directions);
   const OutlineWays ways(shapes, agents, axes, implementation, exact);
   answer_pairs(
-      pairs, out, [&](std::span<const Pair> some, std::uint8_t* hits) { ways.find_hits(agents, some, hits); },
-      [&](Searches& searches, std::uint32_t a, std::uint32_t b) { return ways.best(searches, a, b); });
+      agents, pairs, out, touches,
+      [&](std::span<const Pair> some, std::uint8_t* hits) { ways.find_hits(agents, some, hits); },
+      [&](Searches& searches, std::uint32_t a, std::uint32_t b, Answer& answer) {
+        ways.best(searches, a, b, answer);
+      });
 }
 
 }  // namespace bch

@@ -51,10 +51,11 @@ bch_status sample_poses(const bch_character* character, std::uint8_t count, bch_
 }
 bch_status even_directions(const bch_shape_set* set, const bch_agents* agents, const bch_pair* pairs,
                            std::size_t count, std::uint8_t directions, const bch_query_options* options,
-                           bch_penetration_depth* depths) {
+                           bch_penetration_depth* depths, bch_touch* touches) {
   const bch_status status = bch_penetration(set, agents, pairs, count, 2 * directions, options, depths);
-  return status != BCH_OK ? status
-                          : bch_nearest_free(set, agents, pairs, count, 2 * directions, options, depths);
+  return status != BCH_OK
+             ? status
+             : bch_nearest_free(set, agents, pairs, count, 2 * directions, options, depths, touches);
 }
 bch_status status_name(std::int32_t status, std::uint32_t implementation) {
   require(bch_status_name(status) != nullptr, "every number has a name");
@@ -91,11 +92,12 @@ constexpr auto& steps =
         bch_shape_set_builder_free, bch_dynamic_shape_set_free, bch_crowd_free, bch_character_free,
         bch_scene_plan_free, bch_obstacles_free, bch_animated_shape_free, bch_body_set_create,
         bch_body_set_get_info, bch_body_set_get_spheres, bch_collide_bodies, bch_within_bodies,
-        bch_clearance_bodies, bch_nearest_free_bodies, bch_penetration_bodies, bch_penetration_along_bodies,
-        bch_time_of_impact_bodies, bch_crowd_body_candidates, bch_crowd_body_collisions,
-        bch_crowd_body_contacts, bch_crowd_body_contacts_of, bch_crowd_body_clearances,
-        bch_crowd_body_penetrations, bch_crowd_body_obstacles, bch_obstacles_collide_bodies,
-        bch_obstacles_within_bodies, bch_obstacles_clearance_bodies, bch_body_set_free>;
+        bch_clearance_bodies, bch_nearest_free_bodies, bch_nearest_free_bodies_touches,
+        bch_penetration_bodies, bch_penetration_along_bodies, bch_time_of_impact_bodies,
+        bch_crowd_body_candidates, bch_crowd_body_collisions, bch_crowd_body_contacts,
+        bch_crowd_body_contacts_of, bch_crowd_body_clearances, bch_crowd_body_penetrations,
+        bch_crowd_body_obstacles, bch_obstacles_collide_bodies, bch_obstacles_within_bodies,
+        bch_obstacles_clearance_bodies, bch_body_set_free>;
 
 /// Something of most kinds, so that calls have something to ask. The first byte says how the set is made.
 void begin(Caller& by) {

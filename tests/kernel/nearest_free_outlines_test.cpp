@@ -21,6 +21,14 @@ Ways ways_of(const ShapeSet& set, const PairScene& scene, const CollideOptions& 
   return ways;
 }
 
+std::vector<Penetration::Touch> touches_of(const ShapeSet& set, const PairScene& scene,
+                                           const CollideOptions& options = {}) {
+  Ways ways(scene.pairs.size());
+  std::vector<Penetration::Touch> touches(scene.pairs.size());
+  nearest_free(set, scene.crowd.agents(), scene.pairs, directions, ways, options, touches);
+  return touches;
+}
+
 std::vector<std::uint8_t> hits_of(const ShapeSet& set, const PairScene& scene,
                                   const CollideOptions& options = {}) {
   std::vector<std::uint8_t> hits(scene.pairs.size());
@@ -132,6 +140,65 @@ TEST(NearestFreeStars, GrowsFromTheFirstTouchOn) {
   }
 }
 
+/// How far a point is from an outline that stands at a place.
+double distance_to(const Outline& outline, double turned, double px, double py) {
+  const double c = std::cos(turned), s = std::sin(turned), x = c * px + s * py, y = c * py - s * px;
+  double least = 1e300;
+  for (std::size_t k = 0; k < outline.contours(); ++k) {
+    const std::span<const Vec2> points = outline.contour(k);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto [ax, ay] = points[i];
+      const auto [bx, by] = points[(i + 1) % points.size()];
+      const double dx = double{bx} - double{ax}, dy = double{by} - double{ay}, to_x = x - double{ax},
+                   to_y = y - double{ay};
+      const double share = std::clamp((to_x * dx + to_y * dy) / (dx * dx + dy * dy), 0.0, 1.0);
+      least = std::min(least, std::hypot(to_x - share * dx, to_y - share * dy));
+    }
+  }
+  return least;
+}
+
+TEST(NearestFreeStars, EndsWhereTheOutlinesTouch) {
+  Stars stars;
+  const PairScene scene = random_scene(stars.random, *stars.set, 2'000);
+  const auto& shape = scene.crowd.shape;
+  const auto &x = scene.crowd.x, &y = scene.crowd.y, &heading = scene.crowd.heading;
+  const Ways ways = ways_of(*stars.set, scene);
+  const auto touches = touches_of(*stars.set, scene);
+  PairScene turned = scene;
+  for (Pair& pair : turned.pairs) std::swap(pair.first, pair.second);
+  const auto turned_touches = touches_of(*stars.set, turned);
+  PairScene back = part_of_the_way(scene, ways, 1);
+  std::size_t touching = 0;
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    const auto& [point, normal] = touches[i];
+    ASSERT_EQ(turned_touches[i].normal, (Vec3{-normal.x, -normal.y, -normal.z})) << i;
+    if (ways[i].depth == 0) {
+      ASSERT_EQ(touches[i], (Penetration::Touch{{0, 0, 0}, {0, 0, 0}}));
+      continue;
+    }
+    ++touching;
+    const auto [a, b] = scene.pairs[i];
+    const double nx{normal.x}, ny{normal.y};
+    ASSERT_NEAR(std::hypot(nx, ny), 1, 1e-6);
+    ASSERT_GE(nx * ways[i].x + ny * ways[i].y, -1e-6) << i;
+    // The point is on both outlines.
+    const Vec3 other = turned_touches[i].point;
+    ASSERT_EQ(point.z, 0.0f);
+    ASSERT_LT(distance_to(stars.shapes[shape[a]].outline, heading[a], double{point.x}, double{point.y}), 3e-5)
+        << i;
+    ASSERT_LT(distance_to(stars.shapes[shape[b]].outline, heading[b], double{other.x}, double{other.y}), 3e-5)
+        << i;
+    ASSERT_NEAR(back.crowd.x[a] + double{point.x}, x[b] + double{other.x}, 1e-6);
+    ASSERT_NEAR(back.crowd.y[a] + double{point.y}, y[b] + double{other.y}, 1e-6);
+    back.crowd.x[a] -= 2e-4 * nx, back.crowd.y[a] -= 2e-4 * ny;
+  }
+  const auto hits = hits_of(*stars.set, back);
+  const auto against_normals = static_cast<std::size_t>(std::ranges::count(hits, 1));
+  EXPECT_GT(touching, 400u);
+  EXPECT_GE(static_cast<double>(against_normals), 0.99 * static_cast<double>(touching));
+}
+
 TEST(NearestFreeStars, StandsOutsideOfWhatHoldsIt) {
   const Shape small = test::contour_shape(
                   test::polygon({{-0.1f, -0.1f}, {0.1f, -0.1f}, {0.1f, 0.1f}, {-0.1f, 0.1f}})),
@@ -147,6 +214,10 @@ TEST(NearestFreeStars, StandsOutsideOfWhatHoldsIt) {
     EXPECT_NEAR(double{ways[0].depth}, 0.35, 1e-4);
     EXPECT_NEAR(ways[0].y, 1, 1e-9);
     EXPECT_EQ(ways[1], (Penetration{ways[0].depth, -ways[0].x, -ways[0].y}));
+    const auto touches = touches_of(set, scene);
+    EXPECT_NEAR(double{touches[0].normal.y}, 1, 1e-6);
+    EXPECT_NEAR(double{touches[0].point.y}, -0.1, 1e-5);
+    EXPECT_NEAR(std::abs(double{touches[0].point.x}), 0.1, 1e-5) << "a corner of the small one";
   }
 }
 
@@ -179,10 +250,14 @@ TEST_F(NearestFreeOutlines, IsTheSameOnEveryImplementationAndFromEitherSide) {
   PairScene scene = random_scene(random, set, 2'000);
   for (const Leaves leaves : {Leaves::segments, Leaves::discs}) {
     const Ways ways = ways_of(set, scene, {nullptr, leaves});
+    const auto touches = touches_of(set, scene, {nullptr, leaves});
+    for (std::size_t i = 0; i < ways.size(); ++i)
+      ASSERT_NEAR(std::hypot(touches[i].normal.x, touches[i].normal.y), ways[i].depth > 0 ? 1 : 0, 1e-6) << i;
     PairScene turned = scene;
     for (Pair& pair : turned.pairs) std::swap(pair.first, pair.second);
     for (const Implementation& implementation : test::supported()) {
       EXPECT_EQ(ways_of(set, scene, {&implementation, leaves}), ways) << implementation.name;
+      EXPECT_EQ(touches_of(set, scene, {&implementation, leaves}), touches) << implementation.name;
       const Ways others = ways_of(set, turned, {&implementation, leaves});
       for (std::size_t i = 0; i < ways.size(); ++i)
         ASSERT_EQ(others[i], (Penetration{ways[i].depth, -ways[i].x, -ways[i].y})) << i;

@@ -99,6 +99,75 @@ TEST(NearestFree, LeavesNoCollision) {
   }
 }
 
+using Touches = std::vector<Penetration::Touch>;
+
+Touches touches_of(const CloseCrowd& scene, std::span<const Pair> pairs,
+                   const Implementation* implementation = nullptr) {
+  std::vector<Penetration> ways(pairs.size());
+  Touches touches(pairs.size());
+  nearest_free(scene.bodies, scene.crowd.agents(), pairs, directions, ways, implementation, touches);
+  EXPECT_EQ(ways, ways_of(scene.bodies, scene.crowd, pairs));
+  return touches;
+}
+
+/// How far a touch is from that of two spheres, the first of which has moved along a way.
+double difference(const Penetration::Touch& touch, const PlacedSphere& a, const PlacedSphere& b,
+                  const Penetration& way) {
+  const double x = a.x + double{way.depth} * way.x - b.x, y = a.y + double{way.depth} * way.y - b.y,
+               z = a.z - b.z, length = std::hypot(x, y, z);
+  const double px = a.x - a.agent_x - a.radius * x / length, py = a.y - a.agent_y - a.radius * y / length,
+               pz = a.z - a.agent_z - a.radius * z / length;
+  return std::max(
+      {std::abs(length - a.radius - b.radius),
+       std::hypot(px - double{touch.point.x}, py - double{touch.point.y}, pz - double{touch.point.z}),
+       std::hypot(x / length - double{touch.normal.x}, y / length - double{touch.normal.y},
+                  z / length - double{touch.normal.z})});
+}
+
+TEST(NearestFree, EndsWhereTwoSpheresTouch) {
+  const CloseCrowd scene;
+  const auto placed = test::placed_spheres(scene.bodies, scene.crowd);
+  const auto ways = ways_of(scene.bodies, scene.crowd, scene.crowd.pairs);
+  const Touches touches = touches_of(scene, scene.crowd.pairs);
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    const auto [first, second] = scene.crowd.pairs[i];
+    if (ways[i].depth == 0) {
+      ASSERT_EQ(touches[i], (Penetration::Touch{{0, 0, 0}, {0, 0, 0}}));
+      continue;
+    }
+    double least = 1;
+    for (const PlacedSphere& a : placed[first])
+      for (const PlacedSphere& b : placed[second])
+        least = std::min(least, difference(touches[i], a, b, ways[i]));
+    ASSERT_LT(least, 1e-4) << i;
+    const Vec3 normal = touches[i].normal;
+    ASSERT_GT(double{normal.x} * ways[i].x + double{normal.y} * ways[i].y, 0) << i;
+  }
+}
+
+TEST(NearestFree, TouchesAtTheSamePointFromEitherSide) {
+  const CloseCrowd scene;
+  const auto ways = ways_of(scene.bodies, scene.crowd, scene.crowd.pairs);
+  const Touches touches = touches_of(scene, scene.crowd.pairs);
+  std::vector<Pair> turned;
+  for (const Pair pair : scene.crowd.pairs) turned.push_back({pair.second, pair.first});
+  for (const Implementation& implementation : test::supported()) {
+    EXPECT_EQ(touches_of(scene, scene.crowd.pairs, &implementation), touches) << implementation.name;
+    const Touches others = touches_of(scene, turned, &implementation);
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+      const auto& [point, normal] = touches[i];
+      ASSERT_EQ(others[i].normal, (Vec3{-normal.x, -normal.y, -normal.z})) << i;
+      if (ways[i].depth == 0) continue;
+      const auto [a, b] = scene.crowd.pairs[i];
+      const double depth{ways[i].depth};
+      const auto& [x, y, z] = others[i].point;
+      ASSERT_NEAR(scene.crowd.x[a] + depth * ways[i].x + double{point.x}, scene.crowd.x[b] + double{x}, 1e-6);
+      ASSERT_NEAR(scene.crowd.y[a] + depth * ways[i].y + double{point.y}, scene.crowd.y[b] + double{y}, 1e-6);
+      ASSERT_NEAR(scene.crowd.z[a] + double{point.z}, scene.crowd.z[b] + double{z}, 1e-6);
+    }
+  }
+}
+
 TEST(NearestFree, IsTheSameOnEveryImplementationAndFromEitherSide) {
   const CloseCrowd scene;
   const auto ways = ways_of(scene.bodies, scene.crowd, scene.crowd.pairs);
@@ -123,6 +192,10 @@ TEST(NearestFree, RefusesWhatIsInvalid) {
   EXPECT_EQ(said(one, 16), "accepted");
   EXPECT_EQ(said(one, 3), "nearest_free: expected an even number of directions from 2 to 256, found 3");
   EXPECT_EQ(said(two, 16), "nearest_free: 2 pairs but 1 answers");
+  Touches touches(2);
+  EXPECT_EQ(test::complaint(
+                [&] { nearest_free(scene.bodies, scene.crowd.agents(), one, 16, ways, nullptr, touches); }),
+            "nearest_free: 1 pairs but 2 touches");
   EXPECT_TRUE(test::has(said(nobody, 16), "99"));
 }
 

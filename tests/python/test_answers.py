@@ -82,6 +82,12 @@ class Pairs(unittest.TestCase):
         self.assertEqual(free["depth"][1:].tolist(), [0, 0])
         discs = bch.nearest_free(SHAPES, LINE, PAIRS, leaves="discs", directions=4, threads=1)
         self.assertTrue(0.1 < discs["depth"][0] < 0.13)
+        touches = np.empty(3, bch.TOUCH)
+        np.testing.assert_array_equal(bch.nearest_free(SHAPES, LINE, PAIRS, touches=touches), free)
+        self.near(touches["normal"], [(-1, 0, 0), (0, 0, 0), (0, 0, 0)], 1e-6)
+        self.near(touches["point"][0, 0], 0.5, 1e-4)
+        with self.assertRaisesRegex(bch.ArrayError, "touches .* bch.TOUCH"):
+            bch.nearest_free(SHAPES, LINE, PAIRS, touches=free)
         with self.assertRaisesRegex(bch.ArrayError, "wanted is an array of pairs"):
             bch.nearest_free(SHAPES, LINE, WALL)
 
@@ -280,7 +286,9 @@ class Scenes(unittest.TestCase):
         with self.assertRaisesRegex(bch.ArgumentError, "body 0: expected finite spheres"):
             bch.BodySet([[[0, 0, 0, -1]]])
         parted = bch.penetration(bodies, agents, pairs)
-        free = bch.nearest_free(bodies, agents, pairs)
+        touches = np.empty(len(pairs), bch.TOUCH)
+        free = bch.nearest_free(bodies, agents, pairs, touches=touches)
+        np.testing.assert_allclose(np.linalg.norm(touches["normal"], axis=1), free["depth"] > 0, atol=1e-6)
         np.testing.assert_array_equal(free["depth"] > 0, bch.collide(bodies, agents, pairs) == 1)
         self.assertTrue((free["depth"] <= parted["depth"] + 1e-5).all())
         np.testing.assert_allclose(parted["depth"], [0.1, 1, 0, 0.1], atol=1e-4)

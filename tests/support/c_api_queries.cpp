@@ -54,6 +54,22 @@ CQuery clearance_into(const char* name, bool needs_memory, std::size_t count,
           [values] { return bytes(*values); }};
 }
 
+/// The query that writes depths and touches.
+CQuery nearest_free_into(const CScene& scene) {
+  const std::size_t n = scene.pairs.size();
+  const auto depths = std::make_shared<std::vector<bch_penetration_depth>>(n);
+  const auto touches = std::make_shared<std::vector<bch_touch>>(n);
+  return {"nearest free", true,
+          [=, all = &scene] {
+            return bch_nearest_free(all->set.get(), &all->agents, c_pairs(all->pairs), n, 16, &all->options,
+                                    depths->data(), touches->data());
+          },
+          [depths, touches] {
+            clear_padding(*depths);
+            return bytes(*depths) + bytes(*touches);
+          }};
+}
+
 void add_queries_of_pairs(const CScene& scene, std::vector<CQuery>& to) {
   const bch_shape_set* const set = scene.set.get();
   const bch_pair* const pairs = c_pairs(scene.pairs);
@@ -70,9 +86,7 @@ void add_queries_of_pairs(const CScene& scene, std::vector<CQuery>& to) {
   to.push_back(into<bch_penetration_depth>("penetration", false, n, [=](auto* out) {
     return bch_penetration(set, &all->agents, pairs, n, 16, &all->options, out);
   }));
-  to.push_back(into<bch_penetration_depth>("nearest free", true, n, [=](auto* out) {
-    return bch_nearest_free(set, &all->agents, pairs, n, 16, &all->options, out);
-  }));
+  to.push_back(nearest_free_into(scene));
   to.push_back(into<bch_penetration_depth>("penetration along", false, n, [=](auto* out) {
     return bch_penetration_along(set, &all->agents, pairs, n, all->along.data(), &all->options, out);
   }));

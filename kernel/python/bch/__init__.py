@@ -22,7 +22,7 @@ raise an error that says what is wanted. Every query releases the interpreter's 
 
 from . import plot
 from ._animated import AnimatedShape
-from ._arrays import DISC, PENETRATION, POSE, SOURCE, SPHERE, SPHERE_CONTACT
+from ._arrays import DISC, PENETRATION, POSE, SOURCE, SPHERE, SPHERE_CONTACT, TOUCH
 from ._bake import bake
 from ._bodies import BodyModel, BodySet, LiveBodies, default_body, load_models, save_models, spheres_from_capsules, spheres_from_polygons
 from ._characters import Bone, Channel, Curve, Joint, Motion, make_character
@@ -146,6 +146,7 @@ __all__ = [
     "ShapeSet",
     "ShapeSetBuilder",
     "SizeError",
+    "TOUCH",
     "TRACKED",
     "Trajectory",
     "Transforms",

@@ -40,6 +40,9 @@ SOURCE = np.dtype([("character", u4), ("clip", u4), ("seconds", f4)])
 SPHERE_CONTACT = np.dtype([("spheres", u4, 2), ("point", f4, 3), ("normal", f4, 3), ("depth", f4)])
 #: How far the first agent of a pair has to move, metres, and the direction of the move, a unit vector.
 PENETRATION = np.dtype({"names": ["depth", "x", "y"], "formats": [f4, f8, f8], "offsets": [0, 8, 16], "itemsize": 24})
+#: Where two agents touch after a move of `nearest_free`: the point relative to the first agent's position after the move, in the
+#: world's axes, metres, and the normal from the second to the first, a unit vector; zeros where they do not collide.
+TOUCH = np.dtype([("point", f4, 3), ("normal", f4, 3)])
 
 
 def address(array: npt.NDArray[Any]) -> int:
@@ -71,7 +74,7 @@ def _shape_words(shape: Shape) -> str:
 
 
 def _dtype_words(dtype: np.dtype[Any]) -> str:
-    names = {DISC: "bch.DISC", SPHERE: "bch.SPHERE", POSE: "bch.POSE", SOURCE: "bch.SOURCE", PENETRATION: "bch.PENETRATION", b1: "bool"}
+    names = {DISC: "bch.DISC", SPHERE: "bch.SPHERE", POSE: "bch.POSE", SOURCE: "bch.SOURCE", PENETRATION: "bch.PENETRATION", TOUCH: "bch.TOUCH", b1: "bool"}
     return names.get(dtype, dtype.name)
 
 

@@ -16,6 +16,7 @@ import numpy.typing as npt
 from . import _library
 from ._arrays import (
     PENETRATION,
+    TOUCH,
     Bool,
     Float32,
     Float64,
@@ -202,7 +203,9 @@ def pointers(shapes: Union[ShapeSet, BodySet], agents: Agents, bodies: bool = Fa
 _of_pairs_alone = ("nearest_free", "penetration", "penetration_along", "time_of_impact")
 
 
-def _bound_query(name: str, shapes: Union[ShapeSet, BodySet], agents: Agents, pairs: Pairs) -> Tuple[Callable[..., int], int]:
+def _bound_query(
+    name: str, shapes: Union[ShapeSet, BodySet], agents: Agents, pairs: Pairs, of_bodies: str = "_bodies"
+) -> Tuple[Callable[..., int], int]:
     """Return the function of a query, bound to what it is about, and the number of its answers."""
     bodies = isinstance(shapes, BodySet)
     set_at, agents_at = pointers(shapes, agents, bodies)
@@ -210,7 +213,7 @@ def _bound_query(name: str, shapes: Union[ShapeSet, BodySet], agents: Agents, pa
         function = getattr(lib, f"bch_obstacles_{name}{'_bodies' * bodies}")
         return functools.partial(function, set_at, agents_at, pairs._pointer), len(agents)
     where = given(pairs, u4, (None, 2), "pairs")
-    return functools.partial(getattr(lib, f"bch_{name}{'_bodies' * bodies}"), set_at, agents_at, where, len(pairs)), len(pairs)
+    return functools.partial(getattr(lib, f"bch_{name}{of_bodies * bodies}"), set_at, agents_at, where, len(pairs)), len(pairs)
 
 
 def collide(
@@ -469,6 +472,7 @@ def nearest_free(
     threads: int = 0,
     implementation: Optional[str] = None,
     out: Optional[Records] = None,
+    touches: Optional[Records] = None,
 ) -> Records:
     """Measure how far the first agent of each pair has to move on the ground to separate from the second.
 
@@ -485,6 +489,8 @@ def nearest_free(
     leaves, threads, implementation
         As for `collide`.
     out : (n,) PENETRATION, optional
+    touches : (n,) TOUCH, optional
+        An array to write to where the two touch after the move, and the normal there: `np.empty(len(pairs), bch.TOUCH)`.
 
     Returns
     -------
@@ -493,10 +499,11 @@ def nearest_free(
     """
     if isinstance(pairs, Obstacles):
         raise rejected(pairs, "pairs", "an array of pairs")
-    call, n = _bound_query("nearest_free", shapes, agents, pairs)
+    call, n = _bound_query("nearest_free", shapes, agents, pairs, "_bodies_touches")
     depths = result(out, PENETRATION, (n,))
+    ends = None if touches is None else address(result(touches, TOUCH, (n,), "touches"))
     how, _ = options(leaves, "zero", math.inf, threads, implementation)
-    check(call(bounded(directions, "directions", 2, 256), how, address(depths)))
+    check(call(bounded(directions, "directions", 2, 256), how, address(depths), ends))
     return depths
 
 

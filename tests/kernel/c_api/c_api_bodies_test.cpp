@@ -169,8 +169,14 @@ TEST(CApiBodies, AnswerAboutPairsAsInCpp) {
   };
   expect_depths();
   expect_ok(bch_nearest_free_bodies(of.c_set.get(), &of.agents, of.pairs(), n, 16, nullptr, depths.data()));
-  nearest_free(of.set, agents, of.crowd.pairs, 16, expected);
+  std::vector<Penetration::Touch> expected_touches(n);
+  nearest_free(of.set, agents, of.crowd.pairs, 16, expected, nullptr, expected_touches);
   expect_depths();
+  std::vector<bch_touch> touches(n);
+  expect_ok(bch_nearest_free_bodies_touches(of.c_set.get(), &of.agents, of.pairs(), n, 16, nullptr,
+                                            depths.data(), touches.data()));
+  expect_depths();
+  expect_bytes(touches.data(), n, std::span<const Penetration::Touch>(expected_touches));
   const std::vector<bch_vec2> along(n, {1, 2});
   expect_ok(bch_penetration_along_bodies(of.c_set.get(), &of.agents, of.pairs(), n, along.data(), nullptr,
                                          depths.data()));

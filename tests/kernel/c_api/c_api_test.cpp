@@ -83,7 +83,9 @@ std::map<std::string, std::string> answers_of(const test::CScene& scene, const d
   collide(set, agents, scene.pairs, hits, by), all["collide"] = bytes(hits);
   within(set, agents, scene.pairs, nearer.first(n), hits, by), all["within"] = bytes(hits);
   penetration(set, agents, scene.pairs, 16, depths), all["penetration"] = bytes_of(depths);
-  nearest_free(set, agents, scene.pairs, 16, depths, by), all["nearest free"] = bytes_of(depths);
+  std::vector<Penetration::Touch> touches(n);
+  nearest_free(set, agents, scene.pairs, 16, depths, by, touches);
+  all["nearest free"] = bytes_of(depths) + bytes(touches);
   along.resize(n);
   penetration_along(set, agents, scene.pairs, along, depths), all["penetration along"] = bytes_of(depths);
   time_of_impact(set, agents, scene.pairs, {x.first(n), y.first(n)}, distance);

@@ -56,9 +56,11 @@ BCH_API const char* bch_version(void);
 typedef int32_t bch_status;
 enum {
   BCH_OK = 0,
-  BCH_INVALID_ARGUMENT = 1, /**< an argument that makes no sense; the message names it, an index and the value */
-  BCH_OUT_OF_RANGE = 2,     /**< an index argument beyond what there is; one within an array is BCH_INVALID_ARGUMENT */
-  BCH_TOO_LARGE = 3,        /**< more than the library's limits allow */
+  BCH_INVALID_ARGUMENT =
+      1, /**< an argument that makes no sense; the message names it, an index and the value */
+  BCH_OUT_OF_RANGE =
+      2, /**< an index argument beyond what there is; one within an array is BCH_INVALID_ARGUMENT */
+  BCH_TOO_LARGE = 3, /**< more than the library's limits allow */
   BCH_NO_MEMORY = 4,
   BCH_FILE_NOT_FOUND = 5,
   BCH_BAD_FILE = 6,  /**< a file that cannot be read, trusted or written */
@@ -122,7 +124,8 @@ enum { BCH_PEDESTRIAN_FEMALE = 0, BCH_PEDESTRIAN_MALE = 1 };
 /** Makes a pedestrian of a stature in metres, for recorded and simulated crowds. Clip k is one stride at k * BCH_PEDESTRIAN_SPEED_STEP, in
  * metres per second, from 0 to 2.19. The origin of the shape is below the head. `shoulders` is their turn from square to the
  * walking direction, radians, counter-clockwise. */
-BCH_API bch_status bch_character_pedestrian(int32_t sex, double stature, double shoulders, bch_character** character);
+BCH_API bch_status bch_character_pedestrian(int32_t sex, double stature, double shoulders,
+                                            bch_character** character);
 #define BCH_PEDESTRIAN_SPEED_STEP 0.03
 /** Returns the number of strides, of two steps each, that a pedestrian takes in a second. */
 BCH_API double bch_pedestrian_strides_per_second(double metres_per_second);
@@ -143,10 +146,12 @@ enum {
 };
 /** Describes how a part of a joint's transform moves: keys in order of time. Without keys that part stays as it is at rest. */
 typedef struct bch_curve {
-  const float* times;  /**< seconds from the start of the clip */
-  const float* values; /**< one key after the other: x, y, z, and w of rotations, which are unit quaternions */
-  const float* tangents; /**< only of cubic curves: those before and after each key, per second, like values */
-  size_t count;          /**< of keys */
+  const float* times; /**< seconds from the start of the clip */
+  const float*
+      values; /**< one key after the other: x, y, z, and w of rotations, which are unit quaternions */
+  const float*
+      tangents; /**< only of cubic curves: those before and after each key, per second, like values */
+  size_t count; /**< of keys */
   int32_t interpolation; /**< BCH_LINEAR, BCH_STEP or BCH_CUBIC */
 } bch_curve;
 /** Describes the motion of one joint relative to its parent. */
@@ -165,37 +170,43 @@ typedef struct bch_clip {
  * inverse bind matrix, from the vertices' frame into the joint's frame in the bind pose. Without joints it is a mesh that stands still,
  * about the agent's position. */
 typedef struct bch_character_arrays {
-  uint32_t size;      /**< sizeof(bch_character_arrays) */
-  int32_t root_joint; /**< the joint whose (x, y) is a shape's origin; -1: the centre of the mesh's bounding rectangle */
-  const char* name;   /**< or NULL */
+  uint32_t size; /**< sizeof(bch_character_arrays) */
+  int32_t
+      root_joint; /**< the joint whose (x, y) is a shape's origin; -1: the centre of the mesh's bounding rectangle */
+  const char* name; /**< or NULL */
   const bch_vec3* vertices;
   size_t vertex_count;
   const uint32_t* triangles; /**< three vertices each */
   size_t triangle_count;
-  const int32_t* parents;    /**< of joints: an earlier joint, or -1 */
-  const bch_affine3* rests;  /**< of joints, in the parent's frame; NULL: identities */
+  const int32_t* parents;         /**< of joints: an earlier joint, or -1 */
+  const bch_affine3* rests;       /**< of joints, in the parent's frame; NULL: identities */
   const char* const* joint_names; /**< or NULL */
   size_t joint_count;
   const uint32_t* bone_joints;
   const bch_affine3* inverse_binds; /**< of bones; NULL: vertices are in the joints' frames */
   size_t bone_count;
-  const uint64_t* influence_offsets; /**< vertex v follows influences [v] to [v + 1]; NULL: all follow the first bone */
+  const uint64_t*
+      influence_offsets; /**< vertex v follows influences [v] to [v + 1]; NULL: all follow the first bone */
   const bch_influence* influences;
   const bch_clip* clips;
   size_t clip_count;
-  const bch_affine3* to_ground; /**< from the joints' frame to the world: metres, z up; NULL: they are the same */
+  const bch_affine3*
+      to_ground; /**< from the joints' frame to the world: metres, z up; NULL: they are the same */
 } bch_character_arrays;
-#define BCH_CHARACTER_ARRAYS_INIT \
-  { sizeof(bch_character_arrays), -1, NULL, NULL, 0, NULL, 0, NULL, NULL, NULL, 0, NULL, NULL, 0, NULL, NULL, NULL, 0, NULL }
+#define BCH_CHARACTER_ARRAYS_INIT                                                                       \
+  {                                                                                                     \
+    sizeof(bch_character_arrays), -1, NULL, NULL, 0, NULL, 0, NULL, NULL, NULL, 0, NULL, NULL, 0, NULL, \
+        NULL, NULL, 0, NULL                                                                             \
+  }
 /** Makes a character from arrays, which are copied. */
 BCH_API bch_status bch_character_create(const bch_character_arrays* arrays, bch_character** character);
 
 /** Holds the sizes, names and notes of a character. */
 typedef struct bch_character_info {
-  uint32_t size;    /**< sizeof(bch_character_info) */
+  uint32_t size; /**< sizeof(bch_character_info) */
   uint32_t joints;
   uint32_t clips;
-  float height;     /**< of an imported file's rest pose, metres; 0 for other characters */
+  float height; /**< of an imported file's rest pose, metres; 0 for other characters */
   uint64_t vertices;
   uint64_t triangles;
   const char* name;  /**< lives as long as the character, like the next */
@@ -216,19 +227,24 @@ typedef struct bch_pose {
 } bch_pose;
 #define BCH_REST_POSE 0xffffffffu
 /** Writes `count` poses spread evenly over all clips; those of a character without clips are the rest pose. */
-BCH_API bch_status bch_character_sample_poses(const bch_character* character, uint32_t count, bch_pose* poses);
+BCH_API bch_status bch_character_sample_poses(const bch_character* character, uint32_t count,
+                                              bch_pose* poses);
 /** Gets the name and the parent of a joint, -1 for one without; either may be NULL. The name lives as long as the character. */
 BCH_API bch_status bch_character_get_joint(const bch_character* character, uint32_t joint, const char** name,
                                            int32_t* parent);
 /** Finds the one joint of a name. */
-BCH_API bch_status bch_character_find_joint(const bch_character* character, const char* name, uint32_t* joint);
+BCH_API bch_status bch_character_find_joint(const bch_character* character, const char* name,
+                                            uint32_t* joint);
 
 /** Selects the form of poses in bch_pose_arrays. */
 enum {
   BCH_JOINTS_IN_PARENTS = 0, /**< the transforms of all joints, each in the frame of its parent */
-  BCH_JOINTS_IN_WORLD = 1,   /**< the world transforms of all joints: metres, z up; the root joint's (x, y) is the origin */
-  BCH_BONE_MATRICES = 2,     /**< skinning matrices of all bones: the joint's world transform times its inverse bind matrix */
-  BCH_POSED_VERTICES = 3     /**< the positions of all vertices, three floats each: metres, z up, relative to the shape's origin */
+  BCH_JOINTS_IN_WORLD =
+      1, /**< the world transforms of all joints: metres, z up; the root joint's (x, y) is the origin */
+  BCH_BONE_MATRICES =
+      2, /**< skinning matrices of all bones: the joint's world transform times its inverse bind matrix */
+  BCH_POSED_VERTICES =
+      3 /**< the positions of all vertices, three floats each: metres, z up, relative to the shape's origin */
 };
 /** Selects how transforms are written. */
 enum {
@@ -239,13 +255,15 @@ enum {
 };
 /** Refers to poses in an array of the caller, one pose after the other. */
 typedef struct bch_pose_arrays {
-  uint32_t size;         /**< sizeof(bch_pose_arrays) */
-  int32_t kind;          /**< BCH_JOINTS_IN_PARENTS ... */
-  int32_t layout;        /**< BCH_FLOAT_ROWS ...; has to be BCH_FLOAT_ROWS for vertices */
-  const void* data;      /**< the numbers */
-  size_t count;          /**< of transforms or vertices in a pose */
-  size_t stride;         /**< numbers from one transform to the next, at least what one takes; 0: one follows the other */
-  const double* origins; /**< of bone matrices: x and y of the world point that is the shape's origin, for each pose; or NULL: 0 */
+  uint32_t size;    /**< sizeof(bch_pose_arrays) */
+  int32_t kind;     /**< BCH_JOINTS_IN_PARENTS ... */
+  int32_t layout;   /**< BCH_FLOAT_ROWS ...; has to be BCH_FLOAT_ROWS for vertices */
+  const void* data; /**< the numbers */
+  size_t count;     /**< of transforms or vertices in a pose */
+  size_t
+      stride; /**< numbers from one transform to the next, at least what one takes; 0: one follows the other */
+  const double*
+      origins; /**< of bone matrices: x and y of the world point that is the shape's origin, for each pose; or NULL: 0 */
 } bch_pose_arrays;
 #define BCH_POSE_ARRAYS_INIT \
   { sizeof(bch_pose_arrays), BCH_JOINTS_IN_PARENTS, BCH_FLOAT_ROWS, NULL, 0, 0, NULL }
@@ -255,10 +273,11 @@ typedef struct bch_pose_arrays {
 BCH_API bch_status bch_character_get_transforms(const bch_character* character, bch_pose pose, int32_t kind,
                                                 double* rows);
 /** Writes the transforms of a mean of poses by weights, each in the frame of its joint's parent, as BCH_DOUBLE_ROWS. */
-BCH_API bch_status bch_character_blend(const bch_character* character, const bch_pose* poses, const float* weights,
-                                       size_t count, double* rows);
+BCH_API bch_status bch_character_blend(const bch_character* character, const bch_pose* poses,
+                                       const float* weights, size_t count, double* rows);
 /** Writes the positions of all vertices at a time of a clip. */
-BCH_API bch_status bch_character_get_vertices(const bch_character* character, bch_pose pose, bch_vec3* positions);
+BCH_API bch_status bch_character_get_vertices(const bch_character* character, bch_pose pose,
+                                              bch_vec3* positions);
 /** Frees a character. Shapers that were made from it stay valid. */
 BCH_API bch_status bch_character_free(bch_character* character);
 
@@ -272,10 +291,10 @@ typedef struct bch_shape_set bch_shape_set;
 
 /** Describes what a scene will use of its shapes; nothing else is built or stored. */
 typedef struct bch_plan {
-  uint32_t size;          /**< sizeof(bch_plan) */
-  int32_t outlines;       /**< not 0: keep outlines, without which discs alone decide */
-  int32_t culling;        /**< not 0: keep data that lets queries skip most of their work; changes no answer */
-  int32_t heights;        /**< not 0: keep the heights of bodies, for agents at different heights */
+  uint32_t size;    /**< sizeof(bch_plan) */
+  int32_t outlines; /**< not 0: keep outlines, without which discs alone decide */
+  int32_t culling;  /**< not 0: keep data that lets queries skip most of their work; changes no answer */
+  int32_t heights;  /**< not 0: keep the heights of bodies, for agents at different heights */
   const uint32_t* depths; /**< levels of detail, ascending; NULL: BCH_ALL_DEPTHS alone */
   size_t depth_count;
   float threshold; /**< the radius below which discs are not divided */
@@ -286,12 +305,14 @@ typedef struct bch_plan {
 /** Selects how the bytes of a file are accessed. */
 enum {
   BCH_READ = 0, /**< copied into memory: safe whatever happens to the file afterwards */
-  BCH_MAP = 1   /**< mapped without a copy: for files that no process writes to or shortens while the set lives */
+  BCH_MAP =
+      1 /**< mapped without a copy: for files that no process writes to or shortens while the set lives */
 };
 /** Loads a set from a baked file. */
 BCH_API bch_status bch_shape_set_load(const char* path, int32_t access, bch_shape_set** set);
 /** Loads a set from the bytes of a baked file, which are copied. Errors call them `name`. */
-BCH_API bch_status bch_shape_set_load_bytes(const void* bytes, size_t size, const char* name, bch_shape_set** set);
+BCH_API bch_status bch_shape_set_load_bytes(const void* bytes, size_t size, const char* name,
+                                            bch_shape_set** set);
 /** Writes a set as a baked file, whole or not at all. */
 BCH_API bch_status bch_shape_set_save(const bch_shape_set* set, const char* path);
 
@@ -318,7 +339,8 @@ typedef struct bch_shape_origin {
   float seconds;         /**< from the start of the clip */
 } bch_shape_origin;
 /** Gets the character and pose that a shape was made from. */
-BCH_API bch_status bch_shape_set_get_origin(const bch_shape_set* set, uint32_t shape, bch_shape_origin* origin);
+BCH_API bch_status bch_shape_set_get_origin(const bch_shape_set* set, uint32_t shape,
+                                            bch_shape_origin* origin);
 /** Gets the radius about an agent's position that holds all of its shape at every level and heading. */
 BCH_API bch_status bch_shape_set_get_radius(const bch_shape_set* set, uint32_t shape, float* radius);
 /** Gets the discs of a shape at a level, in the order in which queries number them. Writes at most `capacity` discs, and the number of
@@ -345,8 +367,8 @@ BCH_API bch_status bch_shape_set_get_outline(const bch_shape_set* set, uint32_t 
 typedef void (*bch_finding)(void* user, const char* line);
 /** Checks a set from an untrusted file: recomputes from discs and outlines everything else that it stores, and compares. Calls `finding`,
  * which may be NULL, for at most `most` differences, and writes the number of these to `count`. */
-BCH_API bch_status bch_shape_set_verify(const bch_shape_set* set, size_t most, bch_finding finding, void* user,
-                                        size_t* count);
+BCH_API bch_status bch_shape_set_verify(const bch_shape_set* set, size_t most, bch_finding finding,
+                                        void* user, size_t* count);
 /** Frees a set. */
 BCH_API bch_status bch_shape_set_free(bch_shape_set* set);
 
@@ -365,7 +387,8 @@ BCH_API bch_status bch_pose_shaper_create(const bch_character* character, const 
 /** Makes the shape of a pose, in place of the previous one. */
 BCH_API bch_status bch_pose_shaper_make(bch_pose_shaper* shaper, bch_pose pose);
 /** Makes the shape of poses[index], a pose given by arrays, in the same way. */
-BCH_API bch_status bch_pose_shaper_make_own(bch_pose_shaper* shaper, const bch_pose_arrays* poses, size_t index);
+BCH_API bch_status bch_pose_shaper_make_own(bch_pose_shaper* shaper, const bch_pose_arrays* poses,
+                                            size_t index);
 /** Gets the outline of the shape that was made last; see bch_shape_set_get_outline(). */
 BCH_API bch_status bch_pose_shaper_get_outline(const bch_pose_shaper* shaper, bch_outline* outline);
 /** Frees a shaper. */
@@ -377,11 +400,13 @@ typedef struct bch_shape_set_builder bch_shape_set_builder;
 BCH_API bch_status bch_shape_set_builder_create(const bch_plan* plan, bch_shape_set_builder** builder);
 /** Adds the shapes of a character's poses, which many threads make. After an error or a cancellation none of them has been added, and
  * shapes that were added before are still there. */
-BCH_API bch_status bch_shape_set_builder_add_poses(bch_shape_set_builder* builder, const bch_character* character,
-                                                   const bch_pose* poses, size_t count, const bch_work* work);
+BCH_API bch_status bch_shape_set_builder_add_poses(bch_shape_set_builder* builder,
+                                                   const bch_character* character, const bch_pose* poses,
+                                                   size_t count, const bch_work* work);
 /** Adds the shapes of `count` poses given by arrays, as bch_shape_set_builder_add_poses() does of clips. For
  * them bch_shape_set_get_origin() gives the rest pose. */
-BCH_API bch_status bch_shape_set_builder_add_own_poses(bch_shape_set_builder* builder, const bch_character* character,
+BCH_API bch_status bch_shape_set_builder_add_own_poses(bch_shape_set_builder* builder,
+                                                       const bch_character* character,
                                                        const bch_pose_arrays* poses, size_t count,
                                                        const bch_work* work);
 /** Names the character and pose that a shape shows. */
@@ -395,15 +420,17 @@ BCH_API bch_status bch_shape_set_builder_add_sources(bch_shape_set_builder* buil
                                                      size_t character_count, const bch_shape_source* sources,
                                                      size_t count, const bch_work* work);
 /** Adds the shape that a shaper made last. */
-BCH_API bch_status bch_shape_set_builder_add_shape(bch_shape_set_builder* builder, const bch_pose_shaper* shaper);
+BCH_API bch_status bch_shape_set_builder_add_shape(bch_shape_set_builder* builder,
+                                                   const bch_pose_shaper* shaper);
 /** Adds a body of polygons: polygon i has corners offsets[i] to offsets[i + 1], in the agent's frame, in either orientation. If `heights`
  * is NULL, the body takes part at every height, as for the next functions. */
 BCH_API bch_status bch_shape_set_builder_add_polygons(bch_shape_set_builder* builder, const bch_vec2* corners,
                                                       const uint64_t* offsets, size_t polygons,
                                                       const bch_heights* heights);
 /** Adds a body of capsules, whose outline is nowhere farther from them than a tolerance. */
-BCH_API bch_status bch_shape_set_builder_add_capsules(bch_shape_set_builder* builder, const bch_capsule* capsules,
-                                                      size_t count, float tolerance, const bch_heights* heights);
+BCH_API bch_status bch_shape_set_builder_add_capsules(bch_shape_set_builder* builder,
+                                                      const bch_capsule* capsules, size_t count,
+                                                      float tolerance, const bch_heights* heights);
 /** Adds a body of discs, which queries number as they are given. It has no outline; nor has a cylinder. Capsules have outlines. */
 BCH_API bch_status bch_shape_set_builder_add_discs(bch_shape_set_builder* builder, const bch_disc* discs,
                                                    size_t count, const bch_heights* heights);
@@ -433,13 +460,16 @@ BCH_API bch_status bch_dynamic_shape_set_replace(bch_dynamic_shape_set* set, uin
                                                  const bch_pose_shaper* shaper);
 /** Replaces many shapes by poses of a character, which many threads make: shapes[i], each named once, by poses[i]. `threshold` is that of
  * bch_plan. After an error or a cancellation some shapes are new, and others are unchanged. */
-BCH_API bch_status bch_dynamic_shape_set_replace_poses(bch_dynamic_shape_set* set, const bch_character* character,
-                                                       const uint32_t* shapes, const bch_pose* poses, size_t count,
-                                                       float threshold, const bch_work* work);
+BCH_API bch_status bch_dynamic_shape_set_replace_poses(bch_dynamic_shape_set* set,
+                                                       const bch_character* character, const uint32_t* shapes,
+                                                       const bch_pose* poses, size_t count, float threshold,
+                                                       const bch_work* work);
 /** Replaces many shapes by poses given by arrays, in the same way. */
-BCH_API bch_status bch_dynamic_shape_set_replace_own_poses(bch_dynamic_shape_set* set, const bch_character* character,
-                                                           const uint32_t* shapes, const bch_pose_arrays* poses,
-                                                           size_t count, float threshold, const bch_work* work);
+BCH_API bch_status bch_dynamic_shape_set_replace_own_poses(bch_dynamic_shape_set* set,
+                                                           const bch_character* character,
+                                                           const uint32_t* shapes,
+                                                           const bch_pose_arrays* poses, size_t count,
+                                                           float threshold, const bch_work* work);
 /** Frees a dynamic set, and the set that it lent. */
 BCH_API bch_status bch_dynamic_shape_set_free(bch_dynamic_shape_set* set);
 
@@ -450,9 +480,10 @@ typedef struct bch_outlines bch_outlines;
 /** Says what of a mesh is outlined. */
 typedef struct bch_outline_options {
   uint32_t size; /**< sizeof(bch_outline_options) */
-  int32_t holes; /**< not 0: also holes, as clockwise contours after the one around them, and what lies in them */
-  float bottom;  /**< metres; what is below is cut off; -infinity: nothing */
-  float top;     /**< metres; what is above is cut off; infinity: nothing */
+  int32_t
+      holes; /**< not 0: also holes, as clockwise contours after the one around them, and what lies in them */
+  float bottom; /**< metres; what is below is cut off; -infinity: nothing */
+  float top;    /**< metres; what is above is cut off; infinity: nothing */
 } bch_outline_options;
 #define BCH_OUTLINE_OPTIONS_INIT \
   { sizeof(bch_outline_options), 0, -INFINITY, INFINITY }
@@ -463,9 +494,9 @@ BCH_API bch_status bch_outlines_of_mesh(const bch_vec3* positions, size_t vertic
                                         const bch_outline_options* options, const bch_work* work,
                                         bch_outlines** outlines);
 /** Finds the outlines of a character in poses, about the point that its shapes have as origin. */
-BCH_API bch_status bch_outlines_of_character(const bch_character* character, const bch_pose* poses, size_t count,
-                                             const bch_outline_options* options, const bch_work* work,
-                                             bch_outlines** outlines);
+BCH_API bch_status bch_outlines_of_character(const bch_character* character, const bch_pose* poses,
+                                             size_t count, const bch_outline_options* options,
+                                             const bch_work* work, bch_outlines** outlines);
 /** Gets the outline of a pose. Writes as many points and offsets as fit, and the numbers of all. */
 BCH_API bch_status bch_outlines_get(const bch_outlines* outlines, size_t pose, bch_outline* outline);
 /** Names the formats of an outline as text: both hold polygons, so that what has no area is left out. */
@@ -475,8 +506,8 @@ enum {
 };
 /** Gets the outline of a pose as text. Writes at most `capacity` characters, without a zero at the end, and the number of all to
  * `length`. */
-BCH_API bch_status bch_outlines_get_text(const bch_outlines* outlines, size_t pose, int32_t format, char* text,
-                                         size_t capacity, size_t* length);
+BCH_API bch_status bch_outlines_get_text(const bch_outlines* outlines, size_t pose, int32_t format,
+                                         char* text, size_t capacity, size_t* length);
 /** Frees outlines. */
 BCH_API bch_status bch_outlines_free(bch_outlines* outlines);
 
@@ -493,7 +524,8 @@ typedef struct bch_agents {
   const uint32_t* shape; /**< index into the set */
   const void* x;         /**< numbers, as y, heading and z are */
   const void* y;
-  const void* heading;  /**< counter-clockwise; 0 leaves a shape as it is. With heading_y the x of a direction */
+  const void*
+      heading; /**< counter-clockwise; 0 leaves a shape as it is. With heading_y the x of a direction */
   const uint8_t* level; /**< index into the set's depths; NULL: the last one for all */
   const void* z;        /**< heights of the grounds that agents stand on; NULL: one ground for all */
   size_t count;
@@ -526,18 +558,18 @@ enum {
  * - bch_clearance() and bch_obstacles_clearance(): `max_distance`, `overlap` and `distance_leaves`,
  * - bch_crowd_clearances(): `overlap` and `distance_leaves`. */
 typedef struct bch_query_options {
-  uint32_t size;           /**< sizeof(bch_query_options) */
-  int32_t leaves;          /**< of collisions and contacts: BCH_SEGMENTS or BCH_DISCS */
-  int32_t distance_leaves; /**< of clearance: BCH_DISCS or BCH_SEGMENTS; deepest overlaps are those of discs */
-  int32_t overlap;         /**< of clearance: BCH_OVERLAP_ZERO or BCH_OVERLAP_DEEPEST */
-  uint32_t threads;        /**< 0: one for each processor; the answer is the same for any number */
-  double max_distance;     /**< of clearance: farther pairs get an infinite distance */
-  const char* implementation; /**< one of bch_implementation_name(); NULL: the best; the answer is the same for all */
+  uint32_t size;  /**< sizeof(bch_query_options) */
+  int32_t leaves; /**< of collisions and contacts: BCH_SEGMENTS or BCH_DISCS */
+  int32_t
+      distance_leaves; /**< of clearance: BCH_DISCS or BCH_SEGMENTS; deepest overlaps are those of discs */
+  int32_t overlap;     /**< of clearance: BCH_OVERLAP_ZERO or BCH_OVERLAP_DEEPEST */
+  uint32_t threads;    /**< 0: one for each processor; the answer is the same for any number */
+  double max_distance; /**< of clearance: farther pairs get an infinite distance */
+  const char*
+      implementation; /**< one of bch_implementation_name(); NULL: the best; the answer is the same for all */
 } bch_query_options;
-#define BCH_QUERY_OPTIONS_INIT                                                                                   \
-  {                                                                                                              \
-    sizeof(bch_query_options), BCH_SEGMENTS, BCH_DISCS, BCH_OVERLAP_ZERO, 0, (double)INFINITY, NULL \
-  }
+#define BCH_QUERY_OPTIONS_INIT \
+  { sizeof(bch_query_options), BCH_SEGMENTS, BCH_DISCS, BCH_OVERLAP_ZERO, 0, (double)INFINITY, NULL }
 
 /** Returns the name of the i-th implementation, the best first, such as "avx512", "avx2", "sse2" and "scalar"; NULL beyond the last. */
 BCH_API const char* bch_implementation_name(uint32_t i);
@@ -577,9 +609,10 @@ typedef struct bch_nearest_points {
 } bch_nearest_points;
 /** Holds the output arrays of bch_clearance(), with one entry per pair. Arrays that are NULL are not computed. */
 typedef struct bch_clearance_out {
-  uint32_t size;              /**< sizeof(bch_clearance_out) */
-  float* distance;            /**< metres; infinite beyond max_distance; required, not NULL */
-  bch_vec2* direction;        /**< from the first agent's nearest point to the second's; (0, 0) where there is none */
+  uint32_t size;   /**< sizeof(bch_clearance_out) */
+  float* distance; /**< metres; infinite beyond max_distance; required, not NULL */
+  bch_vec2*
+      direction; /**< from the first agent's nearest point to the second's; (0, 0) where there is none */
   bch_disc_pair* discs;       /**< the nearest discs, or leaves; BCH_NO_DISC where there are none */
   bch_nearest_points* points; /**< the nearest points; (0, 0) where there are none */
 } bch_clearance_out;
@@ -587,7 +620,8 @@ typedef struct bch_clearance_out {
   { sizeof(bch_clearance_out), NULL, NULL, NULL, NULL }
 /** Measures how far apart the agents of each pair are. */
 BCH_API bch_status bch_clearance(const bch_shape_set* set, const bch_agents* agents, const bch_pair* pairs,
-                                 size_t count, const bch_query_options* options, const bch_clearance_out* out);
+                                 size_t count, const bch_query_options* options,
+                                 const bch_clearance_out* out);
 
 /** Tells how far the first agent of a pair has to move to separate from the second, and in which direction, a unit vector. */
 typedef struct bch_penetration_depth {
@@ -600,18 +634,24 @@ typedef struct bch_penetration_depth {
 BCH_API bch_status bch_penetration(const bch_shape_set* set, const bch_agents* agents, const bch_pair* pairs,
                                    size_t count, uint32_t directions, const bch_query_options* options,
                                    bch_penetration_depth* depths);
-/** Measures the shortest such move after which bch_collide() by `leaves` answers 0: the two may stay interlocked. 0: they do not collide. */
+/** Tells where the two agents of a pair touch after a move of bch_nearest_free(), at the two parts of them that separate last. */
+typedef struct bch_touch {
+  bch_vec3 point;  /**< relative to the first agent's position after the move, in the world's axes */
+  bch_vec3 normal; /**< a unit vector from the second agent to the first; (0, 0, 0): the two do not collide */
+} bch_touch;
+/** Measures the shortest such move after which bch_collide() by `leaves` answers 0: the two may stay interlocked. 0: they do not collide.
+ * `touches` may be NULL. */
 BCH_API bch_status bch_nearest_free(const bch_shape_set* set, const bch_agents* agents, const bch_pair* pairs,
                                     size_t count, uint32_t directions, const bch_query_options* options,
-                                    bch_penetration_depth* depths);
+                                    bch_penetration_depth* depths, bch_touch* touches);
 /** Measures the same as bch_penetration() along a given direction, which may have any length. */
-BCH_API bch_status bch_penetration_along(const bch_shape_set* set, const bch_agents* agents, const bch_pair* pairs,
-                                         size_t count, const bch_vec2* directions,
+BCH_API bch_status bch_penetration_along(const bch_shape_set* set, const bch_agents* agents,
+                                         const bch_pair* pairs, size_t count, const bch_vec2* directions,
                                          const bch_query_options* options, bch_penetration_depth* depths);
 /** Finds when discs of the agents of each pair first touch while the first moves by (x, y) relative to the second: a time from 0 to 1,
  * or infinity. */
-BCH_API bch_status bch_time_of_impact(const bch_shape_set* set, const bch_agents* agents, const bch_pair* pairs,
-                                      size_t count, const double* x, const double* y,
+BCH_API bch_status bch_time_of_impact(const bch_shape_set* set, const bch_agents* agents,
+                                      const bch_pair* pairs, size_t count, const double* x, const double* y,
                                       const bch_query_options* options, float* times);
 
 /* Queries of crowds -------------------------------------------------------------------------------------------------- */
@@ -688,7 +728,8 @@ BCH_API bch_status bch_crowd_create(const bch_crowd_options* options, bch_crowd*
  * `filter` may be NULL here and below. */
 BCH_API bch_status bch_crowd_candidates(bch_crowd* crowd, const bch_shape_set* set, const bch_agents* agents,
                                         double margin, const bch_pair_filter* filter,
-                                        const bch_query_options* options, const bch_pair** pairs, size_t* count);
+                                        const bch_query_options* options, const bch_pair** pairs,
+                                        size_t* count);
 /** Finds the pairs that collide, each once, with first < second. */
 BCH_API bch_status bch_crowd_collisions(bch_crowd* crowd, const bch_shape_set* set, const bch_agents* agents,
                                         const bch_pair_filter* filter, const bch_query_options* options,
@@ -699,16 +740,17 @@ BCH_API bch_status bch_crowd_contacts(bch_crowd* crowd, const bch_shape_set* set
                                       bch_contact_rows* contacts);
 /** Finds the contacts of given pairs, one row per pair, which may be empty. The rows' `pairs` are the given ones. */
 BCH_API bch_status bch_crowd_contacts_of(bch_crowd* crowd, const bch_shape_set* set, const bch_agents* agents,
-                                         const bch_pair* pairs, size_t count, const bch_query_options* options,
-                                         bch_contact_rows* contacts);
+                                         const bch_pair* pairs, size_t count,
+                                         const bch_query_options* options, bch_contact_rows* contacts);
 /** Finds the pairs whose clearance is at most `within` metres. */
 BCH_API bch_status bch_crowd_clearances(bch_crowd* crowd, const bch_shape_set* set, const bch_agents* agents,
                                         double within, const bch_pair_filter* filter,
-                                        const bch_query_options* options, bch_crowd_clearance_view* clearances);
+                                        const bch_query_options* options,
+                                        bch_crowd_clearance_view* clearances);
 /** Finds the pairs that collide and their depths, see bch_penetration(). */
-BCH_API bch_status bch_crowd_penetrations(bch_crowd* crowd, const bch_shape_set* set, const bch_agents* agents,
-                                          uint32_t directions, const bch_pair_filter* filter,
-                                          const bch_query_options* options,
+BCH_API bch_status bch_crowd_penetrations(bch_crowd* crowd, const bch_shape_set* set,
+                                          const bch_agents* agents, uint32_t directions,
+                                          const bch_pair_filter* filter, const bch_query_options* options,
                                           bch_crowd_penetration_view* penetrations);
 /** Returns the pairs of the last answer by agent, one row per agent of the crowd. */
 BCH_API bch_status bch_crowd_by_agent(bch_crowd* crowd, bch_neighbour_rows* neighbours);
@@ -740,13 +782,14 @@ typedef struct bch_space_capsule {
 } bch_space_capsule;
 /** Gets spheres that together hold capsules, and reach out of them by at most an error, metres. Writes at most `capacity` spheres, at most 4096, and
  * the number of all to `count`. */
-BCH_API bch_status bch_spheres_from_capsules(const bch_space_capsule* capsules, size_t capsule_count, float error,
-                                             bch_sphere* spheres, size_t capacity, size_t* count);
+BCH_API bch_status bch_spheres_from_capsules(const bch_space_capsule* capsules, size_t capsule_count,
+                                             float error, bch_sphere* spheres, size_t capacity,
+                                             size_t* count);
 /** Gets spheres that together hold all that stands on polygons from a bottom to a top, likewise. Polygon i has corners offsets[i] to
  * offsets[i + 1]. */
-BCH_API bch_status bch_spheres_from_polygons(const bch_vec2* corners, const uint64_t* offsets, size_t polygons,
-                                             const bch_heights* heights, float error, bch_sphere* spheres,
-                                             size_t capacity, size_t* count);
+BCH_API bch_status bch_spheres_from_polygons(const bch_vec2* corners, const uint64_t* offsets,
+                                             size_t polygons, const bch_heights* heights, float error,
+                                             bch_sphere* spheres, size_t capacity, size_t* count);
 /** Holds the size of a set of bodies. */
 typedef struct bch_body_set_info {
   uint32_t size; /**< sizeof(bch_body_set_info) */
@@ -758,8 +801,8 @@ typedef struct bch_body_set_info {
 /** Gets the size of a set. */
 BCH_API bch_status bch_body_set_get_info(const bch_body_set* set, bch_body_set_info* info);
 /** Gets the spheres of a body as queries use them. Writes at most `capacity` spheres, and the number of all to `count`. */
-BCH_API bch_status bch_body_set_get_spheres(const bch_body_set* set, uint32_t body, bch_sphere* spheres, size_t capacity,
-                                            size_t* count);
+BCH_API bch_status bch_body_set_get_spheres(const bch_body_set* set, uint32_t body, bch_sphere* spheres,
+                                            size_t capacity, size_t* count);
 /** Frees a set. */
 BCH_API bch_status bch_body_set_free(bch_body_set* set);
 
@@ -778,11 +821,14 @@ BCH_API bch_status bch_body_model_make(const bch_character* character, const bch
                                        const bch_work* work, bch_body_model** model);
 /** Makes the model that comes with the library of a built-in character, in milliseconds: 64, 128, 256 or 512 spheres of the default man or
  * woman, or of a pedestrian. Others are BCH_INVALID_ARGUMENT. */
-BCH_API bch_status bch_body_model_default(const bch_character* character, uint32_t spheres, bch_body_model** model);
+BCH_API bch_status bch_body_model_default(const bch_character* character, uint32_t spheres,
+                                          bch_body_model** model);
 /** Makes the model of a rigid body of given spheres: its poses are the rest pose, and transforms of one joint. */
-BCH_API bch_status bch_body_model_from_spheres(const bch_sphere* spheres, size_t count, bch_body_model** model);
+BCH_API bch_status bch_body_model_from_spheres(const bch_sphere* spheres, size_t count,
+                                               bch_body_model** model);
 /** Writes models, with their characters, as a baked file without shapes. */
-BCH_API bch_status bch_body_models_save(const bch_body_model* const* models, size_t model_count, const char* path);
+BCH_API bch_status bch_body_models_save(const bch_body_model* const* models, size_t model_count,
+                                        const char* path);
 /** Reads model number `index` of a baked file, and writes the number of all to `count`. Where there is no such model, it writes NULL to
  * `model`. */
 BCH_API bch_status bch_body_model_load(const char* path, size_t index, size_t* count, bch_body_model** model);
@@ -800,12 +846,14 @@ BCH_API bch_status bch_bake_bodies(const bch_body_model* const* models, size_t m
 typedef struct bch_live_bodies bch_live_bodies;
 /** Makes bodies in the rest pose: body i is one of models[model_of_body[i]]. Models are copied. */
 BCH_API bch_status bch_live_bodies_create(const bch_body_model* const* models, size_t model_count,
-                                          const uint32_t* model_of_body, size_t count, bch_live_bodies** bodies);
+                                          const uint32_t* model_of_body, size_t count,
+                                          bch_live_bodies** bodies);
 /** Poses all bodies by times of clips, one pose a body, on so many threads; 0: one for each processor. No query may run meanwhile. */
 BCH_API bch_status bch_live_bodies_pose(bch_live_bodies* bodies, const bch_pose* poses, uint32_t threads);
 /** Poses all bodies by transforms of the caller, one pose a body, likewise. Posed vertices are refused: they do not say where bones
  * are. */
-BCH_API bch_status bch_live_bodies_pose_own(bch_live_bodies* bodies, const bch_pose_arrays* poses, uint32_t threads);
+BCH_API bch_status bch_live_bodies_pose_own(bch_live_bodies* bodies, const bch_pose_arrays* poses,
+                                            uint32_t threads);
 /** Lends the bodies for queries. They belong to `bodies` and are not freed. */
 BCH_API bch_status bch_live_bodies_get_set(const bch_live_bodies* bodies, const bch_body_set** set);
 /** Frees bodies, and the set that they lent. */
@@ -813,8 +861,9 @@ BCH_API bch_status bch_live_bodies_free(bch_live_bodies* bodies);
 
 /** Tests whether the bodies of each pair's agents have a point in common, and writes 1 or 0 to `hits`. Of the options, queries of bodies
  * use `threads` and `implementation`, clearances `overlap` and, of pairs, `max_distance` as well; they ignore the others. */
-BCH_API bch_status bch_collide_bodies(const bch_body_set* set, const bch_agents* agents, const bch_pair* pairs,
-                                      size_t count, const bch_query_options* options, uint8_t* hits);
+BCH_API bch_status bch_collide_bodies(const bch_body_set* set, const bch_agents* agents,
+                                      const bch_pair* pairs, size_t count, const bch_query_options* options,
+                                      uint8_t* hits);
 /** Tests whether the bodies of each pair's agents come within a distance of each other, and writes 1 or 0 to `answers`. There is one
  * distance for all pairs, or one each. */
 BCH_API bch_status bch_within_bodies(const bch_body_set* set, const bch_agents* agents, const bch_pair* pairs,
@@ -822,23 +871,30 @@ BCH_API bch_status bch_within_bodies(const bch_body_set* set, const bch_agents* 
                                      const bch_query_options* options, uint8_t* answers);
 /** Finds when the bodies of each pair's agents first touch in space while the first moves by (x, y, z) relative to the second: a time from 0
  * to 1, or infinity. `z` may be NULL: nobody moves up or down. */
-BCH_API bch_status bch_time_of_impact_bodies(const bch_body_set* set, const bch_agents* agents, const bch_pair* pairs,
-                                             size_t count, const double* x, const double* y, const double* z,
+BCH_API bch_status bch_time_of_impact_bodies(const bch_body_set* set, const bch_agents* agents,
+                                             const bch_pair* pairs, size_t count, const double* x,
+                                             const double* y, const double* z,
                                              const bch_query_options* options, float* times);
 /** Measures how far the first agent of each pair has to move on the ground until a line separates the two bodies as seen from above, as
  * bch_penetration() does. */
-BCH_API bch_status bch_penetration_bodies(const bch_body_set* set, const bch_agents* agents, const bch_pair* pairs,
-                                          size_t count, uint32_t directions, const bch_query_options* options,
-                                          bch_penetration_depth* depths);
+BCH_API bch_status bch_penetration_bodies(const bch_body_set* set, const bch_agents* agents,
+                                          const bch_pair* pairs, size_t count, uint32_t directions,
+                                          const bch_query_options* options, bch_penetration_depth* depths);
 /** Measures the shortest such way after which no sphere of one body overlaps one of the other: the two may stay entangled. 0: they do not
  * collide. */
-BCH_API bch_status bch_nearest_free_bodies(const bch_body_set* set, const bch_agents* agents, const bch_pair* pairs,
-                                           size_t count, uint32_t directions, const bch_query_options* options,
-                                           bch_penetration_depth* depths);
+BCH_API bch_status bch_nearest_free_bodies(const bch_body_set* set, const bch_agents* agents,
+                                           const bch_pair* pairs, size_t count, uint32_t directions,
+                                           const bch_query_options* options, bch_penetration_depth* depths);
+/** Measures the same, and tells where the two touch after it, on the first agent's sphere, in space. */
+BCH_API bch_status bch_nearest_free_bodies_touches(const bch_body_set* set, const bch_agents* agents,
+                                                   const bch_pair* pairs, size_t count, uint32_t directions,
+                                                   const bch_query_options* options,
+                                                   bch_penetration_depth* depths, bch_touch* touches);
 /** Measures how far a line along given directions separates the two, as bch_penetration_along() does. */
 BCH_API bch_status bch_penetration_along_bodies(const bch_body_set* set, const bch_agents* agents,
-                                                const bch_pair* pairs, size_t count, const bch_vec2* directions,
-                                                const bch_query_options* options, bch_penetration_depth* depths);
+                                                const bch_pair* pairs, size_t count,
+                                                const bch_vec2* directions, const bch_query_options* options,
+                                                bch_penetration_depth* depths);
 /** Holds the nearest points of two bodies, each relative to its agent's position, in the world's axes. */
 typedef struct bch_nearest_space_points {
   bch_vec3 first, second;
@@ -854,18 +910,19 @@ typedef struct bch_body_clearance_out {
 #define BCH_BODY_CLEARANCE_OUT_INIT \
   { sizeof(bch_body_clearance_out), NULL, NULL, NULL, NULL }
 /** Measures how far apart in space the bodies of each pair's agents are. */
-BCH_API bch_status bch_clearance_bodies(const bch_body_set* set, const bch_agents* agents, const bch_pair* pairs,
-                                        size_t count, const bch_query_options* options,
+BCH_API bch_status bch_clearance_bodies(const bch_body_set* set, const bch_agents* agents,
+                                        const bch_pair* pairs, size_t count, const bch_query_options* options,
                                         const bch_body_clearance_out* out);
 /** Finds every pair of agents whose bodies, by their discs as seen from above and their heights, may collide or come within a margin. */
-BCH_API bch_status bch_crowd_body_candidates(bch_crowd* crowd, const bch_body_set* set, const bch_agents* agents,
-                                             double margin, const bch_pair_filter* filter,
-                                             const bch_query_options* options, const bch_pair** pairs,
-                                             size_t* count);
-/** Finds the pairs whose bodies collide, each once, with first < second. */
-BCH_API bch_status bch_crowd_body_collisions(bch_crowd* crowd, const bch_body_set* set, const bch_agents* agents,
+BCH_API bch_status bch_crowd_body_candidates(bch_crowd* crowd, const bch_body_set* set,
+                                             const bch_agents* agents, double margin,
                                              const bch_pair_filter* filter, const bch_query_options* options,
                                              const bch_pair** pairs, size_t* count);
+/** Finds the pairs whose bodies collide, each once, with first < second. */
+BCH_API bch_status bch_crowd_body_collisions(bch_crowd* crowd, const bch_body_set* set,
+                                             const bch_agents* agents, const bch_pair_filter* filter,
+                                             const bch_query_options* options, const bch_pair** pairs,
+                                             size_t* count);
 /** Views the pairs of a crowd whose bodies are near each other, and arrays with one value per pair, as bch_body_clearance_out has them. */
 typedef struct bch_crowd_body_clearance_view {
   size_t count;
@@ -876,21 +933,23 @@ typedef struct bch_crowd_body_clearance_view {
   const bch_nearest_space_points* points;
 } bch_crowd_body_clearance_view;
 /** Finds the pairs whose bodies have a clearance of at most `within` metres. */
-BCH_API bch_status bch_crowd_body_clearances(bch_crowd* crowd, const bch_body_set* set, const bch_agents* agents,
-                                             double within, const bch_pair_filter* filter,
-                                             const bch_query_options* options,
+BCH_API bch_status bch_crowd_body_clearances(bch_crowd* crowd, const bch_body_set* set,
+                                             const bch_agents* agents, double within,
+                                             const bch_pair_filter* filter, const bch_query_options* options,
                                              bch_crowd_body_clearance_view* clearances);
 /** Finds the pairs whose bodies collide and their depths, see bch_penetration_bodies(). */
-BCH_API bch_status bch_crowd_body_penetrations(bch_crowd* crowd, const bch_body_set* set, const bch_agents* agents,
-                                               uint32_t directions, const bch_pair_filter* filter,
+BCH_API bch_status bch_crowd_body_penetrations(bch_crowd* crowd, const bch_body_set* set,
+                                               const bch_agents* agents, uint32_t directions,
+                                               const bch_pair_filter* filter,
                                                const bch_query_options* options,
                                                bch_crowd_penetration_view* penetrations);
 /** Represents an overlap of two spheres, in space. Moving the second agent by depth * normal parts the two. */
 typedef struct bch_sphere_contact {
   bch_disc_pair spheres; /**< the numbers of the spheres */
-  bch_vec3 point;        /**< of the first sphere, the deepest in the second; relative to the first agent's position */
-  bch_vec3 normal;       /**< a unit vector from the first sphere to the second */
-  float depth;           /**< metres */
+  bch_vec3
+      point; /**< of the first sphere, the deepest in the second; relative to the first agent's position */
+  bch_vec3 normal; /**< a unit vector from the first sphere to the second */
+  float depth;     /**< metres */
 } bch_sphere_contact;
 /** Views rows of contacts, one row per pair of agents. */
 typedef struct bch_sphere_contact_rows {
@@ -900,12 +959,13 @@ typedef struct bch_sphere_contact_rows {
   const bch_sphere_contact* values;
 } bch_sphere_contact_rows;
 /** Finds all spheres of a crowd that overlap, one row for each pair of agents that collides. */
-BCH_API bch_status bch_crowd_body_contacts(bch_crowd* crowd, const bch_body_set* set, const bch_agents* agents,
-                                           const bch_pair_filter* filter, const bch_query_options* options,
+BCH_API bch_status bch_crowd_body_contacts(bch_crowd* crowd, const bch_body_set* set,
+                                           const bch_agents* agents, const bch_pair_filter* filter,
+                                           const bch_query_options* options,
                                            bch_sphere_contact_rows* contacts);
 /** Finds those of given pairs, one row per pair, which may be empty. The rows' `pairs` are the given ones. */
-BCH_API bch_status bch_crowd_body_contacts_of(bch_crowd* crowd, const bch_body_set* set, const bch_agents* agents,
-                                              const bch_pair* pairs, size_t count,
+BCH_API bch_status bch_crowd_body_contacts_of(bch_crowd* crowd, const bch_body_set* set,
+                                              const bch_agents* agents, const bch_pair* pairs, size_t count,
                                               const bch_query_options* options,
                                               bch_sphere_contact_rows* contacts);
 
@@ -922,7 +982,7 @@ typedef struct bch_obstacle_arrays {
   size_t obstacle_count;            /**< without offsets the number of paths */
   const uint8_t* is_area;           /**< 1: the obstacle's rings enclose it; NULL: no obstacle is an area */
   const double* bottom;             /**< per obstacle, metres; may be infinite; NULL: all are */
-  const double* top;                /**< likewise; bodies with heights meet only obstacles whose heights meet theirs */
+  const double* top; /**< likewise; bodies with heights meet only obstacles whose heights meet theirs */
 } bch_obstacle_arrays;
 #define BCH_OBSTACLE_ARRAYS_INIT \
   { sizeof(bch_obstacle_arrays), NULL, NULL, NULL, 0, NULL, 0, NULL, NULL, NULL }
@@ -936,7 +996,8 @@ BCH_API bch_status bch_obstacles_from_wkt(const char* text, int32_t walkable, do
 BCH_API bch_status bch_obstacles_get_counts(const bch_obstacles* obstacles, uint32_t* obstacle_count,
                                             uint32_t* segment_count);
 /** Gets the obstacle that a segment belongs to. */
-BCH_API bch_status bch_obstacles_get_owner(const bch_obstacles* obstacles, uint32_t segment, uint32_t* obstacle);
+BCH_API bch_status bch_obstacles_get_owner(const bch_obstacles* obstacles, uint32_t segment,
+                                           uint32_t* obstacle);
 /** Frees obstacles. */
 BCH_API bch_status bch_obstacles_free(bch_obstacles* obstacles);
 
@@ -950,7 +1011,8 @@ BCH_API bch_status bch_obstacles_collide(const bch_shape_set* set, const bch_age
  * one each. */
 BCH_API bch_status bch_obstacles_within(const bch_shape_set* set, const bch_agents* agents,
                                         const bch_obstacles* obstacles, const double* distances,
-                                        size_t distance_count, const bch_query_options* options, uint8_t* answers);
+                                        size_t distance_count, const bch_query_options* options,
+                                        uint8_t* answers);
 /** Measures how far each agent is from the nearest obstacle. `discs` has the agent's disc and the obstacle's segment. */
 BCH_API bch_status bch_obstacles_clearance(const bch_shape_set* set, const bch_agents* agents,
                                            const bch_obstacles* obstacles, const bch_query_options* options,
@@ -961,15 +1023,16 @@ BCH_API bch_status bch_obstacles_penetration(const bch_shape_set* set, const bch
                                              bch_penetration_depth* depths);
 /** Finds when each agent first touches an obstacle while it moves by (x, y): a time from 0 to 1, or infinity. */
 BCH_API bch_status bch_obstacles_time_of_impact(const bch_shape_set* set, const bch_agents* agents,
-                                                const bch_obstacles* obstacles, const double* x, const double* y,
-                                                const bch_query_options* options, float* times);
+                                                const bch_obstacles* obstacles, const double* x,
+                                                const double* y, const bch_query_options* options,
+                                                float* times);
 
 /* The same of bodies of spheres, in space: an obstacle stands upright from its bottom to its top. */
 
 /** Tests whether some sphere of each agent touches an obstacle, and writes 1 or 0 to `hits`. */
 BCH_API bch_status bch_obstacles_collide_bodies(const bch_body_set* set, const bch_agents* agents,
-                                                const bch_obstacles* obstacles, const bch_query_options* options,
-                                                uint8_t* hits);
+                                                const bch_obstacles* obstacles,
+                                                const bch_query_options* options, uint8_t* hits);
 /** Tests whether an obstacle is within a distance of each agent's spheres, and writes 1 or 0 to `answers`. */
 BCH_API bch_status bch_obstacles_within_bodies(const bch_body_set* set, const bch_agents* agents,
                                                const bch_obstacles* obstacles, const double* distances,
@@ -978,12 +1041,13 @@ BCH_API bch_status bch_obstacles_within_bodies(const bch_body_set* set, const bc
 /** Measures how far each agent's spheres are from the nearest obstacle. `spheres` has the agent's sphere and the obstacle's segment, which
  * is BCH_NO_DISC above, in and below an area. */
 BCH_API bch_status bch_obstacles_clearance_bodies(const bch_body_set* set, const bch_agents* agents,
-                                                  const bch_obstacles* obstacles, const bch_query_options* options,
+                                                  const bch_obstacles* obstacles,
+                                                  const bch_query_options* options,
                                                   const bch_body_clearance_out* out);
 /** Finds the obstacles that each agent's spheres touch, one row per agent, ascending. */
-BCH_API bch_status bch_crowd_body_obstacles(bch_crowd* crowd, const bch_body_set* set, const bch_agents* agents,
-                                            const bch_obstacles* obstacles, const bch_query_options* options,
-                                            bch_index_rows* touched);
+BCH_API bch_status bch_crowd_body_obstacles(bch_crowd* crowd, const bch_body_set* set,
+                                            const bch_agents* agents, const bch_obstacles* obstacles,
+                                            const bch_query_options* options, bch_index_rows* touched);
 
 /** Holds how agents are moved. */
 typedef struct bch_resolve_options {
@@ -1011,8 +1075,9 @@ typedef struct bch_resolved_view {
 } bch_resolved_view;
 /** Moves agents on the ground, as little as it can, until no two bodies collide and nobody touches an obstacle. `resolve_options` may be NULL. */
 BCH_API bch_status bch_crowd_body_resolve(bch_crowd* crowd, const bch_body_set* set, const bch_agents* agents,
-                                          const bch_resolve_options* resolve_options, const bch_pair_filter* filter,
-                                          const bch_query_options* options, bch_resolved_view* resolved);
+                                          const bch_resolve_options* resolve_options,
+                                          const bch_pair_filter* filter, const bch_query_options* options,
+                                          bch_resolved_view* resolved);
 
 /* Motions ----------------------------------------------------------------------------------------------------------- */
 
@@ -1034,14 +1099,14 @@ BCH_API bch_status bch_animated_shape_animate(const bch_body_model* model, uint3
 
 /** Holds moving discs in arrays of the caller: chunks that follow one another in time, each with discs of its own. */
 typedef struct bch_animated_arrays {
-  uint32_t size;             /**< sizeof(bch_animated_arrays) */
-  int32_t loops;             /**< not 0: the clip repeats; it then lasts at least 1 ms */
+  uint32_t size;              /**< sizeof(bch_animated_arrays) */
+  int32_t loops;              /**< not 0: the clip repeats; it then lasts at least 1 ms */
   const uint32_t* key_counts; /**< one per chunk, like the next one */
   const uint32_t* disc_counts;
   size_t chunk_count;
-  const double* times;       /**< of the keys of all chunks, seconds; a chunk begins when the one before it ends */
-  const bch_disc* discs;     /**< of the chunks, key by key */
-  const float* z;            /**< the heights of the centres of spheres, as many as discs, or NULL */
+  const double* times; /**< of the keys of all chunks, seconds; a chunk begins when the one before it ends */
+  const bch_disc* discs; /**< of the chunks, key by key */
+  const float* z;        /**< the heights of the centres of spheres, as many as discs, or NULL */
 } bch_animated_arrays;
 #define BCH_ANIMATED_ARRAYS_INIT \
   { sizeof(bch_animated_arrays), 0, NULL, NULL, 0, NULL, NULL, NULL }
@@ -1061,22 +1126,23 @@ typedef struct bch_animated_shape_info {
 #define BCH_ANIMATED_SHAPE_INFO_INIT \
   { sizeof(bch_animated_shape_info), 0, 0, 0, 0, 0, 0, 0 }
 /** Gets the times and sizes of a body. */
-BCH_API bch_status bch_animated_shape_get_info(const bch_animated_shape* shape, bch_animated_shape_info* info);
+BCH_API bch_status bch_animated_shape_get_info(const bch_animated_shape* shape,
+                                               bch_animated_shape_info* info);
 /** Gets the discs at a time, spheres as seen from above. Writes at most `capacity` discs, and the number of all to `count`. */
-BCH_API bch_status bch_animated_shape_get_discs(const bch_animated_shape* shape, double seconds, bch_disc* discs,
-                                                size_t capacity, size_t* count);
+BCH_API bch_status bch_animated_shape_get_discs(const bch_animated_shape* shape, double seconds,
+                                                bch_disc* discs, size_t capacity, size_t* count);
 /** Gets the spheres at a time, likewise: none of a body of discs. */
-BCH_API bch_status bch_animated_shape_get_spheres(const bch_animated_shape* shape, double seconds, bch_sphere* spheres,
-                                                  size_t capacity, size_t* count);
+BCH_API bch_status bch_animated_shape_get_spheres(const bch_animated_shape* shape, double seconds,
+                                                  bch_sphere* spheres, size_t capacity, size_t* count);
 /** Frees a body. */
 BCH_API bch_status bch_animated_shape_free(bch_animated_shape* shape);
 /** Adds the shape of a body at a time to a set. */
-BCH_API bch_status bch_shape_set_builder_add_moment(bch_shape_set_builder* builder, const bch_animated_shape* shape,
-                                                    double seconds);
+BCH_API bch_status bch_shape_set_builder_add_moment(bch_shape_set_builder* builder,
+                                                    const bch_animated_shape* shape, double seconds);
 
 /** Keeps a body in a set, to be saved with it. If `clip` is NULL, the body has no clip name. */
-BCH_API bch_status bch_shape_set_add_clip(bch_shape_set* set, const bch_animated_shape* shape, const char* character,
-                                          const char* clip);
+BCH_API bch_status bch_shape_set_add_clip(bch_shape_set* set, const bch_animated_shape* shape,
+                                          const char* character, const char* clip);
 /** Gets the number of bodies that move by themselves in a set: those that were loaded with it and those that were added to it. */
 BCH_API bch_status bch_shape_set_get_clip_count(const bch_shape_set* set, size_t* count);
 /** Gets the names of one of these bodies, which live as long as the set, and makes the body; each of the last three may be NULL. */
@@ -1104,11 +1170,11 @@ BCH_API bch_status bch_first_contact(const bch_motion* motions, size_t motion_co
 /** Finds when each motion first touches an obstacle, as bch_first_contact() does for pairs. Bodies count as seen from above, and
  * obstacles at all heights. */
 BCH_API bch_status bch_obstacles_first_contact(const bch_motion* motions, size_t motion_count,
-                                               const bch_obstacles* obstacles, double from, double to, double tolerance,
-                                               uint32_t threads, double* times);
+                                               const bch_obstacles* obstacles, double from, double to,
+                                               double tolerance, uint32_t threads, double* times);
 /** Finds until when a motion touches none of the others: the least time that bch_first_contact() finds for it and each of them. */
-BCH_API bch_status bch_free_until(const bch_motion* motion, const bch_motion* others, size_t count, double from,
-                                  double to, double tolerance, double* time);
+BCH_API bch_status bch_free_until(const bch_motion* motion, const bch_motion* others, size_t count,
+                                  double from, double to, double tolerance, double* time);
 
 /* Scenes ------------------------------------------------------------------------------------------------------------ */
 
@@ -1134,7 +1200,8 @@ typedef struct bch_scene_use {
   int32_t outlines;       /**< not 0: keep outlines, as bch_plan does */
   int32_t heights;        /**< not 0: agents stand at different heights */
   double pairs_per_shape; /**< expected number of pairs tested per shape in its lifetime */
-  float pose_step; /**< the step to whose multiples times are rounded down, seconds, so that agents share shapes; 0: they are not */
+  float
+      pose_step; /**< the step to whose multiples times are rounded down, seconds, so that agents share shapes; 0: they are not */
 } bch_scene_use;
 #define BCH_SCENE_USE_INIT \
   { sizeof(bch_scene_use), 1, 0, (double)INFINITY, 0 }
