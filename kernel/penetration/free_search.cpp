@@ -295,7 +295,7 @@ float FreeSearch<Intervals>::next(float place) {
 template <class Intervals>
 float FreeSearch<Intervals>::after_gap(float place) const {
   float begin = __builtin_inff(), end = place;
-  visit_intervals([&](float, float high) { return high >= place; },
+  visit_intervals([&](float m, float, float radius) { return m + radius >= place; },
                   [&](std::uint32_t, std::uint32_t, float low, float high) {
                     if (low >= place && low < begin) begin = low, end = high;
                   });
@@ -306,10 +306,17 @@ template <class Intervals>
 FreeTouch FreeSearch<Intervals>::touch(float place) const {
   float end = -__builtin_inff();
   std::uint32_t of_a = 0, of_b = 0;
-  visit_intervals([&](float low, float high) { return low <= place && high >= end; },
-                  [&](std::uint32_t i, std::uint32_t j, float, float high) {
-                    if (high <= place && high > end) end = high, of_a = i, of_b = j;
-                  });
+  const auto keep_last = [&](std::uint32_t i, std::uint32_t j, float, float high) {
+    if (high <= place && high > end) end = high, of_a = i, of_b = j;
+  };
+  const auto is_near = [&](float m, float w, float radius) {
+    return (m - place) * (m - place) + w * w <= radius * radius;
+  };
+  visit_intervals(is_near, keep_last);
+  // Most places are the end of an interval, of elements that are near there.
+  if (end != place)
+    visit_intervals([&](float m, float, float radius) { return m - radius <= place && m + radius >= end; },
+                    keep_last);
   if (end == -__builtin_inff()) return {};
   return Intervals::touch(a_.elements.one(of_a), b_.elements.one(of_b), end, margin_);
 }
@@ -333,7 +340,7 @@ void FreeSearch<Intervals>::visit_intervals(const MayCount& may_count, const Use
     for (std::uint32_t k = 0; k < b_.leaves; ++k) {
       const float radius = a.radius[i] + b.radius[k] + node_slack_, w = b.across[k] - a.across[i],
                   m = b.along[k] - a.along[i];
-      if (w > radius || -w > radius || !may_count(m - radius, m + radius)) continue;
+      if (w > radius || -w > radius || !may_count(m, w, radius)) continue;
       for (std::uint32_t j = b_.first(k); j < b_.first(k + 1); ++j) visit_row(a_.first(i), j);
     }
 }

@@ -133,7 +133,8 @@ class FreeSearch {
   /// Calls use(slot) for elements of a leaf of B that may overlap some of a leaf of A where A has moved.
   template <class Use>
   void visit_elements(std::uint32_t leaf_a, std::uint32_t leaf_b, float moved, const Use& use);
-  /// Calls use(i, j, low, high) for elements of A and B and their interval, of leaves whose interval may_count(low, high).
+  /// Calls use(i, j, low, high) for elements of A and B and their interval, of leaves that may_count(m, w, radius): B's is at m along the
+  /// direction and at w across it, as seen from A's, and the two overlap within the radius.
   template <class MayCount, class Use>
   void visit_intervals(const MayCount& may_count, const Use& use) const;
   /// Keeps the deepest two elements of two leaves for bound(), if they overlap.
