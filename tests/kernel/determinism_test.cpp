@@ -8,6 +8,7 @@
 #include "layout/base/floating_point_state.hpp"
 #include "tests/support/baked_bytes.hpp"
 #include "tests/support/crowd_pairs.hpp"
+#include "tests/support/executors.hpp"
 #include "tests/support/on_threads.hpp"
 #include "tests/support/query_answers.hpp"
 #include "tests/support/test.hpp"
@@ -214,6 +215,16 @@ TEST_P(Determinism, OfThreadsAndBatches) {
       test::on_threads(threads, [&] {
         EXPECT_EQ(hashes(nullptr, batch), expected()) << threads << " threads, " << batch;
       });
+}
+
+TEST_P(Determinism, OfExecutors) {
+  test::expect_same_on_each_executor(
+      [&] {
+        const Hashes found = hashes(nullptr, pairs.size());
+        EXPECT_EQ(found, expected());
+        return found;
+      },
+      Executor::set);
 }
 
 /// New arenas give the state of the thread that makes them to their workers.

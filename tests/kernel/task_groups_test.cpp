@@ -9,16 +9,18 @@
 #include <unistd.h>
 
 #include <atomic>
-#include <thread>
 
 #include "kernel/runtime/task_ranges.hpp"
 #include "tests/support/crowd_pairs.hpp"
+#include "tests/support/executors.hpp"
 #include "tests/support/test.hpp"
 
 // Queries inside of a caller's own tasks.
 
 namespace bch {
 namespace {
+
+using test::CountingExecutor;
 
 /// An answer, kept.
 template <class Value>
@@ -160,25 +162,6 @@ TEST_F(TaskGroups, AForkedProcessAnswers) {
 #endif
 
 // ---- A caller's own task system in place of TBB.
-
-/// Runs tasks backwards, on two threads of its own where it is not in one of them, and counts.
-struct CountingExecutor {
-  std::atomic<std::size_t> tasks = 0, calls = 0;
-  bool on_threads = false;
-
-  static void run(void* context, std::size_t count, void (*task)(void*, std::size_t), void* data) {
-    auto& own = *static_cast<CountingExecutor*>(context);
-    own.tasks += count, ++own.calls;
-    const auto every_other = [=](std::size_t first, std::size_t step) {
-      for (std::size_t i = first; i < count; i += step) task(data, count - 1 - i);
-    };
-    if (!own.on_threads) return every_other(0, 1);
-    std::thread other(every_other, 1, 2);
-    every_other(0, 2);
-    other.join();
-  }
-  Executor executor() { return {run, this, 3}; }
-};
 
 class Executors : public TaskGroups {
  protected:

@@ -5,6 +5,7 @@
 #include "kernel/runtime/all_options.hpp"
 #include "tests/support/c_api_queries.hpp"
 #include "tests/support/crowd_pairs.hpp"
+#include "tests/support/executors.hpp"
 #include "tests/support/obstacle_scenes.hpp"
 #include "tests/support/test.hpp"
 
@@ -142,6 +143,21 @@ TEST_P(CApi, AnswersAreThoseOfTheLibrary) {
       EXPECT_TRUE(query.answers() == expected.at(query.name)) << query.name;
     }
   }
+}
+
+TEST_P(CApi, AnswersAreTheSameOnEachExecutor) {
+  test::expect_same_on_each_executor(
+      [&] {
+        std::string all;
+        for (const test::CQuery& query : all_queries(scene)) {
+          expect_ok(query.run_query());
+          all += query.answers();
+        }
+        return all;
+      },
+      [](const Executor& executor) {
+        expect_ok(bch_set_executor(executor.run, executor.context, executor.threads));
+      });
 }
 
 TEST_P(CApi, ImplementationsAnswerWhereTheProcessorRunsThem) {
