@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 the bch authors
 
-"""Opens the page of a crowd in Chromium: every kind of body finds the pairs that the library finds, nothing fails, and people can be dragged.
+"""Opens the page of a crowd in Chromium: every kind of body finds the pairs that the library finds, nothing fails, and people can be dragged,
+also on a phone, whose screen the page fits.
 Usage: demo.py FOLDER [PICTURE.png]: also takes the picture of the README."""
 
 import functools
@@ -13,7 +14,9 @@ import time
 import bch
 import numpy as np
 from selenium import webdriver
-from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.actions import interaction
+from selenium.webdriver.common.actions.action_builder import ActionBuilder
+from selenium.webdriver.common.actions.pointer_input import PointerInput
 from selenium.webdriver.common.by import By
 from selenium.webdriver.chrome.service import Service
 
@@ -29,11 +32,13 @@ def serve(folder):
     return f"http://127.0.0.1:{server.server_port}/"
 
 
-def browser(width, height):
+def browser(width, height, is_phone=False):
     options = webdriver.ChromeOptions()
     for argument in ("--headless=new", "--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader",
                      "--disable-dev-shm-usage", f"--window-size={width},{height}"):
         options.add_argument(argument)
+    if is_phone:
+        options.add_experimental_option("mobileEmulation", {"deviceMetrics": {"width": width, "height": height, "pixelRatio": 2, "touch": True}})
     options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
     return webdriver.Chrome(options=options, service=Service("/usr/bin/chromedriver"))
 
@@ -117,16 +122,18 @@ def check_kinds(driver, page):
         print(f"{kind}: {people} people, {len(pairs)} pairs, {times:.1f} ms a check")
 
 
-def check_dragging(driver, page):
+def check_dragging(driver, page, pointer):
     driver.get(f"{page}?people=100&step=0")
     wait_for(driver, "window.demo && window.demo.frames > 3")
-    canvas = driver.find_element(By.ID, "scene")
     places = "return [...window.demo.people.agents.x, ...window.demo.people.agents.y]"
     before = driver.execute_script(places)
     width, height = driver.execute_script("return [innerWidth, innerHeight]")
     moved = []
     for at in range(-6, 7):  # until somebody stands there
-        ActionChains(driver).move_to_element_with_offset(canvas, at * width // 40, height // 10).click_and_hold().move_by_offset(30, 40).release().perform()
+        drag = ActionBuilder(driver, mouse=PointerInput(pointer, "pointer"))
+        x, y = width // 2 + at * width // 40, int(0.6 * height)
+        drag.pointer_action.move_to_location(x, y).pointer_down().move_to_location(x + 30, y + 40).pointer_up()
+        drag.perform()
         after = driver.execute_script(places)
         moved = [i for i in range(len(before)) if before[i] != after[i]]
         if moved:
@@ -134,14 +141,33 @@ def check_dragging(driver, page):
     assert moved and len({i % 100 for i in moved}) == 1, f"expected one person to be moved, found {moved}"
 
 
+def check_errors(driver):
+    for entry in driver.get_log("browser"):
+        assert entry["level"] != "SEVERE", entry["message"]
+
+
+def check_phone(page):
+    driver = browser(390, 844, is_phone=True)
+    try:
+        check_dragging(driver, page, interaction.POINTER_TOUCH)
+        wide, high, page_wide = driver.execute_script("return [innerWidth, innerHeight, document.documentElement.scrollWidth]")
+        panel = driver.find_element(By.ID, "panel").rect
+        assert wide == page_wide == 390, f"expected a page of 390 pixels, found {page_wide} on a screen of {wide}"
+        assert panel["x"] >= 0 and panel["x"] + panel["width"] <= wide and panel["y"] + panel["height"] <= high, f"the panel leaves the screen: {panel}"
+        assert panel["height"] < 0.4 * high, f"the panel hides the people: {panel}"
+        check_errors(driver)
+    finally:
+        driver.quit()
+
+
 def main():
     page = serve(sys.argv[1])
+    check_phone(page)
     driver = browser(1200, 700)
     try:
         check_kinds(driver, page)
-        check_dragging(driver, page)
-        for entry in driver.get_log("browser"):
-            assert entry["level"] != "SEVERE", entry["message"]
+        check_dragging(driver, page, interaction.POINTER_MOUSE)
+        check_errors(driver)
         if len(sys.argv) > 2:
             driver.get(f"{page}?people=1000&step=0.02")
             wait_for(driver, "window.demo && window.demo.frames > 3")
