@@ -22,12 +22,12 @@ thread_local bool is_in_task = false;
 thread_local std::uint32_t max_threads = 0;  ///< for the calls of this thread; 0: all
 
 /// Holds as many threads as the processor runs, but one, which is the caller's. They work for one call at a time; a call that comes meanwhile,
-/// also from a task, is the caller's alone.
+/// also from a task, is the caller's alone. A call does not wait for threads that wake up after its last task has begun.
 class ThreadPool {
  public:
   ThreadPool() {
     const std::uint32_t wanted = std::clamp(std::thread::hardware_concurrency(), 1u, 256u) - 1;
-    for (std::uint32_t i = 0; i < wanted; ++i) workers_.emplace_back([this, i] { serve(i); });
+    for (std::uint32_t i = 0; i < wanted; ++i) workers_.emplace_back([this] { serve(); });
   }
   ~ThreadPool() {
     {
@@ -49,12 +49,13 @@ class ThreadPool {
     }
     {
       const std::lock_guard lock(mutex_);
-      task_ = task, data_ = data, count_ = count, next_ = 0, busy_ = workers_.size(), ++call_number_;
-      helpers_ = max_threads == 0 ? workers_.size() : max_threads - 1;
+      task_ = task, data_ = data, count_ = count, next_ = 0, ++call_number_;
+      places_ = max_threads == 0 ? workers_.size() : max_threads - 1;
     }
     begins_.notify_all();
     work();
     std::unique_lock lock(mutex_);
+    places_ = 0;
     ends_.wait(lock, [&] { return busy_ == 0; });
   }
 
@@ -65,18 +66,16 @@ class ThreadPool {
     is_in_task = false;
   }
 
-  void serve(std::uint32_t number) {
+  void serve() {
     std::uint64_t served = 0;
     for (;;) {
-      bool helps = false;
       {
         std::unique_lock lock(mutex_);
-        begins_.wait(lock, [&] { return ends_all_ || call_number_ != served; });
+        begins_.wait(lock, [&] { return ends_all_ || (places_ > 0 && call_number_ != served); });
         if (ends_all_) return;
-        served = call_number_;
-        helps = number < helpers_;
+        served = call_number_, --places_, ++busy_;
       }
-      if (helps) work();
+      work();
       const std::lock_guard lock(mutex_);
       if (--busy_ == 0) ends_.notify_one();
     }
@@ -86,7 +85,8 @@ class ThreadPool {
   std::condition_variable begins_, ends_;
   void (*task_)(void*, std::size_t) = nullptr;
   void* data_ = nullptr;
-  std::size_t count_ = 0, busy_ = 0, helpers_ = 0;
+  std::size_t count_ = 0, busy_ = 0;
+  std::size_t places_ = 0;  ///< of workers that may still join the call
   std::atomic<std::size_t> next_ = 0;
   std::uint64_t call_number_ = 0;
   bool ends_all_ = false;
