@@ -6,7 +6,8 @@
 namespace bch {
 
 ImportedCharacter import_character(const std::filesystem::path& file, const ImportOptions&) {
-  throw ImportError(file.string() + ": this library was built without readers of characters");
+  throw ImportError(file.string() +
+                    ": files of characters are read by assimp and Draco, without which this was built");
 }
 
 ImportedCharacter import_in_child(const std::filesystem::path& file, const ImportOptions& options,
