@@ -8,14 +8,17 @@
 #include <memory>
 #include <optional>
 #include <sstream>
+#include <unordered_set>
 #include <utility>
 
 #include "kernel/recordings/events.hpp"
+#include "kernel/recordings/footprints.hpp"
 #include "kernel/recordings/frame_block.hpp"
 #include "kernel/recordings/frame_run.hpp"
 #include "kernel/recordings/walker_bodies.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 #include "layout/base/floating_point_state.hpp"
+#include "layout/base/mixed_hash.hpp"
 
 namespace bch::detail {
 namespace {
@@ -44,7 +47,8 @@ class Checker {
   void pose(std::size_t runs);
   std::size_t queried_at_once(std::size_t first, std::size_t end) const;
   void run_query(FrameRun& run);
-  void report(const FrameBlock& block, const FrameRun& run, double fps);
+  void report(const FrameBlock& block, FrameRun& run, double fps);
+  void add_measures(CheckedFrame& frame, std::span<MeasuredPerson> measures);
 
   const CheckOptions options_;
   const std::vector<CastMotion> motions_;
@@ -53,6 +57,8 @@ class Checker {
   std::optional<WalkerBodies> bodies_;
   CheckSummary summary_;
   EventLog events_;
+  Footprints footprints_;
+  std::unordered_set<std::uint64_t, MixedHash> colliding_, disc_colliding_;
   std::vector<std::unique_ptr<FrameRun>> runs_;
   // Of a block.
   std::vector<WalkerPose> poses_;
@@ -102,18 +108,25 @@ void Checker::run_query(FrameRun& run) {
 }
 
 /// Tells the frames of a run, and joins its overlaps to events.
-void Checker::report(const FrameBlock& block, const FrameRun& run, double fps) {
+void Checker::report(const FrameBlock& block, FrameRun& run, double fps) {
   std::span<const CheckedPair> pairs = run.pairs();
+  std::span<const MeasuredPair> measured_pairs = run.measured_pairs();
   for (std::size_t i = run.first(); i < run.last(); ++i) {
     const std::int64_t frame = block.frame(i);
     const auto behind = std::find_if(pairs.begin(), pairs.end(),
                                      [=](const CheckedPair& pair) { return pair.frame != frame; });
     const auto count = static_cast<std::size_t>(behind - pairs.begin());
-    const CheckedFrame told{
-        frame, static_cast<double>(frame) / fps,
-        run.people().subspan(block.begin(i) - block.begin(run.first()), block.begin(i + 1) - block.begin(i)),
-        pairs.first(count)};
+    const std::size_t begin = block.begin(i) - block.begin(run.first()),
+                      size = block.begin(i + 1) - block.begin(i);
+    CheckedFrame told{frame, static_cast<double>(frame) / fps, run.people().subspan(begin, size),
+                      pairs.first(count)};
     pairs = pairs.subspan(count);
+    if (options_.measures) {
+      add_measures(told, run.measured_people().subspan(begin, size));
+      const std::size_t measured = run.measured_pairs_of(i);
+      told.measured_pairs = measured_pairs.first(measured);
+      measured_pairs = measured_pairs.subspan(measured);
+    }
     for (const CheckedPair& pair : told.pairs) summary_.passings += pair.passing;
     events_.add(told);
     if (seen_) seen_(told, shapes_.set());
@@ -121,6 +134,17 @@ void Checker::report(const FrameBlock& block, const FrameRun& run, double fps) {
     summary_.last_frame = frame;
   }
   for (std::size_t k = 0; k < run.counts().size(); ++k) summary_.by_density[k] += run.counts()[k];
+}
+
+/// Adds what earlier frames have to do with, and counts who collides.
+void Checker::add_measures(CheckedFrame& frame, std::span<MeasuredPerson> measures) {
+  footprints_.add(frame.seconds, frame.people, measures);
+  for (std::size_t i = 0; i < measures.size(); ++i) {
+    const auto id = static_cast<std::uint64_t>(frame.people[i].walker.id);
+    if (measures[i].collides) colliding_.insert(id);
+    if (measures[i].disc_collides) disc_colliding_.insert(id);
+  }
+  frame.measures = measures;
 }
 
 void Checker::check(const FrameBlock& block, bool at_end, double fps) {
@@ -156,6 +180,8 @@ CheckSummary Checker::finish(std::size_t people) {
   summary_.guessed = summary_.all.guessed;
   summary_.events = events_.finish();
   summary_.people = people;
+  summary_.colliding = colliding_.size();
+  summary_.disc_colliding = disc_colliding_.size();
   return std::move(summary_);
 }
 

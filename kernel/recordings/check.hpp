@@ -19,6 +19,7 @@
 #include <bch/bodies.hpp>
 #include <bch/obstacles.hpp>
 
+#include "kernel/recordings/measures.hpp"
 #include "kernel/recordings/walker_shapes.hpp"
 #include "kernel/recordings/walkers.hpp"
 
@@ -40,7 +41,8 @@ struct CheckOptions {
   std::span<const BodyModel> bodies = {};
   bool draws =
       true;  ///< where spheres decide, frames are handed over with shapes of the same people, too: pictures need them
-  double facing = 0;  ///< radians: where the shapes of baked people face, which others do to 0
+  double facing = 0;      ///< radians: where the shapes of baked people face, which others do to 0
+  bool measures = false;  ///< frames are handed over with measures of people and pairs
   std::size_t people_at_once =
       100'000;  ///< about so many, of many frames; the answers are the same for any number
   std::size_t max_pairs =
@@ -87,6 +89,9 @@ struct CheckedFrame {
   double seconds;  ///< from frame 0
   std::span<const CheckedPerson> people;
   std::span<const CheckedPair> pairs;
+  // Where measures are asked for.
+  std::span<const MeasuredPerson> measures = {};      ///< of the people
+  std::span<const MeasuredPair> measured_pairs = {};  ///< by ids
 };
 
 /// The radii of discs whose answer is told beside, metres, and the classes of density, people per square metre.
@@ -123,6 +128,8 @@ struct OverlapEvent {
 /// Summarises a recording, or an interval of its frames: people are then those until its end.
 struct CheckSummary {
   std::uint64_t frames = 0, people = 0, guessed = 0, passings = 0;
+  // People who collide with anybody at any time, as bodies or as discs, where measures are asked for.
+  std::uint64_t colliding = 0, disc_colliding = 0;
   std::int64_t first_frame = 0, last_frame = 0;
   OverlapCount all;
   OverlapCounts by_density;

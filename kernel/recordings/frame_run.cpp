@@ -19,11 +19,11 @@ namespace {
 /// Metres: nobody passes through a body, an arm included, who moves by less than that.
 constexpr double thinnest = 0.05;
 
-bool by_place(Pair a, Pair b) {
+}  // namespace
+
+bool FrameRun::by_place(Pair a, Pair b) {
   return a.first != b.first ? a.first < b.first : a.second < b.second;
 }
-
-}  // namespace
 
 /// Returns the first people as agents, one for each body.
 Agents FrameRun::agents(std::span<const std::uint32_t> bodies) const {
@@ -77,10 +77,12 @@ void FrameRun::run_query(const RunBodies& bodies, std::span<const std::uint32_t>
                          std::uint32_t given_up) {
   const Agents all = agents(bodies.numbers().first(size()));
   checked_.clear();
+  if (options_.measures) measure_neighbours();
   query_pairs(bodies, all);
   query_depths(bodies, all);
   query_between(bodies, agents(bodies.numbers()));
   query_walls(bodies, all);
+  if (options_.measures) sum_intrusions(), measure_times(bodies, all);
   std::sort(checked_.begin(), checked_.end(), [](const CheckedPair& a, const CheckedPair& b) {
     return std::tie(a.frame, a.first, a.is_wall, a.second, a.passing) <
            std::tie(b.frame, b.first, b.is_wall, b.second, b.passing);
@@ -97,17 +99,21 @@ double FrameRun::expected_pairs() const {
 
 void FrameRun::let_go() {
   if (answers_.capacity() <= usual_pairs()) return;
-  body_phase_ = BroadPhase();
-  let_go(answers_), let_go(hits_), let_go(apart_), let_go(checked_);
+  body_phase_ = BroadPhase(), sweep_phase_ = BroadPhase();
+  let_go(answers_), let_go(hits_), let_go(apart_), let_go(checked_), let_go(measured_pairs_);
 }
 
-/// Finds the neighbours among the people, as if each frame stood far from the others.
-std::span<const Pair> FrameRun::find(BroadPhase& phase, const ShapeSetView& shapes,
-                                     Strided<std::uint32_t> shape_of, double margin) const {
+/// Returns the people as if each frame stood far from the others.
+Agents FrameRun::apart(Strided<std::uint32_t> shape_of) const {
+  return {shape_of, own(block_->apart_x()), own(block_->y()), own(block_->heading())};
+}
+
+/// Finds the neighbours among agents, one for each person, which stand apart.
+std::span<const Pair> FrameRun::find(BroadPhase& phase, const ShapeSetView& shapes, const Agents& agents,
+                                     double margin) const {
   const std::size_t most = options_.max_pairs > 0 ? options_.max_pairs : usual_max_pairs(size());
   try {
-    return phase.find(shapes, {shape_of, own(block_->apart_x()), own(block_->y()), own(block_->heading())},
-                      margin, most);
+    return phase.find(shapes, agents, margin, most);
   } catch (const std::length_error&) {
     const std::int64_t first = block_->frame(first_), last = block_->frame(last_ - 1);
     const std::string frames = last > first
@@ -120,7 +126,7 @@ std::span<const Pair> FrameRun::find(BroadPhase& phase, const ShapeSetView& shap
 
 /// Finds who overlaps, and who does not but may be within the largest distance or touch before the next frame.
 void FrameRun::query_pairs(const RunBodies& bodies, const Agents& all) {
-  const std::span<const Pair> found = find(body_phase_, bodies.roots(), all.shape, margin_);
+  const std::span<const Pair> found = find(body_phase_, bodies.roots(), apart(all.shape), margin_);
   answers_.resize(found.size());
   bodies.collide(all, found, answers_);
   const auto frame_of = own(block_->frame_of());
@@ -135,17 +141,26 @@ void FrameRun::query_pairs(const RunBodies& bodies, const Agents& all) {
 void FrameRun::query_depths(const RunBodies& bodies, const Agents& all) {
   const std::vector<Penetration> depths = bodies.depths(all, hits_);
   overlaps_.assign(size(), 0);
+  hit_clearance_.clear();
   for (std::size_t i = 0; i < hits_.size(); ++i) {
     overlaps_[hits_[i].first] = overlaps_[hits_[i].second] = 1;
     CheckedPair& pair = checked_.emplace_back(checked(hits_[i]));
     pair.overlap = true;
     pair.depth = depths[i].depth;
     pair.x = static_cast<float>(depths[i].x), pair.y = static_cast<float>(depths[i].y);
+    hit_clearance_.push_back(-pair.depth);
+    if (options_.measures) measure_clearance(hits_[i], -pair.depth);
   }
-  if (options_.max_distance <= 0) return;
-  const std::vector<float> gaps = bodies.gaps(all, apart_, options_.max_distance);
-  for (std::size_t i = 0; i < apart_.size(); ++i)
-    if (is_finite(gaps[i])) checked_.emplace_back(checked(apart_[i])).gap = gaps[i];
+  const double farthest =
+      options_.measures ? std::max(options_.max_distance, measured_clearance) : options_.max_distance;
+  if (farthest <= 0) return;
+  const std::vector<float> gaps = bodies.gaps(all, apart_, farthest);
+  for (std::size_t i = 0; i < apart_.size(); ++i) {
+    if (options_.max_distance > 0 && static_cast<double>(gaps[i]) <= options_.max_distance)
+      checked_.emplace_back(checked(apart_[i])).gap = gaps[i];
+    if (options_.measures && static_cast<double>(gaps[i]) <= measured_clearance)
+      measure_clearance(apart_[i], gaps[i]);
+  }
 }
 
 /// Finds who passes through whom between two frames: people who do not overlap in either.
@@ -189,6 +204,8 @@ void FrameRun::add_pass(Pair people, std::size_t next, float time, float gap) {
   const auto until_then = [time](auto from, auto to) { return time * static_cast<float>(to - from); };
   CheckedPair& pair = checked_.emplace_back(checked(people));
   pair.passing = true;
+  if (options_.measures)
+    measured_people_[people.first].collides = measured_people_[people.second].collides = true;
   pair.gap = gap;
   pair.after = until_then(frame(now), frame(next));
   pair.way_x = until_then(block_->x()[now], block_->x()[next]);

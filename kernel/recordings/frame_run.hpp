@@ -54,6 +54,12 @@ class FrameRun {
   void let_go();
   /// Returns who overlaps or passes whom, by frame, then ids.
   std::span<const CheckedPair> pairs() const noexcept { return checked_; }
+  /// Returns what is measured of people and pairs, where that is asked for; these by frame, then ids, and so many of a frame.
+  std::span<MeasuredPerson> measured_people() noexcept { return measured_people_; }
+  std::span<const MeasuredPair> measured_pairs() const noexcept { return measured_pairs_; }
+  std::size_t measured_pairs_of(std::size_t frame) const noexcept {
+    return measured_pairs_of_[frame - first_];
+  }
   const OverlapCounts& counts() const noexcept { return counts_; }
 
  private:
@@ -68,13 +74,15 @@ class FrameRun {
   std::span<Value> own(std::span<Value> of_block) const noexcept {
     return of_block.subspan(begin_, size());
   }
+  static bool by_place(Pair a, Pair b);
   Agents agents(std::span<const std::uint32_t> bodies) const;
   double square_step(std::size_t person) const;
   double longest_step() const;
   double square_distance(Pair pair) const;
   CheckedPair checked(Pair pair) const;
 
-  std::span<const Pair> find(BroadPhase& phase, const ShapeSetView& shapes, Strided<std::uint32_t> shape_of,
+  Agents apart(Strided<std::uint32_t> shape_of) const;
+  std::span<const Pair> find(BroadPhase& phase, const ShapeSetView& shapes, const Agents& agents,
                              double margin) const;
   void find_near();
   void turn_shoulders();
@@ -83,6 +91,13 @@ class FrameRun {
   void query_between(const RunBodies& bodies, const Agents& with_next);
   void add_pass(Pair people, std::size_t next, float time, float gap);
   void query_walls(const RunBodies& bodies, const Agents& all);
+  void measure_neighbours();
+  void measure_clearance(Pair pair, float clearance);
+  void sum_intrusions();
+  void measure_times(const RunBodies& bodies, const Agents& all);
+  std::span<const Pair> find_sweeps(const RunBodies& bodies, const Agents& all);
+  void measure_pairs(const RunBodies& bodies, const Agents& all, std::span<const Pair> pairs,
+                     std::span<const float> times);
   void report_people(std::span<const std::uint32_t> shapes, std::uint32_t given_up);
   std::uint8_t class_of(Pair pair) const;
   void count_near();
@@ -110,6 +125,14 @@ class FrameRun {
   std::vector<CheckedPair> checked_;
   std::vector<CheckedPerson> checked_people_;
   OverlapCounts counts_;
+  NeighbourMeasures neighbour_measures_;
+  BroadPhase sweep_phase_;
+  std::vector<double> reach_;         ///< metres, by person: nothing of his body is farther from his place
+  std::vector<float> hit_clearance_;  ///< of hits_
+  std::vector<std::uint64_t> intrusion_;  ///< of bodies, by person, in whole parts
+  std::vector<MeasuredPerson> measured_people_;
+  std::vector<MeasuredPair> measured_pairs_;
+  std::vector<std::size_t> measured_pairs_of_;  ///< by frame
 };
 
 }  // namespace bch::detail

@@ -60,6 +60,7 @@ void FrameRun::look(const FrameBlock& block, std::size_t first, std::size_t last
   count_near();
   turn_shoulders();
   margin_ = std::max(options_.max_distance, std::min(2 * longest_step(), farthest_step));
+  if (options_.measures) margin_ = std::max(margin_, measured_clearance);
   near_pairs_ = near_.size();
   if (near_pairs_ > usual_pairs()) {
     near_phase_ = BroadPhase();
@@ -73,7 +74,7 @@ void FrameRun::look(const FrameBlock& block, std::size_t first, std::size_t last
 /// Finds who is within 1.2 m of whom, what discs say of them, and how many are within 1 m.
 void FrameRun::find_near() {
   zeros_.resize(size());
-  const std::span<const Pair> found = find(near_phase_, near_discs().view(), zeros_, 0);
+  const std::span<const Pair> found = find(near_phase_, near_discs().view(), apart(zeros_), 0);
   const auto frame_of = own(block_->frame_of());
   near_.clear(), near_in_discs_.clear();
   in_discs_.assign(size(), 0);

@@ -151,7 +151,9 @@ Walker WalkerReader::walk(const TrackedPerson& person, Track& track, std::int64_
           track.way,
           static_cast<double>(frame) / fps_ + static_cast<double>(static_cast<std::uint64_t>(person.id) % 97),
           person.motion,
-          person.clip_seconds};
+          person.clip_seconds,
+          seconds > 0 ? dx / seconds : 0,
+          seconds > 0 ? dy / seconds : 0};
 }
 
 /// Who has not moved yet faces the way in which the others walk.

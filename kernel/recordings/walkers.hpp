@@ -30,6 +30,7 @@ struct Walker {
   std::uint32_t motion = TrackedPerson::no_motion;  ///< that the file names
   float clip_seconds =
       std::numeric_limits<float>::quiet_NaN();  ///< of its clip; NaN where the file does not say
+  double velocity_x = 0, velocity_y = 0;        ///< metres a second, smoothed as the speed is
 };
 
 /// Holds the people of a frame, by ascending id.
