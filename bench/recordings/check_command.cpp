@@ -34,6 +34,7 @@ void run_check(const CLI::App& command, const CheckCommandOptions& options) {
   if (!options.html.empty()) page.emplace(opened.recording);
   detail::CheckOptions how = opened.options(options.input);
   how.draws = page.has_value();
+  how.measures = options.outputs.has_measures();
   const detail::CheckSummary summary =
       opened.check(how, [&](const detail::CheckedFrame& frame, const ShapeSet& shapes) {
         tables.add(frame);

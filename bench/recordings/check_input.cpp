@@ -196,6 +196,10 @@ void add_outputs_to(CLI::App& command, CheckOutputs& outputs) {
       "Write one line per frame: number of people, density, overlaps");
   add("--pairs", outputs.pairs, "FILE.csv",
       "Write one line per overlapping pair of each frame: depth and direction");
+  add("--measures", outputs.measures, "FILE.csv",
+      "Write one line per person of each frame: densities, clearance, time to collision, intrusion ...");
+  add("--conflicts", outputs.conflicts, "FILE.csv",
+      "Write one line per pair of each frame that overlaps or will collide within 5 s");
   add("--json", outputs.json, "FILE.json", "Write the summary and all events as JSON");
   add("--fail-above", outputs.fail_above, "P",
       "Exit with code 1 if more than P percent of person-seconds are in overlap [never]",

@@ -123,7 +123,8 @@ nlohmann::ordered_json json_of(const OverlapCount& count) {
 }
 
 /// All but the events.
-nlohmann::ordered_json json_of(const CheckedRecording& recording, const CheckSummary& summary) {
+nlohmann::ordered_json json_of(const CheckedRecording& recording, const CheckSummary& summary,
+                               bool has_measures) {
   nlohmann::ordered_json densities;
   for (std::size_t k = 0; k < density_classes.size(); ++k) {
     nlohmann::ordered_json of = json_of(summary.by_density[k]);
@@ -148,6 +149,8 @@ nlohmann::ordered_json json_of(const CheckedRecording& recording, const CheckSum
                {"guessed_headings", summary.guessed},
                {"all", json_of(summary.all)},
                {"by_density", densities}});
+  if (has_measures)
+    json.update({{"colliding_people", summary.colliding}, {"disc_colliding_people", summary.disc_colliding}});
   return json;
 }
 
@@ -183,17 +186,22 @@ std::string indented(const std::string& text) {
 }  // namespace
 
 std::vector<OutputOption> CheckOutputs::files() const {
-  return {{"--events", events}, {"--frames", frames}, {"--pairs", pairs}, {"--json", json}};
+  return {{"--events", events}, {"--frames", frames},     {"--pairs", pairs},
+          {"--json", json},     {"--measures", measures}, {"--conflicts", conflicts}};
 }
 
 CheckTables::CheckTables(const CheckOutputs& outputs)
     : frames(outputs.frames, frame_columns),
       pairs(outputs.pairs, pair_columns),
       events(outputs.events, event_columns),
+      measures(outputs.measures, measure_columns),
+      conflicts(outputs.conflicts, conflict_columns),
       json(outputs.json) {}
 
 void CheckTables::add(const CheckedFrame& frame) {
   if (frames) frames.add(frame_line(frame));
+  if (measures) measures.add(measure_lines(frame));
+  if (conflicts) conflicts.add(conflict_lines(frame));
   constexpr std::size_t at_once = 10'000;  // lines, because a frame may have millions
   CheckedFrame some = frame;
   for (std::size_t i = 0; pairs && i < frame.pairs.size(); i += at_once) {
@@ -205,8 +213,8 @@ void CheckTables::add(const CheckedFrame& frame) {
 void CheckTables::finish(const CheckedRecording& recording, const CheckSummary& summary) {
   for (const OverlapEvent& event : summary.events)
     if (events) events.add(event_line(event, recording.info.fps));
-  frames.commit(), pairs.commit(), events.commit();
-  write_check_json(json, recording, summary);
+  frames.commit(), pairs.commit(), events.commit(), measures.commit(), conflicts.commit();
+  write_check_json(json, recording, summary, measures || conflicts);
 }
 
 std::string frame_line(const CheckedFrame& frame) {
@@ -228,6 +236,31 @@ std::string pair_lines(const CheckedFrame& frame) {
     lines += fmt::format("{},{:.4f},{},{},{},{:.4f},{:.4f},{:.4f},{:.4f}\n", frame.frame, frame.seconds,
                          pair.first, pair.second, kind_of(pair), pair.depth, pair.gap, pair.x + 0.0f,
                          pair.y + 0.0f);
+  return lines;
+}
+
+std::string measure_lines(const CheckedFrame& frame) {
+  std::string lines;
+  for (std::size_t i = 0; i < frame.people.size(); ++i) {
+    const CheckedPerson& person = frame.people[i];
+    const MeasuredPerson& of = frame.measures[i];
+    fmt::format_to(std::back_inserter(lines),
+                   "{},{:.4f},{},{:.3f},{:.3f},{},{},{:.4f},{:.4f},{:.3f},{:.3f},{:.3f},{:.4g},{:.4g},{:.4g},"
+                   "{:.4g},{:d},{:d}\n",
+                   frame.frame, frame.seconds, person.walker.id, person.density, of.voronoi_density,
+                   of.intimate, of.personal, of.clearance, of.disc_clearance, of.time, of.disc_time,
+                   of.encroachment, of.intrusion, of.disc_intrusion, MeasuredPerson::avoidance(of.time),
+                   MeasuredPerson::avoidance(of.disc_time), of.collides, of.disc_collides);
+  }
+  return lines;
+}
+
+std::string conflict_lines(const CheckedFrame& frame) {
+  std::string lines;
+  for (const MeasuredPair& pair : frame.measured_pairs)
+    fmt::format_to(std::back_inserter(lines), "{},{:.4f},{},{},{:.4f},{:.4f},{:.4f},{:.3f},{:.3f}\n",
+                   frame.frame, frame.seconds, pair.first, pair.second, pair.distance, pair.clearance,
+                   pair.disc_clearance, pair.time, pair.disc_time);
   return lines;
 }
 
@@ -264,11 +297,11 @@ std::string check_text(const CheckedRecording& recording, const CheckSummary& su
   return text + density_table(summary) + worst_table(summary, fps);
 }
 
-void write_check_json(const std::string& file, const CheckedRecording& recording,
-                      const CheckSummary& summary) {
+void write_check_json(const std::string& file, const CheckedRecording& recording, const CheckSummary& summary,
+                      bool has_measures) {
   if (file.empty()) return;
   // Without the brace at its end.
-  std::string head = json_text(json_of(recording, summary));
+  std::string head = json_text(json_of(recording, summary, has_measures));
   head.resize(head.size() - 2);
   StreamedFile json(file, head + ",\n  \"events\": [");
   for (const OverlapEvent& event : summary.events)
@@ -278,7 +311,12 @@ void write_check_json(const std::string& file, const CheckedRecording& recording
 }
 
 void report(const CheckedRecording& recording, const CheckSummary& summary, const CheckOutputs& outputs) {
-  write_standard_output(check_text(recording, summary));
+  std::string text = check_text(recording, summary);
+  if (outputs.has_measures())
+    text += fmt::format("\n{:.2f} % of people collide at some time, as discs of {:g} m {:.2f} %.\n",
+                        percent(summary.colliding, summary.people), measured_disc,
+                        percent(summary.disc_colliding, summary.people));
+  write_standard_output(text);
   if (percent_in_overlap(summary) > outputs.fail_above)
     throw CheckFailed(fmt::format("{}: {:.2f} % of person-seconds in overlap, more than {:g} %",
                                   recording.file, percent_in_overlap(summary), outputs.fail_above));

@@ -37,19 +37,25 @@ struct CheckedRecording {
 
 constexpr const char* frame_columns = "frame,seconds,people,density,overlapping,overlapping_pairs,in_walls\n";
 constexpr const char* pair_columns = "frame,seconds,first,second,kind,depth,gap,x,y\n";
+constexpr const char* measure_columns =
+    "frame,seconds,id,density,voronoi_density,intimate,personal,clearance,disc_clearance,ttc,disc_ttc,pet,"
+    "intrusion,disc_intrusion,avoidance,disc_avoidance,collides,disc_collides\n";
+constexpr const char* conflict_columns =
+    "frame,seconds,first,second,distance,clearance,disc_clearance,ttc,disc_ttc\n";
 constexpr const char* event_columns = "first,second,kind,from,to,frames,worst,depth,x,y\n";
 
 /// Names the files that the answers of a check go to; an empty name is none.
 struct CheckOutputs {
-  std::string events, frames, pairs, json;
+  std::string events, frames, pairs, json, measures, conflicts;
   double fail_above = 100;  ///< percent of person-seconds
 
   std::vector<OutputOption> files() const;
+  bool has_measures() const { return !measures.empty() || !conflicts.empty(); }
 };
 
 /// Represents the tables of a check.
 struct CheckTables {
-  StreamedFile frames, pairs, events;
+  StreamedFile frames, pairs, events, measures, conflicts;
   std::string json;
 
   explicit CheckTables(const CheckOutputs& outputs);
@@ -61,14 +67,18 @@ struct CheckTables {
 /// Returns the line of a frame, or of each of its pairs.
 std::string frame_line(const detail::CheckedFrame& frame);
 std::string pair_lines(const detail::CheckedFrame& frame);
+/// Returns the lines of what is measured of people, or of pairs.
+std::string measure_lines(const detail::CheckedFrame& frame);
+std::string conflict_lines(const detail::CheckedFrame& frame);
 /// Returns the line of an event.
 std::string event_line(const detail::OverlapEvent& event, double fps);
 
 /// Returns the summary for people.
 std::string check_text(const CheckedRecording& recording, const detail::CheckSummary& summary);
 /// Writes all of it for programs; without a name nothing. Events go to the file one by one, because there may be millions.
+/// `has_measures`: people who collide are counted in the summary.
 void write_check_json(const std::string& file, const CheckedRecording& recording,
-                      const detail::CheckSummary& summary);
+                      const detail::CheckSummary& summary, bool has_measures);
 
 /// Returns what the bodies are, in a few words.
 std::string bodies_text(const CheckedRecording& recording);
