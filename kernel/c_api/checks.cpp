@@ -45,6 +45,20 @@ bch_check_frame frame_of(const CheckedFrame& frame) {
   return to;
 }
 
+void add_measures(const CheckedFrame& frame, bch_check& check) {
+  for (std::size_t i = 0; i < frame.measures.size(); ++i) {
+    const MeasuredPerson& of = frame.measures[i];
+    check.measures.push_back({frame.frame, frame.people[i].walker.id, frame.people[i].density,
+                              of.voronoi_density, of.clearance, of.disc_clearance, of.time, of.disc_time,
+                              of.encroachment, of.intrusion, of.disc_intrusion,
+                              MeasuredPerson::avoidance(of.time), MeasuredPerson::avoidance(of.disc_time), 0,
+                              of.intimate, of.personal, of.collides, of.disc_collides});
+  }
+  for (const MeasuredPair& pair : frame.measured_pairs)
+    check.conflicts.push_back({frame.frame, pair.first, pair.second, pair.distance, pair.clearance,
+                               pair.disc_clearance, pair.time, pair.disc_time, 0});
+}
+
 bch_check_event event_of(const OverlapEvent& event) {
   const std::int32_t kind = event.is_wall     ? BCH_CHECK_WALL
                             : event.is_pass() ? BCH_CHECK_PASS
@@ -74,6 +88,8 @@ bch_check_summary summary_of(const CheckSummary& of, const TrajectoryInfo& info)
   to.guessed_headings = of.guessed;
   to.near_pairs = of.all.near_pairs;
   to.overlapping_near_pairs = of.all.overlapping_pairs;
+  to.colliding_people = of.colliding;
+  to.disc_colliding_people = of.disc_colliding;
   return to;
 }
 
@@ -140,6 +156,7 @@ std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check
   const Cast cast = cast_of(given);
   options.cast = cast;
   options.draws = false;
+  options.measures = given.measures != 0;
   std::vector<BodyModel> bodies;
   on_threads(given.threads, [&] { bodies = bodies_of(given, cast); });
   options.bodies = bodies;
@@ -163,6 +180,7 @@ std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check
         check(*trajectory.reader, options, [&](const CheckedFrame& frame, const ShapeSet&) {
           made->frames.push_back(frame_of(frame));
           for (const CheckedPair& pair : frame.pairs) made->pairs.push_back(pair_of(pair));
+          add_measures(frame, *made);
           const auto done = static_cast<std::uint64_t>(frame.frame - info.first_frame),
                      total = static_cast<std::uint64_t>(info.last_frame - info.first_frame);
           if (given.progress != nullptr && given.progress(given.user, done, total) != 0)

@@ -237,6 +237,23 @@ bch_status bch_check_get_densities(const bch_check* check, const bch_check_densi
   });
 }
 
+bch_status bch_check_get_measures(const bch_check* check, const bch_check_measure** measures, size_t* count) {
+  return guarded([&] {
+    const auto& all = object_of(check, "check").measures;
+    required(measures, "measures"), required(count, "count");
+    *measures = all.data(), *count = all.size();
+  });
+}
+
+bch_status bch_check_get_conflicts(const bch_check* check, const bch_check_conflict** pairs,
+                                        size_t* count) {
+  return guarded([&] {
+    const auto& all = object_of(check, "check").conflicts;
+    required(pairs, "pairs"), required(count, "count");
+    *pairs = all.data(), *count = all.size();
+  });
+}
+
 bch_status bch_check_free(bch_check* check) {
   return free_object(check, "check");
 }

@@ -28,6 +28,8 @@ struct bch_check {
   std::vector<bch_check_pair> pairs;
   std::vector<bch_check_event> events;
   std::vector<bch_check_density> densities;
+  std::vector<bch_check_measure> measures;
+  std::vector<bch_check_conflict> conflicts;
   bch_check_summary summary = BCH_CHECK_SUMMARY_INIT;
   std::string assumptions, notes;  ///< a line each
 };

@@ -644,6 +644,29 @@ class Recordings(unittest.TestCase):
         self.assertTrue(0.2 < seen["after"] < 0.5)
         self.assertAlmostEqual(seen["x"], 8999 + 2 * float(seen["after"]), 4)
 
+    def test_measures(self):
+        columns = self.columns()
+        found = bch.check(**columns, fps=25, measures=True)
+        self.assertEqual((len(found.measures), set(found.measures["collides"])), (len(columns["x"]), {0, 1}))
+        frame = found.measures["frame"][0]
+        people, pairs = (rows[rows["frame"] == frame] for rows in (found.measures, found.conflicts))
+        now = columns["frame"] == frame
+        places = {id: (x, y) for id, x, y in zip(columns["id"][now], columns["x"][now], columns["y"][now])}
+        for person in people:
+            others = [place for id, place in places.items() if id != person["id"]]
+            distance = np.linalg.norm(np.subtract(others, places[person["id"]]), axis=1)
+            intrusion = np.where(distance > 0.2, (0.6 / (distance - 0.2)) ** 2, np.inf)[distance <= 2.4].sum()
+            np.testing.assert_allclose(person["disc_intrusion"], intrusion, 1e-5)
+            np.testing.assert_allclose(person["disc_clearance"], distance.min() - 0.2, 1e-4)
+            self.assertEqual(person["personal"], (distance <= 1.2).sum())
+            own = (pairs["first"] == person["id"]) | (pairs["second"] == person["id"])
+            self.assertEqual(person["ttc"], pairs["ttc"][own].min(initial=np.inf))
+            np.testing.assert_allclose(person["avoidance"], np.float32(3) / np.float64(person["ttc"]) if person["ttc"] else np.inf, 1e-6)
+        self.assertTrue((pairs["clearance"] < 0).any())
+        self.assertGreaterEqual(found.summary["colliding_people"], 2)
+        self.assertEqual(found.table("measures")["seconds"][0], frame / 25)
+        self.assertEqual(len(bch.check(**columns, fps=25).measures), 0)
+
     def columns(self, count=60):
         """Rows of some people, in no order, as arrays of many types."""
         random = np.random.default_rng(5)

@@ -46,8 +46,17 @@ _EVENT = np.dtype(
     [("first", i8), ("second", i8), ("from", i8), ("to", i8), ("worst", i8), ("x", f8), ("y", f8), ("depth", f4)]
     + [("frames", u4), ("kind", i4), ("after", f4)]
 )
-CheckTable = Literal["events", "frames", "pairs"]
-_TABLES = {"events": 0, "frames": 1, "pairs": 2}
+_MEASURE = np.dtype(
+    [("frame", i8), ("id", i8), ("density", f4), ("voronoi_density", f4), ("clearance", f4), ("disc_clearance", f4), ("ttc", f4)]
+    + [("disc_ttc", f4), ("pet", f4), ("intrusion", f4), ("disc_intrusion", f4), ("avoidance", f4), ("disc_avoidance", f4)]
+    + [("_", f4), ("intimate", u4), ("personal", u4), ("collides", i4), ("disc_collides", i4)]
+)
+_CONFLICT = np.dtype(
+    [("frame", i8), ("first", i8), ("second", i8), ("distance", f4), ("clearance", f4), ("disc_clearance", f4), ("ttc", f4)]
+    + [("disc_ttc", f4), ("_", f4)]
+)
+CheckTable = Literal["events", "frames", "pairs", "measures", "conflicts"]
+_TABLES = {"events": 0, "frames": 1, "pairs": 2, "measures": 3, "conflicts": 4}
 Bodies = Literal["outlines", "spheres"]
 _BODIES = {"outlines": 0, "spheres": 1}
 #: Units of arrays.
@@ -185,20 +194,28 @@ class Check(NamedTuple):
     assumptions: List[str]  #: what is assumed where the file does not say, and what was found about the characters
     #: What seems to be wrong: columns that are not read, people who are too fast or too slow, headings in degrees, walls without a segment.
     notes: List[str]
+    #: With `measures=True` a row per person and frame: frame, id, density, voronoi_density (people per square metre), clearance (the least
+    #: signed distance of bodies, metres), ttc (the least time to a collision, seconds), pet (time after an encroachment, seconds), intrusion,
+    #: avoidance, `disc_` and these for discs of 0.1 m, intimate, personal (others within 0.45 and 1.2 m), collides, disc_collides (0 or
+    #: 1). bench/README.md defines them. Infinite: nobody is that near.
+    measures: Records
+    #: With `measures=True` a row per pair and frame of people who overlap or will collide within 5 s: frame, first, second, distance,
+    #: clearance, disc_clearance, ttc, disc_ttc.
+    conflicts: Records
 
     def table(self, name: CheckTable = "events") -> "Dict[str, np.ndarray[Any, Any]]":
         """Return a table as columns by name, (n,) each: with words for kinds, and seconds, counted from frame 0, beside frames.
 
         Parameters
         ----------
-        name : {"events", "frames", "pairs"}
+        name : {"events", "frames", "pairs", "measures", "conflicts"}
         """
         one_of(_TABLES, name, "name")
         records: Records = getattr(self, name)
         columns: "Dict[str, np.ndarray[Any, Any]]" = {}
         for field in filter("_".__ne__, records.dtype.names or ()):
             columns[field] = _KINDS[records[field]] if field == "kind" else records[field]
-            if field in ("from", "to", "worst") or field == "frame" and name == "pairs":
+            if field in ("from", "to", "worst") or field == "frame" and name != "frames":
                 time = records[field] + (records["after"].astype(f8) if field == "worst" else 0.0)
                 columns["seconds" if field == "frame" else field + "_seconds"] = time / self.summary["fps"]
         return columns
@@ -253,6 +270,7 @@ def check(
     leaves: Leaves = "segments",
     max_distance: float = 0.0,
     max_pairs: int = 0,
+    measures: bool = False,
     walls: Any = None,
     fps: Optional[float] = None,
     unit: Optional[float] = None,
@@ -305,6 +323,8 @@ def check(
     max_pairs : int
         Limit of pairs of people near each other, in one frame or in the frames that one task checks (about 4096 rows); 0: 4
         million plus 100 per person. More are an error, because each takes memory.
+    measures : bool
+        Also measure people and pairs: `Check.measures` and `Check.conflicts`.
     walls : Obstacles, or a geometry as `Obstacles.from_wkt` takes, optional
         Walls to use instead of the geometry of the recording. Polygons of a geometry are the floor that people walk on, and their
         rings are walls.
@@ -361,6 +381,7 @@ def check(
             max_distance=number(max_distance, "max_distance"),
             max_pairs=bounded(max_pairs, "max_pairs", 0, 1_000_000_000),
             walls=None if obstacles is None else obstacles._pointer,
+            measures=bool(measures),
             progress=watched.callback,
         )
         handle = Handle("check", "run", trajectory.pointer, byref(options), checked=watched.run)
@@ -375,4 +396,6 @@ def check(
         | {"by_density": [dict(zip(densities.dtype.names or (), row)) for row in densities.tolist()]},
         _lines(lib.bch_check_get_assumptions, handle),
         _lines(lib.bch_check_get_notes, handle),
+        _records(lib.bch_check_get_measures, handle, _MEASURE),
+        _records(lib.bch_check_get_conflicts, handle, _CONFLICT),
     )

@@ -234,6 +234,32 @@ TEST_F(CApiRecordings, AreChecked) {
   expect_ok(bch_check_get_assumptions(check.get(), &assumptions));
   EXPECT_NE(std::string(assumptions), "");
 
+  options.measures = 1;
+  const auto with_measures = checked(options);
+  const bch_check_measure* measures = nullptr;
+  const bch_check_conflict* conflicts = nullptr;
+  std::size_t measure_count = 0, conflict_count = 0;
+  expect_ok(bch_check_get_measures(with_measures.get(), &measures, &measure_count));
+  expect_ok(bch_check_get_conflicts(with_measures.get(), &conflicts, &conflict_count));
+  ASSERT_EQ(measure_count, 20u);
+  EXPECT_EQ(measures[11].frame, 5);
+  EXPECT_EQ(measures[11].id, 7);
+  EXPECT_EQ(measures[11].personal, 1u);
+  EXPECT_FLOAT_EQ(measures[11].disc_clearance, -0.1f);
+  EXPECT_LT(measures[11].clearance, 0);
+  EXPECT_EQ(measures[11].collides, 1);
+  EXPECT_NEAR(measures[0].disc_avoidance, 3 / measures[0].disc_ttc, 1e-5f);
+  ASSERT_GT(conflict_count, 5u);
+  EXPECT_EQ(conflicts[0].frame, 0);
+  EXPECT_EQ(conflicts[0].second, 7);
+  EXPECT_EQ(conflicts[0].disc_ttc, measures[0].disc_ttc);
+  expect_ok(bch_check_get_summary(with_measures.get(), &summary));
+  EXPECT_EQ(summary.colliding_people, 2u);
+  EXPECT_EQ(summary.disc_colliding_people, 2u);
+  expect_ok(bch_check_get_measures(check.get(), &measures, &measure_count));
+  EXPECT_EQ(measure_count, 0u);
+  options.measures = 0;
+
   // Objects of the library of queries.
   const auto walls =
       made<bch_obstacles_free>(bch_obstacles_from_wkt, "LINESTRING(-9 0, 9 0)", 0, -HUGE_VAL, HUGE_VAL);

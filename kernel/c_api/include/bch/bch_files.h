@@ -153,9 +153,11 @@ typedef struct bch_check_options {
   /** Of a body, of people who have bodies of spheres in place of outlines, posed at their times and compared in space: 64, 128, 256 or 512, and of
    * characters that the library has no models of up to 4096. 0: outlines. There is neither a baked set nor another depth or leaves then. */
   uint32_t spheres;
+  uint32_t unused;  /**< 0 */
+  int32_t measures; /**< not 0: people and pairs are measured, for bch_check_get_measures() and bch_check_get_conflicts() */
 } bch_check_options;
 #define BCH_CHECK_OPTIONS_INIT \
-  { sizeof(bch_check_options), 0, 0, NULL, 0, NULL, NULL, BCH_ALL_DEPTHS, BCH_SEGMENTS, NULL, 0, NULL, NULL, 0, 0, 0, 0 }
+  { sizeof(bch_check_options), 0, 0, NULL, 0, NULL, NULL, BCH_ALL_DEPTHS, BCH_SEGMENTS, NULL, 0, NULL, NULL, 0, 0, 0, 0, 0, 0 }
 /** Puts a walking person on every row of a recording that has not been read from, and finds who runs into whom. */
 BCH_API bch_status bch_check_run(bch_trajectory* trajectory, const bch_check_options* options, bch_check** check);
 /** Holds the summary of a whole recording. */
@@ -171,9 +173,11 @@ typedef struct bch_check_summary {
   uint64_t guessed_headings;       /**< person-frames whose heading is that of before */
   uint64_t near_pairs;             /**< pairs of a frame within 1.2 m */
   uint64_t overlapping_near_pairs; /**< those of these pairs that overlap */
+  uint64_t colliding_people;       /**< people who overlap or pass anybody at any time, where measures are asked for */
+  uint64_t disc_colliding_people;  /**< the same of discs of 0.1 m */
 } bch_check_summary;
 #define BCH_CHECK_SUMMARY_INIT \
-  { sizeof(bch_check_summary), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 }
+  { sizeof(bch_check_summary), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 }
 /** Gets the summary of a check. */
 BCH_API bch_status bch_check_get_summary(const bch_check* check, bch_check_summary* summary);
 /** Counts the person-frames of a class of density. */
@@ -231,6 +235,33 @@ BCH_API bch_status bch_check_get_frames(const bch_check* check, const bch_check_
 BCH_API bch_status bch_check_get_pairs(const bch_check* check, const bch_check_pair** pairs, size_t* count);
 /** Gets all events, ordered by their first frames. */
 BCH_API bch_status bch_check_get_events(const bch_check* check, const bch_check_event** events, size_t* count);
+/** Describes what is measured of a person of a frame. bench/README.md defines it. Members of discs are about discs of 0.1 m, the others about
+ * bodies. Least values are over all others of the frame, and infinite beyond what is measured. */
+typedef struct bch_check_measure {
+  int64_t frame, id;
+  float density;                   /**< people per square metre within a metre */
+  float voronoi_density;           /**< one over the area of the person's Voronoi cell, square metres */
+  float clearance, disc_clearance; /**< the least, metres; below 0: minus the depth of an overlap */
+  float ttc, disc_ttc;             /**< the least time to a collision at present velocities, seconds */
+  float pet; /**< seconds since the disc of another person touched the disc of this one, where it now is */
+  float intrusion, disc_intrusion; /**< the intrusion number of Cordes et al. 2024 */
+  float avoidance, disc_avoidance; /**< the avoidance number of Cordes et al. 2024 */
+  float unused;
+  uint32_t intimate, personal;     /**< others within 0.45 m and within 1.2 m, between centres */
+  int32_t collides, disc_collides; /**< 1: with somebody in this frame or before the next; discs: in this frame or halfway to the next */
+} bch_check_measure;
+/** Describes two people of a frame who overlap, as bodies or as discs, or will do so within 5 s at present velocities. */
+typedef struct bch_check_conflict {
+  int64_t frame;
+  int64_t first, second;                          /**< ids */
+  float distance;                                 /**< between centres, metres */
+  float clearance, disc_clearance, ttc, disc_ttc; /**< as in bch_check_measure, of these two */
+  float unused;
+} bch_check_conflict;
+/** Gets what is measured of all people, frame after frame; nothing where it was not asked for. It lives as long as the check. */
+BCH_API bch_status bch_check_get_measures(const bch_check* check, const bch_check_measure** measures, size_t* count);
+/** Gets what is measured of pairs, frame after frame; nothing where it was not asked for. It lives as long as the check. */
+BCH_API bch_status bch_check_get_conflicts(const bch_check* check, const bch_check_conflict** pairs, size_t* count);
 /** Frees a check. */
 BCH_API bch_status bch_check_free(bch_check* check);
 
