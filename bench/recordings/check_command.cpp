@@ -11,6 +11,7 @@
 #include "bench/base/output.hpp"
 #include "bench/recordings/recording_check.hpp"
 #include "bench/recordings/recording_page.hpp"
+#include "bench/recordings/resolved_recording.hpp"
 
 namespace bch::cli {
 namespace {
@@ -18,14 +19,16 @@ namespace {
 struct CheckCommandOptions {
   CheckInput input;
   CheckOutputs outputs;
-  std::string html;
+  std::string html, resolved;
   std::uint32_t threads = 0;
 };
 
-void run_check(const CLI::App& command, const CheckCommandOptions& options) {
+void run_check(const CLI::App& command, CheckCommandOptions options) {
+  if (!options.resolved.empty()) options.input.require_spheres(command);
   options.input.require_fitting(command);
   std::vector<OutputOption> files = options.outputs.files();
   files.push_back({"--html", options.html});
+  files.push_back({"--resolve", options.resolved});
   require_outputs(files, options.input.files());
   OpenedCheck opened(options.input);  // before there are threads: see import_in_child()
   const Threads threads(options.threads);
@@ -35,14 +38,21 @@ void run_check(const CLI::App& command, const CheckCommandOptions& options) {
   detail::CheckOptions how = opened.options(options.input);
   how.draws = page.has_value();
   how.measures = options.outputs.has_measures();
+  std::optional<ResolvedRecording> resolved;
+  if (!options.resolved.empty()) resolved.emplace(opened);
   const detail::CheckSummary summary =
       opened.check(how, [&](const detail::CheckedFrame& frame, const ShapeSet& shapes) {
         tables.add(frame);
         if (page) page->add(frame, shapes);
+        if (resolved) resolved->add(frame);
       });
   tables.finish(opened.recording, summary);
   if (page) write_file(options.html, std::move(*page).finish(summary));
   report(opened.recording, summary, options.outputs);
+  if (!resolved) return;
+  resolved->resolve();
+  write_file(options.resolved, resolved->csv());
+  write_standard_output(resolved->report());
 }
 
 }  // namespace
@@ -67,6 +77,9 @@ Example: bch check trajectories.sqlite --events events.csv)");
   add_outputs_to(command, options->outputs);
   OptionAdder{command}("--html", options->html, "FILE.html",
                        "Write a web page that plays the recording; it needs no network");
+  OptionAdder{command}(
+      "--resolve", options->resolved, "FILE.csv",
+      "Write the recording with people shifted, by little and smoothly, until no bodies overlap");
   add_threads_option(command, options->threads);
   return [options, &command] { run_check(command, *options); };
 }

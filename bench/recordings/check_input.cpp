@@ -149,6 +149,11 @@ void CheckInput::require_fitting(const CLI::App& command) const {
   require_absent(command, {"--depth", "--leaves"}, "belongs to outlines, not to --bodies spheres");
 }
 
+void CheckInput::require_spheres(const CLI::App& command) {
+  if (command.count("--bodies") == 0) kind.bodies = "spheres";
+  if (kind.bodies != "spheres") throw UsageError("--resolve: moves bodies of spheres, not --bodies outlines");
+}
+
 void CheckInput::add_to(CLI::App& command) {
   const OptionAdder add(command);
   add("FILE", file, "", "Recording to check")->required();

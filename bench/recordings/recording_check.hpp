@@ -107,6 +107,8 @@ struct CheckInput {
   void add_to(CLI::App& command);
   /// Errors:  throws UsageError on options that do not belong together.
   void require_fitting(const CLI::App& command) const;
+  /// Takes bodies of spheres where none are asked for. Errors: throws UsageError where outlines are.
+  void require_spheres(const CLI::App& command);
   std::vector<std::string> files() const;
   std::uint32_t spheres() const { return kind.bodies == "spheres" ? kind.spheres : 0; }
 
