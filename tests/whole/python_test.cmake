@@ -72,6 +72,9 @@ endif()
 # The notebooks are those of their programs.
 run(${SOURCE}/.ci/notebooks check)
 run(${in_work} ${WORK}/bch-python/bin/bch --version)
+run(${in_work} ${CMAKE_COMMAND} -E env PYTHONDONTWRITEBYTECODE=1
+  ${CMAKE_COMMAND} -DPROGRAM=${python} -DSCRIPT=${SOURCE}/bench/clients/clients.py -P ${CMAKE_CURRENT_LIST_DIR}/clients_test.cmake)
+message(STATUS "${output}")
 run(${in_work} ${python} ${SOURCE}/bench/python/ratios.py --quick)
 message(STATUS "${output}")
 

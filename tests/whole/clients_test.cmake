@@ -1,0 +1,26 @@
+# Runs the clients of bench/clients twice: bodies that are moved apart overlap less than a tenth as often as those behind discs alone, and
+# as often the second time.
+# Usage: cmake -DPROGRAM=... [-DSCRIPT=...] -P clients_test.cmake
+include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
+
+foreach(time first second)
+  run(${PROGRAM} ${SCRIPT})
+  message(STATUS "${output}")
+  string(REGEX REPLACE "; ms a frame[^\n]*" "" ${time} "${output}")
+endforeach()
+if(NOT first STREQUAL second)
+  message(FATAL_ERROR "not the same twice")
+endif()
+foreach(simulator "orca" "social forces")
+  if(NOT first MATCHES "${simulator}, discs alone: ([0-9]+) overlaps")
+    message(FATAL_ERROR "nothing is said of ${simulator} and discs")
+  endif()
+  set(discs ${CMAKE_MATCH_1})
+  if(NOT first MATCHES "${simulator}, bodies moved apart: ([0-9]+) overlaps")
+    message(FATAL_ERROR "nothing is said of ${simulator} and bodies")
+  endif()
+  math(EXPR tenfold "10 * ${CMAKE_MATCH_1}")
+  if(discs LESS 100 OR tenfold GREATER discs)
+    message(FATAL_ERROR "${simulator}: ${discs} overlaps with discs, ${CMAKE_MATCH_1} with bodies")
+  endif()
+endforeach()
