@@ -12,7 +12,7 @@
 #include <utility>
 
 #include "kernel/recordings/events.hpp"
-#include "kernel/recordings/footprints.hpp"
+#include "kernel/recordings/recent_steps.hpp"
 #include "kernel/recordings/frame_block.hpp"
 #include "kernel/recordings/frame_run.hpp"
 #include "kernel/recordings/walker_bodies.hpp"
@@ -57,7 +57,7 @@ class Checker {
   std::optional<WalkerBodies> bodies_;
   CheckSummary summary_;
   EventLog events_;
-  Footprints footprints_;
+  RecentSteps recent_steps_;
   std::unordered_set<std::uint64_t, MixedHash> colliding_, disc_colliding_;
   std::vector<std::unique_ptr<FrameRun>> runs_;
   // Of a block.
@@ -138,7 +138,7 @@ void Checker::report(const FrameBlock& block, FrameRun& run, double fps) {
 
 /// Adds what earlier frames have to do with, and counts who collides.
 void Checker::add_measures(CheckedFrame& frame, std::span<MeasuredPerson> measures) {
-  footprints_.add(frame.seconds, frame.people, measures);
+  recent_steps_.add(frame.seconds, frame.people, measures);
   for (std::size_t i = 0; i < measures.size(); ++i) {
     const auto id = static_cast<std::uint64_t>(frame.people[i].walker.id);
     if (measures[i].collides) colliding_.insert(id);

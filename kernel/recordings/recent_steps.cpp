@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "kernel/recordings/footprints.hpp"
+#include "kernel/recordings/recent_steps.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,20 +12,20 @@
 namespace bch::detail {
 namespace {
 
-constexpr double footprint_cell = 1;  ///< metres
+constexpr double step_cell = 1;  ///< metres
 constexpr double touching = 2 * measured_disc;
 
-std::int64_t footprint_column(double x) {
-  return static_cast<std::int64_t>(std::floor(x / footprint_cell));
+std::int64_t step_column(double x) {
+  return static_cast<std::int64_t>(std::floor(x / step_cell));
 }
 
-std::uint64_t footprint_key(std::int64_t column, std::int64_t row) {
+std::uint64_t step_key(std::int64_t column, std::int64_t row) {
   return static_cast<std::uint64_t>(column) << 32 ^ static_cast<std::uint64_t>(row & 0xffff'ffff);
 }
 
 }  // namespace
 
-void Footprints::add(double seconds, std::span<const CheckedPerson> people,
+void RecentSteps::add(double seconds, std::span<const CheckedPerson> people,
                      std::span<MeasuredPerson> measures) {
   now_.clear();
   auto before = last_.begin();
@@ -46,15 +46,15 @@ void Footprints::add(double seconds, std::span<const CheckedPerson> people,
 }
 
 /// Adds a step to all cells that it comes near.
-void Footprints::remember(const Place& from, const Place& to, double begin, double end) {
+void RecentSteps::remember(const Place& from, const Place& to, double begin, double end) {
   const auto [left, right] = std::minmax(from.x, to.x);
   const auto [low, high] = std::minmax(from.y, to.y);
-  for (std::int64_t row = footprint_column(low - touching); row <= footprint_column(high + touching); ++row)
-    for (std::int64_t column = footprint_column(left - touching);
-         column <= footprint_column(right + touching); ++column) {
-      const double corner_x = static_cast<double>(column) * footprint_cell,
-                   corner_y = static_cast<double>(row) * footprint_cell;
-      cells_[footprint_key(column, row)].push_back(
+  for (std::int64_t row = step_column(low - touching); row <= step_column(high + touching); ++row)
+    for (std::int64_t column = step_column(left - touching);
+         column <= step_column(right + touching); ++column) {
+      const double corner_x = static_cast<double>(column) * step_cell,
+                   corner_y = static_cast<double>(row) * step_cell;
+      cells_[step_key(column, row)].push_back(
           {from.id, end, static_cast<float>(end - begin), static_cast<float>(from.x - corner_x),
            static_cast<float>(from.y - corner_y), static_cast<float>(to.x - from.x),
            static_cast<float>(to.y - from.y)});
@@ -62,12 +62,12 @@ void Footprints::remember(const Place& from, const Place& to, double begin, doub
 }
 
 /// Returns how long before `seconds` somebody else last touched a disc: of each step the last time of touching, from the newest step on.
-float Footprints::since(const Place& place, double seconds) const {
-  const std::int64_t column = footprint_column(place.x), row = footprint_column(place.y);
-  const auto found = cells_.find(footprint_key(column, row));
+float RecentSteps::since(const Place& place, double seconds) const {
+  const std::int64_t column = step_column(place.x), row = step_column(place.y);
+  const auto found = cells_.find(step_key(column, row));
   if (found == cells_.end()) return MeasuredPerson::infinite;
-  const double own_x = place.x - static_cast<double>(column) * footprint_cell,
-               own_y = place.y - static_cast<double>(row) * footprint_cell;
+  const double own_x = place.x - static_cast<double>(column) * step_cell,
+               own_y = place.y - static_cast<double>(row) * step_cell;
   double least = measured_seconds;
   bool is_found = false;
   const std::vector<Step>& steps = found->second;
@@ -88,7 +88,7 @@ float Footprints::since(const Place& place, double seconds) const {
 }
 
 /// Drops the steps that end before a time.
-void Footprints::forget(double before) {
+void RecentSteps::forget(double before) {
   for (auto entry = cells_.begin(); entry != cells_.end();) {
     std::vector<Step>& steps = entry->second;
     const auto kept =

@@ -15,7 +15,7 @@ namespace bch::detail {
 
 /// Remembers the ways of people for some seconds, and tells how long ago somebody was where somebody else now is. Memory: about 80 bytes for
 /// each person-frame of the last measured_seconds.
-class Footprints {
+class RecentSteps {
  public:
   /// Takes the people of the next frame, by ascending id, and measures the encroachment of each.
   void add(double seconds, std::span<const CheckedPerson> people, std::span<MeasuredPerson> measures);
