@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/base/exit_codes.hpp"
@@ -23,6 +25,20 @@ struct CheckCommandOptions {
   std::uint32_t threads = 0;
 };
 
+/// The options that the answers depend on, as they were given.
+std::string given_options(const CLI::App& command) {
+  constexpr std::string_view of_outputs[] = {"--events",   "--frames",    "--pairs",      "--json",
+                                             "--html",     "--date",      "--fail-above", "--threads",
+                                             "--measures", "--conflicts", "--resolve"};
+  std::string text;
+  for (const CLI::Option* const option : command.get_options()) {
+    const std::string name = option->get_name();
+    if (option->count() == 0 || !name.starts_with("--") || std::ranges::count(of_outputs, name) > 0) continue;
+    for (const std::string& value : option->results()) text += (text.empty() ? "" : " ") + name + " " + value;
+  }
+  return text;
+}
+
 void run_check(const CLI::App& command, CheckCommandOptions options) {
   if (!options.resolved.empty()) options.input.require_spheres(command);
   options.input.require_fitting(command);
@@ -31,6 +47,7 @@ void run_check(const CLI::App& command, CheckCommandOptions options) {
   files.push_back({"--resolve", options.resolved});
   require_outputs(files, options.input.files());
   OpenedCheck opened(options.input);  // before there are threads: see import_in_child()
+  opened.recording.options = given_options(command);
   const Threads threads(options.threads);
   CheckTables tables(options.outputs);
   std::optional<RecordingPage> page;
@@ -80,6 +97,7 @@ Example: bch check trajectories.sqlite --events events.csv)");
   OptionAdder{command}(
       "--resolve", options->resolved, "FILE.csv",
       "Write the recording with people shifted, by little and smoothly, until no bodies overlap");
+  OptionAdder{command}("--date", options->input.date, "TEXT", "Date to show on that page [the file's]");
   add_threads_option(command, options->threads);
   return [options, &command] { run_check(command, *options); };
 }

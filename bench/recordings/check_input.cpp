@@ -3,10 +3,16 @@
 
 #include "bench/recordings/recording_check.hpp"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
+#include <ctime>
+#include <filesystem>
 #include <numbers>
+
+#include <bch/outline_builder.hpp>
 
 #include "bench/base/exit_codes.hpp"
 #include "bench/base/text.hpp"
@@ -68,6 +74,7 @@ std::optional<BakedShapes> baked_of(const CheckInput& input) {
     throw UsageError("--character: " + file + " and others: a baked set has all characters of a check");
   if (!input.shapes.clips.empty() || input.depth != "all")
     throw UsageError("--clips and --depth: " + file + " is baked already");
+  if (!input.bodies.empty()) throw UsageError("--body: " + file + " is a baked set, which takes no others");
   return load_baked(file);
 }
 
@@ -130,6 +137,44 @@ std::vector<BodyModel> bodies_of(detail::CastView cast, std::uint32_t spheres) t
       fmt::format("--spheres: expected 64, 128, 256 or 512 of built-in pedestrians, found {}", spheres));
 }
 
+/// Reads what a body that does not walk covers: the outline of a model, or polygons.
+detail::Footprint footprint_of(const std::string& name, const std::string& file) try {
+  return detail::footprint_from_wkt(
+      name, file.ends_with(".wkt") ? read_wkt(file) : to_wkt(outline(load_character(file, {}).character)));
+} catch (const std::invalid_argument& error) {
+  throw InputError(fmt::format("{}: {}", file, printable_line(error.what())));
+}
+
+/// Takes --body apart: the name and the file.
+/// Errors:  throws UsageError.
+std::pair<std::string, std::string> named_file(const std::string& text) {
+  const std::size_t equals = std::min(text.find('='), text.size());
+  std::pair<std::string, std::string> parts{text.substr(0, equals),
+                                            text.substr(std::min(equals + 1, text.size()))};
+  if (parts.first.empty() || parts.second.empty())
+    throw UsageError(fmt::format("--body: '{}' is not a name and a file, as cart=cart.wkt", text));
+  return parts;
+}
+
+std::vector<detail::Footprint> footprints_of(const CheckInput& input) {
+  std::vector<detail::Footprint> footprints;
+  for (const std::string& body : input.bodies) {
+    const auto [name, file] = named_file(body);
+    footprints.push_back(footprint_of(name, file));
+  }
+  return footprints;
+}
+
+/// When a file was written; empty where that is not known.
+std::string date_of(const std::string& file) {
+  std::error_code error;
+  const auto time = std::filesystem::last_write_time(file, error);
+  if (error) return {};
+  const auto since_1970 = std::chrono::duration_cast<std::chrono::seconds>(
+      std::chrono::file_clock::to_sys(time).time_since_epoch());
+  return fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(static_cast<std::time_t>(since_1970.count())));
+}
+
 /// Segments, where they are asked for and there.
 Leaves leaves_of(const CheckInput& input, const std::optional<BakedShapes>& baked) {
   const bool has_segments = !baked || baked->set.exact_leaves();
@@ -141,12 +186,13 @@ Leaves leaves_of(const CheckInput& input, const std::optional<BakedShapes>& bake
 std::vector<std::string> CheckInput::files() const {
   std::vector<std::string> files = shapes.inputs(characters);
   files.insert(files.end(), {file, walls});
+  for (const std::string& body : bodies) files.push_back(named_file(body).second);
   return files;
 }
 
 void CheckInput::require_fitting(const CLI::App& command) const {
   if (!kind.are_spheres(command)) return;
-  require_absent(command, {"--depth", "--leaves"}, "belongs to outlines, not to --bodies spheres");
+  require_absent(command, {"--depth", "--leaves", "--body"}, "belongs to outlines, not to --bodies spheres");
 }
 
 void CheckInput::require_spheres(const CLI::App& command) {
@@ -183,6 +229,9 @@ void CheckInput::add_bodies_to(CLI::App& command) {
       "Add the clips of this file to the characters, matched by bone name (repeatable)")
       ->allow_extra_args(false)
       ->needs(character);
+  add("--body", bodies, "NAME=FILE",
+      "What rows mean by a body NAME: polygons (.wkt), or a model seen from above (repeatable)")
+      ->allow_extra_args(false);
   add("--clip-speed", clip_speeds, "CLIP=M/S",
       "For a baked set: walking speed in a clip, 0 where people stand (repeatable)")
       ->allow_extra_args(false)
@@ -214,6 +263,7 @@ void add_outputs_to(CLI::App& command, CheckOutputs& outputs) {
 OpenedCheck::OpenedCheck(const CheckInput& input)
     : baked(baked_of(input)),
       cast(cast_of(input, baked)),
+      footprints(footprints_of(input)),
       reader(detail::open_trajectory(input.file, trajectory_options(input))),
       floor(floor_of(input, reader->info())),
       walls(walls_of(input, floor)),
@@ -225,7 +275,9 @@ OpenedCheck::OpenedCheck(const CheckInput& input)
                 static_cast<std::uint32_t>(cast.size()),
                 baked.has_value(),
                 walls.has_value(),
-                floor} {}
+                floor,
+                input.date.empty() ? date_of(input.file) : input.date,
+                {}} {}
 
 detail::CheckOptions OpenedCheck::options(const CheckInput& input) {
   detail::CheckOptions how;
@@ -234,6 +286,7 @@ detail::CheckOptions OpenedCheck::options(const CheckInput& input) {
   how.plan = {.depths = {recording.depth}};
   how.leaves = recording.leaves;
   how.cast = cast;
+  how.footprints = footprints;
   how.baked = baked ? &baked->set : nullptr;
   how.facing = input.facing * std::numbers::pi / 180;
   how.max_distance = input.max_distance;

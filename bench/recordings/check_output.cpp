@@ -43,6 +43,15 @@ std::vector<OverlapEvent> worst_of(const CheckSummary& summary) {
   return worst;
 }
 
+/// The kinds of bodies that do not walk.
+std::vector<std::string> other_bodies(const TrajectoryInfo& info) {
+  std::vector<std::string> kinds;
+  for (const NamedMotion& motion : info.motions)
+    if (!motion.body.empty() && std::ranges::find(kinds, motion.body) == kinds.end())
+      kinds.push_back(printable_line(motion.body));
+  return kinds;
+}
+
 std::string poses_text(const CheckedRecording& recording) {
   if (recording.baked) return "those of the baked set";
   if (recording.spheres > 0) return "at each person's phase, in the walk of the nearest speed";
@@ -65,6 +74,8 @@ std::string facts(const CheckedRecording& recording, const CheckSummary& summary
       fact("poses", poses_text(recording)) +
       fact("headings", fmt::format("{:.1f} % guessed: people who stand keep the last one",
                                    percent(summary.guessed, summary.all.people)));
+  const std::vector<std::string> others = other_bodies(recording.info);
+  if (!others.empty()) text += fact("others", fmt::format("{}, as rows name them", fmt::join(others, ", ")));
   for (const std::string& assumption : recording.info.assumptions) text += fact("assumed", assumption);
   return text;
 }
@@ -95,16 +106,21 @@ std::string density_table(const CheckSummary& summary) {
 
 std::string worst_table(const CheckSummary& summary, double fps) {
   if (summary.events.empty()) return "\nNobody overlaps anybody.\n";
-  std::string text =
-      fmt::format("\n{}, {} of them between two frames. The deepest:\n{:>10} {:>10} {:>9} {:>9} {:>9}\n",
-                  counted(summary.events.size(), "event"), grouped(summary.passings), "first", "second",
-                  "from, s", "for, s", "depth, m");
-  for (const OverlapEvent& event : worst_of(summary))
-    text +=
-        fmt::format("{:>10} {:>10} {:>9.2f} {:>9.2f} {:>9.3f}\n", event.first,
-                    event.is_wall ? fmt::format("wall {}", event.second) : fmt::format("{}", event.second),
-                    static_cast<double>(event.from) / fps,
-                    static_cast<double>(event.to - event.from + 1) / fps, std::max(0.0f, event.depth));
+  std::string text = fmt::format(
+      "\n{}: {} in overlap, {} passing between two frames, {} in a wall. The deepest:\n"
+      "{:>10} {:>10} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
+      counted(summary.events.size(), "event"), grouped(summary.overlap_events), grouped(summary.passings),
+      grouped(summary.wall_events), "first", "second", "from, s", "for, s", "depth, m", "x, m", "y, m");
+  for (const OverlapEvent& event : worst_of(summary)) {
+    const std::string second =
+        event.is_wall ? fmt::format("wall {}", event.second) : fmt::format("{}", event.second);
+    const double from = event.is_pass() ? event.worst : static_cast<double>(event.from);
+    text += fmt::format("{:>10} {:>10} {:>9.2f} ", event.first, second, from / fps);
+    text += event.is_pass() ? fmt::format("{:>9} {:>9}", "pass", "-")
+                            : fmt::format("{:>9.2f} {:>9.3f}",
+                                          static_cast<double>(event.to - event.from + 1) / fps, event.depth);
+    text += fmt::format(" {:>9.2f} {:>9.2f}\n", event.x, event.y);
+  }
   return text;
 }
 
@@ -131,22 +147,29 @@ nlohmann::ordered_json json_of(const CheckedRecording& recording, const CheckSum
     of["from_people_per_m2"] = density_classes[k];
     densities.push_back(of);
   }
+  std::vector<std::string> notes = recording.info.notes;
+  notes.insert(notes.end(), summary.notes.begin(), summary.notes.end());
   nlohmann::ordered_json json{{"file", recording.file},
                               {"format", recording.info.format},
                               {"fps", recording.info.fps},
-                              {"assumptions", recording.info.assumptions}};
+                              {"assumptions", recording.info.assumptions},
+                              {"notes", notes}};
   if (recording.spheres > 0) {
     json["spheres"] = recording.spheres;
   } else {
     json["depth"] = depth_name(recording.depth);
     json["leaves"] = recording.leaves == Leaves::segments ? "segments" : "discs";
   }
+  if (const auto others = other_bodies(recording.info); !others.empty()) json["other_bodies"] = others;
   json.update({{"characters", recording.characters},
                {"people", summary.people},
                {"frames", summary.frames},
                {"first_frame", summary.first_frame},
                {"last_frame", summary.last_frame},
                {"guessed_headings", summary.guessed},
+               {"overlap_events", summary.overlap_events},
+               {"pass_events", summary.passings},
+               {"wall_events", summary.wall_events},
                {"all", json_of(summary.all)},
                {"by_density", densities}});
   if (has_measures)

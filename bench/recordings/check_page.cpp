@@ -57,15 +57,16 @@ Json json_events(std::span<const detail::OverlapEvent> events, double fps) {
       row.push_back(rounded_to(1e6, frame / fps));
     for (const double metres : {static_cast<double>(depth_of(event)), event.x, event.y})
       row.push_back(rounded_to(1e4, metres));
+    if (event.is_pass()) row.push_back(1);
     list.push_back(std::move(row));
   }
   return list;
 }
 
-Json json_facts(const PageFacts& facts) {
+Json json_facts(const PageResults& results, const PageFacts& facts) {
   Json list = Json::array();
-  for (const auto& fact : facts.facts)
-    list.push_back({printable_line(fact.first), printable_line(fact.second)});
+  for (const auto* const some : {&results.facts, &facts.facts})
+    for (const auto& fact : *some) list.push_back({printable_line(fact.first), printable_line(fact.second)});
   return list;
 }
 
@@ -128,7 +129,8 @@ std::string CheckPage::meta_block(std::span<const detail::OverlapEvent> events) 
                              {"step", frames_.step()},
                              {"frames", frames_.seen()},
                              {"corner", {frames_.corner().x, frames_.corner().y}},
-                             {"facts", json_facts(facts_)},
+                             {"facts", json_facts(results_, facts_)},
+                             {"table", results_.table},
                              {"shapes", shapes_.names()},
                              {"ids", std::move(ids)},
                              {"allEvents", events.size()},
@@ -157,7 +159,8 @@ void CheckPage::add_frame(const detail::CheckedFrame& frame) {
   }
 }
 
-std::string CheckPage::finish(std::span<const detail::OverlapEvent> events) && {
+std::string CheckPage::finish(std::span<const detail::OverlapEvent> events, PageResults results) && {
+  results_ = std::move(results);
   const std::string fixed = fixed_blocks();
   std::string meta = meta_block(events);
   const std::size_t rest = fixed.size() + meta.size() + html("").size();

@@ -33,6 +33,13 @@ struct PageFacts {
   std::vector<std::vector<PagePoint>> walls = {};  ///< lines; a ring ends where it begins
 };
 
+/// Holds what is known of a recording after its last frame: facts, which the page shows before the others, and a table of texts, whose first row
+/// names its columns.
+struct PageResults {
+  std::vector<std::pair<std::string, std::string>> facts = {};
+  std::vector<std::vector<std::string>> table = {};
+};
+
 /// Collects the frames of a recording for a page. Where the page would become too large, every second frame that was
 /// kept is dropped, and from then on only frames of twice the step are kept: which ones depends on nothing but the
 /// frames. The timeline of the page, and its list of events, tell of all frames.
@@ -52,7 +59,7 @@ class CheckPage {
   std::uint64_t step() const { return frames_.step(); }
 
   /// Returns the page. It is larger than asked only if its first frame, walls and facts alone are.
-  std::string finish(std::span<const detail::OverlapEvent> events) &&;
+  std::string finish(std::span<const detail::OverlapEvent> events, PageResults results = {}) &&;
 
  private:
   std::string fixed_blocks() const;
@@ -65,6 +72,7 @@ class CheckPage {
   KeptFrames frames_;
   PageShapes shapes_;
   OverlapSeries series_;
+  PageResults results_;
 };
 
 }  // namespace bch::cli

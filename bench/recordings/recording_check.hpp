@@ -32,7 +32,9 @@ struct CheckedRecording {
   std::uint32_t characters;  ///< custom ones; 0: built-in pedestrians
   bool baked;                ///< those are of a baked set
   bool walls;
-  std::string floor;  ///< to walk on, as well-known text, or empty
+  std::string floor;    ///< to walk on, as well-known text, or empty
+  std::string date;     ///< for the page, or empty
+  std::string options;  ///< that the answers depend on, as they were given
 };
 
 constexpr const char* frame_columns = "frame,seconds,people,density,overlapping,overlapping_pairs,in_walls\n";
@@ -103,6 +105,8 @@ struct CheckInput {
   BodyKind kind;
   std::vector<std::string> clip_speeds;  ///< NAME=SPEED each; these and the next of a baked set alone
   double facing = 0;                     ///< degrees
+  std::string date;                      ///< for the page; empty: the file's
+  std::vector<std::string> bodies;       ///< NAME=FILE each: what rows name beside the bodies of the library
 
   void add_to(CLI::App& command);
   /// Errors:  throws UsageError on options that do not belong together.
@@ -123,6 +127,7 @@ void add_outputs_to(CLI::App& command, CheckOutputs& outputs);
 struct OpenedCheck {
   std::optional<BakedShapes> baked;
   detail::Cast cast;
+  std::vector<detail::Footprint> footprints;
   std::unique_ptr<detail::TrajectoryReader> reader;
   std::string floor;  ///< as WKT, or empty
   std::optional<ObstacleSet> walls;

@@ -13,6 +13,7 @@
 
 #include <bch/obstacles.hpp>
 
+#include "bench/base/text.hpp"
 #include "kernel/obstacles/segment.hpp"
 #include "layout/format/shape_set_view.hpp"
 
@@ -43,6 +44,10 @@ PageFacts facts_of(const CheckedRecording& recording) {
     facts.facts.emplace_back("drawn", "outlines of the same people, in poses within a centimetre");
   for (const std::string& assumption : recording.info.assumptions)
     facts.facts.emplace_back("assumed", assumption);
+  for (const std::string& note : recording.info.notes) facts.facts.emplace_back("note", note);
+  if (!recording.options.empty()) facts.facts.emplace_back("options", recording.options);
+  if (!recording.date.empty()) facts.facts.emplace_back("date", recording.date);
+  facts.facts.emplace_back("checked by", "bch " BCH_VERSION);
   facts.walls = lines_of(recording.floor);
   return facts;
 }
@@ -67,15 +72,66 @@ std::vector<std::vector<Vec2>> contours_of(const ShapeSetView& view, std::uint32
   return contours;
 }
 
+std::string percent(std::uint64_t part, std::uint64_t whole) {
+  return fmt::format("{:.2f} %",
+                     whole == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(whole));
+}
+
+std::vector<std::string> density_row(const std::string& name, const OverlapCount& count) {
+  constexpr std::size_t usual = 1;  // of compared_discs
+  return {name, grouped(count.people), percent(count.overlapping, count.people),
+          percent(count.discs[usual], count.people)};
+}
+
+PageResults results_of(const CheckedRecording& recording, const CheckSummary& summary) {
+  PageResults results;
+  const OverlapCount& all = summary.all;
+  results.facts = {
+      {"overlaps", percent(all.overlapping, all.people) + " of person-seconds"},
+      {"neighbours", percent(all.overlapping_pairs, all.near_pairs) + " of the pairs within 1.2 m overlap"}};
+  if (recording.walls)
+    results.facts.emplace_back("walls", percent(all.in_walls, all.people) + " of person-seconds in one");
+  results.facts.emplace_back(
+      "events",
+      fmt::format("{} in overlap, {} passing between two frames, {} in a wall",
+                  grouped(summary.overlap_events), grouped(summary.passings), grouped(summary.wall_events)));
+  results.facts.emplace_back("headings", percent(summary.guessed, all.people) + " guessed");
+  for (const std::string& note : summary.notes) results.facts.emplace_back("note", note);
+  results.table.push_back({"people/m²", "person-frames", "overlap", "disc 0.25 m"});
+  for (std::size_t k = 0; k < density_classes.size(); ++k) {
+    if (summary.by_density[k].people == 0) continue;
+    const bool is_last = k + 1 == density_classes.size();
+    results.table.push_back(
+        density_row(is_last ? fmt::format("{:g}–", density_classes[k])
+                            : fmt::format("{:g}–{:g}", density_classes[k], density_classes[k + 1]),
+                    summary.by_density[k]));
+  }
+  results.table.push_back(density_row("all", all));
+  return results;
+}
+
+/// What somebody's row says of his body.
+std::string name_of(const Walker& walker, const TrajectoryInfo& info) {
+  if (walker.motion == TrackedPerson::no_motion || info.motions[walker.motion].body.empty())
+    return "pedestrian";
+  const NamedMotion& motion = info.motions[walker.motion];
+  if (motion.length == 0 && motion.width == 0) return motion.body;
+  const double length = motion.length > 0 ? motion.length : motion.width,
+               width = motion.width > 0 ? motion.width : motion.length;
+  return fmt::format("{}, {:g} m by {:g} m", motion.body, length, width);
+}
+
 }  // namespace
 
 RecordingPage::RecordingPage(const CheckedRecording& recording)
-    : page_(facts_of(recording), [this](std::uint32_t number) { return shape(number); }) {}
+    : recording_(recording),
+      page_(facts_of(recording), [this](std::uint32_t number) { return shape(number); }) {}
 
 /// The page asks for the shape of a person that is being added.
 PageShape RecordingPage::shape(std::uint32_t pose) const {
   const std::uint32_t number = pose - first_pose_;
-  PageShape shape{"pedestrian", contours_of(shapes_->view(), number)};
+  const auto person = std::ranges::find(frame_->people, pose, &CheckedPerson::pose);
+  PageShape shape{name_of(person->walker, recording_.info), contours_of(shapes_->view(), number)};
   if (shapes_->depths().back() == all_depths) return shape;
   shape.discs = shapes_->discs(number, shapes_->level_count() - 1);
   if (shape.contours.empty())
@@ -84,9 +140,14 @@ PageShape RecordingPage::shape(std::uint32_t pose) const {
 }
 
 void RecordingPage::add(const CheckedFrame& frame, const ShapeSet& shapes) {
+  frame_ = &frame;
   shapes_ = &shapes;
   if (!frame.people.empty()) first_pose_ = frame.people[0].pose - frame.people[0].shape;
   page_.add_frame(frame);
+}
+
+std::string RecordingPage::finish(const CheckSummary& summary) && {
+  return std::move(page_).finish(summary.events, results_of(recording_, summary));
 }
 
 }  // namespace bch::cli

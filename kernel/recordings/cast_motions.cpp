@@ -46,12 +46,18 @@ std::uint32_t clip_of(const NamedMotion& motion, const CharacterEntry& member) {
   return static_cast<std::uint32_t>(found - member.clips.begin());
 }
 
+CastMotion body_motion(const NamedMotion& named, std::span<const Footprint> own) try {
+  return {std::nullopt, {}, footprint_of(named.body, named.length, named.width, own)};
+} catch (const std::invalid_argument& error) {
+  reject(named, error.what());
+}
+
 CastMotion cast_motion(const NamedMotion& named, CastView cast) {
   if (cast.empty())
     reject(named,
            (named.character.empty() ? "clip " + shown(named.clip) : "character " + shown(named.character)) +
                " needs a file that has it: --character has to name it");
-  CastMotion motion{member_of(named, cast), {}};
+  CastMotion motion{member_of(named, cast), {}, {}};
   if (named.clip.empty()) return motion;
   for (std::uint32_t k = 0; k < cast.size(); ++k)
     motion.clips.push_back(motion.member && *motion.member != k ? 0 : clip_of(named, cast[k]));
@@ -60,9 +66,11 @@ CastMotion cast_motion(const NamedMotion& named, CastView cast) {
 
 }  // namespace
 
-std::vector<CastMotion> cast_motions(std::span<const NamedMotion> named, CastView cast) {
+std::vector<CastMotion> cast_motions(std::span<const NamedMotion> named, CastView cast,
+                                     std::span<const Footprint> own) {
   std::vector<CastMotion> motions;
-  for (const NamedMotion& motion : named) motions.push_back(cast_motion(motion, cast));
+  for (const NamedMotion& motion : named)
+    motions.push_back(motion.body.empty() ? cast_motion(motion, cast) : body_motion(motion, own));
   return motions;
 }
 

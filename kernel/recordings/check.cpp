@@ -11,14 +11,16 @@
 #include <unordered_set>
 #include <utility>
 
+#include "kernel/recordings/borders.hpp"
 #include "kernel/recordings/events.hpp"
-#include "kernel/recordings/recent_steps.hpp"
 #include "kernel/recordings/frame_block.hpp"
 #include "kernel/recordings/frame_run.hpp"
+#include "kernel/recordings/recent_steps.hpp"
 #include "kernel/recordings/walker_bodies.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 #include "layout/base/floating_point_state.hpp"
 #include "layout/base/mixed_hash.hpp"
+#include "layout/recordings/shown.hpp"
 
 namespace bch::detail {
 namespace {
@@ -32,9 +34,11 @@ class Checker {
   Checker(const TrajectoryInfo& info, const CheckOptions& options,
           const std::function<void(const CheckedFrame&, const ShapeSet&)>& seen)
       : options_(options),
-        motions_(cast_motions(info.motions, options_.cast)),
+        motions_(cast_motions(info.motions, options_.cast, options_.footprints)),
         seen_(seen),
-        shapes_(options_.plan, options_.cast, options_.baked) {
+        borders_(options_.walls == nullptr ? std::vector<std::uint8_t>() : borders_of(*options_.walls)),
+        shapes_(options_.plan, options_.cast, motions_, options_.baked) {
+    require_people(info.motions);
     if (!options_.bodies.empty()) bodies_.emplace(options_.bodies, options_.cast);
   }
 
@@ -43,6 +47,7 @@ class Checker {
   CheckSummary finish(std::size_t people);
 
  private:
+  void require_people(std::span<const NamedMotion> named) const;
   std::size_t look(const FrameBlock& block, std::size_t frames);
   void pose(std::size_t runs);
   std::size_t queried_at_once(std::size_t first, std::size_t end) const;
@@ -53,6 +58,7 @@ class Checker {
   const CheckOptions options_;
   const std::vector<CastMotion> motions_;
   const std::function<void(const CheckedFrame&, const ShapeSet&)>& seen_;
+  const std::vector<std::uint8_t> borders_;
   WalkerShapes shapes_;
   std::optional<WalkerBodies> bodies_;
   CheckSummary summary_;
@@ -64,6 +70,15 @@ class Checker {
   std::vector<WalkerPose> poses_;
   std::vector<std::uint32_t> shape_;
 };
+
+/// Errors:  throws TrajectoryError where rows have bodies that do not walk, and the options no place for them.
+void Checker::require_people(std::span<const NamedMotion> named) const {
+  if (options_.bodies.empty() && options_.baked == nullptr) return;
+  for (const NamedMotion& motion : named)
+    if (!motion.body.empty())
+      throw TrajectoryError(motion.place + ": body " + trajectory::shown(motion.body) +
+                            " is an outline, which neither --bodies spheres nor a baked set takes");
+}
 
 /// Divides a block into runs of frames, the last frame being one where it does not belong to the block.
 std::vector<std::size_t> run_begins(const FrameBlock& block, std::size_t frames) {
@@ -79,7 +94,7 @@ std::vector<std::size_t> run_begins(const FrameBlock& block, std::size_t frames)
 std::size_t Checker::look(const FrameBlock& block, std::size_t frames) {
   const std::vector<std::size_t> begins = run_begins(block, frames);
   const std::size_t runs = begins.size() - 1;
-  while (runs_.size() < runs) runs_.push_back(std::make_unique<FrameRun>(options_, motions_));
+  while (runs_.size() < runs) runs_.push_back(std::make_unique<FrameRun>(options_, motions_, borders_));
   for_ranges(runs, 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) runs_[k]->look(block, begins[k], begins[k + 1]);
   });
@@ -127,7 +142,6 @@ void Checker::report(const FrameBlock& block, FrameRun& run, double fps) {
       told.measured_pairs = measured_pairs.first(measured);
       measured_pairs = measured_pairs.subspan(measured);
     }
-    for (const CheckedPair& pair : told.pairs) summary_.passings += pair.passing;
     events_.add(told);
     if (seen_) seen_(told, shapes_.set());
     if (summary_.frames++ == 0) summary_.first_frame = frame;
@@ -179,6 +193,8 @@ CheckSummary Checker::finish(std::size_t people) {
   for (const OverlapCount& count : summary_.by_density) summary_.all += count;
   summary_.guessed = summary_.all.guessed;
   summary_.events = events_.finish();
+  for (const OverlapEvent& event : summary_.events)
+    ++(event.is_wall ? summary_.wall_events : event.is_pass() ? summary_.passings : summary_.overlap_events);
   summary_.people = people;
   summary_.colliding = colliding_.size();
   summary_.disc_colliding = disc_colliding_.size();

@@ -39,6 +39,8 @@ struct CheckOptions {
   /// Models of bodies of spheres that people have in place of outlines, in the exact time of a clip: body_models() of a cast that is not
   /// baked. Empty: outlines. Spheres decide in space, and all people stand on one ground.
   std::span<const BodyModel> bodies = {};
+  /// Bodies that do not walk, which rows may name beside those of the library. Outlines that are not baked alone have them.
+  std::span<const Footprint> footprints = {};
   bool draws =
       true;  ///< where spheres decide, frames are handed over with shapes of the same people, too: pictures need them
   double facing = 0;      ///< radians: where the shapes of baked people face, which others do to 0
@@ -128,7 +130,8 @@ struct OverlapEvent {
 
 /// Summarises a recording, or an interval of its frames: people are then those until its end.
 struct CheckSummary {
-  std::uint64_t frames = 0, people = 0, guessed = 0, passings = 0;
+  std::uint64_t frames = 0, people = 0, guessed = 0;
+  std::uint64_t overlap_events = 0, passings = 0, wall_events = 0;  ///< all events, by their kinds
   // People who collide with anybody at any time, as bodies or as discs, where measures are asked for.
   std::uint64_t colliding = 0, disc_colliding = 0;
   std::int64_t first_frame = 0, last_frame = 0;
@@ -140,7 +143,8 @@ struct CheckSummary {
       notes;  ///< a sentence each: what seems to be wrong with the recording or the walls
 };
 
-/// Puts a walking person on every row of a recording and finds who collides with whom. Reads frame after frame; memory
+/// Puts a walking person, or the body that it has, on every row of a recording and finds who collides with whom. Who comes or goes through the
+/// border of the floor (borders_of()), so that he is missing from the recording within 0.4 s, is not in a wall there. Reads frame after frame; memory
 /// grows with the people, and with those of some frames. Characters and clips that rows name are taken from the cast.
 /// `seen`, which may be empty, is called with every frame in turn, on the caller's thread.
 /// Threads: runs in the caller's TBB arena, and reads on any of its threads, what comes next while it checks. The same answers for any

@@ -226,8 +226,13 @@ void FrameRun::query_walls(const RunBodies& bodies, const Agents& all) {
   const std::vector<WallDepth> depths = bodies.wall_depths({body, x, y, heading}, *options_.walls);
   for (std::size_t k = 0; k < who.size(); ++k) {
     const std::uint32_t segment = depths[k].segment;
+    const std::uint32_t wall = segment == DiscPair::none.second ? 0 : options_.walls->obstacle_of(segment);
+    if (borders_[wall] != 0 && own(block_->people())[who[k]].comes_or_goes) {
+      in_wall_[who[k]] = 0;
+      continue;
+    }
     CheckedPair& pair = checked_.emplace_back(checked({who[k], who[k]}));
-    pair.second = segment == DiscPair::none.second ? 0 : options_.walls->obstacle_of(segment);
+    pair.second = wall;
     pair.is_wall = pair.overlap = true;
     pair.depth = depths[k].depth;
     pair.x = depths[k].x, pair.y = depths[k].y;

@@ -25,9 +25,10 @@ class FrameRun {
   /// Metres, of one or of two people together, from a frame to the next; beyond, it is a jump and no way.
   static constexpr double farthest_step = 6;
 
-  /// Takes `options` and `motions`, those that rows name, which have to live as long as this.
-  FrameRun(const CheckOptions& options, std::span<const CastMotion> motions)
-      : options_(options), motions_(motions) {}
+  /// Takes `options`, `motions`, those that rows name, and `borders`, those of the walls, which have to live as long as this.
+  FrameRun(const CheckOptions& options, std::span<const CastMotion> motions,
+           std::span<const std::uint8_t> borders)
+      : options_(options), motions_(motions), borders_(borders) {}
 
   /// Takes frames first .. last of a block, which has to live as long as the next calls; finds who is near whom and which poses people
   /// are in.
@@ -105,6 +106,7 @@ class FrameRun {
 
   const CheckOptions& options_;
   const std::span<const CastMotion> motions_;
+  const std::span<const std::uint8_t> borders_;
   const FrameBlock* block_ = nullptr;
   std::size_t first_ = 0, last_ = 0;  ///< frames
   std::size_t begin_ = 0, end_ = 0;   ///< people of the block

@@ -26,7 +26,7 @@ std::uint64_t step_key(std::int64_t column, std::int64_t row) {
 }  // namespace
 
 void RecentSteps::add(double seconds, std::span<const CheckedPerson> people,
-                     std::span<MeasuredPerson> measures) {
+                      std::span<MeasuredPerson> measures) {
   now_.clear();
   auto before = last_.begin();
   for (const CheckedPerson& person : people) {
@@ -50,8 +50,8 @@ void RecentSteps::remember(const Place& from, const Place& to, double begin, dou
   const auto [left, right] = std::minmax(from.x, to.x);
   const auto [low, high] = std::minmax(from.y, to.y);
   for (std::int64_t row = step_column(low - touching); row <= step_column(high + touching); ++row)
-    for (std::int64_t column = step_column(left - touching);
-         column <= step_column(right + touching); ++column) {
+    for (std::int64_t column = step_column(left - touching); column <= step_column(right + touching);
+         ++column) {
       const double corner_x = static_cast<double>(column) * step_cell,
                    corner_y = static_cast<double>(row) * step_cell;
       cells_[step_key(column, row)].push_back(

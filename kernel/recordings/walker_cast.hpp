@@ -11,6 +11,7 @@
 
 #include <bch/characters.hpp>
 
+#include "kernel/recordings/footprints.hpp"
 #include "kernel/recordings/walkers.hpp"
 
 namespace bch::detail {
@@ -64,13 +65,15 @@ std::uint32_t member_by_id(std::int64_t id, CastView cast);
 struct CastMotion {
   std::optional<std::uint32_t> member;  ///< else one by the id
   std::vector<std::uint32_t> clips;     ///< of each member; empty: by the speed
+  PlanePolygons footprint = {};         ///< of a body that does not walk, in place of both; else empty
 };
 
-/// Finds the characters and clips that the rows of a recording name. A character has the name of its file, with or
-/// without the extension, and a clip the name that the file gives it.
-/// Errors:  throws TrajectoryError, naming the file, the line and the name, on what is not there, and on a clip that a row names without a
-///          character and that one of them does not have.
-std::vector<CastMotion> cast_motions(std::span<const NamedMotion> named, CastView cast);
+/// Finds the characters and clips, or the bodies, that the rows of a recording name. A character has the name of its file, with or
+/// without the extension, and a clip the name that the file gives it. Bodies are `own` ones or those of the library.
+/// Errors:  throws TrajectoryError, naming the file, the line and the name, on what is not there, on a clip that a row names without a
+///          character and that one of them does not have, and on a body that footprint_of() rejects.
+std::vector<CastMotion> cast_motions(std::span<const NamedMotion> named, CastView cast,
+                                     std::span<const Footprint> own = {});
 
 /// Represents a clip of a character, and a phase of it.
 struct CastPose {

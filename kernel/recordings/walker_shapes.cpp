@@ -38,7 +38,17 @@ std::uint32_t rounded(double value, std::uint32_t step) {
 
 WalkerPose::WalkerPose(const Walker& walker, Shoulders held, std::uint32_t coarse, CastView cast,
                        std::span<const CastMotion> motions)
-    : is_female(walker.is_female), shoulders(held) {
+    : is_female(walker.is_female),
+      stature(0),
+      shoulders(held),
+      clip(0),
+      phase(0),
+      seconds(0),
+      exact_seconds(0) {
+  if (walker.motion != TrackedPerson::no_motion && !motions[walker.motion].footprint.empty()) {
+    footprint = walker.motion;
+    return;
+  }
   const double size =
       std::log(std::max(walker.stature, shortest_stature) / shortest_stature) / std::log(stature_step);
   stature = std::min(rounded(size, coarse), stature_classes - 1);
@@ -63,6 +73,7 @@ std::uint64_t WalkerPose::key() const noexcept {
 }
 
 std::uint64_t WalkerPose::body() const noexcept {
+  if (footprint != on_foot) return (std::uint64_t{1} << 31) + footprint;
   if (member != built_in) return (std::uint64_t{1} << 16) + std::uint64_t{member} * stature_classes + stature;
   return (std::uint64_t{stature} * 2 + is_female) * 3 + static_cast<std::uint64_t>(shoulders);
 }
@@ -92,19 +103,25 @@ struct WalkerShapes::Body {
   Spares<PoseShaper> shapers;
 };
 
-WalkerShapes::WalkerShapes(const ShapeSetPlan& plan, CastView cast, const ShapeSet* baked)
+WalkerShapes::WalkerShapes(const ShapeSetPlan& plan, CastView cast, std::span<const CastMotion> motions,
+                           const ShapeSet* baked)
     : plan_(plan),
       cast_(cast),
+      motions_(motions),
       builder_(plan, expected_shapes),
       baked_(baked),
       set_(baked != nullptr ? baked : &builder_.set()) {}
 WalkerShapes::~WalkerShapes() = default;
 
-/// Makes those that are new on all threads.
+/// Makes those that are new on all threads. Who does not walk has none.
 std::vector<WalkerShapes::Body*> WalkerShapes::bodies_of(std::span<const WalkerPose> poses) {
   std::vector<Body*> bodies, made;
   std::vector<const WalkerPose*> wanted;
   for (const WalkerPose& pose : poses) {
+    if (pose.footprint != WalkerPose::on_foot) {
+      bodies.push_back(nullptr);
+      continue;
+    }
     auto& body = bodies_[pose.body()];
     if (!body) {
       body = std::make_unique<Body>();
@@ -124,6 +141,8 @@ void WalkerShapes::build(std::span<const WalkerPose> poses) {
   add_in_order(
       builder_, plan_, poses.size(),
       [&](BuiltShape& place, std::size_t i) {
+        if (bodies[i] == nullptr)
+          return place.prepare(shape_from_polygons(motions_[poses[i].footprint].footprint), i);
         const auto shaper =
             bodies[i]->shapers.borrow([&] { return PoseShaper(*bodies[i]->character, plan_, threshold); });
         place.prepare(shaper->shape(poses[i].at()), i);

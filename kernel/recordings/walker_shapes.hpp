@@ -25,9 +25,11 @@ enum class Shoulders : std::uint8_t { straight, left, right };
 /// Represents a walker's pose, of the finitely many that are built: statures in steps of 4 %, and speeds and
 /// phases so near each other that neither is off by what moves an outline by a centimetre.
 struct WalkerPose {
-  static constexpr std::uint32_t built_in = 0xffff'ffff;
+  static constexpr std::uint32_t built_in = 0xffff'ffff, on_foot = 0xffff'ffff;
 
   std::uint32_t member = built_in;  ///< of the cast
+  std::uint32_t footprint =
+      on_foot;  ///< of a body that does not walk: the number of its motion, and all else is 0
   bool is_female;
   std::uint32_t stature;  ///< class
   Shoulders shoulders;
@@ -58,8 +60,10 @@ class WalkerShapes {
   /// The most bytes that are kept from one call of find() to the next: some 23 000 shapes of whole bodies.
   static constexpr std::size_t max_bytes = std::size_t{256} << 20;
 
-  /// Takes the plan and the cast. `baked`: the shapes of a cast that is baked, which live as long as this, or nullptr.
-  WalkerShapes(const ShapeSetPlan& plan, CastView cast, const ShapeSet* baked = nullptr);
+  /// Takes the plan, the cast and the motions that rows name. `baked`: the shapes of a cast that is baked, or nullptr. All of them live as
+  /// long as this.
+  WalkerShapes(const ShapeSetPlan& plan, CastView cast, std::span<const CastMotion> motions = {},
+               const ShapeSet* baked = nullptr);
   ~WalkerShapes();
 
   /// Finds the shape of each pose, as its index in set(), and builds those that are new.
@@ -79,6 +83,7 @@ class WalkerShapes {
 
   const ShapeSetPlan plan_;
   const CastView cast_;
+  const std::span<const CastMotion> motions_;
   ShapeSetBuilder builder_;
   const ShapeSet* const baked_;
   const ShapeSet* set_;  ///< the builder's, or those that are baked

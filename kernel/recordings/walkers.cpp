@@ -21,6 +21,9 @@ constexpr double jump = 100;                ///< metres
 constexpr double fastest = 20;              ///< metres a second, a jump aside
 constexpr std::size_t few_people = 1024;    ///< are not worth looking for those who have left
 constexpr double slowest_direction = 0.15;  ///< metres a second: who is slower has no direction
+constexpr double first_step = 0.25;         ///< metres: heads of those who stand sway by less
+constexpr double look_ahead = 10;           ///< seconds, at most, for that step
+constexpr std::size_t max_rows_ahead = 200'000;
 
 Random random_of(std::int64_t id) {
   return Random(0x9e3779b97f4a7c15u ^ static_cast<std::uint64_t>(id));
@@ -76,6 +79,7 @@ bool WalkerReader::read_one() {
     track.places.push_back({next.frame, person.x, person.y});
     next.tracks.push_back(&track);
   }
+  rows_ahead_ += next.people.size();
   ahead_.push_back(std::move(next));
   return true;
 }
@@ -117,8 +121,10 @@ Walker WalkerReader::walk(const TrackedPerson& person, Track& track, std::int64_
     track.places.pop_front();
   const Place first = track.places.front();
   // The last one within the window, or, where there is none, the next.
-  auto last = std::prev(track.places.end());
-  while (last->frame > frame + window_ && std::prev(last)->frame > frame) --last;
+  auto last = std::partition_point(track.places.begin(), track.places.end(),
+                                   [&](const Place& place) { return place.frame <= frame + window_; });
+  const bool is_there_at_end = std::prev(last)->frame == window_end_;
+  if (last == track.places.end() || std::prev(last)->frame > frame) --last;
   const double seconds = static_cast<double>(last->frame - first.frame) / fps_;
   const double dx = last->x - first.x, dy = last->y - first.y;
   const double speed = seconds > 0 ? std::sqrt(dx * dx + dy * dy) / seconds : 0;
@@ -153,7 +159,22 @@ Walker WalkerReader::walk(const TrackedPerson& person, Track& track, std::int64_
           person.motion,
           person.clip_seconds,
           seconds > 0 ? dx / seconds : 0,
-          seconds > 0 ? dy / seconds : 0};
+          seconds > 0 ? dy / seconds : 0,
+          first.frame != window_begin_ || !is_there_at_end};
+}
+
+/// Finds where a person who is new, and stands, will go. That is his heading until he walks, if it is found.
+void WalkerReader::find_first_step(const TrackedPerson& person, Track& track, std::int64_t frame) {
+  const std::int64_t end = frame + std::llround(look_ahead * fps_);
+  for (std::size_t at = 0;; ++at) {
+    while (at == track.places.size())
+      if (ahead_.back().frame >= end || rows_ahead_ >= max_rows_ahead || !read_one()) return;
+    const double dx = track.places[at].x - person.x, dy = track.places[at].y - person.y;
+    if (track.places[at].frame <= frame || dx * dx + dy * dy < first_step * first_step) continue;
+    track.heading = std::atan2(dy, dx);
+    track.has_heading = true;
+    return;
+  }
 }
 
 /// Who has not moved yet faces the way in which the others walk.
@@ -168,12 +189,31 @@ void WalkerReader::face_the_crowd(WalkerFrame& frame, const std::vector<Track*>&
     if (!tracks[i]->has_heading) frame.people[i].heading = std::atan2(y, x);
 }
 
-bool WalkerReader::next(WalkerFrame& frame) {
+/// Reads what the first frame of those ahead needs, and finds out which frames are within its window.
+void WalkerReader::read_window() {
   while (ahead_.empty() || ahead_.back().frame <= ahead_.front().frame + window_)
     if (!read_one()) break;
+  if (ahead_.empty()) return;
+  const std::int64_t frame = ahead_.front().frame;
+  while (!before_.empty() && before_.front() < frame - window_) before_.pop_front();
+  window_begin_ = before_.empty() ? frame : before_.front();
+  auto end = std::prev(ahead_.end());
+  while (end->frame > frame + window_) --end;
+  window_end_ = end->frame;
+  before_.push_back(frame);
+}
+
+bool WalkerReader::next(WalkerFrame& frame) {
+  read_window();
   if (ahead_.empty()) return false;
+  for (std::size_t i = 0; i < ahead_.front().people.size(); ++i) {
+    Track& track = *ahead_.front().tracks[i];
+    if (!track.has_walked && is_nan(ahead_.front().people[i].heading))
+      find_first_step(ahead_.front().people[i], track, ahead_.front().frame);
+  }
   const Frame now = std::move(ahead_.front());
   ahead_.pop_front();
+  rows_ahead_ -= now.people.size();
   frame.frame = now.frame;
   frame.people.clear();
   for (std::size_t i = 0; i < now.people.size(); ++i)

@@ -31,6 +31,7 @@ struct Walker {
   float clip_seconds =
       std::numeric_limits<float>::quiet_NaN();  ///< of its clip; NaN where the file does not say
   double velocity_x = 0, velocity_y = 0;        ///< metres a second, smoothed as the speed is
+  bool comes_or_goes = false;                   ///< within 0.4 s of this frame there are frames without him
 };
 
 /// Holds the people of a frame, by ascending id.
@@ -50,8 +51,9 @@ struct Speeds {
 
 /// Reads a recording and finds how its people walk: speeds from positions 0.4 s before and after,
 /// or from the next ones where there are none so near, headings from the file or from the
-/// way of a person who walks, held while he stands, and strides that go on with the distance. Memory grows with the people of
-/// the frames within 0.4 s, and by about 100 bytes for each person who has left.
+/// way of a person who walks, held while he stands, and strides that go on with the distance. Who stands at first faces the way of his first
+/// step, which is looked for up to 10 s ahead. Memory grows with the people of the frames within 0.4 s, or of those 10 s, up to 200 000 rows,
+/// where somebody stands at first; and by about 100 bytes for each person who has left.
 /// Errors:  throws TrajectoryError on what the reader rejects, and on a person who is 100 m away a moment later.
 class WalkerReader {
  public:
@@ -93,6 +95,8 @@ class WalkerReader {
   bool read_one();
   Track& track_of(std::int64_t id);
   void let_go(std::int64_t frame);
+  void read_window();
+  void find_first_step(const TrackedPerson& person, Track& track, std::int64_t frame);
   void measure(const Place& from, const TrackedPerson& to, std::int64_t frame);
   Walker walk(const TrackedPerson& person, Track& track, std::int64_t frame) const;
   void face_the_crowd(WalkerFrame& frame, const std::vector<Track*>& tracks) const;
@@ -104,6 +108,10 @@ class WalkerReader {
   Speeds speeds_;
   bool at_end_ = false;
   std::deque<Frame> ahead_;
+  std::size_t rows_ahead_ = 0;
+  std::deque<std::int64_t> before_;  ///< frames within the window before the one that is read
+  std::int64_t window_begin_ = 0,
+               window_end_ = 0;  ///< the first and the last frame within the window of that one
   std::unordered_map<std::int64_t, Track, MixedHash> tracks_;
   std::unordered_map<std::int64_t, Left, MixedHash> left_;
   std::size_t many_tracks_ = 0;  ///< from so many on, those who have left are looked for

@@ -67,7 +67,7 @@ class ColumnTable final : public RowSource {
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       const Role role = layout_.columns.roles[i];
       if (role == Role::none || columns_[i].values != nullptr) continue;
-      const bool is_name = role == Role::character || role == Role::clip;
+      const bool is_name = role == Role::character || role == Role::clip || role == Role::body;
       places_.reject("column " + shown(layout_.columns.names[i]) + " does not have a " +
                      (is_name ? "text" : "number") + " in every row");
     }

@@ -57,7 +57,11 @@ constexpr NamedRole roles[] = {{"id", Role::id},
                                {"yaw", Role::heading},
                                {"character", Role::character},
                                {"clip", Role::clip},
-                               {"cliptime", Role::clip_time}};
+                               {"cliptime", Role::clip_time},
+                               {"body", Role::body},
+                               {"length", Role::length},
+                               {"width", Role::width},
+                               {"radius", Role::radius}};
 
 struct NamedUnit {
   std::string_view name;
@@ -98,6 +102,9 @@ std::span<const NamedUnit> units_of(Role role) {
     case Role::x:
     case Role::y:
     case Role::height:
+    case Role::length:
+    case Role::width:
+    case Role::radius:
       return lengths;
     case Role::time:
     case Role::clip_time:
@@ -155,6 +162,7 @@ class ColumnFinder {
     if (column.unit.empty()) return;
     if (role == Role::x || role == Role::y) take_length(column);
     if (role == Role::height) columns_.height_metres = find(lengths, column.unit);
+    if (role == Role::length || role == Role::width || role == Role::radius) take_size(column);
     if (role == Role::time) take_duration(column, columns_.seconds);
     if (role == Role::clip_time) take_duration(column, columns_.clip_seconds);
     if (role == Role::heading) take_angle(column);
@@ -163,6 +171,7 @@ class ColumnFinder {
   Columns finish() {
     const bool has_frames = columns_.has(Role::frame);
     if (has_frames) settle_time();
+    settle_sizes();
     require_different();
     require(Role::id, "'id'");
     if (!has_frames) require(Role::time, "'frame', nor one called 'time'");
@@ -210,6 +219,18 @@ class ColumnFinder {
     columns_.metres = metres;
   }
 
+  void take_size(const ColumnName& column) {
+    const std::optional<double> metres = find(lengths, column.unit);
+    if (unit_is_given_) return;
+    if (!metres) {
+      columns_.roles.back() = Role::none;  // of pixels, for instance
+      return;
+    }
+    if (columns_.size_metres && *columns_.size_metres != *metres)
+      reject("length, width and radius are of different units");
+    columns_.size_metres = metres;
+  }
+
   void take_angle(const ColumnName& column) {
     columns_.radians = find(angles, column.unit);
     if (!columns_.radians)
@@ -223,6 +244,13 @@ class ColumnFinder {
     if (columns_.has_frames_and_time) columns_.clip_seconds = columns_.seconds;
     for (Role& role : columns_.roles)
       if (role == Role::time) role = columns_.has_frames_and_time ? Role::clip_time : Role::none;
+  }
+
+  /// A length or a width without the other, of nothing that is named, is no size of a body.
+  void settle_sizes() {
+    if (columns_.has(Role::body) || columns_.has(Role::length) == columns_.has(Role::width)) return;
+    for (Role& role : columns_.roles)
+      if (role == Role::length || role == Role::width) role = Role::none;
   }
 
   void take_duration(const ColumnName& column, std::optional<double>& seconds) {

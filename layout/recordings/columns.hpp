@@ -17,7 +17,23 @@
 
 namespace bch::detail::trajectory {
 
-enum class Role : std::uint8_t { none, id, frame, time, x, y, height, heading, character, clip, clip_time };
+enum class Role : std::uint8_t {
+  none,
+  id,
+  frame,
+  time,
+  x,
+  y,
+  height,
+  heading,
+  character,
+  clip,
+  clip_time,
+  body,
+  length,
+  width,
+  radius
+};
 
 /// Holds the name of a column, in small letters, and its unit, as in "x/cm", "x [cm]", "x(cm)" or "x_cm".
 struct ColumnName {
@@ -38,14 +54,14 @@ bool has_all_roles(std::span<const ColumnName> names);
 
 /// Holds the columns of a table, and their units.
 struct Columns {
-  std::vector<Role> roles;         ///< of each column
-  std::vector<std::string> names;  ///< likewise, for messages
-  std::optional<double> metres;    ///< a unit of x and y
-  std::optional<double> height_metres;
-  std::optional<double> seconds;       ///< a unit of time
-  std::optional<double> clip_seconds;  ///< a unit of the time in a clip
-  bool has_frames_and_time = false;    ///< so that the time is the clip's
-  std::optional<double> radians;       ///< a unit of the heading
+  std::vector<Role> roles;                           ///< of each column
+  std::vector<std::string> names;                    ///< likewise, for messages
+  std::optional<double> metres;                      ///< a unit of x and y
+  std::optional<double> height_metres, size_metres;  ///< of the height; of length, width and radius
+  std::optional<double> seconds;                     ///< a unit of time
+  std::optional<double> clip_seconds;                ///< a unit of the time in a clip
+  bool has_frames_and_time = false;                  ///< so that the time is the clip's
+  std::optional<double> radians;                     ///< a unit of the heading
   bool has_angle = false;  ///< the heading is called angle, which is in degrees where no unit is said
   std::size_t needed = 0;  ///< columns up to the last that matters
 

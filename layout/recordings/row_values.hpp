@@ -40,6 +40,8 @@ class RowValues {
     row = Row();
     row.number = number;
     character_ = clip_ = {};
+    body_ = {};
+    radius_ = 0;
   }
 
   /// Takes a row's value of a column, of which columns without a role take any.
@@ -83,15 +85,33 @@ class RowValues {
       case Role::clip_time:
         row.clip_seconds = clip_seconds(column, value);
         break;
+      case Role::body:
+        body_.kind = text(column, value);
+        break;
+      case Role::length:
+        body_.length = millimetres(column, value, 1);
+        break;
+      case Role::width:
+        body_.width = millimetres(column, value, 1);
+        break;
+      case Role::radius:
+        radius_ = millimetres(column, value, 2);
+        break;
     }
   }
 
-  void end(Row& row) { row.motion = motions_.find(character_, clip_, places_, row.number); }
+  void end(Row& row) {
+    settle_body();
+    row.motion = motions_.find(character_, clip_, body_, places_, row.number);
+  }
 
   /// Adds what the rows have given so far.
   void describe(Recording& recording) const {
     heights_.describe(recording.assumptions);
     recording.motions = motions_.all();
+    if (any_unnamed_)
+      recording.assumptions.emplace_back(
+          "Rows with a length or a width, but without a body, are about boxes.");
     constexpr float turn = 6.3F;
     if (largest_heading_ > turn)
       recording.notes.push_back("Headings reach " + shortest(largest_heading_) +
@@ -101,12 +121,16 @@ class RowValues {
 
  private:
   static constexpr double largest_clip_time = 1e6;  // seconds
+  static constexpr double largest_size = 20;        // metres
 
   const Places& places_;
   const TableLayout& layout_;
   Heights heights_;
   MotionTable motions_;
   std::string_view character_, clip_;  ///< of the row that is read
+  RowBody body_;                       ///< likewise
+  int radius_ = 0;                     ///< likewise, twice, millimetres
+  bool any_unnamed_ = false;           ///< bodies with a size, and not by a radius alone
   float largest_heading_ = 0;          ///< radians, of either sign
   std::uint64_t row_ = 0;              ///< its number
   std::optional<double> first_time_;   ///< of the table, in its unit
@@ -181,6 +205,31 @@ class RowValues {
     const double seconds = finite_or_nan(column, value) * layout_.clip_seconds;
     if (std::abs(seconds) > largest_clip_time) reject(column, value, "is not within +-1e6 s");
     return static_cast<float>(seconds);
+  }
+
+  /// A size of a body, times a factor; 0 where the row lacks it.
+  template <class Value>
+  int millimetres(std::size_t column, Value value, int factor) const {
+    const double metres = finite_or_nan(column, value) * layout_.size_metres * factor;
+    if (is_nan(metres)) return 0;
+    if (!(metres >= 0 && metres <= largest_size))
+      reject(column, value, factor == 1 ? "is not from 0 to 20 m" : "is not from 0 to 10 m");
+    return static_cast<int>(std::lround(1000 * metres));
+  }
+
+  /// Rows without a size and a kind are about people, and so are those that say so.
+  void settle_body() {
+    if (body_.kind == "person" || body_.kind == "pedestrian") {
+      body_ = {};
+      return;
+    }
+    const bool has_sides = body_.length > 0 || body_.width > 0;
+    if (body_.kind.empty() && (has_sides || radius_ > 0)) {
+      body_.kind = has_sides ? "box" : "disc";
+      any_unnamed_ |= has_sides;
+    }
+    if (body_.length == 0) body_.length = radius_;
+    if (body_.width == 0) body_.width = radius_;
   }
 
   template <class Value>

@@ -29,6 +29,7 @@ void take_units_of_columns(TableLayout& layout, const TrajectoryOptions& options
   if (!metres) assumptions.emplace_back("Coordinates are in metres; no unit is said.");
   layout.metres = metres.value_or(1);
   layout.height_metres = options.unit ? *options.unit : columns.height_metres.value_or(layout.metres);
+  layout.size_metres = options.unit ? *options.unit : columns.size_metres.value_or(layout.metres);
   layout.radians = columns.radians.value_or(columns.has_angle ? std::numbers::pi / 180 : 1);
   if (columns.has_angle && !columns.radians)
     assumptions.emplace_back("Angles are headings in degrees; no unit is said.");

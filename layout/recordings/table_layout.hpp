@@ -17,11 +17,11 @@ struct TableLayout {
   Recording recording;
   char separator = ' ';
   Columns columns;
-  double metres = 1, height_metres = 1;  ///< a unit
-  double seconds = 1, radians = 1;       ///< likewise
-  double clip_seconds = 1;               ///< likewise
-  std::uint64_t first_line = 1;          ///< with a row
-  bool has_all_columns = false;          ///< every row has as many fields as there are columns
+  double metres = 1, height_metres = 1, size_metres = 1;  ///< a unit
+  double seconds = 1, radians = 1;                        ///< likewise
+  double clip_seconds = 1;                                ///< likewise
+  std::uint64_t first_line = 1;                           ///< with a row
+  bool has_all_columns = false;  ///< every row has as many fields as there are columns
 };
 
 inline bool is_comment(std::string_view line) {

@@ -24,10 +24,13 @@ class TrajectoryError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Holds the body that a row of a file names for its person, and the clip that it plays; one of the two may be empty.
+/// Holds the body that a row of a file names for its person, and the clip that it plays; one of the two may be empty. Both are where the
+/// row is about a body that does not walk, whose kind is then named.
 struct NamedMotion {
   std::string character, clip;
-  std::string place;  ///< where it stands first, for messages: the file and the line
+  std::string place;             ///< where it stands first, for messages: the file and the line
+  std::string body = {};         ///< "box" for instance
+  double length = 0, width = 0;  ///< of that, metres, in whole millimetres; 0 where the row does not say
 };
 
 /// Describes a person in a frame of a recording.
@@ -75,7 +78,8 @@ struct TrajectoryInfo {
       assumptions;  ///< a sentence each: what the file does not say, and what is taken for it
   std::vector<std::string>
       notes;  ///< a sentence each: columns that are not read, values that seem to be of another unit
-  std::vector<NamedMotion> motions;  ///< all that rows name, in the order of the file; at most 4096
+  std::vector<NamedMotion>
+      motions;  ///< all that rows name, in the order of the file; at most 4096, and 65 536 bodies
   std::uint64_t rows = 0;
   std::int64_t first_frame = 0, last_frame = 0;
   std::uint64_t people = 0;  ///< different ids; 0 where they are more than 2^20, which are not counted

@@ -224,6 +224,59 @@ class Page(unittest.TestCase):
         self.js("bchPage.jumpToEvent(arguments[0])", len(events) - 1)
         self.assertAlmostEqual(self.js("bchPage.time()"), events[-1]["worst"], places=5)
 
+    def test_people_move_between_frames(self):
+        before, after = self.expected["frames"][40:42]
+        half = (before["seconds"] + after["seconds"]) / 2
+        self.js("bchPage.seek(arguments[0])", half)
+        there = {identity: (x, y) for identity, x, y, _, _ in after["people"]}
+        moved = 0
+        for (identity, x, y, _, _), standing in zip(before["people"], self.js("bchPage.standing()")):
+            to = there.get(identity, (x, y))
+            self.assertAlmostEqual(standing["x"], (x + to[0]) / 2, delta=0.0012)
+            self.assertAlmostEqual(standing["y"], (y + to[1]) / 2, delta=0.0012)
+            moved += to != (x, y)
+        self.assertGreater(moved, 10)
+
+    def test_passes_are_called_so(self):
+        # The first event as if it were a pass between two frames.
+        first = re.search(r'"events":\[\[(-?\d+,(?:-?\d+|null)),', self.page.read_text())
+        page = self.folder / "passing.html"
+        page.write_text(re.sub(r'("events":\[\[)[^\]]*\]', rf"\g<1>{first[1]},1.2,1.2,1.2173,0,0,0,1]", self.page.read_text(), count=1))
+        self.open(page)
+        self.js("bchPage.jumpToEvent(0)")
+        self.assertAlmostEqual(self.js("bchPage.time()"), 1.2173, places=5)
+        self.assertEqual(self.find("#event-list [aria-current=true] .depth").text, "pass")
+        self.assertEqual(self.find("#event-list [aria-current=true] .when").text, "at 0:01.22, between two frames")
+        self.assertEqual(sum(",pass,1.2000,1.2000,1.2173,0.0000," in line for line in self.js("bchPage.eventsAsCsv()").splitlines()), 1)
+
+    def test_a_link_leads_to_a_moment(self):
+        self.browser.get(self.page.as_uri() + "#t=2.5")
+        self.browser.refresh()
+        self.assertAlmostEqual(self.js("bchPage.time()"), 2.5)
+        self.js("bchPage.seek(1.25)")
+        self.press("l")
+        self.assertTrue(self.browser.current_url.endswith("#t=1.25"))
+        self.js("(location.hash = 't=0.5')")
+        self.wait(lambda: self.js("bchPage.time()") == 0.5, "the page does not follow its address")
+
+    def test_events_as_csv(self):
+        names, *rows = [line.split(",") for line in self.js("bchPage.eventsAsCsv()").splitlines()]
+        self.assertEqual(names, ["first", "second", "kind", "from", "to", "worst", "depth", "x", "y"])
+        expected = sorted(self.expected["events"], key=lambda event: -event["depth"])
+        self.assertEqual(len(rows), len(expected))
+        for row, event in zip(rows[:50], expected):
+            self.assertAlmostEqual(float(row[6]), event["depth"], delta=1e-4)
+            self.assertEqual(row[2], "wall" if row[1] == "wall" else "overlap")
+        self.find("#save-events").click()
+
+    def test_fits_windows_of_every_width(self):
+        for width in 860, 900, 1000, 1100, 1180, 1280:
+            self.open(self.page, width, 700)
+            outside = self.js("[...document.querySelectorAll('button, select, #transport p')].filter((e) => { "
+                              "const box = e.getBoundingClientRect(), of = e.closest('section, aside, header').getBoundingClientRect(); "
+                              "return box.width > 0 && (box.right > of.right + 1 || box.left < of.left - 1); }).map((e) => e.id || e.textContent)")
+            self.assertEqual((width, outside), (width, []))
+
     def test_events_by_time(self):
         self.find("#by-time").click()
         times = [row.text.split()[1] for row in self.browser.find_elements(By.CSS_SELECTOR, "#event-list .when")]
@@ -307,9 +360,12 @@ class Page(unittest.TestCase):
         small = self.js("[...document.querySelectorAll('button, select, input')].map((e) => [e.id, e.getBoundingClientRect()])"
                         ".filter(([id, box]) => box.width > 0 && (box.width < 40 || box.height < 40)).map(([id]) => id)")
         self.assertEqual(small, [])
+        self.assertLessEqual(self.js("document.querySelectorAll('#event-list button').length"), 5)
         self.find("#event-list button").click()
         worst = max(self.expected["events"], key=lambda event: event["depth"])
         self.assertAlmostEqual(self.js("bchPage.time()"), worst["worst"], places=5)
+        top, bottom = self.js("(({top, bottom}) => [top, bottom])(document.getElementById('stage').getBoundingClientRect())")
+        self.assertTrue(-1 < top and bottom < 845, "the picture is out of view")
 
     def test_view_moves_where_motion_is_welcome(self):
         self.open(self.page, prefers_reduced_motion="no-preference")

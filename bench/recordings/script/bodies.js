@@ -41,8 +41,8 @@ function rank(contour, first, last, most) {
 
 /** Where the person in a row stands on the stage, and how his shape is turned there, in pixels a millimetre. */
 function standOf(row) {
-  const heading = headingOf(row), pixels = view.scale / 1000;
-  return {x: screenX(placeX(row)), y: screenY(placeY(row)), cosine: Math.cos(heading) * pixels, sine: Math.sin(heading) * pixels};
+  const heading = standHeading(row), pixels = view.scale / 1000;
+  return {x: screenX(standX(row)), y: screenY(standY(row)), cosine: Math.cos(heading) * pixels, sine: Math.sin(heading) * pixels};
 }
 
 /** Points of the latest contour on the stage, x and y by turns, and where their insets are. */

@@ -13,7 +13,7 @@ function sortRows() {
   const left = groundX(0), right = groundX(view.width), bottom = groundY(view.height), top = groundY(0);
   const frame = player.frame;
   for (let row = frames.begin[frame]; row < frames.begin[frame + 1]; ++row) {
-    const x = placeX(row), y = placeY(row), radius = shapes.radius[people.shape[row]];
+    const x = standX(row), y = standY(row), radius = shapes.radius[people.shape[row]];
     if (x + radius < left || x - radius > right || y + radius < bottom || y - radius > top) continue;
     const isDot = sizeOf(people.shape[row]) * view.scale < dotBelow;
     const mark = people.marks[row];
@@ -31,7 +31,7 @@ function drawRing(context, x, y, radius) {
 function drawDots(context, rows, radius, colour, ring) {
   context.fillStyle = context.strokeStyle = colour;
   for (const row of rows) {
-    const x = screenX(placeX(row)), y = screenY(placeY(row));
+    const x = screenX(standX(row)), y = screenY(standY(row));
     context.beginPath();
     context.arc(x, y, radius, 0, 2 * Math.PI);
     context.fill();
@@ -108,7 +108,7 @@ function drawHits(context) {
 function drawHeadings(context, rows, colour) {
   context.beginPath();
   for (const row of rows) {
-    const x = screenX(placeX(row)), y = screenY(placeY(row)), heading = headingOf(row);
+    const x = screenX(standX(row)), y = screenY(standY(row)), heading = standHeading(row);
     const along = Math.cos(heading) * view.scale, across = Math.sin(heading) * view.scale;
     context.moveTo(x + 0.1 * along, y - 0.1 * across);
     context.lineTo(x - 0.05 * along - 0.06 * across, y + 0.05 * across - 0.06 * along);
@@ -148,11 +148,11 @@ function drawTrail(context) {
       context.globalAlpha = 0.1 + 0.7 * Math.max(0, 1 - (now - frames.seconds[frame]) / trailSeconds);
       context.beginPath();
       context.moveTo(x, y);
-      context.lineTo(screenX(placeX(row)), screenY(placeY(row)));
+      context.lineTo(screenX(standX(row)), screenY(standY(row)));
       context.stroke();
     }
     drawing = row >= 0;
-    if (drawing) [x, y] = [screenX(placeX(row)), screenY(placeY(row))];
+    if (drawing) [x, y] = [screenX(standX(row)), screenY(standY(row))];
   }
   context.globalAlpha = 1;
 }
@@ -180,7 +180,7 @@ function drawRings(context) {
     const row = who < 0 ? -1 : rowOf(player.frame, who);
     if (row < 0) continue;
     context.lineWidth = width;
-    drawRing(context, screenX(placeX(row)), screenY(placeY(row)),
+    drawRing(context, screenX(standX(row)), screenY(standY(row)),
       Math.max(8, (shapes.radius[people.shape[row]] + 0.06) * view.scale));
   }
 }

@@ -46,8 +46,9 @@ const walls = {begin: block("walls-begin"), points: block("walls")};
 const numberOfId = new Map(meta.ids.map((id, number) => [id, number]));
 
 /** The list of events, as its rows say; `index` is the place in the list, `whos` are the numbers of its people. */
-const events = meta.events.map(([first, second, from, to, worst, depth, x, y], index) =>
-  ({index, first, second, isWall: second === null, from, to, worst, depth: depth ?? 0,
+const events = meta.events.map(([first, second, from, to, worst, depth, x, y, isPass], index) =>
+  ({index, first, second, isWall: second === null, isPass: isPass === 1, from, to, worst, depth: depth ?? 0,
+    begin: isPass === 1 ? worst : from,
     x: x - meta.corner[0], y: y - meta.corner[1],
     whos: [first, second].map((id) => numberOfId.get(id)).filter((who) => who !== undefined)}));
 

@@ -16,6 +16,7 @@ const keys = {
   "p": () => nextEvent(-1),
   "f": () => follow(!selection.following),
   "d": toggleDiscs,
+  "l": linkToMoment,
   "?": () => element("help").showModal(),
   "Escape": deselect,
 };

@@ -9,7 +9,7 @@ function rowAt(point) {
   const x = groundX(point.x), y = groundY(point.y);
   if (frames.count === 0) return best;
   for (let row = frames.begin[player.frame]; row < frames.begin[player.frame + 1]; ++row) {
-    const distance = Math.hypot(placeX(row) - x, placeY(row) - y);
+    const distance = Math.hypot(standX(row) - x, standY(row) - y);
     if (distance < nearest && distance < Math.max(shapes.radius[people.shape[row]], 14 / view.scale)) {
       nearest = distance;
       best = row;
@@ -98,7 +98,7 @@ function keepInMiddle() {
   const row = rowOf(player.frame, selection.who);
   if (row < 0) return;
   ++view.moving;
-  setView(placeX(row), placeY(row), view.scale);
+  setView(standX(row), standY(row), view.scale);
 }
 
 function listenToPeople() {

@@ -23,7 +23,7 @@ function requestTick() {
 function tick(now) {
   player.waiting = false;
   if (player.playing) advance(now);
-  if (player.stale) draw();  // not what is there already: recordings have fewer frames a second than screens
+  if (player.stale) draw();  // not what is there already
   if (player.playing) requestTick();
 }
 
@@ -37,13 +37,13 @@ function advance(now) {
   if (player.time >= frames.end) pause();
 }
 
-/** Shows the last frame up to a time, which is brought into the recording. */
+/** Shows the last frame up to a time, which is brought into the recording, and its people on their way to the next one. */
 function showTime(seconds) {
   player.time = Math.min(Math.max(seconds, frames.start), frames.end);
-  const frame = frameAt(player.time), isNew = frame !== player.frame;
-  player.frame = frame;
-  player.stale ||= isNew;
-  if (isNew && selection.following) keepInMiddle();
+  player.frame = frameAt(player.time);
+  const hasMoved = moveTo(player.time, player.frame);
+  player.stale ||= hasMoved;
+  if (hasMoved && selection.following) keepInMiddle();
   if (!player.playing || player.last - player.told > tellEvery) tell();
 }
 

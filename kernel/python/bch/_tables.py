@@ -108,7 +108,7 @@ def _array(values: Any, name: str) -> Optional["np.ndarray[Any, Any]"]:
         array = values if isinstance(values, np.ndarray) else np.asarray(values)
         if isinstance(array, np.ma.MaskedArray):
             array = np.where(array.mask, np.nan, array.data)
-        if array.dtype.kind in "OUS" and name.lower() in ("character", "clip"):
+        if array.dtype.kind in "OUS" and name.lower() in ("character", "clip", "body"):
             return array
         if array.dtype.kind == "O":  # numbers, of which some may lack
             array = array.astype(f8)

@@ -242,6 +242,39 @@ TEST(Check, SaysWhereNobodyMovesSo) {
   EXPECT_EQ(notes_of(1.3, 0, &nothing), "The walls have no segment.\n");
 }
 
+/// Who goes through the border of the floor does not collide with it; who stays in it does, and in a wall on the floor, too.
+TEST(Check, PeopleLeaveThroughTheBorder) {
+  const ObstacleSet floor = obstacles_from_wkt(
+      "POLYGON((0 0, 8 0, 8 8, 0 8), (1 1, 2 1, 2 2, 1 2), (6 7, 7 7, 7 7.9, 6 7.9))", Polygons::walkable);
+  const auto walls_of = [&](double x, double y, double speed_y, int frames) {
+    MadeUp recording(10);
+    recording.walk(1, 6.5, 4, 0.1, 0, 60);
+    recording.walk(2, x, y, 0, speed_y, frames);
+    const CheckSummary summary = check_of(recording, {.walls = &floor});
+    EXPECT_EQ(summary.wall_events, summary.events.size());
+    return std::pair(summary.all.in_walls, summary.wall_events);
+  };
+  using Counts = std::pair<std::uint64_t, std::uint64_t>;
+  EXPECT_EQ(walls_of(4, 7, 1.2, 7), Counts(0, 0));   // he is last seen 0.28 m from it
+  EXPECT_EQ(walls_of(4, 7.8, -1.2, 60).second, 1u);  // he is there from the beginning on
+  EXPECT_GT(walls_of(4, 7.8, 0.01, 60).first, 20u);  // he stays
+  EXPECT_GT(walls_of(1.5, 3, -1.2, 9).first, 0u);    // into a wall on the floor
+}
+
+TEST(Check, SummariesCountTheirEvents) {
+  MadeUp recording(10);
+  add_crowd(recording, 60, static_cast<int>(test::samples(40)));
+  const ObstacleSet walls = obstacles_from_wkt("POLYGON((0 0, 8 0, 8 8, 0 8))", Polygons::walkable);
+  const CheckSummary summary = check_of(recording, {.walls = &walls});
+  std::uint64_t overlaps = 0, passes = 0, in_walls = 0;
+  for (const OverlapEvent& event : summary.events)
+    ++(event.is_wall ? in_walls : event.is_pass() ? passes : overlaps);
+  EXPECT_GT(std::min(overlaps, in_walls), 0u);
+  EXPECT_EQ(summary.overlap_events, overlaps);
+  EXPECT_EQ(summary.passings, passes);
+  EXPECT_EQ(summary.wall_events, in_walls);
+}
+
 TEST(Check, IsAskedAtADepth) {
   MadeUp recording(10);
   add_crowd(recording, 60, static_cast<int>(test::samples(40)));

@@ -64,6 +64,41 @@ TEST(Walkers, KeepTheirHeadingWhileTheyStand) {
 }
 
 /// As recordings of simulators are that write a frame a second.
+TEST(Walkers, FaceTheWayOfTheirFirstStepBefore) {
+  MadeUp recording(10);
+  recording.walk(1, 5, 5, 1, 0, 60);  // where a crowd goes
+  for (int k = 0; k < 60; ++k) {      // two who go elsewhere after 3 s, of whom one is there later
+    const double y = std::max(0, k - 30) * 0.12;
+    recording.add(k, {2, 0, -y, unknown, unknown});
+    if (k >= 8) recording.add(k, {3, 9, y, unknown, unknown});
+    if (k >= 50) recording.add(k, {4, 2, 2, unknown, unknown});  // who does not move
+  }
+  recording.rewind();
+  WalkerReader reader(recording);
+  for (WalkerFrame frame; reader.next(frame);)
+    for (const Walker& walker : frame.people) {
+      const double expected[] = {0, -std::numbers::pi / 2, std::numbers::pi / 2, 0};
+      if (walker.id != 4) {
+        EXPECT_NEAR(walker.heading, expected[walker.id - 1], 1e-9) << frame.frame;
+      }
+      if (frame.frame >= 26 && frame.frame <= 29) continue;  // about where his speed is that of who stands
+      EXPECT_EQ(walker.is_guessed, walker.id == 4 || (walker.id != 1 && frame.frame < 28)) << frame.frame;
+    }
+}
+
+TEST(Walkers, ComeAndGo) {
+  MadeUp recording(10);
+  recording.walk(1, 0, 0, 1, 0, 40);
+  for (int k = 10; k < 30; ++k) recording.add(k, {2, 0, 5, unknown, unknown});
+  recording.rewind();
+  WalkerReader reader(recording);
+  std::string text;
+  for (WalkerFrame frame; reader.next(frame);)
+    for (const Walker& walker : frame.people)
+      if (walker.comes_or_goes) text += std::to_string(walker.id) + ":" + std::to_string(frame.frame) + " ";
+  EXPECT_EQ(text, "2:10 2:11 2:12 2:13 2:26 2:27 2:28 2:29 ");  // 0.4 s of either end
+}
+
 TEST(Walkers, OfFewFramesHaveASpeedToo) {
   MadeUp recording(40);
   for (int k = 0; k < 10; ++k) recording.add(40 * k, {1, 1.2 * k, 0, unknown, unknown});

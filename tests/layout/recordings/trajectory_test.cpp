@@ -31,7 +31,10 @@ class Trajectories : public testing::Test {
 std::string motions_of(const ReadRecording& recording) {
   std::string all;
   for (const auto& motion : recording.info.motions)
-    all += motion.character + "/" + motion.clip + " at" + motion.place.substr(motion.place.rfind(':')) + "\n";
+    all += (motion.body.empty() ? motion.character + "/" + motion.clip
+                                : motion.body + " " + detail::shortest(motion.length) + " x " +
+                                      detail::shortest(motion.width)) +
+           " at" + motion.place.substr(motion.place.rfind(':')) + "\n";
   for (const auto& frame : recording.frames)
     for (const auto& person : frame.people)
       all += (person.motion == detail::TrackedPerson::no_motion ? "-" : std::to_string(person.motion)) + " " +
@@ -150,6 +153,15 @@ TEST_F(Trajectories, NameNoMoreThanCanBe) {
   EXPECT_EQ(
       complaint(many, {.fps = 10}),
       "f:4098: character '' and clip 'clip4096' are beyond the 4096 different pairs that a file may name");
+  many = "frame,id,x,y,length/mm,width/m\n";
+  for (int k = 0; k <= 65'536; ++k)
+    many += std::to_string(k) + ",1,0,0," + std::to_string(1 + k % 10'000) + "," +
+            std::to_string(1 + k / 10'000) + "\n";
+  EXPECT_EQ(complaint(many, {.fps = 10}), "f:1: length, width and radius are of different units");
+  many.replace(many.find("width/m"), 7, "width/mm");
+  EXPECT_EQ(
+      complaint(many, {.fps = 10}),
+      "f:65538: body 'box' of 5537 mm by 7 mm is beyond the 65536 different bodies that a file may have");
 }
 
 // ---- Recordings in memory.
