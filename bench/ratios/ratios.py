@@ -27,6 +27,7 @@ TABLES = """
 kernel | collide/{colliding,near_miss,no_hit,crowd}/reference_segments / collide/{1}/segments/ISA |
 kernel | collide/{colliding,near_miss,no_hit,crowd}/reference / collide/{1}/discs/ISA |
 leaves | collide/{crowd,colliding,near_miss,no_hit}/segments/ISA / collide/{1}/discs/ISA |
+stages | stages/{colliding,near_miss,no_hit,crowd}/{avx512,avx2} |
 peers | collide/colliding/fcl_obb_contour / collide/colliding/discs/BEST |
 peers | collide/colliding/fcl_obb_segments / collide/colliding/discs/BEST | one triangle a segment
 peers | collide/colliding/obb_contour_2d / collide/colliding/discs/BEST |
@@ -70,6 +71,7 @@ paper | collide/{paper500,paper500_cached,colliding}/obb_projected / collide/{1}
 paper | collide/{paper500,paper500_cached,colliding}/{obb_contour_2d,fcl_obb_contour,fcl_obb_segments} / collide/{1}/reference |
 """
 ISAS = ("avx512", "avx2", "sse2")
+STAGES = "place profiles even_supports inscribed_4 inscribed_8 odd_supports add blocks leaves".split()
 NO_COUNTERS = set(
     "name family_index per_family_instance_index run_name run_type repetitions repetition_index threads iterations".split()
     + "real_time cpu_time time_unit per_item".split()
@@ -163,6 +165,16 @@ def print_times(names, results):
         print(line + "".join(f"   {counter} {' / '.join(dict.fromkeys(values))}" for counter, values in counted.items()))
 
 
+def print_stages(names, results):
+    """A row for each benchmark: what each stage takes of a pair's time, and on how many pairs it works."""
+    first = max(map(len, names), default=0) + 2
+    print("ns a pair (tests a pair)".ljust(first) + "".join(stage.rjust(15) for stage in STAGES) + "all".rjust(8))
+    for name in names:
+        counted = results.counters[name]
+        cells = [f"{text_of(counted[stage])} ({counted[stage + '.tests']:.3f})".rjust(15) for stage in STAGES]
+        print(name.ljust(first) + "".join(cells) + text_of(sum(counted[stage] for stage in STAGES)).rjust(8))
+
+
 def label_of(each):
     parts = [value.split("/") for value in each]
     common = sum(1 for _ in itertools.takewhile(lambda same: len(set(same)) == 1, zip(*parts))) if len(each) > 1 else 0
@@ -172,7 +184,7 @@ def label_of(each):
 def print_table(table, results):
     """Prints times, then ratios."""
     names = set(results.taken)
-    print_times(benchmarks_of(table, names), results)
+    (print_stages if table == "stages" else print_times)(benchmarks_of(table, names), results)
     for values, note in rows_of(table):
         rows = list(expand(values, names))
         if not rows:

@@ -21,12 +21,12 @@ endfunction()
 
 set(script ${PYTHON} ${SCRIPT})
 run(0 ${script} --program ${RATIOS} --runs 1 -- ${sizes} --benchmark_filter=-shapes/50000)
-foreach(table kernel leaves peers calls crowd distances responses obstacles bodies shapes plans construction load paper)
+foreach(table kernel leaves stages peers calls crowd distances responses obstacles bodies shapes plans construction load paper)
   expect_output("# ${table}: 1 runs")
 endforeach()
 expect_output("collide/colliding: reference / discs/sse2 +[0-9.]+ x\n" "collide/crowd: reference_segments / segments/sse2 +[0-9.]+ x\n"
   "crowd/1000000/step#MiB +[0-9.]+\n" "shapes: 5000 / 200 +[0-9.]+ x" "shapes/50000 / shapes/200: not in this build" "construction/1/sse2( +[0-9.]+)+"
-  "ns an item +map +read" "plans/mixed [^\n]*bytes" "plans: depth_3/query / all/query +[0-9.]+ x\n"
+  "ns an item +map +read" "plans/mixed [^\n]*bytes" "tests a pair. +place +profiles" "plans: depth_3/query / all/query +[0-9.]+ x\n"
   "collisions/crowd/[a-z0-9]+ / collide/crowd" "obb_contour / reference +[0-9.]+ x +4630 ns")
 
 # Here of what no table tells.
