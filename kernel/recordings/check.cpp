@@ -134,7 +134,7 @@ void Checker::report(const FrameBlock& block, FrameRun& run, double fps) {
     const std::size_t begin = block.begin(i) - block.begin(run.first()),
                       size = block.begin(i + 1) - block.begin(i);
     CheckedFrame told{frame, static_cast<double>(frame) / fps, run.people().subspan(begin, size),
-                      run.poses().subspan(begin, size), pairs.first(count)};
+                      pairs.first(count), run.poses().subspan(begin, size)};
     pairs = pairs.subspan(count);
     if (options_.measures) {
       add_measures(told, run.measured_people().subspan(begin, size));

@@ -90,8 +90,8 @@ struct CheckedFrame {
   std::int64_t frame;
   double seconds;  ///< from frame 0
   std::span<const CheckedPerson> people;
-  std::span<const WalkerPose> poses;  ///< of the people
   std::span<const CheckedPair> pairs;
+  std::span<const WalkerPose> poses = {};  ///< of the people
   // Where measures are asked for.
   std::span<const MeasuredPerson> measures = {};      ///< of the people
   std::span<const MeasuredPair> measured_pairs = {};  ///< by ids
