@@ -36,6 +36,12 @@ constexpr double mass = 80, stiffness = 1.2e5, friction = 2.4e5;  // kg, kg/s^2,
 constexpr double wanted_speed = 1, relaxation = 0.5;              // m/s, s
 constexpr int tried_ms[] = {2, 3, 4, 6, 8, 10, 12, 16, 20, 24, 28, 32, 36, 40, 48};
 
+/// The depths that are compared: penetration() by the best of 32 directions, nearest_free() by the best of `free_directions`, and the
+/// overlap of the two discs of the cuts that overlap deepest.
+enum class Law : std::uint8_t { penetration, nearest_free, deepest_discs };
+constexpr const char* law_names[] = {"penetration", "nearest free", "deepest discs"};
+constexpr std::uint32_t free_directions = 64;
+
 ShapeSet make_shapes() {
   std::vector<Shape> all;
   for (const Character& character : {default_male(), default_female()}) {
@@ -49,7 +55,7 @@ ShapeSet make_shapes() {
 /// Simulates agents and the forces that move them; walls stay.
 struct World {
   const ShapeSet& shapes;
-  bool discs;  ///< of the cuts, the two that overlap deepest; else penetration() by the best of 32 directions
+  Law law;
   std::uint8_t level;
   std::vector<std::uint32_t> shape = {};
   std::vector<std::uint8_t> levels = {};
@@ -70,6 +76,7 @@ struct World {
     const Agents agents{shape, x, y, heading, levels};
     Crowd finder;
     // Discs of cuts may overlap where root discs do not. Any margin makes the candidates know that.
+    const bool discs = law == Law::deepest_discs;
     const auto pairs =
         discs ? finder.candidates(shapes, agents, 1e-3).span() : finder.collisions(shapes, agents).span();
     std::vector<Penetration> found(pairs.size());
@@ -77,6 +84,8 @@ struct World {
     std::vector<Vec2> towards(pairs.size());
     if (discs)
       clearance(shapes, agents, pairs, {distance, towards}, {.max_distance = 0, .overlap = Overlap::deepest});
+    else if (law == Law::nearest_free)
+      nearest_free(shapes, agents, pairs, free_directions, found);
     else
       penetration(shapes, agents, pairs, 32, found);
     std::vector<Plane> force(shape.size());
@@ -163,11 +172,12 @@ void bounce(StiffRow& row, World world, Random& random) {
 
 std::vector<StiffRow> stiff_rows(std::uint32_t people, std::uint32_t bounces) {
   const ShapeSet shapes = make_shapes();
-  std::vector<StiffRow> rows(2 * std::size(cuts));
+  std::vector<StiffRow> rows(std::size(law_names) * std::size(cuts));
   tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
-    const World empty{shapes, i >= std::size(cuts), static_cast<std::uint8_t>(i % std::size(cuts))};
+    const World empty{shapes, static_cast<Law>(i / std::size(cuts)),
+                      static_cast<std::uint8_t>(i % std::size(cuts))};
     StiffRow& row = rows[i];
-    row.law = empty.discs ? "deepest discs" : "penetration", row.cut = cli::depth_name(cuts[empty.level]);
+    row.law = law_names[i / std::size(cuts)], row.cut = cli::depth_name(cuts[empty.level]);
     press(row, empty, people);
     Random random(11);
     for (std::uint32_t k = 0; k < bounces; ++k) bounce(row, empty, random);

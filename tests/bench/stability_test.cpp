@@ -82,7 +82,7 @@ void expect_discs_to_begin_at_nothing(const StiffRow& row) {
 
 TEST(StiffContact, IsWhatTheChapterSays) {
   const std::vector<StiffRow> rows = stiff_rows(2, 25);
-  ASSERT_EQ(rows.size(), 8u);
+  ASSERT_EQ(rows.size(), 12u);
   for (const StiffRow& row : rows) {
     EXPECT_GT(row.bounces, 15u);
     if (row.law == "deepest discs") expect_discs_to_begin_at_nothing(row);
@@ -91,6 +91,10 @@ TEST(StiffContact, IsWhatTheChapterSays) {
   ASSERT_EQ(penetration.law + " " + penetration.cut, "penetration all");
   EXPECT_GT(penetration.largest_onset, 0.02);
   EXPECT_GT(penetration.max_energy, 0.1);
+  const StiffRow& nearest_free = rows[7];
+  ASSERT_EQ(nearest_free.law + " " + nearest_free.cut, "nearest free all");
+  EXPECT_LT(nearest_free.largest_onset, 0.003);
+  EXPECT_LT(nearest_free.energy, 0.06);
 }
 
 }  // namespace
