@@ -90,6 +90,9 @@ bch_check_summary summary_of(const CheckSummary& of, const TrajectoryInfo& info)
   to.overlapping_near_pairs = of.all.overlapping_pairs;
   to.colliding_people = of.colliding;
   to.disc_colliding_people = of.disc_colliding;
+  to.overlap_events = of.overlap_events;
+  to.pass_events = of.passings;
+  to.wall_events = of.wall_events;
   return to;
 }
 
@@ -131,6 +134,22 @@ Cast cast_of(const bch_check_options& options) {
   return cast;
 }
 
+/// The bodies that do not walk.
+std::vector<Footprint> footprints_of(const bch_check_options& options) {
+  std::vector<Footprint> footprints;
+  for (const bch_footprint& given :
+       array_of(options.footprints, options.footprint_count, "options->footprints")) {
+    required(given.name, "options->footprints"), required(given.wkt, "options->footprints");
+    try {
+      footprints.push_back(footprint_from_wkt(given.name, given.wkt));
+    } catch (const std::invalid_argument& error) {
+      throw Failure(BCH_INVALID_ARGUMENT,
+                    std::string("options->footprints: ") + given.name + ": " + error.what());
+    }
+  }
+  return footprints;
+}
+
 /// The bodies of spheres, or none.
 std::vector<BodyModel> bodies_of(const bch_check_options& options, CastView cast) {
   if (options.spheres == 0) return {};
@@ -155,6 +174,8 @@ std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check
   options.max_pairs = given.max_pairs;
   const Cast cast = cast_of(given);
   options.cast = cast;
+  const std::vector<Footprint> footprints = footprints_of(given);
+  options.footprints = footprints;
   options.draws = false;
   options.measures = given.measures != 0;
   std::vector<BodyModel> bodies;

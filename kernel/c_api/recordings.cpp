@@ -57,8 +57,11 @@ std::unique_ptr<bch_trajectory> opened(const bch_trajectory_options& given, bch_
   for (const std::string& line : trajectory->reader->info().assumptions)
     trajectory->assumptions += line + "\n";
   for (const std::string& line : trajectory->reader->info().notes) trajectory->notes += line + "\n";
-  for (const NamedMotion& motion : trajectory->reader->info().motions)
+  for (const NamedMotion& motion : trajectory->reader->info().motions) {
     trajectory->motions.push_back({motion.character.c_str(), motion.clip.c_str()});
+    trajectory->bodies.push_back(
+        {motion.body.c_str(), static_cast<float>(motion.length), static_cast<float>(motion.width)});
+  }
   return trajectory;
 }
 
@@ -175,6 +178,15 @@ bch_status bch_trajectory_get_motions(const bch_trajectory* trajectory, const bc
   });
 }
 
+bch_status bch_trajectory_get_bodies(const bch_trajectory* trajectory, const bch_named_body** bodies,
+                                     size_t* count) {
+  return guarded([&] {
+    const auto& all = object_of(trajectory, "trajectory").bodies;
+    required(bodies, "bodies"), required(count, "count");
+    *bodies = all.data(), *count = all.size();
+  });
+}
+
 bch_status bch_trajectory_free(bch_trajectory* trajectory) {
   return free_object(trajectory, "trajectory");
 }
@@ -245,8 +257,7 @@ bch_status bch_check_get_measures(const bch_check* check, const bch_check_measur
   });
 }
 
-bch_status bch_check_get_conflicts(const bch_check* check, const bch_check_conflict** pairs,
-                                        size_t* count) {
+bch_status bch_check_get_conflicts(const bch_check* check, const bch_check_conflict** pairs, size_t* count) {
   return guarded([&] {
     const auto& all = object_of(check, "check").conflicts;
     required(pairs, "pairs"), required(count, "count");

@@ -17,6 +17,7 @@ struct bch_trajectory {
   std::unique_ptr<bch::detail::TrajectoryReader> reader;
   std::string assumptions, notes;         ///< a line each
   std::vector<bch_named_motion> motions;  ///< whose texts are the reader's
+  std::vector<bch_named_body> bodies;     ///< of the motions, likewise
   bch_status fault = BCH_BAD_FILE;        ///< what a recording that is wrong is
   bool is_read = false;                   ///< some of it
   std::int64_t frame = 0;                 ///< of the people who wait

@@ -715,6 +715,31 @@ class Recordings(unittest.TestCase):
         epochs = np.datetime64("2026-05-01", "ns") + (columns["frame"] * 40_000_000).astype("timedelta64[ns]")
         self.assertEqual(check({"frame": None, "time": epochs}, fps=None).events["depth"].tolist(), expected.events["depth"].tolist())
 
+    def test_bodies_of_any_kind(self):
+        still = {"frame": [0, 0, 0], "id": [1, 2, 3], "x": [0, 1.5, 9], "y": [0, 0, 0], "heading": [0, 0, 0]}
+        cart = {"cart": [(0, -0.2), (1.01, -0.2), (1.01, 0.2), (0, 0.2)]}
+        found = bch.check(**still, length=[0, 1, 2], body=["cart", "box", None], footprints=cart, fps=1)
+        self.assertEqual([(one["first"], one["second"]) for one in found.events], [(1, 2)])
+        self.assertEqual((found.summary["overlap_events"], found.summary["pass_events"]), (1, 0))
+        self.assertEqual(len(bch.check(**still, length=[0, 0.97, 2], body=["cart", "box", ""], footprints=cart, fps=1).events), 0)
+        self.assertEqual(len(bch.check(**still, radius=[0.8, 0.71, 0], fps=1).events), 1)
+        self.assertEqual(len(bch.check(**still, radius=[0.8, 0.69, np.nan], fps=1).events), 0)
+        measured = bch.check(**still, length=[0, 1, 2], body=["cart", "box", None], footprints=cart, fps=1, measures=True).measures
+        clearance = measured["clearance"][:2]  # of discs of 1 cm, which cover the two
+        self.assertTrue((clearance <= -0.01).all() and (clearance > -0.03).all(), clearance)
+        for kind, words, more in ((ValueError, "footprints: cart: .*found a line", {"footprints": {"cart": "LINESTRING (0 0, 1 1)"}}),
+                                  (ValueError, "'cart' is none of disc.*footprints adds others", {}),
+                                  (TypeError, "footprints is .*mapping", {"footprints": [cart]})):
+            with self.subTest(words), self.assertRaisesRegex(kind, words):
+                bch.check(**still, body=["cart", "", ""], fps=1, **more)
+        path = Path(self.folder.name) / "bodies.csv"
+        path.write_text("frame,id,x,y,body,length,clip\n0,1,0,0,box,1.2345,\n0,2,5,0,,,walk\n0,3,9,0,,,\n")
+        trajectory = bch.read_trajectory(path, fps=10, unit=1)
+        self.assertEqual(trajectory.motions, [("", ""), ("", "walk")])
+        self.assertEqual(trajectory.bodies[1].kind, "")
+        self.assertEqual((trajectory.bodies[0].kind, round(trajectory.bodies[0].length, 4)), ("box", 1.235))
+        self.assertEqual(trajectory.body.tolist(), ["box", "", ""])
+
     def test_tables_by_what_they_offer(self):
         columns = self.columns()
         expected = self.as_csv(columns, fps=25)

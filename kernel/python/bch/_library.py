@@ -147,7 +147,7 @@ lib = _Library()
 
 
 #: The arguments whose names are not those of the options that the command-line program has for the same.
-_arguments = {"clip-speed": "clip_speeds", "character": "characters"}
+_arguments = {"clip-speed": "clip_speeds", "character": "characters", "body": "footprints"}
 
 
 def said(text: bytes) -> str:

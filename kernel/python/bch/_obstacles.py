@@ -91,7 +91,7 @@ class Obstacles:
         """
         bottom, top = pair(heights, "heights")
         made = cls.__new__(cls)
-        wkt = encoded(_well_known_text(text, "text"), "text")
+        wkt = encoded(well_known_text(text, "text"), "text")
         made._take(Handle("obstacles", "from_wkt", wkt, int(walkable), bottom, top))
         return made
 
@@ -128,12 +128,12 @@ def walls_of(geometry: Any) -> Obstacles:
     if isinstance(geometry, Obstacles):
         return geometry
     try:
-        return Obstacles.from_wkt(_well_known_text(geometry, "walls"), walkable=True)
+        return Obstacles.from_wkt(well_known_text(geometry, "walls"), walkable=True)
     except ArgumentError as error:
         raise ArgumentError(f"walls: {error}") from None
 
 
-def _well_known_text(geometry: Any, name: str) -> Any:
+def well_known_text(geometry: Any, name: str) -> Any:
     """Return a geometry as well-known text."""
     geometry = getattr(geometry, "polygon", geometry)  # of PedPy's WalkableArea
     if isinstance(geometry, str) or hasattr(geometry, "wkt"):

@@ -17,7 +17,7 @@ import numpy.typing as npt
 from . import _library
 from ._arrays import Records, address, bounded, copied, encoded, f4, f8, i4, i8, instances, number, one_of, rejected, u4, u8
 from ._library import ArrayError, Handle, check as _check, lib, said
-from ._obstacles import walls_of
+from ._obstacles import walls_of, well_known_text
 from ._progress import Watched
 from ._queries import LEAVES, Leaves
 from ._shapes import ALL_DEPTHS, Character, Path, ShapeSet
@@ -60,7 +60,7 @@ _TABLES = {"events": 0, "frames": 1, "pairs": 2, "measures": 3, "conflicts": 4}
 Bodies = Literal["outlines", "spheres"]
 _BODIES = {"outlines": 0, "spheres": 1}
 #: Units of arrays.
-_UNITS = {"time": "s", "x": "m", "y": "m", "heading": "rad", "stature": "m"}
+_UNITS = {"time": "s", "heading": "rad", **dict.fromkeys(("x", "y", "stature", "length", "width", "radius"), "m")}
 #: People whom a frame has at most.
 _MOST_PEOPLE = 1_000_000
 
@@ -70,6 +70,14 @@ class NamedMotion(NamedTuple):
 
     character: str
     clip: str
+
+
+class NamedBody(NamedTuple):
+    """A body that does not walk, which rows of a recording have; `kind` is empty where they are about people."""
+
+    kind: str  #: such as "box", or a name of `footprints`
+    length: float  #: metres; 0 where rows do not say it
+    width: float
 
 
 class Trajectory(NamedTuple):
@@ -82,6 +90,7 @@ class Trajectory(NamedTuple):
     assumptions: List[str]  #: what the file does not say, and what is assumed instead
     motions: List[NamedMotion]  #: all motions that rows name, in the order of the file
     notes: Sequence[str] = ()  #: what seems to be wrong: columns that are not read, values of another unit
+    bodies: Sequence[NamedBody] = ()  #: of each of the motions: a body that does not walk has neither a character nor a clip
 
     @property
     def character(self) -> "np.ndarray[Any, Any]":
@@ -93,16 +102,22 @@ class Trajectory(NamedTuple):
         """The clip that each row names, or an empty text, (n,)."""
         return self._names("clip")
 
+    @property
+    def body(self) -> "np.ndarray[Any, Any]":
+        """The kind of body that each row has in place of a walking person's, or an empty text, (n,)."""
+        return self._names("kind")
+
     def _names(self, of: str) -> "np.ndarray[Any, Any]":
-        names: "np.ndarray[Any, Any]" = np.array([getattr(motion, of) for motion in self.motions] + [""])
-        named: "np.ndarray[Any, Any]" = names[self.rows["motion"]]
-        return named
+        named = self.bodies if of == "kind" else self.motions
+        names: "np.ndarray[Any, Any]" = np.array([getattr(one, of) for one in named] + [""])
+        by_row: "np.ndarray[Any, Any]" = names[self.rows["motion"]]
+        return by_row
 
 
 def dataframe(records: Union[Records, Trajectory]) -> Any:
     """Return a structured array as a pandas dataframe, with one column per field. It needs pandas.
 
-    For a `Trajectory`, the columns `character` and `clip` hold names in place of `motion`.
+    For a `Trajectory`, the columns `character`, `clip` and `body` hold names in place of `motion`.
     """
     if not isinstance(records, (Trajectory, np.ndarray)) or isinstance(records, np.ndarray) and records.dtype.names is None:
         raise rejected(records, "records", "a structured array or a bch.Trajectory")
@@ -111,7 +126,7 @@ def dataframe(records: Union[Records, Trajectory]) -> Any:
     if not isinstance(records, Trajectory):
         return pandas.DataFrame({name: records[name] for name in records.dtype.names or () if name != "_"})
     rows = dataframe(records.rows).drop(columns="motion")
-    return rows.assign(character=records.character, clip=records.clip)
+    return rows.assign(character=records.character, clip=records.clip, body=records.body)
 
 
 def _open(recording: Union[Path, bytes, Columns], fps: Optional[float], unit: Optional[float], columns: Optional[str]) -> Handle:
@@ -139,6 +154,12 @@ def _motions(handle: Handle) -> List[NamedMotion]:
     _check(lib.bch_trajectory_get_motions(handle.pointer, byref(pointer), byref(count)))
     found = pointer[: count.value]
     return [NamedMotion(one.character.decode(errors="replace"), one.clip.decode(errors="replace")) for one in found]
+
+
+def _bodies(handle: Handle) -> List[NamedBody]:
+    pointer, count = ctypes.POINTER(_library.NamedBody)(), ctypes.c_size_t()
+    _check(lib.bch_trajectory_get_bodies(handle.pointer, byref(pointer), byref(count)))
+    return [NamedBody(one.kind.decode(errors="replace"), one.length, one.width) for one in pointer[: count.value]]
 
 
 def read_trajectory(
@@ -172,7 +193,7 @@ def read_trajectory(
     lines = said(info.assumptions).splitlines()
     geometry = info.geometry.decode(errors="replace")
     notes = said(info.notes).splitlines()
-    return Trajectory(rows[:done], info.fps, info.format.decode(), geometry, lines, _motions(handle), notes)
+    return Trajectory(rows[:done], info.fps, info.format.decode(), geometry, lines, _motions(handle), notes, _bodies(handle))
 
 
 class Check(NamedTuple):
@@ -261,6 +282,11 @@ def check(
     y: Optional[npt.ArrayLike] = None,
     heading: Optional[npt.ArrayLike] = None,
     stature: Optional[npt.ArrayLike] = None,
+    length: Optional[npt.ArrayLike] = None,
+    width: Optional[npt.ArrayLike] = None,
+    radius: Optional[npt.ArrayLike] = None,
+    body: Optional[Sequence[Optional[str]]] = None,
+    footprints: Mapping[str, Any] = MappingProxyType({}),
     characters: Union[Sequence[Character], ShapeSet] = (),
     clip_speeds: Mapping[str, float] = MappingProxyType({}),
     facing: float = 0.0,
@@ -278,7 +304,7 @@ def check(
     threads: int = 0,
     progress: bool = False,
 ) -> Check:
-    """Put a walking person on every row of a recording, and find who runs into whom. Ctrl-C interrupts it.
+    """Put a walking person, or the body that it has, on every row of a recording, and find who runs into whom. Ctrl-C interrupts it.
 
     A recording is a file, a table with columns by name, or arrays with an entry per row: `check("walk.sqlite")`, `check(dataframe, fps=25)`
     or `check(frame=frame, id=id, x=x, y=y, fps=25)`. Rows are in any order. Arrays and columns are of any numbers with any stride, or
@@ -301,6 +327,16 @@ def check(
         Radians, counter-clockwise from +x; NaN: the direction in which the person walks.
     stature : (n,) numbers, optional
         Heights of people, metres or `unit`, from 1 to 2.5 m; NaN: drawn from a normal distribution, seeded by the id.
+    length, width, radius : (n,) numbers, optional
+        Sizes of bodies that do not walk, metres or `unit`, up to 20 m; NaN or 0: not said. A radius is half of the length and of the width.
+        Rows without a size and without a `body` are walking people.
+    body : (n,) str, optional
+        The kind of each row's body: "disc", "box", "ellipse", "wheelchair", "bicycle", "trolley", "robot", or a name of `footprints`. The
+        first three need a size; the others are stretched to one, if there is one. "", None, "person" or "pedestrian": a walking
+        person. Without it a body with a length or a width is a box, and one with a radius a disc.
+    footprints : mapping of str to a geometry
+        What bodies of further names cover on the ground: polygons, as `Obstacles.from_wkt` takes them, in metres, about the body's
+        position, facing +x; `outline(character).wkt` of a character, for instance.
     characters : sequence of Character, or ShapeSet
         The bodies of the people, assigned by id or as rows name them, and scaled to the people's statures; by default built-in
         pedestrians. Each character needs a clip that walks straight on, and should have one that stands. Alternatively a set that
@@ -347,7 +383,8 @@ def check(
         Arrays that are no numbers or not of one length, or an argument or a value that makes no sense. The message names the
         argument or the column, the row, from 0, and the value.
     """
-    arrays = {"frame": frame, "time": time, "id": id, "x": x, "y": y, "heading": heading, "stature": stature}
+    arrays: Dict[str, Any] = {"frame": frame, "time": time, "id": id, "x": x, "y": y, "heading": heading, "stature": stature}
+    arrays.update(length=length, width=width, radius=radius, body=body)
     table = _table_of(recording, arrays)
     if table is not None:
         walls = table.walls if walls is None else walls
@@ -366,6 +403,14 @@ def check(
     speeds = (_library.ClipSpeed * len(clip_speeds))(
         *(_library.ClipSpeed(encoded(clip, "clip_speeds"), number(speed, "clip_speeds")) for clip, speed in clip_speeds.items())
     )
+    if not isinstance(footprints, Mapping):
+        raise rejected(footprints, "footprints", "a mapping of str to geometries")
+    prints = (_library.Footprint * len(footprints))(
+        *(
+            _library.Footprint(encoded(name, "footprints"), encoded(well_known_text(geometry, "footprints"), "footprints"))
+            for name, geometry in footprints.items()
+        )
+    )
     with Watched("checking", progress) as watched:
         options = _library.CheckOptions(
             threads=bounded(threads, "threads", 0, 1024),
@@ -382,6 +427,8 @@ def check(
             max_pairs=bounded(max_pairs, "max_pairs", 0, 1_000_000_000),
             walls=None if obstacles is None else obstacles._pointer,
             measures=bool(measures),
+            footprints=ctypes.cast(prints, ctypes.c_void_p),
+            footprint_count=len(prints),
             progress=watched.callback,
         )
         handle = Handle("check", "run", trajectory.pointer, byref(options), checked=watched.run)

@@ -279,6 +279,52 @@ TEST_F(CApiRecordings, AreChecked) {
   EXPECT_EQ(summary.shapes, 0u);
 }
 
+TEST_F(CApiRecordings, HaveBodiesOfAnyKind) {
+  const double frame[] = {0, 0, 0}, id[] = {1, 2, 3}, x[] = {0, 1.5, 9}, zero[] = {0, 0, 0},
+               length[] = {0, 1, 2};
+  const char* const body[] = {"cart", "box", nullptr};
+  const bch_column columns[] = {
+      {"frame", frame, 0, BCH_COLUMN_DOUBLE, 0},  {"id", id, 0, BCH_COLUMN_DOUBLE, 0},
+      {"x/m", x, 0, BCH_COLUMN_DOUBLE, 0},        {"y/m", zero, 0, BCH_COLUMN_DOUBLE, 0},
+      {"heading", zero, 0, BCH_COLUMN_DOUBLE, 0}, {"length", length, 0, BCH_COLUMN_DOUBLE, 0},
+      {"body", body, 0, BCH_COLUMN_TEXT, 0}};
+  bch_trajectory_options options = BCH_TRAJECTORY_OPTIONS_INIT;
+  options.fps = 1;
+  const auto open = [&] {
+    return made<bch_trajectory_free>(bch_trajectory_from_columns, columns, std::size_t{7}, std::size_t{3},
+                                     &options);
+  };
+  const auto trajectory = open();
+  const bch_named_body* bodies = nullptr;
+  std::size_t count = 0;
+  expect_ok(bch_trajectory_get_bodies(trajectory.get(), &bodies, &count));
+  ASSERT_EQ(count, 3u);
+  EXPECT_STREQ(bodies[0].kind, "cart");
+  EXPECT_EQ(bodies[0].length, 0);
+  EXPECT_STREQ(bodies[2].kind, "box");
+  EXPECT_EQ(bodies[2].length, 2);
+  EXPECT_EQ(bch_trajectory_get_bodies(trajectory.get(), nullptr, &count), BCH_INVALID_ARGUMENT);
+
+  bch_footprint cart = {"cart", "POLYGON((0 -0.2, 1.01 -0.2, 1.01 0.2, 0 0.2))"};
+  bch_check_options how = BCH_CHECK_OPTIONS_INIT;
+  how.footprints = &cart, how.footprint_count = 1;
+  const auto check = made<bch_check_free>(bch_check_run, trajectory.get(), &how);
+  bch_check_summary summary = BCH_CHECK_SUMMARY_INIT;
+  expect_ok(bch_check_get_summary(check.get(), &summary));
+  EXPECT_EQ(summary.overlapping, 2u);  // the cart reaches 1 cm into the box
+  EXPECT_EQ(summary.overlap_events, 1u);
+  EXPECT_EQ(summary.wall_events, 0u);
+
+  bch_check* none = nullptr;
+  const auto again = open();
+  cart.wkt = "LINESTRING(0 0, 1 1)";
+  EXPECT_EQ(bch_check_run(again.get(), &how, &none), BCH_INVALID_ARGUMENT);
+  EXPECT_STREQ(bch_last_error(), "options->footprints: cart: expected polygons, found a line");
+  how.footprint_count = 0;
+  EXPECT_EQ(bch_check_run(again.get(), &how, &none), BCH_INVALID_ARGUMENT);
+  EXPECT_TRUE(std::string(bch_last_error()).find("body 'cart' is none of disc, box") != std::string::npos);
+}
+
 TEST_F(CApiRecordings, ChecksNameWhatIsWrong) {
   bch_check_options options;
   const auto expect_said = [&](bch_status expected, const std::string& words, auto change) {

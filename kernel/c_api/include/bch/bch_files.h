@@ -104,6 +104,15 @@ typedef struct bch_named_motion {
 /** Gets all motions that rows name, in the order of the file. They live as long as the trajectory. */
 BCH_API bch_status bch_trajectory_get_motions(const bch_trajectory* trajectory, const bch_named_motion** motions,
                                               size_t* count);
+/** Describes the body that rows have in place of a walking person's. */
+typedef struct bch_named_body {
+  const char* kind; /**< such as "box", or a name of bch_check_options::footprints; empty where the motion is a person's */
+  float length, width; /**< metres; 0 where rows do not say it */
+} bch_named_body;
+/** Gets the bodies of all motions that rows name, in the order of bch_trajectory_get_motions(), where a body that does not walk has neither a
+ * character nor a clip. They live as long as the trajectory. */
+BCH_API bch_status bch_trajectory_get_bodies(const bch_trajectory* trajectory, const bch_named_body** bodies,
+                                             size_t* count);
 /** Stands for the motion of a row that names neither a body nor a clip. */
 #define BCH_NO_MOTION 0xffffffffu
 /** Describes a person in a frame, and the motion that the person's row names. */
@@ -130,6 +139,11 @@ typedef struct bch_clip_speed {
   const char* clip;
   double speed; /**< metres per second; 0: they stand */
 } bch_clip_speed;
+/** Describes what a body that does not walk covers on the ground, which rows of a recording name. */
+typedef struct bch_footprint {
+  const char* name;
+  const char* wkt; /**< polygons in metres, about the body's position, facing +x; holes are filled */
+} bch_footprint;
 /** Holds the options of a check. */
 typedef struct bch_check_options {
   uint32_t size;              /**< sizeof(bch_check_options) */
@@ -155,10 +169,14 @@ typedef struct bch_check_options {
   uint32_t spheres;
   uint32_t unused;  /**< 0 */
   int32_t measures; /**< not 0: people and pairs are measured, for bch_check_get_measures() and bch_check_get_conflicts() */
+  /** What rows name beside disc, box, ellipse, wheelchair, bicycle, trolley and robot. Where rows have such bodies there are neither spheres nor a
+   * baked set. */
+  const bch_footprint* footprints;
+  size_t footprint_count;
 } bch_check_options;
 #define BCH_CHECK_OPTIONS_INIT \
-  { sizeof(bch_check_options), 0, 0, NULL, 0, NULL, NULL, BCH_ALL_DEPTHS, BCH_SEGMENTS, NULL, 0, NULL, NULL, 0, 0, 0, 0, 0, 0 }
-/** Puts a walking person on every row of a recording that has not been read from, and finds who runs into whom. */
+  { sizeof(bch_check_options), 0, 0, NULL, 0, NULL, NULL, BCH_ALL_DEPTHS, BCH_SEGMENTS, NULL, 0, NULL, NULL, 0, 0, 0, 0, 0, 0, NULL, 0 }
+/** Puts a walking person on every row of a recording that has not been read from, or the body that the row has, and finds who runs into whom. */
 BCH_API bch_status bch_check_run(bch_trajectory* trajectory, const bch_check_options* options, bch_check** check);
 /** Holds the summary of a whole recording. */
 typedef struct bch_check_summary {
@@ -175,9 +193,10 @@ typedef struct bch_check_summary {
   uint64_t overlapping_near_pairs; /**< those of these pairs that overlap */
   uint64_t colliding_people;       /**< people who overlap or pass anybody at any time, where measures are asked for */
   uint64_t disc_colliding_people;  /**< the same of discs of 0.1 m */
+  uint64_t overlap_events, pass_events, wall_events; /**< all events, by their kinds */
 } bch_check_summary;
 #define BCH_CHECK_SUMMARY_INIT \
-  { sizeof(bch_check_summary), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 }
+  { sizeof(bch_check_summary), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 }
 /** Gets the summary of a check. */
 BCH_API bch_status bch_check_get_summary(const bch_check* check, bch_check_summary* summary);
 /** Counts the person-frames of a class of density. */
