@@ -97,6 +97,7 @@ class FrameRun {
   void sum_intrusions();
   void measure_times(const RunBodies& bodies, const Agents& all);
   std::span<const Pair> find_sweeps(const RunBodies& bodies, const Agents& all);
+  void measure_pair(Pair people, float clearance, MeasuredPair& pair);
   void measure_pairs(const RunBodies& bodies, const Agents& all, std::span<const Pair> pairs,
                      std::span<const float> times);
   void report_people(std::span<const std::uint32_t> shapes, std::uint32_t given_up);

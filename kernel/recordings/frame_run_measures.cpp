@@ -167,17 +167,30 @@ void FrameRun::measure_pairs(const RunBodies& bodies, const Agents& all, std::sp
     pair.disc_clearance = static_cast<float>(std::sqrt(square_distance(pairs[i])) - 2 * measured_disc);
     pair.time = time;
     pair.disc_time = disc_time <= measured_seconds ? static_cast<float>(disc_time) : MeasuredPerson::infinite;
-    for (const std::uint32_t k : {first, second}) {
-      measured_people_[k].time = std::min(measured_people_[k].time, pair.time);
-      measured_people_[k].disc_time = std::min(measured_people_[k].disc_time, pair.disc_time);
-    }
     kept.push_back(pairs[i]);
     clearances.push_back(overlaps ? hit_clearance_[static_cast<std::size_t>(hit - hits_.begin())] : 0);
     ++measured_pairs_of_[frame_of[first] - first_];
   }
   const std::vector<float> gaps = bodies.gaps(all, kept, measured_clearance);
   for (std::size_t i = 0; i < kept.size(); ++i)
-    measured_pairs_[i].clearance = clearances[i] < 0 ? clearances[i] : gaps[i];
+    measure_pair(kept[i], clearances[i] < 0 ? clearances[i] : gaps[i], measured_pairs_[i]);
+}
+
+/// Completes the measures of a pair, and adds them to its people's. Leaf discs may touch before outlines do: nobody collides before the
+/// clearance is used up.
+void FrameRun::measure_pair(Pair people, float clearance, MeasuredPair& pair) {
+  const Walker &a = own(block_->people())[people.first], &b = own(block_->people())[people.second];
+  pair.clearance = clearance;
+  if (clearance > 0 && is_finite(clearance)) {
+    const double speed = std::sqrt(square(a.velocity_x - b.velocity_x) + square(a.velocity_y - b.velocity_y));
+    const double earliest = static_cast<double>(clearance) / speed;
+    pair.time = earliest > measured_seconds ? MeasuredPerson::infinite
+                                            : std::max(pair.time, static_cast<float>(earliest));
+  }
+  for (const std::uint32_t k : {people.first, people.second}) {
+    measured_people_[k].time = std::min(measured_people_[k].time, pair.time);
+    measured_people_[k].disc_time = std::min(measured_people_[k].disc_time, pair.disc_time);
+  }
 }
 
 }  // namespace bch::detail

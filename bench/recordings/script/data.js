@@ -99,7 +99,7 @@ function clockText(seconds) {
   return sign + Math.floor(hundredths / 6000) + ":" + two(Math.floor(hundredths / 100) % 60) + "." + two(hundredths % 100);
 }
 
-const grouped = (number) => String(number).replace(/\B(?=(\d{3})+$)/g, " ");
+const grouped = (number) => String(number).replace(/\B(?=(\d{3})+$)/g, "\u00a0");
 const counted = (number, one, many) => grouped(number) + " " + (number === 1 ? one : many);
 
 /** Where people walk, with a margin: metres. Walls count unless they lead far away. */
