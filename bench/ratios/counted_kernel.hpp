@@ -9,6 +9,7 @@
 
 #include "kernel/collide/pair_kernel.hpp"
 #include "kernel/simd/stage.hpp"
+#include "layout/base/time_stamp.hpp"
 
 namespace bch::bench {
 
@@ -32,11 +33,11 @@ struct CountedLanes : Lanes {
   static inline StageCounts counts;
 
   static void run(const detail::Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
-    last_ = __builtin_ia32_rdtsc();
+    last_ = detail::time_stamp();
     detail::PairKernel<CountedLanes>::run(arguments, begin, end);
   }
   static void end_stage(detail::Stage stage, std::uint32_t tests) noexcept {
-    const std::uint64_t now = __builtin_ia32_rdtsc();
+    const std::uint64_t now = detail::time_stamp();
     const auto index = static_cast<std::size_t>(stage);
     counts.ticks[index] += now - last_;
     counts.tests[index] += tests;

@@ -14,6 +14,7 @@
 #include "bench/ratios/ratios.hpp"
 #include "bench/workload/scene.hpp"
 #include "kernel/runtime/kernels.hpp"
+#include "layout/base/time_stamp.hpp"
 
 namespace bch::bench {
 namespace {
@@ -26,11 +27,11 @@ constexpr std::array<const char*, stage_count> stage_names = {"place",       "pr
 
 double ns_per_tick() {
   const auto begin = std::chrono::steady_clock::now();
-  const std::uint64_t first = __builtin_ia32_rdtsc();
+  const std::uint64_t first = detail::time_stamp();
   while (std::chrono::steady_clock::now() - begin < std::chrono::milliseconds(20)) {
   }
   const std::chrono::duration<double, std::nano> time = std::chrono::steady_clock::now() - begin;
-  return time.count() / static_cast<double>(__builtin_ia32_rdtsc() - first);
+  return time.count() / static_cast<double>(detail::time_stamp() - first);
 }
 
 /// Runs a call repeatedly on one thread. Returns: what it counted in the quickest run.
