@@ -106,8 +106,8 @@ void within(const BodySet& bodies, const Agents& agents, std::span<const Pair> p
 struct Penetration {
   /// Holds where the two touch after a move of nearest_free(): at the two parts of them that separate last.
   /// Two segments touch at an end of one; the normal is at right angles to the other. Normals never point
-  /// against the move. The two are apart by the rounding that depths include, a few micrometres per metre of their
-  /// reaches; where a leaf of more than 127 segments counts as a disc, by up to that disc.
+  /// against the move. The two are apart by the rounding that depths include, a few micrometres per metre of
+  /// their reaches; where a leaf of more than 127 segments counts as a disc, by up to that disc.
   struct Touch {
     Vec3 point;   ///< relative to the first agent's position after the move, in the world's axes; metres
     Vec3 normal;  ///< a unit vector within 1e-6, from the second agent to the first; (0, 0, 0): no collision
@@ -155,8 +155,8 @@ void penetration(const BodySet& bodies, const Agents& agents, std::span<const Pa
 /// It moves along the best of `directions` evenly spread directions, until no segments of the two outlines
 /// meet or, where collide() tests discs, no discs of the cuts overlap. They may remain interlocked: no line
 /// need separate them. So the depth is at most that of penetration(), up to rounding. collide() answers 0
-/// afterwards; where it answers 0 before, the depth is 0. It grows from 0 at contact, and may jump where a gap
-/// opens or closes. Sizes, symmetry, directions and errors are those of penetration() and collide().
+/// afterwards; where it answers 0 before, the depth is 0. It grows from 0 at contact, and may jump where a
+/// gap opens or closes. Sizes, symmetry, directions and errors are those of penetration() and collide().
 /// `touches` is empty or as long as `out`.
 /// Memory:  allocates in every call. Threads: runs in the caller's TBB arena.
 void nearest_free(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
