@@ -105,7 +105,7 @@ class ProfileTest {
     // Discs decide if either shape is not at its deepest level.
     for_whole_registers<Simd>(at_.whole_registers(), [&](std::uint32_t k) {
       const float both = of_a_.field[2][k] + of_b_.field[2][k];
-      excess_[k] = (row_a[k] < first_row) | (row_b[k] < first_row) ? both : excess_[k];
+      excess_[k] = ((row_a[k] < first_row) | (row_b[k] < first_row)) != 0 ? both : excess_[k];
     });
   }
 
