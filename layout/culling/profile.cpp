@@ -226,8 +226,7 @@ Outer outer(const Profile& profile, const float* x, const float* y, const float*
   return result;
 }
 
-Bounds outline_bounds(const Profile& profile, const Outline& outline, double reach) {
-  const PointDiscs points(outline);
+Bounds outline_bounds(const Profile& profile, const PointDiscs& points, double reach) {
   const float *const x = points.x.data(), *const y = points.y.data(), *const radius = points.radius.data();
   return {supports(x, y, radius, points.count(), reach), outer(profile, x, y, radius, points.count(), reach)};
 }

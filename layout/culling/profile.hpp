@@ -43,8 +43,8 @@ struct Bounds {
   Outer outer;
 };
 
-/// Bounds an outline with contours. `reach` is that of the shape, metres.
-Bounds outline_bounds(const Profile& profile, const Outline& outline, double reach);
+/// Bounds the points of an outline with contours. `reach` is that of the shape, metres.
+Bounds outline_bounds(const Profile& profile, const PointDiscs& points, double reach);
 
 /// Returns how far discs stick out of what smaller bounds hold, metres: with that added, the smaller bounds hold the discs,
 /// between two directions as well.

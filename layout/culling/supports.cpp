@@ -28,8 +28,9 @@ struct Directions {
 
 }  // namespace
 
-PointDiscs::PointDiscs(const Outline& outline) : radius(outline.points.size()) {
-  x.reserve(radius.size()), y.reserve(radius.size());
+void PointDiscs::assign(const Outline& outline) {
+  x.clear(), y.clear();
+  radius.assign(outline.points.size(), 0);
   for (const Vec2& point : outline.points) x.push_back(point.x), y.push_back(point.y);
 }
 

@@ -27,7 +27,8 @@ using Supports = std::array<float, support_stride>;
 
 /// Holds the points of an outline as discs without a radius.
 struct PointDiscs {
-  explicit PointDiscs(const Outline& outline);
+  /// Takes an outline in place of the last one, and keeps the memory.
+  void assign(const Outline& outline);
 
   std::uint32_t count() const noexcept { return static_cast<std::uint32_t>(x.size()); }
 

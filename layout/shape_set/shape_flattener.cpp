@@ -103,7 +103,7 @@ void ShapeFlattener::add_interior(const Shape& shape, FlatShape& flat) {
 
 /// Adds the culling data of the level that was made flat last. Single discs need none above the deepest
 /// level.
-void ShapeFlattener::add_culling(const Shape& shape, std::size_t level, FlatShape& flat) const {
+void ShapeFlattener::add_culling(const Shape& shape, std::size_t level, FlatShape& flat) {
   const bool deepest = level + 1 == plan_.depths.size();
   if (flat.levels[level].is_single() && !deepest) return;
   auto& sectors = flat.profile.sectors;
@@ -115,8 +115,8 @@ void ShapeFlattener::add_culling(const Shape& shape, std::size_t level, FlatShap
   }
   const Bounds discs{flattener_.supports(), outer_of_discs};
   const bool by_segments = has_segments(shape, flat);
-  const Bounds bounds =
-      by_segments ? outline_bounds(flat.profile, shape.outline, shape.hierarchy.reach) : discs;
+  if (by_segments) points_.assign(shape.outline);
+  const Bounds bounds = by_segments ? outline_bounds(flat.profile, points_, shape.hierarchy.reach) : discs;
   flat.supports = bounds.supports;
   for (std::uint32_t k = 0; k < profile_sectors; ++k) sectors[k].outer = bounds.outer[k];
   flat.profile.excess = excess(discs, bounds);

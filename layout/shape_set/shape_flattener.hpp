@@ -59,13 +59,14 @@ class ShapeFlattener {
   bool has_culling() const;
   void add_levels(const Shape& shape, FlatShape& flat);
   void add_interior(const Shape& shape, FlatShape& flat);
-  void add_culling(const Shape& shape, std::size_t level, FlatShape& flat) const;
+  void add_culling(const Shape& shape, std::size_t level, FlatShape& flat);
   bool has_segments(const Shape& shape, const FlatShape& flat) const;
   void add_segments(const Shape& shape, FlatShape& flat);
 
   ShapeSetPlan plan_;
   Flattener flattener_;
   InteriorBuilder interiors_;
+  PointDiscs points_;
   std::vector<std::uint32_t> moved_,
       held_;  ///< numbers of segments: of all by the outline's points, and of one leaf
 };

@@ -66,7 +66,9 @@ DeepestBounds deepest_bounds(const Verifier& verifier, const Outline& outline) {
   const Bounds discs{supports(cut.x, cut.y, cut.radius, cut.count, verifier.reach),
                      outer(profile, cut.x, cut.y, cut.radius, cut.count, verifier.reach)};
   const bool has_segments = verifier.arrays().trees[verifier.root(deepest)].segments != no_segments;
-  return {discs, has_segments ? outline_bounds(profile, outline, verifier.reach) : discs};
+  PointDiscs points;
+  points.assign(outline);
+  return {discs, has_segments ? outline_bounds(profile, points, verifier.reach) : discs};
 }
 
 void verify_supports(const Verifier& verifier, const Supports& expected) {
