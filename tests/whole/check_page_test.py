@@ -273,7 +273,7 @@ class Page(unittest.TestCase):
         for width in 860, 900, 1000, 1100, 1180, 1280:
             self.open(self.page, width, 700)
             outside = self.js("[...document.querySelectorAll('button, select, #transport p')].filter((e) => { "
-                              "const box = e.getBoundingClientRect(), of = e.closest('section, aside, header').getBoundingClientRect(); "
+                              "const box = e.getBoundingClientRect(), of = e.closest('section, aside, header, dialog').getBoundingClientRect(); "
                               "return box.width > 0 && (box.right > of.right + 1 || box.left < of.left - 1); }).map((e) => e.id || e.textContent)")
             self.assertEqual((width, outside), (width, []))
 
