@@ -89,7 +89,7 @@ namespace bch::detail::baked {
 constexpr std::array<std::uint8_t, 8> magic{0x89, 'B', 'C', 'H', '\r', '\n', 0x1a, '\n'};
 constexpr std::uint32_t byte_order = 0x01020304;
 constexpr std::uint32_t other_byte_order = 0x04030201;
-constexpr std::uint32_t version = 8;
+constexpr std::uint32_t version = 9;
 constexpr std::size_t alignment = 64;
 
 struct FileHeader {
