@@ -60,8 +60,9 @@ class BestFirstTraversal {
   }
 
   /// Measures the discs of two windows.
-  void meet(const Transform& at, std::uint32_t a, std::uint32_t b, std::uint32_t stride_a,
-            std::uint32_t stride_b, Measure& measure) const noexcept {
+  [[gnu::always_inline]] void meet(const Transform& at, std::uint32_t a, std::uint32_t b,
+                                   std::uint32_t stride_a, std::uint32_t stride_b,
+                                   Measure& measure) const noexcept {
     measure.meet(at, outer_discs(a, stride_a), outer_discs(b, stride_b), a & ~leaf_window, b & ~leaf_window);
   }
 

@@ -59,7 +59,7 @@ class ClearanceKernel {
   }
 
   void answer_searched(NearestFeatures* nearest) noexcept {
-    search_.run();
+    search_.run([this] { segments_.finish(); });
     segments_.finish();
     for (std::uint32_t k = 0; k < search_.size(); ++k)
       nearest[searched_[k]] = answer(searched_[k], search_.measure(k));

@@ -82,7 +82,8 @@ class ClearanceMeasure {
 
   /// Takes all gaps of two windows at once, because a branch on whether one is below the best so far is
   /// unpredictable.
-  void meet(const Transform& at, Discs a, Discs b, std::uint32_t first_a, std::uint32_t first_b) noexcept {
+  [[gnu::always_inline]] void meet(const Transform& at, Discs a, Discs b, std::uint32_t first_a,
+                                   std::uint32_t first_b) noexcept {
     if (segments_ != nullptr) return meet_segments(at, a, b, first_a, first_b);
     alignas(64) float gaps[block_pairs];
     visit_disc_pairs<Simd>(
@@ -93,6 +94,8 @@ class ClearanceMeasure {
     take_discs(least, first_a + k / block_width, first_b + k % block_width);
   }
 
+  /// Returns 64 u S, metres.
+  float slack() const noexcept { return slack_; }
   const Tree& tree_a() const noexcept { return *tree_a_; }
   const Tree& tree_b() const noexcept { return *tree_b_; }
   void take_discs(float gap, std::uint32_t a, std::uint32_t b) noexcept { offer({gap, true, a, b}); }

@@ -37,9 +37,11 @@ class NearestSearch {
     ++size_;
   }
 
-  /// Searches all pairs; their measures then hold the answers.
-  void run() noexcept {
+  /// Searches all pairs; their measures then hold the answers. Calls between() when each pair has reached its first leaves.
+  template <class Between>
+  void run(Between between) noexcept {
     descend();
+    between();
     inner_.size = 0;
     for (std::uint32_t depth = max_kept; depth-- > 0;) {
       for (std::uint32_t pair = 0; pair < size_; ++pair)
@@ -158,7 +160,7 @@ class NearestSearch {
     return bits;
   }
 
-  void meet(const Step& step) noexcept {
+  [[gnu::always_inline]] void meet(const Step& step) noexcept {
     Searched& pair = pairs_[step.pair];
     traversal_.meet(pair.at, step.a, step.b, pair.stride_a, pair.stride_b, pair.measure);
   }

@@ -33,10 +33,19 @@ namespace bch::detail {
 /// its edge, and so one that is no farther from a point at D' than sqrt(D'^2 + r^2). So what is nearest is sought among discs
 /// alone, and the leaves that may hold it are put by until the search ends, when few of them are left.
 ///
+/// Which pairs of segments are measured in double. Their distances are computed in float first, f, all of one search with one placement:
+///
+///     |f - s| <= 30 u S + 14 u D      6 u S + 2 u D for B's ends placed in float, 12 u (D + 2 S) for the steps to the nearest point
+///
+/// So the least w is at most f * longer + slack (slack = 64 u S) for every pair, and also at most the best so far. A pair may reach that
+/// only if its f is at most (that + m + slack) * longer. About one pair in ten is left.
+///
 /// `Search`: what one pair of agents is sought with; it has
 ///
 ///     const Tree &tree_a(), &tree_b()
 ///     float best()                                      gaps of leaves above it are of no interest
+///     float nearest().distance                          no w above it is of interest
+///     float slack()                                     64 u S
 ///     void take_segments(float w, uint32 a, uint32 b)   named by the points where they begin
 ///     void take_discs(float gap, uint32 a, uint32 b)    of leaves with too many segments
 template <class Simd, class Search>
@@ -60,21 +69,14 @@ class SegmentGaps : private SegmentBatch<Simd> {
   void add(std::uint32_t number, Search& search, std::uint32_t leaf_a, std::uint32_t leaf_b,
            float gap) noexcept {
     if (open_size_ == open_capacity) finish();
-    open_[open_size_++] = {&search, number, leaf_a, leaf_b, gap};
+    open_[open_size_] = {leaf_a, leaf_b, gap, last_[number]};
+    searches_[number] = &search;
+    last_[number] = ++open_size_;
   }
 
-  /// Measures all that were put by and may still be nearest.
-  [[gnu::noinline]] void finish() noexcept {
-    for (std::uint32_t i = 0; i < open_size_; ++i) {
-      const Leaves& leaves = open_[i];
-      Search& search = *leaves.search;
-      if (leaves.gap > search.best()) continue;
-      if (!this->collect(leaves.number, this->row(search.tree_a(), leaves.a), 0,
-                         this->row(search.tree_b(), leaves.b), 0, i, [this] { measure_all(); }))
-        search.take_discs(leaves.gap < 0 ? 0 : leaves.gap, leaves.a, leaves.b);
-    }
-    measure_all();
-    open_size_ = 0;
+  /// Measures the segments of all leaves that were put by and may still hold what is nearest.
+  void finish() noexcept {
+    if (open_size_ != 0) measure_all();
   }
 
  private:
@@ -85,25 +87,66 @@ class SegmentGaps : private SegmentBatch<Simd> {
   static constexpr std::uint32_t open_capacity = 1024;
 
   static constexpr double near = 1 - 0x1p-21;
-  static constexpr float of_distance = 0x1p-19f;
+  static constexpr float of_distance = 0x1p-19f, longer = 1 + 0x1p-16f;
   static constexpr double u = rounding::unit_roundoff;
   static_assert((1 - near) >= (rounding::terms::position + 2) * u);
   static_assert(double{of_distance} >= (2 * rounding::terms::position + 8 + 4) * u);
   static_assert(rounding::segment_margin >= (rounding::terms::segment_place + rounding::terms::higher) * u);
 
   struct Leaves {
-    Search* search;
-    std::uint32_t number, a, b;
+    std::uint32_t a, b;
     float gap;
+    std::uint32_t before;  ///< 1 + the index of the same search's leaves before, or 0
   };
 
   [[gnu::noinline]] void measure_all() noexcept {
+    for (std::uint32_t number = 0; number < max_searches; ++number) {
+      if (last_[number] == 0) continue;
+      Search& search = *searches_[number];
+      for (std::uint32_t left = last_[number]; left != 0;) {
+        const Leaves& leaves = open_[left - 1];
+        left = leaves.before;
+        if (leaves.gap > search.best()) continue;
+        if (!this->collect(number, this->row(search.tree_a(), leaves.a), 0,
+                           this->row(search.tree_b(), leaves.b), 0, number,
+                           [&] { measure_collected(number); }))
+          search.take_discs(leaves.gap < 0 ? 0 : leaves.gap, leaves.a, leaves.b);
+      }
+      measure_collected(number);
+      last_[number] = 0;
+    }
+    open_size_ = 0;
+  }
+
+  /// Measures all pairs that were collected. They are of one search.
+  [[gnu::noinline]] void measure_collected(std::uint32_t number) noexcept {
+    if (this->size() > Simd::width) retain_nearest(number);
     float gap[Simd::width];
     this->test_all([&](std::uint32_t k) { return measure(k, gap); },
                    [&](std::uint32_t k, unsigned lane) {
-                     Search& search = *open_[this->owner(k + lane)].search;
-                     search.take_segments(gap[lane], this->segment_a(k + lane), this->segment_b(k + lane));
+                     searches_[number]->take_segments(gap[lane], this->segment_a(k + lane),
+                                                      this->segment_b(k + lane));
                    });
+  }
+
+  /// Retains the pairs that may be nearest by their distances in float.
+  void retain_nearest(std::uint32_t number) noexcept {
+    const Search& search = *searches_[number];
+    const auto b_in_a = places_[number].b_in_a.template in_lanes<Float>();
+    alignas(64) float squares[Batch::capacity];
+    Float least(__builtin_inff());
+    this->fill_register();
+    for (std::uint32_t k = 0; k < this->size(); k += Simd::width) {
+      const Float square = this->load(k, b_in_a).square_of_ends();
+      Simd::store(squares + k, square);
+      least = xsimd::min(square, least);
+    }
+    const float slack = search.slack(), margin = static_cast<float>(places_[number].margin);
+    const float bound = __builtin_sqrtf(Simd::least(least)) * longer + slack,
+                best = search.nearest().distance;
+    const float limit = ((bound < best ? bound : best) + margin + slack) * longer;
+    this->retain(
+        [&](std::uint32_t k) { return Simd::bits(Simd::load(squares + k) <= Float(limit * limit)); });
   }
 
   /// Measures a register of pairs. Returns: bits of all of them.
@@ -120,6 +163,8 @@ class SegmentGaps : private SegmentBatch<Simd> {
   }
 
   PlacedSegments places_[max_searches];
+  Search* searches_[max_searches];
+  std::uint32_t last_[max_searches] = {};  ///< counted as Leaves::before
   std::uint32_t open_size_ = 0;
   Leaves open_[open_capacity];
 };

@@ -5,6 +5,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <type_traits>
 
 #include "kernel/simd/leaf_segments.hpp"
 #include "kernel/simd/transform.hpp"
@@ -14,55 +15,62 @@
 
 namespace bch::detail {
 
-/// Holds the geometry of two segments in double, lane = pair: p of A, and q of B as the floats of a placement put it into A's frame. Every
-/// operation is of a fixed sequence, which baselines/ writes down again; layout/base/rounding.hpp, V, derives what they are off by.
-template <class Simd>
+/// Holds the geometry of two segments, lane = pair: p of A, and q of B as the floats of a placement put it into A's frame. Every
+/// operation is of a fixed sequence. In double, baselines/ writes it down again, and layout/base/rounding.hpp, V, derives what it is off by.
+template <class Simd, class Real = typename Simd::Double>
 struct SegmentPair {
-  using Double = typename Simd::Double;
-  using Point = PointIn<Double>;
+  using Point = PointIn<Real>;
 
   Point p0, p1, q0, q1;
 
   /// Holds the sides of the line of one segment on which the ends of another lie.
   struct Sides {
-    Double high, low;  ///< cross products of both ends, the larger and the smaller
-    Double margin;     ///< the margin times the L1 length of the segment, at least its length
+    Real high, low;  ///< cross products of both ends, the larger and the smaller
+    Real margin;     ///< the margin times the L1 length of the segment, at least its length
 
     /// Returns a value above 0 where both ends are farther than the margin on one side.
-    Double beside() const noexcept { return xsimd::max(low, Double(0.0) - high) - margin; }
+    Real beside() const noexcept { return xsimd::max(low, Real(0.0) - high) - margin; }
     /// Returns a value above 0 where the ends are surely on different sides.
-    Double across() const noexcept {
-      return xsimd::min(high, Double(0.0) - low) - Double(rounding::sure_share) * margin;
+    Real across() const noexcept {
+      return xsimd::min(high, Real(0.0) - low) - Real(rounding::sure_share) * margin;
     }
   };
-  Sides sides_of_p(Double margin) const noexcept { return sides(p0, p1, q0, q1, margin); }
-  Sides sides_of_q(Double margin) const noexcept { return sides(q0, q1, p0, p1, margin); }
+  Sides sides_of_p(Real margin) const noexcept { return sides(p0, p1, q0, q1, margin); }
+  Sides sides_of_q(Real margin) const noexcept { return sides(q0, q1, p0, p1, margin); }
 
   /// Returns the square of the least distance of an end from the other segment.
-  Double square_of_ends() const noexcept {
+  Real square_of_ends() const noexcept {
     return xsimd::min(xsimd::min(square_distance(p0, q0, q1), square_distance(p1, q0, q1)),
                       xsimd::min(square_distance(q0, p0, p1), square_distance(q1, p0, p1)));
   }
 
  private:
+  /// Returns less than the square of every segment that is no point.
+  static Real shortest_square() noexcept {
+    if constexpr (std::is_same_v<Real, typename Simd::Double>)
+      return Real(1e-300);
+    else
+      return Real(1e-37f);
+  }
+
   static Point way(Point from, Point to) noexcept { return {to.x - from.x, to.y - from.y}; }
 
-  static Sides sides(Point from, Point to, Point first, Point second, Double margin) noexcept {
+  static Sides sides(Point from, Point to, Point first, Point second, Real margin) noexcept {
     const Point along = way(from, to), to_first = way(from, first), to_second = way(from, second);
-    const Double of_first = along.x * to_first.y - along.y * to_first.x,
-                 of_second = along.x * to_second.y - along.y * to_second.x;
+    const Real of_first = along.x * to_first.y - along.y * to_first.x,
+               of_second = along.x * to_second.y - along.y * to_second.x;
     return {xsimd::max(of_first, of_second), xsimd::min(of_first, of_second),
             margin * (xsimd::abs(along.x) + xsimd::abs(along.y))};
   }
 
   /// Returns the square of the distance from a point to the nearest one of a segment.
-  static Double square_distance(Point p, Point from, Point to) noexcept {
+  static Real square_distance(Point p, Point from, Point to) noexcept {
     const Point along = way(from, to), to_p = way(from, p);
     // A segment without length has a share of 0, by a number that is less than every other square.
-    const Double square = xsimd::max(along.x * along.x + along.y * along.y, Double(1e-300));
-    const Double share =
-        xsimd::max(xsimd::min((to_p.x * along.x + to_p.y * along.y) / square, Double(1.0)), Double(0.0));
-    const Double x = to_p.x - share * along.x, y = to_p.y - share * along.y;
+    const Real square = xsimd::max(along.x * along.x + along.y * along.y, shortest_square());
+    const Real share =
+        xsimd::max(xsimd::min((to_p.x * along.x + to_p.y * along.y) / square, Real(1.0)), Real(0.0));
+    const Real x = to_p.x - share * along.x, y = to_p.y - share * along.y;
     return x * x + y * y;
   }
 };
@@ -136,17 +144,28 @@ class SegmentBatch {
   /// Calls test(k) for every register of pairs, which returns bits of lanes, and use(k, lane) for those that are set.
   template <class Test, class Use>
   [[gnu::always_inline]] void test_all(Test test, Use use) noexcept {
+    fill_register();
+    visit(test, use);
+    size_ = 0;
+  }
+  /// Repeats the last pair up to the end of its register.
+  void fill_register() noexcept {
     for (std::uint32_t k = size_; k % Simd::width != 0; ++k)
       segment_a_[k] = segment_a_[size_ - 1], segment_b_[k] = segment_b_[size_ - 1],
       owner_[k] = owner_[size_ - 1];
-    for (std::uint32_t k = 0; k < size_; k += Simd::width) {
-      std::uint32_t open = test(k);
-      if (size_ - k < Simd::width) open &= (std::uint32_t{1} << (size_ - k)) - 1;
-      for (; open != 0; open &= open - 1) use(k, static_cast<unsigned>(__builtin_ctz(open)));
-    }
-    size_ = 0;
+  }
+  /// Retains the pairs whose bits test(k) sets.
+  template <class Test>
+  [[gnu::always_inline]] void retain(Test test) noexcept {
+    std::uint32_t retained = 0;
+    visit(test, [&](std::uint32_t k, unsigned lane) {
+      segment_a_[retained] = segment_a_[k + lane], segment_b_[retained] = segment_b_[k + lane];
+      owner_[retained++] = owner_[k + lane];
+    });
+    size_ = retained;
   }
 
+  std::uint32_t size() const noexcept { return size_; }
   /// Returns what was collected at place k: its owner, and the points where the segments begin.
   std::uint32_t owner(std::uint32_t k) const noexcept { return owner_[k] & 0xffff; }
   std::uint32_t segment_a(std::uint32_t k) const noexcept { return segment_a_[k]; }
@@ -183,8 +202,24 @@ class SegmentBatch {
                      Simd::gather(&placed_->margin, margin_index + part * Simd::doubles)};
     }
   }
+  /// Loads the pairs of a register, all with one placement, in floats.
+  SegmentPair<Simd, Float> load(std::uint32_t k, const TransformOf<Float>& b_in_a) const noexcept {
+    Float p[4], q[4];
+    Simd::template load_records<2>(&points_->x, segment_a_ + k, p);
+    Simd::template load_records<2>(&points_->x, segment_b_ + k, q);
+    return {{p[0], p[1]}, {p[2], p[3]}, b_in_a.apply(q[0], q[1]), b_in_a.apply(q[2], q[3])};
+  }
 
  private:
+  template <class Test, class Use>
+  [[gnu::always_inline]] void visit(Test test, Use use) noexcept {
+    for (std::uint32_t k = 0; k < size_; k += Simd::width) {
+      std::uint32_t open = test(k);
+      if (size_ - k < Simd::width) open &= (std::uint32_t{1} << (size_ - k)) - 1;
+      for (; open != 0; open &= open - 1) use(k, static_cast<unsigned>(__builtin_ctz(open)));
+    }
+  }
+
   /// The most pairs of segments of two leaves that are collected without a loop over them. Most leaves have one or two segments.
   static constexpr std::uint32_t few = 4;
   /// Holds two numbers of 32 bits each, which are added at once.
