@@ -40,23 +40,23 @@ People two_streams(std::uint32_t count, std::uint32_t shapes) {
   return people;
 }
 
-// [parting]
-/// Moves people apart who collide, each half of the way and at most 10 cm in a step, and out of walls.
-void part(People& people, bch::Crowd& crowd, const bch::ShapeSet& bodies, const bch::ObstacleSet& walls) {
+// [separation]
+/// Separates people who collide, each by half of the depth but at most 10 cm, and moves people out of walls.
+void separate(People& people, bch::Crowd& crowd, const bch::ShapeSet& bodies, const bch::ObstacleSet& walls) {
   const bch::Crowd::Penetrations found = crowd.penetrations(bodies, people.agents());
   for (std::size_t k = 0; k < found.pairs.size(); ++k) {
     const auto [depth, x, y] = found.penetrations[k];
     const auto [a, b] = found.pairs[k];
-    const double way = std::fmin(0.5 * depth, 0.1);
-    people.x[a] += way * x, people.y[a] += way * y;
-    people.x[b] -= way * x, people.y[b] -= way * y;
+    const double shift = std::fmin(0.5 * depth, 0.1);
+    people.x[a] += shift * x, people.y[a] += shift * y;
+    people.x[b] -= shift * x, people.y[b] -= shift * y;
   }
   std::vector<bch::Penetration> out(people.x.size());
   bch::penetration(bodies, people.agents(), walls, out);
   for (std::size_t i = 0; i < out.size(); ++i)
     people.x[i] += out[i].depth * out[i].x, people.y[i] += out[i].depth * out[i].y;
 }
-// [parting]
+// [separation]
 
 int main() {
   // [bodies]
@@ -83,11 +83,11 @@ int main() {
 
   for (int step = 0; step < 200; ++step) {
     people.walk(0.05);
-    part(people, crowd, bodies, walls);
+    separate(people, crowd, bodies, walls);
   }
   int sweeps = 0;
   for (; sweeps < 100 && !crowd.collisions(bodies, people.agents()).empty(); ++sweeps)
-    part(people, crowd, bodies, walls);
-  std::printf("after 10 s of walking %d more sweeps part all\n", sweeps);
+    separate(people, crowd, bodies, walls);
+  std::printf("after 10 s of walking, %d more sweeps separate everybody\n", sweeps);
   return sweeps < 100 ? 0 : 1;
 }
