@@ -20,7 +20,7 @@ struct CrowdMemory;
 
 namespace bch {
 
-/// Holds what is the same in all calls of a Crowd.
+/// Holds the options that all calls of a Crowd share.
 struct CrowdOptions {
   /// Holds the periods of periodic boundary conditions along x and y, metres; 0: not periodic.
   struct Period {
@@ -28,12 +28,12 @@ struct CrowdOptions {
   };
 
   Period period = {};
-  /// Limits the candidates of a call, which throws std::length_error beyond: n agents at one place are n^2 /
-  /// 2 pairs.
+  /// Limits the candidates of a call, which throws std::length_error beyond: n agents at one place make
+  /// n^2 / 2 of them.
   std::size_t max_pairs = std::numeric_limits<std::size_t>::max();
 };
 
-/// Selects the pairs of a crowd that queries are about, as physics engines do.
+/// Selects the pairs of a crowd that a query considers, as collision filters of physics engines do.
 /// Two agents are a pair if each one's mask has a bit of the other's category.
 /// Sizes:   as many categories and masks as agents, or none: then category 1, and a mask of all bits.
 struct PairFilter {
@@ -46,16 +46,16 @@ struct PairFilter {
 ///
 ///     bch::Crowd crowd;
 ///     for (const auto [a, b] : crowd.collisions(shapes, {shape, x, y, heading})) ...
-/// Memory:  answers are valid until the next call; the object keeps its memory, so create it once.
+/// Memory:  answers are valid until the next call; the object reuses its memory, so create it once.
 /// Errors:  throws std::invalid_argument like validate(shapes, agents), and on options out of range.
 /// Threads: runs in the caller's TBB arena; one call at a time. One Crowd per TBB thread is enough.
 /// See:     "Crowds" in kernel/accuracy.md, for the order of pairs, periods and memory.
 class Crowd {
  public:
-  /// Names an agent of a pair as seen from the other.
+  /// Names the other agent of a pair.
   struct Neighbour {
     std::uint32_t agent;
-    std::uint32_t pair;  ///< the pair's number in the answer
+    std::uint32_t pair;  ///< index of the pair in the answer
     friend bool operator==(const Neighbour&, const Neighbour&) = default;
   };
 
@@ -73,7 +73,7 @@ class Crowd {
     std::span<const Pair> span() const noexcept { return pairs_; }
 
     /// Returns the same pairs by agent: one row per agent of the crowd, ascending by neighbour.
-    /// Rows are made at the first call.
+    /// The first call builds the rows.
     /// Errors:  throws std::length_error beyond 2^32 - 1 pairs.
     Rows<Neighbour> by_agent() const;
 
@@ -83,23 +83,23 @@ class Crowd {
     Pairs(std::span<const Pair> pairs, detail::CrowdMemory& memory) noexcept
         : pairs_(pairs), memory_(&memory) {}
 
-    Rows<Neighbour> nearest(std::span<const float> distance, std::uint32_t most) const;
+    Rows<Neighbour> nearest(std::span<const float> distance, std::uint32_t max_count) const;
 
     std::span<const Pair> pairs_;
     detail::CrowdMemory* memory_ = nullptr;
   };
 
-  /// Holds the pairs that collide, and their contacts.
+  /// Holds the pairs that have contacts, and these.
   struct Contacts {
-    Pairs pairs;              ///< those that have a contact
+    Pairs pairs;
     Rows<DiscPair> contacts;  ///< one row per pair, none empty
   };
 
   /// Represents an overlap of two spheres in space.
-  /// The normal leads from the first agent's sphere to the second's; where centres coincide it is (1, 0, 0).
+  /// The normal points from the first agent's sphere to the second's; if centres coincide it is (1, 0, 0).
   /// Moving the second agent by depth * normal separates the two spheres.
   struct SphereContact {
-    DiscPair spheres;  ///< their numbers, as in BodySet::spheres()
+    DiscPair spheres;  ///< indices into BodySet::spheres() of each agent's body
     /// The point of the first sphere that is deepest in the second, from the first agent's position, metres.
     Vec3 point;
     Vec3 normal;
@@ -112,8 +112,8 @@ class Crowd {
     Rows<SphereContact> contacts;  ///< one row per pair, none empty
   };
 
-  /// Holds the pairs that are near each other. Arrays have one value per pair; their meaning is that of
-  /// ClearanceAnswers.
+  /// Holds the pairs within max_distance of each other.
+  /// Arrays have one value per pair, as in ClearanceAnswers.
   struct Clearances {
     Pairs pairs;
     std::span<const float> distance;
@@ -121,15 +121,15 @@ class Crowd {
     std::span<const DiscPair> discs;
     std::span<const NearestPoints> points;
 
-    /// Returns the nearest others of each agent, at most `most`, in the order of clearances().
-    /// Of equal distances the lower agent comes first. With Overlap::deepest the deepest overlap is the
-    /// nearest. Crowd models such as ORCA take these as neighbours.
+    /// Returns at most `max_count` neighbours of each agent, the nearest first.
+    /// They are those of its pairs. Of equal distances the lower agent comes first. With Overlap::deepest the
+    /// deepest overlap is the nearest. Crowd models such as ORCA use these as neighbours.
     /// Errors:  throws std::length_error beyond 2^32 - 1 pairs.
-    Rows<Neighbour> nearest(std::uint32_t most) const { return pairs.nearest(distance, most); }
+    Rows<Neighbour> nearest(std::uint32_t max_count) const { return pairs.nearest(distance, max_count); }
   };
 
-  /// Holds the bodies of spheres that are near each other. The meaning of arrays is that of
-  /// BodyClearanceAnswers.
+  /// Holds the pairs of bodies of spheres within max_distance of each other.
+  /// Arrays have one value per pair, as in BodyClearanceAnswers.
   struct BodyClearances {
     Pairs pairs;
     std::span<const float> distance;
@@ -137,11 +137,11 @@ class Crowd {
     std::span<const DiscPair> spheres;
     std::span<const BodyClearanceAnswers::Points> points;
 
-    /// Returns the nearest others of each agent, as Clearances::nearest() does.
-    Rows<Neighbour> nearest(std::uint32_t most) const { return pairs.nearest(distance, most); }
+    /// Returns the nearest neighbours of each agent, as Clearances::nearest() does.
+    Rows<Neighbour> nearest(std::uint32_t max_count) const { return pairs.nearest(distance, max_count); }
   };
 
-  /// Holds the pairs that collide, and for each the move of its first agent that separates the two.
+  /// Holds the pairs that collide, and for each the displacement of its first agent that separates the two.
   struct Penetrations {
     Pairs pairs;
     std::span<const Penetration> penetrations;  ///< one per pair
@@ -149,23 +149,23 @@ class Crowd {
 
   /// Holds the options of resolve().
   struct ResolveOptions {
-    std::uint32_t directions = 16;  ///< of nearest_free()
+    std::uint32_t directions = 16;  ///< that nearest_free() tries
     std::uint32_t sweeps = 100;     ///< at most
     double gap = 0.001;             ///< metres, clearance to leave between separated agents
-    double largest_step = 0.05;     ///< metres, limit of an agent's move in a sweep
-    double largest_shift = std::numeric_limits<double>::infinity();  ///< metres, limit of its total move
-    /// Weights the moves of agents, from 0 (fixed) to 1. Of two agents, the one with half the mobility moves
-    /// half as far.
-    std::span<const double> mobility = {};   ///< none: 1 each
-    const ObstacleSet* obstacles = nullptr;  ///< walls that bodies must not touch, either
+    double largest_step = 0.05;     ///< metres, limit of an agent's displacement in a sweep
+    double largest_shift = std::numeric_limits<double>::infinity();  ///< metres, limit in all sweeps
+    /// Weights the displacements of agents, from 0 (fixed) to 1. Of two agents, the one with half the
+    /// mobility moves half as far.
+    std::span<const double> mobility = {};   ///< one per agent; empty: 1 each
+    const ObstacleSet* obstacles = nullptr;  ///< walls that bodies must not touch; null: none
     const Implementation* implementation = nullptr;
   };
-  /// Holds where the agents of a crowd are after resolve(), and what it left.
+  /// Holds where the agents of a crowd are after resolve(), and what they still touch.
   struct Resolved {
     std::span<const double> x, y;                ///< one per agent
-    Pairs left;                                  ///< unresolved: those that still collide
-    std::span<const std::uint32_t> touch_walls;  ///< agents, ascending
-    std::uint32_t sweeps;                        ///< that were made
+    Pairs left;                                  ///< pairs that still collide
+    std::span<const std::uint32_t> touch_walls;  ///< agents that still touch a wall, ascending
+    std::uint32_t sweeps;                        ///< how many were made
   };
 
   Crowd();
@@ -177,8 +177,8 @@ class Crowd {
 
   /// Finds the pairs whose root discs, at the agents' levels, come within a margin of each other.
   /// They contain every pair that collides, and every pair with a clearance of at most the margin. For
-  /// time_of_impact() the margin has to be twice the longest displacement of an agent. Root discs may be
-  /// farther apart by a few millionths of the margin, of their radii and of their shapes' reaches.
+  /// time_of_impact() use a margin of twice the longest displacement of an agent. Some pairs may be farther
+  /// apart, by a few millionths of the margin, of their radii and of their shapes' reaches.
   /// Units:   the margin is metres, from 0 to 2e9.
   Pairs candidates(const ShapeSet& shapes, const Agents& agents, double margin = 0,
                    const PairFilter& filter = {}) &;
@@ -187,36 +187,36 @@ class Crowd {
   Pairs collisions(const ShapeSet& shapes, const Agents& agents, const CollideOptions& options = {},
                    const PairFilter& filter = {}) &;
 
-  // Queries of bodies of spheres answer as those of shapes do. Candidates are pairs whose discs, as seen from
-  // above, and whose heights come within the margin of each other.
+  // The same for bodies of spheres. Candidates are pairs whose enclosing discs, as seen from above, and whose
+  // heights come within the margin of each other.
   Pairs candidates(const BodySet& bodies, const Agents& agents, double margin = 0,
                    const PairFilter& filter = {}) &;
   Pairs collisions(const BodySet& bodies, const Agents& agents,
                    const Implementation* implementation = nullptr, const PairFilter& filter = {}) &;
 
   /// Finds all pairs of discs that make agents collide.
-  /// They overlap, all ancestors of one overlap all ancestors of the other, and with exact leaves segments of
-  /// the two meet; see Leaves. A pair that collides only because one agent is inside the other's outline has
-  /// none. For forces use clearances() with Overlap::deepest; "Contacts" in kernel/accuracy.md says why.
+  /// Two such discs overlap, all ancestors of one overlap all ancestors of the other, and with exact leaves
+  /// their segments meet; see Leaves. A pair that collides only because one agent is inside the other's
+  /// outline has no contact. For forces use clearances() with Overlap::deepest; see "Contacts" in
+  /// kernel/accuracy.md.
   /// Order:   contacts of a pair by the first discs, then the second discs.
   Contacts contacts(const ShapeSet& shapes, const Agents& agents, const CollideOptions& options = {},
                     const PairFilter& filter = {}) &;
 
   /// Finds the contacts of given pairs: one row per pair, empty where there are none.
   /// A pair in the other order has the same contacts with their two discs exchanged, sorted in that order. An
-  /// agent may be paired with itself. Two equal cuts of n discs at one place have at most n^2 contacts.
-  /// Errors:  also like collide(), and on a period, which given pairs cannot have; std::bad_alloc or
-  ///          std::length_error where memory does not hold the contacts.
+  /// agent may be paired with itself. Two cuts of n discs have at most n^2 contacts.
+  /// Errors:  also like collide(), and if the Crowd has a period; std::bad_alloc or std::length_error if
+  ///          memory does not suffice.
   Rows<DiscPair> contacts(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                           const CollideOptions& options = {}) &;
 
   /// Finds all pairs of spheres that overlap, of bodies that collide: contacts for a physics engine.
-  /// A pair has hundreds where bodies are deep in each other; clearances() with Overlap::deepest returns the
-  /// deepest alone.
+  /// Bodies deep in each other have hundreds; clearances() with Overlap::deepest returns only the deepest.
   /// Order:   contacts of a pair by the first spheres, then the second spheres.
   BodyContacts contacts(const BodySet& bodies, const Agents& agents,
                         const Implementation* implementation = nullptr, const PairFilter& filter = {}) &;
-  /// Finds those of given pairs, as for shapes.
+  /// Finds the contacts of given pairs, as for shapes.
   Rows<SphereContact> contacts(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs,
                                const Implementation* implementation = nullptr) &;
 
@@ -224,29 +224,29 @@ class Crowd {
   Clearances clearances(const ShapeSet& shapes, const Agents& agents, const ClearanceOptions& options,
                         const PairFilter& filter = {}) &;
 
-  /// Finds the same of bodies of spheres, in space.
-  /// With Overlap::deepest it has one contact of each pair that collides: where the deepest two spheres
-  /// overlap, with a normal and a depth that grows from 0, for physics.
+  /// Finds the pairs of bodies of spheres whose clearance() in space is at most max_distance.
+  /// With Overlap::deepest each pair that collides has one contact for physics: the two spheres that overlap
+  /// the deepest, with a normal and a depth that grows from 0.
   BodyClearances clearances(const BodySet& bodies, const Agents& agents, const BodyClearanceOptions& options,
                             const PairFilter& filter = {}) &;
 
-  /// Finds the pairs that collide, and their penetration() by so many directions.
+  /// Finds the pairs that collide, and their penetration() with this number of directions.
   Penetrations penetrations(const ShapeSet& shapes, const Agents& agents, std::uint32_t directions = 16,
                             const CollideOptions& options = {}, const PairFilter& filter = {}) &;
   Penetrations penetrations(const BodySet& bodies, const Agents& agents, std::uint32_t directions = 16,
                             const Implementation* implementation = nullptr, const PairFilter& filter = {}) &;
 
   /// Finds the obstacles that each agent collides with: one row per agent, ascending.
-  /// An agent has none exactly where collide() with obstacles answers 0.
+  /// A row is empty exactly if collide() with obstacles answers 0 for the agent.
   Rows<std::uint32_t> obstacles(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
                                 const CollideOptions& options = {}) &;
   Rows<std::uint32_t> obstacles(const BodySet& bodies, const Agents& agents, const ObstacleSet& obstacles,
                                 const Implementation* implementation = nullptr) &;
 
   /// Moves agents on the ground until no two bodies collide and nobody touches a wall.
-  /// Moves are as short as it can make them, and agents do not turn. Each sweep moves all agents at once;
-  /// where there is no room, pairs are left after the last one. With a period, agents may leave it: positions
-  /// count modulo the period. See "A crowd without overlaps" in kernel/README.md.
+  /// It keeps displacements small, and turns nobody. Each sweep moves all agents at once; if there is no
+  /// room, some pairs still collide after the last one. With a period, positions are modulo it, and may leave
+  /// it. See "A crowd without overlaps" in kernel/README.md.
   /// Memory:  allocates in every sweep, as nearest_free() does.
   /// Errors:  also on an odd number of directions, and on lengths and mobilities out of range.
   Resolved resolve(const BodySet& bodies, const Agents& agents, const ResolveOptions& options,

@@ -22,7 +22,7 @@ struct PathKey {
 };
 
 /// Describes an agent who goes along a path and plays a clip.
-/// Before the first key of the path the agent stands at that key, and after the last one at that.
+/// Before the first key of the path the agent stands at the first key, and after the last one at the last.
 struct Motion {
   const AnimatedShape* shape;
   std::span<const PathKey> path;  ///< at least one key, ascending
@@ -38,7 +38,7 @@ struct TimeInterval {
 
 /// Finds when the two motions of each pair first touch, or infinity if they do not within the interval.
 /// Every real time counts, not samples. The time is never late, and early by at most the tolerance, a
-/// distance, over the speed of approach: see "Motions" in kernel/accuracy.md.
+/// distance, divided by the speed of approach: see "Motions" in kernel/accuracy.md.
 /// Sizes:   as many times as pairs, which name motions by index. A motion may be paired with itself.
 /// Errors:  throws std::invalid_argument, before anything is written, on sizes that differ, on what is
 ///          missing or out of range, naming it, and on a search of more than 1e8 steps.

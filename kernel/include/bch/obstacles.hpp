@@ -21,38 +21,40 @@ struct ObstacleView;
 
 namespace bch {
 
-/// Holds obstacles in arrays of the caller: points, paths made of points, and obstacles made of paths (CSR).
-/// A path of one point is a post; a path without points is ignored.
-/// Units:   metres in the world, heights in that of Agents::z; |x|, |y| <= 1e9, heights are numbers or
-///          infinite.
+/// Holds obstacles in arrays of the caller: points, polylines of points, and obstacles of polylines (CSR).
+/// A polyline of one point is a post; one without points is ignored.
+/// Units:   metres in the world, heights above the same zero as Agents::z; |x|, |y| <= 1e9, heights are
+///          numbers or infinite.
 struct ObstacleArrays {
-  std::span<const double> x, y;                 ///< the points of all paths
-  std::span<const std::uint64_t> path_offsets;  ///< path p has points [p] .. [p + 1]; one more than paths
-  std::span<const std::uint64_t> obstacle_offsets =
-      {};                                      ///< obstacle o has paths [o] .. [o + 1]; empty: one path each
-  std::span<const std::uint8_t> is_area = {};  ///< per obstacle, see ObstacleSet; empty: no areas
+  std::span<const double> x, y;  ///< the points of all polylines
+  /// Polyline p has points path_offsets[p] .. path_offsets[p + 1]; one more than polylines.
+  std::span<const std::uint64_t> path_offsets;
+  /// Obstacle o has polylines obstacle_offsets[o] .. obstacle_offsets[o + 1]; empty: one polyline each.
+  std::span<const std::uint64_t> obstacle_offsets = {};
+  std::span<const std::uint8_t> is_area = {};     ///< per obstacle, see ObstacleSet; empty: no areas
   std::span<const double> bottom = {}, top = {};  ///< per obstacle, heights; empty: infinite
 };
 
 /// Selects the meaning of polygons in a file.
 enum class Polygons {
-  solid,     ///< each polygon is an obstacle that holds what it encloses
-  walkable,  ///< each polygon is the floor that agents walk on: its rings are walls, as lines
+  solid,     ///< each polygon is an obstacle: an area
+  walkable,  ///< each polygon is a floor for agents, and its rings are walls: lines
 };
 
 /// Holds obstacles that do not move: lines, such as walls, and areas, such as pillars and furniture.
-/// A line is one or more open polylines. An area is one or more rings, which close themselves, and the points
-/// that they enclose by the even-odd rule. Obstacles may cross, touch, nest and repeat each other and
-/// themselves; only penetration() needs simple polygons. Segments are numbered in the order of the paths.
+/// A line is one or more open polylines. An area is one or more polylines that are closed to rings, and the
+/// points that they enclose by the even-odd rule. Obstacles may cross, touch, nest and repeat each other and
+/// themselves; only penetration() needs simple polygons. Segments are numbered in the order of the points.
 /// Threads: any number of queries may read one set at once. A set that was moved from can only be assigned to
 ///          or destroyed.
 class ObstacleSet {
  public:
   /// Copies the obstacles, and builds a tree of boxes and a grid of distances for them.
   /// Cost:    2 s for 10^6 segments, and 125 bytes for each. Runs in the caller's TBB arena.
-  /// Errors:  throws std::invalid_argument on sizes that differ, on offsets that descend or lead out of their
+  /// Errors:  throws std::invalid_argument on sizes that differ, on offsets that descend or leave their
   ///          array, and, naming it, on a point that is not finite or beyond the limits, or on an obstacle
-  ///          whose bottom is not at most its top; std::length_error beyond 2^31 points, paths and obstacles.
+  ///          whose bottom is not at most its top; std::length_error beyond 2^31 points, polylines and
+  ///          obstacles.
   explicit ObstacleSet(const ObstacleArrays& obstacles);
   ObstacleSet(ObstacleSet&&) noexcept;
   ObstacleSet& operator=(ObstacleSet&&) noexcept;
@@ -74,27 +76,26 @@ class ObstacleSet {
 };
 
 /// Reads obstacles from well-known text, as JuPedSim and geographic information systems write it.
-/// Each line and each solid polygon is one obstacle; of walkable polygons each ring is one. All reach from
+/// Each line and each solid polygon is one obstacle; of walkable polygons each ring is one. All extend from
 /// `bottom` to `top`. "Obstacles" in kernel/README.md lists what is read and what is ignored.
-/// Errors:  throws std::invalid_argument on malformed text, with the line, the column in bytes, what stands
-///          there and what was expected; and as ObstacleSet does.
+/// Errors:  throws std::invalid_argument on malformed text, with the line, the column in bytes, what was
+///          found and what was expected; and as ObstacleSet does.
 ObstacleSet obstacles_from_wkt(std::string_view text, Polygons polygons = Polygons::solid,
                                double bottom = -std::numeric_limits<double>::infinity(),
                                double top = std::numeric_limits<double>::infinity());
 
-// Queries of agents against obstacles. Each answers every agent as the query of the same name answers every
-// pair. A body is compared only with obstacles whose heights meet its own, as between agents with a z; sets
-// keep them with ShapeSetPlan::heights. "Obstacles" in kernel/accuracy.md bounds the errors.
+// Queries of agents against obstacles. Each answers for every agent what the query of the same name answers
+// for every pair. A body is compared only with obstacles whose heights meet its own, as between agents with a
+// z; ShapeSetPlan::heights gives shapes heights. "Obstacles" in kernel/accuracy.md bounds the errors.
 // Sizes:   one answer per agent.
 // Errors:  throw std::invalid_argument, before anything is written, as validate(shapes, agents) and the query
 //          of pairs.
-// Threads: run in the caller's TBB arena, and take memory in proportion to the segments near 64 agents for
-//          each task.
+// Threads: run in the caller's TBB arena; each task allocates memory for the segments near 64 agents.
 
 /// Tests whether each agent collides with an obstacle: writes 1 for a hit and 0 otherwise.
 /// An agent collides if a disc of its cut and all ancestors of that disc overlap the obstacle, touching
 /// included. With exact leaves the outline in that disc has to overlap it, too. An agent inside an area
-/// always collides, and so does one whose outline holds a whole path of an obstacle.
+/// always collides, and so does one whose outline contains a whole polyline of an obstacle.
 void collide(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
              std::span<std::uint8_t> hits, const CollideOptions& options = {});
 
@@ -105,9 +106,9 @@ void within(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obs
             std::span<const double> distances, std::span<std::uint8_t> answers, Leaves leaves = Leaves::discs,
             const Implementation* implementation = nullptr);
 
-// Queries of bodies of spheres. An obstacle stands upright, from its bottom to its top, on its line or over
-// its area. A sphere touches it if the distance from its centre to that solid is at most its radius. If an
-// enclosed mesh meets an obstacle, the answer is a hit. Sizes, errors, threads and memory are as above.
+// Queries of bodies of spheres. An obstacle is an upright solid, from its bottom to its top, on its line or
+// over its area. A sphere touches it if the distance from its centre to the solid is at most its radius. If
+// the mesh in a body meets an obstacle, the answer is a hit. Sizes, errors and threads are as above.
 
 /// Tests whether some sphere of each agent touches an obstacle: writes 1 for a hit and 0 otherwise.
 void collide(const BodySet& bodies, const Agents& agents, const ObstacleSet& obstacles,
@@ -124,13 +125,13 @@ void within(const BodySet& bodies, const Agents& agents, const ObstacleSet& obst
 /// That is the least gap between a sphere and an obstacle; with Overlap::zero it is 0 exactly where collide()
 /// answers 1. The direction leads from the agent to the obstacle; `spheres` holds the indices of the sphere
 /// and of the segment, or 2^32 - 1 for a sphere above, in or below an area. Points are relative to the
-/// agent's position. Of equal gaps that of the first obstacle counts.
+/// agent's position. Of equal gaps, that of the first obstacle is chosen.
 void clearance(const BodySet& bodies, const Agents& agents, const ObstacleSet& obstacles,
                const BodyClearanceAnswers& answers, const BodyClearanceOptions& options = {});
 
 /// Measures how far each agent is from the nearest obstacle.
 /// That is the least gap between a disc of its cut, or with Leaves::segments its outline, and a segment. It
-/// is 0 where they overlap, a disc is inside an area, or a whole path is inside the agent's outline. The
+/// is 0 where they overlap, a disc is inside an area, or a whole polyline is inside the agent's outline. The
 /// direction leads from the agent to the obstacle; `discs` has the agent's disc and the number of the
 /// segment; `points` are relative to the agent's position. "Obstacles" in kernel/accuracy.md has
 /// Overlap::deepest, ties and errors.
@@ -138,27 +139,27 @@ void clearance(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& 
                const ClearanceAnswers& answers, const ClearanceOptions& options = {});
 
 /// Measures how far each agent has to move to leave an obstacle, and in which direction.
-/// The move is at right angles to one segment. One move frees an agent of a convex area or a single segment;
+/// The move is perpendicular to one segment. One move frees an agent of a convex area or a single segment;
 /// for other obstacles, call again after the move. The depth is 0, and the direction (0, 0), where nothing is
 /// touched. "Obstacles" in kernel/accuracy.md has the rules.
-/// Cost:    n log n, n being the segments near the agent or no farther than the farthest that it crosses.
+/// Cost:    n log n, for the n segments near the agent or no farther than the farthest that it moves over.
 void penetration(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
                  std::span<Penetration> out, const Implementation* implementation = nullptr);
 
 /// Finds when each agent first touches an obstacle while it moves by its displacement without turning.
 /// The time is the least t in [0, 1] at which a disc of the agent's cut overlaps an obstacle, or infinity if
-/// there is none. It is 0 inside an area, and where the agent's outline holds a whole path.
+/// there is none. It is 0 inside an area, and if the agent's outline contains a whole polyline.
 void time_of_impact(const ShapeSet& shapes, const Agents& agents, const Displacements& displacements,
                     const ObstacleSet& obstacles, std::span<float> times,
                     const Implementation* implementation = nullptr);
 
 /// Finds when each motion first touches an obstacle, or infinity if it does not within the interval.
-/// Bodies count as seen from above, and obstacles at all heights. The time is never late; "Motions" in
-/// kernel/accuracy.md says how early it may be. For a body at rest, only two cycles of a looping clip are
-/// searched.
+/// Bodies are compared as seen from above, and heights of obstacles are ignored. The time is never late;
+/// "Motions" in kernel/accuracy.md says how early it may be. For a body at rest, only two cycles of a looping
+/// clip are searched.
 /// Sizes:   as many times as motions. Units: as first_contact() of pairs.
-/// Errors:  throws std::invalid_argument, before anything is written, as first_contact() of pairs. Each
-///          segment that is near counts as a step.
+/// Errors:  throws std::invalid_argument, before anything is written, as first_contact() of pairs. Each near
+///          segment is a step of the search.
 void first_contact(std::span<const Motion> motions, const ObstacleSet& obstacles,
                    const TimeInterval& interval, std::span<double> times, double tolerance = 0.005);
 

@@ -25,14 +25,14 @@ void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair>
 /// Tests whether the bodies of the two agents of each pair overlap: writes 1 for a hit and 0 otherwise.
 /// They do if some sphere of one overlaps some sphere of the other, touching included. If the enclosed meshes
 /// intersect, the answer is 1; "Bodies of spheres" in kernel/accuracy.md bounds the false hits. Bodies have
-/// one level, so agents have none or 0 for all.
+/// one level: Agents::level is empty or all 0.
 /// Sizes, errors, threads: as for collide() of a ShapeSet; `implementation` is as in CollideOptions.
 void collide(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs,
              std::span<std::uint8_t> hits, const Implementation* implementation = nullptr);
 
 /// Holds the points of two agents that are nearest to each other.
-/// Each is relative to its own agent's position, in the world's axes, metres, so it is a lever arm of a
-/// contact, at 1e9 m as at the origin.
+/// Each is relative to its own agent's position, in the world's axes, metres: the lever arm of a contact,
+/// equally exact far from the origin.
 struct NearestPoints {
   Vec2 first, second;
   friend bool operator==(const NearestPoints&, const NearestPoints&) = default;
@@ -104,25 +104,25 @@ void within(const BodySet& bodies, const Agents& agents, std::span<const Pair> p
 
 /// Holds how far, and in which direction, the first agent of a pair moves to separate from the second.
 struct Penetration {
-  /// Holds where the two touch after a move of nearest_free(): at the two parts of them that separate last.
-  /// Two segments touch at an end of one; the normal is at right angles to the other. Normals never point
+  /// Holds where the two touch after a move of nearest_free(): at the segments or spheres that separate last.
+  /// Two segments touch at an end of one; the normal is perpendicular to the other. Normals never point
   /// against the move. The two are apart by the rounding that depths include, a few micrometres per metre of
-  /// their reaches; where a leaf of more than 127 segments counts as a disc, by up to that disc.
+  /// their reaches; where a leaf of more than 127 segments is treated as a disc, by up to that disc.
   struct Touch {
     Vec3 point;   ///< relative to the first agent's position after the move, in the world's axes; metres
-    Vec3 normal;  ///< a unit vector within 1e-6, from the second agent to the first; (0, 0, 0): no collision
+    Vec3 normal;  ///< of length 1 within 1e-6, from the second agent to the first; (0, 0, 0): no collision
     friend bool operator==(const Touch&, const Touch&) = default;
   };
 
-  float depth;  ///< metres, not negative; 0: a line across the direction separates the two
-  double x, y;  ///< the direction in which the first agent moves, in the world; a unit vector within 1e-9
+  float depth;  ///< metres, not negative; 0: a line perpendicular to the direction separates the two
+  double x, y;  ///< the direction in which the first agent moves, in the world; of length 1 within 1e-9
   friend bool operator==(const Penetration&, const Penetration&) = default;
 };
 
 /// Measures how far the first agent of each pair moves along a given direction to separate from the second.
-/// Afterwards a line separates all discs of the two, and collide() answers 0. Call it for pairs that collide:
-/// the depth of others may be positive. It is 0 where ranges of height are disjoint. "Penetration" in
-/// kernel/accuracy.md defines the depth and proves its properties.
+/// Afterwards a line separates all discs of the two, and collide() answers 0. Call it only for pairs that
+/// collide: the depth of others may be positive, too. It is 0 if ranges of height are disjoint. "Penetration"
+/// in kernel/accuracy.md defines the depth and proves its properties.
 /// Sizes:   as many directions, of any length, and answers as pairs.
 /// Errors:  as collide(), and on a direction that is zero or not finite, naming the pair.
 /// Threads: runs in the caller's TBB arena. Allocates nothing.
@@ -132,8 +132,8 @@ void penetration_along(const ShapeSet& shapes, const Agents& agents, std::span<c
 
 /// Measures the least depth of each pair along `directions` evenly spread directions.
 /// The first direction is the x axis. Usual numbers k of directions are 16 to 32, and the time is
-/// proportional to k. Of equal depths, the one of the first direction in the order 0, k / 2, 1, k / 2 + 1 ...
-/// counts, as seen from the agent with the lower index. Everything else is as for penetration_along().
+/// proportional to k. Of equal depths, that of the first direction in the order 0, k / 2, 1, k / 2 + 1 ... is
+/// chosen, as seen from the agent with the lower index. Everything else is as for penetration_along().
 /// Errors:  also on a number of directions that is odd, which would not be symmetric, below 2 or above 256.
 void penetration(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                  std::uint32_t directions, std::span<Penetration> out,
@@ -153,11 +153,11 @@ void penetration(const BodySet& bodies, const Agents& agents, std::span<const Pa
 
 /// Measures how far the first agent of each pair moves on the ground until the two are free of each other.
 /// It moves along the best of `directions` evenly spread directions, until no segments of the two outlines
-/// meet or, where collide() tests discs, no discs of the cuts overlap. They may remain interlocked: no line
-/// need separate them. So the depth is at most that of penetration(), up to rounding. collide() answers 0
+/// meet or, where collide() tests discs, no discs of the cuts overlap. They may stay interlocked, without a
+/// separating line, so the depth is at most that of penetration(), up to rounding. collide() answers 0
 /// afterwards; where it answers 0 before, the depth is 0. It grows from 0 at contact, and may jump where a
-/// gap opens or closes. Sizes, symmetry, directions and errors are those of penetration() and collide().
-/// `touches` is empty or as long as `out`.
+/// gap opens or closes. Sizes, symmetry, directions and errors are those of penetration() and collide();
+/// touches.size() is out.size() or 0.
 /// Memory:  allocates in every call. Threads: runs in the caller's TBB arena.
 void nearest_free(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                   std::uint32_t directions, std::span<Penetration> out, const CollideOptions& options = {},
@@ -173,7 +173,7 @@ void nearest_free(const BodySet& bodies, const Agents& agents, std::span<const P
 /// That is its own displacement minus the other's. For queries of obstacles it holds each agent's own
 /// displacement, in the world. No agent turns.
 /// Units:   metres in the world; each within +-1e9.
-/// Sizes:   z is empty, so that nobody moves up or down, or for bodies of spheres as long as x and y.
+/// Sizes:   z.size() == 0: nobody moves up or down; for bodies of spheres also z.size() == x.size().
 struct Displacements {
   std::span<const double> x, y, z = {};
 };
@@ -185,7 +185,7 @@ struct Displacements {
 /// Sizes:   as many displacements in x, in y, and times as pairs. An agent may be paired with itself (0).
 /// Errors:  as collide(), and on a displacement that is not finite or beyond the limits.
 /// Threads: runs in the caller's TBB arena. Allocates nothing.
-/// Source:  the slide of the paper's experiment, which the paper makes in small steps.
+/// Source:  the test by translation of Stuvel et al. (2014), who move in small steps.
 void time_of_impact(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                     const Displacements& displacements, std::span<float> times,
                     const Implementation* implementation = nullptr);

@@ -18,10 +18,11 @@ struct Kernels;
 
 namespace bch {
 
-// What a collision is. Two agents collide at their levels if a disc a of one cut overlaps a disc b of the
-// other, and each of a and its ancestors overlaps each of b and its ancestors. They also collide if a contour
-// of one lies inside a contour of the other. Touching counts. With exact leaves (Leaves::segments, at depth
-// all_depths) two leaves count only if their segments meet, too. See "The answer" in kernel/README.md.
+// What a collision is. Two agents collide at their levels (0 is the coarsest) if a disc a of one cut overlaps
+// a disc b of the other, and each of a and its ancestors overlaps each of b and its ancestors. They also
+// collide if a contour of one lies inside a contour of the other. Touching counts. With exact leaves
+// (Leaves::segments, at depth all_depths) segments in the two leaves have to meet, too. See "The answer" in
+// kernel/README.md.
 
 // The rules that all queries share. A query over pairs writes one result per pair into spans of the caller,
 // and allocates nothing unless its header says so. Any number of queries may read one ShapeSet at once;
@@ -52,7 +53,7 @@ const Implementation& implementation(std::string_view name);
 
 /// Runs the tasks of queries: a caller's own task system in place of TBB. Answers are the same bits.
 struct Executor {
-  /// Calls task(data, i) once for each i from 0 to count, on any threads, and returns when all have ended.
+  /// Calls task(data, i) once for each i in [0, count), on any threads, and returns when all have ended.
   /// Tasks may run in any order and throw nothing; a task may call run() again. While run() waits it may run
   /// other tasks on the thread, but no query by the same Crowd.
   void (*run)(void* context, std::size_t count, void (*task)(void* data, std::size_t i),
@@ -60,8 +61,8 @@ struct Executor {
   void* context = nullptr;    ///< given to run()
   std::uint32_t threads = 1;  ///< tasks that run at once; a query is divided into at most 8 tasks per thread
 
-  /// Runs the tasks of all queries from now on by an executor.
-  /// One without run() brings back what the library was built with.
+  /// Sets the executor that runs the tasks of all queries from now on.
+  /// One without run() restores what the library was built with.
   /// Errors:  throws std::invalid_argument on other than 1 to 1024 threads.
   /// Threads: no query may run meanwhile.
   static void set(const Executor& executor);
@@ -70,12 +71,12 @@ struct Executor {
 /// Selects what clearance() returns for pairs whose discs overlap.
 enum class Overlap {
   zero,  ///< a distance of 0, without a direction or discs: such pairs cost hardly more than in collide()
-  /// The deepest overlap of two discs, as a negative distance, and its direction: a depth for forces where
-  /// cuts are coarse.
+  /// The deepest overlap of two discs, as a negative distance, and its direction: a depth for forces between
+  /// coarse cuts.
   deepest,
 };
 
-/// Holds the options of collide() and of what else finds who collides.
+/// Holds the options of collide() and of other queries that find collisions.
 struct CollideOptions {
   /// Selects one of implementations().
   /// Null selects best_implementation(), which may throw where BCH_ISA is set.
