@@ -42,7 +42,7 @@ std::string report_of(const AgentTable& before, const bch::Crowd::Resolved& afte
          fact("sweeps", grouped(after.sweeps)) +
          fact("shift", fmt::format("{:.4f} m on average, {:.4f} m at most", sum / agents, largest)) +
          fact("left", fmt::format("{} in collision, {} at a wall", counted(after.left.size(), "pair"),
-                                  counted(after.touch_walls.size(), "agent")));
+                                  counted(after.agents_at_walls.size(), "agent")));
 }
 
 void run_resolve(const CLI::App& command, const ResolveCommandOptions& options) {

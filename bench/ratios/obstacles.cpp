@@ -29,14 +29,14 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Walls and pillars for the queries against obstacles, and the same for brute force.
 struct FloorPlan {
   std::vector<double> x, y;
-  std::vector<std::uint64_t> path_offsets{0};
+  std::vector<std::uint64_t> polyline_offsets{0};
   std::vector<std::uint8_t> is_area;
   std::vector<baselines::ReferenceObstacle> reference;
 
   void add(const std::vector<double>& of_x, const std::vector<double>& of_y, bool area) {
     x.insert(x.end(), of_x.begin(), of_x.end());
     y.insert(y.end(), of_y.begin(), of_y.end());
-    path_offsets.push_back(x.size());
+    polyline_offsets.push_back(x.size());
     is_area.push_back(area);
     reference.push_back({{}, area});
     for (std::size_t i = 1; i < of_x.size() + area; ++i)
@@ -89,7 +89,7 @@ struct Floor {
   cli::Crowd crowd = cli::place_crowd(scene.agents(), wall_density, scene.set().shape_count(), crowd_seed);
   Agents agents = crowd.agents();
   FloorPlan plan = floor_plan(scene.agents(), crowd.side);
-  ObstacleSet obstacles{{plan.x, plan.y, plan.path_offsets, {}, plan.is_area}};
+  ObstacleSet obstacles{{plan.x, plan.y, plan.polyline_offsets, {}, plan.is_area}};
   baselines::ObstacleReference reference{scene.shapes(), {}, Leaves::segments};
 
   explicit Floor(Scene& in) : scene(in) {}

@@ -80,7 +80,7 @@ void ResolvedRecording::resolve_frame(bch::Crowd& crowd, std::size_t frame, bool
     how.gap = gap;
   const bch::Crowd::Resolved found =
       crowd.resolve(bodies, {shape, x, y, std::span(heading_).subspan(begin, count)}, how);
-  left_[frame] = found.left.size() + found.touch_walls.size();
+  left_[frame] = found.left.size() + found.agents_at_walls.size();
   for (std::size_t i = 0, row = begin; i < count; ++i, ++row)
     shift_x_[row] = found.x[i] - x_[row], shift_y_[row] = found.y[i] - y_[row];
 }

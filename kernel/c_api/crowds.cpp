@@ -297,7 +297,7 @@ bch_status bch_crowd_by_agent(bch_crowd* handle, bch_neighbour_rows* neighbours)
   });
 }
 
-bch_status bch_crowd_nearest(bch_crowd* handle, uint32_t most, bch_neighbour_rows* neighbours) {
+bch_status bch_crowd_nearest(bch_crowd* handle, uint32_t max_count, bch_neighbour_rows* neighbours) {
   return guarded([&] {
     const bch_crowd& crowd = object_of(handle, "crowd");
     required(neighbours, "neighbours");
@@ -305,7 +305,7 @@ bch_status bch_crowd_nearest(bch_crowd* handle, uint32_t most, bch_neighbour_row
       throw std::invalid_argument("crowd: expected clearances as its last answer, found none");
     const Crowd::Clearances clearances{
         .pairs = crowd.last, .distance = *crowd.distances, .direction = {}, .discs = {}, .points = {}};
-    *neighbours = neighbour_rows(clearances.nearest(most));
+    *neighbours = neighbour_rows(clearances.nearest(max_count));
   });
 }
 
@@ -337,8 +337,8 @@ bch_status bch_crowd_body_resolve(bch_crowd* handle, const bch_body_set* set, co
                  found.y.data(),
                  found.left.size(),
                  c_pairs(found.left.span()),
-                 found.touch_walls.size(),
-                 found.touch_walls.data(),
+                 found.agents_at_walls.size(),
+                 found.agents_at_walls.data(),
                  found.sweeps};
   });
 }

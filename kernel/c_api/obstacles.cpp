@@ -15,13 +15,14 @@ ObstacleArrays arrays_of(const bch_obstacle_arrays* given) {
       sized(&required(given, "arrays"), bch_obstacle_arrays BCH_OBSTACLE_ARRAYS_INIT, "arrays");
   ObstacleArrays all;
   static constexpr std::uint64_t none = 0;
-  all.path_offsets = {&none, 1};
-  if (arrays.path_count == 0) return all;
-  all.path_offsets = offsets_of(arrays.path_offsets, arrays.path_count, "arrays->path_offsets");
-  const std::size_t points = all.path_offsets.back();
+  all.polyline_offsets = {&none, 1};
+  if (arrays.polyline_count == 0) return all;
+  all.polyline_offsets =
+      offsets_of(arrays.polyline_offsets, arrays.polyline_count, "arrays->polyline_offsets");
+  const std::size_t points = all.polyline_offsets.back();
   all.x = array_of(arrays.x, points, "arrays->x");
   all.y = array_of(arrays.y, points, "arrays->y");
-  std::size_t obstacles = arrays.path_count;
+  std::size_t obstacles = arrays.polyline_count;
   if (arrays.obstacle_offsets != nullptr) {
     obstacles = arrays.obstacle_count;
     all.obstacle_offsets = offsets_of(arrays.obstacle_offsets, obstacles, "arrays->obstacle_offsets");

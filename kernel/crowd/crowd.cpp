@@ -35,9 +35,9 @@ Rows<Crowd::Neighbour> Crowd::Pairs::by_agent() const {
   return without_tasks_from_outside([&] { return memory_->by_agent(pairs_); });
 }
 
-Rows<Crowd::Neighbour> Crowd::Pairs::nearest(std::span<const float> distance, std::uint32_t most) const {
+Rows<Crowd::Neighbour> Crowd::Pairs::nearest(std::span<const float> distance, std::uint32_t max_count) const {
   if (memory_ == nullptr) return {};
-  return without_tasks_from_outside([&] { return memory_->nearest(pairs_, distance, most); });
+  return without_tasks_from_outside([&] { return memory_->nearest(pairs_, distance, max_count); });
 }
 
 Crowd::Crowd() : Crowd(CrowdOptions{}) {}

@@ -68,7 +68,7 @@ Rows<Crowd::Neighbour> CrowdMemory::by_agent(std::span<const Pair> of) {
 
 /// Sorts the rows of by_agent() by distance, and keeps the first of each.
 Rows<Crowd::Neighbour> CrowdMemory::nearest(std::span<const Pair> of, std::span<const float> distances,
-                                            std::uint32_t most) {
+                                            std::uint32_t max_count) {
   by_agent(of);
   const auto is_nearer = [&](const Crowd::Neighbour& a, const Crowd::Neighbour& b) {
     const float of_a = distances[a.pair], of_b = distances[b.pair];
@@ -80,13 +80,13 @@ Rows<Crowd::Neighbour> CrowdMemory::nearest(std::span<const Pair> of, std::span<
   for_ranges(agents, crowd_grain, [&](std::size_t first, std::size_t last) {
     for (std::size_t agent = first; agent < last; ++agent) {
       const auto row = row_of(agent);
-      const auto kept = static_cast<std::ptrdiff_t>(std::min<std::size_t>(most, row.size()));
+      const auto kept = static_cast<std::ptrdiff_t>(std::min<std::size_t>(max_count, row.size()));
       std::partial_sort(row.begin(), row.begin() + kept, row.end(), is_nearer);
     }
   });
   nearest_begin.assign(1, 0);
   for (std::size_t agent = 0, to = 0; agent < agents; ++agent) {
-    const auto kept = row_of(agent).first(std::min<std::size_t>(most, row_of(agent).size()));
+    const auto kept = row_of(agent).first(std::min<std::size_t>(max_count, row_of(agent).size()));
     std::copy(kept.begin(), kept.end(), neighbours.begin() + static_cast<std::ptrdiff_t>(to));
     nearest_begin.push_back(to += kept.size());
   }

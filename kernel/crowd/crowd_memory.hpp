@@ -119,7 +119,7 @@ struct CrowdMemory {
   Crowd::Pairs kept_pairs() { return {pairs, *this}; }
   Rows<Crowd::Neighbour> by_agent(std::span<const Pair> pairs);
   Rows<Crowd::Neighbour> nearest(std::span<const Pair> pairs, std::span<const float> distances,
-                                 std::uint32_t most);
+                                 std::uint32_t max_count);
 
   CrowdOptions options;
   PairTest test;

@@ -18,9 +18,9 @@ struct CrowdMemory;
 struct Resolution {
   std::vector<double> x, y, first_x, first_y;
   SeparationSolver solver;
-  std::vector<float> wall_distance;        ///< of each agent
-  std::vector<Vec3> wall_direction;        ///< of each agent
-  std::vector<std::uint32_t> touch_walls;  ///< agents
+  std::vector<float> wall_distance;            ///< of each agent
+  std::vector<Vec3> wall_direction;            ///< of each agent
+  std::vector<std::uint32_t> agents_at_walls;  ///< agents
 
   void begin(const Agents& agents);
   /// Moves all agents by what the solver found, within the limits of the options.

@@ -110,7 +110,7 @@ class Sweeps {
       add_walls();
       add_pairs(sweep);
       if (!is_open_ || sweep == options_.sweeps)
-        return {of_.x, of_.y, memory_.kept_pairs(), of_.touch_walls, sweep};
+        return {of_.x, of_.y, memory_.kept_pairs(), of_.agents_at_walls, sweep};
       of_.solver.solve();
       of_.move(options_);
     }
@@ -150,7 +150,7 @@ class Sweeps {
   }
 
   void add_walls() {
-    of_.touch_walls.clear();
+    of_.agents_at_walls.clear();
     if (options_.obstacles == nullptr) return;
     of_.wall_distance.resize(agents_.size()), of_.wall_direction.resize(agents_.size());
     clearance(bodies_, agents_, *options_.obstacles, {of_.wall_distance, of_.wall_direction},
@@ -159,7 +159,7 @@ class Sweeps {
       const double distance{of_.wall_distance[i]};
       if (!(distance <= reach_)) continue;
       const bool touches = distance <= 0;
-      if (touches) of_.touch_walls.push_back(i);
+      if (touches) of_.agents_at_walls.push_back(i);
       is_open_ |= touches && of_.solver.mobility(i) > 0;
       const double clearance_left = distance - options_.gap;
       limit_approach(of_.solver, i, SeparationSolver::nobody, of_.wall_direction[i],

@@ -151,7 +151,7 @@ bool BodyQuery::outline_holds(const PlacedBody& body, std::span<const LocalSegme
   if (shapes_.shape_contours == nullptr) return false;
   const ContourRange contours = shapes_.shape_contours[body.shape];
   for (const LocalSegment& segment : segments) {
-    if (obstacles().begins_path[segment.number] == 0) continue;
+    if (obstacles().begins_polyline[segment.number] == 0) continue;
     const WorldSegment& world = obstacles().segments[segment.slot];
     const auto [x, y] = body.place.turned_back(world.ax - body.place.x, world.ay - body.place.y);
     for (std::uint32_t i = contours.begin; i < contours.end; ++i)

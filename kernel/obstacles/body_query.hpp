@@ -97,14 +97,14 @@ class BodyQuery {
   }
 
   /// Finds the least gap of an agent of at most `limit`, metres. The search ends where one is at most `stop_below` or, where `inside` counts, an area
-  /// holds the agent or its outline a path.
+  /// holds the agent or its outline a polyline.
   NearestObstacle nearest(std::uint32_t agent, double limit, double stop_below, bool inside);
   bool is_within(std::uint32_t agent, double distance) {
     return nearest(agent, distance, distance, true).is_within;
   }
 
   /// Returns whether an area holds a disc of a body clear of its segments, with exact leaves something of its outline, or the outline of
-  /// the body a path. Precondition: near() found all segments within the root's disc.
+  /// the body a polyline. Precondition: near() found all segments within the root's disc.
   bool is_inside(const PlacedBody& body);
   /// Returns whether an obstacle, whose segments next to a body these are, is an area that holds something of it that they do not touch.
   bool area_holds(const PlacedBody& body, std::span<const LocalSegment> segments, std::uint32_t obstacle);
@@ -152,7 +152,7 @@ class BodyQuery {
             exact_leaves_};
   }
   bool touches(const PlacedBody& body, std::span<const LocalSegment> segments) const noexcept;
-  /// Returns whether the outline of a body holds where a path begins, which it does not touch.
+  /// Returns whether the outline of a body contains the first point of a polyline that it does not touch.
   bool outline_holds(const PlacedBody& body, std::span<const LocalSegment> segments) const noexcept;
 
   bool is_too_large_for_areas(const Root& root) const noexcept {

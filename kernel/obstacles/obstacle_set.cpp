@@ -61,10 +61,11 @@ void require_heights(const ObstacleArrays& in, std::size_t obstacles) {
 void require_valid(const ObstacleArrays& in) {
   if (in.x.size() != in.y.size())
     reject(std::to_string(in.x.size()) + " values of x but " + std::to_string(in.y.size()) + " of y");
-  require_offsets(in.path_offsets, in.x.size(), "path offsets", "points");
-  const std::size_t paths = in.path_offsets.size() - 1;
-  if (!in.obstacle_offsets.empty()) require_offsets(in.obstacle_offsets, paths, "obstacle offsets", "paths");
-  const std::size_t obstacles = in.obstacle_offsets.empty() ? paths : in.obstacle_offsets.size() - 1;
+  require_offsets(in.polyline_offsets, in.x.size(), "polyline offsets", "points");
+  const std::size_t polylines = in.polyline_offsets.size() - 1;
+  if (!in.obstacle_offsets.empty())
+    require_offsets(in.obstacle_offsets, polylines, "obstacle offsets", "polylines");
+  const std::size_t obstacles = in.obstacle_offsets.empty() ? polylines : in.obstacle_offsets.size() - 1;
   if (!in.is_area.empty() && in.is_area.size() != obstacles)
     reject(std::to_string(obstacles) + " obstacles but " + std::to_string(in.is_area.size()) +
            " values of is_area");
@@ -74,8 +75,8 @@ void require_valid(const ObstacleArrays& in) {
     if (!good(in.x[i]) || !good(in.y[i]))
       reject("point " + std::to_string(i) + ": (" + shortest(in.x[i]) + ", " + shortest(in.y[i]) +
              ") m is not within +-1e9");
-  if (in.x.size() + paths + obstacles >= std::numeric_limits<std::int32_t>::max())
-    throw std::length_error("obstacles: more than 2^31 points, paths and obstacles");
+  if (in.x.size() + polylines + obstacles >= std::numeric_limits<std::int32_t>::max())
+    throw std::length_error("obstacles: more than 2^31 points, polylines and obstacles");
 }
 
 WorldSegment segment_of(double ax, double ay, double bx, double by, std::uint32_t number,
@@ -104,18 +105,18 @@ double twice_area(std::span<const double> x, std::span<const double> y) {
 /// Segments by their numbers, and what is known of each.
 struct Segments {
   std::vector<WorldSegment> ends;
-  std::vector<std::uint8_t> begins_path;
+  std::vector<std::uint8_t> begins_polyline;
   std::vector<std::int16_t> outside;
 
-  void reserve(std::size_t size) { ends.reserve(size), begins_path.reserve(size), outside.reserve(size); }
-  void add_path(std::span<const double> x, std::span<const double> y, std::uint32_t of, bool is_ring,
-                bool is_hole) {
+  void reserve(std::size_t size) { ends.reserve(size), begins_polyline.reserve(size), outside.reserve(size); }
+  void add_polyline(std::span<const double> x, std::span<const double> y, std::uint32_t of, bool is_ring,
+                    bool is_hole) {
     if (x.empty()) return;
     const bool left_is_outside = (twice_area(x, y) < 0) != is_hole;
     const std::size_t first = ends.size();
     const auto add = [&](std::size_t a, std::size_t b) {
       ends.push_back(segment_of(x[a], y[a], x[b], y[b], static_cast<std::uint32_t>(ends.size()), of));
-      begins_path.push_back(ends.size() == first + 1);
+      begins_polyline.push_back(ends.size() == first + 1);
       outside.push_back(is_ring ? (left_is_outside ? 1 : -1) : 0);
     };
     for (std::size_t i = 1; i < x.size(); ++i) add(i - 1, i);
@@ -129,7 +130,7 @@ struct Segments {
 struct ObstacleSet::State {
   State(Segments&& segments, std::vector<std::uint8_t>&& areas, std::vector<WorldHeights>&& heights);
 
-  std::vector<std::uint8_t> begins_path, is_area;
+  std::vector<std::uint8_t> begins_polyline, is_area;
   std::vector<WorldHeights> heights;  ///< by obstacle; empty: all are infinite
   std::vector<std::int16_t> outside;
   std::vector<std::uint32_t> obstacle_of;
@@ -188,7 +189,7 @@ ObstacleSet::State::State(Segments&& segments, std::vector<std::uint8_t>&& is_ar
   for (const std::uint32_t i : area_tree.order)
     sorted_areas.push_back(areas[i]), sorted_boxes.push_back(area_boxes[i]);
   areas = std::move(sorted_areas), area_boxes = std::move(sorted_boxes);
-  begins_path = std::move(segments.begins_path);
+  begins_polyline = std::move(segments.begins_polyline);
   outside = std::move(segments.outside);
   double widest = 0;
   for (const Box& box : area_boxes)
@@ -199,7 +200,7 @@ ObstacleSet::State::State(Segments&& segments, std::vector<std::uint8_t>&& is_ar
           .segments = ends.data(),
           .is_area = is_area.data(),
           .heights = heights.empty() ? nullptr : heights.data(),
-          .begins_path = begins_path.data(),
+          .begins_polyline = begins_polyline.data(),
           .outside = outside.data(),
           .widest_area = widest,
           .areas = areas.data(),
@@ -211,20 +212,20 @@ ObstacleSet::State::State(Segments&& segments, std::vector<std::uint8_t>&& is_ar
 ObstacleSet::ObstacleSet(const ObstacleArrays& in) {
   const FloatingPointStateGuard floats;
   require_valid(in);
-  const std::size_t paths = in.path_offsets.size() - 1;
+  const std::size_t polylines = in.polyline_offsets.size() - 1;
   const bool alone = in.obstacle_offsets.empty();
-  std::vector<std::uint8_t> is_area(alone ? paths : in.obstacle_offsets.size() - 1);
+  std::vector<std::uint8_t> is_area(alone ? polylines : in.obstacle_offsets.size() - 1);
   Segments segments;
-  segments.reserve(in.x.size() + paths);
+  segments.reserve(in.x.size() + polylines);
   for (std::uint32_t o = 0; o < is_area.size(); ++o) {
     is_area[o] = !in.is_area.empty() && in.is_area[o] != 0;
     const std::size_t first = alone ? o : in.obstacle_offsets[o],
                       end = alone ? o + 1 : in.obstacle_offsets[o + 1];
     const std::size_t first_segment = segments.ends.size();
     for (std::size_t p = first; p < end; ++p) {
-      const std::size_t begin = in.path_offsets[p], size = in.path_offsets[p + 1] - begin;
-      segments.add_path(in.x.subspan(begin, size), in.y.subspan(begin, size), o, is_area[o] != 0,
-                        segments.ends.size() != first_segment);
+      const std::size_t begin = in.polyline_offsets[p], size = in.polyline_offsets[p + 1] - begin;
+      segments.add_polyline(in.x.subspan(begin, size), in.y.subspan(begin, size), o, is_area[o] != 0,
+                            segments.ends.size() != first_segment);
     }
   }
   std::vector<WorldHeights> heights;

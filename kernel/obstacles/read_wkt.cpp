@@ -20,16 +20,16 @@ namespace {
 /// Obstacles as they are read.
 struct ReadObstacles {
   std::vector<double> x, y;
-  std::vector<std::uint64_t> path_offsets{0}, obstacle_offsets{0};
+  std::vector<std::uint64_t> polyline_offsets{0}, obstacle_offsets{0};
   std::vector<std::uint8_t> is_area;
 
-  /// Ends a path, or an obstacle of paths; there is none where nothing was read for it.
+  /// Ends a polyline, or an obstacle of polylines; there is none where nothing was read for it.
   void end_path() {
-    if (path_offsets.back() != x.size()) path_offsets.push_back(x.size());
+    if (polyline_offsets.back() != x.size()) polyline_offsets.push_back(x.size());
   }
   void end_obstacle(bool area) {
-    if (obstacle_offsets.back() == path_offsets.size() - 1) return;
-    obstacle_offsets.push_back(path_offsets.size() - 1);
+    if (obstacle_offsets.back() == polyline_offsets.size() - 1) return;
+    obstacle_offsets.push_back(polyline_offsets.size() - 1);
     is_area.push_back(area);
   }
 };
@@ -257,7 +257,7 @@ ObstacleSet obstacles_from_wkt(std::string_view text, Polygons polygons, double 
     throw std::invalid_argument("obstacles: no polygons are " + std::to_string(static_cast<int>(polygons)) +
                                 ", only solid (0) and walkable (1)");
   const ReadObstacles read = WktReader(text, polygons == Polygons::walkable).read();
-  ObstacleArrays arrays{read.x, read.y, read.path_offsets, read.obstacle_offsets, read.is_area};
+  ObstacleArrays arrays{read.x, read.y, read.polyline_offsets, read.obstacle_offsets, read.is_area};
   constexpr double infinite = std::numeric_limits<double>::infinity();
   const std::vector<double> bottoms(read.is_area.size(), bottom), tops(read.is_area.size(), top);
   if (!(bottom == -infinite && top == infinite)) arrays.bottom = bottoms, arrays.top = tops;

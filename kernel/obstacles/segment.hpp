@@ -88,7 +88,7 @@ struct ObstacleView {
   const WorldSegment* segments;         ///< by slot
   const std::uint8_t* is_area;          ///< by obstacle
   const WorldHeights* heights;          ///< by obstacle; null: all heights
-  const std::uint8_t* begins_path;      ///< by number
+  const std::uint8_t* begins_polyline;  ///< by number
   const std::int16_t*
       outside;         ///< by number: the side of it that is outside of its area, 1 the left one; 0 of a line
   double widest_area;  ///< metres: no area holds a disc with a larger diameter

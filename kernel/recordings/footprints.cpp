@@ -93,7 +93,7 @@ Footprint footprint_from_wkt(const std::string& name, std::string_view text) {
   for (const WorldSegment* segment : segments) {
     if (read.view().is_area[segment->obstacle] == 0)
       throw std::invalid_argument("expected polygons, found a line");
-    if (read.view().begins_path[segment->number] != 0) footprint.polygons.emplace_back();
+    if (read.view().begins_polyline[segment->number] != 0) footprint.polygons.emplace_back();
     footprint.polygons.back().push_back({static_cast<float>(segment->ax), static_cast<float>(segment->ay)});
   }
   shape_from_polygons(footprint.polygons);  // which says what is wrong with them

@@ -263,7 +263,7 @@ class Caller : public Program {
     of.threshold = chance(16) ? number<float>() : 0.25f;
   }
   void draw(bch_obstacle_arrays& of) {
-    draw_all(of.x, of.y, of.path_offsets, of.path_count);
+    draw_all(of.x, of.y, of.polyline_offsets, of.polyline_count);
     if (chance(4)) draw_all(of.obstacle_offsets, of.obstacle_count);
     if (chance(2)) draw(of.is_area);
     if (chance(4)) draw_all(of.bottom, of.top);

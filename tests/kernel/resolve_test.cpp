@@ -18,7 +18,7 @@ using test::Random;
 struct Answer {
   std::vector<double> x, y;
   std::vector<Pair> left;
-  std::vector<std::uint32_t> touch_walls;
+  std::vector<std::uint32_t> agents_at_walls;
   std::uint32_t sweeps;
 
   friend bool operator==(const Answer&, const Answer&) = default;
@@ -31,7 +31,7 @@ Answer resolved(const BodySet& bodies, const BodyCrowd& crowd, const Crowd::Reso
   return {{found.x.begin(), found.x.end()},
           {found.y.begin(), found.y.end()},
           {found.left.begin(), found.left.end()},
-          {found.touch_walls.begin(), found.touch_walls.end()},
+          {found.agents_at_walls.begin(), found.agents_at_walls.end()},
           found.sweeps};
 }
 
@@ -130,7 +130,7 @@ TEST(Resolve, WallsPushAndHold) {
   const Answer found = resolved(scene.bodies, scene.crowd, {.obstacles = &wall});
   EXPECT_NEAR(found.x[0], 0.101, 2e-3);
   EXPECT_NEAR(found.x[1], 0.702, 3e-3);
-  EXPECT_TRUE(found.left.empty() && found.touch_walls.empty());
+  EXPECT_TRUE(found.left.empty() && found.agents_at_walls.empty());
   const std::vector<double> none = {0, 0, 0};
   EXPECT_EQ(resolved(scene.bodies, scene.crowd, {.mobility = none, .obstacles = &wall}),
             (Answer{scene.crowd.x, scene.crowd.y, {{0, 1}}, {0}, 0}));

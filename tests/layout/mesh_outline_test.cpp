@@ -202,7 +202,7 @@ TEST(MeshOutline, TextIsReadBack) {
   for (const Vec2& p : man.points) x.push_back(double{p.x}), y.push_back(double{p.y});
   const std::vector<std::uint64_t> rings(man.contour_begin.begin(), man.contour_begin.end());
   const std::vector<std::uint8_t> is_area(man.contours(), 1);
-  const ObstacleSet expected({.x = x, .y = y, .path_offsets = rings, .is_area = is_area});
+  const ObstacleSet expected({.x = x, .y = y, .polyline_offsets = rings, .is_area = is_area});
   const ObstacleSet text = obstacles_from_wkt(to_wkt(man));
   ASSERT_EQ(text.segment_count(), expected.segment_count());
   for (std::uint32_t i = 0; i < text.segment_count(); ++i) {

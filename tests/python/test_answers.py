@@ -302,7 +302,7 @@ class Scenes(unittest.TestCase):
         pushed = crowd.penetrations(bodies, agents)
         self.assertEqual(pushed.pairs.tolist(), contacts.pairs.tolist())
         found = crowd.resolve(bodies, agents, mobility=np.array([0.0] + [1.0] * (len(agents) - 1)), largest_step=0.5)
-        self.assertEqual((found.left.tolist(), found.touch_walls.tolist(), found.x[0]), ([], [], agents.x[0]))
+        self.assertEqual((found.left.tolist(), found.agents_at_walls.tolist(), found.x[0]), ([], [], agents.x[0]))
         self.assertEqual(len(crowd.collisions(bodies, bch.Agents(agents.shape, found.x, found.y, agents.heading, z=agents.z))), 0)
         self.assertEqual(crowd.resolve(bodies, agents, sweeps=0).left.tolist(), contacts.pairs.tolist())
         np.testing.assert_array_equal(pushed.penetrations["depth"][:1], bch.penetration(bodies, agents, pushed.pairs)["depth"][:1])

@@ -140,7 +140,7 @@ class Errors(unittest.TestCase):
             (bch.first_contact, {"movers": [mover], "pairs": walls, "interval": (0, 1), "tolerance": 0.1, "threads": 1}),
             (bch.free_until, {"mover": mover, "others": [mover], "interval": (0, 1), "tolerance": 0.1}),
             (bch.animate, {"model": bch.BodyModel(man, 16, draft=True), "clip": 99, "error": 0.1}),
-            (bch.Obstacles, {**points, "path_offsets": np.array([0, 2], np.uint64)}),
+            (bch.Obstacles, {**points, "polyline_offsets": np.array([0, 2], np.uint64)}),
             (bch.Obstacles.from_wkt, {"text": "LINESTRING(0 0, 1 1)", "heights": (0, 1)}),
             (walls.owner, {"segment": 0}),
             (bch.collide, {**asked, "leaves": "discs", "threads": 1, "implementation": "scalar"}),

@@ -20,9 +20,9 @@ std::vector<Point> ring(Random& random, Point centre, double radius, std::uint32
 
 }  // namespace
 
-void ObstacleScene::add_path(const std::vector<Point>& points, bool is_ring) {
+void ObstacleScene::add_polyline(const std::vector<Point>& points, bool is_ring) {
   for (const Point& point : points) x.push_back(point.x), y.push_back(point.y);
-  path_offsets.push_back(x.size());
+  polyline_offsets.push_back(x.size());
   const auto add = [&](const Point& a, const Point& b) { open_.segments.push_back({a.x, a.y, b.x, b.y}); };
   for (std::size_t i = 1; i < points.size(); ++i) add(points[i - 1], points[i]);
   const Point &first = points.front(), &last = points.back();
@@ -30,7 +30,7 @@ void ObstacleScene::add_path(const std::vector<Point>& points, bool is_ring) {
 }
 
 void ObstacleScene::end_obstacle(bool area) {
-  obstacle_offsets.push_back(path_offsets.size() - 1);
+  obstacle_offsets.push_back(polyline_offsets.size() - 1);
   is_area.push_back(area);
   open_.is_area = area;
   reference.push_back(open_);
@@ -41,10 +41,10 @@ ObstacleScene ObstacleScene::part(std::span<const std::uint32_t> obstacles) cons
   ObstacleScene some;
   for (const std::uint32_t obstacle : obstacles) {
     const bool area = is_area[obstacle] != 0;
-    for (auto path = obstacle_offsets[obstacle]; path < obstacle_offsets[obstacle + 1]; ++path) {
+    for (auto p = obstacle_offsets[obstacle]; p < obstacle_offsets[obstacle + 1]; ++p) {
       std::vector<Point> points;
-      for (auto i = path_offsets[path]; i < path_offsets[path + 1]; ++i) points.push_back({x[i], y[i]});
-      some.add_path(points, area);
+      for (auto i = polyline_offsets[p]; i < polyline_offsets[p + 1]; ++i) points.push_back({x[i], y[i]});
+      some.add_polyline(points, area);
     }
     some.end_obstacle(area);
   }
@@ -85,9 +85,9 @@ ObstacleScene obstacle_scene(Random& random, std::uint32_t count, double half, d
       }
       case 4: {  // a polygon with a hole, and something in that
         const double radius = random.uniform(0.3, 2);
-        scene.add_path(ring(random, at, radius, 3 + random.below(8)), true);
-        scene.add_path(ring(random, at, 0.5 * radius, 3 + random.below(5)), true);
-        if (random.below(2) == 0) scene.add_path(ring(random, at, 0.2 * radius, 4), true);
+        scene.add_polyline(ring(random, at, radius, 3 + random.below(8)), true);
+        scene.add_polyline(ring(random, at, 0.5 * radius, 3 + random.below(5)), true);
+        if (random.below(2) == 0) scene.add_polyline(ring(random, at, 0.2 * radius, 4), true);
         scene.end_obstacle(true);
         break;
       }

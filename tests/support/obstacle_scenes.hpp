@@ -14,7 +14,7 @@ namespace bch::test {
 /// Obstacles in arrays, and the same for brute force.
 struct ObstacleScene {
   std::vector<double> x, y;
-  std::vector<std::uint64_t> path_offsets{0}, obstacle_offsets{0};
+  std::vector<std::uint64_t> polyline_offsets{0}, obstacle_offsets{0};
   std::vector<std::uint8_t> is_area;
   std::vector<double> bottom, top;  ///< by obstacle; empty: infinite
   std::vector<baselines::ReferenceObstacle> reference;
@@ -22,12 +22,12 @@ struct ObstacleScene {
   struct Point {
     double x, y;
   };
-  void add_path(const std::vector<Point>& points, bool is_ring);
+  void add_polyline(const std::vector<Point>& points, bool is_ring);
   void end_obstacle(bool area);
-  /// Adds an obstacle of one path, which is a ring where the obstacle is an area.
-  void add(const std::vector<Point>& points, bool area) { add_path(points, area), end_obstacle(area); }
+  /// Adds an obstacle of one polyline, which is a ring where the obstacle is an area.
+  void add(const std::vector<Point>& points, bool area) { add_polyline(points, area), end_obstacle(area); }
   ObstacleSet set() const {
-    return ObstacleSet({x, y, path_offsets, obstacle_offsets, is_area, bottom, top});
+    return ObstacleSet({x, y, polyline_offsets, obstacle_offsets, is_area, bottom, top});
   }
 
   /// Returns some of the obstacles, without heights.

@@ -223,7 +223,7 @@ TEST_F(AllocationFaults, Obstacles) {
   const double x[] = {0, 1, 1}, y[] = {0, 0, 1};
   const std::uint64_t paths[] = {0, 2, 3};
   bch_obstacle_arrays arrays = BCH_OBSTACLE_ARRAYS_INIT;
-  arrays.x = x, arrays.y = y, arrays.path_offsets = paths, arrays.path_count = 2;
+  arrays.x = x, arrays.y = y, arrays.polyline_offsets = paths, arrays.polyline_count = 2;
   fail_each_making<bch_obstacles>(
       5, [&](bch_obstacles** to) { return bch_obstacles_create(&arrays, to); }, bch_obstacles_free);
 }

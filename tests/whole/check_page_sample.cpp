@@ -47,7 +47,7 @@ ObstacleSet obstacles_of(const std::vector<std::vector<cli::PagePoint>>& walls) 
     for (const auto& point : wall) x.push_back(point.x), y.push_back(point.y);
     offsets.push_back(x.size());
   }
-  return ObstacleSet({.x = x, .y = y, .path_offsets = offsets});
+  return ObstacleSet({.x = x, .y = y, .polyline_offsets = offsets});
 }
 
 /// People walk in lanes, east and west by turns, nearly as fast as those before them, and sway.

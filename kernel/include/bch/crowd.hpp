@@ -162,10 +162,10 @@ class Crowd {
   };
   /// Holds where the agents of a crowd are after resolve(), and what they still touch.
   struct Resolved {
-    std::span<const double> x, y;                ///< one per agent
-    Pairs left;                                  ///< pairs that still collide
-    std::span<const std::uint32_t> touch_walls;  ///< agents that still touch a wall, ascending
-    std::uint32_t sweeps;                        ///< how many were made
+    std::span<const double> x, y;                    ///< one per agent
+    Pairs left;                                      ///< pairs that still collide
+    std::span<const std::uint32_t> agents_at_walls;  ///< agents that still touch a wall, ascending
+    std::uint32_t sweeps;                            ///< how many were made
   };
 
   Crowd();

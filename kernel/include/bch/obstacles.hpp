@@ -27,8 +27,8 @@ namespace bch {
 ///          numbers or infinite.
 struct ObstacleArrays {
   std::span<const double> x, y;  ///< the points of all polylines
-  /// Polyline p has points path_offsets[p] .. path_offsets[p + 1]; one more than polylines.
-  std::span<const std::uint64_t> path_offsets;
+  /// Polyline p has points polyline_offsets[p] .. polyline_offsets[p + 1]; one more than polylines.
+  std::span<const std::uint64_t> polyline_offsets;
   /// Obstacle o has polylines obstacle_offsets[o] .. obstacle_offsets[o + 1]; empty: one polyline each.
   std::span<const std::uint64_t> obstacle_offsets = {};
   std::span<const std::uint8_t> is_area = {};     ///< per obstacle, see ObstacleSet; empty: no areas

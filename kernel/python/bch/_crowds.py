@@ -121,7 +121,7 @@ class Resolved(NamedTuple):
     x: Float64  #: (n,), where the agents are, metres
     y: Float64  #: (n,)
     left: UInt32  #: (m, 2), unresolved: the pairs of agents that still collide
-    touch_walls: UInt32  #: (k,), the agents that still touch an obstacle
+    agents_at_walls: UInt32  #: (k,), the agents that still touch an obstacle
     sweeps: int  #: how many were made
 
 
@@ -377,7 +377,7 @@ class Crowd:
                 copied(found.x, f8, (found.count,)),
                 copied(found.y, f8, (found.count,)),
                 copied(found.left, u4, (found.left_count, 2)),
-                copied(found.touch_walls, u4, (found.touch_count,)),
+                copied(found.agents_at_walls, u4, (found.agents_at_walls_count,)),
                 found.sweeps,
             )
 
@@ -385,13 +385,13 @@ class Crowd:
         """Return the pairs of the last answer by agent: one row per agent of the crowd, ascending."""
         return self._neighbours(lib.bch_crowd_by_agent)
 
-    def nearest(self, most: int) -> Neighbours:
-        """Return for each agent of the last answer, which has to be of `clearances`, the nearest others, at most so many, the nearest first.
+    def nearest(self, max_count: int) -> Neighbours:
+        """Return at most `max_count` neighbours of each agent of the last answer, which has to be of `clearances`, the nearest first.
 
-        Crowd models such as ORCA take these as neighbours. The order is that of the distances of `clearances`, not of the agents'
+        Crowd models such as ORCA use these as neighbours. The order is that of the distances of `clearances`, not of the agents'
         centres.
         """
-        return self._neighbours(lib.bch_crowd_nearest, bounded(most, "most", 0, 2**32 - 1))
+        return self._neighbours(lib.bch_crowd_nearest, bounded(max_count, "max_count", 0, 2**32 - 1))
 
     def _neighbours(self, call: Any, *most: int) -> Neighbours:
         found = _library.NeighbourRows()

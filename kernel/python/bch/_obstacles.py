@@ -25,11 +25,11 @@ class Obstacles:
     Parameters
     ----------
     x, y : (n,) float64
-        The points of all paths, metres.
-    path_offsets : (p + 1,) uint64
-        Path i has points path_offsets[i] to path_offsets[i + 1].
+        The points of all polylines, metres.
+    polyline_offsets : (p + 1,) uint64
+        Polyline i has points polyline_offsets[i] to polyline_offsets[i + 1].
     obstacle_offsets : (o + 1,) uint64, optional
-        Obstacle i has paths obstacle_offsets[i] to obstacle_offsets[i + 1]; by default each path is an obstacle.
+        Obstacle i has polylines obstacle_offsets[i] to obstacle_offsets[i + 1]; by default each polyline is an obstacle.
     is_area : (o,) uint8, optional
         1 for areas, 0 for lines; by default all are lines.
     heights : (o, 2) float64, optional
@@ -43,17 +43,17 @@ class Obstacles:
         self,
         x: Float64,
         y: Float64,
-        path_offsets: UInt64,
+        polyline_offsets: UInt64,
         obstacle_offsets: Optional[UInt64] = None,
         is_area: Optional[UInt8] = None,
         heights: Optional[Float64] = None,
     ) -> None:
-        given(path_offsets, u8, (None,), "path_offsets")
+        given(polyline_offsets, u8, (None,), "polyline_offsets")
         if obstacle_offsets is not None:
             given(obstacle_offsets, u8, (None,), "obstacle_offsets")
-        paths = len(path_offsets) - 1
-        obstacles = paths if obstacle_offsets is None else len(obstacle_offsets) - 1
-        n = int(path_offsets[-1]) if paths >= 0 else 0
+        polylines = len(polyline_offsets) - 1
+        obstacles = polylines if obstacle_offsets is None else len(obstacle_offsets) - 1
+        n = int(polyline_offsets[-1]) if polylines >= 0 else 0
         columns = None
         if heights is not None:
             given(heights, f8, (obstacles, 2), "heights")
@@ -61,8 +61,8 @@ class Obstacles:
         arrays = _library.ObstacleArrays(
             x=given(x, f8, (n,), "x"),
             y=given(y, f8, (n,), "y"),
-            path_offsets=address(path_offsets),
-            path_count=max(paths, 0),
+            polyline_offsets=address(polyline_offsets),
+            polyline_count=max(polylines, 0),
             obstacle_offsets=None if obstacle_offsets is None else address(obstacle_offsets),
             obstacle_count=max(obstacles, 0),
             is_area=None if is_area is None else given(is_area, u1, (obstacles,), "is_area"),
@@ -104,7 +104,7 @@ class Obstacles:
 
     @property
     def segment_count(self) -> int:
-        """The number of segments of all paths."""
+        """The number of segments of all polylines."""
         return self._counts()[1]
 
     def owner(self, segment: int) -> int:

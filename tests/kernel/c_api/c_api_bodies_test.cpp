@@ -224,7 +224,7 @@ TEST(CApiBodies, AnswerAboutCrowdsAsInCpp) {
     expect_bytes(resolved.x, resolved.count, expected.x);
     expect_bytes(resolved.y, resolved.count, expected.y);
     expect_bytes(resolved.left, resolved.left_count, expected.left.span());
-    expect_bytes(resolved.touch_walls, resolved.touch_count, expected.touch_walls);
+    expect_bytes(resolved.agents_at_walls, resolved.agents_at_walls_count, expected.agents_at_walls);
     EXPECT_EQ(resolved.sweeps, expected.sweeps);
   }
 }

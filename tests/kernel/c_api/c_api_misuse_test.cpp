@@ -238,10 +238,10 @@ TEST_F(CApiMisuse, Obstacles) {
   const double x[] = {0, 1, 1}, y[] = {0, 0, 1}, up = 2, down = 1;
   const std::uint64_t whole[] = {0, 3};
   bch_obstacle_arrays arrays = BCH_OBSTACLE_ARRAYS_INIT;
-  arrays.x = x, arrays.y = y, arrays.path_offsets = whole, arrays.path_count = SIZE_MAX;
+  arrays.x = x, arrays.y = y, arrays.polyline_offsets = whole, arrays.polyline_count = SIZE_MAX;
   bch_obstacles* none = nullptr;
-  expect_invalid(bch_obstacles_create(&arrays, &none), "arrays->path_offsets has");
-  arrays.path_count = 1, arrays.obstacle_offsets = whole, arrays.obstacle_count = SIZE_MAX;
+  expect_invalid(bch_obstacles_create(&arrays, &none), "arrays->polyline_offsets has");
+  arrays.polyline_count = 1, arrays.obstacle_offsets = whole, arrays.obstacle_count = SIZE_MAX;
   expect_invalid(bch_obstacles_create(&arrays, &none), "arrays->obstacle_offsets has");
   arrays.obstacle_offsets = nullptr, arrays.bottom = &up, arrays.top = &down;
   const char* const word = "obstacles: obstacle 0: heights from 2 to 1 m";

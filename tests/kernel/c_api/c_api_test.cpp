@@ -179,7 +179,7 @@ TEST_P(CApi, ObstaclesAreThoseOfTheLibrary) {
   const ObstacleSet walls({points_x, points_y, paths, obstacles, areas, bottom, top});
   bch_obstacle_arrays arrays = BCH_OBSTACLE_ARRAYS_INIT;
   arrays.x = points_x.data(), arrays.y = points_y.data();
-  arrays.path_offsets = paths.data(), arrays.path_count = 2;
+  arrays.polyline_offsets = paths.data(), arrays.polyline_count = 2;
   arrays.obstacle_offsets = obstacles.data(), arrays.obstacle_count = 2, arrays.is_area = areas.data();
   arrays.bottom = bottom.data(), arrays.top = top.data();
   const auto own = made<bch_obstacles_free>(bch_obstacles_create, &arrays);

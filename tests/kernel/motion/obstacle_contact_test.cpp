@@ -208,7 +208,8 @@ void expect_too_long(const std::string& said, const std::string& who) {
 /// One who walks along a fence for long is refused, and nothing is written.
 TEST(LongLoops, AlongAFenceAreRefused) {
   test::ObstacleScene fence;
-  for (int i = 0; i < 2'000; ++i) fence.add_path({{-0.35, -1 + 0.001 * i}, {-0.3, -1 + 0.001 * i}}, false);
+  for (int i = 0; i < 2'000; ++i)
+    fence.add_polyline({{-0.35, -1 + 0.001 * i}, {-0.3, -1 + 0.001 * i}}, false);
   fence.end_obstacle(false);
   const MotionCase walks{pendulum(0.001, 0.125f), {{0, 0, -0.5, 0}, {1000, 0, 0.5, 0}}};
   double time = 7;
@@ -224,7 +225,7 @@ TEST(LongLoops, AlongAFenceAreRefused) {
 /// So is one who walks a million kilometres along walls, in steps of a body's size.
 TEST(LongLoops, AlongWallsWithoutEndAreRefused) {
   test::ObstacleScene walls;
-  for (int i = 0; i < 300; ++i) walls.add_path({{-1e9, -0.004}, {1e9, -0.004}}, false);
+  for (int i = 0; i < 300; ++i) walls.add_polyline({{-1e9, -0.004}, {1e9, -0.004}}, false);
   walls.end_obstacle(false);
   const MotionCase walks{pendulum(1, 0.01f), {{0, -5e8, 0.255, 0}, {1e6, 5e8, 0.255, 0}}};
   expect_too_long(test::complaint([&] {

@@ -32,7 +32,7 @@ class ObstacleHall : public test::ObstacleTest {
                    r = radius * (1 + share * std::cos(37 * angle));
       points.push_back({r * std::cos(angle), r * std::sin(angle)});
     }
-    scene.add_path(points, true);
+    scene.add_polyline(points, true);
     scene.end_obstacle(is_area);
     return scene;
   }

@@ -78,7 +78,7 @@ TEST_F(Obstacles, AreLeftThoughAllOfManySegmentsAreTouched) {
     spikes.push_back(i % 2 == 0 ? ObstacleScene::Point{0, 0} : ObstacleScene::Point{9 * c, 9 * s});
     // Segments that go up to the right, side by side, whose ends are on two lines.
     const double aside = 0.1 * (-1 + 2.0 * i / count);
-    grid.add_path({{-1 - aside, -1 + aside}, {1 - aside, 1 + aside}}, false);
+    grid.add_polyline({{-1 - aside, -1 + aside}, {1 - aside, 1 + aside}}, false);
   }
   pillar.add(corners, true);
   star.add(spikes, false);
@@ -235,10 +235,10 @@ TEST_F(Obstacles, RejectWhatIsWrong) {
   const std::vector<std::uint8_t> two = {0, 1};
   const auto why = [](const ObstacleArrays& in) { return test::complaint([&] { ObstacleSet{in}; }); };
   EXPECT_EQ(why({x, {}, paths}), "obstacles: 2 values of x but 0 of y");
-  EXPECT_EQ(why({x, y, {}}), "obstacles: path offsets do not lead from 0 to 2 points");
-  EXPECT_EQ(why({x, y, beyond}), "obstacles: path offsets do not lead from 0 to 2 points");
-  EXPECT_EQ(why({x, y, back}), "obstacles: path offsets: 1 after 2");
-  EXPECT_EQ(why({x, y, paths, paths}), "obstacles: obstacle offsets do not lead from 0 to 1 paths");
+  EXPECT_EQ(why({x, y, {}}), "obstacles: polyline offsets do not lead from 0 to 2 points");
+  EXPECT_EQ(why({x, y, beyond}), "obstacles: polyline offsets do not lead from 0 to 2 points");
+  EXPECT_EQ(why({x, y, back}), "obstacles: polyline offsets: 1 after 2");
+  EXPECT_EQ(why({x, y, paths, paths}), "obstacles: obstacle offsets do not lead from 0 to 1 polylines");
   EXPECT_EQ(why({x, y, paths, one, two}), "obstacles: 1 obstacles but 2 values of is_area");
   const std::vector<double> high = {2}, low = {1}, none = {std::nan("")};
   EXPECT_EQ(why({x, y, paths, {}, {}, x}), "obstacles: 1 obstacles but 2 values of bottom");

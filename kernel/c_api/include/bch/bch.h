@@ -755,8 +755,8 @@ BCH_API bch_status bch_crowd_penetrations(bch_crowd* crowd, const bch_shape_set*
 /** Returns the pairs of the last answer by agent, one row per agent of the crowd. */
 BCH_API bch_status bch_crowd_by_agent(bch_crowd* crowd, bch_neighbour_rows* neighbours);
 /** Returns for each agent of the last answer, which has to be of bch_crowd_clearances() or bch_crowd_body_clearances(), the nearest others,
- * at most so many, the nearest first: what crowd models avoid (ORCA's neighbours), by the distances of that answer, not of centres. */
-BCH_API bch_status bch_crowd_nearest(bch_crowd* crowd, uint32_t most, bch_neighbour_rows* neighbours);
+ * at most `max_count`, the nearest first: what crowd models avoid (ORCA's neighbours), by the distances of that answer, not of centres. */
+BCH_API bch_status bch_crowd_nearest(bch_crowd* crowd, uint32_t max_count, bch_neighbour_rows* neighbours);
 /** Finds the obstacles that each agent collides with, one row per agent, ascending. */
 BCH_API bch_status bch_crowd_obstacles(bch_crowd* crowd, const bch_shape_set* set, const bch_agents* agents,
                                        const bch_obstacles* obstacles, const bch_query_options* options,
@@ -971,15 +971,15 @@ BCH_API bch_status bch_crowd_body_contacts_of(bch_crowd* crowd, const bch_body_s
 
 /* Obstacles --------------------------------------------------------------------------------------------------------- */
 
-/** Holds obstacles in arrays: paths made of points, and obstacles made of paths, as offsets. */
+/** Holds obstacles in arrays: polylines of points, and obstacles of polylines, as offsets. */
 typedef struct bch_obstacle_arrays {
   uint32_t size;   /**< sizeof(bch_obstacle_arrays) */
-  const double* x; /**< the points of all paths */
+  const double* x; /**< the points of all polylines */
   const double* y;
-  const uint64_t* path_offsets; /**< path p has points [p] to [p + 1] */
-  size_t path_count;
-  const uint64_t* obstacle_offsets; /**< obstacle o has paths [o] to [o + 1]; NULL: one path each */
-  size_t obstacle_count;            /**< without offsets the number of paths */
+  const uint64_t* polyline_offsets; /**< polyline p has points [p] to [p + 1] */
+  size_t polyline_count;
+  const uint64_t* obstacle_offsets; /**< obstacle o has polylines [o] to [o + 1]; NULL: one polyline each */
+  size_t obstacle_count;            /**< without offsets the number of polylines */
   const uint8_t* is_area;           /**< 1: the obstacle's rings enclose it; NULL: no obstacle is an area */
   const double* bottom;             /**< per obstacle, metres; may be infinite; NULL: all are */
   const double* top; /**< likewise; bodies with heights meet only obstacles whose heights meet theirs */
@@ -1069,8 +1069,8 @@ typedef struct bch_resolved_view {
   const double* y; /**< one per agent */
   size_t left_count;
   const bch_pair* left; /**< pairs that still collide */
-  size_t touch_count;
-  const uint32_t* touch_walls; /**< agents that still touch an obstacle, ascending */
+  size_t agents_at_walls_count;
+  const uint32_t* agents_at_walls; /**< agents that still touch an obstacle, ascending */
   uint32_t sweeps;             /**< that were made */
 } bch_resolved_view;
 /** Moves agents on the ground, as little as it can, until no two bodies collide and nobody touches an obstacle. `resolve_options` may be NULL. */
