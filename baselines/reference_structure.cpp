@@ -195,7 +195,7 @@ class ContourHierarchies final : public Structure {
     return search([&](const Visit& at) {
              if (margin < 0 || at.left_a == 0 || at.left_b == 0) return verified(at);
              const Meeting found = segments_.closest(place, margin, at.a, at.b, counts);
-             return found == Meeting::sure || (found == Meeting::near && verified(at));
+             return found == Meeting::sure || (found == Meeting::within_margin && verified(at));
            }) ||
            contours_.query(agents, pair, place);
   }

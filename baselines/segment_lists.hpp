@@ -52,7 +52,7 @@ class SegmentLists {
                   Counts counts) const noexcept {
     const Hierarchy::Range of_a = ranges_[leaf_a], of_b = ranges_[leaf_b];
     if (std::max(of_a.end - of_a.begin, of_b.end - of_b.begin) > detail::max_leaf_segments)
-      return Meeting::near;
+      return Meeting::within_margin;
     const Placement in_a{double{place.cosine}, double{place.sine}, double{place.x}, double{place.y}};
     Meeting best = Meeting::none;
     for (std::uint32_t j = of_b.begin; j < of_b.end; ++j) {

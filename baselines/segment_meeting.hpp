@@ -20,8 +20,8 @@ using Segment = std::array<Point2, 2>;
 /// Tells the relation of two segments.
 enum class Meeting : std::uint8_t {
   none,
-  near,  ///< they come within the margin of each other
-  sure,  ///< also, their outlines surely cross, so that some leaves overlap with all ancestors
+  within_margin,  ///< they come within the margin of each other
+  sure,           ///< also, their outlines surely cross, so that some leaves overlap with all ancestors
 };
 
 inline Point2 minus(Point2 a, Point2 b) noexcept {
@@ -73,7 +73,7 @@ inline Meeting meeting(const Segment& p, const Segment& q, double margin) noexce
   const Sides of_q(q, p, margin);
   if (of_q.on_one_side()) return Meeting::none;
   if (of_p.on_both_sides() && of_q.on_both_sides()) return Meeting::sure;
-  return square_of_ends(p, q) <= margin * margin ? Meeting::near : Meeting::none;
+  return square_of_ends(p, q) <= margin * margin ? Meeting::within_margin : Meeting::none;
 }
 
 }  // namespace bch::baselines

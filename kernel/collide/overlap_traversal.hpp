@@ -117,7 +117,7 @@ class OverlapTraversal {
     const float* const nodes = shapes_.nodes;
     if constexpr (KnowsGaps<Simd>)
       return near_discs<Simd>(pair.b_in_a, Nodes::outer_discs(nodes, a, pair.stride_a),
-                              Nodes::outer_discs(nodes, b, pair.stride_b), near_radii,
+                              Nodes::outer_discs(nodes, b, pair.stride_b), radius_factor,
                               (a & b) >= leaf_window ? pair.gaps.leaf : pair.gaps.bound);
     return overlapping_discs<Simd>(pair.b_in_a, Nodes::discs(nodes, a, pair.stride_a),
                                    Nodes::discs(nodes, b, pair.stride_b));
@@ -149,19 +149,19 @@ class OverlapTraversal {
   /// Keeps the hits of leaves whose segments meet. A pair whose segments surely cross keeps all its hits.
   /// Returns: how many pairs have hits whose ancestors have to be tested; these come first.
   std::uint32_t compare_segments(std::uint16_t* which, std::uint32_t count) noexcept {
-    std::uint64_t near[verified_together];
+    std::uint64_t within_margin[verified_together];
     std::uint32_t is_sure = 0, is_compared = 0;
     static_assert(verified_together <= 32);
     const auto on_meeting = [&](std::uint32_t owner, Meeting meeting) {
       const std::uint32_t i = owner / block_pairs;
       is_sure |= std::uint32_t{meeting == Meeting::sure} << i;
-      near[i] |= std::uint64_t{meeting == Meeting::near} << owner % block_pairs;
+      within_margin[i] |= std::uint64_t{meeting == Meeting::within_margin} << owner % block_pairs;
     };
     Compared compared[verified_together + 1];
     std::uint32_t pairs = 0, all_hits = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
       const Open& at = open_[slots_[which[i]]];
-      near[i] = 0;
+      within_margin[i] = 0;
       if (at.margin == 0) [[unlikely]]
         continue;
       is_compared |= std::uint32_t{1} << i;
@@ -194,7 +194,7 @@ class OverlapTraversal {
     for (std::uint32_t i = 0; i < count; ++i) {
       const std::uint16_t k = which[i];
       const bool sure = is_sure >> i & 1;
-      if (is_compared >> i & 1 && !sure) hits_[k] = near[i];
+      if (is_compared >> i & 1 && !sure) hits_[k] = within_margin[i];
       which[left] = k;
       left += !sure & (hits_[k] != 0);
     }

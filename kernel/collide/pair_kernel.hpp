@@ -60,7 +60,7 @@ class PairKernel {
   /// Answers the pairs that were placed.
   [[gnu::always_inline]] void answer_chunk(std::size_t begin) noexcept {
     codes_ = in_.codes + begin;
-    open_.size = near_.size = 0;
+    open_.size = likely_.size = 0;
     // Profiles reject more than root discs do. Roots are tested only where there are no profiles, where a cut may be a single
     // disc, or where there are several levels.
     if (shapes_.support == nullptr || !shapes_.rows_in_order) {
@@ -126,7 +126,7 @@ class PairKernel {
 
   [[gnu::always_inline]] std::uint32_t roots_overlap(std::uint32_t k, Float x, Float y,
                                                      Float r) const noexcept {
-    if constexpr (KnowsGaps<Simd>) r = r * Float(near_radii) + Simd::load(at_.gap + k);
+    if constexpr (KnowsGaps<Simd>) r = r * Float(radius_factor) + Simd::load(at_.gap + k);
     return Simd::bits(x * x + y * y <= r * r);
   }
 
@@ -153,7 +153,7 @@ class PairKernel {
     end_stage<Simd>(Stage::profiles, at_.size);
     axis_test_.place_directions();
     separate(0, Stage::even_supports);
-    accept<block_width / 2>(near_, Stage::inscribed_four);
+    accept<block_width / 2>(likely_, Stage::inscribed_four);
     accept<block_width>(open_, Stage::inscribed_eight);
     separate(1, Stage::odd_supports);
   }
@@ -196,8 +196,8 @@ class PairKernel {
       const std::uint32_t open = all & ~(answers.apart | answers.meet);
       may_nest_[k / Simd::width] = answers.may_nest;
       separated_.add(all & answers.apart, k);
-      near_.add(open & answers.near, k);
-      open_.add(open & ~answers.near, k);
+      likely_.add(open & answers.likely, k);
+      open_.add(open & ~answers.likely, k);
     }
     for (std::uint32_t k = 0; k < separated_.size; ++k) codes_[separated_.pair[k]] = apart;
   }
@@ -247,7 +247,7 @@ class PairKernel {
   alignas(64) std::uint32_t row_a_[chunk_size], row_b_[chunk_size];  ///< supports; set by test_roots()
   /// One word for each register of pairs: a bit for each of its pairs.
   std::uint32_t open_bits_[chunk_size / Simd::width], may_nest_[chunk_size / Simd::width];
-  List open_, near_, separated_;
+  List open_, likely_, separated_;
   OverlapTraversal<Simd, open_traversals> traversal_;
 };
 

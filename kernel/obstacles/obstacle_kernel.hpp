@@ -50,8 +50,9 @@ class ObstacleKernel {
       if (node < leaf_window) return false;
       for (; block.lanes != 0; block.lanes &= block.lanes - 1) {
         const std::uint32_t disc = (node & ~leaf_window) + block.first();
-        const Meeting meeting = exact_ ? outline_meets(disc) : Meeting::near;
-        if (meeting == Meeting::sure || (meeting == Meeting::near && ancestors_touch(disc))) return true;
+        const Meeting meeting = exact_ ? outline_meets(disc) : Meeting::within_margin;
+        if (meeting == Meeting::sure || (meeting == Meeting::within_margin && ancestors_touch(disc)))
+          return true;
       }
       return false;
     };
@@ -145,7 +146,7 @@ class ObstacleKernel {
   Meeting outline_meets(std::uint32_t disc) const noexcept {
     const LeafSegments<Simd> leaves{in_.shapes->leaf_segments};
     const auto list = leaves.segments(tree_, disc);
-    if (list.count == 0) return Meeting::near;
+    if (list.count == 0) return Meeting::within_margin;
     Meeting most = Meeting::none;
     for (std::uint32_t i = 0; i < list.count && most != Meeting::sure; ++i) {
       const Vec2* const point = in_.shapes->points + list.point(i);

@@ -44,12 +44,12 @@ class OutlineSegment {
   Meeting meet(double margin) const noexcept {
     const double limit = margin + segment_.slack;
     if (is_off_line(limit)) return Meeting::none;
-    if (!cross()) return square_of_ends() <= limit * limit ? Meeting::near : Meeting::none;
+    if (!cross()) return square_of_ends() <= limit * limit ? Meeting::within_margin : Meeting::none;
     const double beyond = limit * (__builtin_fabs(q_.x - p_.x) + __builtin_fabs(q_.y - p_.y));
     const bool sure = __builtin_fabs(p_.y) > limit && __builtin_fabs(q_.y) > limit &&
                       __builtin_fabs(side_of(segment_.from)) > beyond &&
                       __builtin_fabs(side_of(segment_.to)) > beyond;
-    return sure ? Meeting::sure : Meeting::near;
+    return sure ? Meeting::sure : Meeting::within_margin;
   }
 
   /// Returns how far apart they are, metres.

@@ -32,10 +32,10 @@ struct Gaps {
   float bound;  ///< between what holds leaf discs
 };
 
-constexpr float near_radii = 1 + 0x1p-19f;  ///< the factor of r
-constexpr float sure_gap = 1 - 0x1p-18f;    ///< the factor of g
+constexpr float radius_factor = 1 + 0x1p-19f;  ///< the factor of r
+constexpr float sure_gap = 1 - 0x1p-18f;       ///< the factor of g
 constexpr double gap_share = 0x1p-19, gap_bound_share = 0x1p-17, gap_price = 1.4e-6;
-static_assert(double{near_radii} - 1 == gap_share && gap_share == 32 * rounding::unit_roundoff);
+static_assert(double{radius_factor} - 1 == gap_share && gap_share == 32 * rounding::unit_roundoff);
 static_assert(gap_share >= (19.2 + 4.5 + 0.1) * rounding::unit_roundoff);
 static_assert(gap_bound_share >= (37 + 2 * 23 + 2 * 8 + 21) * rounding::unit_roundoff);
 static_assert(1 - double{sure_gap} >= (11 + 34 + 1) * rounding::unit_roundoff);

@@ -23,7 +23,7 @@ class ProfileTest {
     std::uint32_t apart = 0;     ///< a line separates the cuts, by more than the gap
     std::uint32_t meet = 0;      ///< areas of the largest contours meet, or are within the gap of each other
     std::uint32_t may_nest = 0;  ///< a contour of one may lie inside one of the other
-    std::uint32_t near = 0;      ///< likely hits: test these for a hit first
+    std::uint32_t likely = 0;    ///< likely hits, for which accepting is tried first
   };
 
   ProfileTest(const ShapeSetView& shapes, const RelativeTransforms<Simd>& at,
@@ -72,7 +72,7 @@ class ProfileTest {
             .meet = Simd::bits(distance <= inner),
             .may_nest = Simd::bits(distance <= xsimd::max(coincident, outer_a - field(of_b_, 2, k))) |
                         Simd::bits(distance <= outer_b - field(of_a_, 2, k)),
-            .near = Simd::bits(distance < inner + Float(near_share) * (outer - inner))};
+            .likely = Simd::bits(distance < inner + Float(likely_share) * (outer - inner))};
   }
 
   /// Returns how far discs of the pair, where these decide, stick out of what supports and profiles hold, after look(). Metres.
@@ -88,7 +88,7 @@ class ProfileTest {
   static constexpr std::uint32_t profile_strides = sizeof(Profile) / sizeof(float) / stride;
   /// The share of the distance from where areas meet to where cuts are apart: pairs nearer than that are likely hits. Its value was
   /// measured.
-  static constexpr float near_share = 0.6f;
+  static constexpr float likely_share = 0.6f;
 
   static Float field(const Fields& of, std::uint32_t i, std::uint32_t k) noexcept {
     return Simd::load(of.field[i] + k);

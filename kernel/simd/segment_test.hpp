@@ -16,8 +16,8 @@ namespace bch::detail {
 /// Tells the relation of two segments.
 enum class Meeting : std::uint8_t {
   none,
-  near,  ///< they come within the margin of each other
-  sure,  ///< also, the outlines surely cross, so that some leaves overlap with all ancestors
+  within_margin,  ///< they come within the margin of each other
+  sure,           ///< also, the outlines surely cross, so that some leaves overlap with all ancestors
 };
 
 /// Returns the distance within which segments of two shapes meet, metres. (`Simd` keeps instruction sets from sharing a
@@ -44,7 +44,7 @@ class SegmentTest : private SegmentBatch<Simd> {
   [[gnu::always_inline]] void add(std::uint32_t placed, const Row& a, std::uint32_t i, const Row& b,
                                   std::uint32_t j, std::uint32_t owner, Use use) noexcept {
     if (!this->collect(placed, a, i, b, j, owner, [&] { finish(use); })) [[unlikely]]
-      use(owner, Meeting::near);
+      use(owner, Meeting::within_margin);
   }
 
   /// Tests all that were collected.
@@ -83,7 +83,7 @@ class SegmentTest : private SegmentBatch<Simd> {
     if (apart_[lane] > 0) return Meeting::none;
     if (sure_[lane] > 0) return Meeting::sure;
     if (measured_ != k) measure(k);
-    return beyond_[lane - k] <= 0 ? Meeting::near : Meeting::none;
+    return beyond_[lane - k] <= 0 ? Meeting::within_margin : Meeting::none;
   }
 
   /// Measures by how much the pairs of the register from k on miss the margin. About one pair in ten thousand needs this, but most
