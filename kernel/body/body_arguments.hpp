@@ -12,7 +12,7 @@ namespace bch::detail {
 
 /// Holds what the kernel of bodies of spheres reads and writes: plain pointers only, as Arguments.
 struct BodyArguments {
-  Arguments pairs;  ///< agents, pairs and codes; its shapes are the discs of the bodies
+  Arguments pairs;  ///< agents, pairs and states; its shapes are the discs of the bodies
   const BodySetView* bodies;
 };
 

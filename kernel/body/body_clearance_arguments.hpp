@@ -19,7 +19,7 @@ struct NearestSpheres {
 
 /// Holds the input and output of the clearance kernel of bodies.
 struct BodyClearanceArguments {
-  BodyArguments in;         ///< without codes
+  BodyArguments in;         ///< without states
   float limit;              ///< distances above it are not searched for
   float stop_below;         ///< one at or below it ends a search
   NearestSpheres* nearest;  ///< as many as pairs

@@ -16,7 +16,7 @@ namespace bch::detail {
 inline void find_hits(const Implementation& implementation, const BodySetView& bodies, const Agents& agents,
                       std::span<const Pair> pairs, std::uint8_t* hits) {
   BodyArguments arguments{arguments_for(bodies.ground, agents, pairs), &bodies};
-  arguments.pairs.codes = hits;
+  arguments.pairs.states = hits;
   implementation.kernels->run_bodies(arguments, 0, pairs.size());
 }
 

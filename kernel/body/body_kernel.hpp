@@ -31,19 +31,19 @@ class BodyKernel {
     for (; begin < end; begin += chunk_size) {
       kernel.at_.place(arguments.pairs, begin, end);
       kernel.gaps_ = arguments.pairs.gaps == nullptr ? nullptr : arguments.pairs.gaps + begin;
-      kernel.answer_chunk(arguments.pairs.codes + begin);
+      kernel.answer_chunk(arguments.pairs.states + begin);
     }
   }
 
  private:
   explicit BodyKernel(const BodyArguments& arguments) noexcept : in_(arguments), bands_(at_) {}
 
-  void answer_chunk(std::uint8_t* codes) noexcept {
-    __builtin_memset(codes, 0, at_.size);
+  void answer_chunk(std::uint8_t* states) noexcept {
+    __builtin_memset(states, 0, at_.size);
     separate();
-    accept<8>(codes);
-    accept<core_spheres>(codes);
-    for (std::uint32_t k = 0; k < open_.size; ++k) codes[open_.pair[k]] = search(open_.pair[k]);
+    accept<8>(states);
+    accept<core_spheres>(states);
+    for (std::uint32_t k = 0; k < open_.size; ++k) states[open_.pair[k]] = search(open_.pair[k]);
   }
 
   PlacedBodies bodies(std::uint32_t pair) const noexcept {
@@ -73,12 +73,12 @@ class BodyKernel {
 
   /// Accepts pairs of which some of the first `count` core spheres meet.
   template <unsigned count>
-  void accept(std::uint8_t* codes) noexcept {
+  void accept(std::uint8_t* states) noexcept {
     open_.drop_if(
         open_,
         [&](std::uint32_t pair) {
           const std::uint32_t hit = cores_meet<count>(bodies(pair));
-          codes[pair] = static_cast<std::uint8_t>(hit);
+          states[pair] = static_cast<std::uint8_t>(hit);
           return hit;
         },
         [](std::uint32_t) {});

@@ -23,7 +23,7 @@ void collide(const BodySet& bodies, const Agents& agents, std::span<const Pair> 
   const BodySetView& view = bodies.view();
   require_valid(implementation, view.ground, agents, pairs);
   BodyArguments arguments{arguments_for(view.ground, agents, pairs), &view};
-  arguments.pairs.codes = hits.data();
+  arguments.pairs.states = hits.data();
   for_ranges(pairs.size(), pairs_per_task, [&](std::size_t begin, std::size_t end) {
     implementation.kernels->run_bodies(arguments, begin, end);
   });

@@ -17,18 +17,18 @@ namespace {
 void compare_heights(const Arguments& in, std::size_t begin, std::size_t end) noexcept {
   if (in.agent_z.first == nullptr) return;
   for (std::size_t i = begin; i < end; ++i)
-    if (in.codes[i] != apart && !heights_meet(in, in.pairs[i])) in.codes[i] = apart;
+    if (in.states[i] != apart && !heights_meet(in, in.pairs[i])) in.states[i] = apart;
 }
 
 /// Decides the pairs of which one outline may contain the other.
 void decide_containment(const Arguments& in, std::size_t begin, std::size_t end) noexcept {
   if (in.shapes->shape_contours == nullptr) return;
   for (std::size_t i = begin; i < end; ++i) {
-    if (in.codes[i] != may_contain) {
-      in.codes[i] &= overlap;
+    if (in.states[i] != may_contain) {
+      in.states[i] &= overlap;
       continue;
     }
-    in.codes[i] = one_contains_other(in, in.pairs[i]) ? overlap : apart;
+    in.states[i] = one_contains_other(in, in.pairs[i]) ? overlap : apart;
   }
 }
 

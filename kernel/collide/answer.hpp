@@ -11,7 +11,7 @@
 
 namespace bch::detail {
 
-/// Does the work of one task: answers pairs begin .. end, each 0 or 1. Writes nothing but their codes, so that
+/// Does the work of one task: answers pairs begin .. end, each 0 or 1. Writes nothing but their states, so that
 /// ranges may run at the same time.
 /// Precondition: everything was validated.
 void answer(const Implementation& implementation, const Arguments& arguments, std::size_t begin,

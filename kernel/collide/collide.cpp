@@ -22,7 +22,7 @@ void collide(const ShapeSet& shapes, const Agents& agents, std::span<const Pair>
   const ShapeSetView& view = shapes.view();
   require_sizes(agents);
   Arguments arguments = arguments_for(view, agents, pairs);
-  arguments.codes = hits.data();
+  arguments.states = hits.data();
   arguments.exact_leaves = exact;
   require_valid(implementation, view, agents, pairs);
   for_ranges(pairs.size(), pairs_per_task,

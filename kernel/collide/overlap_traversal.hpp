@@ -29,24 +29,25 @@ class OverlapTraversal {
  public:
   OverlapTraversal(const ShapeSetView& shapes, const Arguments& arguments) noexcept
       : shapes_(shapes),
-        codes_(arguments.codes),
+        states_(arguments.states),
         exact_leaves_(arguments.exact_leaves),
         segments_(shapes, placed_) {}
 
-  /// Adds a pair: `pair` is where its answer goes in codes, `miss` what it is unless a traversal finds an overlap.
+  /// Adds a pair: `pair` is where its answer goes in states, `state_without_hit` what it is unless a traversal finds an overlap.
   /// `reach`: of the two shapes together. `margin`: of their segments, 0 where discs decide. `gaps` are looked at where
   /// KnowsGaps.
-  void add(std::size_t pair, std::uint8_t miss, const Transform& b_in_a, std::uint32_t root_a,
+  void add(std::size_t pair, std::uint8_t state_without_hit, const Transform& b_in_a, std::uint32_t root_a,
            std::uint32_t root_b, float reach, double margin, Gaps gaps) noexcept {
     const Tree a = shapes_.trees[root_a], b = shapes_.trees[root_b];
     if (a.segments == no_segments || b.segments == no_segments) margin = 0;
     // Slots are numbered when they are first needed, because small batches need few.
     if (size_ == numbered_) slots_[size_] = static_cast<std::uint16_t>(numbered_++);
     const std::uint32_t slot = slots_[size_++];
-    open_[slot] = {b_in_a, a.top, b.top, a.stride, b.stride, root_a, root_b, reach, 0, pair, margin, {}};
-    if constexpr (KnowsGaps<Simd>) open_[slot].gaps = gaps;
+    traversals_[slot] = {b_in_a, a.top, b.top, a.stride, b.stride, root_a,
+                         root_b, reach, 0,     pair,     margin,   {}};
+    if constexpr (KnowsGaps<Simd>) traversals_[slot].gaps = gaps;
     frames_[slot][0] = {0, 0, 0};  // a sentinel: no open hits, so the pair ends here
-    codes_[pair] = miss;
+    states_[pair] = state_without_hit;
   }
 
   /// Runs rounds until at most so many pairs are open.
@@ -66,13 +67,13 @@ class OverlapTraversal {
   struct NoGaps {};
 
   /// Represents a pair whose trees are being traversed, with the two nodes to test next.
-  struct Open {
+  struct Traversal {
     Transform b_in_a;
     std::uint32_t a, b;
     std::uint32_t stride_a, stride_b;
     std::uint32_t root_a, root_b;
     float reach;
-    std::uint32_t top;  ///< frame
+    std::uint32_t stack_top;  ///< frame
     std::size_t pair;
     double margin;  ///< metres; 0: discs decide, not segments
     [[no_unique_address]] std::conditional_t<KnowsGaps<Simd>, Gaps, NoGaps> gaps;
@@ -82,7 +83,7 @@ class OverlapTraversal {
   /// followed yet.
   struct Frame {
     std::uint32_t a, b;
-    std::uint64_t open;
+    std::uint64_t unvisited;
   };
 
   /// Tests every open pair, then steps every pair: in two loops, because out-of-order execution overlaps iterations of either, but hardly
@@ -103,16 +104,16 @@ class OverlapTraversal {
     const float* const nodes = shapes_.nodes;
     for (std::uint32_t k = 0; k < size_; ++k) {
       if (k + tests_ahead < size_) {
-        const Open& next = open_[slots_[k + tests_ahead]];
+        const Traversal& next = traversals_[slots_[k + tests_ahead]];
         Nodes::prefetch(nodes, next.a, next.stride_a);
         Nodes::prefetch(nodes, next.b, next.stride_b);
       }
-      const Open& at = open_[slots_[k]];
-      hits_[k] = overlaps_of(at, at.a, at.b);
+      const Traversal& at = traversals_[slots_[k]];
+      overlaps_[k] = overlaps_of(at, at.a, at.b);
     }
   }
 
-  [[gnu::always_inline]] std::uint64_t overlaps_of(const Open& pair, std::uint32_t a,
+  [[gnu::always_inline]] std::uint64_t overlaps_of(const Traversal& pair, std::uint32_t a,
                                                    std::uint32_t b) const noexcept {
     const float* const nodes = shapes_.nodes;
     if constexpr (KnowsGaps<Simd>)
@@ -131,9 +132,9 @@ class OverlapTraversal {
     std::uint16_t found[verified_together + 1];
     std::uint32_t count = 0, all = 0;
     for (std::uint32_t k = 0; k < size_; ++k) {
-      const Open& at = open_[slots_[k]];
+      const Traversal& at = traversals_[slots_[k]];
       found[count] = static_cast<std::uint16_t>(k);
-      count += (at.a & at.b) / leaf_window & static_cast<std::uint32_t>(hits_[k] != 0);
+      count += (at.a & at.b) / leaf_window & static_cast<std::uint32_t>(overlaps_[k] != 0);
       if (count == verified_together) [[unlikely]]
         verify(found, count), all += count, count = 0;
     }
@@ -143,7 +144,7 @@ class OverlapTraversal {
 
   void verify(std::uint16_t* which, std::uint32_t count) noexcept {
     if (exact_leaves_) count = compare_segments(which, count);
-    verify_hits(which, count);
+    verify_overlaps(which, count);
   }
 
   /// Keeps the hits of leaves whose segments meet. A pair whose segments surely cross keeps all its hits.
@@ -158,9 +159,9 @@ class OverlapTraversal {
       within_margin[i] |= std::uint64_t{meeting == Meeting::within_margin} << owner % block_pairs;
     };
     Compared compared[verified_together + 1];
-    std::uint32_t pairs = 0, all_hits = 0;
+    std::uint32_t pairs = 0, all_overlaps = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
-      const Open& at = open_[slots_[which[i]]];
+      const Traversal& at = traversals_[slots_[which[i]]];
       within_margin[i] = 0;
       if (at.margin == 0) [[unlikely]]
         continue;
@@ -171,9 +172,9 @@ class OverlapTraversal {
                                                    segments_.row(b, at.b & ~leaf_window),
                                                    a.count,
                                                    b.count,
-                                                   hits_[which[i]],
+                                                   overlaps_[which[i]],
                                                    i};
-      all_hits += static_cast<unsigned>(__builtin_popcountll(added.hits));
+      all_overlaps += static_cast<unsigned>(__builtin_popcountll(added.overlaps));
       segments_.prefetch_words(added.a), segments_.prefetch_words(added.b);
     }
     for (std::uint32_t k = 0; k < pairs; ++k) {
@@ -181,35 +182,35 @@ class OverlapTraversal {
       segments_.prefetch_points(compared[k].b, compared[k].leaves_b);
     }
     // One loop over the hits of all pairs, because only the end of a loop is predicted wrongly.
-    for (std::uint32_t k = 0; all_hits > 0; --all_hits) {
+    for (std::uint32_t k = 0; all_overlaps > 0; --all_overlaps) {
       Compared& at = compared[k];
-      const auto bit = static_cast<unsigned>(__builtin_ctzll(at.hits));
+      const auto bit = static_cast<unsigned>(__builtin_ctzll(at.overlaps));
       segments_.add(at.pair, at.a, bit / block_width, at.b, bit % block_width, at.pair * block_pairs + bit,
                     on_meeting);
-      at.hits &= at.hits - 1;
-      k += at.hits == 0;
+      at.overlaps &= at.overlaps - 1;
+      k += at.overlaps == 0;
     }
     segments_.finish(on_meeting);
     std::uint32_t left = 0;
     for (std::uint32_t i = 0; i < count; ++i) {
       const std::uint16_t k = which[i];
       const bool sure = is_sure >> i & 1;
-      if (is_compared >> i & 1 && !sure) hits_[k] = within_margin[i];
+      if (is_compared >> i & 1 && !sure) overlaps_[k] = within_margin[i];
       which[left] = k;
-      left += !sure & (hits_[k] != 0);
+      left += !sure & (overlaps_[k] != 0);
     }
     return left;
   }
 
   /// Verifies one hit of every pair per pass, until one is confirmed or none is left. Paths of many pairs are followed
   /// side by side, because each step waits for the one before.
-  void verify_hits(std::uint16_t* which, std::uint32_t count) noexcept {
+  void verify_overlaps(std::uint16_t* which, std::uint32_t count) noexcept {
     const float* const nodes = shapes_.nodes;
     AncestorPath<Simd>*const above_a = above_a_, *const above_b = above_b_;
     while (count > 0) {
       for (std::uint32_t i = 0; i < count; ++i) {
-        const Open& at = open_[slots_[which[i]]];
-        const auto [disc_a, disc_b] = first_hit(at, hits_[which[i]]);
+        const Traversal& at = traversals_[slots_[which[i]]];
+        const auto [disc_a, disc_b] = first_overlap(at, overlaps_[which[i]]);
         above_a[i].begin(nodes, shapes_.trees[at.root_a], disc_a);
         above_b[i].begin(nodes, shapes_.trees[at.root_b], disc_b);
       }
@@ -218,13 +219,13 @@ class OverlapTraversal {
       std::uint32_t left = 0;
       for (std::uint32_t i = 0; i < count; ++i) {
         const std::uint16_t k = which[i];
-        const Open& at = open_[slots_[k]];
-        const auto [disc_a, disc_b] = first_hit(at, hits_[k]);
+        const Traversal& at = traversals_[slots_[k]];
+        const auto [disc_a, disc_b] = first_overlap(at, overlaps_[k]);
         const PlacedTrees trees{at.b_in_a, shapes_.trees[at.root_a], shapes_.trees[at.root_b], at.reach};
         const bool stays = AncestorTest<Simd>(nodes, trees, disc_a, disc_b, above_a[i], above_b[i]).passes();
-        if (!stays) hits_[k] &= hits_[k] - 1;
+        if (!stays) overlaps_[k] &= overlaps_[k] - 1;
         which[left] = k;
-        left += !stays & (hits_[k] != 0);
+        left += !stays & (overlaps_[k] != 0);
       }
       count = left;
     }
@@ -234,7 +235,7 @@ class OverlapTraversal {
   struct Compared {
     typename SegmentTest<Simd>::Row a, b;
     std::uint32_t leaves_a, leaves_b;  ///< of the trees
-    std::uint64_t hits;
+    std::uint64_t overlaps;
     std::uint32_t pair;  ///< of those compared
   };
 
@@ -242,8 +243,8 @@ class OverlapTraversal {
     std::uint32_t a, b;  ///< places among the nodes
   };
   /// Returns the leaves of the first hit of two windows.
-  static LeafPair first_hit(const Open& at, std::uint64_t hits) noexcept {
-    const auto bit = static_cast<unsigned>(__builtin_ctzll(hits));
+  static LeafPair first_overlap(const Traversal& at, std::uint64_t overlaps) noexcept {
+    const auto bit = static_cast<unsigned>(__builtin_ctzll(overlaps));
     return {(at.a & ~leaf_window) + bit / block_width, (at.b & ~leaf_window) + bit % block_width};
   }
 
@@ -253,37 +254,37 @@ class OverlapTraversal {
   /// slots of pairs that are done end up behind the others.
   [[gnu::always_inline]] void step() noexcept {
     const float* const nodes = shapes_.nodes;
-    std::uint8_t* const codes = codes_;
+    std::uint8_t* const states = states_;
     const std::uint32_t size = size_;
     std::uint32_t left = 0;
     for (std::uint32_t k = 0; k < size; ++k) {
       const std::uint16_t slot = slots_[k];
-      Open& at = open_[slot];
-      const std::uint64_t hits = hits_[k];
+      Traversal& at = traversals_[slot];
+      const std::uint64_t overlaps = overlaps_[k];
       // leaf_window is the top bit of a node's name, so the division gives 1 where both nodes are leaf windows.
-      const std::uint32_t hit = hits != 0, found = (at.a & at.b) / leaf_window & hit;
-      codes[at.pair] = static_cast<std::uint8_t>(codes[at.pair] | found);
+      const std::uint32_t any = overlaps != 0, hit = (at.a & at.b) / leaf_window & any;
+      states[at.pair] = static_cast<std::uint8_t>(states[at.pair] | hit);
 
       Frame* const frames = frames_[slot];
-      frames[at.top + 1] = {at.a, at.b, hits};
-      const std::uint32_t top_index = at.top + hit;
-      Frame& top = frames[top_index];
-      const std::uint64_t open = top.open;
+      frames[at.stack_top + 1] = {at.a, at.b, overlaps};
+      const std::uint32_t new_top = at.stack_top + any;
+      Frame& top = frames[new_top];
+      const std::uint64_t unvisited = top.unvisited;
       const Frame next = first_below(nodes, top);
       at.a = next.a, at.b = next.b;
-      top.open = next.open;
-      at.top = top_index - (next.open == 0);
+      top.unvisited = next.unvisited;
+      at.stack_top = new_top - (next.unvisited == 0);
       slots_[k] = slots_[left];
       slots_[left] = slot;
-      left += (open != 0) & (found ^ 1);
+      left += (unvisited != 0) & (hit ^ 1);
     }
     size_ = left;
   }
 
   /// Returns the nodes below the first open hit of two, or anything where none is, and the hits that stay open.
   [[gnu::always_inline]] static Frame first_below(const float* nodes, const Frame& at) noexcept {
-    std::uint64_t rest = at.open & (at.open - 1);
-    const auto bit = static_cast<unsigned>(__builtin_ctzll(at.open | std::uint64_t{1} << 63));
+    std::uint64_t rest = at.unvisited & (at.unvisited - 1);
+    const auto bit = static_cast<unsigned>(__builtin_ctzll(at.unvisited | std::uint64_t{1} << 63));
     const unsigned i = bit / block_width, j = bit % block_width;
     if ((at.a | at.b) < leaf_window) [[likely]]
       return {Nodes::child(nodes, at.a, i), Nodes::child(nodes, at.b, j), rest};
@@ -295,12 +296,12 @@ class OverlapTraversal {
   }
 
   const ShapeSetView& shapes_;
-  std::uint8_t* const codes_;
+  std::uint8_t* const states_;
   const bool exact_leaves_;
   std::uint32_t size_ = 0, numbered_ = 0;
   std::uint16_t slots_[capacity];  ///< a permutation: first those of open pairs, then free ones
-  Open open_[capacity];
-  std::uint64_t hits_[capacity];
+  Traversal traversals_[capacity];
+  std::uint64_t overlaps_[capacity];
   AncestorPath<Simd> above_a_[verified_together],
       above_b_[verified_together];  ///< of those that are verified
   PlacedSegments placed_[verified_together];

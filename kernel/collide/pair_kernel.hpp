@@ -37,7 +37,7 @@ class PairKernel {
       if constexpr (KnowsGaps<Simd>) kernel.at_.set_gaps(arguments, begin);
       end_stage<Simd>(Stage::place, kernel.at_.size);
       kernel.answer_chunk(begin);
-      kernel.traversal_.run(open_traversals - chunk_size);
+      kernel.traversal_.run(max_traversals - chunk_size);
     }
     kernel.traversal_.run(0);
   }
@@ -46,42 +46,42 @@ class PairKernel {
   using Float = typename Simd::Float;
   /// The most traversals that are open at once: those of a chunk, and as many unfinished pairs besides as fit
   /// on the stack.
-  static constexpr std::uint32_t open_traversals = chunk_size + chunk_size * 7 / 8;
+  static constexpr std::uint32_t max_traversals = chunk_size + chunk_size * 7 / 8;
   using List = ChunkPairs<Simd, chunk_size>;
 
   explicit PairKernel(const Arguments& arguments) noexcept
       : in_(arguments),
         shapes_(*arguments.shapes),
-        miss_(shapes_.shape_contours != nullptr ? may_contain : apart),
+        state_without_hit_(shapes_.shape_contours != nullptr ? may_contain : apart),
         axis_test_(shapes_, at_),
         profiles_(shapes_, at_, arguments),
         traversal_(shapes_, arguments) {}
 
   /// Answers the pairs that were placed.
   [[gnu::always_inline]] void answer_chunk(std::size_t begin) noexcept {
-    codes_ = in_.codes + begin;
-    open_.size = likely_.size = 0;
+    states_ = in_.states + begin;
+    undecided_.size = likely_.size = 0;
     // Profiles reject more than root discs do. Roots are tested only where there are no profiles, where a cut may be a single
     // disc, or where there are several levels.
-    if (shapes_.support == nullptr || !shapes_.rows_in_order) {
+    if (shapes_.support == nullptr || !shapes_.rows_follow_roots) {
       test_roots();
     } else {
       for (std::uint32_t k = 0; k < at_.whole_registers(); k += Simd::width)
-        open_bits_[k / Simd::width] = ~std::uint32_t{0};
-      __builtin_memset(codes_, overlap, at_.size);
+        undecided_bits_[k / Simd::width] = ~std::uint32_t{0};
+      __builtin_memset(states_, overlap, at_.size);
     }
     if (shapes_.support == nullptr)
-      open_all();
-    else if (any_open())
+      list_undecided();
+    else if (any_undecided())
       cull();
-    for (std::uint32_t k = 0; k < open_.size; ++k) {
-      const std::uint32_t pair = open_.pair[k];
+    for (std::uint32_t k = 0; k < undecided_.size; ++k) {
+      const std::uint32_t pair = undecided_.pair[k];
       if (coincide(pair)) continue;  // the code says so by now
-      traversal_.add(begin + pair, miss(pair), at_.transform(pair), at_.root_a[pair], at_.root_b[pair],
-                     shapes_.reach[at_.shape_a[pair]] + shapes_.reach[at_.shape_b[pair]],
+      traversal_.add(begin + pair, state_without_hit(pair), at_.transform(pair), at_.root_a[pair],
+                     at_.root_b[pair], shapes_.reach[at_.shape_a[pair]] + shapes_.reach[at_.shape_b[pair]],
                      segment_margin(pair), gaps_of(pair));
     }
-    end_stage<Simd>(Stage::add, open_.size);
+    end_stage<Simd>(Stage::add, undecided_.size);
   }
 
   /// Returns whether both agents have the same cut, place and heading, so that they collide. Testing them would be
@@ -111,16 +111,16 @@ class PairKernel {
       Simd::store(reinterpret_cast<float*>(row_a_ + k), a[3]);
       Simd::store(reinterpret_cast<float*>(row_b_ + k), b[3]);
       const auto [x, y] = at_.transforms(k).apply(b[0], b[1]);
-      const std::uint32_t hits = roots_overlap(k, x - a[0], y - a[1], a[2] + b[2]);
-      std::uint32_t open = 0;
+      const std::uint32_t overlaps = roots_overlap(k, x - a[0], y - a[1], a[2] + b[2]);
+      std::uint32_t undecided = 0;
       for (std::uint32_t lane = 0; lane < lanes(k); ++lane) {
         const std::uint32_t decided = both_are_single(k + lane);
         // Leaf discs that come within a distance may stick out of the roots.
-        const std::uint32_t hit = (hits >> lane & 1) | (KnowsGaps<Simd> & (decided ^ 1));
-        codes_[k + lane] = static_cast<std::uint8_t>(hit * overlap);
-        open |= (hit & (decided ^ 1)) << lane;
+        const std::uint32_t hit = (overlaps >> lane & 1) | (KnowsGaps<Simd> & (decided ^ 1));
+        states_[k + lane] = static_cast<std::uint8_t>(hit * overlap);
+        undecided |= (hit & (decided ^ 1)) << lane;
       }
-      open_bits_[k / Simd::width] = open;
+      undecided_bits_[k / Simd::width] = undecided;
     }
   }
 
@@ -135,15 +135,16 @@ class PairKernel {
   }
 
   /// Returns whether a pair of the chunk is undecided. In a set of single discs none is by now.
-  bool any_open() const noexcept {
+  bool any_undecided() const noexcept {
     std::uint32_t any = 0;
-    for (std::uint32_t k = 0; k < at_.whole_registers(); k += Simd::width) any |= open_bits_[k / Simd::width];
+    for (std::uint32_t k = 0; k < at_.whole_registers(); k += Simd::width)
+      any |= undecided_bits_[k / Simd::width];
     return any != 0;
   }
 
-  void open_all() noexcept {
+  void list_undecided() noexcept {
     for (std::uint32_t k = 0; k < at_.size; ++k)
-      open_.add_if(open_bits_[k / Simd::width] >> k % Simd::width & 1, k);
+      undecided_.add_if(undecided_bits_[k / Simd::width] >> k % Simd::width & 1, k);
   }
 
   /// Leaves open the pairs that only a traversal can decide. Codes begin as hits, and only separation clears them:
@@ -154,18 +155,18 @@ class PairKernel {
     axis_test_.place_directions();
     separate(0, Stage::even_supports);
     accept<block_width / 2>(likely_, Stage::inscribed_four);
-    accept<block_width>(open_, Stage::inscribed_eight);
+    accept<block_width>(undecided_, Stage::inscribed_eight);
     separate(1, Stage::odd_supports);
   }
 
   /// Rejects the open pairs that supports along even directions, or odd ones, show to be apart.
   void separate(unsigned odd, Stage stage) noexcept {
-    const std::uint32_t tests = open_.size;
-    open_.drop_if(
-        open_,
+    const std::uint32_t tests = undecided_.size;
+    undecided_.drop_if(
+        undecided_,
         [&](std::uint32_t pair) {
           const std::uint32_t is_apart = axis_test_.apart(pair, odd, profiles_.excess(pair));
-          codes_[pair] = static_cast<std::uint8_t>(overlap * (is_apart ^ 1));
+          states_[pair] = static_cast<std::uint8_t>(overlap * (is_apart ^ 1));
           return is_apart;
         },
         [&](std::uint32_t pair) __attribute__((always_inline)) {
@@ -179,7 +180,7 @@ class PairKernel {
   void accept(List& list, Stage stage) noexcept {
     const std::uint32_t tests = list.size;
     list.drop_if(
-        open_, [&](std::uint32_t pair) { return inscribed_discs_overlap<count>(pair); },
+        undecided_, [&](std::uint32_t pair) { return inscribed_discs_overlap<count>(pair); },
         [&](std::uint32_t pair) __attribute__((always_inline)) {
           if (in_.prefetch_shapes) prefetch_inscribed(pair);
         });
@@ -188,18 +189,18 @@ class PairKernel {
 
   /// Answers the pairs that profiles decide, and lists the others by whether they are likely hits.
   void compare_profiles() noexcept {
-    shapes_.rows_in_order ? profiles_.look(nullptr, nullptr) : profiles_.look(row_a_, row_b_);
+    shapes_.rows_follow_roots ? profiles_.look(nullptr, nullptr) : profiles_.look(row_a_, row_b_);
     separated_.size = 0;
     for (std::uint32_t k = 0; k < at_.whole_registers(); k += Simd::width) {
       const auto answers = profiles_.answers(k);
-      const std::uint32_t all = open_bits_[k / Simd::width] & ((std::uint32_t{1} << lanes(k)) - 1);
-      const std::uint32_t open = all & ~(answers.apart | answers.meet);
+      const std::uint32_t all = undecided_bits_[k / Simd::width] & ((std::uint32_t{1} << lanes(k)) - 1);
+      const std::uint32_t undecided = all & ~(answers.apart | answers.meet);
       may_nest_[k / Simd::width] = answers.may_nest;
       separated_.add(all & answers.apart, k);
-      likely_.add(open & answers.likely, k);
-      open_.add(open & ~answers.likely, k);
+      likely_.add(undecided & answers.likely, k);
+      undecided_.add(undecided & ~answers.likely, k);
     }
-    for (std::uint32_t k = 0; k < separated_.size; ++k) codes_[separated_.pair[k]] = apart;
+    for (std::uint32_t k = 0; k < separated_.size; ++k) states_[separated_.pair[k]] = apart;
   }
 
   /// Returns the number of pairs in the register that begins with pair k.
@@ -208,8 +209,9 @@ class PairKernel {
   }
 
   /// Returns the code of a pair whose cuts do not overlap.
-  std::uint8_t miss(std::uint32_t pair) const noexcept {
-    return static_cast<std::uint8_t>(shapes_.support == nullptr ? miss_ : miss_ * may_nest(pair));
+  std::uint8_t state_without_hit(std::uint32_t pair) const noexcept {
+    return static_cast<std::uint8_t>(shapes_.support == nullptr ? state_without_hit_
+                                                                : state_without_hit_ * may_nest(pair));
   }
 
   std::uint32_t may_nest(std::uint32_t pair) const noexcept {
@@ -239,16 +241,16 @@ class PairKernel {
 
   const Arguments& in_;
   const ShapeSetView shapes_;
-  const std::uint8_t miss_;
-  std::uint8_t* codes_ = nullptr;  ///< of the chunk
+  const std::uint8_t state_without_hit_;
+  std::uint8_t* states_ = nullptr;  ///< of the chunk
   RelativeTransforms<Simd> at_;
   SeparatingAxisTest<Simd> axis_test_;
   ProfileTest<Simd> profiles_;
   alignas(64) std::uint32_t row_a_[chunk_size], row_b_[chunk_size];  ///< supports; set by test_roots()
   /// One word for each register of pairs: a bit for each of its pairs.
-  std::uint32_t open_bits_[chunk_size / Simd::width], may_nest_[chunk_size / Simd::width];
-  List open_, likely_, separated_;
-  OverlapTraversal<Simd, open_traversals> traversal_;
+  std::uint32_t undecided_bits_[chunk_size / Simd::width], may_nest_[chunk_size / Simd::width];
+  List undecided_, likely_, separated_;
+  OverlapTraversal<Simd, max_traversals> traversal_;
 };
 
 }  // namespace bch::detail

@@ -9,10 +9,10 @@ namespace bch::detail {
 
 void ApartPairs::take_apart(const Implementation& implementation, Arguments in,
                             std::span<const Pair> pairs) noexcept {
-  std::uint8_t codes[capacity];
-  in.pairs = pairs.data(), in.codes = codes;
+  std::uint8_t states[capacity];
+  in.pairs = pairs.data(), in.states = states;
   answer(implementation, in, 0, pairs.size());
-  take(pairs, codes);
+  take(pairs, states);
 }
 
 void ApartPairs::take_all(std::span<const Pair> pairs) noexcept {
@@ -21,12 +21,12 @@ void ApartPairs::take_all(std::span<const Pair> pairs) noexcept {
 }
 
 /// No branch depends on an answer.
-void ApartPairs::take(std::span<const Pair> pairs, const std::uint8_t* codes) noexcept {
+void ApartPairs::take(std::span<const Pair> pairs, const std::uint8_t* states) noexcept {
   size_ = 0;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     pair_[size_] = pairs[i];
     index_[size_] = static_cast<std::uint16_t>(i);
-    size_ += codes[i] == apart;
+    size_ += states[i] == apart;
   }
 }
 

@@ -27,7 +27,7 @@ class ApartPairs {
   std::size_t index(std::size_t k) const noexcept { return index_[k]; }
 
  private:
-  void take(std::span<const Pair> pairs, const std::uint8_t* codes) noexcept;
+  void take(std::span<const Pair> pairs, const std::uint8_t* states) noexcept;
 
   std::size_t size_ = 0;
   Pair pair_[capacity];

@@ -29,7 +29,7 @@ struct NearestFeatures {
 
 /// Holds the input and output of a clearance kernel. These are plain pointers for the reason that Arguments states.
 struct ClearanceArguments {
-  Arguments in;              ///< without codes; with exact_leaves, of which trees have segments
+  Arguments in;              ///< without states; with exact_leaves, of which trees have segments
   float limit;               ///< distances above it are not searched for; below far_beyond
   float stop_below;          ///< one at or below it ends a search of trees, and is then given as -infinity
   NearestFeatures* nearest;  ///< as many as pairs

@@ -69,7 +69,7 @@ class TimeOfImpactKernel {
   }
 
   void part_by_supports() noexcept {
-    if (!shapes_.rows_in_order) {
+    if (!shapes_.rows_follow_roots) {
       for (std::uint32_t k = 0; k < at_.size; ++k)
         row_a_[k] = shapes_.roots[at_.root_a[k]].row, row_b_[k] = shapes_.roots[at_.root_b[k]].row;
       axis_test_.use_rows(row_a_, row_b_);

@@ -33,7 +33,7 @@ void for_within_tasks(const Implementation& implementation, const ShapeSetView& 
     for (std::size_t i = 0; i < size; ++i) gaps[i] = gap_of(distances[distances.size() == 1 ? 0 : begin + i]);
     Arguments arguments = arguments_for(view, agents, pairs.subspan(begin, size));
     arguments.gaps = gaps;
-    arguments.codes = answers.data() + begin;
+    arguments.states = answers.data() + begin;
     run(arguments, size);
   });
 }

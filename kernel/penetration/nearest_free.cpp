@@ -217,7 +217,7 @@ class OutlineWays {
   /// Finds which pairs of agents collide, on the caller's thread.
   void find_hits(const Agents& agents, std::span<const Pair> pairs, std::uint8_t* hits) const {
     Arguments arguments = arguments_for(view_, agents, pairs);
-    arguments.codes = hits;
+    arguments.states = hits;
     arguments.exact_leaves = exact_;
     answer(implementation_, arguments, 0, pairs.size());
   }

@@ -38,7 +38,7 @@ struct Kernels {
   bool (*check)(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept;
   /// Returns the range of the agents that pairs begin .. end name.
   AgentRange (*named)(const Pair* pairs, std::size_t begin, std::size_t end) noexcept;
-  /// Writes the codes of pairs begin .. end; see Arguments. Keeps up to 256 KiB
+  /// Writes the states of pairs begin .. end; see Arguments. Keeps up to 256 KiB
   /// on the stack, and needs no other memory.
   void (*run)(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept;
   /// Does the same where distances are asked about.

@@ -117,7 +117,7 @@ Arguments arguments_for(const ShapeSetView& view, const Agents& agents, std::spa
           .agent_z = column_of(agents.z),
           .pairs = pairs.data(),
           .gaps = nullptr,
-          .codes = nullptr,
+          .states = nullptr,
           .exact_leaves = false,
           .prefetch_agents = agents.size() >= many_agents,
           .prefetch_shapes = view.shape_count >= many_shapes};

@@ -38,7 +38,7 @@ struct Arguments {
   AgentColumn agent_z;          ///< none: all stand on the same ground
   const Pair* pairs;
   const float* gaps;  ///< per pair, Gaps::leaf of within(); null: collide()
-  std::uint8_t* codes;
+  std::uint8_t* states;
   bool exact_leaves;  ///< where both trees have segments, these decide; see Leaves
   // Prefetch agents or shapes: set where there are more than the near caches hold.
   bool prefetch_agents = false, prefetch_shapes = false;

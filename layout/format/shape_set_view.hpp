@@ -131,7 +131,7 @@ struct ContourRange {
 struct ShapeSetView {
   std::uint32_t shape_count;
   std::uint32_t level_count;
-  bool rows_in_order;  ///< root r has row first_row + r: one level, and no cut is a single disc
+  bool rows_follow_roots;  ///< root r has row first_row + r: one level, and no cut is a single disc
 
   const std::uint32_t* depths;  ///< a level
   const Root* roots;

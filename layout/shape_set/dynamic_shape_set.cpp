@@ -104,7 +104,7 @@ bool DynamicShapeSet::State::try_replace(std::uint32_t shape, const FlatBody& bo
   require(shape, body);
   if (!fits(extent_of(body.shape), places[shape].size)) return false;
   // Else set has to learn of single discs, or a kernel would not search for them.
-  if (set.view().rows_in_order && has_level(body, true)) return false;
+  if (set.view().rows_follow_roots && has_level(body, true)) return false;
   storage.store(shape, body, places[shape].begin);
   return true;
 }

@@ -23,7 +23,7 @@ using namespace detail;
 
 namespace {
 
-bool rows_in_order(std::span<const Root> roots) {
+bool rows_follow_roots(std::span<const Root> roots) {
   bool in_order = true;
   for (std::size_t i = 0; i < roots.size(); ++i) in_order &= roots[i].row == first_row + i;
   return in_order;
@@ -44,7 +44,7 @@ ShapeSetView view_of(const ShapeArrays& arrays) {
   ShapeSetView view{};
   view.shape_count = static_cast<std::uint32_t>(arrays.shape_count());
   view.level_count = static_cast<std::uint32_t>(arrays.depths.size());
-  view.rows_in_order = rows_in_order(arrays.roots);
+  view.rows_follow_roots = rows_follow_roots(arrays.roots);
   // An empty section of a file has an address as well.
   for_each_array(
       [](const char*, const auto& array, auto& data) { data = array.empty() ? nullptr : array.data(); },

@@ -56,7 +56,7 @@ class Threads : public testing::Test {
   std::vector<std::uint8_t> answers(const Implementation& implementation, unsigned threads) {
     std::vector<std::uint8_t> hits(scene.pairs.size());
     detail::Arguments arguments = detail::arguments_for(set.view(), agents, scene.pairs);
-    arguments.codes = hits.data();
+    arguments.states = hits.data();
     const std::size_t n = hits.size();
     on_threads(
         [&](unsigned t) {
