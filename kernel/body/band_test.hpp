@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "kernel/body/placed_bodies.hpp"
-#include "kernel/simd/placements.hpp"
+#include "kernel/simd/relative_transforms.hpp"
 #include "kernel/simd/support_directions.hpp"
 
 namespace bch::detail {
@@ -30,7 +30,8 @@ class BandTest {
  public:
   static constexpr std::uint32_t max_pairs = body_bands * body_bands;
 
-  explicit BandTest(const RelativeTransforms<Simd>& at) noexcept : directions_(at), at_(at) {}
+  explicit BandTest(const RelativeTransforms<Simd>& transforms) noexcept
+      : directions_(transforms), transforms_(transforms) {}
 
   /// Finds the directions of all pairs of the chunk.
   void place() noexcept { directions_.place(); }
@@ -168,7 +169,7 @@ class BandTest {
   }
 
   SupportDirections<Simd> directions_;
-  const RelativeTransforms<Simd>& at_;
+  const RelativeTransforms<Simd>& transforms_;
 };
 
 }  // namespace bch::detail

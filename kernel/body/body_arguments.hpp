@@ -6,7 +6,7 @@
 #include "kernel/body/placed_bodies.hpp"
 #include "kernel/simd/agent_columns.hpp"
 #include "kernel/simd/arguments.hpp"
-#include "kernel/simd/placements.hpp"
+#include "kernel/simd/relative_transforms.hpp"
 
 namespace bch::detail {
 
@@ -19,13 +19,16 @@ struct BodyArguments {
 /// Returns the bodies of a pair of a chunk.
 template <class Simd>
 [[gnu::always_inline]] inline PlacedBodies placed_bodies(const BodyArguments& in,
-                                                         const RelativeTransforms<Simd>& at,
+                                                         const RelativeTransforms<Simd>& transforms,
                                                          std::uint32_t pair) noexcept {
   const AgentColumn& z = in.pairs.agent_z;
-  const float dz = z.first == nullptr ? 0
-                                      : static_cast<float>(AgentColumns<Simd>::number(z, at.agent_b(pair)) -
-                                                           AgentColumns<Simd>::number(z, at.agent_a(pair)));
-  return {in.bodies->record(at.shape_a[pair]), in.bodies->record(at.shape_b[pair]), {at.transform(pair), dz}};
+  const float dz = z.first == nullptr
+                       ? 0
+                       : static_cast<float>(AgentColumns<Simd>::number(z, transforms.agent_b(pair)) -
+                                            AgentColumns<Simd>::number(z, transforms.agent_a(pair)));
+  return {in.bodies->record(transforms.shape_a[pair]),
+          in.bodies->record(transforms.shape_b[pair]),
+          {transforms.transform(pair), dz}};
 }
 
 }  // namespace bch::detail

@@ -12,7 +12,7 @@
 #include "kernel/body/placed_bodies.hpp"
 #include "kernel/body/sphere_pairs.hpp"
 #include "kernel/simd/chunk_pairs.hpp"
-#include "kernel/simd/placements.hpp"
+#include "kernel/simd/relative_transforms.hpp"
 
 namespace bch::detail {
 
@@ -29,17 +29,17 @@ class BodyKernel {
     static_assert(sizeof(BodyKernel) <= 256 * 1024, "what Kernels promises");
     BodyKernel kernel(arguments);
     for (; begin < end; begin += chunk_size) {
-      kernel.at_.place(arguments.pairs, begin, end);
+      kernel.transforms_.compute(arguments.pairs, begin, end);
       kernel.gaps_ = arguments.pairs.gaps == nullptr ? nullptr : arguments.pairs.gaps + begin;
       kernel.answer_chunk(arguments.pairs.states + begin);
     }
   }
 
  private:
-  explicit BodyKernel(const BodyArguments& arguments) noexcept : in_(arguments), bands_(at_) {}
+  explicit BodyKernel(const BodyArguments& arguments) noexcept : in_(arguments), bands_(transforms_) {}
 
   void answer_chunk(std::uint8_t* states) noexcept {
-    __builtin_memset(states, 0, at_.size);
+    __builtin_memset(states, 0, transforms_.size);
     separate();
     accept<8>(states);
     accept<core_spheres>(states);
@@ -47,7 +47,7 @@ class BodyKernel {
   }
 
   PlacedBodies bodies(std::uint32_t pair) const noexcept {
-    PlacedBodies placed = placed_bodies(in_, at_, pair);
+    PlacedBodies placed = placed_bodies(in_, transforms_, pair);
     if (gaps_ != nullptr) placed.gap = gaps_[pair];
     return placed;
   }
@@ -56,8 +56,9 @@ class BodyKernel {
   void separate() noexcept {
     bands_.place();
     open_.size = 0;
-    for (std::uint32_t k = 0; k < at_.size; ++k) {
-      if (in_.pairs.prefetch_shapes && k + List::pairs_ahead < at_.size) prefetch(k + List::pairs_ahead);
+    for (std::uint32_t k = 0; k < transforms_.size; ++k) {
+      if (in_.pairs.prefetch_shapes && k + List::pairs_ahead < transforms_.size)
+        prefetch(k + List::pairs_ahead);
       open_bands_[k] = static_cast<std::uint16_t>(bands_.open(k, bodies(k)));
       open_.add_if(open_bands_[k] != 0, k);
     }
@@ -66,8 +67,8 @@ class BodyKernel {
   /// Asks for the beginnings of two records, up to their nodes.
   [[gnu::always_inline]] void prefetch(std::uint32_t pair) const noexcept {
     for (std::uint32_t line = 0; line < record_nodes; line += record_line) {
-      __builtin_prefetch(in_.bodies->record(at_.shape_a[pair]) + line);
-      __builtin_prefetch(in_.bodies->record(at_.shape_b[pair]) + line);
+      __builtin_prefetch(in_.bodies->record(transforms_.shape_a[pair]) + line);
+      __builtin_prefetch(in_.bodies->record(transforms_.shape_b[pair]) + line);
     }
   }
 
@@ -108,7 +109,7 @@ class BodyKernel {
 
   const BodyArguments& in_;
   const float* gaps_ = nullptr;  ///< of the chunk
-  RelativeTransforms<Simd> at_;
+  RelativeTransforms<Simd> transforms_;
   BandTest<Simd> bands_;
   std::uint16_t open_bands_[chunk_size];
   List open_;

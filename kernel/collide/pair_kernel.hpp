@@ -10,8 +10,8 @@
 #include "kernel/simd/arguments.hpp"
 #include "kernel/simd/chunk_pairs.hpp"
 #include "kernel/simd/disc_pairs.hpp"
-#include "kernel/simd/placements.hpp"
 #include "kernel/simd/profile_test.hpp"
+#include "kernel/simd/relative_transforms.hpp"
 #include "kernel/simd/separating_axis_test.hpp"
 #include "kernel/simd/stage.hpp"
 #include "layout/format/shape_set_view.hpp"
@@ -33,9 +33,9 @@ class PairKernel {
     static_assert(sizeof(PairKernel) <= 256 * 1024, "what query.hpp promises, and room for calls");
     PairKernel kernel(arguments);
     for (; begin < end; begin += chunk_size) {
-      kernel.at_.place(arguments, begin, end);
-      if constexpr (KnowsGaps<Simd>) kernel.at_.set_gaps(arguments, begin);
-      end_stage<Simd>(Stage::place, kernel.at_.size);
+      kernel.transforms_.compute(arguments, begin, end);
+      if constexpr (KnowsGaps<Simd>) kernel.transforms_.set_gaps(arguments, begin);
+      end_stage<Simd>(Stage::place, kernel.transforms_.size);
       kernel.answer_chunk(begin);
       kernel.traversal_.run(max_traversals - chunk_size);
     }
@@ -53,8 +53,8 @@ class PairKernel {
       : in_(arguments),
         shapes_(*arguments.shapes),
         state_without_hit_(shapes_.shape_contours != nullptr ? may_contain : apart),
-        axis_test_(shapes_, at_),
-        profiles_(shapes_, at_, arguments),
+        axis_test_(shapes_, transforms_),
+        profiles_(shapes_, transforms_, arguments),
         traversal_(shapes_, arguments) {}
 
   /// Answers the pairs that were placed.
@@ -66,9 +66,9 @@ class PairKernel {
     if (shapes_.support == nullptr || !shapes_.rows_follow_roots) {
       test_roots();
     } else {
-      for (std::uint32_t k = 0; k < at_.whole_registers(); k += Simd::width)
+      for (std::uint32_t k = 0; k < transforms_.whole_registers(); k += Simd::width)
         undecided_bits_[k / Simd::width] = ~std::uint32_t{0};
-      __builtin_memset(states_, overlap, at_.size);
+      __builtin_memset(states_, overlap, transforms_.size);
     }
     if (shapes_.support == nullptr)
       list_undecided();
@@ -77,8 +77,9 @@ class PairKernel {
     for (std::uint32_t k = 0; k < undecided_.size; ++k) {
       const std::uint32_t pair = undecided_.pair[k];
       if (coincide(pair)) continue;  // the code says so by now
-      traversal_.add(begin + pair, state_without_hit(pair), at_.transform(pair), at_.root_a[pair],
-                     at_.root_b[pair], shapes_.reach[at_.shape_a[pair]] + shapes_.reach[at_.shape_b[pair]],
+      traversal_.add(begin + pair, state_without_hit(pair), transforms_.transform(pair),
+                     transforms_.root_a[pair], transforms_.root_b[pair],
+                     shapes_.reach[transforms_.shape_a[pair]] + shapes_.reach[transforms_.shape_b[pair]],
                      segment_margin(pair), gaps_of(pair));
     }
     end_stage<Simd>(Stage::add, undecided_.size);
@@ -87,30 +88,30 @@ class PairKernel {
   /// Returns whether both agents have the same cut, place and heading, so that they collide. Testing them would be
   /// slowest: all leaves are near each other, and no crossing is sure.
   bool coincide(std::uint32_t pair) const noexcept {
-    const auto [c, s, tx, ty] = at_.transform(pair);
-    return at_.root_a[pair] == at_.root_b[pair] && s == 0 && tx == 0 && ty == 0 && c > 0;
+    const auto [c, s, tx, ty] = transforms_.transform(pair);
+    return transforms_.root_a[pair] == transforms_.root_b[pair] && s == 0 && tx == 0 && ty == 0 && c > 0;
   }
 
   double segment_margin(std::uint32_t pair) const noexcept {
     if (!in_.exact_leaves) return 0;
-    return detail::segment_margin<Simd>(shapes_, at_.shape_a[pair], at_.shape_b[pair]);
+    return detail::segment_margin<Simd>(shapes_, transforms_.shape_a[pair], transforms_.shape_b[pair]);
   }
 
   Gaps gaps_of(std::uint32_t pair) const noexcept {
-    if constexpr (KnowsGaps<Simd>) return {at_.gap[pair], at_.bound_gap[pair]};
+    if constexpr (KnowsGaps<Simd>) return {transforms_.gap[pair], transforms_.bound_gap[pair]};
     return {0, 0};
   }
 
   /// Tests root disc against root disc, lane = pair. Where both cuts are single discs, that is the answer.
   void test_roots() noexcept {
     axis_test_.use_rows(row_a_, row_b_);
-    for (std::uint32_t k = 0; k < at_.whole_registers(); k += Simd::width) {
+    for (std::uint32_t k = 0; k < transforms_.whole_registers(); k += Simd::width) {
       Float a[4], b[4];
-      Simd::template load_records<4>(&shapes_.roots->x, at_.root_a + k, a);
-      Simd::template load_records<4>(&shapes_.roots->x, at_.root_b + k, b);
+      Simd::template load_records<4>(&shapes_.roots->x, transforms_.root_a + k, a);
+      Simd::template load_records<4>(&shapes_.roots->x, transforms_.root_b + k, b);
       Simd::store(reinterpret_cast<float*>(row_a_ + k), a[3]);
       Simd::store(reinterpret_cast<float*>(row_b_ + k), b[3]);
-      const auto [x, y] = at_.transforms(k).apply(b[0], b[1]);
+      const auto [x, y] = transforms_.transforms(k).apply(b[0], b[1]);
       const std::uint32_t overlaps = roots_overlap(k, x - a[0], y - a[1], a[2] + b[2]);
       std::uint32_t undecided = 0;
       for (std::uint32_t lane = 0; lane < lanes(k); ++lane) {
@@ -126,7 +127,7 @@ class PairKernel {
 
   [[gnu::always_inline]] std::uint32_t roots_overlap(std::uint32_t k, Float x, Float y,
                                                      Float r) const noexcept {
-    if constexpr (KnowsGaps<Simd>) r = r * Float(radius_factor) + Simd::load(at_.gap + k);
+    if constexpr (KnowsGaps<Simd>) r = r * Float(radius_factor) + Simd::load(transforms_.gap + k);
     return Simd::bits(x * x + y * y <= r * r);
   }
 
@@ -137,13 +138,13 @@ class PairKernel {
   /// Returns whether a pair of the chunk is undecided. In a set of single discs none is by now.
   bool any_undecided() const noexcept {
     std::uint32_t any = 0;
-    for (std::uint32_t k = 0; k < at_.whole_registers(); k += Simd::width)
+    for (std::uint32_t k = 0; k < transforms_.whole_registers(); k += Simd::width)
       any |= undecided_bits_[k / Simd::width];
     return any != 0;
   }
 
   void list_undecided() noexcept {
-    for (std::uint32_t k = 0; k < at_.size; ++k)
+    for (std::uint32_t k = 0; k < transforms_.size; ++k)
       undecided_.add_if(undecided_bits_[k / Simd::width] >> k % Simd::width & 1, k);
   }
 
@@ -151,7 +152,7 @@ class PairKernel {
   /// areas that meet are a hit, wherever their outlines are.
   [[gnu::noinline]] void cull() noexcept {
     compare_profiles();
-    end_stage<Simd>(Stage::profiles, at_.size);
+    end_stage<Simd>(Stage::profiles, transforms_.size);
     axis_test_.place_directions();
     separate(0, Stage::even_supports);
     accept<block_width / 2>(likely_, Stage::inscribed_four);
@@ -189,9 +190,10 @@ class PairKernel {
 
   /// Answers the pairs that profiles decide, and lists the others by whether they are likely hits.
   void compare_profiles() noexcept {
-    shapes_.rows_follow_roots ? profiles_.look(nullptr, nullptr) : profiles_.look(row_a_, row_b_);
+    shapes_.rows_follow_roots ? profiles_.load_sectors(nullptr, nullptr)
+                              : profiles_.load_sectors(row_a_, row_b_);
     separated_.size = 0;
-    for (std::uint32_t k = 0; k < at_.whole_registers(); k += Simd::width) {
+    for (std::uint32_t k = 0; k < transforms_.whole_registers(); k += Simd::width) {
       const auto answers = profiles_.answers(k);
       const std::uint32_t all = undecided_bits_[k / Simd::width] & ((std::uint32_t{1} << lanes(k)) - 1);
       const std::uint32_t undecided = all & ~(answers.apart | answers.meet);
@@ -205,7 +207,7 @@ class PairKernel {
 
   /// Returns the number of pairs in the register that begins with pair k.
   std::uint32_t lanes(std::uint32_t k) const noexcept {
-    return at_.size - k < Simd::width ? at_.size - k : Simd::width;
+    return transforms_.size - k < Simd::width ? transforms_.size - k : Simd::width;
   }
 
   /// Returns the code of a pair whose cuts do not overlap.
@@ -221,14 +223,15 @@ class PairKernel {
   /// Returns whether the areas meet by their inscribed discs. See layout/culling/interior.hpp.
   template <unsigned count>
   std::uint32_t inscribed_discs_overlap(std::uint32_t pair) const noexcept {
-    const Discs a = inscribed(at_.shape_a[pair]), b = inscribed(at_.shape_b[pair]);
+    const Discs a = inscribed(transforms_.shape_a[pair]), b = inscribed(transforms_.shape_b[pair]);
     if constexpr (KnowsGaps<Simd>)
-      return near_discs<Simd, count>(at_.transform(pair), a, b, 1, sure_gap * at_.gap[pair]) != 0;
-    return overlapping_discs<Simd, count>(at_.transform(pair), a, b) != 0;
+      return near_discs<Simd, count>(transforms_.transform(pair), a, b, 1,
+                                     sure_gap * transforms_.gap[pair]) != 0;
+    return overlapping_discs<Simd, count>(transforms_.transform(pair), a, b) != 0;
   }
 
   [[gnu::always_inline]] void prefetch_inscribed(std::uint32_t pair) const noexcept {
-    const std::uint32_t both[] = {at_.shape_a[pair], at_.shape_b[pair]};
+    const std::uint32_t both[] = {transforms_.shape_a[pair], transforms_.shape_b[pair]};
     for (const std::uint32_t shape : both) {
       __builtin_prefetch(shapes_.inscribed[shape].x);
       __builtin_prefetch(shapes_.inscribed[shape].radius);
@@ -243,7 +246,7 @@ class PairKernel {
   const ShapeSetView shapes_;
   const std::uint8_t state_without_hit_;
   std::uint8_t* states_ = nullptr;  ///< of the chunk
-  RelativeTransforms<Simd> at_;
+  RelativeTransforms<Simd> transforms_;
   SeparatingAxisTest<Simd> axis_test_;
   ProfileTest<Simd> profiles_;
   alignas(64) std::uint32_t row_a_[chunk_size], row_b_[chunk_size];  ///< supports; set by test_roots()

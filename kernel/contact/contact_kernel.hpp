@@ -11,7 +11,7 @@
 #include "kernel/simd/ancestor_test.hpp"
 #include "kernel/simd/arguments.hpp"
 #include "kernel/simd/disc_pairs.hpp"
-#include "kernel/simd/placements.hpp"
+#include "kernel/simd/relative_transforms.hpp"
 #include "kernel/simd/segment_test.hpp"
 #include "kernel/simd/tree_nodes.hpp"
 #include "layout/base/rounding.hpp"
@@ -53,8 +53,8 @@ class ContactKernel {
                             DiscPair* contacts, std::uint64_t capacity) noexcept {
     ContactKernel kernel(in);
     while (begin < end) {
-      kernel.at_.place(in, begin, end);
-      for (std::uint32_t k = 0; k < kernel.at_.size; ++k, ++begin) {
+      kernel.transforms_.compute(in, begin, end);
+      for (std::uint32_t k = 0; k < kernel.transforms_.size; ++k, ++begin) {
         kernel.begin_pair(begin - k, k);
         if (capacity - offsets[begin] < std::uint64_t{kernel.rows_.count} * kernel.columns_.count)
           return begin;
@@ -85,9 +85,9 @@ class ContactKernel {
   template <class Use>
   static void for_pairs(const Arguments& in, std::size_t begin, std::size_t end, Use use) noexcept {
     ContactKernel kernel(in);
-    for (; begin < end; begin += kernel.at_.size) {
-      kernel.at_.place(in, begin, end);
-      for (std::uint32_t k = 0; k < kernel.at_.size; ++k) {
+    for (; begin < end; begin += kernel.transforms_.size) {
+      kernel.transforms_.compute(in, begin, end);
+      for (std::uint32_t k = 0; k < kernel.transforms_.size; ++k) {
         kernel.begin_pair(begin, k);
         use(kernel, begin + k);
       }
@@ -98,18 +98,20 @@ class ContactKernel {
   void begin_pair(std::size_t begin, std::uint32_t k) noexcept {
     const Pair pair = in_.pairs[begin + k];
     swapped_ = pair.second < pair.first;
-    placed_.b_in_a = at_.transform(k);
-    const std::uint32_t rows = swapped_ ? at_.root_b[k] : at_.root_a[k];
-    const std::uint32_t columns = swapped_ ? at_.root_a[k] : at_.root_b[k];
+    placed_.b_in_a = transforms_.transform(k);
+    const std::uint32_t rows = swapped_ ? transforms_.root_b[k] : transforms_.root_a[k];
+    const std::uint32_t columns = swapped_ ? transforms_.root_a[k] : transforms_.root_b[k];
     if (shapes_.trees == nullptr) return visit_single_discs(shapes_.roots[rows], shapes_.roots[columns]);
     nodes_ = shapes_.nodes;
-    const float reach_a = shapes_.reach[at_.shape_a[k]], reach_b = shapes_.reach[at_.shape_b[k]];
+    const float reach_a = shapes_.reach[transforms_.shape_a[k]],
+                reach_b = shapes_.reach[transforms_.shape_b[k]];
     reach_ = reach_a + reach_b;
     rows_ = shapes_.trees[rows], columns_ = shapes_.trees[columns];
     held_ = (rows_.nodes_hold_discs & columns_.nodes_hold_discs) != 0 &&
             reach_ <= float{rounding::held_reaches} * (reach_a < reach_b ? reach_a : reach_b);
     const bool exact = in_.exact_leaves && rows_.segments != no_segments && columns_.segments != no_segments;
-    placed_.margin = exact ? segment_margin<Simd>(shapes_, at_.shape_a[k], at_.shape_b[k]) : 0;
+    placed_.margin =
+        exact ? segment_margin<Simd>(shapes_, transforms_.shape_a[k], transforms_.shape_b[k]) : 0;
     first_row_ = rows_.discs, first_column_ = columns_.discs;
   }
 
@@ -322,7 +324,7 @@ class ContactKernel {
 
   const Arguments& in_;
   const ShapeSetView shapes_;
-  RelativeTransforms<Simd> at_;
+  RelativeTransforms<Simd> transforms_;
 
   // State of the current pair.
   bool swapped_;           ///< the first agent is B

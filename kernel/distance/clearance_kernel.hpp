@@ -10,8 +10,8 @@
 #include "kernel/distance/clearance_measure.hpp"
 #include "kernel/distance/nearest_search.hpp"
 #include "kernel/distance/segment_gaps.hpp"
-#include "kernel/simd/placements.hpp"
 #include "kernel/simd/record_fields.hpp"
+#include "kernel/simd/relative_transforms.hpp"
 #include "kernel/simd/segment_test.hpp"
 #include "layout/simd/lanes.hpp"
 
@@ -37,11 +37,11 @@ class ClearanceKernel {
       : arguments_(arguments), shapes_(*arguments.in.shapes), segments_(shapes_), search_(shapes_.nodes) {}
 
   void answer_chunk(std::size_t begin, std::size_t end) noexcept {
-    at_.place(arguments_.in, begin, end);
-    const std::uint32_t size = at_.size;
-    of_a_.template load<4>(&shapes_.roots->x, at_.root_a, at_.whole_registers(),
+    transforms_.compute(arguments_.in, begin, end);
+    const std::uint32_t size = transforms_.size;
+    of_a_.template load<4>(&shapes_.roots->x, transforms_.root_a, transforms_.whole_registers(),
                            arguments_.in.prefetch_shapes);
-    of_b_.template load<4>(&shapes_.roots->x, at_.root_b, at_.whole_registers(),
+    of_b_.template load<4>(&shapes_.roots->x, transforms_.root_b, transforms_.whole_registers(),
                            arguments_.in.prefetch_shapes);
     NearestFeatures* const nearest = arguments_.nearest + begin;
     if (shapes_.trees == nullptr) return answer_roots(nearest);
@@ -51,8 +51,8 @@ class ClearanceKernel {
       nearest[pair] = answer(pair, measure);
       if (!(root_bound_[pair] <= measure.best())) continue;
       searched_[search_.size()] = pair;
-      search_.add(at_.transform(pair), shapes_.trees[at_.root_a[pair]], shapes_.trees[at_.root_b[pair]],
-                  measure);
+      search_.add(transforms_.transform(pair), shapes_.trees[transforms_.root_a[pair]],
+                  shapes_.trees[transforms_.root_b[pair]], measure);
       if (search_.size() == Search::capacity) answer_searched(nearest);
     }
     answer_searched(nearest);
@@ -73,25 +73,25 @@ class ClearanceKernel {
       const std::size_t stride = shapes_.trees[root].stride;
       return Discs{shapes_.nodes + place, stride, 2 * stride};
     };
-    const auto [x, y, r] =
-        disc_pair<Simd>(at_.transform(pair), disc(a, at_.root_a[pair]), disc(b, at_.root_b[pair]), 0);
-    const auto [cosine, sine] = at_.heading(pair);
+    const auto [x, y, r] = disc_pair<Simd>(transforms_.transform(pair), disc(a, transforms_.root_a[pair]),
+                                           disc(b, transforms_.root_b[pair]), 0);
+    const auto [cosine, sine] = transforms_.heading(pair);
     return {distance, false, a, b, x, y, cosine, sine};
   }
 
   /// Returns what the next search of the kernel is to measure.
   Measure measure(std::uint32_t pair) noexcept {
     Measure measure(arguments_.limit, arguments_.stop_below, reach(pair));
-    const Tree &a = shapes_.trees[at_.root_a[pair]], &b = shapes_.trees[at_.root_b[pair]];
+    const Tree &a = shapes_.trees[transforms_.root_a[pair]], &b = shapes_.trees[transforms_.root_b[pair]];
     if (!arguments_.in.exact_leaves || a.segments == no_segments || b.segments == no_segments) return measure;
-    const double margin = segment_margin<Simd>(shapes_, at_.shape_a[pair], at_.shape_b[pair]);
-    segments_.place(search_.size(), at_.transform(pair), margin);
+    const double margin = segment_margin<Simd>(shapes_, transforms_.shape_a[pair], transforms_.shape_b[pair]);
+    segments_.place(search_.size(), transforms_.transform(pair), margin);
     measure.use_segments(&segments_, search_.size(), a, b, margin);
     return measure;
   }
 
   float reach(std::uint32_t pair) const noexcept {
-    return shapes_.reach[at_.shape_a[pair]] + shapes_.reach[at_.shape_b[pair]];
+    return shapes_.reach[transforms_.shape_a[pair]] + shapes_.reach[transforms_.shape_b[pair]];
   }
 
   struct Step {
@@ -100,7 +100,7 @@ class ClearanceKernel {
   /// Returns the step from root disc to root disc, lane = pair.
   Step between_roots(std::uint32_t k) const noexcept {
     const auto [x, y] =
-        at_.transforms(k).apply(Simd::load(of_b_.field[0] + k), Simd::load(of_b_.field[1] + k));
+        transforms_.transforms(k).apply(Simd::load(of_b_.field[0] + k), Simd::load(of_b_.field[1] + k));
     return {x - Simd::load(of_a_.field[0] + k), y - Simd::load(of_a_.field[1] + k),
             Simd::load(of_a_.field[2] + k) + Simd::load(of_b_.field[2] + k)};
   }
@@ -110,7 +110,8 @@ class ClearanceKernel {
     alignas(64) float reaches[Simd::width], radii[Simd::width];
     for (std::uint32_t lane = 0; lane < Simd::width; ++lane) {
       reaches[lane] = reach(k + lane);
-      radii[lane] = shapes_.trees[at_.root_a[k + lane]].outer + shapes_.trees[at_.root_b[k + lane]].outer;
+      radii[lane] = shapes_.trees[transforms_.root_a[k + lane]].outer +
+                    shapes_.trees[transforms_.root_b[k + lane]].outer;
     }
     Simd::store(root_bound_ + k, Measure::bound(step.x, step.y, Simd::load(radii), Simd::load(reaches)));
   }
@@ -118,23 +119,23 @@ class ClearanceKernel {
   /// Answers pairs of a set in which every cut is a single disc.
   void answer_roots(NearestFeatures* nearest) noexcept {
     alignas(64) float gap[chunk_size], x_of[chunk_size], y_of[chunk_size];
-    for (std::uint32_t k = 0; k < at_.size; k += Simd::width) {
+    for (std::uint32_t k = 0; k < transforms_.size; k += Simd::width) {
       const auto [x, y, r] = between_roots(k);
       Simd::store(gap + k, Measure::gap(x, y, r));
       Simd::store(x_of + k, x);
       Simd::store(y_of + k, y);
     }
-    for (std::uint32_t k = 0; k < at_.size; ++k) {
+    for (std::uint32_t k = 0; k < transforms_.size; ++k) {
       const bool within = gap[k] <= arguments_.limit;
       const std::uint32_t node = within ? 0 : no_node;
-      const auto [cosine, sine] = at_.heading(k);
+      const auto [cosine, sine] = transforms_.heading(k);
       nearest[k] = {gap[k], false, node, node, x_of[k], y_of[k], cosine, sine};
     }
   }
 
   const ClearanceArguments& arguments_;
   const ShapeSetView shapes_;
-  RelativeTransforms<Simd> at_;
+  RelativeTransforms<Simd> transforms_;
   RecordFields<Simd> of_a_, of_b_;
   alignas(64) float root_bound_[chunk_size];
   std::uint32_t searched_[Search::capacity];  ///< pairs of the chunk

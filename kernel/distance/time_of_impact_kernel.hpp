@@ -10,7 +10,7 @@
 #include "kernel/distance/time_of_impact_measure.hpp"
 #include "kernel/distance/time_of_impact_traversal.hpp"
 #include "kernel/simd/chunk_pairs.hpp"
-#include "kernel/simd/placements.hpp"
+#include "kernel/simd/relative_transforms.hpp"
 #include "kernel/simd/separating_axis_test.hpp"
 
 namespace bch::detail {
@@ -34,12 +34,12 @@ class TimeOfImpactKernel {
   explicit TimeOfImpactKernel(const TimeOfImpactArguments& arguments) noexcept
       : arguments_(arguments),
         shapes_(*arguments.in.shapes),
-        axis_test_(shapes_, at_),
+        axis_test_(shapes_, transforms_),
         traversal_(shapes_.nodes, arguments.time) {}
 
   void answer_chunk(std::size_t begin, std::size_t end) noexcept {
-    at_.place(arguments_.in, begin, end);
-    const std::uint32_t size = at_.size;
+    transforms_.compute(arguments_.in, begin, end);
+    const std::uint32_t size = transforms_.size;
     rotate_displacements(arguments_.x + begin, arguments_.y + begin);
     float* const time = arguments_.time + begin;
     open_.size = 0;
@@ -54,15 +54,15 @@ class TimeOfImpactKernel {
     if (shapes_.support != nullptr && open_.size != 0) part_by_supports();
     for (std::uint32_t k = 0; k < open_.size; ++k) {
       const std::uint32_t pair = open_.pair[k];
-      traversal_.add(begin + pair, at_.transform(pair), shapes_.trees[at_.root_a[pair]],
-                     shapes_.trees[at_.root_b[pair]], Measure(x_[pair], y_[pair], farthest(pair)));
+      traversal_.add(begin + pair, transforms_.transform(pair), shapes_.trees[transforms_.root_a[pair]],
+                     shapes_.trees[transforms_.root_b[pair]], Measure(x_[pair], y_[pair], farthest(pair)));
     }
   }
 
   /// Turns the displacements into A's frame.
   void rotate_displacements(const float* x, const float* y) noexcept {
-    for (std::uint32_t k = 0; k < at_.size; ++k) {
-      const auto [cosine, sine] = at_.heading(k);
+    for (std::uint32_t k = 0; k < transforms_.size; ++k) {
+      const auto [cosine, sine] = transforms_.heading(k);
       x_[k] = cosine * x[k] + sine * y[k];
       y_[k] = cosine * y[k] - sine * x[k];
     }
@@ -70,8 +70,9 @@ class TimeOfImpactKernel {
 
   void part_by_supports() noexcept {
     if (!shapes_.rows_follow_roots) {
-      for (std::uint32_t k = 0; k < at_.size; ++k)
-        row_a_[k] = shapes_.roots[at_.root_a[k]].row, row_b_[k] = shapes_.roots[at_.root_b[k]].row;
+      for (std::uint32_t k = 0; k < transforms_.size; ++k)
+        row_a_[k] = shapes_.roots[transforms_.root_a[k]].row,
+        row_b_[k] = shapes_.roots[transforms_.root_b[k]].row;
       axis_test_.use_rows(row_a_, row_b_);
     }
     axis_test_.place_directions();
@@ -92,27 +93,27 @@ class TimeOfImpactKernel {
   float slack(std::uint32_t pair) const noexcept {
     constexpr float relative_error = 0x1p-18f;
     static_assert(double{relative_error} >= 30 * rounding::unit_roundoff, "the most of the three");
-    const float excess =
-        shapes_.profiles[at_.shape_a[pair]].excess + shapes_.profiles[at_.shape_b[pair]].excess;
-    return excess +
-           relative_error * (reach(pair) + __builtin_fabsf(at_.tx[pair]) + __builtin_fabsf(at_.ty[pair]) +
-                             __builtin_fabsf(x_[pair]) + __builtin_fabsf(y_[pair]));
+    const float excess = shapes_.profiles[transforms_.shape_a[pair]].excess +
+                         shapes_.profiles[transforms_.shape_b[pair]].excess;
+    return excess + relative_error * (reach(pair) + __builtin_fabsf(transforms_.tx[pair]) +
+                                      __builtin_fabsf(transforms_.ty[pair]) + __builtin_fabsf(x_[pair]) +
+                                      __builtin_fabsf(y_[pair]));
   }
 
   float reach(std::uint32_t pair) const noexcept {
-    return shapes_.reach[at_.shape_a[pair]] + shapes_.reach[at_.shape_b[pair]];
+    return shapes_.reach[transforms_.shape_a[pair]] + shapes_.reach[transforms_.shape_b[pair]];
   }
 
   /// Returns a bound that no distance between centres of the two shapes' discs exceeds: each is within 1.42
   /// times its shape's reach, as half of a box about others is.
   float farthest(std::uint32_t pair) const noexcept {
-    return 2 * reach(pair) + __builtin_fabsf(at_.tx[pair]) + __builtin_fabsf(at_.ty[pair]);
+    return 2 * reach(pair) + __builtin_fabsf(transforms_.tx[pair]) + __builtin_fabsf(transforms_.ty[pair]);
   }
 
   /// Returns the time of a pair in a set in which every cut is a single disc.
   float time_of_roots(std::uint32_t pair) const noexcept {
-    const Root &a = shapes_.roots[at_.root_a[pair]], &b = shapes_.roots[at_.root_b[pair]];
-    const auto [x, y] = at_.transform(pair).apply(b.x, b.y);
+    const Root &a = shapes_.roots[transforms_.root_a[pair]], &b = shapes_.roots[transforms_.root_b[pair]];
+    const auto [x, y] = transforms_.transform(pair).apply(b.x, b.y);
     Measure measure(x_[pair], y_[pair], 0);
     measure.take(
         Measure::template time_of<double>(x - a.x, y - a.y, a.radius + b.radius, x_[pair], y_[pair]));
@@ -122,7 +123,7 @@ class TimeOfImpactKernel {
   const TimeOfImpactArguments& arguments_;
   const ShapeSetView shapes_;
   alignas(64) float x_[chunk_size], y_[chunk_size];  ///< the chunk's displacements
-  RelativeTransforms<Simd> at_;
+  RelativeTransforms<Simd> transforms_;
   SeparatingAxisTest<Simd> axis_test_;
   std::uint32_t row_a_[chunk_size], row_b_[chunk_size];  ///< of the supports, where they are not in order
   ChunkPairs<Simd, chunk_size> open_;

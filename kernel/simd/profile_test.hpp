@@ -7,8 +7,8 @@
 #include <cstdint>
 
 #include "kernel/simd/arguments.hpp"
-#include "kernel/simd/placements.hpp"
 #include "kernel/simd/record_fields.hpp"
+#include "kernel/simd/relative_transforms.hpp"
 #include "layout/format/shape_set_view.hpp"
 
 namespace bch::detail {
@@ -26,61 +26,64 @@ class ProfileTest {
     std::uint32_t likely = 0;    ///< likely hits, for which accepting is tried first
   };
 
-  ProfileTest(const ShapeSetView& shapes, const RelativeTransforms<Simd>& at,
+  ProfileTest(const ShapeSetView& shapes, const RelativeTransforms<Simd>& transforms,
               const Arguments& arguments) noexcept
       : shapes_(shapes),
-        at_(at),
+        transforms_(transforms),
         prefetch_(arguments.prefetch_shapes),
         discs_decide_(arguments.exact_leaves ? 0.0f : 1.0f) {}
 
   /// Finds, for all pairs of the chunk, the line between the centres, and the sectors of both profiles along it.
   /// `row_a`, `row_b`: the rows of the roots; null where they are in order.
-  void look(const std::uint32_t* row_a, const std::uint32_t* row_b) noexcept {
+  void load_sectors(const std::uint32_t* row_a, const std::uint32_t* row_b) noexcept {
     const float* const records = &shapes_.profiles->x;
-    const std::uint32_t count = at_.whole_registers();
-    find_profiles(at_.shape_a, record_a_, count);
-    find_profiles(at_.shape_b, record_b_, count);
-    of_a_.template load<stride>(records, record_a_, count, prefetch_);
-    of_b_.template load<stride>(records, record_b_, count, prefetch_);
+    const std::uint32_t count = transforms_.whole_registers();
+    find_profiles(transforms_.shape_a, record_a_, count);
+    find_profiles(transforms_.shape_b, record_b_, count);
+    records_a_.template load<stride>(records, record_a_, count, prefetch_);
+    records_b_.template load<stride>(records, record_b_, count, prefetch_);
     find_excess(row_a, row_b);
     find_sectors();
     for_whole_registers<Simd>(count, [&](std::uint32_t k) {
       record_a_[k] += record_of(sector_a_[k]);
       record_b_[k] += record_of(sector_b_[k]);
     });
-    of_a_.template load<stride>(records, record_a_, count, prefetch_);
-    of_b_.template load<stride>(records, record_b_, count, prefetch_);
+    records_a_.template load<stride>(records, record_a_, count, prefetch_);
+    records_b_.template load<stride>(records, record_b_, count, prefetch_);
     if (row_a == nullptr) return;
-    choose_outer(of_a_, row_a, count);
-    choose_outer(of_b_, row_b, count);
+    choose_outer(records_a_, row_a, count);
+    choose_outer(records_b_, row_b, count);
   }
 
-  /// Returns the answers for the pairs from k on, after look(). Where the centres coincide, no direction
+  /// Returns the answers for the pairs from k on, after load_sectors(). Where the centres coincide, no direction
   /// leads from one to the other and the sectors do not lie opposite to each other. Then it only follows that
   /// the areas meet.
   Answers answers(std::uint32_t k) const noexcept {
     const Float distance = Simd::load(distance_ + k), coincident(1e-20f);
-    // Of a sector: field 0 is inner, 1 outer of the pair's level (see choose_outer()), 2 extent, 3 shallow_outer.
-    const Float outer_a = field(of_a_, 1, k), outer_b = field(of_b_, 1, k);
-    Float inner = field(of_a_, 0, k) + field(of_b_, 0, k),
+    const Float outer_a = field(records_a_, sector_outer, k), outer_b = field(records_b_, sector_outer, k);
+    Float inner = field(records_a_, sector_inner, k) + field(records_b_, sector_inner, k),
           outer = outer_a + outer_b + Simd::load(excess_ + k);
     if constexpr (KnowsGaps<Simd>) {
-      inner = inner + Float(sure_gap) * Simd::load(at_.gap + k);
-      outer = outer + Simd::load(at_.bound_gap + k);
+      inner = inner + Float(sure_gap) * Simd::load(transforms_.gap + k);
+      outer = outer + Simd::load(transforms_.bound_gap + k);
     }
     return {.apart = Simd::bits(xsimd::max(coincident, outer) < distance),
             .meet = Simd::bits(distance <= inner),
-            .may_nest = Simd::bits(distance <= xsimd::max(coincident, outer_a - field(of_b_, 2, k))) |
-                        Simd::bits(distance <= outer_b - field(of_a_, 2, k)),
+            .may_nest = Simd::bits(distance <=
+                                   xsimd::max(coincident, outer_a - field(records_b_, sector_extent, k))) |
+                        Simd::bits(distance <= outer_b - field(records_a_, sector_extent, k)),
             .likely = Simd::bits(distance < inner + Float(likely_share) * (outer - inner))};
   }
 
-  /// Returns how far discs of the pair, where these decide, stick out of what supports and profiles hold, after look(). Metres.
+  /// Returns how far discs of the pair, where these decide, stick out of what supports and profiles hold, after load_sectors(). Metres.
   float excess(std::uint32_t pair) const noexcept { return excess_[pair]; }
 
  private:
   using Float = typename Simd::Float;
   using Fields = RecordFields<Simd>;
+  /// Names the fields of the records that load() reads: of a Profile, and of a Sector.
+  enum HeaderField : std::uint32_t { header_x, header_y, header_excess, header_discs_decide };
+  enum SectorField : std::uint32_t { sector_inner, sector_outer, sector_extent, sector_shallow_outer };
   /// The unit of record indices, in floats: half a record, 8 bytes, which is the largest scale of an x86 address. A
   /// larger one takes an additional instruction for each record.
   static constexpr std::size_t stride = 2;
@@ -96,15 +99,17 @@ class ProfileTest {
 
   /// Computes the excess of each pair, from the headers of both profiles.
   void find_excess(const std::uint32_t* row_a, const std::uint32_t* row_b) noexcept {
-    for (std::uint32_t k = 0; k < at_.whole_registers(); k += Simd::width) {
-      const Float discs_decide =
-          xsimd::max(xsimd::max(field(of_a_, 3, k), field(of_b_, 3, k)), Float(discs_decide_));
-      Simd::store(excess_ + k, discs_decide * (field(of_a_, 2, k) + field(of_b_, 2, k)));
+    for (std::uint32_t k = 0; k < transforms_.whole_registers(); k += Simd::width) {
+      const Float discs_decide = xsimd::max(
+          xsimd::max(field(records_a_, header_discs_decide, k), field(records_b_, header_discs_decide, k)),
+          Float(discs_decide_));
+      Simd::store(excess_ + k,
+                  discs_decide * (field(records_a_, header_excess, k) + field(records_b_, header_excess, k)));
     }
     if (row_a == nullptr) return;
     // Discs decide if either shape is not at its deepest level.
-    for_whole_registers<Simd>(at_.whole_registers(), [&](std::uint32_t k) {
-      const float both = of_a_.field[2][k] + of_b_.field[2][k];
+    for_whole_registers<Simd>(transforms_.whole_registers(), [&](std::uint32_t k) {
+      const float both = records_a_.field[header_excess][k] + records_b_.field[header_excess][k];
       excess_[k] = ((row_a[k] < first_row) | (row_b[k] < first_row)) != 0 ? both : excess_[k];
     });
   }
@@ -113,8 +118,8 @@ class ProfileTest {
   /// disc has been tested, and has no outer bound here.
   static void choose_outer(Fields& of, const std::uint32_t* row, std::uint32_t count) noexcept {
     for_whole_registers<Simd>(count, [&](std::uint32_t k) {
-      const float shallow = row[k] == no_supports ? of.field[3][k] : __builtin_inff();
-      of.field[1][k] = row[k] >= first_row ? of.field[1][k] : shallow;
+      const float shallow = row[k] == no_supports ? of.field[sector_shallow_outer][k] : __builtin_inff();
+      of.field[sector_outer][k] = row[k] >= first_row ? of.field[sector_outer][k] : shallow;
     });
   }
 
@@ -130,11 +135,12 @@ class ProfileTest {
   }
 
   void find_sectors() noexcept {
-    for (std::uint32_t k = 0; k < at_.whole_registers(); k += Simd::width) {
-      const auto b_in_a = at_.transforms(k);
-      const auto centre = b_in_a.apply(field(of_b_, 0, k), field(of_b_, 1, k));
+    for (std::uint32_t k = 0; k < transforms_.whole_registers(); k += Simd::width) {
+      const auto b_in_a = transforms_.transforms(k);
+      const auto centre = b_in_a.apply(field(records_b_, header_x, k), field(records_b_, header_y, k));
       const Float c = b_in_a.c, s = b_in_a.s, zero(0.0f);
-      const Float x = centre.x - field(of_a_, 0, k), y = centre.y - field(of_a_, 1, k);
+      const Float x = centre.x - field(records_a_, header_x, k),
+                  y = centre.y - field(records_a_, header_y, k);
       Simd::store(distance_ + k, xsimd::sqrt(x * x + y * y));
       Simd::store(sector_a_ + k, sector(x, y));
       Simd::store(sector_b_ + k, sector(zero - (c * x + s * y), s * x - c * y));
@@ -152,12 +158,12 @@ class ProfileTest {
   }
 
   const ShapeSetView& shapes_;
-  const RelativeTransforms<Simd>& at_;
+  const RelativeTransforms<Simd>& transforms_;
   const bool prefetch_;
   const float discs_decide_;  ///< 1 where no segments do, else 0
   alignas(64) std::uint32_t record_a_[chunk_size], record_b_[chunk_size];
   alignas(64) float distance_[chunk_size], sector_a_[chunk_size], sector_b_[chunk_size], excess_[chunk_size];
-  Fields of_a_, of_b_;
+  Fields records_a_, records_b_;
 };
 
 }  // namespace bch::detail

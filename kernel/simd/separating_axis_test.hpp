@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "kernel/simd/placements.hpp"
+#include "kernel/simd/relative_transforms.hpp"
 #include "kernel/simd/support_directions.hpp"
 #include "layout/base/rounding.hpp"
 #include "layout/format/shape_set_view.hpp"
@@ -18,13 +18,13 @@ namespace bch::detail {
 template <class Simd>
 class SeparatingAxisTest {
  public:
-  SeparatingAxisTest(const ShapeSetView& shapes, const RelativeTransforms<Simd>& at) noexcept
+  SeparatingAxisTest(const ShapeSetView& shapes, const RelativeTransforms<Simd>& transforms) noexcept
       : shapes_(shapes),
-        at_(at),
+        transforms_(transforms),
         rows_(shapes.support),
-        row_a_(at.root_a),
-        row_b_(at.root_b),
-        directions_(at) {
+        row_a_(transforms.root_a),
+        row_b_(transforms.root_b),
+        directions_(transforms) {
     // This is right where rows are in order; see ShapeSetView.
     if (shapes.support != nullptr) rows_ += std::size_t{first_row} * support_stride;
   }
@@ -40,7 +40,7 @@ class SeparatingAxisTest {
   /// Returns whether a line across one of A's even directions, or of its odd ones, separates the pair. `excess`: ProfileTest's.
   std::uint32_t apart(std::uint32_t pair, unsigned odd, float excess) const noexcept {
     std::uint32_t separated = 0;
-    if constexpr (KnowsGaps<Simd>) excess += at_.bound_gap[pair];
+    if constexpr (KnowsGaps<Simd>) excess += transforms_.bound_gap[pair];
     directions_.search_along(pair, odd, rows(pair, odd),
                              [&](unsigned, Float distance, Float of_a, Float of_b) {
                                separated |= Simd::bits(of_a + of_b + Float(excess) < distance);
@@ -83,7 +83,7 @@ class SeparatingAxisTest {
   }
 
   const ShapeSetView& shapes_;
-  const RelativeTransforms<Simd>& at_;
+  const RelativeTransforms<Simd>& transforms_;
   const float* rows_;
   const std::uint32_t *row_a_, *row_b_;  ///< per pair
   Directions directions_;

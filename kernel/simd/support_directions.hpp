@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "kernel/simd/placements.hpp"
+#include "kernel/simd/relative_transforms.hpp"
 #include "layout/format/shape_set_view.hpp"
 
 namespace bch::detail {
@@ -27,7 +27,7 @@ class SupportDirections {
  public:
   using Float = typename Simd::Float;
 
-  explicit SupportDirections(const RelativeTransforms<Simd>& at) noexcept : at_(at) {}
+  explicit SupportDirections(const RelativeTransforms<Simd>& transforms) noexcept : transforms_(transforms) {}
 
   /// Computes offset, lower and upper for all pairs of the chunk, lane = pair.
   void place() noexcept {
@@ -38,9 +38,9 @@ class SupportDirections {
     constexpr float cotangent = 5.0273395f, one_over_sine = 5.1258309f;  // of D
     alignas(64) float offset[chunk_size];
     const Float zero(0.0f);
-    const std::uint32_t count = at_.whole_registers();
+    const std::uint32_t count = transforms_.whole_registers();
     for (std::uint32_t k = 0; k < count; k += Simd::width) {
-      const Float x = zero - Simd::load(at_.c + k), y = Simd::load(at_.s + k);
+      const Float x = zero - Simd::load(transforms_.c + k), y = Simd::load(transforms_.s + k);
       const Float ax = xsimd::abs(x), ay = xsimd::abs(y);
       Float up(0.0f), cosine(1.0f), sine(0.0f);
 #pragma GCC unroll 7
@@ -84,7 +84,7 @@ class SupportDirections {
                                            Visit visit) const noexcept {
     const Float lower(lower_[pair]), upper(upper_[pair]);
     for (unsigned k = 0; k < support_directions / 2; k += Simd::width)
-      visit(k, along(at_.tx[pair], at_.ty[pair], odd, k), Simd::load(of.a + k),
+      visit(k, along(transforms_.tx[pair], transforms_.ty[pair], odd, k), Simd::load(of.a + k),
             lower * Simd::load(of.below + k) + upper * Simd::load(of.above + k));
   }
 
@@ -105,7 +105,7 @@ class SupportDirections {
   using Mask = typename Simd::Mask;
   static constexpr unsigned half = support_stride / 2;
 
-  const RelativeTransforms<Simd>& at_;
+  const RelativeTransforms<Simd>& transforms_;
   alignas(64) std::int32_t offset_[chunk_size];
   alignas(64) float lower_[chunk_size], upper_[chunk_size];
 };

@@ -25,7 +25,7 @@ template <class Simd>
 class RelativeTransforms {
  public:
   /// Places the pairs from `begin` on, at most a chunk, and none from `end` on.
-  void place(const Arguments& in, std::size_t begin, std::size_t end) noexcept {
+  void compute(const Arguments& in, std::size_t begin, std::size_t end) noexcept {
     size = end - begin < chunk_size ? static_cast<std::uint32_t>(end - begin) : chunk_size;
     load_agents(in, begin);
     in.prefetch_agents ? find_roots<true>(in) : find_roots<false>(in);
@@ -83,13 +83,13 @@ class RelativeTransforms {
   void load_agents(const Arguments& in, std::size_t begin) noexcept {
     const Pair* const __restrict pairs = in.pairs + begin;
     const std::uint32_t count = size, whole = count / Simd::width * Simd::width;
-    const auto name = [&](std::uint32_t k) {
+    const auto store_ordered = [&](std::uint32_t k) {
       const auto [first, second] = pairs[k];
       a_[k] = second < first ? second : first;
       b_[k] = second < first ? first : second;
     };
-    for_whole_registers<Simd>(whole, name);
-    for (std::uint32_t k = whole; k < count; ++k) name(k);
+    for_whole_registers<Simd>(whole, store_ordered);
+    for (std::uint32_t k = whole; k < count; ++k) store_ordered(k);
     for (std::uint32_t k = count; k < whole_registers(); ++k) a_[k] = a_[count - 1], b_[k] = b_[count - 1];
   }
 
