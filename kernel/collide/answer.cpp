@@ -13,14 +13,14 @@
 namespace bch::detail {
 namespace {
 
-/// Keeps apart the pairs whose heights do not meet.
+/// Rejects the pairs whose heights do not meet.
 void compare_heights(const Arguments& in, std::size_t begin, std::size_t end) noexcept {
   if (in.agent_z.first == nullptr) return;
   for (std::size_t i = begin; i < end; ++i)
     if (in.states[i] != apart && !heights_meet(in, in.pairs[i])) in.states[i] = apart;
 }
 
-/// Decides the pairs of which one outline may contain the other.
+/// Decides the pairs in which one outline may contain the other.
 void decide_containment(const Arguments& in, std::size_t begin, std::size_t end) noexcept {
   if (in.shapes->shape_contours == nullptr) return;
   for (std::size_t i = begin; i < end; ++i) {

@@ -11,8 +11,8 @@
 
 namespace bch::detail {
 
-/// Does the work of one task: answers pairs begin .. end, each 0 or 1. Writes nothing but their states, so that
-/// ranges may run at the same time.
+/// Does the work of one task: answers pairs begin .. end, each 0 or 1. Writes only their states, so that disjoint ranges may
+/// run at the same time.
 /// Precondition: everything was validated.
 void answer(const Implementation& implementation, const Arguments& arguments, std::size_t begin,
             std::size_t end) noexcept;

@@ -33,17 +33,23 @@ Placement placement(const Arguments& in, std::uint32_t of, std::uint32_t to_agen
           to.cosine * dx + to.sine * dy, to.cosine * dy - to.sine * dx};
 }
 
-/// Bounds what one_may_be_inside() rounds, times both shapes' reaches, in the terms of layout/base/rounding.hpp. The
-/// outer disc holds its contour whatever is rounded. The inner disc's centre is rounded to float, by u |c|,
-/// which makes d and r larger by as much, and r is rounded up: sqrt(d^2 + r^2) is too large by at most
-/// sqrt(2) u |c| + 2 u r, which is 2.45 u P, because |c|^2 + r^2 <= P^2. The headings are off by 3e-10 each,
-/// and so is the place of what is at most 3 S away: 0.04 u S.
+/// Bounds what one_may_be_inside() rounds, in units of both shapes' reaches, in the terms of layout/base/rounding.hpp. The
+/// outer disc holds its contour whatever is rounded. The inner disc's centre c is rounded to float, by u |c|, which makes d
+/// and r larger by as much, and r is rounded up. The headings are off by 3e-10 each, and so is the position of what is at
+/// most 3 S away. With |c|^2 + r^2 <= P^2,
 ///
-/// The contour inside has the smaller disc as published, too. A vertex on the boundary of the inner disc, one that determines it, is at
-/// least the disc's radius away from the outer disc's centre. The ray from there through the vertex leaves the outer contour at most the
-/// outer radius away. Between the two is at least what keeps cuts apart: (query_margin) without (1'), of S; of that, (halving) counts for
-/// the outer shape alone, because the inner point is a vertex as given; where leaves are exact, (segment_margin) without (segment_place).
-/// Either is more of the inner reach than the inner disc is too large, and so no unit test notices a slack of 0.
+/// (1)  sqrt(d^2 + r^2) is too large by at most  sqrt(2) u |c| + 2 u r <= 2.45 u P  (centre_and_radius)
+/// (2)  placing adds at most                     0.04 u S                           (placing)
+///
+/// The contour inside has the smaller disc after rounding, too. Let v be a vertex on the boundary of the inner disc that is
+/// at least that disc's radius r away from the outer disc's centre. The ray from there through v leaves the outer contour at
+/// most the outer radius R away. The cuts do not overlap, so v and that point are apart:
+///
+/// (3)  discs decide:     R - r >= ((query_margin) - (1' of rounding.hpp)) S, in which (halving) is of the outer shape
+///                        alone, because v is a vertex as given                     (between_cuts)
+/// (4)  segments decide:  R - r >= ((segment_margin) - (segment_place)) S           (between_segments)
+///
+/// Either is more than (1) of the inner reach. (So no unit test notices a slack of 0.)
 constexpr double inside_slack = 1e-6;
 constexpr double centre_and_radius = 2.45, placing = 0.04;  // in units of u
 constexpr double between_cuts =
@@ -55,8 +61,9 @@ static_assert(inside_slack >= (centre_and_radius + placing) * rounding::unit_rou
 static_assert(between_cuts >= rounding::terms::halving && between_cuts > centre_and_radius);
 static_assert(between_segments > centre_and_radius);
 
-/// A contour inside another has the smaller enclosing disc, and more: the points that determine its disc do not fit into any half of it, so
-/// one of them is at least sqrt(d^2 + r^2) away from the other disc's centre. `b_centre` is that of b, in a's frame.
+/// Returns whether the enclosing discs allow that one contour is inside the other. Then the inner one has the smaller disc,
+/// and the points that determine this disc lie in no open half of it, so one of them is at least sqrt(d^2 + r^2) away from
+/// the outer disc's centre: d^2 + r^2 <= R^2. `b_centre` is the centre of b in a's frame.
 bool one_may_be_inside(const Disc& a, const Disc& b, Point b_centre, double slack) {
   const double x = b_centre.x - static_cast<double>(a.x), y = b_centre.y - static_cast<double>(a.y);
   const double r = std::min(a.radius, b.radius), limit = double{std::max(a.radius, b.radius)} + slack;
@@ -78,7 +85,7 @@ bool holds(const Arguments& in, const Owned& outer, const Owned& inner) {
 
 }  // namespace
 
-/// By the parity of the edges to its right. Whiskers are walked there and back and cancel.
+/// By the parity of the edges to its right. Whiskers have each edge twice, in both directions, and cancel.
 bool contour_holds(const Vec2* points, const Contour& contour, PointIn<double> p) noexcept {
   bool odd = false;
   for (std::uint32_t i = contour.begin, before = contour.end - 1; i < contour.end; before = i++) {

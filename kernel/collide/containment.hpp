@@ -11,14 +11,14 @@
 
 namespace bch::detail {
 
-/// Returns whether a contour holds a point that is not on it; both are in the shape's frame.
+/// Returns whether a contour contains a point that is not on it; both are in the shape's frame.
 bool contour_holds(const Vec2* points, const Contour& contour, PointIn<double> p) noexcept;
 
 /// Returns whether a contour of one agent lies inside the other's, for two agents whose cuts do not overlap.
 ///
-/// Outlines then do not meet, so one point decides for its contour, despite rounding: what the float test of discs, or
-/// the test of segments, rejects is more than u S apart (layout/base/rounding.hpp), while this test, in double, is off
-/// by less than 1e-9 S.
+/// Their outlines do not meet, so one point decides for its contour. Rounding cannot change that: what the test of discs or
+/// of segments rejects is more than u S apart (layout/base/rounding.hpp), while this test, in double, is off by less than
+/// 1e-9 S.
 /// Preconditions: valid indices; the set keeps outlines.
 bool one_contains_other(const Arguments& in, Pair pair) noexcept;
 

@@ -19,11 +19,10 @@
 namespace bch::detail {
 
 /// Implements the last stage of the pair kernel: traverses the trees of the pairs that no quicker stage decided, in
-/// rounds. Each round tests one pair of blocks for every open pair, so that cache misses and latencies of
-/// many pairs overlap and no branch depends on an answer. Ancestors are tested only where leaves overlap.
-/// Most pairs end after a few rounds. The rest stay open until more pairs are added, because a round over
-/// three pairs takes as long as one over thirty.
-/// `capacity`: the most open pairs; `run(enough)` makes room for add().
+/// rounds. Each round tests one pair of blocks for every undecided pair, so that cache misses and latencies of many pairs
+/// overlap and no branch depends on an answer. Ancestors are tested only if leaves overlap. Most pairs end after a few
+/// rounds. The rest wait until more pairs are added, because a round over three pairs takes as long as one over thirty.
+/// `capacity`: of undecided pairs; run(enough) makes room for add().
 template <class Simd, std::uint32_t capacity>
 class OverlapTraversal {
  public:
@@ -33,9 +32,9 @@ class OverlapTraversal {
         exact_leaves_(arguments.exact_leaves),
         segments_(shapes, placed_) {}
 
-  /// Adds a pair: `pair` is where its answer goes in states, `state_without_hit` what it is unless a traversal finds an overlap.
-  /// `reach`: of the two shapes together. `margin`: of their segments, 0 where discs decide. `gaps` are looked at where
-  /// KnowsGaps.
+  /// Adds a pair, whose state is at index `pair`, and stays `state_without_hit` unless the traversal finds a hit.
+  /// `reach`: the sum of the two shapes' reaches. `margin`: the sum of their segments' margins, 0 if discs decide. `gaps`
+  /// are read if KnowsGaps.
   void add(std::size_t pair, std::uint8_t state_without_hit, const Transform& b_in_a, std::uint32_t root_a,
            std::uint32_t root_b, float reach, double margin, Gaps gaps) noexcept {
     const Tree a = shapes_.trees[root_a], b = shapes_.trees[root_b];
@@ -46,27 +45,27 @@ class OverlapTraversal {
     traversals_[slot] = {b_in_a, a.top, b.top, a.stride, b.stride, root_a,
                          root_b, reach, 0,     pair,     margin,   {}};
     if constexpr (KnowsGaps<Simd>) traversals_[slot].gaps = gaps;
-    frames_[slot][0] = {0, 0, 0};  // a sentinel: no open hits, so the pair ends here
+    frames_[slot][0] = {0, 0, 0};  // a sentinel: no unvisited overlaps, so the pair ends here
     states_[pair] = state_without_hit;
   }
 
-  /// Runs rounds until at most so many pairs are open.
+  /// Runs rounds until at most `enough` pairs are undecided.
   void run(std::uint32_t enough) noexcept {
     if (size_ > enough) rounds(enough);
   }
 
  private:
   using Nodes = TreeNodes<Simd>;
-  /// How many tests ahead nodes are prefetched.
+  /// How many tests ahead blocks are prefetched.
   static constexpr std::uint32_t tests_ahead = 6;
   static constexpr std::uint32_t verified_together = 32;
-  /// The most frames of a pair: every test descends on one side at least, and no tree has more than
-  /// max_wide_levels levels.
+  /// The most frames of a pair: every test descends in at least one of the trees, which have at most max_wide_levels
+  /// levels.
   static constexpr std::uint32_t max_frames = 2 * max_wide_levels;
 
   struct NoGaps {};
 
-  /// Represents a pair whose trees are being traversed, with the two nodes to test next.
+  /// Represents a pair whose trees are being traversed, with the two blocks to test next.
   struct Traversal {
     Transform b_in_a;
     std::uint32_t a, b;
@@ -79,16 +78,17 @@ class OverlapTraversal {
     [[no_unique_address]] std::conditional_t<KnowsGaps<Simd>, Gaps, NoGaps> gaps;
   };
 
-  /// Holds two nodes whose discs overlap at the set bits (8 i + j: disc i of A, disc j of B), none of which was
-  /// followed yet.
+  /// Holds two blocks, and a bit for each two of their discs that overlap and below which no test was made yet (8 i + j:
+  /// disc i of A, disc j of B).
   struct Frame {
     std::uint32_t a, b;
     std::uint64_t unvisited;
   };
 
-  /// Tests every open pair, then steps every pair: in two loops, because out-of-order execution overlaps iterations of either, but hardly
-  /// those of one fused loop. All in one function, because rounds over a lone pair are so short that calls count. `noipa`, because GCC 12
-  /// takes such functions for ones without effects when their parameters are changed a little, and drops the calls.
+  /// Tests every undecided pair, then steps every pair: in two loops, because out-of-order execution overlaps iterations of
+  /// either, but hardly those of one fused loop. All in one function, because a round over one pair is so short that calls
+  /// matter. `noipa`, because GCC 12's interprocedural passes otherwise judge this function to have no effects, and drop
+  /// its calls.
   [[gnu::noipa]] void rounds(std::uint32_t enough) noexcept {
     while (size_ > enough) {
       const std::uint32_t tests = size_;
@@ -124,17 +124,22 @@ class OverlapTraversal {
                                    Nodes::discs(nodes, b, pair.stride_b));
   }
 
-  /// Clears the hits of leaves whose segments do not meet or whose ancestors do not all overlap, up to each pair's
-  /// first confirmed hit. Returns how many pairs have such hits.
+  /// Returns 1 if both blocks are windows, of whose names leaf_window is the top bit, else 0.
+  [[gnu::always_inline]] static std::uint32_t both_are_windows(const Traversal& at) noexcept {
+    return (at.a & at.b) / leaf_window;
+  }
+
+  /// Clears the overlaps of leaves whose segments do not meet or whose ancestors do not all overlap, up to each pair's
+  /// first verified hit. Returns how many pairs have overlapping leaves.
   [[gnu::always_inline]] std::uint32_t verify() noexcept {
-    // Leaf discs within their gap are a hit, whatever is above them.
+    // Leaf discs within their gap are a hit, whatever their ancestors.
     if constexpr (KnowsGaps<Simd>) return 0;
     std::uint16_t found[verified_together + 1];
     std::uint32_t count = 0, all = 0;
     for (std::uint32_t k = 0; k < size_; ++k) {
       const Traversal& at = traversals_[slots_[k]];
       found[count] = static_cast<std::uint16_t>(k);
-      count += (at.a & at.b) / leaf_window & static_cast<std::uint32_t>(overlaps_[k] != 0);
+      count += both_are_windows(at) & static_cast<std::uint32_t>(overlaps_[k] != 0);
       if (count == verified_together) [[unlikely]]
         verify(found, count), all += count, count = 0;
     }
@@ -147,8 +152,8 @@ class OverlapTraversal {
     verify_overlaps(which, count);
   }
 
-  /// Keeps the hits of leaves whose segments meet. A pair whose segments surely cross keeps all its hits.
-  /// Returns: how many pairs have hits whose ancestors have to be tested; these come first.
+  /// Keeps the overlaps of leaves whose segments meet. A pair whose segments surely cross keeps all its overlaps.
+  /// Returns: how many pairs have overlaps whose ancestors have to be tested; these come first.
   std::uint32_t compare_segments(std::uint16_t* which, std::uint32_t count) noexcept {
     std::uint64_t within_margin[verified_together];
     std::uint32_t is_sure = 0, is_compared = 0;
@@ -181,7 +186,7 @@ class OverlapTraversal {
       segments_.prefetch_points(compared[k].a, compared[k].leaves_a);
       segments_.prefetch_points(compared[k].b, compared[k].leaves_b);
     }
-    // One loop over the hits of all pairs, because only the end of a loop is predicted wrongly.
+    // One loop over the overlaps of all pairs, because only the end of a loop is predicted wrongly.
     for (std::uint32_t k = 0; all_overlaps > 0; --all_overlaps) {
       Compared& at = compared[k];
       const auto bit = static_cast<unsigned>(__builtin_ctzll(at.overlaps));
@@ -202,7 +207,7 @@ class OverlapTraversal {
     return left;
   }
 
-  /// Verifies one hit of every pair per pass, until one is confirmed or none is left. Paths of many pairs are followed
+  /// Verifies one overlap of every pair per pass, until one is a hit or none is left. The ancestors of many pairs are found
   /// side by side, because each step waits for the one before.
   void verify_overlaps(std::uint16_t* which, std::uint32_t count) noexcept {
     const float* const nodes = shapes_.nodes;
@@ -234,24 +239,24 @@ class OverlapTraversal {
   /// Represents two windows whose leaves are compared by their segments.
   struct Compared {
     typename SegmentTest<Simd>::Row a, b;
-    std::uint32_t leaves_a, leaves_b;  ///< of the trees
+    std::uint32_t leaves_a, leaves_b;  ///< how many each tree has
     std::uint64_t overlaps;
-    std::uint32_t pair;  ///< of those compared
+    std::uint32_t pair;  ///< index among those compared
   };
 
   struct LeafPair {
-    std::uint32_t a, b;  ///< places among the nodes
+    std::uint32_t a, b;  ///< indices in ShapeSetView::nodes
   };
-  /// Returns the leaves of the first hit of two windows.
+  /// Returns the leaves of the first overlap of two windows.
   static LeafPair first_overlap(const Traversal& at, std::uint64_t overlaps) noexcept {
     const auto bit = static_cast<unsigned>(__builtin_ctzll(overlaps));
     return {(at.a & ~leaf_window) + bit / block_width, (at.b & ~leaf_window) + bit % block_width};
   }
 
-  /// Answers where leaves overlap; else keeps the hits for later, takes the next open one, and names the
-  /// nodes to test: the children of the two discs, or a leaf window again and the other's child. What is
-  /// computed for a pair that is done is never used, which beats a branch that no processor can predict. The
-  /// slots of pairs that are done end up behind the others.
+  /// Decides pairs whose leaves overlap. Of the others, pushes the overlaps, takes the next unvisited one, and sets the
+  /// blocks to test: the children of the two discs, or a window again and the other's child. What is computed for a decided
+  /// pair is never used, which beats a branch that no processor can predict. The slots of decided pairs end up behind the
+  /// others.
   [[gnu::always_inline]] void step() noexcept {
     const float* const nodes = shapes_.nodes;
     std::uint8_t* const states = states_;
@@ -261,8 +266,7 @@ class OverlapTraversal {
       const std::uint16_t slot = slots_[k];
       Traversal& at = traversals_[slot];
       const std::uint64_t overlaps = overlaps_[k];
-      // leaf_window is the top bit of a node's name, so the division gives 1 where both nodes are leaf windows.
-      const std::uint32_t any = overlaps != 0, hit = (at.a & at.b) / leaf_window & any;
+      const std::uint32_t any = overlaps != 0, hit = both_are_windows(at) & any;
       states[at.pair] = static_cast<std::uint8_t>(states[at.pair] | hit);
 
       Frame* const frames = frames_[slot];
@@ -281,7 +285,8 @@ class OverlapTraversal {
     size_ = left;
   }
 
-  /// Returns the nodes below the first open hit of two, or anything where none is, and the hits that stay open.
+  /// Returns the blocks below the first unvisited overlap of two, or anything if there is none, and the overlaps that stay
+  /// unvisited.
   [[gnu::always_inline]] static Frame first_below(const float* nodes, const Frame& at) noexcept {
     std::uint64_t rest = at.unvisited & (at.unvisited - 1);
     const auto bit = static_cast<unsigned>(__builtin_ctzll(at.unvisited | std::uint64_t{1} << 63));
@@ -289,7 +294,7 @@ class OverlapTraversal {
     if ((at.a | at.b) < leaf_window) [[likely]]
       return {Nodes::child(nodes, at.a, i), Nodes::child(nodes, at.b, j), rest};
     std::uint32_t a = at.a, b = at.b;
-    // All of a window's discs are tested at once: its other hits on the same child are settled with this one.
+    // All of a window's discs are tested at once, so its other overlaps with the same disc are visited with this one.
     if (a < leaf_window) a = Nodes::child(nodes, a, i), rest &= ~(first_row_of_pairs << (bit - j));
     if (b < leaf_window) b = Nodes::child(nodes, b, j), rest &= ~(first_column_of_pairs << j);
     return {a, b, rest};
@@ -299,11 +304,11 @@ class OverlapTraversal {
   std::uint8_t* const states_;
   const bool exact_leaves_;
   std::uint32_t size_ = 0, numbered_ = 0;
-  std::uint16_t slots_[capacity];  ///< a permutation: first those of open pairs, then free ones
+  std::uint16_t slots_[capacity];  ///< a permutation: first those of undecided pairs, then free ones
   Traversal traversals_[capacity];
   std::uint64_t overlaps_[capacity];
   AncestorPath<Simd> above_a_[verified_together],
-      above_b_[verified_together];  ///< of those that are verified
+      above_b_[verified_together];  ///< of the overlaps that are verified
   PlacedSegments placed_[verified_together];
   SegmentTest<Simd> segments_;
   Frame frames_[capacity][max_frames + 2];

@@ -19,13 +19,11 @@
 
 namespace bch::detail {
 
-/// Implements the pair query, written once. `Simd` is a Lanes<Arch> with bits(). Every float operation that decides an
-/// answer is one of those listed in layout/base/rounding.hpp, or in Gaps, in that order, so that all instantiations and
-/// the scalar reference agree bit for bit; what only saves work is conservative.
+/// Implements collide() and within() of shapes for all instruction sets. `Simd` is a Lanes<Arch> with bits(). Every float
+/// operation that decides an answer is one of those listed in layout/base/rounding.hpp, or in Gaps, in that order, so that
+/// all instantiations and the scalar reference agree bit for bit; what only saves work is conservative.
 ///
-/// Pairs are answered in chunks, stage by stage, and each stage leaves fewer of them open: place B in A's frame; decide
-/// by profiles along the line between the centres, and tell which of the rest are likely hits; reject the others by even supports; accept
-/// pairs whose inscribed discs overlap, the likely hits first; reject by odd supports; traverse the trees of what is left.
+/// Pairs are answered in chunks, stage by stage; "Stages" in kernel/README.md describes these.
 template <class Simd>
 class PairKernel {
  public:
@@ -44,8 +42,7 @@ class PairKernel {
 
  private:
   using Float = typename Simd::Float;
-  /// The most traversals that are open at once: those of a chunk, and as many unfinished pairs besides as fit
-  /// on the stack.
+  /// Traversals at one time: those of a chunk, and as many undecided pairs of earlier chunks as fit on the stack.
   static constexpr std::uint32_t max_traversals = chunk_size + chunk_size * 7 / 8;
   using List = ChunkPairs<Simd, chunk_size>;
 
@@ -57,12 +54,12 @@ class PairKernel {
         profiles_(shapes_, transforms_, arguments),
         traversal_(shapes_, arguments) {}
 
-  /// Answers the pairs that were placed.
+  /// Answers the chunk's pairs, but for those that are left to traversals.
   [[gnu::always_inline]] void answer_chunk(std::size_t begin) noexcept {
     states_ = in_.states + begin;
     undecided_.size = likely_.size = 0;
-    // Profiles reject more than root discs do. Roots are tested only where there are no profiles, where a cut may be a single
-    // disc, or where there are several levels.
+    // Profiles reject more pairs than root discs do. Roots are tested only if there are no profiles, if a cut may be a single
+    // disc, or if there are several levels.
     if (shapes_.support == nullptr || !shapes_.rows_follow_roots) {
       test_roots();
     } else {
@@ -76,7 +73,7 @@ class PairKernel {
       cull();
     for (std::uint32_t k = 0; k < undecided_.size; ++k) {
       const std::uint32_t pair = undecided_.pair[k];
-      if (coincide(pair)) continue;  // the code says so by now
+      if (coincide(pair)) continue;  // the state is `overlap` already
       traversal_.add(begin + pair, state_without_hit(pair), transforms_.transform(pair),
                      transforms_.root_a[pair], transforms_.root_b[pair],
                      shapes_.reach[transforms_.shape_a[pair]] + shapes_.reach[transforms_.shape_b[pair]],
@@ -85,7 +82,7 @@ class PairKernel {
     end_stage<Simd>(Stage::add, undecided_.size);
   }
 
-  /// Returns whether both agents have the same cut, place and heading, so that they collide. Testing them would be
+  /// Returns whether both agents have the same cut, position and heading, so that they collide. Traversing them would be
   /// slowest: all leaves are near each other, and no crossing is sure.
   bool coincide(std::uint32_t pair) const noexcept {
     const auto [c, s, tx, ty] = transforms_.transform(pair);
@@ -116,7 +113,7 @@ class PairKernel {
       std::uint32_t undecided = 0;
       for (std::uint32_t lane = 0; lane < lanes(k); ++lane) {
         const std::uint32_t decided = both_are_single(k + lane);
-        // Leaf discs that come within a distance may stick out of the roots.
+        // Leaf discs within the distance may stick out of the roots, so only two single discs are rejected here.
         const std::uint32_t hit = (overlaps >> lane & 1) | (KnowsGaps<Simd> & (decided ^ 1));
         states_[k + lane] = static_cast<std::uint8_t>(hit * overlap);
         undecided |= (hit & (decided ^ 1)) << lane;
@@ -135,7 +132,7 @@ class PairKernel {
     return (row_a_[k] | row_b_[k]) == single_disc;
   }
 
-  /// Returns whether a pair of the chunk is undecided. In a set of single discs none is by now.
+  /// Returns whether a pair of the chunk is undecided. In a set of single discs, test_roots() has decided all.
   bool any_undecided() const noexcept {
     std::uint32_t any = 0;
     for (std::uint32_t k = 0; k < transforms_.whole_registers(); k += Simd::width)
@@ -148,8 +145,8 @@ class PairKernel {
       undecided_.add_if(undecided_bits_[k / Simd::width] >> k % Simd::width & 1, k);
   }
 
-  /// Leaves open the pairs that only a traversal can decide. Codes begin as hits, and only separation clears them:
-  /// areas that meet are a hit, wherever their outlines are.
+  /// Decides the pairs that need no traversal, and lists the others in undecided_. States begin as `overlap`, and only
+  /// separation changes them: areas that meet are a hit, whether outlines cross or one contains the other.
   [[gnu::noinline]] void cull() noexcept {
     compare_profiles();
     end_stage<Simd>(Stage::profiles, transforms_.size);
@@ -160,7 +157,7 @@ class PairKernel {
     separate(1, Stage::odd_supports);
   }
 
-  /// Rejects the open pairs that supports along even directions, or odd ones, show to be apart.
+  /// Rejects the undecided pairs that supports along even directions, or odd ones, show to be apart.
   void separate(unsigned odd, Stage stage) noexcept {
     const std::uint32_t tests = undecided_.size;
     undecided_.drop_if(
@@ -176,7 +173,7 @@ class PairKernel {
     end_stage<Simd>(stage, tests);
   }
 
-  /// Accepts the pairs of a list by the first `count` inscribed discs of either shape, and leaves the others open.
+  /// Accepts the pairs of a list of which two of the first `count` inscribed discs overlap; the others remain undecided.
   template <unsigned count>
   void accept(List& list, Stage stage) noexcept {
     const std::uint32_t tests = list.size;
@@ -188,7 +185,7 @@ class PairKernel {
     end_stage<Simd>(stage, tests);
   }
 
-  /// Answers the pairs that profiles decide, and lists the others by whether they are likely hits.
+  /// Answers the pairs that profiles decide, and lists the others in likely_ or undecided_.
   void compare_profiles() noexcept {
     shapes_.rows_follow_roots ? profiles_.load_sectors(nullptr, nullptr)
                               : profiles_.load_sectors(row_a_, row_b_);
@@ -210,7 +207,7 @@ class PairKernel {
     return transforms_.size - k < Simd::width ? transforms_.size - k : Simd::width;
   }
 
-  /// Returns the code of a pair whose cuts do not overlap.
+  /// Returns the state of a pair whose cuts do not overlap.
   std::uint8_t state_without_hit(std::uint32_t pair) const noexcept {
     return static_cast<std::uint8_t>(shapes_.support == nullptr ? state_without_hit_
                                                                 : state_without_hit_ * may_nest(pair));
@@ -220,7 +217,7 @@ class PairKernel {
     return may_nest_[pair / Simd::width] >> pair % Simd::width & 1;
   }
 
-  /// Returns whether the areas meet by their inscribed discs. See layout/culling/interior.hpp.
+  /// Returns whether two inscribed discs overlap, so that the areas meet. See layout/culling/interior.hpp.
   template <unsigned count>
   std::uint32_t inscribed_discs_overlap(std::uint32_t pair) const noexcept {
     const Discs a = inscribed(transforms_.shape_a[pair]), b = inscribed(transforms_.shape_b[pair]);

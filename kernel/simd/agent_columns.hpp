@@ -9,7 +9,8 @@
 
 namespace bch::detail {
 
-/// Reads the values of agents, which callers have in arrays or structs of their own. (Simd keeps instruction sets from sharing a function.)
+/// Reads the values of agents from the arrays or structs of the caller. (`Simd` keeps instruction sets from sharing a
+/// function.)
 template <class Simd>
 struct AgentColumns {
   template <class Value>
@@ -23,7 +24,7 @@ struct AgentColumns {
     __builtin_prefetch(column.first + agent * column.stride);
   }
 
-  /// Returns the numbers of the agents of a register. Arrays of double are gathered; the branch is the same in all of a batch.
+  /// Returns the numbers of a register of agents. Arrays of double are gathered; the branch is the same for a whole batch.
   [[gnu::always_inline]] static auto numbers(const AgentColumn& column,
                                              const std::uint32_t* agents) noexcept {
     if (!column.is_float && column.stride == sizeof(double)) [[likely]]
@@ -33,7 +34,7 @@ struct AgentColumns {
     return Simd::load(values);
   }
 
-  /// Copies the whole numbers of the agents of a register of floats.
+  /// Copies the integers of as many agents as a register has floats.
   [[gnu::always_inline]] static void copy(const AgentColumn& column, const std::uint32_t* agents,
                                           std::uint32_t* to) noexcept {
     if (column.stride == sizeof(std::uint32_t)) [[likely]] {

@@ -20,21 +20,21 @@ struct PlacedTrees {
   float reach;  ///< of the two shapes together
 };
 
-/// Holds the numbers of inner nodes on the way from a cut disc up to the root, sixteen at a time. Where there are
-/// fewer, the root stands for the rest. (`Simd` keeps instruction sets from sharing a function.)
+/// Holds the indices of the ancestors of a cut disc, from its parent to the root, sixteen at a time. If there are fewer,
+/// the root fills the rest. (`Simd` keeps instruction sets from sharing a function.)
 template <class Simd>
 struct AncestorPath {
   static constexpr std::uint32_t length = 16;
   std::uint32_t node[length];
 
-  /// Begins the path above a cut disc, whose place among `nodes` is `disc`. Only the first node of the path
-  /// is known then.
+  /// Begins the path above a cut disc, whose index in `nodes` is `disc`: sets its first node only.
   void begin(const float* nodes, const Tree& tree, std::uint32_t disc) noexcept {
     const std::uint32_t beside = tree.first_inner() + (disc - tree.discs);
-    // Inner nodes are stored in order: disc k is the first child of node k, or the second child of node k - 1.
+    // Inner nodes are stored in-order, between the discs of their left and of their right subtree: disc k is the first
+    // child of node k, or the second child of node k - 1.
     node[0] = beside - (link(nodes, beside) < above_cut_disc);
   }
-  /// Finds node k from the one before.
+  /// Sets node k, the parent of node k - 1.
   void step(const float* nodes, std::uint32_t k) noexcept { node[k] = above(nodes, node[k - 1]); }
 
   void go_up(const float* nodes) noexcept {
@@ -56,8 +56,8 @@ struct AncestorPath {
   }
 };
 
-/// Tests whether two overlapping cut discs overlap with all their ancestors: every node from the one up to
-/// its root overlaps every node from the other up to its own. That is the definition of a hit; see <bch/query.hpp>.
+/// Tests whether two overlapping cut discs are a hit: each of the one and its ancestors overlaps each of the other and its
+/// ancestors; see <bch/query.hpp>.
 template <class Simd>
 class AncestorTest {
  public:
@@ -82,9 +82,9 @@ class AncestorTest {
  private:
   using Float = typename Simd::Float;
   static constexpr std::uint32_t length = AncestorPath<Simd>::length;
-  /// How deep a point has to lie in all discs, times the sum of reaches: then every disc of A overlaps every disc of B
-  /// by twice that. Both calls of holds_point() and the test of such a pair use the same floats. Each rounds a
-  /// difference, squares and radii, which are at most the sum of reaches.
+  /// How deep a point has to lie in all discs, in units of the sum of reaches, to prove that every disc of A overlaps every
+  /// disc of B: by twice that. Both calls of holds_point() and the test of two discs start from the same floats. Each of
+  /// the three rounds a difference, squares and radii, which are at most the sum of reaches.
   static constexpr double inside_margin = 16 * rounding::unit_roundoff;
   static_assert(2 * inside_margin >=
                 3 * (rounding::terms::apart + rounding::terms::square + rounding::terms::radii) *
@@ -97,8 +97,8 @@ class AncestorTest {
   };
 
   struct Comparison {
-    bool overlap;      ///< either cut disc overlaps all nodes of the other's path that are loaded
-    bool share_point;  ///< a point is inside of all discs of both paths
+    bool overlap;      ///< each of the two cut discs overlaps all loaded nodes of the other's path
+    bool share_point;  ///< a point is inside all loaded discs of both paths
   };
 
   Disc disc(const Tree& tree, std::uint32_t place) const noexcept {
@@ -114,8 +114,8 @@ class AncestorTest {
     }
   }
 
-  /// Decides most cases, with one test a node. The point is the one of the line between the centres that divides it as the radii do, so
-  /// that it lies in both cut discs.
+  /// Decides most cases, with one test per node. The point divides the line between the centres of the cut discs in the
+  /// ratio of their radii, so that it lies in both.
   Comparison compare_with_leaves() const noexcept {
     const auto b_in_a = trees_.b_in_a.template in_lanes<Float>();
     const float share = a_.radius / (a_.radius + b_.radius);
@@ -140,7 +140,7 @@ class AncestorTest {
     return {overlap == all, share_point == all};
   }
 
-  /// Tests all nodes of one path with all of the other and with its cut disc, and on to the roots.
+  /// Tests all nodes of one path with all nodes of the other and with its cut disc, sixteen by sixteen up to the roots.
   bool paths_overlap() noexcept {
     for (AncestorPath<Simd> a = above_a_;; a.go_up(nodes_)) {
       load(a, discs_a_);

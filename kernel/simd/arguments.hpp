@@ -16,16 +16,15 @@ struct ShapeSetView;
 /// The number of pairs that a kernel takes through its stages together.
 constexpr std::uint32_t chunk_size = 256;
 
-/// Holds where a value of each agent is: at any stride, and numbers as floats or doubles.
+/// Locates one value of each agent: at any stride, and numbers as floats or doubles.
 struct AgentColumn {
   const unsigned char* first;  ///< null: there are no values
   std::uint64_t stride;        ///< bytes
   bool is_float;
 };
 
-/// Holds what a pair kernel reads and writes: plain pointers only, because every inline function that an ISA's
-/// object shares with other objects might be the copy that the linker keeps, compiled for a processor that is
-/// not there.
+/// Holds what a pair kernel reads and writes: plain pointers only, because the linker may keep any object's copy of an inline
+/// function, compiled for instructions that the processor lacks.
 struct Arguments {
   const ShapeSetView* shapes;
   std::uint32_t agent_count;
@@ -33,18 +32,18 @@ struct Arguments {
   AgentColumn agent_x;
   AgentColumn agent_y;
   AgentColumn agent_heading;    ///< angles, or the directions' x
-  AgentColumn agent_heading_y;  ///< none: angles
-  AgentColumn agent_level;      ///< none: the last level
-  AgentColumn agent_z;          ///< none: all stand on the same ground
+  AgentColumn agent_heading_y;  ///< null: angles
+  AgentColumn agent_level;      ///< null: the last level
+  AgentColumn agent_z;          ///< null: heights are ignored
   const Pair* pairs;
   const float* gaps;  ///< per pair, Gaps::leaf of within(); null: collide()
   std::uint8_t* states;
-  bool exact_leaves;  ///< where both trees have segments, these decide; see Leaves
-  // Prefetch agents or shapes: set where there are more than the near caches hold.
+  bool exact_leaves;  ///< if both trees have segments, these decide; see Leaves
+  // Prefetch agents or shapes: set if there are more than the near caches hold.
   bool prefetch_agents = false, prefetch_shapes = false;
 };
 
-/// Tells the result of a kernel for a pair.
+/// Selects the result of a kernel for a pair.
 enum PairState : std::uint8_t {
   apart = 0,        ///< no hit
   overlap = 1,      ///< a hit: they collide or are within the distance; may be set beside may_contain

@@ -7,11 +7,11 @@
 
 namespace bch::detail {
 
-/// Holds some of a chunk's pairs. (`Simd` also keeps instruction sets from sharing a function.)
+/// Lists some of a chunk's pairs. (`Simd` also keeps instruction sets from sharing a function.)
 template <class Simd, std::uint32_t capacity>
 struct ChunkPairs {
   static constexpr std::uint32_t padding = 16;     ///< lanes of the widest register
-  static constexpr std::uint32_t pairs_ahead = 8;  ///< that `prefetch` is called for
+  static constexpr std::uint32_t pairs_ahead = 8;  ///< how many pairs ahead `prefetch` is called
 
   std::uint32_t size = 0;
   std::uint16_t pair[capacity + padding];
@@ -21,13 +21,13 @@ struct ChunkPairs {
     size += wanted;
   }
 
-  /// Adds those of the pairs from `first` on whose bits are set.
+  /// Adds the pairs first + i whose bits i are set.
   void add(std::uint32_t bits, std::uint32_t first) noexcept {
     size += Simd::compress_indices(bits, first, pair + size);
   }
 
   /// Empties this list and appends the pairs that fail the test to `rest`, which may be this list. No branch depends on
-  /// an answer. `prefetch(pair)` asks for what the test will read.
+  /// an answer. `prefetch(pair)` prefetches what the test will read.
   template <class Test, class Prefetch>
   void drop_if(ChunkPairs& rest, Test passes, Prefetch prefetch) noexcept {
     const std::uint32_t count = size;

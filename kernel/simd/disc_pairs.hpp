@@ -29,21 +29,20 @@ struct Discs {
   [[gnu::always_inline]] const float* radius() const noexcept { return x + to_radius; }
 };
 
-/// Bits of pairs of eight discs by eight, bit 8 i + j for disc i of A and j of B: those of A's first, and of
-/// B's.
+/// Bits of the pairs of eight discs and eight (bit 8 i + j: disc i of A, disc j of B) that have A's first disc, and that
+/// have B's first disc.
 constexpr std::uint64_t first_row_of_pairs = 0xff, first_column_of_pairs = 0x0101010101010101;
 
-/// Pairs of discs of two blocks.
+/// The number of pairs of discs of two blocks.
 constexpr unsigned block_pairs = block_width * block_width;
 
 template <class Simd, unsigned count, class Visit>
 void visit_pairs_called(const Transform& b_in_a, Discs a, Discs b, Visit visit) noexcept;
 
-/// Visits the pairs of the first `count` of A's discs with those of B, four or all eight; pair count * i + j for disc i of A and j
-/// of B: calls visit(k, x, y, r) for every register, whose lanes are the pairs from k on. (x, y) leads from A's disc
-/// to B's in A's frame, r is the sum of radii. The operations are those of layout/base/rounding.hpp. Padding
-/// gives infinities and NaN. It is inlined because a call takes longer than a test; not for a width of 1, where copies
-/// of it would fill the object file.
+/// Calls visit(k, x, y, r) for every register of pairs of the first `count` (4 or 8) discs of A and of B. Its lanes are the
+/// pairs from k on; pair count * i + j is of disc i of A and disc j of B. (x, y) leads from A's disc to B's in A's frame, r
+/// is the sum of radii. The operations are those of layout/base/rounding.hpp. Padding gives infinities and NaN. It is
+/// inlined because a call takes longer than a test; not for a width of 1, where its copies would fill the object file.
 template <class Simd, unsigned count = block_width, bool called = Simd::width == 1, class Visit>
 [[gnu::always_inline]] inline void visit_disc_pairs(const Transform& b_in_a, Discs a, Discs b,
                                                     Visit visit) noexcept {
@@ -75,7 +74,7 @@ template <class Simd, unsigned count, class Visit>
   visit_disc_pairs<Simd, count, false>(b_in_a, a, b, visit);
 }
 
-/// Returns which of those pairs have a gap of at most so much, with their radii times a factor; see Gaps.
+/// Returns the bits of those pairs whose gap, with radii times `factor`, is at most `gap`; see Gaps.
 template <class Simd, unsigned count = block_width>
 [[gnu::always_inline]] inline std::uint64_t near_discs(const Transform& b_in_a, Discs a, Discs b,
                                                        float factor, float gap) noexcept {
@@ -88,7 +87,7 @@ template <class Simd, unsigned count = block_width>
   return bits;
 }
 
-/// Returns which of those pairs overlap, touching included: bit k for pair k.
+/// Returns the bits of those pairs that overlap, touching included: bit k for pair k.
 template <class Simd, unsigned count = block_width>
 [[gnu::always_inline]] inline std::uint64_t overlapping_discs(const Transform& b_in_a, Discs a,
                                                               Discs b) noexcept {
@@ -100,7 +99,7 @@ template <class Simd, unsigned count = block_width>
   return bits;
 }
 
-/// Places one of those pairs by the same operations.
+/// Holds (x, y, r) of one of those pairs, by the same operations.
 struct PlacedPair {
   float x, y, r;
 };
@@ -122,21 +121,21 @@ float least_value(const float* values) noexcept {
   return Simd::least(least);
 }
 
-/// Returns the pairs whose values are at most so much.
+/// Returns the bits of the pairs whose values are at most `limit`.
 template <class Simd>
-std::uint64_t all_within(const float* values, float most) noexcept {
+std::uint64_t all_within(const float* values, float limit) noexcept {
   using Float = typename Simd::Float;
   std::uint64_t bits = 0;
 #pragma GCC unroll 16
   for (unsigned k = 0; k < block_pairs; k += Simd::width)
-    bits |= std::uint64_t{Simd::bits(Simd::load(values + k) <= Float(most))} << k;
+    bits |= std::uint64_t{Simd::bits(Simd::load(values + k) <= Float(limit))} << k;
   return bits;
 }
 
-/// Returns the first of these pairs. Precondition: there is one.
+/// Returns the first pair whose value is at most `limit`. Precondition: there is one.
 template <class Simd>
-unsigned first_within(const float* values, float most) noexcept {
-  return static_cast<unsigned>(__builtin_ctzll(all_within<Simd>(values, most)));
+unsigned first_within(const float* values, float limit) noexcept {
+  return static_cast<unsigned>(__builtin_ctzll(all_within<Simd>(values, limit)));
 }
 
 }  // namespace bch::detail

@@ -7,29 +7,38 @@
 
 namespace bch::detail {
 
-/// Holds the thresholds of within() on gaps between discs: up to `leaf`, two leaves are a hit; up to `bound`, blocks
-/// are descended into.
+/// Holds the thresholds of within() on gaps between discs: two leaves whose gap is at most `leaf` are a hit; blocks whose
+/// gap is at most `bound` are descended into.
 ///
-/// Notation of layout/base/rounding.hpp; d is the distance of the question, r = r_A + r_B, and of two leaf discs, alone,
+/// Notation of layout/base/rounding.hpp. d is the distance that within() was given, r = r_A + r_B, (x, y) leads from one
+/// centre to the other. Of two leaf discs, without their ancestors,
 ///
-///     hit   <=>  x^2 + y^2 <= (r (1 + 2^-19) + g)^2          g = d (1 + 2^-19), rounded up
+/// (1)  hit   <=>  x^2 + y^2 <= (r (1 + 2^-19) + g)^2,     g = d (1 + 2^-19), rounded up.
 ///
-/// No clearance of at most d is missed. Its gap v = sqrt(x^2 + y^2) * (1 - 2^-20) - r <= d means that sqrt(x^2 + y^2) is
-/// at most (r + d) (1 + 19.2 u), by the root, the product, the sum of radii and the difference. The test is passed up to
-/// (r + d) (1 + 32 u) (1 - 4.5 u), for the sum of the radii, a product, a sum and both squares. As clearances are never
-/// above the distance of outlines, outlines within the distance are a hit, too.
+/// Nothing is missed. clearance() computes v = sqrt(x^2 + y^2) (1 - 2^-20) - r. Let e = sqrt(x^2 + y^2).
 ///
-/// What it costs. Both look at the same rounded x^2 + y^2. A hit's is at most the square of (r + d) (1 + 34 u) (1 + 3 u), the
-/// rounding of g and of the right side included, and v takes off 16 u, less 2 u for its own root and product: v is at
-/// most d and 23 u (r + d), (gap_price).
+/// (2)  v <= d  =>  e <= (r + d) (1 + 19.2 u)             root, product, sum of radii, difference
+/// (3)  e <= (r + d) (1 + 32 u) (1 - 4.5 u)  =>  hit      sum of radii, product, sum, both squares
 ///
-/// Bounds: discs that hold leaf discs, and lines beside these. The leaf test passes discs with D - r <= g + 37 u (r + g) +
-/// 23 u S + 8 u g, placing others is off by 23 u S + 8 u g, and supports and profiles add roundings of lengths up to
-/// 2 S + g, of which they have those of S to spare: 21 u g. So `bound` exceeds g by 128 u (S + g). What is near for
-/// sure, by areas within each other, is off by 11 u g, and g exceeds d by 34 u d: (sure_gap) takes 64 u off.
+/// So v <= d is a hit. Clearances are never above the distance of outlines, so outlines within d are a hit, too.
+///
+/// Price (gap_price). (1) and v use the same rounded x^2 + y^2.
+///
+/// (4)  hit  =>  e <= (r + d) (1 + 34 u) (1 + 3 u)        with the rounding of g and of the right side
+/// (5)  hit  =>  v <= d + 23 u (r + d)                    by (4) and the factor of v, - 16 u; its root and product, + 2 u
+///
+/// Bounds. `bound` is for discs that hold leaf discs, and for lines that separate these. With D the distance of centres,
+///
+/// (6)  hit  =>  D - r <= g + 37 u (r + g) + 23 u S + 8 u g
+/// (7)  placing the enclosing discs is off by 23 u S + 8 u g
+/// (8)  supports and profiles round lengths up to 2 S + g; their margins hold what is of S, so that 21 u g remain
+/// (9)  bound = g + 128 u (S + g) exceeds the sum of (6) to (8)
+///
+/// Accepting (sure_gap). Inscribed discs and profiles that are within g are off by 11 u g, and g exceeds d by 34 u d: 64 u are
+/// taken off g.
 struct Gaps {
   float leaf;   ///< g
-  float bound;  ///< between what holds leaf discs
+  float bound;  ///< of discs that hold leaf discs
 };
 
 constexpr float radius_factor = 1 + 0x1p-19f;  ///< the factor of r
@@ -48,7 +57,7 @@ Gaps gaps(float leaf, float reach) noexcept {
   return {leaf, leaf + static_cast<float>(gap_bound_share) * (reach + leaf)};
 }
 
-/// Holds for the stages of within(). Those of collide() know of no gaps, and do not pay for them.
+/// Is true for the stages of within(). Those of collide() have no gaps, and do not pay for them.
 template <class Simd>
 concept KnowsGaps = requires {
   Simd::knows_gaps;

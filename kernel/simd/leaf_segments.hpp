@@ -9,8 +9,8 @@
 
 namespace bch::detail {
 
-/// Finds the segments of an outline that a leaf holds. Trees have segments here, and leaves are named by the places of their discs among
-/// ShapeSetView::nodes. (`Simd` keeps instruction sets from sharing a function.)
+/// Finds the segments of an outline that a leaf holds. A leaf is named by its disc's index in ShapeSetView::nodes.
+/// Precondition: the tree has segments. (`Simd` keeps instruction sets from sharing a function.)
 template <class Simd>
 struct LeafSegments {
   const std::uint32_t* words;  ///< ShapeSetView::leaf_segments
@@ -18,18 +18,18 @@ struct LeafSegments {
   /// Holds the segments of a leaf, by the points where they begin.
   struct List {
     std::uint32_t first, count;   ///< 0: more than 127, so that the disc decides
-    const std::uint32_t* listed;  ///< counted from the first; null: they follow each other
+    const std::uint32_t* listed;  ///< offsets from `first`; null: 0, 1, ...
 
     std::uint32_t point(std::uint32_t i) const noexcept {
       return first + (listed == nullptr ? i : listed[i]);
     }
   };
 
-  /// Holds leaves of a tree from one on.
+  /// Locates the leaves of a tree from one leaf on.
   struct Row {
     const std::uint32_t* words;  ///< of all of the tree's leaves
-    std::uint32_t first;         ///< leaf of the tree
-    std::uint32_t points;        ///< where those of the shape begin
+    std::uint32_t first;         ///< that leaf, counted in the tree
+    std::uint32_t points;        ///< index of the shape's first point
 
     std::uint32_t word(std::uint32_t i) const noexcept { return words[first + i]; }
     List segments(std::uint32_t i) const noexcept {

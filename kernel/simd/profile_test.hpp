@@ -13,15 +13,15 @@
 
 namespace bch::detail {
 
-/// Tests pairs by two profiles (layout/culling/profile.hpp) along the line between their centres, which are the centroids of the largest
-/// contours; lane = pair.
+/// Tests pairs by their profiles (layout/culling/profile.hpp) along the line between the profiles' centres, which are the
+/// centroids of the largest contours; lane = pair.
 template <class Simd>
 class ProfileTest {
  public:
   /// Holds the answers for a register's pairs.
   struct Answers {
     std::uint32_t apart = 0;     ///< a line separates the cuts, by more than the gap
-    std::uint32_t meet = 0;      ///< areas of the largest contours meet, or are within the gap of each other
+    std::uint32_t meet = 0;      ///< the largest contours' areas meet, or are within the gap of each other
     std::uint32_t may_nest = 0;  ///< a contour of one may lie inside one of the other
     std::uint32_t likely = 0;    ///< likely hits, for which accepting is tried first
   };
@@ -33,8 +33,8 @@ class ProfileTest {
         prefetch_(arguments.prefetch_shapes),
         discs_decide_(arguments.exact_leaves ? 0.0f : 1.0f) {}
 
-  /// Finds, for all pairs of the chunk, the line between the centres, and the sectors of both profiles along it.
-  /// `row_a`, `row_b`: the rows of the roots; null where they are in order.
+  /// Finds, for all pairs of the chunk, the line between the centres, and loads the sectors of both profiles along it.
+  /// `row_a`, `row_b`: the rows of the roots; null if rows follow roots.
   void load_sectors(const std::uint32_t* row_a, const std::uint32_t* row_b) noexcept {
     const float* const records = &shapes_.profiles->x;
     const std::uint32_t count = transforms_.whole_registers();
@@ -55,9 +55,8 @@ class ProfileTest {
     choose_outer(records_b_, row_b, count);
   }
 
-  /// Returns the answers for the pairs from k on, after load_sectors(). Where the centres coincide, no direction
-  /// leads from one to the other and the sectors do not lie opposite to each other. Then it only follows that
-  /// the areas meet.
+  /// Returns the answers for the pairs from k on, after load_sectors(). If the centres coincide, there is no line between
+  /// them and the sectors need not be opposite to each other. Then it only follows that the areas meet.
   Answers answers(std::uint32_t k) const noexcept {
     const Float distance = Simd::load(distance_ + k), coincident(1e-20f);
     const Float outer_a = field(records_a_, sector_outer, k), outer_b = field(records_b_, sector_outer, k);
@@ -75,7 +74,8 @@ class ProfileTest {
             .likely = Simd::bits(distance < inner + Float(likely_share) * (outer - inner))};
   }
 
-  /// Returns how far discs of the pair, where these decide, stick out of what supports and profiles hold, after load_sectors(). Metres.
+  /// Returns how far discs of the pair stick out of what supports and profiles bound, metres; 0 if segments decide. Call it
+  /// after load_sectors().
   float excess(std::uint32_t pair) const noexcept { return excess_[pair]; }
 
  private:
@@ -89,8 +89,8 @@ class ProfileTest {
   static constexpr std::size_t stride = 2;
   static constexpr std::uint32_t strides_each = sizeof(Sector) / sizeof(float) / stride;
   static constexpr std::uint32_t profile_strides = sizeof(Profile) / sizeof(float) / stride;
-  /// The share of the distance from where areas meet to where cuts are apart: pairs nearer than that are likely hits. Its value was
-  /// measured.
+  /// Between the distances at which areas surely meet (0) and cuts are surely apart (1): nearer pairs are likely hits. The
+  /// value was measured.
   static constexpr float likely_share = 0.6f;
 
   static Float field(const Fields& of, std::uint32_t i, std::uint32_t k) noexcept {
@@ -114,8 +114,8 @@ class ProfileTest {
     });
   }
 
-  /// Writes the bound of the pair's level into field 1, outer: that of the deepest level is there, that of the others is field 3. A single
-  /// disc has been tested, and has no outer bound here.
+  /// Writes the bound of the pair's level into sector_outer, which holds that of the deepest level; sector_shallow_outer
+  /// holds that of the others. A single disc was tested by test_roots(), and gets an infinite bound.
   static void choose_outer(Fields& of, const std::uint32_t* row, std::uint32_t count) noexcept {
     for_whole_registers<Simd>(count, [&](std::uint32_t k) {
       const float shallow = row[k] == no_supports ? of.field[sector_shallow_outer][k] : __builtin_inff();
@@ -128,7 +128,7 @@ class ProfileTest {
     for_whole_registers<Simd>(count, [=](std::uint32_t k) { record[k] = shape[k] * profile_strides; });
   }
 
-  /// Returns the record of a sector, counted from the beginning of its profile, in strides.
+  /// Returns the offset of a sector's record from its profile, in strides.
   static std::uint32_t record_of(float sector) noexcept {
     return (1 + static_cast<std::uint32_t>(static_cast<std::int32_t>(sector)) % profile_sectors) *
            strides_each;
@@ -147,8 +147,8 @@ class ProfileTest {
     }
   }
 
-  /// Returns the pseudo-angle of a direction, y / (|x| + |y|) quadrant by quadrant, in sectors: 0 to 32, where 32 is sector 0 again. Zero
-  /// has any.
+  /// Returns the pseudo-angle of a direction, y / (|x| + |y|) quadrant by quadrant, in sectors: 0 to 32, where 32 is sector
+  /// 0 again; of (0, 0), any.
   static Float sector(Float x, Float y) noexcept {
     constexpr float quadrant = 0.25f * profile_sectors, not_zero = 1e-30f;
     const Float zero(0.0f), ax = xsimd::abs(x), ay = xsimd::abs(y);

@@ -9,16 +9,15 @@
 
 namespace bch::detail {
 
-/// Holds the fields of records of four floats that are picked from a table by index, field by field, because
-/// lanes stand for pairs.
+/// Holds records of four floats, selected from a table by index, field by field: lane = pair.
 template <class Simd>
 struct RecordFields {
   alignas(64) float field[4][chunk_size];
 
-  static constexpr std::uint32_t records_ahead = 32;  ///< that are asked for, with `prefetch`
+  static constexpr std::uint32_t records_ahead = 32;  ///< how many records ahead are prefetched
 
-  /// Loads the fields of the records that `index` names, in units of `stride` floats. Whole registers are read, so
-  /// `index` has to go on that far. It is inlined, because small batches call it for one register.
+  /// Loads the fields of the records that `index` names, in units of `stride` floats. Whole registers are read, so `index`
+  /// has to be padded to them. It is inlined, because small batches call it for one register.
   template <std::size_t stride>
   [[gnu::always_inline]] void load(const float* table, const std::uint32_t* index, std::uint32_t count,
                                    bool prefetch) noexcept {

@@ -19,12 +19,12 @@
 
 namespace bch::detail {
 
-/// Computes the placements of the agents of a chunk of pairs: B seen from A, side by side. This is the first stage of
-/// the pair kernel.
+/// Computes the transforms from B's frame into A's for a chunk of pairs, lane = pair. This is the first stage of the pair
+/// kernel.
 template <class Simd>
 class RelativeTransforms {
  public:
-  /// Places the pairs from `begin` on, at most a chunk, and none from `end` on.
+  /// Computes those of pairs begin .. end, at most of a chunk.
   void compute(const Arguments& in, std::size_t begin, std::size_t end) noexcept {
     size = end - begin < chunk_size ? static_cast<std::uint32_t>(end - begin) : chunk_size;
     load_agents(in, begin);
@@ -33,7 +33,7 @@ class RelativeTransforms {
   }
 
   Transform transform(std::uint32_t pair) const noexcept { return {c[pair], s[pair], tx[pair], ty[pair]}; }
-  /// Returns those of the pairs from k on, lane = pair.
+  /// Returns the transforms of the register of pairs that begins with k.
   TransformOf<typename Simd::Float> transforms(std::uint32_t k) const noexcept {
     return {Simd::load(c + k), Simd::load(s + k), Simd::load(tx + k), Simd::load(ty + k)};
   }
@@ -41,12 +41,12 @@ class RelativeTransforms {
   /// Returns A's heading.
   UnitVector heading(std::uint32_t pair) const noexcept { return {cosine_[pair], sine_[pair]}; }
 
-  /// Returns the size, filled up to whole registers of floats.
+  /// Returns the size, rounded up to whole registers of floats.
   std::uint32_t whole_registers() const noexcept {
     return (size + Simd::width - 1) / Simd::width * Simd::width;
   }
 
-  /// Sets the gaps of all pairs, the first of which has that index in the batch.
+  /// Sets the gaps of all pairs; `begin` is the index of the first one in the batch.
   void set_gaps(const Arguments& in, std::size_t begin) noexcept {
     // A set of roots alone has no reaches and nothing to bound.
     const float* const reach = in.shapes->reach;
@@ -71,12 +71,12 @@ class RelativeTransforms {
       bound_gap[chunk_size];  ///< see Gaps; where KnowsGaps
 
  private:
-  static constexpr std::uint32_t pairs_ahead = 32;  ///< that agents are prefetched
+  static constexpr std::uint32_t pairs_ahead = 32;  ///< how many pairs ahead agents are prefetched
 
   using Float = typename Simd::Float;
   using Double = typename Simd::Double;
   using Columns = AgentColumns<Simd>;
-  static constexpr std::uint32_t doubles = Simd::doubles;        ///< a register
+  static constexpr std::uint32_t doubles = Simd::doubles;        ///< per register
   static constexpr std::uint32_t parts = Simd::width / doubles;  ///< registers of them for one of floats
 
   /// Loads the agents of each pair. The lower index is A, so that the order within a pair does not matter.
@@ -97,7 +97,7 @@ class RelativeTransforms {
   /// needs of agents.
   template <bool prefetch>
   void find_roots(const Arguments& in) noexcept {
-    // What this writes might be these pointers, for all the compiler knows of `in`.
+    // Copies: the compiler has to assume that the stores below may change `in`.
     const AgentColumn shape = in.agent_shape, level = in.agent_level;
     const std::uint32_t levels = in.shapes->level_count;
     const std::uint32_t count = whole_registers();
@@ -159,7 +159,7 @@ class RelativeTransforms {
       all_cosines[part] = cosines * square + Double(1.0);
       left_quarters[part] = quarters - Double(4.0) * round_to_integer(quarters * Double(0.25));
     }
-    // The quarters that remain turn by 0 and +-1: rounded before or after, that is the same.
+    // The remaining quarter turns multiply by 0 and +-1, so rounding to float before or after them gives the same.
     const Float c = Simd::to_float(all_cosines), s = Simd::to_float(all_sines),
                 left = Simd::to_float(left_quarters);
     const Float turn_c = Float(1.0f) - xsimd::abs(left), turn_s = left * (Float(2.0f) - xsimd::abs(left));

@@ -23,14 +23,14 @@ struct SegmentPair {
 
   Point p0, p1, q0, q1;
 
-  /// Holds the sides of the line of one segment on which the ends of another lie.
+  /// Tells on which side of one segment's line the ends of the other lie.
   struct Sides {
     Real high, low;  ///< cross products of both ends, the larger and the smaller
     Real margin;     ///< the margin times the L1 length of the segment, at least its length
 
-    /// Returns a value above 0 where both ends are farther than the margin on one side.
+    /// Returns a value above 0 if both ends are on one side, farther than the margin.
     Real beside() const noexcept { return xsimd::max(low, Real(0.0) - high) - margin; }
-    /// Returns a value above 0 where the ends are surely on different sides.
+    /// Returns a value above 0 if the ends are surely on different sides.
     Real across() const noexcept {
       return xsimd::min(high, Real(0.0) - low) - Real(rounding::sure_share) * margin;
     }
@@ -66,7 +66,7 @@ struct SegmentPair {
   /// Returns the square of the distance from a point to the nearest one of a segment.
   static Real square_distance(Point p, Point from, Point to) noexcept {
     const Point along = way(from, to), to_p = way(from, p);
-    // A segment without length has a share of 0, by a number that is less than every other square.
+    // A segment without length has a share of 0: 1e-300 is less than the square of any other length.
     const Real square = xsimd::max(along.x * along.x + along.y * along.y, shortest_square());
     const Real share =
         xsimd::max(xsimd::min((to_p.x * along.x + to_p.y * along.y) / square, Real(1.0)), Real(0.0));
@@ -75,17 +75,17 @@ struct SegmentPair {
   }
 };
 
-/// Holds the placement of two agents' shapes, and the margin of both, metres; see rounding.hpp, V.
+/// Holds the transform of a pair of agents, and the sum of their shapes' margins, metres; see rounding.hpp, V.
 struct PlacedSegments {
   Transform b_in_a;
   double margin;
 };
 
-/// Collects pairs of segments of leaves, one of either shape, for a test of many side by side.
+/// Collects pairs of segments, of a leaf of A and of a leaf of B, to test many side by side.
 template <class Simd>
 class SegmentBatch {
  public:
-  /// Takes the placements that add() names by index.
+  /// `placed`: the array into which add() indexes.
   SegmentBatch(const ShapeSetView& shapes, const PlacedSegments* placed) noexcept
       : leaves_{shapes.leaf_segments}, points_(shapes.points), placed_(placed) {}
 
@@ -111,10 +111,9 @@ class SegmentBatch {
   static constexpr std::uint32_t capacity = 64;
   static_assert(capacity % Simd::width == 0);
 
-  /// Collects all segments of leaf i of a row of A with all of leaf j of a row of B; calls finish() before where there is no room
-  /// for more. Both trees have segments. `placed` and the caller's number `owner`, which owner() returns, are
-  /// below 2^16.
-  /// Returns: false where a leaf has too many, so that discs decide.
+  /// Collects all pairs of a segment of leaf i of row a and a segment of leaf j of row b; first calls finish() if there is no
+  /// room. Both trees have segments. `placed`, and the caller's number `owner`, which owner() returns, are below 2^16.
+  /// Returns: false if a leaf has too many segments, so that discs decide.
   template <class Finish>
   [[gnu::always_inline]] bool collect(std::uint32_t placed, const Row& a, std::uint32_t i, const Row& b,
                                       std::uint32_t j, std::uint32_t owner, Finish finish) noexcept {
@@ -122,7 +121,7 @@ class SegmentBatch {
     const std::uint32_t columns = word_b >> leaf_count_shift, count = (word_a >> leaf_count_shift) * columns;
     if (size_ + few > capacity) [[unlikely]]
       finish();
-    // The most common case without a branch on the counts: what is written behind `count` is written over.
+    // The most common case without a branch on the counts: what is written beyond `count` is overwritten later.
     if ((word_a | word_b) < leaf_list && count - 1 < few) [[likely]] {
       fill(segment_a_, quotients.of[columns - 1], a.points + (word_a & leaf_first_mask));
       fill(segment_b_, rests.of[columns - 1], b.points + (word_b & leaf_first_mask));
@@ -141,7 +140,7 @@ class SegmentBatch {
     return of_a.count * of_b.count != 0;
   }
 
-  /// Calls test(k) for every register of pairs, which returns bits of lanes, and use(k, lane) for those that are set.
+  /// Calls test(k) for every register of pairs, and use(k, lane) for each bit that it returns.
   template <class Test, class Use>
   [[gnu::always_inline]] void test_all(Test test, Use use) noexcept {
     fill_register();
@@ -166,7 +165,7 @@ class SegmentBatch {
   }
 
   std::uint32_t size() const noexcept { return size_; }
-  /// Returns what was collected at place k: its owner, and the points where the segments begin.
+  /// Return the owner of pair k, and the points at which its segments begin.
   std::uint32_t owner(std::uint32_t k) const noexcept { return owner_[k] & 0xffff; }
   std::uint32_t segment_a(std::uint32_t k) const noexcept { return segment_a_[k]; }
   std::uint32_t segment_b(std::uint32_t k) const noexcept { return segment_b_[k]; }
@@ -220,14 +219,14 @@ class SegmentBatch {
     }
   }
 
-  /// The most pairs of segments of two leaves that are collected without a loop over them. Most leaves have one or two segments.
+  /// So many pairs of segments of two leaves are collected without a loop. Most leaves have one or two segments.
   static constexpr std::uint32_t few = 4;
   /// Holds two numbers of 32 bits each, which are added at once.
   using Two = std::uint64_t;
   struct Pattern {
     Two of[few][few / 2];
   };
-  /// Returns, for pair k of two leaves, the second of which has 1, 2 ... segments, k divided by that number, or the rest.
+  /// Returns k / columns, or k % columns, for every pair k of two leaves, of which the second has `columns` segments.
   static constexpr Pattern pattern(bool rest) {
     Pattern result{};
     for (std::uint32_t columns = 1; columns <= few; ++columns)
@@ -238,7 +237,8 @@ class SegmentBatch {
   static constexpr Pattern quotients = pattern(false), rests = pattern(true);
   static constexpr Two zeros[few / 2] = {};
 
-  /// Writes `few` sums of a number and a pattern's. (Both halves of a word are in the order of memory on little-endian processors alone.)
+  /// Writes the `few` numbers of a pattern, each plus `number`. (The halves of a word are in the order of memory only on
+  /// little-endian processors.)
   [[gnu::always_inline]] void fill(std::uint32_t* to, const Two* pattern,
                                    std::uint32_t number) const noexcept {
     static_assert(std::endian::native == std::endian::little);

@@ -13,14 +13,14 @@
 
 namespace bch::detail {
 
-/// Tells the relation of two segments.
+/// Selects how two segments meet.
 enum class Meeting : std::uint8_t {
   none,
   within_margin,  ///< they come within the margin of each other
   sure,           ///< also, the outlines surely cross, so that some leaves overlap with all ancestors
 };
 
-/// Returns the distance within which segments of two shapes meet, metres. (`Simd` keeps instruction sets from sharing a
+/// Returns the distance, metres, up to which segments of two shapes meet. (`Simd` keeps instruction sets from sharing a
 /// function.)
 template <class Simd>
 double segment_margin(const ShapeSetView& shapes, std::uint32_t shape_a, std::uint32_t shape_b) noexcept {
@@ -29,8 +29,8 @@ double segment_margin(const ShapeSetView& shapes, std::uint32_t shape_a, std::ui
 }
 
 /// Tests exact leaves: whether segments of leaves meet, lane = pair.
-/// Every operation is one in double of a fixed sequence, which baselines/ writes down again;
-/// layout/base/rounding.hpp, V, says why no two outlines that meet are missed.
+/// Operations are a fixed sequence in double, which baselines/ repeats; layout/base/rounding.hpp, V, derives why no two
+/// outlines that meet are missed.
 template <class Simd>
 class SegmentTest : private SegmentBatch<Simd> {
  public:
@@ -38,8 +38,8 @@ class SegmentTest : private SegmentBatch<Simd> {
       SegmentBatch<Simd>::prefetch_points, SegmentBatch<Simd>::row;
   using typename SegmentBatch<Simd>::Row;
 
-  /// Collects all segments of leaf i of a row of A with all of leaf j of a row of B. `use(owner, meeting)` is called for each pair of
-  /// segments that meets, now or in finish(), and for leaves of too many segments as if some met.
+  /// Collects all pairs of a segment of leaf i of row a and a segment of leaf j of row b. Calls use(owner, meeting) for each
+  /// pair that meets, now or in finish(). Leaves of too many segments are treated as within the margin.
   template <class Use>
   [[gnu::always_inline]] void add(std::uint32_t placed, const Row& a, std::uint32_t i, const Row& b,
                                   std::uint32_t j, std::uint32_t owner, Use use) noexcept {
@@ -47,7 +47,7 @@ class SegmentTest : private SegmentBatch<Simd> {
       use(owner, Meeting::within_margin);
   }
 
-  /// Tests all that were collected.
+  /// Tests all pairs that were collected.
   template <class Use>
   [[gnu::noinline]] void finish(Use use) noexcept {
     measured_ = nothing;
@@ -86,8 +86,8 @@ class SegmentTest : private SegmentBatch<Simd> {
     return beyond_[lane - k] <= 0 ? Meeting::within_margin : Meeting::none;
   }
 
-  /// Measures by how much the pairs of the register from k on miss the margin. About one pair in ten thousand needs this, but most
-  /// pairs of a register where outlines coincide.
+  /// Measures by how much the pairs of the register from k on exceed the margin. About one pair in ten thousand needs this;
+  /// if outlines coincide, most pairs do.
   [[gnu::noinline]] void measure(std::uint32_t k) noexcept {
     Pair pairs[parts];
     this->load(k, pairs);

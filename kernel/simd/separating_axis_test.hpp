@@ -13,8 +13,7 @@
 
 namespace bch::detail {
 
-/// Tests whether a line separates two cuts, by their supports (layout/culling/supports.hpp), lane =
-/// direction.
+/// Tests whether a line separates two cuts, by their supports (layout/culling/supports.hpp), lane = direction.
 template <class Simd>
 class SeparatingAxisTest {
  public:
@@ -25,19 +24,20 @@ class SeparatingAxisTest {
         row_a_(transforms.root_a),
         row_b_(transforms.root_b),
         directions_(transforms) {
-    // This is right where rows are in order; see ShapeSetView.
+    // Holds if rows follow roots (see ShapeSetView); else use_rows() is called.
     if (shapes.support != nullptr) rows_ += std::size_t{first_row} * support_stride;
   }
 
-  /// Sets the rows of the pairs where the rows are not in order.
+  /// Sets the rows of the pairs' supports, if rows do not follow roots.
   void use_rows(const std::uint32_t* a, const std::uint32_t* b) noexcept {
     rows_ = shapes_.support, row_a_ = a, row_b_ = b;
   }
 
-  /// Finds the directions of all pairs of the chunk.
+  /// Finds B's directions for all pairs of the chunk.
   void place_directions() noexcept { directions_.place(); }
 
-  /// Returns whether a line across one of A's even directions, or of its odd ones, separates the pair. `excess`: ProfileTest's.
+  /// Returns whether a line perpendicular to one of A's even directions, or of its odd ones, separates the pair. `excess` is
+  /// that of ProfileTest.
   std::uint32_t apart(std::uint32_t pair, unsigned odd, float excess) const noexcept {
     std::uint32_t separated = 0;
     if constexpr (KnowsGaps<Simd>) excess += transforms_.bound_gap[pair];
@@ -58,7 +58,7 @@ class SeparatingAxisTest {
     __builtin_prefetch(above), __builtin_prefetch(above + last);
   }
 
-  /// Returns whether a line separates the pair all the while that A moves by (x, y), with `slack` to spare.
+  /// Returns whether one line separates the pair during all of A's displacement (x, y), with `slack` to spare.
   std::uint32_t apart_on_the_way(std::uint32_t pair, unsigned odd, float x, float y,
                                  float slack) const noexcept {
     std::uint32_t separated = 0;

@@ -15,14 +15,14 @@ enum class Stage : std::uint8_t {
   inscribed_four,
   inscribed_eight,
   odd_supports,
-  add,     ///< the pairs that are left to the traversal
-  blocks,  ///< of the traversal: tests of two nodes, and what follows from them
+  add,     ///< of undecided pairs to the traversal
+  blocks,  ///< of the traversal: tests of two blocks, and steps to the next
   leaves,  ///< of the traversal: segments and ancestors
 };
 constexpr unsigned stage_count = 9;
 
-/// Tells a kernel that was compiled to be measured that a stage has ended, with how many tests it made; see
-/// bench/ratios/stages.hpp. Others have no code for it.
+/// Reports the end of a stage, and how many tests it made, in kernels compiled to be measured (bench/ratios/counted_kernel.hpp).
+/// Others have no code for it.
 template <class Simd>
 [[gnu::always_inline]] inline void end_stage([[maybe_unused]] Stage stage,
                                              [[maybe_unused]] std::uint32_t tests) noexcept {

@@ -11,12 +11,12 @@
 
 namespace bch::detail {
 
-/// Finds, for the pairs of a chunk, which supports of B (layout/culling/supports.hpp) are opposite to those of A, lane = direction.
+/// Finds, for the pairs of a chunk, which supports of B (layout/culling/supports.hpp) are opposite to those of A, lane =
+/// direction.
 ///
-/// Against A's direction k stands B's direction k * D + psi, with D the angle between directions and psi =
-/// pi - (B's turn in A's frame). psi = (offset + share) * D with 0 <= share <= 1, and a support between two
-/// directions is at most lower * (that of the one below) + upper * (that of the one above), the height of
-/// the corner of two supporting lines.
+/// A's direction k is compared with B's direction k * D + psi, where D = 2 pi / 32 and psi = pi - (heading of B relative to
+/// A). psi = (offset + share) * D with 0 <= share <= 1. B's support there is at most lower * (support of the direction
+/// below) + upper * (support of the direction above): that of the corner of the two supporting lines.
 template <class Simd>
 class SupportDirections {
  private:
@@ -66,7 +66,7 @@ class SupportDirections {
                               [&](std::uint32_t k) { offset_[k] = static_cast<std::int32_t>(offset[k]); });
   }
 
-  /// Names the supports of A along its even or odd directions, and of B on either side of the opposite ones.
+  /// Points to the supports of A along its even or odd directions, and of B along the directions next to the opposite ones.
   struct Rows {
     const float *a, *below, *above;
   };
@@ -77,8 +77,8 @@ class SupportDirections {
             b + (offset + 1) % 2 * half + (offset + 1) / 2};
   }
 
-  /// Calls visit(k, distance, of_a, of_b) for every register: along A's directions from k on, how far B is and how
-  /// far either extends towards the other.
+  /// Calls visit(k, distance, of_a, of_b) for every register of A's directions from k on: how far B's origin is along them,
+  /// and how far each shape extends towards the other.
   template <class Visit>
   [[gnu::always_inline]] void search_along(std::uint32_t pair, unsigned odd, const Rows& of,
                                            Visit visit) const noexcept {
@@ -88,7 +88,7 @@ class SupportDirections {
             lower * Simd::load(of.below + k) + upper * Simd::load(of.above + k));
   }
 
-  /// Returns how far a vector of A's frame leads along A's directions from k on.
+  /// Returns the components of a vector of A's frame along A's directions from k on.
   static Float along(float x, float y, unsigned odd, unsigned k) noexcept {
     return Float(x) * Simd::load(direction_x[odd] + k) + Float(y) * Simd::load(direction_y[odd] + k);
   }

@@ -11,8 +11,8 @@ struct PointIn {
   Float x, y;
 };
 
-/// Maps from B's frame into A's: a rotation (c, s), then a translation; one, or a register of them. Every answer rests on the
-/// order of these operations, see layout/base/rounding.hpp: no other place may spell them. (Inlined for certain, so that
+/// Maps from B's frame into A's: a rotation (c, s), then a translation; one, or a register of them. Every answer depends on
+/// the order of these operations (layout/base/rounding.hpp), so they are written only here. (Inlined for certain, so that
 /// instruction sets share no function.)
 template <class Float>
 struct TransformOf {

@@ -10,28 +10,28 @@
 
 namespace bch::detail {
 
-/// Decodes the name of a node: its place among ShapeSetView::nodes, with the top bit set for a leaf window. (`Simd`
-/// keeps instruction sets from sharing a function.)
+/// Decodes the name of a block: its index in ShapeSetView::nodes, with the top bit set for a leaf window. (`Simd` keeps
+/// instruction sets from sharing a function.)
 template <class Simd>
 struct TreeNodes {
-  /// Returns a mask, all ones if the node is a leaf. GCC would compile a condition to a branch, and no
-  /// processor can predict which nodes are leaves.
+  /// Returns a mask, all ones if the block is a window. GCC would compile a condition to a branch, and no processor can
+  /// predict which blocks are windows.
   static std::uint32_t all_if_leaf(std::uint32_t node) noexcept { return -(node / leaf_window); }
 
-  /// Returns the discs of a node. `stride` is that of the node's tree.
+  /// Returns the discs of a block. `stride` is that of its tree.
   static Discs discs(const float* nodes, std::uint32_t node, std::uint32_t stride) noexcept {
     const std::size_t to_y = block_width + (all_if_leaf(node) & (stride - block_width));
     return {nodes + (node & ~leaf_window), to_y, 2 * to_y};
   }
 
-  /// Returns the discs of a node, of a block those with the outer radii.
+  /// Returns the discs of a block, if it is no window with the outer radii.
   static Discs outer_discs(const float* nodes, std::uint32_t node, std::uint32_t stride) noexcept {
     const std::uint32_t leaf = all_if_leaf(node);
     return {nodes + (node & ~leaf_window), block_width + (leaf & (stride - block_width)),
             block_outer + (leaf & (2 * stride - block_outer))};
   }
 
-  /// Prefetches a node's discs, and the names below a block. (Here and elsewhere inlined for certain: GCC 12 drops the
+  /// Prefetches a block's discs, and the names of its children. (Here and elsewhere inlined for certain: GCC 12 drops the
   /// calls of functions that do nothing else.)
   [[gnu::always_inline]] static void prefetch(const float* nodes, std::uint32_t node,
                                               std::uint32_t stride) noexcept {
@@ -39,7 +39,7 @@ struct TreeNodes {
     for (std::size_t row = 0; row < 3; ++row) __builtin_prefetch(at.x + row * at.to_y);
   }
 
-  /// Returns the child below a disc of a block.
+  /// Returns the name of the child below a disc of a block.
   static std::uint32_t child(const float* nodes, std::uint32_t block, unsigned lane) noexcept {
     std::uint32_t name;
     __builtin_memcpy(&name, nodes + block + block_names + lane, sizeof name);
