@@ -25,7 +25,7 @@
 
 namespace bch::detail {
 
-/// Holds a value of each candidate that clearance() gave, and of those that are kept.
+/// Holds what clearance() wrote for each candidate, and the values of those that are kept.
 template <class Value>
 struct AnswersOfPairs {
   std::vector<Value> of_candidates, kept;
@@ -35,16 +35,16 @@ struct AnswersOfPairs {
   }
 };
 
-/// Finds the pairs of a crowd, keeps those that answer a query, and holds the memory of both from call to call.
+/// Finds the pairs of a crowd, keeps those that answer a query, and reuses its memory from call to call.
 struct CrowdMemory {
-  /// Agents of a query, images behind them where the crowd is periodic, and the pairs of these that are candidates.
+  /// Holds the agents of a query, followed by images if the crowd is periodic, and the pairs of these that are candidates.
   struct Candidates {
     Agents agents;
     std::span<const Pair> pairs;
   };
 
   bool is_periodic() const noexcept { return options.period.x > 0 || options.period.y > 0; }
-  /// Given pairs name agents, not images of them.
+  /// Refuses a period: given pairs name agents, not their images.
   void require_no_period() const {
     if (is_periodic())
       throw std::invalid_argument(
@@ -52,7 +52,7 @@ struct CrowdMemory {
   }
   Candidates find(const ShapeSetView& shapes, const Agents& agents, double margin, const PairFilter& filter,
                   double height_margin = 0);
-  /// Finds those of bodies of spheres that may be within a distance.
+  /// Finds the candidates of bodies of spheres within a distance.
   Candidates find(const BodySet& bodies, const Agents& agents, double within, const PairFilter& filter) {
     const double margin = within * (1 + rounding::bound_gap_margin);
     return find(bodies.view().ground, agents, margin, filter, margin);
@@ -64,29 +64,29 @@ struct CrowdMemory {
     return {test.origin(candidate.first), test.origin(candidate.second)};
   }
   std::span<const Pair> named(std::span<const Pair> candidates);
-  /// Keeps the candidates i for which keeps(i), and makes them the pairs of the answer.
+  /// Makes the candidates i with predicate(i) the pairs of the answer.
   template <class Predicate>
   std::span<const Pair> keep(std::span<const Pair> candidates, const Predicate& predicate) {
     kept.select(candidates.size(), predicate);
     kept.gather(pairs, [&](std::size_t i) { return named(candidates[i]); });
     return pairs;
   }
-  /// Keeps the candidates that collide. Options are those of collide() of such a set.
+  /// Keeps the candidates that collide. `options` are those of collide().
   template <class Set, class Options>
   Crowd::Pairs keep_collisions(const Set& set, const Candidates& candidates, const Options& options) {
     hits.resize(candidates.pairs.size());
     collide(set, candidates.agents, candidates.pairs, hits, options);
     return {keep(candidates.pairs, [&](std::size_t i) { return hits[i] != 0; }), *this};
   }
-  /// Measures the candidates that were kept, by penetration() or nearest_free().
+  /// Runs penetration() or nearest_free(), `query`, for the candidates that were kept.
   template <class Set, class Query>
   void measure_kept(const Set& set, const Candidates& candidates, std::uint32_t directions,
                     const Implementation* implementation, const Query& query) {
-    kept.gather(to_part, [&](std::size_t i) { return candidates.pairs[i]; });
-    penetrations.resize(to_part.size());
-    query(set, candidates.agents, to_part, directions, penetrations, implementation);
+    kept.gather(to_separate, [&](std::size_t i) { return candidates.pairs[i]; });
+    penetrations.resize(to_separate.size());
+    query(set, candidates.agents, to_separate, directions, penetrations, implementation);
   }
-  /// Measures the penetrations of those that were kept.
+  /// Runs penetration() for them.
   template <class Set>
   Crowd::Penetrations penetrations_of_kept(const Set& set, const Candidates& candidates,
                                            std::uint32_t directions, const Implementation* implementation) {
@@ -98,12 +98,12 @@ struct CrowdMemory {
   template <class Answer, class Value>
   Answer keep_rows(const Candidates& candidates, const Rows<Value>& rows) {
     keep(candidates.pairs, [&](std::size_t i) { return !rows[i].empty(); });
-    // Rows that are left out are empty, so only offsets move.
+    // Rows that are left out are empty, so only offsets change.
     kept.gather(contact_offsets, [&](std::size_t i) { return rows.offsets[i]; });
     contact_offsets.push_back(rows.values.size());
     return {kept_pairs(), {contact_offsets, rows.values}};
   }
-  /// Asks run_query() for the distances of the candidates and what goes with them, and keeps those that are near.
+  /// Calls run_query() to write the distances of the candidates and `others`, and keeps those of finite distance.
   template <class RunQuery, class... Value>
   Crowd::Pairs keep_near(std::span<const Pair> candidates, const RunQuery& run_query,
                          AnswersOfPairs<Value>&... others) {
@@ -127,8 +127,8 @@ struct CrowdMemory {
   BroadPhase broad_phase;
   KeptItems kept;
   std::vector<std::uint8_t> hits;
-  std::vector<Pair> pairs;    ///< of the answer, that names agents
-  std::vector<Pair> to_part;  ///< pairs that collide, as candidates name them
+  std::vector<Pair> pairs;        ///< of the answer: indices of agents
+  std::vector<Pair> to_separate;  ///< pairs that collide: indices of agents and images
 
   DiscContacts disc_contacts;
   BodyContactRows body_contacts;

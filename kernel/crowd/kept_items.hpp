@@ -10,10 +10,10 @@
 
 namespace bch::detail {
 
-/// Holds the numbers of the items of arrays that are kept, ascending, and gathers what arrays have of them. Keeps its memory.
+/// Lists the indices of items that are kept, ascending, and gathers their values. Reuses its memory.
 class KeptItems {
  public:
-  /// Keeps item i of `count` where keeps(i).
+  /// Keeps the items i < count with predicate(i).
   template <class Predicate>
   void select(std::size_t count, const Predicate& predicate) {
     const std::size_t blocks = (count + block - 1) / block;
@@ -49,7 +49,7 @@ class KeptItems {
  private:
   static constexpr std::size_t block = 4096;
 
-  std::vector<std::size_t> begin_;  ///< of each block of items, among those that are kept
+  std::vector<std::size_t> begin_;  ///< per block of items: how many are kept before it
   std::vector<std::size_t> kept_;
 };
 

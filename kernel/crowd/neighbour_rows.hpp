@@ -11,18 +11,18 @@
 
 namespace bch::detail {
 
-/// Turns pairs into rows: of each agent, the others of its pairs. The three passes below follow one another; each may run at the same
-/// time on different ranges. In which order rows are filled depends on threads; sorting removes that.
+/// Turns pairs into one row of neighbours per agent. Call count(), accumulate(), fill() and sort() in this order; each but
+/// accumulate() may run at the same time on different ranges. Rows are filled in an order that depends on threads, and sorted.
 struct NeighbourRows {
   std::span<const Pair> pairs;
-  std::span<std::uint64_t> begin;          ///< per agent, and the end of all
+  std::span<std::uint64_t> begin;          ///< per agent, and the end of the last row
   std::span<Crowd::Neighbour> neighbours;  ///< row after row
 
   /// Adds the number of each agent's neighbours in pairs first .. last to `begin`.
   void count(std::size_t first, std::size_t last) const noexcept;
-  /// Turns the counts into the ends of rows, and returns that of the last.
+  /// Turns the counts into the ends of rows, and returns the last end.
   std::uint64_t accumulate() const noexcept;
-  /// Inserts pairs first .. last into their rows, from the end on, so that `begin` becomes what its name says.
+  /// Inserts pairs first .. last into their rows, from the end of each on, so that ends become begins.
   void fill(std::size_t first, std::size_t last) const noexcept;
   /// Sorts the rows of agents first .. last.
   void sort(std::size_t first, std::size_t last) const noexcept;

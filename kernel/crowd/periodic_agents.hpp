@@ -14,12 +14,12 @@
 
 namespace bch::detail {
 
-/// Holds the agents of a periodic crowd, at positions of one period, and behind them images of those near its borders, shifted by a
-/// period to where they meet agents near the opposite ones. Each two agents that meet across a border do so twice: PairTest accepts
-/// the agent with the lower index and the other's image, in whose order an answer is the same as without a border.
+/// Holds the agents of a periodic crowd, at positions within one period, followed by images of those near its borders, shifted
+/// by a period. Two agents that meet across a border do so twice. PairTest accepts only the agent with the lower index with
+/// the other's image: in that order an answer is the same as without a border.
 class PeriodicAgents {
  public:
-  /// Takes agents that are valid. `margin`: as for BroadPhase::find().
+  /// Sets the agents, which are valid. `margin`: as for BroadPhase::find().
   /// Errors:  throws std::invalid_argument on a period of at most four times the farthest reach of an agent.
   void set(const ShapeSetView& shapes, const Agents& agents, CrowdOptions::Period period, double margin);
 

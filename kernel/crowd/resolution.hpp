@@ -14,7 +14,7 @@ namespace bch::detail {
 
 struct CrowdMemory;
 
-/// Holds where the agents of a crowd are that is being resolved, and the memory of its sweeps.
+/// Holds the positions of agents during resolve(), and the memory of its sweeps.
 struct Resolution {
   std::vector<double> x, y, first_x, first_y;
   SeparationSolver solver;
@@ -23,11 +23,11 @@ struct Resolution {
   std::vector<std::uint32_t> agents_at_walls;  ///< agents
 
   void begin(const Agents& agents);
-  /// Moves all agents by what the solver found, within the limits of the options.
+  /// Moves all agents by the solver's displacements, within the limits of the options.
   void move(const Crowd::ResolveOptions& options);
 };
 
-/// Does what Crowd::resolve() does.
+/// Implements Crowd::resolve().
 Crowd::Resolved resolve(CrowdMemory& memory, const BodySet& bodies, const Agents& agents,
                         const Crowd::ResolveOptions& options, const PairFilter& filter);
 

@@ -10,12 +10,13 @@
 
 namespace bch::detail {
 
-/// Finds small displacements of agents on the ground that part pairs and keep others apart, as physics engines solve contacts (projected
-/// Gauss-Seidel). Keeps its memory.
+/// Finds small displacements of agents on the ground that separate pairs and keep others apart, as physics engines solve
+/// contacts (projected Gauss-Seidel). Reuses its memory.
 ///
-/// A constraint between two agents is (d_first - d_second) . (x, y) >= least. Each one pushes its agents apart, in proportion to their
-/// mobilities, and never pulls; it may take back what it pushed. The displacements converge to those with the least sum of squares.
-/// Constraints push in the order in which they were added, on one thread, so that the bits depend on nothing else.
+/// A constraint between two agents is (d_first - d_second) . (x, y) >= least. Each one pushes its agents apart, in proportion
+/// to their mobilities, and never pulls, but may undo earlier pushes of its own. The displacements converge to those with the
+/// least sum of squares. Constraints push in the order in which they were added, on one thread, so that the bits depend on
+/// nothing else.
 class SeparationSolver {
  public:
   static constexpr std::uint32_t nobody = 0xffffffff;  ///< the second agent of a constraint with a wall
@@ -24,14 +25,14 @@ class SeparationSolver {
     double x = 0, y = 0;
   };
 
-  /// Begins with agents that stay. `mobility`: one each, or none, which is 1; it has to stay there.
+  /// Begins with displacements of 0. `mobility` has one number per agent, or none (1 each), and has to outlive solve().
   void begin(std::size_t agents, std::span<const double> mobility) {
     mobility_ = mobility;
     displacements_.assign(agents, {});
     constraints_.clear();
   }
 
-  /// Takes a constraint; (x, y) is a unit vector. One between agents that cannot move is left out.
+  /// Adds a constraint; (x, y) is a unit vector. One between agents that cannot move is ignored.
   void add(std::uint32_t first, std::uint32_t second, double x, double y, double least);
   void solve();
 
@@ -45,8 +46,8 @@ class SeparationSolver {
   struct Constraint {
     std::uint32_t first, second;
     double x, y, least;
-    double effective_mass;  ///< each agent moves by this times its mobility for each missing metre
-    double pushed = 0;      ///< in all
+    double effective_mass;  ///< each agent moves by this times its mobility per missing metre
+    double pushed = 0;      ///< sum of all pushes
   };
 
   void push(Constraint& constraint);

@@ -17,18 +17,18 @@
 
 namespace bch::detail {
 
-/// Returns the radius about a root's centre that holds all discs of the cut.
+/// Returns the radius of a disc about the root's centre that contains all discs of the cut.
 inline double outer_radius(const ShapeSetView& shapes, std::uint32_t root) noexcept {
   return double{shapes.trees == nullptr ? shapes.roots[root].radius : shapes.trees[root].outer};
 }
 
-/// Represents the body of an agent.
+/// Represents an agent's shape at its position and level.
 struct PlacedBody {
   const ShapeSetView& shapes;
   ObstaclePlace place;
   std::uint32_t shape, level;
-  double searched;     ///< metres from its outer disc, within which segments were searched for
-  std::size_t number;  ///< among the bodies that were prepared
+  double searched;     ///< metres: segments within this distance of its outer disc were searched
+  std::size_t number;  ///< index among the bodies that were prepared
 
   std::uint32_t root_index() const noexcept { return shape * shapes.level_count + level; }
   const Root& root() const noexcept { return shapes.roots[root_index()]; }
@@ -36,27 +36,27 @@ struct PlacedBody {
   double outer_radius() const noexcept { return bch::detail::outer_radius(shapes, root_index()); }
 };
 
-/// The largest gap that there can be, metres.
+/// No gap is larger, metres.
 constexpr double farthest_gap = 8 * rounding::largest_position;
 
 /// Holds the nearest obstacle of an agent.
 struct NearestObstacle {
-  double gap;  ///< metres; of nothing found, the limit
-  /// Name what is nearest of the agent: a segment of its outline by the point where it begins, or no_point and a disc of its cut.
+  double gap;  ///< metres; if nothing was found, the limit
+  /// The nearest part of the agent: a segment of its outline, by its first point; or no_point, and a disc of its cut.
   std::uint32_t point = no_point, disc = 0;
   const PlacedBody* body = nullptr;
   LocalSegment segment = {};
   bool is_found = false, is_within = false;
 };
 
-/// Selects which segments are searched for at first: those that touch a body, or those that the nearest one is among.
+/// Selects which segments are searched first: those that touch a body, or some that include the nearest one.
 enum class SearchMode { touching, nearest };
 
-/// Implements the stages that answer an agent's queries against obstacles; it keeps its memory from agent to agent.
+/// Answers queries of agents against obstacles; it reuses its memory from agent to agent.
 class BodyQuery {
  public:
-  /// With `exact_leaves`, outlines decide and are measured where shapes have exact leaves, else discs. With `in_space`, obstacles above and
-  /// below a body are near it, too, as far away as the limit of prepare() allows.
+  /// With `exact_leaves`, outlines decide and are measured if shapes have exact leaves, else discs. With `in_space`,
+  /// obstacles above and below a body, up to the limit of prepare(), are near it, too.
   BodyQuery(const Implementation& implementation, const ShapeSetView& shapes, const Agents& agents,
             const ObstacleView& obstacles, bool exact_leaves, bool in_space = false) noexcept
       : implementation_(implementation),
@@ -69,11 +69,11 @@ class BodyQuery {
   NearSegments& near() noexcept { return near_; }
   const ObstacleView& obstacles() const noexcept { return near_.obstacles(); }
 
-  /// Asks for the obstacles about many agents at once, begin .. end: those that touch their outer discs, or to measure a distance those that are
-  /// as near as the nearest one. near_body() then returns them. Agents from which all obstacles are farther than a limit are left out.
+  /// Searches segments for agents begin .. end: those that touch their outer discs, or some that include the nearest one.
+  /// near_body() then returns them. Agents from which all obstacles are farther than `limit` are left out.
   void prepare(std::uint32_t begin, std::uint32_t end, double limit, SearchMode mode);
 
-  /// Returns the segments that prepare() searched for about a body.
+  /// Returns the segments that prepare() found for a body.
   std::span<LocalSegment> near_body(const PlacedBody& body) { return near_.take(body.number); }
 
   /// Returns the body of an agent that was prepared; null where it was left out.
@@ -82,7 +82,7 @@ class BodyQuery {
     return i < bodies_.size() && place_[agent - begin_ + 1] > i ? &bodies_[i] : nullptr;
   }
 
-  /// Calls found(obstacle) for obstacles that an agent collides with, each once, until it returns false.
+  /// Calls found(obstacle) for each obstacle that an agent collides with, until it returns false.
   template <class Found>
   void visit_hits(std::uint32_t agent, const Found& found) {
     const PlacedBody* const body = this->body(agent);
@@ -96,19 +96,20 @@ class BodyQuery {
     if (!stop) visit_areas_beyond(*body, found);
   }
 
-  /// Finds the least gap of an agent of at most `limit`, metres. The search ends where one is at most `stop_below` or, where `inside` counts, an area
-  /// holds the agent or its outline a polyline.
+  /// Finds the least gap, if at most `limit`, of an agent, metres. The search ends at a gap of at most `stop_below` or, with
+  /// `inside`, if an area contains the agent or its outline contains a polyline.
   NearestObstacle nearest(std::uint32_t agent, double limit, double stop_below, bool inside);
   bool is_within(std::uint32_t agent, double distance) {
     return nearest(agent, distance, distance, true).is_within;
   }
 
-  /// Returns whether an area holds a disc of a body clear of its segments, with exact leaves something of its outline, or the outline of
-  /// the body a polyline. Precondition: near() found all segments within the root's disc.
+  /// Returns whether an area contains a disc of a body (with exact leaves, a part of its outline) that touches none of the
+  /// area's segments, or the body's outline contains a polyline. Precondition: near() found all segments in the root's disc.
   bool is_inside(const PlacedBody& body);
-  /// Returns whether an obstacle, whose segments next to a body these are, is an area that holds something of it that they do not touch.
+  /// Returns whether an obstacle is an area that contains a part of a body that its segments, given if near, do not touch.
   bool area_holds(const PlacedBody& body, std::span<const LocalSegment> segments, std::uint32_t obstacle);
-  /// Calls found(obstacle) for the areas that hold a body and have no segment next to it, until it returns false. Returns: whether it did.
+  /// Calls found(obstacle) for the areas that contain a body and have no segment near it, until it returns false. Returns:
+  /// whether it did.
   template <class Found>
   bool visit_areas_beyond(const PlacedBody& body, const Found& found) {
     if (is_too_large_for_areas(body.root())) return false;
@@ -118,9 +119,9 @@ class BodyQuery {
   }
 
  protected:
-  /// Calls visit(segments) farther and farther away than prepare() did, until nothing beyond can be nearer than what it found, or that is
-  /// at most `stop_below`. The segment that is nearest to the body's centre comes first: its gap, which is at most twice the outer radius
-  /// larger than the least one can be, leaves few others to examine.
+  /// Calls visit(segments) for growing distances beyond that of prepare(), until no segment beyond can be nearer than `nearest`,
+  /// or its gap is at most `stop_below`. The segment nearest to the body's centre comes first: its gap exceeds the least one by
+  /// at most twice the outer radius, so that few others remain.
   template <class Nearest, class Visit>
   void search_outward(const PlacedBody& body, double stop_below, const Nearest& nearest, const Visit& visit) {
     constexpr double least_step = 0.05;  // metres
@@ -165,7 +166,7 @@ class BodyQuery {
   const Agents& agents_;
   NearSegments near_;
   const bool exact_leaves_, in_space_;
-  /// Represents an agent that was not left out, and how far its search goes.
+  /// Holds an agent that was not left out, and the distance within which segments are searched.
   struct Chosen {
     std::uint32_t agent;
     double searched;
@@ -174,7 +175,7 @@ class BodyQuery {
   std::size_t chosen_count_ = 0;
   std::vector<NearQuery> queries_;  ///< by body
   std::vector<PlacedBody> bodies_;
-  std::vector<std::size_t> place_;  ///< by agent, among these, and one past the last
+  std::vector<std::size_t> place_;  ///< by agent: index in bodies_, and one past the last
   std::uint32_t begin_ = 0;         ///< the first agent that was prepared
 };
 

@@ -14,9 +14,9 @@ namespace bch::detail {
 template <class Simd>
 class BoxQuery {
  public:
-  /// Tests blocks of one level for many queries: writes which boxes of the blocks that `in` names overlap those of the queries, in the order
-  /// of `in`. It has no branch that depends on an answer. There has to be room for 8 * count hits.
-  /// Returns: how many there are.
+  /// Tests blocks of one level for many queries: for each block and query of `in`, writes the boxes that overlap the query's, in
+  /// the order of `in`. No branch depends on an answer. `out` has room for 8 * count hits.
+  /// Returns: how many were written.
   static std::uint32_t run(const BoxBlock* blocks, const Box* queries, const BoxHit* in, std::uint32_t count,
                            BoxHit* out) noexcept {
     std::uint32_t size = 0;
@@ -32,7 +32,7 @@ class BoxQuery {
 
   static std::uint32_t test(const BoxBlock* blocks, const Box* queries, const BoxHit* in, std::uint32_t count,
                             BoxHit* out) noexcept {
-    // Eight a block, and what a register writes beyond.
+    // Eight per block, and what a register writes beyond.
     std::uint16_t found[8 * blocks_together + Simd::width];
     std::uint32_t size = 0;
     for (std::uint32_t k = 0; k < count; ++k) {

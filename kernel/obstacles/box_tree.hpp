@@ -12,16 +12,15 @@
 
 namespace bch::detail {
 
-/// Holds boxes around the eight nodes below one; what is left over is padding that overlaps nothing: from infinity to
-/// -infinity.
+/// Holds the boxes of eight children; unused ones are from infinity to -infinity and overlap nothing.
 struct BoxBlock {
   double low_x[8], low_y[8], high_x[8], high_y[8];
 };
 
 constexpr std::uint32_t max_box_levels = 11;  ///< 8^11 is 2^33 boxes
 
-/// Represents a tree of boxes in the order of its leaves, eight children a node: child i of block b is block 8 b + i of the level below, of
-/// level 0 box 8 b + i of what the tree was made of.
+/// Represents a tree of boxes, eight per block: below box i of block b is block 8 b + i of the next lower level; box i of block
+/// b of level 0 is box 8 b + i of BoxTreeMemory::order.
 struct BoxTreeView {
   const BoxBlock* blocks;
   std::uint32_t level_begin[max_box_levels];
@@ -43,15 +42,16 @@ struct BoxTreeMemory {
   BoxTreeView view;
 };
 
-/// Represents a node of a tree, or one of its boxes, and the number of the query that asks about it.
+/// Holds the index of a query, and of a block or a box of a level.
 struct BoxHit {
   std::uint32_t query, place;
 };
 
-/// Searches a tree for what is near a point, nearest first, and keeps its memory from one search to the next.
+/// Searches a tree for boxes near a point, the nearest first, and reuses its memory.
 class NearestBoxes {
  public:
-  /// Calls take(place) for the boxes that have a square distance from a point below a limit, which may sink; those of near blocks first.
+  /// Calls take(place) for the boxes whose squared distance from a point is below `limit`, which take() may lower; those of
+  /// near blocks come first.
   template <class Take>
   void visit(const BoxTreeView& tree, double x, double y, const double& limit, const Take& take) {
     open_.clear();
@@ -76,7 +76,8 @@ class NearestBoxes {
   }
 
  private:
-  /// Represents a block whose box has this square distance from the point. Of equally near blocks the lowest comes first.
+  /// Represents a block, and the squared distance of its box from the point. Of equally near blocks, that of the lowest level
+  /// comes first.
   struct OpenBlock {
     double square;
     std::uint32_t level, block;
@@ -85,7 +86,7 @@ class NearestBoxes {
     }
   };
 
-  /// Returns the square of the distance of a point from a box of a block; infinity: of padding.
+  /// Returns the squared distance of a point from a box of a block; infinity from an unused one.
   static double square_distance(const BoxBlock& block, std::uint32_t i, double x, double y) noexcept {
     const double dx = std::max(std::max(block.low_x[i] - x, x - block.high_x[i]), 0.0),
                  dy = std::max(std::max(block.low_y[i] - y, y - block.high_y[i]), 0.0);

@@ -13,26 +13,27 @@ namespace bch::detail {
 struct BoxTreeView;
 struct WorldSegment;
 
-/// Says how far a point is from the nearest segment at least, and at most where that can be told, metres. (A search that finds nothing
-/// searches farther.)
+/// Bounds the distance of a point from the nearest segment, metres; the upper bound may be infinite. (A search that finds
+/// nothing searches farther.)
 struct DistanceBounds {
   double least, most;
 };
 
-/// Holds the distances of the centres of square cells from the nearest segment, in steps of a cell's side. A point that is `distance` from a
-/// centre is at most so much nearer to a segment or farther from it, in a cell or outside of all, so one number tells which agents have
-/// nothing near them, and how far others have to search. A byte each, so that they stay in near caches.
+/// Holds the distances of the centres of square cells from the nearest segment, one byte each, so that they stay in near caches.
+/// A point at `distance` from a centre is at most `distance` nearer to a segment or farther from it, inside or outside of the
+/// grid. So one number shows which agents have nothing near them, and how far the others have to search.
 struct DistanceGridView {
   static constexpr double steps_a_side = 16;
-  static constexpr std::uint8_t far = 255;  ///< as many steps or more
+  static constexpr std::uint8_t far = 255;  ///< 255 steps or more
 
   double x, y;             ///< metres: the centre of the first cell
   double side, per_metre;  ///< of a cell, and 1 / side
   double step;             ///< metres
   double last_column, last_row;
   std::size_t columns;
-  const std::uint8_t* steps;  ///< by row and column, rounded down; 0 where too many are near to tell
-  double rounding;  ///< metres: more than the largest coordinates lose in a bound, and segments have slack
+  const std::uint8_t* steps;  ///< by row and column, rounded down; 0 also if too many segments are near
+  double
+      rounding;  ///< metres, above the rounding of the largest coordinates in a bound and the slack of segments
 
   /// Returns bounds of the distance of a point, whose coordinates are finite, from the nearest segment.
   [[gnu::always_inline]] DistanceBounds bounds(double at_x, double at_y) const noexcept {

@@ -11,17 +11,17 @@
 
 namespace bch::detail {
 
-/// Holds the ends of segments, and tells the largest value that a linear function has at one of them. Only corners of their convex hull
-/// can have it; there it ascends to a largest value and descends again, so that n queries of n ends take n log n steps.
+/// Finds the largest value of a linear function at the ends of segments. A corner of their convex hull has it; along the hull
+/// the values ascend to it and descend again, so that n queries of n ends take n log n steps.
 ///
-/// The hull is found in double: an end that is taken for one inside reaches out of it by no more than what rounding moves ends.
+/// The hull is computed in double: an end that is wrongly taken for one inside protrudes by no more than rounding moves ends.
 class EndsHull {
  public:
   using Point = ObstaclePlace::Vector;
 
   void clear() noexcept { ends_.clear(); }
   void add(Point end) { ends_.push_back(end); }
-  /// Finds the hull of the ends that were added, at least one.
+  /// Computes the hull of the ends that were added, at least one.
   void close() {
     std::sort(ends_.begin(), ends_.end(),
               [](Point a, Point b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
@@ -29,15 +29,15 @@ class EndsHull {
     make_chain(upper_, -1);
   }
 
-  /// Returns the largest value of a function that is linear except for rounding. (On one of the chains it may descend at first. The other
-  /// one then has the largest value, and no value is too large.)
+  /// Returns the largest value of a function that is linear except for rounding. (On one of the chains it may descend first; the
+  /// other one then has the largest value, and no computed value is too large.)
   template <class Linear>
   double most(const Linear& of) const {
     return std::max(top_of(lower_, of), top_of(upper_, of));
   }
 
  private:
-  /// Makes the chain of corners from the least end to the largest that turns to the left at every corner (1) or to the right (-1).
+  /// Makes the chain of corners from the first end to the last that turns left at every corner (1) or right (-1).
   void make_chain(std::vector<Point>& chain, double turn) {
     chain.clear();
     for (const Point& end : ends_) {

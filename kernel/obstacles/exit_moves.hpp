@@ -14,40 +14,40 @@
 
 namespace bch::detail {
 
-/// A move out over a segment.
+/// Represents a move of an agent that leaves an obstacle over one segment.
 struct ExitMove {
   double depth = 0;
   ObstaclePlace::Vector direction = {0, 0};  ///< in the world
 };
 
-/// Finds the moves out of the obstacles that a body touches, and of the areas that hold it.
+/// Finds the moves out of the obstacles that a body touches, and of the areas that contain it.
 class ExitMoves {
  public:
   ExitMoves(BodyQuery& query, const PlacedBody& body)
       : query_(query), body_(body), discs_(cut_discs(body.shapes, body.root_index())) {}
 
-  /// Returns the longest of the moves out of each obstacle.
+  /// Returns the longest of the obstacles' shortest moves.
   ExitMove longest();
 
  private:
-  /// Holds the stretch of a segment's line on which discs count.
+  /// Holds the interval of a segment's line in which discs are considered.
   struct Range {
     double from = -std::numeric_limits<double>::infinity(), to = std::numeric_limits<double>::infinity();
   };
 
   void find_touched(std::span<const LocalSegment> segments);
   bool is_touched(const LocalSegment& segment) const noexcept;
-  /// Returns whether no segment that is touched has a direction.
+  /// Returns whether all touched segments are points.
   bool is_post() const noexcept;
-  /// Returns the move away from a point: that of the disc that overlaps it the deepest.
+  /// Returns the move away from a point, in the direction of the disc that overlaps it the deepest.
   ExitMove from_post(const LocalSegment& post) const;
-  /// Returns the shortest move out of an obstacle: over a segment that is touched, or one that has all of those behind it.
+  /// Returns the shortest move out of an obstacle: over a touched segment, or one that has all touched ones behind it.
   ExitMove shortest(std::span<const LocalSegment> segments);
-  /// Returns whether all that is touched is behind a segment, seen from the side that is outside.
+  /// Returns whether all touched segments are behind a segment, seen from its outer side.
   bool has_all_behind(const LocalSegment& segment, int side) const;
-  /// Returns the stretch of a segment's line onto which the touched segments are.
+  /// Returns the interval of a segment's line onto which the touched segments project.
   Range touched_range(const LocalSegment& segment) const;
-  /// Returns the longest of the moves out of areas, which ascend, each over the segment that is the nearest to the body's centre.
+  /// Returns the longest of the moves out of areas, each over the area's segment nearest to the body's centre. `areas` ascend.
   ExitMove longest_out_of(std::span<const std::uint32_t> areas);
   ExitMove over(const LocalSegment& segment, Range range) const;
   double depth_towards(int side, const LocalSegment& segment, Range range) const noexcept;
@@ -60,7 +60,7 @@ class ExitMoves {
   const PlacedBody& body_;
   const CutDiscs discs_;
   std::vector<const LocalSegment*> touched_;
-  EndsHull hull_;  ///< of what is touched
+  EndsHull hull_;  ///< of the touched segments
 };
 
 }  // namespace bch::detail

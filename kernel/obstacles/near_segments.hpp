@@ -19,7 +19,7 @@
 
 namespace bch::detail {
 
-/// Holds the position of an agent, and how it is turned.
+/// Holds the position and rotation of an agent.
 struct ObstaclePlace {
   double x, y;
   Rotation turn;
@@ -43,13 +43,13 @@ inline ObstaclePlace::Vector to_nearest_point(const LocalSegment& segment, doubl
   return {forward * segment.x - aside * segment.y, forward * segment.y + aside * segment.x};
 }
 
-/// Represents the heights of an agent, and the ground that the agent stands on, metres.
+/// Holds the heights of an agent above its ground, and that of the ground, metres.
 struct StandingBody {
   Heights heights = {-__builtin_inff(), __builtin_inff()};
   double ground = 0;
 };
 
-/// Represents the disc of a query, of an agent's frame.
+/// Represents a query: a disc in an agent's frame.
 struct NearQuery {
   ObstaclePlace place;
   Vec2 centre;
@@ -57,7 +57,7 @@ struct NearQuery {
   StandingBody body;
 };
 
-/// Finds the segments and areas of obstacles that are near a disc, and keeps its memory from one to the next.
+/// Finds the segments and areas of obstacles that are near a disc, and reuses its memory.
 class NearSegments {
  public:
   NearSegments(const Implementation& implementation, const ObstacleView& obstacles) noexcept
@@ -65,24 +65,24 @@ class NearSegments {
 
   const ObstacleView& obstacles() const noexcept { return obstacles_; }
 
-  /// Finds the segments within each of many discs, for take(). The queries must outlive that.
+  /// Finds the segments within each of many discs, for take(). The queries must outlive its calls.
   void prepare(std::span<const NearQuery> queries);
-  /// Returns what find() finds for one of the queries of prepare(). From here on, obstacles that are above or below its body are left out.
+  /// Returns the segments of one of the queries of prepare(). From then on, obstacles above or below its body are left out.
   std::span<LocalSegment> take(std::size_t query);
 
-  /// Finds all segments within a distance of a point of the agent's frame, in the order of their numbers, so that those of an obstacle
-  /// follow each other.
+  /// Finds all segments within a distance of a point of the agent's frame, by ascending number, so that those of an obstacle are
+  /// consecutive.
   std::span<LocalSegment> find(const ObstaclePlace& place, Vec2 centre, double distance);
   /// Finds at least those within a distance of a point that moves by `displacement` (in the world), in the same order.
   std::span<LocalSegment> find_along(const ObstaclePlace& place, Vec2 centre, double distance,
                                      ObstaclePlace::Vector displacement);
   std::span<LocalSegment> found() const noexcept { return found_; }
 
-  /// Returns a distance from a point of the agent's frame within which find() finds the nearest segment, and hardly any other; infinity:
-  /// there is none.
+  /// Returns a distance from a point of the agent's frame within which find() finds the nearest segment and hardly any other;
+  /// infinity if there is no segment.
   double nearest_distance(const ObstaclePlace& place, Vec2 centre);
-  /// Calls take(segment) for all segments that are nearer to a point of the agent's frame than `limit` says, which may sink, and for few
-  /// others. Those of near boxes come first. `limit` is what limit_of() makes of a distance, or infinity.
+  /// Calls take(segment) for all segments that are nearer to a point of the agent's frame than `limit`, and for few others. Those
+  /// of near boxes come first. `limit` is limit_of() a distance, or infinity; take() may lower it.
   template <class Take>
   void visit_near(const ObstaclePlace& place, Vec2 point, const double& limit, const Take& take) {
     const auto [x, y] = in_world(place, point);
@@ -92,7 +92,7 @@ class NearSegments {
   }
   static double limit_of(const ObstaclePlace& place, double distance) noexcept;
 
-  /// Calls visit(segments) for every obstacle of those that were found, until it returns true. Returns: whether it did.
+  /// Calls visit(segments, obstacle) for every obstacle of the found segments, until it returns true. Returns: whether it did.
   template <class Visit>
   bool any_obstacle(const Visit& visit) {
     for (std::size_t begin = 0, end; begin < found_.size(); begin = end) {
@@ -103,14 +103,15 @@ class NearSegments {
     return false;
   }
 
-  /// Returns the areas that hold a point of the agent's frame, ascending: by the parity of their segments that a ray crosses, one ray for
-  /// all areas. Of an area whose border the point is next to, nothing is said. Valid until the next call.
+  /// Returns the areas that contain a point of the agent's frame, ascending: by the parity of their segments that a ray crosses,
+  /// one ray for all areas. An area whose border is next to the point may be missing or not. Valid until the next call.
   std::span<const std::uint32_t> areas_that_hold(const ObstaclePlace& place, Vec2 point);
 
  private:
-  /// Finds the boxes of a tree that overlap `boxes_`, level by level. Returns: how many of hits_ these are, query after query.
+  /// Finds the boxes of a tree that overlap `boxes_`, level by level, and writes them to hits_, query after query. Returns: how
+  /// many there are.
   std::uint32_t descend(const BoxTreeView& tree);
-  /// Finds those that overlap one box. Valid until the next call.
+  /// Finds the boxes that overlap one box. Valid until the next call.
   std::span<const BoxHit> overlapping(const BoxTreeView& tree, const Box& box);
   static ObstaclePlace::Vector in_world(const ObstaclePlace& place, Vec2 point) noexcept {
     const auto [x, y] = place.turned(double{point.x}, double{point.y});
@@ -122,7 +123,7 @@ class NearSegments {
     const auto [bottom, top] = obstacles_.heights[obstacle];
     return heights_meet(bottom, top, body.heights, body.ground);
   }
-  /// Places the segment in a slot in the frame of an agent. (A copy of what was just written would wait for it.)
+  /// Transforms the segment in a slot into the frame of an agent. (It writes in place: copying a result would wait for it.)
   [[gnu::always_inline]] const LocalSegment& put(const ObstaclePlace& place, std::uint32_t slot,
                                                  LocalSegment& to) const noexcept {
     const WorldSegment& world = obstacles_.segments[slot];
@@ -140,10 +141,10 @@ class NearSegments {
           world.obstacle};
     return to;
   }
-  /// Sorts the segments that were found by their numbers.
+  /// Sorts found segments by their numbers.
   std::span<LocalSegment> sorted(std::span<LocalSegment> segments);
 
-  /// Represents a point in the world: the agent's position, and the vector from there.
+  /// Represents a point in the world by the agent's position and the vector from there.
   struct AgentPoint {
     double x, y, displacement_x, displacement_y;
     friend bool operator==(const AgentPoint&, const AgentPoint&) = default;
@@ -152,20 +153,20 @@ class NearSegments {
   const Implementation& implementation_;
   const ObstacleView& obstacles_;
   std::vector<std::uint32_t> about_, areas_;
-  std::optional<AgentPoint> held_;  ///< what areas_ hold
+  std::optional<AgentPoint> held_;  ///< the point that areas_ contain
   std::vector<Box> boxes_;
   std::vector<BoxHit> hits_, next_;
   NearestBoxes nearest_boxes_;
   std::vector<LocalSegment> memory_, prepared_;  ///< of find() and of prepare()
   LocalSegment visited_;                         ///< by visit_near()
-  std::vector<std::uint32_t> prepared_end_;      ///< where those of the queries before one end
+  std::vector<std::uint32_t> prepared_end_;  ///< by query: where the segments of the queries before it end
   std::span<LocalSegment> found_;
   std::span<const NearQuery> queries_;  ///< of prepare()
-  StandingBody body_;                   ///< that of the query that was taken
+  StandingBody body_;                   ///< of the last query of take()
 };
 
-/// Tells whether an area holds points that are clear of its segments. The first one is compared with the whole area, and
-/// others by the vector from there.
+/// Tests whether an area contains points that its segments do not touch. The first point is compared with the whole area,
+/// the others by the vector from the first.
 class AreaSide {
  public:
   AreaSide(NearSegments& near, const ObstaclePlace& place, std::span<const LocalSegment> segments,

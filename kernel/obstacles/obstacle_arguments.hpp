@@ -21,16 +21,18 @@ struct ObstacleArguments {
 
 constexpr std::uint32_t no_disc = 0xffffffff, no_point = 0xffffffff;
 
-/// Holds the smallest gap found so far. Of equal gaps the outline's segment with the lower number counts, any of them before discs, then
-/// the disc with the lower number, then the obstacle's segment.
+/// Holds the least gap found so far. Of equal gaps, that of the outline's segment with the lowest number is chosen, segments
+/// before discs, then of the lowest disc, then of the obstacle's lowest segment.
 struct ObstacleGap {
-  double gap;            ///< metres
-  std::uint32_t point;   ///< where the outline's segment begins, of ShapeSetView::points; no_point: of a disc
-  std::uint32_t disc;    ///< of its cut; of an outline 0
-  std::uint32_t number;  ///< of the obstacle's segment
-  const LocalSegment* segment;  ///< null: there is none up to the gap that stood here
+  double gap;  ///< metres
+  std::uint32_t
+      point;           ///< first point of the outline's segment, in ShapeSetView::points; no_point: of a disc
+  std::uint32_t disc;  ///< index in the cut; of an outline 0
+  std::uint32_t number;         ///< of the obstacle's segment
+  const LocalSegment* segment;  ///< null: none has a gap up to the initial one
 
-  /// Takes a gap that comes before this one. Returns: whether it does. (Inlined for certain, so that instruction sets share no function.)
+  /// Replaces this gap if another comes before it. Returns: whether it does. (Inlined for certain, so that instruction sets share
+  /// no function.)
   [[gnu::always_inline]] bool improve(const ObstacleGap& other) noexcept {
     const bool is_first = other.point != point ? other.point < point
                           : other.disc != disc ? other.disc < disc

@@ -16,17 +16,17 @@
 
 namespace bch::detail {
 
-/// Tests the tree of a body against segments of obstacles, in double; see LocalSegment. Eight discs are compared with a segment
-/// at a time.
+/// Tests the tree of a body against segments of obstacles, in double; see LocalSegment. Eight discs at a time are compared with
+/// a segment.
 template <class Simd>
 class ObstacleKernel {
  public:
-  /// Returns whether a disc of the cut and all its ancestors touch the segments, and the outline in that disc does
-  /// where exact leaves decide.
+  /// Returns whether a disc of the cut and all its ancestors touch the segments and, if exact leaves decide, the outline in
+  /// that disc does.
   static bool touches(const ObstacleArguments& in) noexcept { return ObstacleKernel(in).meets_any(); }
 
-  /// Finds the least gap between a disc of the cut and a segment, or between the outline and a segment where exact leaves decide. The
-  /// search ends at one of at most `stop_below`. The segment that is nearest to the root comes first: few others improve on it.
+  /// Finds the least gap between a disc of the cut (if exact leaves decide, the outline) and a segment. The search ends at one
+  /// of at most `stop_below`. The segment that is nearest to the root comes first: few others improve on it.
   ///
   /// Gaps of discs bound those of outlines: some leaf holds the nearest point of an outline, and its radius was
   /// enlarged by the same grid steps as the margin of exact leaves, and by query_margin, which is more than that margin
@@ -72,7 +72,7 @@ class ObstacleKernel {
   }
 
   using Double = typename Simd::Double;
-  // What is said of find_gap(): a disc has more room than outlines have margin, and halving takes.
+  // What find_gap() relies on: a disc is enlarged by more than the outlines' margin and what halving moves.
   static_assert(rounding::query_margin >=
                 rounding::segment_margin +
                     (rounding::terms::halving + 2 * rounding::terms::higher) * rounding::unit_roundoff);
@@ -84,8 +84,8 @@ class ObstacleKernel {
     return across * across + beyond * beyond;
   }
 
-  /// Returns whether a segment leads from outside of the root disc, which holds the outline, into a disc inscribed in its largest
-  /// contour: so it crosses that contour, which is a hit at every level.
+  /// Returns whether a segment leads from outside of the root disc, which contains the outline, into a disc inscribed in the
+  /// largest contour: then it crosses that contour, which is a hit at every level.
   bool any_goes_in() const noexcept {
     const float* const inscribed = in_.shapes->inscribed[in_.root / in_.shapes->level_count].x;
     const Discs discs{inscribed, block_width, 2 * block_width};
@@ -124,7 +124,7 @@ class ObstacleKernel {
     return bits;
   }
 
-  /// Returns whether all ancestors of a cut disc touch the segment. `disc` is its place among the nodes.
+  /// Returns whether all ancestors of a cut disc touch the segments. `disc` is its index in the nodes.
   bool ancestors_touch(std::uint32_t disc) const noexcept {
     if (tree_.count == 1) return true;
     AncestorPath<Simd> path;
@@ -167,15 +167,15 @@ class ObstacleKernel {
     return segment.square_distance(double{root.x}, double{root.y});
   }
 
-  /// Returns the limit of bounds: above it, nothing below comes up to the best. Bounds are off by some 2^-50 of what they are made
-  /// of.
+  /// Returns a limit: a disc whose bound is above it contains nothing as near as the best. Bounds are off by some 2^-50 of their
+  /// terms.
   double limit_of(const LocalSegment& segment, const ObstacleGap& best) const noexcept {
     const Root& root = in_.shapes->roots[in_.root];
     const double size = double{tree_.outer} + __builtin_fabs(double{root.x}) + __builtin_fabs(double{root.y});
     return best.gap + segment.slack + 0x1p-40 * (size + __builtin_fabs(best.gap));
   }
 
-  /// Visits what has the least bound first.
+  /// Searches the tree, the disc with the least bound first.
   void search(const LocalSegment& segment, double stop_below, ObstacleGap& best) noexcept {
     double limit = limit_of(segment, best);
     const double reach = double{tree_.outer} + limit;
@@ -188,7 +188,8 @@ class ObstacleKernel {
     own_.walk(visit, [&](const OpenBlock& block) { return least(block, limit); });
   }
 
-  /// Opens what may be within the limit below the nodes of a block, and bounds it; mostly there is nothing, which squares tell sooner.
+  /// Sets the lanes of a block below which gaps may be within the limit, and their bounds. Mostly there is none, which squares
+  /// show sooner.
   void open(const LocalSegment& segment, double limit, OpenBlock& block) const noexcept {
     const Discs discs = TreeNodes<Simd>::outer_discs(nodes_, block.node, tree_.stride);
     alignas(64) double square[block_width];
@@ -198,7 +199,8 @@ class ObstacleKernel {
       Simd::store(block.bound + k, gaps(segment, discs, k, square));
   }
 
-  /// Returns which discs may have a gap of at most a limit from the segment, and the squares of their centres' distances; no padding.
+  /// Returns the lanes of discs, without padding, whose gap from the segment may be within the limit, and writes the squared
+  /// distances of all centres.
   static std::uint32_t near(const LocalSegment& segment, Discs discs, double limit, double* square) noexcept {
     std::uint32_t bits = 0;
     for (unsigned k = 0; k < block_width; k += Simd::doubles) {
@@ -214,7 +216,7 @@ class ObstacleKernel {
     return xsimd::sqrt(Simd::load(square + k)) - (Simd::wide(discs.radius() + k) + Double(segment.slack));
   }
 
-  /// Returns the open lane with the least bound, if that is within a limit.
+  /// Returns the lane with the least bound, or block_width if none is within the limit.
   static unsigned least(const OpenBlock& block, double limit) noexcept {
     unsigned found = block_width;
     double bound = __builtin_inf();
@@ -225,7 +227,7 @@ class ObstacleKernel {
     return bound > limit ? block_width : found;
   }
 
-  /// Takes what improves on the best from a leaf window. Returns: whether anything does.
+  /// Improves `best` by the leaves of a window. Returns: whether it did.
   bool take(const LocalSegment& segment, std::uint32_t node, double limit, ObstacleGap& best) const noexcept {
     const Discs discs = TreeNodes<Simd>::discs(nodes_, node, tree_.stride);
     alignas(64) double square[block_width], gap[block_width];
@@ -245,7 +247,7 @@ class ObstacleKernel {
     return improved;
   }
 
-  /// Takes what improves on the best of the segments in a leaf, `disc`, or of its disc where these are too many.
+  /// Improves `best` by the segments in a leaf, `disc`, or by the disc if they are too many. Returns: whether it did.
   [[gnu::noinline]] bool take_outline(const LocalSegment& segment, std::uint32_t disc, double gap_of_disc,
                                       ObstacleGap& best) const noexcept {
     const auto list = LeafSegments<Simd>{in_.shapes->leaf_segments}.segments(tree_, disc);
@@ -266,7 +268,7 @@ class ObstacleKernel {
   const ShapeTree<Simd> own_;
   const float* const nodes_;
   const Tree& tree_;
-  const bool exact_;  ///< segments of the outline decide where leaves have them
+  const bool exact_;  ///< segments of the outline decide at leaves that have them
 };
 
 }  // namespace bch::detail

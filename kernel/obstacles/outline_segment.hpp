@@ -10,37 +10,39 @@
 
 namespace bch::detail {
 
-/// Compares a segment of an agent's outline with one of an obstacle: whether they meet, and how far apart they are. All in double, in the
-/// coordinates along the obstacle's segment and across it. (`Simd` keeps instruction sets from sharing a function.)
+/// Compares a segment of an agent's outline with one of an obstacle: whether they meet, and how far apart they are. All in double,
+/// in coordinates along the obstacle's segment and perpendicular to it. (`Simd` keeps instruction sets from sharing a function.)
 ///
-/// With s the least distance of an end from the other segment, 0 where they cross, m the outline's margin of exact leaves and
+/// With s the least distance of an end from the other segment, 0 if they cross, m the outline's margin of exact leaves and
 /// slack that of LocalSegment,
 ///
-///     gap = max(0, s - (m + slack))
+///     gap = max(0, s - (m + slack)).
 ///
-/// Never larger than the distance D of the outlines: the outline's points are as far off as rounding.hpp, V, says of one shape, which
-/// m holds, and the rest rounds as LocalSegment says. What s rounds itself, 2^-51 of it, is in the second half of slack and, as s is at most
-/// as long as the distance to the segment's ends and the reach, in m. Below D by no more than m, twice slack, and the rounding to float. With A and B
-/// the distances of the segment's ends from the agent, |dx| + |dy| <= sqrt(2) A, and the length is at most A + B, so that
+/// Never above the distance D of the outlines: m bounds the error of the outline's points (rounding.hpp, V, for one shape), and half
+/// of slack that of the segment. The rounding of s itself, 2^-51 s, is in the other half of slack and in m, because s is at most the
+/// distance to the segment's ends plus the reach.
+///
+/// Below D by no more than m, twice slack, and the rounding to float. With A and B the distances of the segment's ends from the agent,
+/// |dx| + |dy| <= sqrt(2) A, and the length is at most A + B, so that
 ///
 ///     2 slack = 2^-48 (|dx| + |dy| + length)  <=  2^-48 ((1 + sqrt(2)) A + B)  <=  8.6e-15 (A + B)
 ///
-/// Segments that meet are 0 m apart: they cross or s <= m + slack, by the same numbers.
+/// Segments that meet have a gap of 0: they cross or s <= m + slack, by the same numbers.
 template <class Simd>
 class OutlineSegment {
  public:
-  /// Places a segment of an outline, whose ends are points of the agent's frame.
+  /// `ends`: those of the outline's segment, in the agent's frame.
   OutlineSegment(const Vec2* ends, const LocalSegment& segment) noexcept
       : segment_(segment), p_(placed(ends[0], segment)), q_(placed(ends[1], segment)) {}
 
-  /// Returns whether both ends are farther than so much on one side of the obstacle's line, as most are.
+  /// Returns whether both ends are farther than `distance` on one side of the obstacle's line, as most are.
   bool is_off_line(double distance) const noexcept {
     return (p_.y > distance && q_.y > distance) || (p_.y < -distance && q_.y < -distance);
   }
 
-  /// Returns how two segments meet. They meet where they cross, or an end of one is within a margin of the other: where rounding hides a
-  /// crossing, an end is next to the other segment. A crossing is sure where all ends are beyond the other's line by the margin, beside
-  /// which errors of double are nothing.
+  /// Returns how the segments meet. They do if they cross, or an end of one is within the margin of the other: if rounding hides a
+  /// crossing, an end is next to the other segment. A crossing is sure if all ends are farther from the other's line than the
+  /// margin, which is far above errors of double.
   Meeting meet(double margin) const noexcept {
     const double limit = margin + segment_.slack;
     if (is_off_line(limit)) return Meeting::none;
@@ -68,7 +70,7 @@ class OutlineSegment {
     return {segment.along(x, y), segment.across(x, y)};
   }
 
-  /// Returns the side of the outline's line on which a point of the obstacle's is.
+  /// Returns on which side of the outline's line a point of the obstacle's line is, by sign.
   double side_of(double along) const noexcept {
     return (q_.x - p_.x) * -p_.y - (q_.y - p_.y) * (along - p_.x);
   }

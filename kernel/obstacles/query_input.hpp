@@ -21,7 +21,7 @@ constexpr std::size_t agents_per_task = 256;
 /// a near cache.
 constexpr std::size_t agents_together = 64;
 
-/// Calls answer(query, agent) for agents begin .. end, for which a query is prepared; those who are left out have no obstacle within a limit, metres.
+/// Calls answer(query, agent) for agents begin .. end, for which the query was prepared, with a limit in metres.
 template <class Query, class Answer>
 void for_prepared(Query& query, std::size_t begin, std::size_t end, double limit, SearchMode mode,
                   const Answer& answer) {
@@ -33,7 +33,7 @@ void for_prepared(Query& query, std::size_t begin, std::size_t end, double limit
   }
 }
 
-/// Calls answer(query, agent) for so many agents, in tasks, each of which makes a query.
+/// Calls answer(query, agent) for all agents, in tasks, each of which makes a query.
 template <class MakeQuery, class Answer>
 void for_agents(std::size_t agents, const MakeQuery& make, double limit, SearchMode mode,
                 const Answer& answer) {
@@ -43,7 +43,7 @@ void for_agents(std::size_t agents, const MakeQuery& make, double limit, SearchM
   });
 }
 
-/// Validates the input of a query by its name. Returns: what makes a query of it; all of the input has to outlive that.
+/// Validates the input of the query `name`. Returns: a function that makes a query; the input has to outlive it.
 inline auto queries_of(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
                        const Implementation* wanted, const char* name, Leaves leaves = Leaves::discs) {
   const bool exact = exact_leaves(shapes, leaves, name);

@@ -12,17 +12,17 @@
 
 namespace bch::detail {
 
-/// Represents a segment of an obstacle in the frame of an agent, by its line: `along` it and `across` it are the coordinates of a point.
+/// Represents a segment of an obstacle in the frame of an agent, by its line: a point has coordinates `along` it and `across` it.
 ///
 /// Rounding, in the notation of layout/base/rounding.hpp. All is done in double, with headings that are within 3e-10 of the exact
-/// ones, which moves what is within the reach P of an agent by 0.006 u P: published radii have room for 16.5 u P of queries
-/// (contact_error). What double rounds is in proportion to the ends' distance d from the agent: 2^-53 of it for each of the
-/// subtraction of positions, the direction (three roundings), two products and a sum: less than 8 * 2^-53 |d| together, which
-/// `slack` has twice. So a disc whose outline meets the segment passes touches(), and a gap is never larger than that of the outlines.
+/// ones, which moves points within the reach P of an agent by 0.006 u P: enlarged radii have room for 16.5 u P of queries
+/// (contact_error). Double rounds in proportion to the ends' distance d from the agent: by 2^-53 |d| for each of the subtraction of
+/// positions, the direction (three roundings), two products and a sum, less than 8 * 2^-53 |d| together. `slack` is twice that. So
+/// a disc whose outline meets the segment passes touches(), and a gap is never larger than that of the outlines.
 struct LocalSegment {
   double x, y;      ///< the unit vector along it
-  double offset;    ///< across of the whole line, from the agent's position
-  double from, to;  ///< along of its ends
+  double offset;    ///< `across` of the line, from the agent's position
+  double from, to;  ///< `along` of its ends
   double slack;     ///< metres
   std::uint32_t slot, number, obstacle;
 
@@ -34,7 +34,7 @@ struct LocalSegment {
   [[gnu::always_inline]] Real across(Real at_x, Real at_y) const noexcept {
     return Real(x) * at_y - Real(y) * at_x - Real(offset);
   }
-  /// Returns the square of the distance from a point; a lane's in ObstacleKernel takes the same operations.
+  /// Returns the squared distance from a point, by the same operations as a lane of ObstacleKernel.
   [[gnu::always_inline]] double square_distance(double at_x, double at_y) const noexcept {
     const double at = along(at_x, at_y), aside = across(at_x, at_y);
     const double before = from - at, behind = at - to;
@@ -48,7 +48,7 @@ struct LocalSegment {
   }
 };
 
-/// Returns whether one of so many segments touches a disc. (Inlined for certain, so that instruction sets share no function.)
+/// Returns whether one of `count` segments touches a disc. (Inlined for certain, so that instruction sets share no function.)
 [[gnu::always_inline]] inline bool any_touches(const LocalSegment* segments, std::size_t count, double x,
                                                double y, double radius) noexcept {
   for (std::size_t i = 0; i < count; ++i)
@@ -66,8 +66,8 @@ struct WorldSegment {
   double x, y, length;
   std::uint32_t number, obstacle;
 
-  /// Returns the square of the distance from a point of the world. LocalSegment tells the same, apart from rounding; for one point that is
-  /// compared with many segments, this saves the turning of each.
+  /// Returns the squared distance from a point of the world. LocalSegment has the same, apart from rounding; for one point and many
+  /// segments, this saves rotating each.
   double square_distance(double at_x, double at_y) const noexcept {
     const double dx = at_x - ax, dy = at_y - ay;
     const double along = dx * x + dy * y, across = dx * y - dy * x;
@@ -81,7 +81,7 @@ struct WorldHeights {
   double bottom, top;
 };
 
-/// Holds all of an ObstacleSet. A slot is a segment's place in the tree, a number that in the caller's arrays.
+/// Holds all of an ObstacleSet. A segment's slot is its index in the tree, its number that in the caller's arrays.
 struct ObstacleView {
   BoxTreeView segment_tree, area_tree;  ///< of the boxes of segments and of areas
   DistanceGridView distance_grid;       ///< of the segments

@@ -10,19 +10,19 @@
 
 namespace bch::detail {
 
-/// Holds a block on the way from the top of a tree to where a walk is: the lanes below which the walk has not been yet, and bounds of what is there.
+/// Holds a block on the way from the root block to the current one: the lanes that are still unvisited, and their bounds.
 struct OpenBlock {
   alignas(64) double bound[block_width];
   std::uint32_t node, lanes;
 
-  /// Returns some open lane, or block_width. (Inlined for certain, so that instruction sets share no function.)
+  /// Returns an unvisited lane, or block_width. (Inlined for certain, so that instruction sets share no function.)
   [[gnu::always_inline]] unsigned first() const noexcept {
     return lanes == 0 ? block_width : static_cast<unsigned>(__builtin_ctz(lanes));
   }
 };
 
-/// Holds the tree of a shape's level, also of a set of single discs, which stores none: a window of the one disc then stands for it.
-/// (`Simd` keeps instruction sets from sharing a function.)
+/// Holds the tree of a shape's level. Sets of single discs store no trees: then it makes a window of the disc. (`Simd` keeps
+/// instruction sets from sharing a function.)
 template <class Simd>
 struct ShapeTree {
   const float* nodes;
@@ -41,11 +41,11 @@ struct ShapeTree {
   }
   ShapeTree(const ShapeTree&) = delete;
 
-  /// Walks from the top down, until visit(node, block) returns true. visit() opens the lanes of a block below which the walk has to go,
-  /// and next(block) returns the one of them that comes next, or block_width. Returns: whether visit() ended the walk.
+  /// Walks depth first from the root block, until visit(node, block) returns true. visit() sets the lanes of a block to descend
+  /// into, and next(block) returns which of them is next, or block_width. Returns: whether visit() ended the walk.
   template <class Visit, class Next>
   bool walk(const Visit& visit, const Next& next) const {
-    OpenBlock open[max_wide_levels + 1];  // a window beyond them opens none
+    OpenBlock open[max_wide_levels + 1];  // the last one for windows, which set no lanes
     OpenBlock* top = open;
     std::uint32_t node = tree.top;
     for (;;) {
