@@ -17,13 +17,13 @@
 
 namespace bch::detail {
 
-/// The stages of distance queries, which are compiled apart, so that collide() does not pay for what only these need.
+/// Marks the stages of within(), which are compiled separately, so that collide() does not pay for gaps.
 template <class Simd>
 struct WithGaps : Simd {
   static constexpr bool knows_gaps = true;
 };
 
-/// Calls a kernel, and cleans the registers up on the way out: see Simd::Guard.
+/// Calls a kernel, and resets the registers afterwards: see Simd::Guard.
 template <class Simd, auto kernel>
 struct Guarded;
 template <class Simd, class Answer, class... Parameters, Answer (*kernel)(Parameters...) noexcept>
@@ -34,7 +34,7 @@ struct Guarded<Simd, kernel> {
   }
 };
 
-/// All kernels, compiled for the lanes of one instruction set. `Simd` has to be of an anonymous namespace, so that
+/// Holds all kernels, compiled for the lanes of one instruction set. `Simd` has to be in an anonymous namespace, so that
 /// instruction sets share no function.
 template <class Simd>
 constexpr Kernels kernel_table{

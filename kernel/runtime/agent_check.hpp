@@ -17,8 +17,8 @@
 
 namespace bch::detail {
 
-/// Checks whether agents are valid arguments of a query, which is defined here. It has no branch, so that the compiler
-/// uses the registers of the instruction set that `Simd` stands for.
+/// Defines which agents are valid arguments of a query, and tests that. It has no branch, so that the compiler vectorises it for
+/// the instruction set of `Simd`.
 template <class Simd>
 class AgentCheck {
  public:
@@ -34,7 +34,7 @@ class AgentCheck {
   }
 
   static AgentRange named(const Pair* pairs, std::size_t begin, std::size_t end) noexcept {
-    // Firsts and seconds apart, as they lie in memory.
+    // First and second agents separately, in the order of memory.
     std::uint32_t low[] = {~std::uint32_t{0}, ~std::uint32_t{0}}, high[] = {0, 0};
     for (std::size_t i = begin; i < end; ++i) {
       const std::uint32_t each[] = {pairs[i].first, pairs[i].second};
@@ -47,7 +47,7 @@ class AgentCheck {
   }
 
  private:
-  /// Calls use(value(i)) for agents begin .. end: of arrays in loops that the compiler makes registers of.
+  /// Calls use(value(i)) for agents begin .. end; for contiguous values in a loop that the compiler vectorises.
   template <class Value, class Use>
   static void for_all(const AgentColumn& column, std::size_t begin, std::size_t end,
                       const Use& use) noexcept {

@@ -9,7 +9,8 @@
 
 namespace bch::detail {
 
-/// Holds a choice for each option that some query has, for callers that ask many queries alike. Each query takes what it knows.
+/// Holds every option that some query has, for callers that run many queries with the same options. It converts to the options of
+/// each query.
 struct AllOptions {
   const Implementation* implementation = nullptr;
   Leaves leaves = Leaves::segments;

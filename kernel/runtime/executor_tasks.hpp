@@ -15,14 +15,14 @@
 
 namespace bch::detail {
 
-/// Holds the ranges of a call of run_ranges(), a task each.
+/// Divides a call of run_ranges() into tasks, one range each.
 class ExecutorTasks {
  public:
   ExecutorTasks(std::size_t count, std::size_t tasks, const RangeWork& work)
       : count_(count), tasks_(tasks), work_(work) {}
 
   std::size_t tasks() const { return tasks_; }
-  /// Runs a task. Keeps what the first one throws that does so, and leaves out those after it.
+  /// Runs a task. Stores the first exception of any task; tasks after that do nothing.
   void run(std::size_t i) noexcept {
     if (has_failed_.load(std::memory_order_relaxed)) return;
     try {
@@ -45,10 +45,10 @@ class ExecutorTasks {
   std::exception_ptr error_;
 };
 
-/// Does what run_ranges() does, by an executor.
+/// Implements run_ranges() by an executor.
 inline void run_ranges_on(const Executor& executor, std::size_t count, std::size_t grain,
                           const RangeWork& work) {
-  constexpr std::size_t tasks_of_a_thread = 8;  // of unequal work
+  constexpr std::size_t tasks_of_a_thread = 8;  // because their work differs
   const std::size_t most = (count + grain - 1) / grain;
   ExecutorTasks tasks(count, std::min(most, tasks_of_a_thread * executor.threads), work);
   executor.run(

@@ -17,8 +17,8 @@
 
 namespace bch::detail {
 
-/// Adds shapes 0 to `count` to a builder of a plan, in their order, so that the bytes do not depend on the threads that make them:
-/// `prepare(place, i)` prepares shape i, and `added(i)` is called when it is in, by any thread, one call at a time. The first exception of
+/// Builds shapes 0 .. `count` on all threads, and adds them to a builder in their order, so that the bytes do not depend on threads:
+/// prepare(place, i) builds shape i; added(i) is called when it was added, by any thread, one call at a time. The first exception of
 /// either ends the work.
 template <class Prepare, class Added>
 void add_in_order(ShapeSetBuilder& builder, const ShapeSetPlan& plan, std::size_t count,
@@ -30,13 +30,13 @@ void add_in_order(ShapeSetBuilder& builder, const ShapeSetPlan& plan, std::size_
   std::size_t in = 0;
   bool is_adding = false;
   const auto prepare_next = [&] {
-    // Tasks take shapes in their order, whatever ranges they get, so that few have to wait.
+    // Tasks build the next shape, whatever their ranges are, so that few shapes have to wait.
     const std::size_t i = next.fetch_add(1);
     auto place = places.borrow([&] { return BuiltShape(plan); });
     prepare(*place, i);
     std::unique_lock lock(of_waiting);
     waiting.emplace(i, std::move(place));
-    if (std::exchange(is_adding, true)) return;  // another thread adds this one, too
+    if (std::exchange(is_adding, true)) return;  // the thread that is adding adds this one, too
     while (!waiting.empty() && waiting.begin()->first == in) {
       const auto first = waiting.extract(waiting.begin());
       lock.unlock();

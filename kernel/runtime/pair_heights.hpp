@@ -15,8 +15,7 @@
 
 namespace bch::detail {
 
-/// Returns whether the heights of two valid agents have a point in common or come within a margin, metres; those of agents without a z
-/// always do.
+/// Returns whether the heights of two valid agents meet or come within a margin, metres; without Agents::z they always do.
 inline bool heights_meet(const Arguments& in, Pair pair, double margin = 0) noexcept {
   if (in.agent_z.first == nullptr) return true;
   using Columns = AgentColumns<void>;

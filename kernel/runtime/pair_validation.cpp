@@ -17,11 +17,9 @@
 namespace bch::detail {
 namespace {
 
-/// The number of agents from which on these are prefetched: 3 MB of them. Below, that costs 1 % (and 13 % for
-/// single cylinders).
+/// From this number on (3 MB), agents are prefetched. With fewer, that costs 1 % (and 13 % for single cylinders).
 constexpr std::size_t many_agents = 100'000;
-/// The number of shapes from which on these are prefetched: 2 MB. With 5 000 it spares a quarter of a query,
-/// with 200 it costs 2 to 6 %.
+/// From this number on (2 MB), shapes are prefetched. With 5 000 that saves a quarter of a query's time, with 200 it costs 2 to 6 %.
 constexpr std::uint32_t many_shapes = 500;
 
 template <class Value>
@@ -38,8 +36,8 @@ bool is_valid(const Arguments& arguments, std::size_t agent) noexcept {
   return AgentCheck<void>::passes(arguments, agent, agent + 1);
 }
 
-/// The lowest index in [0, count) for which `bad` holds, or count. `all_good(begin, end)` says quickly where
-/// there is nothing to find. Floats as for_ranges().
+/// Returns the lowest index in [0, count) for which `bad` holds, or count. `all_good(begin, end)` quickly excludes ranges. The
+/// floating-point state is as for for_ranges().
 template <class AllGood, class Bad>
 std::size_t first_bad(std::size_t count, AllGood all_good, Bad bad) {
   const auto search = [&](std::size_t begin, std::size_t end, std::size_t found) {
@@ -123,9 +121,8 @@ Arguments arguments_for(const ShapeSetView& view, const Agents& agents, std::spa
           .prefetch_shapes = view.shape_count >= many_shapes};
 }
 
-/// Validates the agents that pairs name. It is cheaper to validate agents in order, either all of them or
-/// those from the lowest to the highest index named, where these are fewer than the pairs name. An invalid
-/// one is then an error only if a pair names it.
+/// Validates the agents that pairs name. It is cheaper to validate agents in order: all of them, or those from the lowest to
+/// the highest index that pairs name, if these are few. An invalid one is then an error only if a pair names it.
 void require_valid(const Implementation& implementation, const ShapeSetView& shapes, const Agents& agents,
                    std::span<const Pair> pairs) {
   require_sizes(agents);

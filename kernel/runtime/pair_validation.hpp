@@ -14,31 +14,31 @@
 
 namespace bch::detail {
 
-/// The number of pairs in a task of a query: enough to hide its cost, few enough to balance two pairs of
-/// cores over a small crowd.
+/// The number of pairs per task of a query: enough to hide the cost of a task, few enough to balance four cores over a small
+/// crowd.
 constexpr std::size_t pairs_per_task = 2048;
 
-/// Returns the implementation that is wanted, or for null the best one.
-/// Errors:  throws std::invalid_argument naming the query where this processor does not run it.
+/// Returns `wanted`, or best_implementation() for null.
+/// Errors:  throws std::invalid_argument naming the query if this processor does not run it.
 const Implementation& chosen(const Implementation* wanted, const char* query);
 
-/// Holds what a query answers, and how many of them.
+/// Names a query, what it answers for ("pair" or "agent"), and how many of these there are.
 struct QueryName {
   const char* query;
-  const char* one;  ///< "pair" or "agent"
+  const char* one;
   std::size_t count;
 };
 
-/// Requires that a query was given as many values as it answers, and that an option is 0 or 1.
-/// Errors of both: throw std::invalid_argument naming the query, what is wrong, and in `words` the two that there are.
+/// check_size() requires as many values as answers; require_choice() requires that an option is 0 or 1.
+/// Errors: both throw std::invalid_argument naming the query and what is wrong; `words` names the two options.
 void check_size(const QueryName& context, std::size_t size, const char* what);
 void require_choice(const char* query, const char* what, int value, const char* words);
 
 /// Returns whether segments decide at some leaves: `leaves` selects them, and the set has them.
-/// Errors:  throws std::invalid_argument naming the query on a value that is none.
+/// Errors:  throws std::invalid_argument naming the query on an unknown value.
 bool exact_leaves(const ShapeSet& shapes, Leaves leaves, const char* query);
 
-/// Returns the input of a query. Everything has to outlive the arguments; `pairs` may be empty.
+/// Returns the input of a kernel, which refers to all parameters. `pairs` may be empty.
 Arguments arguments_for(const ShapeSetView& view, const Agents& agents, std::span<const Pair> pairs);
 
 /// Requires that all agents are valid.

@@ -13,7 +13,7 @@
 
 namespace bch::detail {
 
-/// Tells a caller how much of his work is done, on his own thread and twenty times a second at most: any thread counts parts.
+/// Reports progress to a caller, on the caller's thread and at most twenty times a second. Any thread counts parts.
 class ProgressReport {
  public:
   using Function = std::function<bool(std::size_t done, std::size_t total)>;
@@ -21,8 +21,8 @@ class ProgressReport {
   /// Takes a function that returns whether the work goes on; an empty one is never called.
   ProgressReport(Function report, std::size_t total) : report_(std::move(report)), total_(total) {}
 
-  /// Counts a part that is ready.
-  /// Errors:  throws std::system_error of operation_canceled where the caller cancels.
+  /// Counts a finished part.
+  /// Errors:  throws std::system_error of operation_canceled if the caller cancels.
   void part_done() {
     const std::size_t done = ++done_;
     if (!report_ || std::this_thread::get_id() != caller_) return;
@@ -32,7 +32,7 @@ class ProgressReport {
     report(done);
   }
 
-  /// Tells the caller that all is ready, with the same errors.
+  /// Reports that all parts are finished, with the same errors.
   void all_done() {
     if (report_) report(total_);
   }

@@ -14,12 +14,12 @@
 
 namespace bch::detail {
 
-/// Makes rows of different lengths in tasks, each of which knows its rows' lengths when it has found them. Keeps its memory.
+/// Collects rows whose lengths are known only when they are found, in tasks. Reuses its memory.
 template <class Value>
 class RowBlocks {
  public:
-  /// Returns `rows` rows, valid until the next call. make() is called for each task, and returns a find(begin, end, add) that calls
-  /// add(row, fill) once for each row from begin to end that has values. fill(values) appends them to a vector.
+  /// Returns `rows` rows, valid until the next call. Each task calls make(), which returns a find(begin, end, add). That calls
+  /// add(row, fill) once for each row in [begin, end) that has values; fill(values) appends them to a vector.
   template <class Make>
   Rows<Value> collect(std::size_t rows, std::size_t rows_at_once, const Make& make) {
     const std::size_t count = (rows + rows_at_once - 1) / rows_at_once;

@@ -9,7 +9,7 @@
 
 namespace bch::detail {
 
-/// Lends objects to threads. There are as many as were on loan at one time, or as were reserved.
+/// Lends objects to threads, and makes a new one only if all are on loan.
 template <class T>
 class Spares {
   struct Return {
@@ -18,10 +18,10 @@ class Spares {
   };
 
  public:
-  /// Returns the object when it is destroyed, which has to be before the Spares are.
+  /// Gives the object back when destroyed; it must not outlive the Spares.
   using Loan = std::unique_ptr<T, Return>;
 
-  /// Returns the object that came back last, or what make() returns where all are on loan.
+  /// Returns the object that came back last, or make() if all are on loan.
   template <class Make>
   Loan borrow(const Make& make) {
     {
@@ -34,11 +34,11 @@ class Spares {
     }
     std::unique_ptr<T> made(new T(make()));
     const std::lock_guard lock(mutex_);
-    here_.reserve(++count_);  // so that no memory is needed when it comes back
+    here_.reserve(++count_);  // so that take_back() allocates nothing
     return Loan(made.release(), {this});
   }
 
-  /// Makes objects until there are `count`, so that no more are made for as many threads. None may be on loan.
+  /// Makes objects until there are `count`, enough for as many threads. None may be on loan.
   template <class Make>
   void reserve(std::size_t count, const Make& make) {
     std::vector<Loan> loans;

@@ -13,16 +13,16 @@
 
 namespace bch::detail {
 
-/// Calls work(begin, end) for ranges that together are [0, count): as tasks of `grain` and more, where there is more than one, because a
-/// task costs more than a small batch. Tasks run in the standard floating-point state; the caller has to be in it.
+/// Calls work(begin, end) for ranges that together are [0, count), of at least `grain` each: in tasks, or directly if there is only
+/// one. Tasks run in the standard floating-point state; the caller has to be in it.
 template <class Work>
 void for_ranges(std::size_t count, std::size_t grain, const Work& work) {
   if (count <= grain) return work(std::size_t{0}, count);
   run_ranges(count, grain, RangeWork(work));
 }
 
-/// Calls value = add(begin, end, value) for ranges as for_ranges() does, and joins their results. Each value begins as `identity` or what
-/// others joined already, so that joining in another order, or twice, has to give the same.
+/// Calls value = add(begin, end, value) for ranges as for_ranges() does, and joins their results. A range begins with `identity` or
+/// with what other ranges have joined, so join() has to be commutative, associative and idempotent.
 template <class Value, class Add, class Join>
 Value reduce_ranges(std::size_t count, std::size_t grain, const Value& identity, const Add& add,
                     const Join& join) {
@@ -41,8 +41,7 @@ Value reduce_ranges(std::size_t count, std::size_t grain, const Value& identity,
   return all;
 }
 
-/// Runs work() so that a thread that waits in it takes no task from outside, which might be the next call for
-/// the same object.
+/// Runs work() so that a thread that waits in it runs no task from outside, such as another call for the same object.
 template <class Work>
 auto without_tasks_from_outside(const Work& work) {
   using Result = decltype(work());
@@ -57,7 +56,7 @@ auto without_tasks_from_outside(const Work& work) {
   }
 }
 
-/// Calls work(begin, size) for at most `grain` pairs each, in the ranges of for_ranges().
+/// Calls work(begin, size) with size <= grain, for all pairs, in the tasks of for_ranges().
 template <class Work>
 void for_pair_ranges(std::size_t pairs, std::size_t grain, const Work& work) {
   for_ranges(pairs, grain, [&](std::size_t begin, std::size_t end) {

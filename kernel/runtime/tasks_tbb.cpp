@@ -16,7 +16,7 @@
 namespace bch::detail {
 namespace {
 
-/// The arena that a thread needed last. It is the thread's own, so that its calls do not wait for those of others.
+/// Holds the last arena of a thread. Each thread has its own, so that its calls do not wait for those of others.
 struct ArenaOfThread {
   std::uint32_t threads = 0;
   std::unique_ptr<tbb::task_arena> arena;
@@ -25,8 +25,8 @@ thread_local ArenaOfThread last_arena;
 
 }  // namespace
 
-/// Tasks are a group of their own: where the caller's is cancelled meanwhile, because another of its tasks threw for instance, TBB would
-/// leave out these as well, and return as if they had run.
+/// Runs in an isolated task_group_context: otherwise cancellation of the caller's group, because another of its tasks throws for
+/// instance, would silently skip tasks.
 void run_ranges_by_default(std::size_t count, std::size_t grain, const RangeWork& work) {
   using Range = tbb::blocked_range<std::size_t>;
   tbb::task_group_context own(tbb::task_group_context::isolated);
@@ -44,7 +44,7 @@ void run_isolated_by_default(const RangeWork& work) {
 }
 
 void run_on_threads_by_default(std::uint32_t threads, const RangeWork& work) {
-  // TBB would print a line about those that it does not have.
+  // TBB would print a warning about more threads than it has.
   threads = std::min(threads, static_cast<std::uint32_t>(tbb::global_control::active_value(
                                   tbb::global_control::max_allowed_parallelism)));
   if (last_arena.threads != threads) {

@@ -21,8 +21,9 @@ namespace {
 thread_local bool is_in_task = false;
 thread_local std::uint32_t max_threads = 0;  ///< for the calls of this thread; 0: all
 
-/// Holds as many threads as the processor runs, but one, which is the caller's. They work for one call at a time; a call that comes meanwhile,
-/// also from a task, is the caller's alone. A call does not wait for threads that wake up after its last task has begun.
+/// Holds one thread less than the processor runs: the other one is the caller's. They work for one call at a time; the caller of another
+/// call meanwhile, or of one from a task, runs its tasks alone. A call does not wait for threads that wake up after its last task has
+/// begun.
 class ThreadPool {
  public:
   ThreadPool() {
@@ -93,7 +94,7 @@ class ThreadPool {
   std::vector<std::thread> workers_;
 };
 
-/// The pool of this process. A process that was forked has none of the threads of its parent, and makes a pool of its own.
+/// Holds the pool of this process. A forked process has none of its parent's threads, and makes its own pool.
 class PoolOfProcess {
  public:
   PoolOfProcess() {

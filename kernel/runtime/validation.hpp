@@ -12,13 +12,13 @@
 
 namespace bch::detail {
 
-/// Throws std::invalid_argument where the spans differ in length, or there are more than 2^32 - 1 agents.
+/// Throws std::invalid_argument if the spans differ in length, or there are more than 2^32 - 1 agents.
 void require_sizes(const Agents& agents);
 
-/// Requires of agents with a z that the set keeps the heights of bodies.
+/// Throws std::invalid_argument if agents have a z but the set has no heights.
 void require_heights(const ShapeSetView& shapes, const Agents& agents);
 
-/// Returns what is wrong with where something is, in metres and radians; empty where AgentCheck passes it.
+/// Returns what is wrong with a position and heading, in metres and radians; empty if AgentCheck passes them.
 std::string misplacement(double x, double y, const Headings::Value& heading, double z = 0);
 
 /// Throws std::invalid_argument saying what is wrong with an agent that AgentCheck does not pass.
