@@ -28,7 +28,8 @@ template <class Simd>
 class PairKernel {
  public:
   static void run(const Arguments& arguments, std::size_t begin, std::size_t end) noexcept {
-    static_assert(sizeof(PairKernel) <= 256 * 1024, "what query.hpp promises, and room for calls");
+    static_assert(sizeof(PairKernel) <= 256 * 1024,
+                  "with room for calls within the stack that query.hpp requires");
     PairKernel kernel(arguments);
     for (; begin < end; begin += chunk_size) {
       kernel.transforms_.compute(arguments, begin, end);

@@ -18,7 +18,7 @@ namespace bch {
 /// even if that is more than half a circle.
 struct PathKey {
   double time, x, y, heading;  ///< seconds; metres in the world; radians
-  double z = 0;  ///< metres: the height of the agent's ground, which counts between bodies of spheres
+  double z = 0;  ///< metres: the height of the agent's ground, considered only between bodies of spheres
 };
 
 /// Describes an agent who goes along a path and plays a clip.
@@ -37,8 +37,8 @@ struct TimeInterval {
 };
 
 /// Finds when the two motions of each pair first touch, or infinity if they do not within the interval.
-/// Every real time counts, not samples. The time is never late, and early by at most the tolerance, a
-/// distance, divided by the speed of approach: see "Motions" in kernel/accuracy.md.
+/// Every real time is considered, not only samples. The time is never late, and early by at most the
+/// tolerance, a distance, divided by the speed of approach: see "Motions" in kernel/accuracy.md.
 /// Sizes:   as many times as pairs, which name motions by index. A motion may be paired with itself.
 /// Errors:  throws std::invalid_argument, before anything is written, on sizes that differ, on what is
 ///          missing or out of range, naming it, and on a search of more than 1e8 steps.

@@ -12,7 +12,7 @@
 namespace bch {
 
 /// Tests whether the two agents of each pair collide at their levels: writes 1 for a hit and 0 otherwise.
-/// Touching counts, and no collision is missed; "Collisions" in kernel/accuracy.md bounds the false ones.
+/// Touching is a collision, and none is missed; "Collisions" in kernel/accuracy.md bounds the false ones.
 /// Agents with a z (Agents::z) collide only if their ranges of height intersect, too.
 /// Sizes:   hits.size() == pairs.size(); an agent may be paired with itself (it collides).
 /// Errors:  throws std::invalid_argument, before hits is touched, on sizes that differ, on an unsupported

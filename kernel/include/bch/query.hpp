@@ -20,7 +20,7 @@ namespace bch {
 
 // What a collision is. Two agents collide at their levels (0 is the coarsest) if a disc a of one cut overlaps
 // a disc b of the other, and each of a and its ancestors overlaps each of b and its ancestors. They also
-// collide if a contour of one lies inside a contour of the other. Touching counts. With exact leaves
+// collide if a contour of one lies inside a contour of the other. Touching is overlap. With exact leaves
 // (Leaves::segments, at depth all_depths) segments in the two leaves have to meet, too. See "The answer" in
 // kernel/README.md.
 
