@@ -15,8 +15,8 @@
 
 namespace bch::detail {
 
-/// Holds the geometry of two segments, lane = pair: p of A, and q of B as the floats of a placement put it into A's frame. Every
-/// operation is of a fixed sequence. In double, baselines/ writes it down again, and layout/base/rounding.hpp, V, derives what it is off by.
+/// Holds two segments, lane = pair: p of A, and q of B, transformed into A's frame by floats. Operations are a fixed sequence. In
+/// double, baselines/ repeats it, and layout/base/rounding.hpp, V, derives its error.
 template <class Simd, class Real = typename Simd::Double>
 struct SegmentPair {
   using Point = PointIn<Real>;
@@ -66,7 +66,7 @@ struct SegmentPair {
   /// Returns the square of the distance from a point to the nearest one of a segment.
   static Real square_distance(Point p, Point from, Point to) noexcept {
     const Point along = way(from, to), to_p = way(from, p);
-    // A segment without length has a share of 0: 1e-300 is less than the square of any other length.
+    // A segment without length has a share of 0, by a number that is less than the square of any other length.
     const Real square = xsimd::max(along.x * along.x + along.y * along.y, shortest_square());
     const Real share =
         xsimd::max(xsimd::min((to_p.x * along.x + to_p.y * along.y) / square, Real(1.0)), Real(0.0));
