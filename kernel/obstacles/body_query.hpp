@@ -19,7 +19,7 @@ namespace bch::detail {
 
 /// Returns the radius about a root's centre that holds all discs of the cut.
 inline double outer_radius(const ShapeSetView& shapes, std::uint32_t root) noexcept {
-  return double{shapes.trees == nullptr ? shapes.roots[root].radius : shapes.trees[root].outer};
+  return double{shapes.trees == nullptr ? shapes.roots[root].radius : shapes.trees[root].outer_radius};
 }
 
 /// Represents the body of an agent.

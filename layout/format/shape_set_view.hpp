@@ -68,7 +68,7 @@ struct Tree {
   std::uint32_t discs;                   ///< where the first x is
   std::uint32_t stride;                  ///< from a cut disc's x to its y, and from there to its radius
   std::uint32_t count;                   ///< cut discs; where they are fewer than the stride, padding follows
-  float outer;                           ///< metres: the root's outer radius
+  float outer_radius;                    ///< metres: the root's outer radius
   std::uint32_t segments = no_segments;  ///< where the words of the leaves are among leaf_segments, or that
   std::uint32_t points = 0;              ///< with segments: where the shape's points are
   /// 1: every node above a cut disc holds it with room to spare, so that nodes of two such trees overlap wherever their discs do, unless

@@ -49,7 +49,7 @@ class HierarchyBuilder {
 
  private:
   /// Represents a node still to be made: a range of the order. Its items are listed there, or, of a second child, in the scratch.
-  struct Open {
+  struct PendingNode {
     std::uint32_t begin, end;
     std::uint32_t* list;
     std::uint32_t* scratch;  ///< room for a second side: behind the lists that wait, or the list's own
@@ -73,7 +73,7 @@ class HierarchyBuilder {
 
   void begin(double reach, double margin, double threshold, std::size_t items);
   void grow(bool through_centre, std::uint32_t deepest);
-  bool add_node(const Open& open);
+  bool add_node(const PendingNode& pending);
   void add_lone_segment(std::uint32_t at, std::uint32_t below);
   void add_halves(Vec2 a, Vec2 b, std::uint32_t below);
   std::uint32_t add_node();
@@ -93,7 +93,7 @@ class HierarchyBuilder {
 
   SplitItems items_;
   std::vector<std::uint32_t> order_, scratch_;
-  std::vector<Open> open_;
+  std::vector<PendingNode> pending_;
   EvenHalves even_halves_;
   std::array<Half, 256> halves_;  ///< lengths span fewer binary orders of magnitude
 

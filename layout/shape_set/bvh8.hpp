@@ -25,17 +25,17 @@ struct Bvh8 {
   struct Block {
     DiscBlock discs;
     std::uint32_t child[block_width];
-    float outer[block_width];
+    float outer_radius[block_width];
     std::uint32_t node[block_width];
   };
   std::vector<Block> blocks;
   std::vector<float> x, y, radius;  ///< the cut in depth-first order; padded to eight where there are fewer
-  std::vector<InnerNode> inner;     ///< as many; links are indices
-  std::uint32_t count;              ///< discs of the cut
-  std::uint32_t top;                ///< as `child`
-  Disc root;                        ///< the hierarchy's
-  float outer;                      ///< the radius about the root's centre that holds the cut's discs
-  bool nodes_hold_discs;            ///< see held_discs.hpp
+  std::vector<InnerNode> inner_nodes;  ///< as many; links are indices
+  std::uint32_t count;                 ///< discs of the cut
+  std::uint32_t top;                   ///< as `child`
+  Disc root;                           ///< the hierarchy's
+  float outer_radius;                  ///< the radius about the root's centre that holds the cut's discs
+  bool nodes_hold_discs;               ///< see held_discs.hpp
 
   bool is_single() const { return count == 1; }
 };
@@ -47,7 +47,7 @@ Bvh8 bvh8(const Hierarchy& hierarchy, std::uint32_t depth);
 
 /// Builds the trees of several cuts of one hierarchy, one after the other, and reuses its memory. Once it has
 /// seen the largest, it allocates nothing. One thread may use it at a time.
-class Flattener {
+class Bvh8Builder {
  public:
   /// Takes a hierarchy, which has to live until the next call.
   void begin(const Hierarchy& hierarchy);
@@ -74,10 +74,10 @@ class Flattener {
     std::uint32_t count = 0;
   };
   /// Represents a node whose part of the cut is to be found so many levels below, or sooner.
-  struct Open {
-    std::uint32_t node, left;
+  struct PendingNode {
+    std::uint32_t node, levels_left;
   };
-  using Split = Parts (Flattener::*)(const Group&) const;
+  using Split = Parts (Bvh8Builder::*)(const Group&) const;
 
   void cut(std::uint32_t depth);
   bool grow(Split split, Bvh8& tree);
@@ -92,7 +92,7 @@ class Flattener {
   double worth(const Group& group) const;
 
   const Hierarchy* hierarchy_ = nullptr;
-  std::vector<Open> open_;
+  std::vector<PendingNode> pending_;
   std::vector<std::uint32_t> position_;  ///< per node on or above the cut: the first of its discs
   std::vector<std::uint32_t> parent_;    ///< per node below another one that is above the cut
   std::vector<std::uint32_t> inner_;     ///< the nodes above the cut

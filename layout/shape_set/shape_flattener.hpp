@@ -64,11 +64,11 @@ class ShapeFlattener {
   void add_segments(const Shape& shape, FlatShape& flat);
 
   ShapeSetPlan plan_;
-  Flattener flattener_;
+  Bvh8Builder bvh8_builder_;
   InteriorBuilder interiors_;
   PointDiscs points_;
-  std::vector<std::uint32_t> moved_,
-      held_;  ///< numbers of segments: of all by the outline's points, and of one leaf
+  std::vector<std::uint32_t> numbered_segments_,
+      leaf_segments_;  ///< numbers of segments: of all by the outline's points, and of one leaf
 };
 
 }  // namespace bch::detail
