@@ -27,9 +27,9 @@ constexpr std::uint32_t hull_bands = 8;
 constexpr double hull_band = 0.25, hull_overlap = 0.01;
 static_assert(hull_band > 2 * hull_overlap);
 
-/// Says how far a body reaches through a window of time in each of the directions, in steps: at every time of it by no more than what lies
+/// Says how far a body reaches through an interval of time in each of the directions, in steps: at every time of it by no more than what lies
 /// evenly between both ends.
-struct HullWindow {
+struct HullInterval {
   struct Extent {
     std::int16_t from, to;
   };
@@ -38,19 +38,19 @@ struct HullWindow {
   Extents extents;
 };
 
-/// Holds the hulls of the bands through a window, of those that have a bit in `some`; there is nothing in the others.
+/// Holds the hulls of the bands through an interval, of those that have a bit in `occupied`; there is nothing in the others.
 struct HullBands {
-  std::array<HullWindow::Extents, hull_bands> extents;
-  std::uint32_t some = 0;
+  std::array<HullInterval::Extents, hull_bands> extents;
+  std::uint32_t occupied = 0;
 };
 
-/// Holds the hulls of a body through windows of time, of one chunk each at level 0, and of two windows of the level below at the next ones.
+/// Holds the hulls of a body through intervals of time, of one chunk each at level 0, and of two intervals of the level below at the next ones.
 struct AnimatedHulls {
   static constexpr unsigned level_count = 4;
 
   double step = 0;  ///< metres
-  std::array<std::vector<HullWindow>, level_count> levels;
-  std::array<std::vector<HullBands>, level_count> bands;  ///< of spheres, by window
+  std::array<std::vector<HullInterval>, level_count> levels;
+  std::array<std::vector<HullBands>, level_count> bands;  ///< of spheres, by interval
 };
 
 /// Returns a direction by its number. Their ends lie evenly on the border of the square from -1 to 1, so that those of others lie
@@ -88,13 +88,13 @@ struct HullDirection {
     size = std::abs(longer);
   }
 
-  /// Says how far a body reaches in this direction at both ends of a window, times its length.
+  /// Says how far a body reaches in this direction at both ends of an interval, times its length.
   struct Extent {
     double from, to;
   };
   /// Returns that at most: a body reaches no farther in the sum of two directions than the sum of how far it does in each.
-  Extent extent(const HullWindow::Extents& extents) const noexcept {
-    const HullWindow::Extent a = extents[first], b = extents[second];
+  Extent extent(const HullInterval::Extents& extents) const noexcept {
+    const HullInterval::Extent a = extents[first], b = extents[second];
     return {size * (a.from + (b.from - a.from) * fraction), size * (a.to + (b.to - a.to) * fraction)};
   }
 };
