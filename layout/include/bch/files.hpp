@@ -19,10 +19,10 @@ namespace bch {
 /// Tells which character, clip and time a baked shape was made from.
 /// Character and clip are indices into ShapeOrigins::names.
 struct ShapeOrigin {
-  static constexpr std::uint32_t rest_pose = 0xffffffff;
+  static constexpr std::uint32_t no_clip = 0xffffffff;
 
   std::uint32_t character = 0;
-  std::uint32_t clip = rest_pose;
+  std::uint32_t clip = no_clip;
   float seconds = 0;  ///< from the start of the clip
   friend bool operator==(const ShapeOrigin&, const ShapeOrigin&) = default;
 };
@@ -31,8 +31,8 @@ struct ShapeOrigin {
 /// Character and clip are indices into ShapeOrigins::names.
 struct BakedClip {
   std::uint32_t character = 0;
-  std::uint32_t clip = ShapeOrigin::rest_pose;  ///< by default no name; rest_pose means nothing else here
-  AnimatedDiscs discs;                          ///< the discs from which an AnimatedShape is made
+  std::uint32_t clip = ShapeOrigin::no_clip;  ///< by default no name; no_clip means nothing else here
+  AnimatedDiscs discs;                        ///< the discs from which an AnimatedShape is made
   friend bool operator==(const BakedClip&, const BakedClip&) = default;
 };
 

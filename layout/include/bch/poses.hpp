@@ -156,16 +156,16 @@ std::vector<Vec3> pose_vertices(const Character& character, const Pose& pose);
 ///     agents.x[i] = AxisSystem::unity.position(at.x, at.y, at.z)[0];
 ///     shaper.shape(WorldPose{AxisSystem::unity.transforms(Transforms::column_major(matrices, joints))});
 struct AxisSystem {
-  double rows[3][3];  ///< rotation or reflection from its axes to ours
-  double metres = 1;  ///< metres per unit of its lengths
-  double yaw = 1;     ///< radians counter-clockwise per unit of its headings
+  double rows[3][3];   ///< rotation or reflection from its axes to ours
+  double metres = 1;   ///< metres per unit of its lengths
+  double radians = 1;  ///< radians counter-clockwise per unit of its headings
 
   /// Returns Character::to_ground of a character whose vertices and joints are in these axes.
   /// Its LocalPose then needs no conversion.
   Affine3 to_ground() const;
   Vec3 point(const Vec3& theirs) const;
   std::array<double, 3> position(double x, double y, double z) const;
-  double heading(double theirs) const { return yaw * theirs; }
+  double heading(double theirs) const { return radians * theirs; }
   /// Returns one of its transforms in our axes and units (a change of basis).
   Affine3d transform(const Affine3d& theirs) const;
   std::vector<Affine3d> transforms(const Transforms& theirs) const;

@@ -44,7 +44,7 @@ struct SceneUse {
 struct ScenePlan {
   /// Describes an agent of a scene to plan.
   struct Agent {
-    PoseId shows;
+    PoseId pose;
     double distance = 0;  ///< metres, from the viewer
     double density = 0;   ///< people per square metre around the agent, as from local_densities()
   };
