@@ -29,7 +29,7 @@ struct SphereInfluence {
 
 /// Describes a body as spheres that move with a skeleton and enclose all triangles of a skin in every pose.
 /// In a pose each centre is blended from its bones, and each radius is the least that holds the sphere's
-/// corners. Every triangle, or every piece of one that `cuts` splits at midpoints of edges, has its three
+/// corners. Every triangle, or every piece of one that `midpoints` divides, has its three
 /// corners among those of one sphere.
 struct BodyModel {
   std::shared_ptr<const Character> character;  ///< its mesh, skeleton and clips
@@ -37,7 +37,7 @@ struct BodyModel {
   std::vector<SphereInfluence> influences;     ///< weights of a sphere are positive and sum to 1
   /// Makes more points: number vertices.size() + i is the midpoint of these two earlier points, in every
   /// pose.
-  std::vector<std::array<std::uint32_t, 2>> cuts;
+  std::vector<std::array<std::uint32_t, 2>> midpoints;
   std::vector<std::uint32_t> corner_begin;  ///< one offset more than spheres
   std::vector<std::uint32_t> corners;       ///< indices of vertices or midpoints, ascending within a sphere
   std::vector<float> least_radius;          ///< lower bound of each sphere's radius, metres; empty: 0
