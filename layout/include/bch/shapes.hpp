@@ -234,8 +234,8 @@ class BuiltShape {
   ~BuiltShape();
 
   /// Makes a shape flat, in place of the previous one.
-  /// Errors:  throws std::invalid_argument as ShapeSet does, with `index` as the number of the shape. The
-  ///          object is then empty until another prepare().
+  /// Errors:  throws std::invalid_argument as ShapeSet does, with `index` as the number of the shape; then
+  ///          call prepare() again before adding it.
   void prepare(const Shape& shape, std::size_t index);
 
   // Internal: only the library has these types.
