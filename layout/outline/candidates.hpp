@@ -17,34 +17,34 @@
 namespace bch::detail {
 
 /// Holds segments that may be part of an outline, and boxes around the segments for searching. Each segment has the
-/// number of its island: the triangles of the mesh that are connected by shared vertices (OutlineTopology::island).
+/// number of its component: the triangles of the mesh that are connected by shared vertices (OutlineTopology::component).
 class CandidateList {
  public:
   /// Begins an empty list with capacity for this many segments.
   void begin(std::size_t capacity);
   /// Adds a segment unless it is a point. A segment is always written, so that no branch is needed; if it is a point,
   /// the next one overwrites it. Points are moved through memory as one 64-bit value, which is fastest.
-  void add(GridPoint a, GridPoint b, std::uint32_t island) {
+  void add(GridPoint a, GridPoint b, std::uint32_t component) {
     const auto from = std::bit_cast<std::uint64_t>(a), to = std::bit_cast<std::uint64_t>(b);
     segments_[count_] = {std::bit_cast<GridPoint>(from), std::bit_cast<GridPoint>(to)};
-    islands_[count_] = island;
+    components_[count_] = component;
     count_ += from != to;
   }
-  /// Ends the list; `island_points` has one point of each island.
-  void finish(std::span<const GridPoint> island_points);
+  /// Ends the list; `component_points` has one point of each component.
+  void finish(std::span<const GridPoint> component_points);
 
   std::span<const Segment> segments() const { return {segments_.data(), count_}; }  ///< none is a point
   std::size_t capacity() const {
     return segments_.size();
   }  ///< the allocated length: the requested capacity and one block more
-  std::uint32_t island(std::size_t segment) const { return islands_[segment]; }
-  std::span<const GridPoint> island_points() const { return island_points_; }
+  std::uint32_t component(std::size_t segment) const { return components_[segment]; }
+  std::span<const GridPoint> component_points() const { return component_points_; }
   const SegmentBoxes& boxes() const { return boxes_; }
 
  private:
-  std::vector<Segment> segments_;  ///< capacity and one block more; so has islands_
-  std::vector<std::uint32_t> islands_;
-  std::vector<GridPoint> island_points_;
+  std::vector<Segment> segments_;  ///< capacity and one block more; so has components_
+  std::vector<std::uint32_t> components_;
+  std::vector<GridPoint> component_points_;
   std::size_t count_ = 0;
   SegmentBoxes boxes_;
 };
@@ -72,7 +72,7 @@ class OutlineCandidates {
       triangles_;  ///< padded by triangles that are points to a multiple of triangles_together
   std::vector<std::uint8_t> sides_;    ///< of each triangle
   std::vector<std::uint32_t> chosen_;  ///< indices of the manifold edges that are candidates
-  std::vector<GridPoint> island_points_;
+  std::vector<GridPoint> component_points_;
 };
 
 }  // namespace bch::detail

@@ -40,8 +40,8 @@ struct OutlineTopology {
   std::span<const EdgeUse> uses_of(std::size_t edge) const {
     return std::span(uses).subspan(uses_begin[edge], uses_begin[edge + 1] - uses_begin[edge]);
   }
-  std::vector<std::uint32_t> island;         ///< per vertex: the component of the mesh to which it belongs
-  std::vector<std::uint32_t> island_vertex;  ///< per island: one of its vertices
+  std::vector<std::uint32_t> component;         ///< per vertex: the component of the mesh to which it belongs
+  std::vector<std::uint32_t> component_vertex;  ///< per component: one of its vertices
 };
 
 /// Returns the topology of triangles. Vertices at the same position in the bind pose share edges (a seam of the

@@ -42,8 +42,8 @@ class OutlineWalk {
   /// Errors:  throws std::logic_error if the walk is longer than the boundary of any face can be.
   void walk(GridPoint start, std::vector<Stretch>& contour);
 
-  /// Returns whether a contour has passed along a candidate of this island.
-  bool touched(std::uint32_t island) const { return touched_[island] != 0; }
+  /// Returns whether a contour has passed along a candidate of this component.
+  bool touched(std::uint32_t component) const { return touched_[component] != 0; }
 
  private:
   void find_near(const Place& here, GridPoint rounded_here);
