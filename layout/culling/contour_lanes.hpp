@@ -71,9 +71,10 @@ class ContourLanes {
   static Batch load(const Array& of, std::size_t i) noexcept { return Simd::load(&of[i]); }
   static void store(Array& to, std::size_t i, const Batch& value) noexcept { Simd::store(&to[i], value); }
 
-  /// Finds the sectors that a stretch of the contour passes through. A sector takes an equal fraction of |y| / (|x| +
-  /// |y|). From the line at one end, which is at most `quadrant` long in those terms, a point is that fraction times (|x|
-  /// + |y|) over its length away.
+  /// Finds the sectors of points, and lower bounds of their distances from the lines between sectors. A sector takes
+  /// an equal part of |y| / (|x| + |y|). The line at an end of a sector is at most `quadrant` long in these terms. So
+  /// the distance of a point from that line is at least the point's fraction of a sector times (|x| + |y|), divided
+  /// by that length.
   void find_sectors(std::size_t i) noexcept {
     constexpr double quadrant = 0.25 * profile_sectors;
     const Batch x = load(x_, i), y = load(y_, i), zero(0.0);
