@@ -25,10 +25,10 @@ namespace bch::detail {
 /// |y|), quadrant by quadrant. B sees the same line from the other end, so its extent is stored with the opposite
 /// sector.
 ///
-/// Returns: the profile of an outline, with both `outer` bounds left at infinity. `inner` is minus infinity without
-///          an outline, or if there is no area around the centre; `extent` is then, too, and also if there are
-///          several contours, of which nothing is known.
-/// Preconditions:validate(outline) does not throw, or it has no contours; `interior` is that of the outline, `reach`
+/// Returns: the profile of an outline, with both `outer` bounds left at infinity. `inner` is minus infinity without an
+///          outline and in sectors where the centre has no area of the outline around it. `extent` is minus infinity
+///          without an outline or with several contours, of which nothing is known.
+/// Preconditions: validate(outline) does not throw, or it has no contours; `interior` is that of the outline, `reach`
 ///          that of the shape, metres.
 Profile profile(const Outline& outline, const Interior& interior, double reach);
 

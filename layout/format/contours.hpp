@@ -13,7 +13,7 @@ namespace bch::detail {
 double reach(std::span<const Vec2> points);
 
 /// Returns the contour with the largest area, the first of several.
-/// Precondition:there is a contour.
+/// Precondition: there is a contour.
 std::span<const Vec2> largest_contour(const Outline& outline);
 
 /// Returns twice the signed area of a contour, square metres; negative if it is clockwise.

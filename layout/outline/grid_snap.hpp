@@ -16,7 +16,7 @@ namespace bch::detail {
 /// largest coordinate. points[i] belongs to vertex used[i], and no coordinate exceeds 2^23 steps, so floats represent
 /// every grid point exactly. At the largest coordinate, the grid is as fine as float itself.
 /// Returns: the grid's step in metres, a power of two.
-/// Preconditions:`used` is not empty and ascends; its values are below positions.size(); points.size() ==
+/// Preconditions: `used` is not empty and ascends; its values are below positions.size(); points.size() ==
 ///          used.size().
 /// Errors:  throws std::invalid_argument if a coordinate is not finite or the largest is outside the domain of
 ///          rounding.hpp.

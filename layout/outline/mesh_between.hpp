@@ -18,7 +18,7 @@ namespace bch::detail {
 /// meshes share is on the same side in both. The part of a clipped triangle that remains becomes a fan about one of
 /// its corners. New corners are computed in double from the lower end of an edge to the upper, in the same way for
 /// every triangle at the edge, and then rounded to float.
-/// Precondition:triangle indices are below positions.size().
+/// Precondition: triangle indices are below positions.size().
 /// Errors:  throws std::invalid_argument, naming the vertex of a triangle, if a coordinate is not finite.
 std::vector<std::array<Vec3, 3>> mesh_between(std::span<const Vec3> positions,
                                               std::span<const std::array<std::uint32_t, 3>> triangles,

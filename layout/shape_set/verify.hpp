@@ -43,7 +43,7 @@ std::string text_of(const Inconsistency& inconsistency);
 /// is the smallest; and, without outlines, that no discs are missing.
 ///
 /// Returns: at most `most` inconsistencies, shape after shape; none for a set that this library made.
-/// Precondition:the arrays of the set are safe to read, as in every set that was built or loaded.
+/// Precondition: the arrays of the set are safe to read, as in every set that was built or loaded.
 /// Cost:    about as much as making the flat shapes from their hierarchies.
 std::vector<Inconsistency> verify(const ShapeSet& set, std::size_t most = 100);
 

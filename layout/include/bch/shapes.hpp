@@ -208,7 +208,7 @@ class ShapeSet {
   // Internal: only the library has these types.
 
   /// Views arrays that stay valid while `memory` lives, for instance a mapped file.
-  /// Precondition:validate(arrays) does not throw.
+  /// Precondition: validate(arrays) does not throw.
   ShapeSet(const detail::ShapeArrays& arrays, std::shared_ptr<const void> memory);
   /// Views these arrays from now on.
   void rebind(const detail::ShapeArrays& arrays) noexcept;
