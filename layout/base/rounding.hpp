@@ -67,7 +67,7 @@
 /// by Cauchy: (contact_error). No miss: where two outlines meet, a cut disc of either contains the common point, and so does
 /// every ancestor of that disc, up to the root. So for every pair of a node on one path to the root and a node on the other path,
 /// the tight discs have D <= r_A + r_B, exactly. Published radii add (contact_error) P each, so the float test accepts all these
-/// pairs, which is the definition of a hit: see <bch/pairs.hpp>. A traversal may skip everything below a pair that the float test
+/// pairs, which is the definition of a hit: see <bch/query.hpp>. A traversal may skip everything below a pair that the float test
 /// rejects, because by that definition no pair below is a hit. Further errors belong to the shape and are added:
 ///
 ///     (halving)  8.9 u P                 a segment that was halved: each midpoint is rounded to float
