@@ -30,8 +30,7 @@ struct DiscBlock {
 /// enclose the cut's discs below (these discs may protrude from the smallest disc); and the numbers of the nodes in
 /// the hierarchy: that of an inner node, or leaf_window + the position of a disc of the cut.
 constexpr std::uint32_t leaf_window = 0x80000000;
-constexpr std::uint32_t block_names =
-    3 * block_width;  ///< offset from a block's first x; so are the next two
+constexpr std::uint32_t block_names = 3 * block_width;  ///< from a block's first x, like the next two
 constexpr std::uint32_t block_outer = 4 * block_width;
 constexpr std::uint32_t block_nodes = 5 * block_width;
 constexpr std::uint32_t block_floats = 6 * block_width;
@@ -121,8 +120,8 @@ static_assert(sizeof(Profile) == (1 + profile_sectors) * sizeof(Sector) && sizeo
 /// Represents a closed polygon of an outline.
 struct Contour {
   Disc disc;  ///< the smallest enclosing one
-  std::uint32_t begin,
-      end;  ///< its points; the first is repeated after the last, as the end of the last segment
+  /// The range of its points. The first point is repeated at `end`, as the end of the last segment.
+  std::uint32_t begin, end;
 };
 static_assert(sizeof(Contour) == 20);
 

@@ -40,8 +40,8 @@ struct HullInterval {
   Extents extents;
 };
 
-/// Holds the hulls of the bands in an interval. Bit b of `occupied` says that band b contains spheres; the hulls of
-/// other bands have no meaning.
+/// Holds the hulls of the bands in an interval. Bit b of `occupied` says that band b contains spheres; the others
+/// contain nothing.
 struct HullBands {
   std::array<HullInterval::Extents, hull_bands> extents;
   std::uint32_t occupied = 0;
