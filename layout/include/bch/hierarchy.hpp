@@ -58,11 +58,11 @@ static_assert(sizeof(Hierarchy::Node) == 16);
 void validate(const Hierarchy& hierarchy);
 
 /// Builds the paper's contour hierarchy.
-/// A node's segments are split by a line through their length-weighted centroid, perpendicular to the axis of
-/// their larger extent; each goes to the side of its midpoint. If a side stays empty, the other axis is
+/// A line splits a node's segments, through their length-weighted centroid and perpendicular to the axis of
+/// their larger extent; a segment goes to the side of its midpoint. If a side stays empty, the other axis is
 /// tried, then the segments are halved by count. A lone segment is halved if longer than twice the threshold,
-/// else a leaf. Other nodes are leaves if their disc's radius is below the threshold.
-/// Units:   metres; the threshold is positive and finite. The result has its primitives.
+/// else it is a leaf. Other nodes are leaves if the radius of their disc is below the threshold.
+/// Units:   metres; the threshold is positive and finite.
 /// Errors:  throws std::invalid_argument on a bad outline or threshold, std::length_error beyond 2^22 nodes.
 Hierarchy contour_hierarchy(const Outline& outline, float threshold);
 
