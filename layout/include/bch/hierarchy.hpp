@@ -62,7 +62,7 @@ void validate(const Hierarchy& hierarchy);
 /// their larger extent; a segment goes to the side of its midpoint. If a side stays empty, the other axis is
 /// tried, then the segments are halved by count. A lone segment is halved if longer than twice the threshold,
 /// else it is a leaf. Other nodes are leaves if the radius of their disc is below the threshold.
-/// Units:   metres; the threshold is positive and finite.
+/// Units:   metres; the threshold is positive and finite. The result has its primitives.
 /// Errors:  throws std::invalid_argument on a bad outline or threshold, std::length_error beyond 2^22 nodes.
 Hierarchy contour_hierarchy(const Outline& outline, float threshold);
 
