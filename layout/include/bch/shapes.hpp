@@ -63,7 +63,7 @@ struct Capsule {
 Shape shape_from_capsules(std::span<const Capsule> capsules, float tolerance = 0.001f,
                           float threshold = 0.01f);
 
-/// Describes moving discs in one segment of a clip, a chunk; with heights they are spheres.
+/// Describes moving discs in a chunk, a part of a clip; with heights they are spheres.
 /// Centres and radii change linearly from key to key.
 struct AnimatedChunk {
   std::vector<double> times;     ///< of the keys, at least two, ascending; seconds of the clip
