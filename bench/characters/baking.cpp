@@ -85,7 +85,7 @@ ShapeOrigins origins_of(std::span<const LoadedCharacter> characters, std::span<c
   for (const auto& [character, at] : sources) {
     const std::uint32_t name = first_name[character];
     origins.origins.push_back(
-        {name, at.clip == PoseTime::rest ? ShapeOrigin::rest_pose : name + 1 + at.clip, at.seconds});
+        {name, at.clip == PoseTime::rest ? ShapeOrigin::no_clip : name + 1 + at.clip, at.seconds});
   }
   return origins;
 }

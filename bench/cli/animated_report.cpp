@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 
 /// Returns how many bytes a baked file has of a clip.
 std::size_t baked_bytes(const AnimatedDiscs& discs) {
-  const BakedClip clip{0, ShapeOrigin::rest_pose, discs};
+  const BakedClip clip{0, ShapeOrigin::no_clip, discs};
   const detail::baked::PackedClips packed({&clip, 1}, 1);
   const detail::baked::ClipArrays arrays = packed.arrays();
   return arrays.clips.size_bytes() + arrays.chunks.size_bytes() + arrays.key_times.size_bytes() +

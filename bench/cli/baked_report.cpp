@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 
 std::string clip_of(const ShapeOrigins& origins, std::uint32_t shape) {
   const std::uint32_t clip = origins.origins[shape].clip;
-  return clip == ShapeOrigin::rest_pose ? "rest pose" : origins.names[clip];
+  return clip == ShapeOrigin::no_clip ? "rest pose" : origins.names[clip];
 }
 
 std::string depths_text(const ShapeSet& set) {
@@ -78,7 +78,7 @@ std::vector<BodyModel> models_of(const std::string& file, const BakedShapes& bak
 }
 
 std::string clip_name(const ShapeOrigins& origins, const BakedClip& clip) {
-  return clip.clip == ShapeOrigin::rest_pose ? std::string() : origins.names[clip.clip];
+  return clip.clip == ShapeOrigin::no_clip ? std::string() : origins.names[clip.clip];
 }
 
 std::string text_of(const std::string& file, const BakedShapes& baked) {
@@ -143,7 +143,7 @@ Json json_of(const std::string& file, const BakedShapes& baked) {
   json["shapes"] = Json::array();
   for (std::uint32_t s = 0; s < origins.origins.size(); ++s) {
     const ShapeOrigin& origin = origins.origins[s];
-    const bool rest = origin.clip == ShapeOrigin::rest_pose;
+    const bool rest = origin.clip == ShapeOrigin::no_clip;
     json["shapes"].push_back({{"shape", s},
                               {"character", origins.names[origin.character]},
                               {"clip", rest ? Json(nullptr) : Json(origins.names[origin.clip])},

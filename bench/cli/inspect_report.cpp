@@ -207,10 +207,10 @@ std::string text_of(const LoadedCharacter& character, const BodyFacts& facts) {
                                        1e3 * double{least.radius}, 1e3 * double{most.radius})) +
          fact("  heights", fmt::format("{:.3f} to {:.3f} m", facts.heights.bottom, facts.heights.top)) +
          fact("  memory", fmt::format("{:.1f} kB", static_cast<double>(facts.bytes) / 1e3)) +
-         fact("  model",
-              fmt::format("{} to bones, {} of the skin, of which cuts made {}",
-                          counted(facts.model.influences.size(), "binding"),
-                          counted(facts.model.corners.size(), "corner"), grouped(facts.model.cuts.size())));
+         fact("  model", fmt::format("{} to bones, {} of the skin, of which cuts made {}",
+                                     counted(facts.model.influences.size(), "binding"),
+                                     counted(facts.model.corners.size(), "corner"),
+                                     grouped(facts.model.midpoints.size())));
 }
 
 nlohmann::ordered_json json_of(const LoadedCharacter& character, const BodyFacts& facts) {

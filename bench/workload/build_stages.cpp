@@ -77,16 +77,16 @@ void BuildStages::search_inside(const Outline& outline, double reach) {
 }
 
 void BuildStages::flatten(const Hierarchy& hierarchy, bool culling) {
-  flattener_.begin(hierarchy);
+  bvh8_builder_.begin(hierarchy);
   for (const std::uint32_t depth : depths) {
-    flattener_.flatten(depth, tree_);
+    bvh8_builder_.flatten(depth, tree_);
     use(tree_);
     if (!culling || tree_.is_single()) continue;
-    outer_ = flattener_.outer(profile_);
+    outer_ = bvh8_builder_.outer(profile_);
     use(outer_);
   }
   if (!culling) return;
-  supports_ = flattener_.supports();
+  supports_ = bvh8_builder_.supports();
   use(supports_);
 }
 

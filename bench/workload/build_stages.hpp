@@ -59,7 +59,7 @@ class BuildStages {
   detail::Skinner skinner_;
   OutlineBuilder outline_builder_;
   detail::HierarchyBuilder hierarchy_builder_;
-  detail::Flattener flattener_;
+  detail::Bvh8Builder bvh8_builder_;
   detail::InteriorBuilder interior_builder_;
 
   // What was made last.

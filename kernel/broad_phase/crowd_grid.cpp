@@ -39,7 +39,7 @@ static_assert(fraction_of_reach >= rounding::terms::query_error * rounding::unit
 double pruning_radius(const ShapeSetView& shapes, std::size_t root, double margin) {
   const auto [x, y, r, row] = shapes.roots[root];
   const bool has_outer = margin > 0 && shapes.trees != nullptr;
-  const double radius = has_outer ? shapes.trees[root].outer : r;
+  const double radius = has_outer ? shapes.trees[root].outer_radius : r;
   const double reach = std::abs(static_cast<double>(x)) + std::abs(static_cast<double>(y)) + radius;
   return radius + fraction_of_reach * reach + (0.5 + fraction_of_margin) * margin;
 }

@@ -153,7 +153,7 @@ bch_status bch_shape_set_add_clip(bch_shape_set* set, const bch_animated_shape* 
     const std::size_t names = origins.names.size();
     try {
       const uint32_t first = add_name(origins, character);
-      const uint32_t second = clip == nullptr ? ShapeOrigin::rest_pose : add_name(origins, clip);
+      const uint32_t second = clip == nullptr ? ShapeOrigin::no_clip : add_name(origins, clip);
       to.clips.push_back({first, second, of.discs});
     } catch (...) {
       origins.names.resize(names);
@@ -178,6 +178,6 @@ bch_status bch_shape_set_get_clip(const bch_shape_set* set, size_t i, const char
     const std::vector<std::string>& names = from.origins.names;
     if (shape != nullptr) hand_out(std::make_unique<bch_animated_shape>(of.discs), shape);
     if (character != nullptr) *character = names[of.character].c_str();
-    if (clip != nullptr) *clip = of.clip == ShapeOrigin::rest_pose ? nullptr : names[of.clip].c_str();
+    if (clip != nullptr) *clip = of.clip == ShapeOrigin::no_clip ? nullptr : names[of.clip].c_str();
   });
 }

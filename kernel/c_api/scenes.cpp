@@ -23,8 +23,8 @@ std::vector<ScenePlan::Agent> scene_agents_of(const bch_scene_agents& given) {
   const auto poses = array_of(given.poses, given.count, "agents->poses");
   std::vector<ScenePlan::Agent> agents(given.count);
   for (std::size_t i = 0; i < agents.size(); ++i) {
-    agents[i].shows.at = {poses[i].clip, poses[i].seconds};
-    if (given.character != nullptr) agents[i].shows.character = given.character[i];
+    agents[i].pose.at = {poses[i].clip, poses[i].seconds};
+    if (given.character != nullptr) agents[i].pose.character = given.character[i];
     agents[i].density = static_cast<double>(i);
   }
   return agents;

@@ -47,7 +47,7 @@ uint32_t number_of(ShapeOrigins& origins, const std::string& name) {
 /// What the poses of a character are called: its name, then those of its clips.
 ShapeOrigin origin_of(ShapeOrigins& origins, const std::string& name, const Character& character,
                       PoseTime at) {
-  if (at.clip == PoseTime::rest) return {number_of(origins, name), ShapeOrigin::rest_pose, 0};
+  if (at.clip == PoseTime::rest) return {number_of(origins, name), ShapeOrigin::no_clip, 0};
   const auto first = static_cast<uint32_t>(origins.names.size());
   const std::size_t clips = character.clips.size();
   // As it stands there already where the character was the last one to be added.
@@ -66,8 +66,8 @@ ShapeOrigin origin_of(ShapeOrigins& origins, const std::string& name, const Char
 /// The same where characters take turns: `known` is what was answered before about this one.
 ShapeOrigin origin_of(ShapeOrigins& origins, const bch_character& of, PoseTime at,
                       std::optional<ShapeOrigin>& known) {
-  if (known && at.clip == PoseTime::rest) return {known->character, ShapeOrigin::rest_pose, 0};
-  if (known && known->clip != ShapeOrigin::rest_pose)
+  if (known && at.clip == PoseTime::rest) return {known->character, ShapeOrigin::no_clip, 0};
+  if (known && known->clip != ShapeOrigin::no_clip)
     return {known->character, known->character + 1 + at.clip, at.seconds};
   known = origin_of(origins, of.name, *of.character, at);
   return *known;
@@ -100,9 +100,7 @@ void add(bch_shape_set_builder& to, const Shape& shape, OriginIn origin_in) {
 
 /// Adds a shape that has no pose.
 void add_without_pose(bch_shape_set_builder& to, const char* kind, const Shape& shape) {
-  add(to, shape, [&](ShapeOrigins& in) {
-    return ShapeOrigin{number_of(in, kind), ShapeOrigin::rest_pose, 0};
-  });
+  add(to, shape, [&](ShapeOrigins& in) { return ShapeOrigin{number_of(in, kind), ShapeOrigin::no_clip, 0}; });
 }
 
 /// Adds a body of the caller's own.

@@ -38,7 +38,7 @@ void add_outline(const detail::ShapeSetView& view, uint32_t shape, OutlineWriter
 bch_shape_origin origin_of(const ShapeOrigins& origins, uint32_t shape) {
   if (origins.origins.empty()) return {nullptr, nullptr, 0};
   const ShapeOrigin& origin = origins.origins[shape];
-  const bool rest = origin.clip == ShapeOrigin::rest_pose;
+  const bool rest = origin.clip == ShapeOrigin::no_clip;
   return {origins.names[origin.character].c_str(), rest ? nullptr : origins.names[origin.clip].c_str(),
           origin.seconds};
 }

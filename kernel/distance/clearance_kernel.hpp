@@ -110,8 +110,8 @@ class ClearanceKernel {
     alignas(64) float reaches[Simd::width], radii[Simd::width];
     for (std::uint32_t lane = 0; lane < Simd::width; ++lane) {
       reaches[lane] = reach(k + lane);
-      radii[lane] = shapes_.trees[transforms_.root_a[k + lane]].outer +
-                    shapes_.trees[transforms_.root_b[k + lane]].outer;
+      radii[lane] = shapes_.trees[transforms_.root_a[k + lane]].outer_radius +
+                    shapes_.trees[transforms_.root_b[k + lane]].outer_radius;
     }
     Simd::store(root_bound_ + k, Measure::bound(step.x, step.y, Simd::load(radii), Simd::load(reaches)));
   }

@@ -152,7 +152,7 @@ bool ContactSearch::hulls_are_apart(double from, double end, unsigned level) con
   lines[0].emplace(along(asides[0]));
   if (lines[0]->separates(a_->hull(level).extents, b_->hull(level).extents)) return true;
   if (!in_space_ || slack_ > max_slack_of_bands) return false;
-  const auto are_apart = [&](const HullWindow::Extents& of_a, const HullWindow::Extents& of_b) {
+  const auto are_apart = [&](const HullInterval::Extents& of_a, const HullInterval::Extents& of_b) {
     for (std::size_t i = 0; i < lines.size(); ++i) {
       if (!lines[i]) lines[i].emplace(along(asides[i]));
       if (lines[i]->separates(of_a, of_b)) return true;
@@ -163,8 +163,8 @@ bool ContactSearch::hulls_are_apart(double from, double end, unsigned level) con
   const HullBands &bands_a = a_->bands(level), &bands_b = b_->bands(level);
   for (std::uint32_t i = 0; i < hull_bands; ++i)
     for (std::uint32_t j = 0; j < hull_bands; ++j)
-      if ((bands_a.some >> i & 1) != 0 && (bands_b.some >> j & 1) != 0 && bands_meet(i, j, low, high) &&
-          !are_apart(bands_a.extents[i], bands_b.extents[j]))
+      if ((bands_a.occupied >> i & 1) != 0 && (bands_b.occupied >> j & 1) != 0 &&
+          bands_meet(i, j, low, high) && !are_apart(bands_a.extents[i], bands_b.extents[j]))
         return false;
   return true;
 }

@@ -41,7 +41,7 @@ class ReachAlong {
   }
 
   /// Says that of the whole body, or of one of its bands, in the window.
-  Reach of(const HullWindow::Extents& extents) const noexcept {
+  Reach of(const HullInterval::Extents& extents) const noexcept {
     const HullDirection::Extent first = first_.extent(extents);
     const double growth = first.to - first.from, from = step_ * (first.from + growth * fraction_);
     if (!turns_) return {from, step_ * (first.from + growth * fraction_at_end_), 0};
@@ -71,7 +71,7 @@ struct LineBetween {
   double away, away_at_end;
 
   /// Returns whether parts of both are apart all the time.
-  bool separates(const HullWindow::Extents& of_a, const HullWindow::Extents& of_b) const noexcept {
+  bool separates(const HullInterval::Extents& of_a, const HullInterval::Extents& of_b) const noexcept {
     const ReachAlong::Reach first = a.of(of_a), second = b.of(of_b);
     const double more = first.more + second.more;
     return away > first.from + second.from + more && away_at_end > first.to + second.to + more;

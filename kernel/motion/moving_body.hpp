@@ -49,7 +49,7 @@ class MovingBody {
   std::size_t key() const noexcept { return key_; }
   double fraction(double time) const noexcept;
   /// Returns its hull through the window of chunks in which it is now, until when that goes on, and the fraction of it that has gone by.
-  const HullWindow& hull(unsigned level) const noexcept {
+  const HullInterval& hull(unsigned level) const noexcept {
     return tree().hulls.levels[level][chunk_ >> level];
   }
   /// Likewise, of a body of spheres: the hulls of its bands.

@@ -171,14 +171,15 @@ class ObstacleKernel {
   /// terms.
   double limit_of(const LocalSegment& segment, const ObstacleGap& best) const noexcept {
     const Root& root = in_.shapes->roots[in_.root];
-    const double size = double{tree_.outer} + __builtin_fabs(double{root.x}) + __builtin_fabs(double{root.y});
+    const double size =
+        double{tree_.outer_radius} + __builtin_fabs(double{root.x}) + __builtin_fabs(double{root.y});
     return best.gap + segment.slack + 0x1p-40 * (size + __builtin_fabs(best.gap));
   }
 
   /// Searches the tree, the disc with the least bound first.
   void search(const LocalSegment& segment, double stop_below, ObstacleGap& best) noexcept {
     double limit = limit_of(segment, best);
-    const double reach = double{tree_.outer} + limit;
+    const double reach = double{tree_.outer_radius} + limit;
     if (reach < 0 || square_from_root(segment) > reach * reach) return;
     const auto visit = [&](std::uint32_t node, OpenBlock& block) {
       if (node < leaf_window) return open(segment, limit, block), false;

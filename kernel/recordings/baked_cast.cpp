@@ -108,7 +108,7 @@ Cast baked_cast(const BakedShapes& baked, const std::string& file, std::span<con
   for (auto& [character, clips] : poses_of(baked.origins)) {
     CharacterEntry& member = cast.emplace_back(CharacterEntry{names[character], {}, 0, {}, {}, {}, {}});
     for (auto& [clip, poses] : clips)
-      member.clips.push_back(clip_of(clip == ShapeOrigin::rest_pose ? "rest pose" : names[clip], poses));
+      member.clips.push_back(clip_of(clip == ShapeOrigin::no_clip ? "rest pose" : names[clip], poses));
     const bool fits = member.clips.size() <= max_baked_clips &&
                       std::all_of(member.clips.begin(), member.clips.end(),
                                   [](const CastClip& clip) { return clip.baked.size() <= max_poses; });

@@ -50,8 +50,8 @@ double reach_of(const ShapeSetView& shapes, const Agents& agents, std::size_t ag
   const std::size_t number = agents.root(agent, shapes.level_count);
   const Root& root = shapes.roots[number];
   const double x = static_cast<double>(root.x), y = static_cast<double>(root.y),
-               radius =
-                   static_cast<double>(shapes.trees != nullptr ? shapes.trees[number].outer : root.radius);
+               radius = static_cast<double>(shapes.trees != nullptr ? shapes.trees[number].outer_radius
+                                                                    : root.radius);
   return std::max(measured_disc, rounding * (std::sqrt(x * x + y * y) + radius));
 }
 

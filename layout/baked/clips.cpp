@@ -18,7 +18,7 @@ namespace {
 /// Checks a clip, by its index.
 void require_clip(std::size_t index, const BakedClip& clip, std::size_t names) {
   if (clip.character >= names) reject("clips", index, "character has name " + std::to_string(clip.character));
-  if (clip.clip >= names && clip.clip != ShapeOrigin::rest_pose)
+  if (clip.clip >= names && clip.clip != ShapeOrigin::no_clip)
     reject("clips", index, "clip has name " + std::to_string(clip.clip));
   try {
     validate(clip.discs);

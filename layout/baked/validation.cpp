@@ -44,7 +44,7 @@ void require_origins(std::span<const ShapeOrigin> origins, std::size_t shapes, s
   for (std::size_t i = 0; i < origins.size(); ++i) {
     const auto& [character, clip, seconds] = origins[i];
     if (character >= names) reject("origins", i, "character has name " + std::to_string(character));
-    if (clip >= names && clip != ShapeOrigin::rest_pose)
+    if (clip >= names && clip != ShapeOrigin::no_clip)
       reject("origins", i, "clip has name " + std::to_string(clip));
     if (!is_finite(seconds)) reject("origins", i, "time " + shortest(seconds) + " s");
   }

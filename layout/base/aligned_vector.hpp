@@ -10,7 +10,7 @@
 
 namespace bch::detail {
 
-/// Allocates on cache lines, which are also the widest SIMD registers, and large arrays on large pages.
+/// Allocates on cache lines, which are as wide as the widest SIMD registers, and large arrays on large pages.
 template <class Value>
 struct CacheLineAllocator {
   using value_type = Value;

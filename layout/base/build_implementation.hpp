@@ -27,12 +27,12 @@ struct BuildLoops {
                   float* height) noexcept;  ///< see CutLanes
 };
 
-/// Represents a row of the table of instruction sets that construction is compiled for.
+/// Represents one implementation of construction: an instruction set and the loops compiled for it.
 struct BuildImplementation : InstructionSet {
   const BuildLoops& loops;
 };
 
-/// Returns all implementations that were compiled, the best first; the last one runs everywhere.
+/// Returns all compiled implementations, the best first; the last one runs on every processor.
 std::span<const BuildImplementation> build_implementations() noexcept;
 
 /// Returns the first implementation that this processor supports.

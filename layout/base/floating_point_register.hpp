@@ -3,7 +3,7 @@
 
 #pragma once
 
-// The processor decides here, also where BCH_SCALAR leaves its vectors alone.
+// This depends on the processor alone, also if BCH_SCALAR turns vectors off.
 #if defined(__x86_64__)
 #include <xmmintrin.h>
 #elif !defined(__aarch64__)
@@ -13,8 +13,9 @@
 namespace bch::detail::floating_point_register {
 
 #if defined(__x86_64__)
-constexpr unsigned standard = 0x1f80;  ///< of MXCSR: to nearest, denormal numbers kept, all traps masked
-constexpr unsigned flags = 0x3f;       ///< say what has happened, and change nothing
+constexpr unsigned standard =
+    0x1f80;                       ///< MXCSR: rounding to nearest, denormal numbers kept, all traps masked
+constexpr unsigned flags = 0x3f;  ///< status bits, which change no result
 
 inline unsigned read() noexcept {
   return _mm_getcsr();
@@ -23,8 +24,8 @@ inline void write(unsigned state) noexcept {
   _mm_setcsr(state);
 }
 #elif defined(__aarch64__)
-constexpr unsigned standard = 0;  ///< of FPCR: to nearest, denormal numbers kept, no traps
-constexpr unsigned flags = 0;     ///< stand in another register
+constexpr unsigned standard = 0;  ///< FPCR: rounding to nearest, denormal numbers kept, no traps
+constexpr unsigned flags = 0;     ///< status bits are in another register
 
 inline unsigned read() noexcept {
   unsigned long bits;
@@ -35,7 +36,7 @@ inline void write(unsigned state) noexcept {
   asm volatile("msr fpcr, %0" : : "r"(static_cast<unsigned long>(state)) : "memory");
 }
 #else
-// Of other processors the standard library's rounding mode.
+// On other processors, only the rounding mode of the standard library.
 constexpr unsigned standard = FE_TONEAREST;
 constexpr unsigned flags = 0;
 

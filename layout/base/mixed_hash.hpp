@@ -9,16 +9,17 @@
 
 namespace bch::detail {
 
-/// Mixes the bits of a number, of which each depends on all: the end of splitmix64 (Steele, Lea, Flood 2014).
+/// Mixes the bits of a number, so that each bit of the result depends on all: the end of splitmix64 (Steele, Lea,
+/// Flood 2014).
 constexpr std::uint64_t mixed(std::uint64_t z) noexcept {
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
   z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
   return z ^ (z >> 31);
 }
 
-/// Hashes whole numbers that input names, such as people's ids. std::hash returns the number itself, so that a file can put all of its
-/// numbers into one bucket. Here the clock joins in when a container is made, which no file knows: nothing may depend on the order of
-/// the container.
+/// Hashes integers that come from input, such as people's ids. std::hash returns the number itself, so a file could
+/// put all of its numbers into one bucket. Here each container adds the time of its construction, which no file can
+/// know: nothing may depend on the order of the container.
 class MixedHash {
  public:
   std::size_t operator()(std::uint64_t number) const noexcept {

@@ -3,8 +3,9 @@
 
 #pragma once
 
-// In place of the standard library's functions, which a program shares with us: without optimisation, its copies of std::isfinite() ...
-// take the place of ours, and compiled with -ffast-math they call NaN finite.
+// These replace functions of the standard library, whose copies a program shares with the library: without
+// optimisation, the program's std::isfinite() could take the place of ours, and compiled with -ffast-math it calls
+// NaN finite.
 namespace bch::detail {
 
 template <class Number>

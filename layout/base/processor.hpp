@@ -3,7 +3,8 @@
 
 #pragma once
 
-// Which processor is compiled for: one of these is 1. BCH_SCALAR, of CMake's BCH_ISA, asks for what every processor runs.
+// The processor for which the code is compiled: exactly one of these is 1. BCH_SCALAR (from CMake's BCH_ISA) selects
+// code that every processor runs.
 #if !defined(BCH_SCALAR) && defined(__x86_64__)
 #define BCH_X86 1
 #define BCH_NEON 0
@@ -18,7 +19,7 @@
 #define BCH_PORTABLE 1
 #endif
 
-// Rows of a table that the processor has: what is in the parentheses, or nothing.
+// Entries of a table for this processor only: the argument, or nothing.
 #if BCH_X86
 #define BCH_ON_X86(...) __VA_ARGS__
 #else

@@ -9,7 +9,7 @@
 
 namespace bch::detail {
 
-/// Implements splitmix64 (Steele, Lea, Flood 2014): the same numbers everywhere for a seed, where the distributions of
+/// Implements splitmix64 (Steele, Lea, Flood 2014). A seed gives the same numbers everywhere; the distributions of
 /// the standard library differ between vendors.
 class Random {
  public:

@@ -10,11 +10,11 @@
 
 #include "layout/base/plain_arithmetic.hpp"
 
-/// Proves by how much discs have to be enlarged so that a query in float never misses what the exact outlines hit.
-/// tests/kernel/rounding_test.cpp measures every step and attacks the whole with exact arithmetic.
+/// Derives how much discs must be enlarged, so that a query in float never misses a hit of the exact outlines.
+/// tests/kernel/rounding_test.cpp measures every step and tests the whole against exact arithmetic.
 ///
 /// Notation. u = 2^-24, the unit roundoff of float: fl(x op y) = (x op y)(1 + e), |e| <= u. A shape's *reach* P is the largest
-/// distance of its points from its origin. A disc's *tight* radius r is the largest distance of what it holds from its
+/// distance of its points from its origin. A disc's *tight* radius r is the largest distance of its node's primitives from its
 /// centre, which is a float and exact. For shapes A and B at relative position d, S = P_A + P_B. a and b are a disc's
 /// centre of each, D the exact distance between the two. First-order terms only: the products of two errors, and what
 /// double loses (2^-53 = 2^-29 u), are below 2^-10 of them and are added at the end (higher).
@@ -31,12 +31,12 @@
 ///     p      = (t.x + (c x - s y), t.y + (s x + c y))           a disc centre of B in A's frame
 ///     hit   <=>  (p.x - a.x)^2 + (p.y - a.y)^2 <= (r_A + r_B)^2
 ///
-/// I. What the geometry gives.
+/// I. Bounds by geometry.
 ///
-///     (centre)   |a| <= P_A, |b| <= P_B     a smallest disc's centre is in the convex hull of what it holds, the
-///                                           hull in the disc of radius P about the origin, which is convex
-///     (radius)   r <= P                     that disc holds it all, and r is the least that some disc has
-///     (contact)  D <= r_A + r_B <= S        where two outlines meet in a point that both discs' nodes hold; (radius)
+///     (centre)   |a| <= P_A, |b| <= P_B     a smallest disc's centre is in the convex hull of its content, and the
+///                                           hull is in the disc of radius P about the origin, which is convex
+///     (radius)   r <= P                     the disc of radius P contains it all, and no disc that does is smaller than r
+///     (contact)  D <= r_A + r_B <= S        if two outlines meet in a point that both discs contain; (radius)
 ///     (shift)    |d| <= |a| + D + |b| <= 2 S          triangle; (centre), (contact)
 ///
 /// II. Errors against the same formula in exact arithmetic with the exact headings, as lengths of vectors. A rotation
@@ -44,7 +44,7 @@
 /// 2 u |(c, s)| |(x, y)| (Cauchy), both together by 2 sqrt(2) u of the product of lengths, (rotation); an error e of (c, s)
 /// adds |e| |(x, y)|, as complex numbers multiply.
 ///
-///     (rotation) 2.829 u |(x, y)|        of a rotation's products and sums, as said
+///     (rotation) 2.829 u |(x, y)|        the products and sums of a rotation, see above
 ///     (heading)  0.72 u                  each unit vector, to float: sqrt(2) u / 2 (1 + 2^-7), layout/base/heading.hpp
 ///     (turn)     4.3 u                   (c, s): two of (heading), and (rotation)
 ///     (arm)      7.1 u |b|               b turned: two of (heading), and two of (rotation); |b| <= P_B by (centre)
@@ -54,37 +54,36 @@
 ///     (square)   u D                     squares and their sum: 2 u of the square are u of its root
 ///     (radii)    1.5 u (r_A + r_B)       the sum u, its square u of the square
 ///
-/// III. All of it together. By (shift), (contact) and P_B <= S the sides of the comparison are off by at most
+/// III. The sum. By (shift), (contact) and P_B <= S the sides of the comparison are off by at most
 ///
 ///     7.1 u P_B + 4.6 u (2 S) + u (2 S + P_B) + u S + u S + 1.5 u S  <=  22.8 u S  <=  23 u S                (1)
 ///
-/// and that is (query_error). Where both discs touch, and each is the smallest of what it holds, less is true: some point
-/// of what a smallest disc holds is at least sqrt(|a|^2 + r^2) from the origin, so that |a|^2 + r_A^2 <= P_A^2. With
+/// and that is (query_error). If both discs touch, and each is the smallest around its content, the bound is smaller: some
+/// point of the content is at least sqrt(|a|^2 + r^2) from the origin, so that |a|^2 + r_A^2 <= P_A^2. With
 /// |d| <= |a| + |b| + D and D <= r_A + r_B the same terms are
 ///
 ///     13.7 u |b| + 5.6 u |a| + 9.1 u (r_A + r_B)  <=  16.5 u P_B + 10.7 u P_A  <=  16.5 u S                  (1')
 ///
-/// by Cauchy: (contact_error). No miss: where two outlines meet, a cut disc of either has the common point, and so has every
-/// node above it, up to the root. So every pair of a node of one path up and a node of the other has tight discs with D <= r_A +
-/// r_B, exactly. Published radii add (contact_error) P each, so the float test accepts all these pairs, and they are what a hit
-/// is: see <bch/query.hpp>. A traversal may leave out what is below a pair that the float test does not accept, because no pair
-/// below is a hit by that definition; nothing has to be proved of that. More sources belong to the shape and are added
-/// beside:
+/// by Cauchy: (contact_error). No miss: where two outlines meet, a cut disc of either contains the common point, and so does
+/// every ancestor of that disc, up to the root. So for every pair of a node on one path to the root and a node on the other path,
+/// the tight discs have D <= r_A + r_B, exactly. Published radii add (contact_error) P each, so the float test accepts all these
+/// pairs, which is the definition of a hit: see <bch/query.hpp>. A traversal may skip everything below a pair that the float test
+/// rejects, because by that definition no pair below is a hit. Further errors belong to the shape and are added:
 ///
 ///     (halving)  8.9 u P                 a segment that was halved: each midpoint is rounded to float
 ///     (grid)     1.5 grid steps          an outline on a grid: sqrt(1/2) by snapping, as much by rounding a crossing
-///     (higher)   0.03 u P                2^-10 of all that
+///     (higher)   0.03 u P                2^-10 of all these
 ///
 /// which makes 25.43 u P, published as query_margin, 25.5 u P, and rounded up.
 ///
-/// Halving: a midpoint is off by half of what its ends are off by together, and u P. So after k halvings it is off by
-/// (2 k + 1) / 3 u P: at most 8.4 u P after 12, which make 4096 pieces of one segment. After more of them parity helps:
+/// Halving: the error of a midpoint is half the sum of the errors of its ends, plus u P. So after k halvings it is off by
+/// (2 k + 1) / 3 u P: at most 8.4 u P after 12, which make 4096 pieces of one segment. After more halvings parity helps:
 /// midpoints that were rounded have an even last bit, so that the next one is exact. Coordinates from 2^E to 2^(E + 1) are then
 /// off by (4 k + 6) / 9 u 2^E at most (every difference of up to 2^15 units in the last place was tried; tests/kernel/rounding_test.cpp
 /// repeats a part of that). And k halvings move a coordinate only where its ends are 2^k units apart, so that P is at least
 /// (1 + 2^(k - 23)) 2^E: 8.6 u P after any number of halvings.
 ///
-/// What the margin costs: where the float test accepts, D is at most the tight radii and what was added,
+/// The cost of the margin: if the float test accepts, D is at most the tight radii plus the margins,
 /// (25.5 + 2) u S with the rounding up, and 23 u S by (1), plus the grid, whose step is at most 2^-22 P:
 ///
 ///     (price)    a false positive has a gap of at most 50.5 u S + 1.5 * 2^-22 S = 3.4e-6 S
@@ -103,12 +102,12 @@
 ///     21.2 u S + 4 * 59 u S + 6 u S  <=  264 u S                                                             (2)
 ///
 /// Discs that the float test accepts are at most 23 u S apart, so supports enlarged by 287 u P each, and by the 5.2 u P of
-/// their own rounding (support_float, layout/culling/supports.cpp), never separate them: support_margin. Those of outlines never
+/// their own rounding (support_float, layout/culling/supports.cpp), never separate them: support_margin. Supports of outlines never
 /// separate segments that meet, which are at most (segment_price) apart. Only
 /// this proof needs all of it; tests fail where it has the other sign.
 ///
 /// V. Exact leaves: segments. Two segments are compared in double (kernel/simd/segment_test.hpp), B's ends placed by the floats
-/// (c, s) and t. What double rounds is 2^-29 u, (higher). Where outlines meet, |d| <= |a| + |b| <= S for their common point,
+/// (c, s) and t. Rounding in double is 2^-29 u, part of (higher). Where outlines meet, |d| <= |a| + |b| <= S for their common point,
 /// and the placed ends are off by
 ///
 ///     (segment_place)    8.9 u S         (turn) of |b|, and (position) of |d|
@@ -143,11 +142,11 @@
 /// Heights of agents at different grounds are compared in double with a slack of 1e-9 m and 2^-50 of the difference, compared with which the
 /// rounding of two sums of lengths up to 1e6 m is nothing.
 ///
-/// VIII. Nodes that hold the discs below them, as those of bodies made of discs do, overlap wherever the discs do, if there is a margin to
-/// spare, (held_margin). The float test accepts discs with D <= r_A + r_B + (query_error) S. With R >= |C - c| + r + margin, a node of A and a
+/// VIII. Nodes that enclose the discs below them, as in bodies made of discs, overlap wherever the discs do, if they enclose
+/// them with a margin, (held_margin). The float test accepts discs with D <= r_A + r_B + (query_error) S. With R >= |C - c| + r + margin, a node of A and a
 /// disc of B are at most R_A + r_B - room_A + (query_error) S apart, and the test accepts what is at most R_A + r_B - (query_error) S apart. So
-/// the margin of either shape has to be 2 (query_error) S; that of two nodes adds up. Margins are fractions of their own shape's reach: they are
-/// enough where S is at most (held_reaches) times the lesser reach.
+/// the margin of either shape has to be 2 (query_error) S; the margins of two nodes add up. Margins are fractions of their own
+/// shape's reach: they suffice if S is at most (held_reaches) times the lesser reach.
 namespace bch::detail::rounding {
 
 constexpr double unit_roundoff = 0x1p-24;
@@ -207,41 +206,41 @@ static_assert(support_error >= support_place + 2 * 2 * support_weight + support_
 
 }  // namespace terms
 
-/// The margin that is added to every published radius, times the shape's reach: (1'), halving, higher orders.
+/// The margin added to every published radius, times the shape's reach: (1'), (halving) and (higher).
 constexpr double query_margin = 25.5 * unit_roundoff;
 static_assert(query_margin >= (terms::contact_error + terms::halving + terms::higher) * unit_roundoff);
 
-/// The margin that is added to every support, times the shape's reach.
+/// The margin added to every support, times the shape's reach.
 constexpr double support_margin = 320 * unit_roundoff;
 static_assert(support_margin >=
               (terms::support_error + terms::query_error + terms::support_float) * unit_roundoff);
 
-/// The distance within which two segments meet: this times the sum of the shapes' reaches, plus the grid steps
-/// of both.
+/// The distance within which two segments meet: this times the sum of the shapes' reaches, plus the grid steps of
+/// both.
 constexpr double segment_margin = 13 * unit_roundoff;
 static_assert(segment_margin >= (terms::segment_place + terms::higher) * unit_roundoff);
-/// The fraction of the margin by which all ends have to be beyond the other's line, so that a crossing is sure.
+/// A crossing of two segments is sure if all ends are beyond the other segment's line by this fraction of the margin.
 constexpr double sure_share = 0.7;
 static_assert(terms::root_2 * sure_share < 1);
 static_assert(sure_share * segment_margin >= (terms::segment_place + terms::higher) * unit_roundoff);
 
-/// The margin of nodes about the discs that they hold, times the shape's reach, is enough for pairs whose reaches together are at most
-/// this times the lesser one: twice (query_error) of both, and what checking it rounds.
+/// The margin with which nodes enclose their discs, times the shape's reach. It suffices for pairs whose reaches sum
+/// to at most held_reaches times the lesser one: twice (query_error) of both, and the rounding of the check itself.
 constexpr double held_reaches = 3;
 constexpr double held_margin = 47 * held_reaches * unit_roundoff;
 static_assert(held_margin >= held_reaches * 2 * (terms::query_error + 8 * terms::higher) * unit_roundoff);
 
-/// The grid steps by which an outline is off: snapping moves a vertex by sqrt(1/2) of one, and rounding a
-/// crossing to the grid by as much again.
+/// The error of an outline in grid steps: snapping moves a vertex by up to sqrt(1/2) steps, and rounding a crossing
+/// to the grid by as much again.
 constexpr double outline_grid_steps = 1.5;
 static_assert(outline_grid_steps >= 2 * (terms::root_2 / 2));
 
-/// A false positive's largest gap, times the sum of the shapes' reaches: (price).
+/// The largest gap of a false positive, times the sum of the shapes' reaches: (price).
 constexpr double price = 3.4e-6;
 static_assert(price >=
               query_margin + (2 + terms::query_error) * unit_roundoff + outline_grid_steps * 0x1p-22);
 
-/// A false positive's largest gap with exact leaves, times the sum of the shapes' reaches: (segment_price).
+/// The largest gap of a false positive with exact leaves, times the sum of the shapes' reaches: (segment_price).
 constexpr double segment_price = 1.7e-6;
 static_assert(segment_price >=
               segment_margin + terms::segment_place * unit_roundoff + outline_grid_steps * 0x1p-22);
@@ -249,13 +248,13 @@ static_assert(segment_price >=
 static_assert(support_margin >=
               segment_price + (terms::support_error + terms::support_float) * unit_roundoff);
 
-/// The documented domain; beyond it the library throws.
+/// The documented domain; the library throws beyond it.
 constexpr double smallest_reach = 1e-6;   // metres
 constexpr double largest_reach = 1e6;     // metres
 constexpr double largest_position = 1e9;  // metres
 constexpr double largest_heading = 1e9;   // radians
 
-/// Returns the smallest float that is not below a finite value >= 0. It has no branch, because none could be
+/// Returns the smallest float that is not below a finite value >= 0. It has no branch, because a branch could not be
 /// predicted.
 inline float round_up(double value) {
   const float nearest = static_cast<float>(value);

@@ -7,8 +7,8 @@
 
 namespace bch::detail {
 
-/// Returns a number for a message, in the fewest digits that tell it from all others of its type: one just beyond a limit does not
-/// read as the limit.
+/// Formats a number for a message with the fewest digits that distinguish it from all others of its type, so a number
+/// just beyond a limit does not read as the limit.
 std::string shortest(double value);
 std::string shortest(float value);
 

@@ -8,9 +8,10 @@
 
 namespace bch::detail {
 
-/// Returns the bytes of memory and of its extension on disk: what no process can have more of. The most there is where the system does not say.
+/// Returns the bytes of memory plus swap, an upper bound for any process; the largest integer if the system does not
+/// say.
 std::uint64_t all_memory() noexcept;
-/// Asks the system for large pages, where it takes such advice: without them it only takes longer.
+/// Asks the system for large pages, if it takes such advice. Without them, access only takes longer.
 void advise_large_pages(void* memory, std::size_t bytes) noexcept;
 
 }  // namespace bch::detail

@@ -11,24 +11,23 @@
 
 namespace bch::detail {
 
-/// Represents a contour's distances from points, and its winding numbers about them.
+/// Holds the distances of points from a contour, and the contour's winding numbers about them.
 struct ContourDepths {
   alignas(64) std::array<double, max_touches> distance;
-  /// The number of times that the contour goes round the point, counter-clockwise: 1 inside. It has no
-  /// meaning on the contour.
+  /// How often the contour goes around the point, counter-clockwise: 1 inside. Undefined for points on the contour.
   alignas(64) std::array<double, max_touches> winding;
 };
 
-/// Measures the depths of the discs' centres, exact except for the rounding of double.
+/// Computes distances and winding numbers for the centres of the discs, exact except for the rounding of double.
 void measure_depths(const InteriorLoops& loops, std::span<const Vec2> contour, const CandidateDiscs& discs,
                     ContourDepths& depths);
 
-/// Computes the discs' depths in float, at half the cost.
+/// Computes the same in float, at half the cost.
 void estimate_depths(const InteriorLoops& loops, const ContourPoints& contour, const CandidateDiscs& discs,
                      ContourDepths& depths);
 
-/// Finds the point of a contour nearest to each disc's centre, and the unit vector from there to the centre; both
-/// in float, and the vector is 0 for a centre on the contour.
+/// Finds, in float, the point of a contour nearest to each disc's centre, and the unit vector from that point to the
+/// centre; the vector is 0 for a centre on the contour.
 void nearest_touches(const InteriorLoops& loops, const ContourPoints& contour, const CandidateDiscs& discs,
                      Touches& touches);
 

@@ -15,13 +15,14 @@
 
 namespace bch::detail {
 
-/// Holds some of a contour's segments, seen from a centre, with what can be computed of them without a branch.
+/// Holds up to `most` segments of a contour relative to a centre, with all values that can be computed without
+/// branches.
 template <class Simd>
 class ContourLanes {
  public:
   static constexpr std::size_t most = 64;
 
-  /// Takes the segments that end in these points, one or more and at most so many; the first begins in `begin`.
+  /// Takes one to `most` segments: the first begins at `begin`, and segment i ends at ends[i].
   ContourLanes(Vec2 begin, std::span<const Vec2> ends, double centre_x, double centre_y) noexcept
       : count_(ends.size()) {
     const auto put = [&](std::size_t i, Vec2 point) {
@@ -43,34 +44,37 @@ class ContourLanes {
   std::uint32_t sector(std::size_t i) const noexcept {
     return static_cast<std::uint32_t>(static_cast<std::int32_t>(sector_[i])) % profile_sectors;
   }
-  /// Returns a lower bound of the distance from the nearest line between sectors.
+  /// Returns a lower bound of the distance from the nearest line that separates two sectors.
   double aside(std::size_t i) const noexcept { return aside_[i]; }
 
   // These functions describe segment i.
 
-  /// Returns the point where the segment's line comes nearest to the centre, as the parameter t from its beginning to its end.
+  /// Returns the parameter t, 0 at the begin of the segment and 1 at its end, of the point of its line nearest to the
+  /// centre.
   double foot(std::size_t i) const noexcept { return foot_[i]; }
   double square_distance(std::size_t i) const noexcept { return square_distance_[i]; }
   bool turns_left(std::size_t i) const noexcept { return turn_[i] >= 0; }
-  /// Returns whether the segment crosses the ray along x. It has no branch, because none could be predicted.
+  /// Returns whether the segment crosses the positive x axis. It has no branch, because a branch could not be
+  /// predicted.
   bool crosses(std::size_t i) const noexcept {
     return ((y_[i] > 0) != (y_[i + 1] > 0)) & (turns_left(i) == (y_[i + 1] > y_[i]));
   }
 
  private:
   using Batch = typename Simd::Double;
-  /// Elements that fill up whole registers, also for the ends of segments.
+  /// Elements that pad arrays to whole registers, also for the ends of segments.
   static constexpr std::size_t padding = Batch::size;
   using Array = std::array<double, most + 1 + padding>;
-  /// A number that is added to divisors, which may be 0 where the dividend is.
+  /// Added to divisors that may be 0; the dividend is then 0, too.
   static constexpr double not_zero = 1e-200;
 
   static Batch load(const Array& of, std::size_t i) noexcept { return Simd::load(&of[i]); }
   static void store(Array& to, std::size_t i, const Batch& value) noexcept { Simd::store(&to[i], value); }
 
-  /// Finds the sectors that a stretch of the contour passes through. A sector takes an equal fraction of |y| / (|x| +
-  /// |y|). From the line at one end, which is at most `quadrant` long in those terms, a point is that fraction times (|x|
-  /// + |y|) over its length away.
+  /// Finds the sectors of points, and lower bounds of their distances from the lines between sectors. A sector takes
+  /// an equal part of |y| / (|x| + |y|). The line at an end of a sector is at most `quadrant` long in these terms. So
+  /// the distance of a point from that line is at least the point's fraction of a sector times (|x| + |y|), divided
+  /// by that length.
   void find_sectors(std::size_t i) noexcept {
     constexpr double quadrant = 0.25 * profile_sectors;
     const Batch x = load(x_, i), y = load(y_, i), zero(0.0);

@@ -14,7 +14,7 @@
 
 namespace bch::detail {
 
-/// Holds discs side by side; whole registers may be read from `count` - 1 on.
+/// Holds discs in parallel arrays. Whole registers can be read from any disc on, up to `count` - 1.
 struct DiscRun {
   const float *x, *y, *radius;
   std::uint32_t count;
@@ -24,7 +24,7 @@ struct DiscRun {
 template <class Simd>
 class CutLanes {
  public:
-  /// Returns the radius of the disc about a centre that holds a run, to 5 units in the last place.
+  /// Returns the radius about a centre that encloses a run of discs, to 5 units in the last place.
   static float radius(const DiscRun& run, Vec2 centre) noexcept {
     const Batch centre_x(centre.x), centre_y(centre.y);
     Batch most(0.0f);
@@ -35,9 +35,9 @@ class CutLanes {
     return -Simd::least(-most);
   }
 
-  /// Writes the run's extents along support_directions directions, to 6 units in the last place of its reach. Those of the
-  /// first quadrant are given; the others are these turned by a quarter, a half and three quarters, so that they
-  /// share products.
+  /// Writes the extents of a run of discs along support_directions directions, to 6 units in the last place of its
+  /// reach. The arguments are the directions of the first quadrant; the others are these rotated by 1 to 3 quarter
+  /// turns, so that they share products.
   static void heights(const DiscRun& run, const float* cosine, const float* sine, float* height) noexcept {
     for (std::size_t k = 0; k < quadrant; k += Batch::size) {
       const Batch c = Simd::load(cosine + k), s = Simd::load(sine + k);
@@ -59,9 +59,9 @@ class CutLanes {
   static constexpr float infinity = std::numeric_limits<float>::infinity();
   static constexpr std::size_t quadrant = support_directions / 4;
 
-  /// Calls visit(x, y, radius, gap) for each register of the run. `gap` is 0 in the lanes of the run's discs
-  /// and NaN in the others, which a maximum drops when it comes first: that is one instruction, where selecting
-  /// is three.
+  /// Calls visit(x, y, radius, gap) for each register of the run. `gap` is 0 in the lanes of discs of the run and NaN
+  /// in the others. A maximum drops NaN if it is the first argument: one instruction instead of the three of a
+  /// selection.
   template <class Visit>
   static void for_each(const DiscRun& run, Visit visit) {
     alignas(64) float lane[Batch::size];

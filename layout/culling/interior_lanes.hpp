@@ -11,14 +11,14 @@
 
 namespace bch::detail {
 
-/// Implements the loops that take most of the time of interior.hpp: over the points of a contour, with whatever is asked about it
-/// side by side in lanes, and over the rows of a raster. No float is summed across lanes, so that every instruction
-/// set gives the same bits. What belongs to an edge is computed once.
+/// Implements the loops that take most of the time of interior.hpp: over the points of a contour, with discs or
+/// points side by side in lanes, and over the rows of a raster. No float is summed across lanes, so every instruction
+/// set gives the same bits. Values that depend only on an edge are computed once per edge.
 template <class Simd>
 class InteriorLanes {
  public:
   /// Raises the half curvature of each touch's disc until no point is inside: a disc that touches at q with the
-  /// centre q + r n holds a point q + w unless 2 r (n w) <= w^2.
+  /// centre q + r n contains a point q + w unless 2 r (n w) <= w^2.
   static void keep_out(const ContourPoints& points, const TouchLanes& touches,
                        float* half_curvature) noexcept {
     constexpr std::size_t together = 4;
@@ -28,7 +28,7 @@ class InteriorLanes {
     for (; k < touches.count; k += width) keep_out_of<1>(points, touches, k, half_curvature);
   }
 
-  /// Measures the squared distance of the nearest edge, and four times how often the contour goes round each point.
+  /// Measures, per point, the squared distance of the nearest edge, and four times the winding number of the contour.
   static void measure(const Vec2* contour, std::size_t count, const PointLanes& from, double* square,
                       double* turns) noexcept {
     measure_from<double>(
@@ -48,7 +48,8 @@ class InteriorLanes {
         from, square, turns);
   }
 
-  /// Finds the squared distance of the nearest edge, and at which point that edge ends; of several the first.
+  /// Finds, per point, the squared distance of the nearest edge and the index of the point where that edge ends; the
+  /// first of several.
   static void find_nearest(const ContourPoints& contour, const PointLanes& from, float* square,
                            std::int32_t* edge) noexcept {
     for (std::uint32_t k = 0; k < from.count; k += width) {
@@ -90,8 +91,8 @@ class InteriorLanes {
     }
   }
 
-  /// Sets the bits of the cells whose centres are in a disc, and no others; cell centres are at 0.5, 1.5 ...
-  /// Returns: how many they are.
+  /// Sets the bits of the cells whose centres are in a disc and clears the others; cell centres are at 0.5, 1.5 ...
+  /// Returns: the number of set bits.
   static std::int32_t draw(float x, float y, float radius, std::uint32_t* rows) noexcept {
     alignas(64) float row[width];
     for (std::size_t lane = 0; lane < width; ++lane) row[lane] = static_cast<float>(lane) + 0.5f;
@@ -110,7 +111,8 @@ class InteriorLanes {
     return cells[0];
   }
 
-  /// Returns how many bits are set and not covered. Written for vectors: baseline x86-64 has no instruction that counts.
+  /// Returns the number of bits that are set in `rows` but not in `covered`. Written so that it vectorises, because
+  /// baseline x86-64 has no instruction that counts bits.
   static std::int32_t count_new(const std::uint32_t* rows, const std::uint32_t* covered) noexcept {
     std::uint32_t sum = 0;
     for (std::size_t j = 0; j < raster_rows; ++j) {
@@ -130,14 +132,14 @@ class InteriorLanes {
   using Floats = typename Simd::Float;
   using Ints = typename Simd::Ints;
   static constexpr std::size_t width = Simd::width;
-  /// The uncertainty of a square distance: points nearer than the rounding of coordinates tell nothing about
-  /// a tangent disc.
+  /// The uncertainty of a squared distance: points nearer than the rounding of coordinates say nothing about a
+  /// tangent disc.
   static constexpr float blur = 0x1p-16f;
 
-  /// Holds the first cell of every row whose centre is not before a coordinate, and its bit. The coordinate has
-  /// half a cell added to it. Beyond the last cell there is no bit. The bit is made as a power of two in
-  /// float, because not every instruction set can shift lanes by lanes; negative, so that the largest, 2^31,
-  /// can be converted.
+  /// Holds, per row, the first cell whose centre is not before a coordinate, and that cell's bit. Half a cell has
+  /// been added to the coordinate. Beyond the last cell there is no bit. The bit is computed as a power of two in
+  /// float, because not every instruction set can shift each lane by another number; it is negative, so that the
+  /// largest, 2^31, can be converted.
   struct Cell {
     Ints index, minus_bit;
 
@@ -166,9 +168,9 @@ class InteriorLanes {
       const Real length = dx * dx + dy * dy;
       over = length > smallest_normal ? 1 / length : 0;
     }
-    /// Returns the square distances of points that are relative to the edge's beginning. The nearest point's
-    /// place along the edge may be off by its rounding. Beside an edge of length l, where t = distance / l,
-    /// that is no more than a rounding of the distance.
+    /// Returns the squared distances of points that are relative to the begin of the edge. The place of the nearest
+    /// point along the edge may be off by its rounding. For an edge of length l, where t = distance / l, that changes
+    /// the distance by no more than a rounding.
     Batch square_distance(const Batch& px, const Batch& py) const {
       const Batch t = (px * Batch(dx) + py * Batch(dy)) * Batch(over);
       const Batch held = xsimd::min(xsimd::max(t, Batch(Real(0))), Batch(Real(1)));
@@ -196,8 +198,8 @@ class InteriorLanes {
     for (std::size_t p = 0; p < parts; ++p) Simd::store(half_curvature + first + p * width, curvature[p]);
   }
 
-  /// Measures a contour from points, one per lane. corner(i) returns the coordinates of point i of the
-  /// contour's n.
+  /// Measures a contour of n points from other points, one per lane. corner(i) returns the coordinates of point i of
+  /// the contour.
   template <class Real, class Corner>
   static void measure_from(std::size_t n, Corner corner, const PointLanes& from, Real* square, Real* turns) {
     using Batch = typename Simd::template Batch<Real>;

@@ -10,15 +10,15 @@
 
 namespace bch::detail {
 
-/// Holds what the loops behind interior.hpp work on: plain pointers, because nothing of the standard library may be
-/// compiled for wide registers.
+/// Describes the points of a contour. The structs of this file are the arguments of the loops in interior_lanes.hpp:
+/// plain pointers, because no function of the standard library may be compiled for wide registers.
 struct ContourPoints {
   const float *x, *y;
   std::size_t count;
 };
 
-/// Holds points that each have a lane: whole registers are read and written, of which only the first `count` lanes
-/// matter. Their arrays have room for max_touches.
+/// Holds points, one per lane. Whole registers are read and written, but only the first `count` lanes matter. The
+/// arrays have max_touches elements.
 struct PointLanes {
   const float *x, *y;
   std::uint32_t count;
@@ -28,17 +28,18 @@ struct TouchLanes {
   std::uint32_t count;
 };
 
-/// Directions that each have a lane, contour_lines of them, and which points are least and farthest along each.
+/// Holds contour_lines directions, one per lane, and the indices of the points that are the least and the farthest
+/// along each.
 constexpr std::uint32_t contour_lines = 8;
 struct LineLanes {
   const double *cosine, *sine;
-  double *lowest, *highest;  ///< indices; of several points the first
+  double *lowest, *highest;  ///< indices; the first of several points
 };
 
-/// A raster's words, each a row and a bit for each of its cells.
+/// The rows of a raster: one word per row, one bit per cell.
 constexpr std::uint32_t raster_rows = 32;
 
-/// Represents one compilation of interior_lanes.hpp, which says what the loops do.
+/// Holds the functions of one compilation of interior_lanes.hpp, which documents them.
 struct InteriorLoops {
   void (*keep_out)(const ContourPoints& points, const TouchLanes& touches, float* half_curvature) noexcept;
   void (*measure)(const Vec2* contour, std::size_t count, const PointLanes& from, double* square,

@@ -14,25 +14,26 @@
 
 namespace bch::detail {
 
-/// Returns the extents of a shape along lines from a centre, sector by sector. One lookup in each of two shapes along
-/// the line of their centres, D apart, decides most pairs:
+/// Returns the profile of a shape: its extents along lines from a centre, sector by sector. For two shapes whose
+/// centres are D apart, one lookup in each profile, along the line of the centres, decides most pairs:
 ///
 ///     inner_A + inner_B >= D     a point between the centres belongs to both areas
 ///     outer_A + outer_B < D      a line across separates the cuts
-///     outer_A < D + extent_B     no contour of B lies inside one of A: it sticks out on the far side
+///     outer_A < D + extent_B     no contour of B lies inside a contour of A: it sticks out on the far side
 ///
-/// A sector is what has the same place among profile_sectors equal parts of |y| / (|x| + |y|), quadrant by quadrant, and
-/// a centre that of the largest contour's area. B looks along the same line from the other end, so its extent is
-/// kept with the sector opposite to it.
+/// The centre is the centroid of the largest contour. The profile_sectors sectors are equal parts of |y| / (|x| +
+/// |y|), quadrant by quadrant. B sees the same line from the other end, so its extent is stored with the opposite
+/// sector.
 ///
-/// Returns: the profile of an outline, both `outer` left at infinity; without an outline, or where it has no room about the
-///          centre, `inner` is minus infinity, and so is `extent` of several contours, of which nothing is known.
+/// Returns: the profile of an outline, with both `outer` bounds left at infinity. `inner` is minus infinity without an
+///          outline and in sectors where the centre has no area of the outline around it. `extent` is minus infinity
+///          without an outline or with several contours, of which nothing is known.
 /// Preconditions: validate(outline) does not throw, or it has no contours; `interior` is that of the outline, `reach`
 ///          that of the shape, metres.
 Profile profile(const Outline& outline, const Interior& interior, double reach);
 
-/// Bounds the support function of one disc or more of a cut, in arrays, about a profile's centre: an upper bound over the directions of
-/// each sector.
+/// Holds, per sector, an upper bound of a support function about a profile's centre over the directions of the
+/// sector. outer() computes the bounds of one or more discs of a cut.
 using Outer = std::array<float, profile_sectors>;
 Outer outer(const Profile& profile, const float* x, const float* y, const float* radius, std::uint32_t count,
             double reach);
@@ -43,11 +44,11 @@ struct Bounds {
   Outer outer;
 };
 
-/// Bounds the points of an outline with contours. `reach` is that of the shape, metres.
+/// Bounds the points of an outline that has contours. `reach` is that of the shape, metres.
 Bounds outline_bounds(const Profile& profile, const PointDiscs& points, double reach);
 
-/// Returns how far discs stick out of what smaller bounds hold, metres: with that added, the smaller bounds hold the discs,
-/// between two directions as well.
+/// Returns how far discs protrude from smaller bounds, metres. The smaller bounds plus that distance enclose the
+/// discs, also between two directions.
 float excess(const Bounds& discs, const Bounds& smaller);
 
 }  // namespace bch::detail

@@ -15,19 +15,19 @@
 
 namespace bch::detail {
 
-/// Holds the support heights, the largest extent of a set of discs along each of support_directions directions:
-/// direction k is at angle k * 2 pi / support_directions. First all even directions, then all odd ones, each
-/// twice over, so that a turned set is an offset into the same array and half of the directions is one load.
+/// Holds the supports of a set of discs: its largest extent along each of support_directions directions. Direction k
+/// has the angle k * 2 pi / support_directions. First come all even directions, then all odd ones, each list twice,
+/// so that a rotation of the set is an offset into the array, and half of the directions are one load.
 ///
-/// Two sets are apart when along some direction the sum of their supports is less than the distance of their
-/// origins. Between two directions a support is at most that of the corner where the two supporting lines
-/// meet; rounding.hpp says how much the heights are enlarged so that the float test never separates discs
-/// that the float test of discs lets overlap, nor segments that meet.
+/// Two sets are disjoint if along some direction the sum of their supports is less than the distance of their
+/// origins. Between two directions, the support is at most that of the corner where the two supporting lines meet.
+/// rounding.hpp derives how much supports are enlarged, so that the float test never separates discs whose float test
+/// is a hit, nor segments that meet.
 using Supports = std::array<float, support_stride>;
 
-/// Holds the points of an outline as discs without a radius.
+/// Holds the points of an outline as discs of radius 0.
 struct PointDiscs {
-  /// Takes an outline in place of the last one, and keeps the memory.
+  /// Takes an outline in place of the previous one, reusing memory.
   void assign(const Outline& outline);
 
   std::uint32_t count() const noexcept { return static_cast<std::uint32_t>(x.size()); }
@@ -38,7 +38,7 @@ struct PointDiscs {
 /// Computes the supports of discs. `reach` is that of rounding.hpp, in metres.
 Supports supports(std::span<const Disc> discs, double reach);
 
-/// Computes the supports of one disc or more in arrays.
+/// Computes the supports of one or more discs in parallel arrays.
 Supports supports(const float* x, const float* y, const float* radius, std::uint32_t count, double reach);
 
 }  // namespace bch::detail

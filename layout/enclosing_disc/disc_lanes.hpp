@@ -11,9 +11,9 @@
 
 namespace bch::detail {
 
-/// Finds the smallest enclosing discs of many point sets, one set a lane: disc_pivoting.hpp's algorithm without its
-/// branches, which cannot be predicted. A lane's operations do not depend on the width nor on its neighbours,
-/// so that every instruction set gives the same bits.
+/// Finds the smallest enclosing discs of many point sets, one set per lane, by the algorithm of disc_pivoting.hpp
+/// without its unpredictable branches. The operations of a lane depend neither on the width nor on other lanes, so
+/// every instruction set gives the same bits.
 template <class Simd>
 class DiscLanes {
  public:
@@ -35,7 +35,7 @@ class DiscLanes {
   struct Point {
     Batch x, y;
   };
-  /// Holds the points on the boundary, the second and third the same where there are two, and their disc.
+  /// Holds the two or three points on the boundary (if two, the second and third are the same) and their disc.
   struct Basis {
     Point a, b, c;
     Point centre;
@@ -57,7 +57,8 @@ class DiscLanes {
     return {Batch(0.5) * (a.x + b.x), Batch(0.5) * (a.y + b.y)};
   }
 
-  /// Returns the smallest disc of a triangle: the longest side's disc unless the triangle is acute.
+  /// Returns the smallest disc around a triangle: the disc on the longest side as diameter, unless the triangle is
+  /// acute.
   static Basis basis(const Point& a, const Point& b, const Point& c) {
     const Batch ab = square_distance(a, b), bc = square_distance(b, c), ca = square_distance(c, a);
     const Batch bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y;
@@ -91,12 +92,12 @@ class DiscLanes {
     return basis(q, select(old.is_pair, old.a, far), select(old.is_pair, old.b, beyond));
   }
 
-  /// Represents a block of as many sets as there are lanes, stored point after point. Sets with fewer points than others
-  /// repeat their last.
+  /// Represents a block of sets, one per lane, stored point after point. Sets with fewer points than others repeat
+  /// their last point.
   class Block {
    public:
-    /// Loads the sets of a block, one per lane. With `is_shared` the last two lanes share the largest set,
-    /// which often has twice the points of the next.
+    /// Loads the sets of a block, one per lane. If `is_shared`, the last two lanes share the largest set, which often
+    /// has twice the points of the next.
     Block(const DiscSets& job, std::size_t begin, std::size_t end, bool is_shared = false)
         : job_(job), begin_(begin), end_(end), is_shared_(is_shared) {
       Column columns[width];
@@ -110,8 +111,8 @@ class DiscLanes {
       fill(columns);
     }
 
-    /// Solves sets of up to four points. A smallest disc is that of two or three of the points, and the largest of
-    /// theirs.
+    /// Solves sets of up to four points. The smallest disc is the largest of the smallest discs around two or three
+    /// of the points.
     void solve_small() const {
       const auto at = [&](std::size_t k) { return point(k < count_ ? k : count_ - 1); };
       const Point a = at(0), b = at(1), c = at(2), d = at(3);
@@ -133,9 +134,9 @@ class DiscLanes {
       store(centre, largest);
     }
 
-    /// Solves sets of more than four points, by pivoting. Farthest points are those from the centre as a float, so
-    /// that the last pass over them gives the radius, too. Which of two is the farthest may then be decided by rounding;
-    /// whether one is outside is asked of the exact disc.
+    /// Solves sets of more than four points by pivoting. The farthest points are those from the centre rounded to
+    /// float, so that the last pass over the points also gives the radius. Rounding may then decide which of two
+    /// points is the farthest, but whether a point is outside is tested against the exact disc.
     void solve_large() const {
       const Point a = farthest(start()).point, b = farthest(a).point;
       const Batch ab = square_distance(a, b);
@@ -168,7 +169,7 @@ class DiscLanes {
       Point point;
       Batch square;
     };
-    /// Represents a lane's points.
+    /// Represents the points of a lane.
     struct Column {
       const Vec2* first;
       std::size_t last;
@@ -202,7 +203,7 @@ class DiscLanes {
         });
     }
 
-    /// Returns which set is in a lane; the last one is also in those that are left over.
+    /// Returns the number of the set in a lane. Surplus lanes have the last set.
     std::size_t set(std::size_t lane) const { return begin_ + lane < end_ ? begin_ + lane : end_ - 1; }
 
     Point point(std::size_t k) const {
@@ -214,15 +215,15 @@ class DiscLanes {
       best.square = xsimd::max(best.square, square);
     }
 
-    /// Returns one of each set's points.
+    /// Returns one point of each set.
     Point start() const {
       Farthest first{point(0), Batch(0.0)};
       if (is_shared_) share_farthest(first);
       return first.point;
     }
 
-    /// Returns the point farthest from another. It uses two chains, because each waits for its last
-    /// comparison.
+    /// Returns the point farthest from another. It alternates between two chains of comparisons, because each
+    /// comparison must wait for the last one of its chain.
     Farthest farthest(const Point& from) const {
       Farthest even{point(0), square_distance(point(0), from)}, odd = even;
       for (std::size_t k = 1; k < count_; k += 2) {
@@ -235,7 +236,7 @@ class DiscLanes {
       return odd;
     }
 
-    /// Gives the last two lanes the farther one of their points.
+    /// Sets the last two lanes to the farther of their two points.
     static void share_farthest(Farthest& farthest) {
       alignas(64) double x[width], y[width], square[width];
       farthest.point.x.store_aligned(x);

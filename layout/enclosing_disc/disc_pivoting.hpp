@@ -10,7 +10,7 @@
 
 namespace bch::detail::pivoting {
 
-/// Holds the two or three points on the boundary, and the smallest disc that holds them.
+/// Holds the two or three points on the boundary, and the smallest disc that contains them.
 struct Basis {
   PlanePoint points[3];
   int size;
@@ -22,7 +22,8 @@ inline Basis basis(PlanePoint a, PlanePoint b) {
   return {{a, b, b}, 2, {0.5 * (a.x + b.x), 0.5 * (a.y + b.y)}, 0.25 * squared_length(a - b)};
 }
 
-/// Returns the longest side's disc unless the triangle is acute.
+/// Returns the smallest disc around a triangle: the disc on the longest side as diameter, unless the triangle is
+/// acute.
 inline Basis basis(PlanePoint a, PlanePoint b, PlanePoint c) {
   const double ab = squared_length(a - b), bc = squared_length(b - c), ca = squared_length(c - a);
   if (ab >= bc + ca) return basis(a, b);
@@ -34,8 +35,9 @@ inline Basis basis(PlanePoint a, PlanePoint b, PlanePoint c) {
   return {{a, b, c}, 3, {a.x + offset.x, a.y + offset.y}, offset.x * offset.x + offset.y * offset.y};
 }
 
-/// Returns the smallest disc over q, which is outside, and what stays on the boundary: both points of a pair; of
-/// three the one farthest from q, and that beyond the diameter through it.
+/// Returns the smallest disc around q, a point outside the old disc, and the points that stay on the boundary: both
+/// points of a pair; of three points the one farthest from q, and the one on the other side of the diameter through
+/// it.
 inline Basis pivot(const Basis& old, PlanePoint q) {
   const auto& p = old.points;
   if (old.size == 2) return basis(q, p[0], p[1]);
@@ -48,9 +50,10 @@ inline Basis pivot(const Basis& old, PlanePoint q) {
   return basis(q, p[far], is_left(q) != is_left(p[next]) ? p[next] : p[last]);
 }
 
-/// Returns the centre of the smallest enclosing disc. farthest(p) gives the point of the set farthest from p.
-/// Source:  J. Elzinga, D. W. Hearn, "Geometrical solutions for some minimax location problems",
-///          Transportation Science 6, 1972.
+/// Returns the centre of the smallest enclosing disc of a set. farthest(p) returns the point of the set farthest from
+/// p.
+/// Source:  J. Elzinga, D. W. Hearn, "Geometrical solutions for some minimax location problems", Transportation
+///          Science 6, 1972.
 template <class Farthest>
 PlanePoint smallest_centre(PlanePoint first, Farthest farthest) {
   const PlanePoint a = farthest(first);

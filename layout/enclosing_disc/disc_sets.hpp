@@ -10,7 +10,7 @@
 
 namespace bch::detail {
 
-/// Represents a run of points.
+/// Represents consecutive points.
 struct PointRange {
   std::uint32_t begin, end;
 };
@@ -21,22 +21,22 @@ struct SolvedDisc {
   double square_radius;
 };
 
-/// The fraction of a square radius beyond which a point counts as outside. If it were closer to 1 than the
-/// rounding of a circumcentre, pivoting would never end.
+/// The multiple of the squared radius beyond which a point counts as outside. If it were closer to 1 than the
+/// rounding of a circumcentre, pivoting might never end.
 constexpr double disc_slack = 1 + 1e-13;
-/// The most pivots of a disc. Each enlarges it, and ten suffice in practice. The last scan makes the answer
-/// safe even after these.
+/// The most pivots per disc. Each enlarges the disc, and ten suffice in practice. Even if pivoting ends early, the
+/// disc contains all points, because the last scan sets its radius.
 constexpr int max_disc_pivots = 100;
 
-/// Holds what EnclosingDiscs asks of an instruction set: plain pointers, because nothing of the standard library
-/// may be compiled for wide registers.
+/// Holds the arguments of the loops behind EnclosingDiscs: plain pointers, because no function of the standard
+/// library may be compiled for wide registers.
 struct DiscSets {
   const Vec2* points;
   const PointRange* sets;
-  const std::uint32_t* order;  ///< of the sets: by size
-  std::size_t small_count;     ///< so many of them have at most four points
+  const std::uint32_t* order;  ///< indices of the sets, ascending by size
+  std::size_t small_count;     ///< the number of sets of at most four points
   std::size_t count;
-  double* scratch;  ///< the largest set's points, disc_set_lanes times
+  double* scratch;  ///< memory for the points of the largest set, disc_set_lanes times
   SolvedDisc* discs;
 };
 

@@ -13,16 +13,16 @@
 
 namespace bch::detail {
 
-/// Finds the smallest enclosing discs of many sets at once, solved side by side. Keeps its memory.
+/// Finds the smallest enclosing discs of many sets at once, one set per SIMD lane. Reuses its memory.
 class EnclosingDiscs {
  public:
   /// Uses the best implementation that this processor supports.
   EnclosingDiscs() : EnclosingDiscs(best_build_implementation()) {}
-  /// Uses a given implementation, which this processor has to support.
+  /// Uses a given implementation, which this processor must support.
   explicit EnclosingDiscs(const BuildImplementation& implementation) : loops_(&implementation.loops) {}
 
-  /// Sets may overlap; none is empty. discs[i] is as smallest_enclosing_disc() would have it except for the
-  /// rounding of the centre.
+  /// Writes the smallest enclosing disc of sets[i] to discs[i], as smallest_enclosing_disc() finds it except for the
+  /// rounding of the centre. Sets may overlap; none is empty.
   void solve(std::span<const Vec2> points, std::span<const PointRange> sets, std::span<SolvedDisc> discs);
 
  private:

@@ -9,14 +9,14 @@
 
 namespace bch::detail {
 
-/// Returns at least the largest distance of a point from the origin.
+/// Returns the largest distance of a point from the origin, or slightly more.
 double reach(std::span<const Vec2> points);
 
 /// Returns the contour with the largest area, the first of several.
-/// Precondition: there is one.
+/// Precondition: there is a contour.
 std::span<const Vec2> largest_contour(const Outline& outline);
 
-/// Returns twice the area inside a contour, square metres; negative where it is clockwise.
+/// Returns twice the signed area of a contour, square metres; negative if it is clockwise.
 double twice_area(std::span<const Vec2> contour);
 
 }  // namespace bch::detail

@@ -178,7 +178,8 @@ void outer_radii(const ShapeArrays& a, LevelNodes& level) {
   const float* radii = floats + tree.discs + 2 * std::size_t{tree.stride};
   const float most = 2 * *std::max_element(radii, radii + tree.count);
   const auto good = [&](float outer, float radius) { return outer >= 0 && outer <= radius + most; };
-  if (!good(tree.outer, a.roots[level.root].radius)) reject("trees", level.root, "the outer radius is none");
+  if (!good(tree.outer_radius, a.roots[level.root].radius))
+    reject("trees", level.root, "the outer radius is none");
   if (tree.top >= leaf_window) return;
   for (std::uint64_t block = tree.top; block < level.discs; block += block_floats)
     for (std::uint32_t lane = 0; lane < block_width && floats[block + lane] < infinity; ++lane)

@@ -12,14 +12,14 @@
 
 namespace bch::detail {
 
-/// Adds a leaf's segments, one at least, to the words of `leaves` leaves; see shape_set_view.hpp.
+/// Adds the segments of a leaf, at least one, to the words of a tree with `leaves` leaves; see shape_set_view.hpp.
 void add_leaf(std::span<const std::uint32_t> segments, std::size_t leaf, std::size_t leaves,
               std::vector<std::uint32_t>& words);
 
-/// Returns the segments that a leaf's word names; none where there are too many of them.
+/// Returns the segments that a leaf's word names; empty if the leaf has more than max_leaf_segments.
 std::vector<std::uint32_t> segments_of(std::span<const std::uint32_t> words, std::size_t leaf);
 
-/// Returns the size of the words and lists of so many leaves, which begin with `words`.
+/// Returns the size of the words and lists of `leaves` leaves, which begin with `words`.
 std::size_t leaf_segments_size(std::span<const std::uint32_t> words, std::size_t leaves);
 
 }  // namespace bch::detail

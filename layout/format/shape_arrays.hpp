@@ -13,10 +13,10 @@
 
 namespace bch::detail {
 
-/// Holds the arrays of a shape set with their sizes, owned or not; ShapeSetView says what they hold. Each begins on
-/// a cache line.
+/// Holds the arrays of a shape set with their sizes, owned or not; ShapeSetView describes their content. Each array
+/// begins on a cache line.
 struct ShapeArrays {
-  std::span<const std::uint32_t> depths;  ///< cut depths, ascending: one a level, 1 to 255 of them
+  std::span<const std::uint32_t> depths;  ///< cut depths, ascending: one per level, 1 to 255 of them
   std::span<const Root> roots;
   std::span<const Tree> trees;
   std::span<const float> nodes, reach, support;
@@ -32,8 +32,8 @@ struct ShapeArrays {
   std::size_t shape_count() const noexcept { return depths.empty() ? 0 : roots.size() / depths.size(); }
 };
 
-/// Calls visit(name, array...) for each array of a set, in the order of a baked file, with that array of every one of `sets`:
-/// of ShapeArrays, or of anything else that has members of these names.
+/// Calls visit(name, array...) for each array of a set, in the order of a baked file, with the same array of all
+/// `sets`. These are ShapeArrays, or any type that has members of these names.
 template <class Visit, class... Sets>
 void for_each_array(Visit visit, Sets&... sets) {
   visit("depths", sets.depths...);

@@ -14,8 +14,8 @@
 #include "layout/format/shape_arrays.hpp"
 #include "layout/format/shape_preconditions.hpp"
 
-/// Contains the checks behind shape_preconditions(), and what they share. Each throws std::invalid_argument that names the array,
-/// the place in it and the value.
+/// Contains the checks behind shape_preconditions(), and what the checks share. Each check throws
+/// std::invalid_argument that names the array, the place in it and the value.
 namespace bch::detail::shape_checks {
 
 // These functions check the whole set: array_checks.cpp.
@@ -55,8 +55,8 @@ void inner_nodes(const ShapeArrays& a, LevelNodes& level);
 void nodes_of_blocks(const ShapeArrays& a, LevelNodes& level);
 void outer_radii(const ShapeArrays& a, LevelNodes& level);
 
-/// The limit of coordinates, radii and supports, metres: a few reaches, as supports and outer radii stick
-/// out.
+/// The limit of coordinates, radii and supports, metres: a few times the largest reach, because supports and outer
+/// radii exceed the reach.
 constexpr float largest_length = 1e7f;
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr std::uint32_t top_bit = 0x80000000;
@@ -64,8 +64,8 @@ constexpr std::uint32_t top_bit = 0x80000000;
 [[noreturn]] void reject(const char* array, std::size_t place, const std::string& what);
 void require_size(const char* array, std::uint64_t size, std::uint64_t expected);
 
-/// Sets the result's top bit for a float whose magnitude is above a positive limit, or that is negative or
-/// above it. Plain integer operations let loops over many floats become vectors; NaN is above everything.
+/// Sets the top bit of the result for floats whose magnitude is above a positive limit; negative_or_beyond() also for
+/// negative floats. Plain integer operations let loops over many floats vectorise; NaN is above every limit.
 inline std::uint32_t beyond(float value, float limit) {
   return std::bit_cast<std::uint32_t>(limit) - (std::bit_cast<std::uint32_t>(value) & 0x7fffffff);
 }
@@ -81,13 +81,13 @@ inline bool is_radius(float value) {
   return (negative_or_beyond(value, largest_length) & top_bit) == 0;
 }
 
-/// Returns all bits for padding, no bits for anything else.
+/// Returns all bits for padding, no bits for other values.
 inline std::uint32_t is_padding(float x) {
   return -static_cast<std::uint32_t>(std::bit_cast<std::uint32_t>(x) ==
                                      std::bit_cast<std::uint32_t>(infinity));
 }
 
-/// Calls `good` for each record and rejects the first that is not good. It returns early only where all are.
+/// Rejects the first record for which `good` returns false. All records are visited before that one is searched for.
 template <class Record, class Good>
 void require_all(const char* array, std::span<const Record> records, const char* what, Good good) {
   bool all = true;
@@ -98,7 +98,8 @@ void require_all(const char* array, std::span<const Record> records, const char*
   reject(array, static_cast<std::size_t>(found - records.begin()), what);
 }
 
-/// Requires discs, x, y and radius each in a run of its own, to be numbers. A disc at infinity is padding.
+/// Requires all discs, given as parallel arrays of x, y and radius, to have valid numbers. A disc at infinity is
+/// padding.
 inline void require_discs(const char* array, std::size_t place, const float* x, std::size_t count,
                           std::size_t stride) {
   const float *y = x + stride, *radius = x + 2 * stride;

@@ -12,42 +12,42 @@
 
 namespace bch::detail {
 
-/// Holds the windows that a level's nodes name, lane by lane. As signed numbers names of windows are negative, the first the
-/// least, and those of blocks are not.
+/// Holds, per lane of blocks, the windows that a level's nodes name. As signed integers, names of windows are
+/// negative, the first of them is the least, and names of blocks are not negative.
 struct NamedWindows {
   static constexpr std::int32_t none = 0;
   std::int32_t least[block_width], most[block_width];
   std::uint32_t count[block_width];
 };
 
-/// Holds the places of the nodes of one level of one shape. Checks of a level run in the order of
-/// shape_preconditions(); the first ones fill in what the later ones read.
+/// Holds the positions of the nodes of one level of one shape. The checks of a level run in the order of
+/// shape_preconditions(): the first ones fill in what later ones read.
 struct LevelNodes {
   std::size_t root;            ///< shape * level count + level
-  std::uint64_t begin;         ///< one past the level before
-  std::uint64_t discs = 0;     ///< where the cut's discs begin; blocks lie between the tree's top and here
-  std::uint64_t end = 0;       ///< one past the level
-  std::uint64_t segments = 0;  ///< one past what leaf_segments say of the levels before
+  std::uint64_t begin;         ///< the end of the level before
+  std::uint64_t discs = 0;     ///< where the cut's discs begin, after the blocks
+  std::uint64_t end = 0;       ///< the end of the level
+  std::uint64_t segments = 0;  ///< the end of the leaf_segments of the levels before
   NamedWindows windows{};
 
-  /// Represents an inner node, by its place among them, and the disc of its first child.
+  /// Represents a pending inner node, by its index, and the disc of its first child.
   struct OpenNode {
     std::uint32_t node;
     Disc first_child;
   };
-  std::vector<OpenNode> open_nodes;  ///< of the check of inner nodes, kept from level to level
+  std::vector<OpenNode> open_nodes;  ///< memory of the check of inner nodes, reused for each level
 };
 
-/// Represents one thing that queries take for granted of the arrays of a set. Each is checked by one function: of the whole set, or
-/// of one level after the other.
+/// Describes one assumption of queries about the arrays of a set. One function checks it: for the whole set, or for
+/// each level.
 struct Precondition {
   const char* name;
   const char* says;
-  void (*check_set)(const ShapeArrays&);                 ///< throws as validate(); null: see the next
-  void (*check_level)(const ShapeArrays&, LevelNodes&);  ///< the same; null: see the one before
+  void (*check_set)(const ShapeArrays&);                 ///< throws as validate(); null if check_level is set
+  void (*check_level)(const ShapeArrays&, LevelNodes&);  ///< throws as validate(); null if check_set is set
 };
 
-/// Returns all that validate() checks, in that order: every check may rely on the ones before it.
+/// Returns all checks of validate(), in order: each may rely on the ones before it.
 std::span<const Precondition> shape_preconditions() noexcept;
 
 }  // namespace bch::detail

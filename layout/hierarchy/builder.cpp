@@ -160,9 +160,9 @@ void HierarchyBuilder::grow(bool through_centre, std::uint32_t deepest) {
   order_.resize(count);
   scratch_.resize(std::max(scratch_.size(), 2 * count));
   first_node_.resize(std::max(first_node_.size(), count));
-  open_.resize(std::max(open_.size(), count + 1));
+  pending_.resize(std::max(pending_.size(), count + 1));
   std::iota(order_.begin(), order_.end(), 0);
-  Open* top = open_.data();
+  PendingNode* top = pending_.data();
   *top++ = {0,
             static_cast<std::uint32_t>(count),
             order_.data(),
@@ -170,10 +170,10 @@ void HierarchyBuilder::grow(bool through_centre, std::uint32_t deepest) {
             none,
             deepest,
             measure(items_, order_)};
-  while (top != open_.data()) {
+  while (top != pending_.data()) {
     const std::uint32_t node = node_count_;
     if (!add_node(*--top)) continue;
-    const Open now = *top;
+    const PendingNode now = *top;
     std::uint32_t* const first = order_.data() + now.begin;
     const std::uint32_t below = now.below - 1;
     if (now.end - now.begin == 2 && threshold_ > 0) {
@@ -186,7 +186,7 @@ void HierarchyBuilder::grow(bool through_centre, std::uint32_t deepest) {
     const std::size_t first_size = divide(items_, now.items(), now.measure, through_centre, first,
                                           now.scratch, top[1].measure, top[0].measure);
     const std::uint32_t middle = now.begin + static_cast<std::uint32_t>(first_size);
-    const auto set = [&](Open& child, std::uint32_t begin, std::uint32_t end, std::uint32_t* list,
+    const auto set = [&](PendingNode& child, std::uint32_t begin, std::uint32_t end, std::uint32_t* list,
                          std::uint32_t* scratch) {
       child.begin = begin, child.end = end, child.list = list, child.scratch = scratch;
       child.parent = node, child.below = below;
@@ -200,20 +200,21 @@ void HierarchyBuilder::grow(bool through_centre, std::uint32_t deepest) {
 }
 
 /// Adds a node. Returns false for a leaf and for a node that is complete already.
-bool HierarchyBuilder::add_node(const Open& open) {
-  if (open.parent != none && open.parent + 1 != node_count_) nodes_[open.parent].second_child = node_count_;
-  const ItemList items = open.items();
+bool HierarchyBuilder::add_node(const PendingNode& pending) {
+  if (pending.parent != none && pending.parent + 1 != node_count_)
+    nodes_[pending.parent].second_child = node_count_;
+  const ItemList items = pending.items();
   if (items.size() == 1 && threshold_ > 0) {
-    order_[open.begin] = items[0];
-    add_lone_segment(open.begin, open.below);
+    order_[pending.begin] = items[0];
+    add_lone_segment(pending.begin, pending.below);
     return false;
   }
   const std::uint32_t node = add_node();
-  unsolved_.push_back({node, open.begin, open.end});
-  if (items.size() > 1 && open.below > 0 && !is_leaf(items, open.measure)) return true;
+  unsolved_.push_back({node, pending.begin, pending.end});
+  if (items.size() > 1 && pending.below > 0 && !is_leaf(items, pending.measure)) return true;
   for (std::size_t k = 0; k < items.size(); ++k) {
-    order_[open.begin + k] = items[k];
-    first_node_[open.begin + k] = node;
+    order_[pending.begin + k] = items[k];
+    first_node_[pending.begin + k] = node;
   }
   return false;
 }

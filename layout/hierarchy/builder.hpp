@@ -18,54 +18,57 @@
 
 namespace bch::detail {
 
-/// Builds one hierarchy after the other and reuses its memory and theirs: once both have seen the largest,
-/// nothing is allocated. Not for two threads at a time.
+/// Builds one hierarchy after the other, reusing its own memory and that of the hierarchies: nothing is allocated
+/// once both have had the largest size. One thread at a time may use an object.
 class HierarchyBuilder {
  public:
   HierarchyBuilder() = default;
-  /// Uses a given implementation of the discs, which this processor has to support.
+  /// Uses a given implementation of the discs, which this processor must support.
   explicit HierarchyBuilder(const BuildImplementation& implementation) : solver_(implementation) {}
 
-  /// Sets the largest number of nodes of a hierarchy, 2^22 by default: more throw std::length_error.
-  void limit_nodes(std::size_t most) noexcept { max_nodes_ = most; }
+  /// Sets the largest number of nodes of a hierarchy, 2^22 by default. A hierarchy of more nodes throws
+  /// std::length_error.
+  void limit_nodes(std::size_t max) noexcept { max_nodes_ = max; }
 
-  /// Builds the hierarchy that contour_hierarchy() documents, without primitives. After an exception the
-  /// hierarchy has no nodes. `deepest`: nodes at this depth are leaves; cuts down to there are the same.
+  /// Builds the hierarchy that contour_hierarchy() documents, without primitives. Nodes at depth `deepest` are
+  /// leaves; this does not change cuts at smaller depths. After an exception the hierarchy has no nodes.
   void contour(const Outline& outline, float threshold, SplitRule rule, Hierarchy& hierarchy,
                std::uint32_t deepest = all_depths);
 
-  /// Makes the root of contour() alone, for an outline with these points on its convex hull and no others there
-  /// that decide the disc around it or its reach. After an exception the hierarchy has no nodes.
-  /// Errors:  throws std::invalid_argument on no points or a reach outside rounding.hpp's domain.
+  /// Makes only the root of contour(). `points` has all points of the outline on its convex hull that decide its
+  /// reach or the disc around it. After an exception the hierarchy has no nodes.
+  /// Errors:  throws std::invalid_argument if there are no points or the reach is outside the domain of rounding.hpp.
   void root(std::span<const Vec2> points, float grid_step, Hierarchy& hierarchy);
 
-  /// Builds the hierarchy that projected_hierarchy() documents, without primitives. After an exception the
-  /// hierarchy has no nodes.
+  /// Builds the hierarchy that projected_hierarchy() documents, without primitives. After an exception the hierarchy
+  /// has no nodes.
   void projected(std::span<const Vec2> vertices, std::span<const std::array<std::uint32_t, 3>> triangles,
                  Hierarchy& hierarchy);
 
-  /// Fills in the primitives of the hierarchy that contour() or projected() made last: this builder's last call.
+  /// Fills in the primitives of the hierarchy that contour() or projected() made in the last call of this builder.
   void add_primitives(Hierarchy& hierarchy) const;
 
  private:
-  /// Represents a node still to be made: a range of the order. Its items are listed there, or, of a second child, in the scratch.
-  struct Open {
+  /// Represents a node to be made: a range of the order. Its items are listed in the order or, for a second child, in
+  /// the scratch.
+  struct PendingNode {
     std::uint32_t begin, end;
     std::uint32_t* list;
-    std::uint32_t* scratch;  ///< room for a second side: behind the lists that wait, or the list's own
+    std::uint32_t*
+        scratch;  ///< memory for the second side of a split: after the lists of pending nodes, or the list itself
     std::uint32_t parent;
-    std::uint32_t below;  ///< levels that may follow
+    std::uint32_t below;  ///< the number of levels allowed below
     SplitMeasure measure;
 
     ItemList items() const { return {list, end - begin}; }
   };
-  /// Holds what remains of a segment on its way down: the half from a node's centre to this end.
+  /// Holds the part of a halved segment that is still to be made: the half from the centre of `node` to `end`.
   struct Half {
     std::uint32_t node;
     std::uint32_t below;
     Vec2 end;
   };
-  /// Represents a node of several items, whose disc is solved once the order of all items is final.
+  /// Represents a node of several items whose disc is computed once the order of all items is final.
   struct Unsolved {
     std::uint32_t node;
     std::uint32_t begin, end;  ///< of the order
@@ -73,7 +76,7 @@ class HierarchyBuilder {
 
   void begin(double reach, double margin, double threshold, std::size_t items);
   void grow(bool through_centre, std::uint32_t deepest);
-  bool add_node(const Open& open);
+  bool add_node(const PendingNode& pending);
   void add_lone_segment(std::uint32_t at, std::uint32_t below);
   void add_halves(Vec2 a, Vec2 b, std::uint32_t below);
   std::uint32_t add_node();
@@ -88,24 +91,23 @@ class HierarchyBuilder {
                   Hierarchy& hierarchy) const;
 
   double margin_ = 0, threshold_ = 0;
-  double sure_square_diagonal_ = 0;   ///< a node whose box has a shorter one is a leaf
-  double longest_square_length_ = 0;  ///< of a segment that is not halved
+  double sure_square_diagonal_ = 0;   ///< a node whose box has a shorter diagonal is surely a leaf
+  double longest_square_length_ = 0;  ///< longer segments are halved
 
   SplitItems items_;
   std::vector<std::uint32_t> order_, scratch_;
-  std::vector<Open> open_;
+  std::vector<PendingNode> pending_;
   EvenHalves even_halves_;
-  std::array<Half, 256> halves_;  ///< lengths span fewer binary orders of magnitude
+  std::array<Half, 256> halves_;  ///< more than the halvings between any two lengths of float
 
   std::uint32_t node_count_ = 0;
   std::size_t max_nodes_ = std::size_t{1} << 22;
   std::vector<Hierarchy::Node> nodes_;
   std::vector<std::uint32_t>
-      first_node_;  ///< per item of the order: a leaf that holds it, or of its pieces' nodes
+      first_node_;  ///< per item of the order: its leaf, or the first node of its pieces
   std::vector<Unsolved> unsolved_;
 
-  /// The points of the gathered items, in order. A point that ends one item and begins the next is stored
-  /// once.
+  /// The points of the gathered items, in order. If one item ends where the next begins, that point is stored once.
   std::vector<Vec2> points_;
   std::uint32_t point_count_ = 0;
   std::vector<std::uint32_t> first_point_, last_point_;  ///< per gathered item

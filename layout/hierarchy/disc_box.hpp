@@ -14,7 +14,7 @@ inline double length(double x, double y) noexcept {
   return std::sqrt(x * x + y * y);
 }
 
-/// Holds the smallest box with sides along the axes that holds discs.
+/// Represents the smallest axis-aligned box around discs.
 struct DiscBox {
   double low_x = HUGE_VAL, low_y = HUGE_VAL, high_x = -HUGE_VAL, high_y = -HUGE_VAL;
 

@@ -9,7 +9,7 @@
 
 namespace bch::detail {
 
-/// Builds the hierarchy of shape_from_discs(), with its errors. The leaves have the order of the discs.
+/// Builds the hierarchy of shape_from_discs(), with the same errors. The leaves are in the order of the discs.
 Hierarchy disc_hierarchy(std::span<const Disc> discs);
 
 }  // namespace bch::detail

@@ -11,10 +11,11 @@
 
 namespace bch::detail {
 
-/// Computes the radii of published discs from the squares of the smallest: enlarged by a margin and rounded up.
+/// Computes the published radii of discs from the squared radii of the smallest discs: enlarged by a margin and
+/// rounded up.
 class OutwardRadii {
  public:
-  /// Takes the margin that is added to radii, in metres.
+  /// Takes the margin that is added to radii, metres.
   explicit OutwardRadii(double margin) : margin_(margin) {}
 
   void write(double square, Hierarchy::Node& node) const {

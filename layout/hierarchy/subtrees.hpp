@@ -11,11 +11,11 @@
 
 namespace bch::detail {
 
-/// Returns per node the least radius about its disc's centre that holds the discs of all nodes below, rounded up: what a search
-/// for the nearest discs of the binary tree may prune by. A leaf's is its disc's.
+/// Returns, per node, the least radius about its disc's centre that encloses the discs of all its descendants,
+/// rounded up. A search for nearest discs can prune by it. For a leaf it is the radius of its disc.
 std::vector<float> bounding_radii(const Hierarchy& hierarchy);
 
-/// Returns one past the last node of the subtree under each node.
+/// Returns, per node, the index after the last node of its subtree.
 std::vector<std::uint32_t> subtree_ends(std::span<const Hierarchy::Node> nodes);
 
 }  // namespace bch::detail

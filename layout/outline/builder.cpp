@@ -60,9 +60,9 @@ struct OutlineBuilder::State {
         points(topology.used.size()),
         candidates(topology, implementation.loops.outline),
         walk(implementation.loops.outline) {
-    const std::size_t islands = topology.island_vertex.size();
-    leftmost.reserve(islands), outside.reserve(islands), places.reserve(islands);
-    later.reserve(islands);
+    const std::size_t components = topology.component_vertex.size();
+    leftmost.reserve(components), outside.reserve(components), places.reserve(components);
+    later.reserve(components);
   }
 
   template <class Position>
@@ -88,10 +88,10 @@ struct OutlineBuilder::State {
   OutlineWalk walk;
   std::vector<Stretch> stretches;
   std::vector<std::size_t> contour_begin;
-  std::vector<std::uint32_t> outside;  ///< islands to walk around, unless they touch each other
-  std::vector<GridPoint> leftmost;     ///< of an island's candidates
-  std::vector<GridPoint> places;       ///< where outside's islands begin
-  ContourCovers covers;                ///< of all contours, where any island is outside the first
+  std::vector<std::uint32_t> outside;  ///< components to walk around, unless they touch each other
+  std::vector<GridPoint> leftmost;     ///< of a component's candidates
+  std::vector<GridPoint> places;       ///< where outside's components begin
+  ContourCovers covers;                ///< of all contours, where any component is outside the first
   ContourIndex later;                  ///< over all but the first
 };
 
@@ -108,7 +108,7 @@ void OutlineBuilder::State::build(std::span<const Position> positions, Outline& 
   write(step, outline);
 }
 
-/// Finds all contours. An island is connected and no contour crosses it, so unless a contour has come along
+/// Finds all contours. A component is connected and no contour crosses it, so unless a contour has come along
 /// it, it is as a whole inside or outside, and any of its points tells. Of pieces that touch, the one with
 /// the leftmost vertex comes first.
 void OutlineBuilder::State::walk_all() {
@@ -123,7 +123,7 @@ void OutlineBuilder::State::walk_all() {
 
 void OutlineBuilder::State::walk_outside() {
   places.clear();
-  for (const std::uint32_t island : outside) places.push_back(leftmost[island]);
+  for (const std::uint32_t component : outside) places.push_back(leftmost[component]);
   later.begin(places);
   for (std::size_t i = 0; i < outside.size(); ++i) {
     if (walk.touched(outside[i]) || is_in_later_contour(places[i])) continue;
@@ -134,27 +134,28 @@ void OutlineBuilder::State::walk_outside() {
   }
 }
 
-/// Fills outside, in the order of the islands' leftmost vertices.
+/// Fills outside, in the order of the components' leftmost vertices.
 void OutlineBuilder::State::find_outside() {
   outside.clear();
-  const std::span<const GridPoint> island_points = list.island_points();
-  for (std::uint32_t island = 0; island < island_points.size(); ++island)
-    if (!walk.touched(island)) outside.push_back(island);
+  const std::span<const GridPoint> component_points = list.component_points();
+  for (std::uint32_t component = 0; component < component_points.size(); ++component)
+    if (!walk.touched(component)) outside.push_back(component);
   if (outside.empty()) return;
   covers.clear();
   covers.add(contour(0));
-  std::erase_if(outside,
-                [&](std::uint32_t island) { return covers.covers(0, contour(0), island_points[island]); });
+  std::erase_if(outside, [&](std::uint32_t component) {
+    return covers.covers(0, contour(0), component_points[component]);
+  });
   if (outside.empty()) return;
 
-  leftmost.assign(island_points.size(), beyond);
+  leftmost.assign(component_points.size(), beyond);
   const std::span<const Segment> segments = list.segments();
   for (std::size_t i = 0; i < segments.size(); ++i) {
-    GridPoint& first = leftmost[list.island(i)];
+    GridPoint& first = leftmost[list.component(i)];
     first = first_of(first, first_of(segments[i].a, segments[i].b));
   }
-  // Islands without candidates are points, or see other islands named for the edges they share.
-  std::erase_if(outside, [&](std::uint32_t island) { return leftmost[island] == beyond; });
+  // Components without candidates are points, or see other components named for the edges they share.
+  std::erase_if(outside, [&](std::uint32_t component) { return leftmost[component] == beyond; });
   std::sort(outside.begin(), outside.end(), [&](std::uint32_t a, std::uint32_t b) {
     return lexicographically_less(leftmost[a], leftmost[b]);
   });

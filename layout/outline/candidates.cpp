@@ -39,13 +39,13 @@ int sides_of(const OutlineTopology::EdgeUse& use, int side) {
 void CandidateList::begin(std::size_t capacity) {
   count_ = 0;
   if (segments_.size() >= capacity + boxes_per_block) return;
-  islands_.resize(capacity + boxes_per_block);
+  components_.resize(capacity + boxes_per_block);
   boxes_.reserve(capacity + boxes_per_block);
   segments_.resize(capacity + boxes_per_block);  // the last one, which tells that the others have room
 }
 
-void CandidateList::finish(std::span<const GridPoint> island_points) {
-  island_points_.assign(island_points.begin(), island_points.end());
+void CandidateList::finish(std::span<const GridPoint> component_points) {
+  component_points_.assign(component_points.begin(), component_points.end());
   if (count_ == 0) return;
   std::fill_n(segments_.begin() + static_cast<std::ptrdiff_t>(count_), boxes_per_block - 1,
               segments_[count_ - 1]);
@@ -72,13 +72,13 @@ void OutlineCandidates::find(const OutlineTopology& topology, std::span<const Gr
   list.begin(topology.manifold.size() + topology.uses.size());
   for (const std::uint32_t e : choose(topology)) {
     const auto& [a, b] = topology.manifold[e];
-    list.add(points[a], points[b], topology.island[a]);
+    list.add(points[a], points[b], topology.component[a]);
   }
   for (std::size_t e = 0; e < topology.edges_of_uses(); ++e)
     add_uses(points, topology.uses_of(e), topology, list);
-  island_points_.clear();
-  for (const std::uint32_t v : topology.island_vertex) island_points_.push_back(points[v]);
-  list.finish(island_points_);
+  component_points_.clear();
+  for (const std::uint32_t v : topology.component_vertex) component_points_.push_back(points[v]);
+  list.finish(component_points_);
 }
 
 /// Adds an edge's uses. If welded vertices are apart, each use is an edge of its own.
@@ -90,7 +90,9 @@ void OutlineCandidates::add_uses(std::span<const GridPoint> points, EdgeUses use
     together &= points[use.a] == points[uses[0].a] && points[use.b] == points[uses[0].b];
     sides |= sides_of(use, sides_[use.triangle]);
   }
-  const auto add = [&](const auto& use) { list.add(points[use.a], points[use.b], topology.island[use.a]); };
+  const auto add = [&](const auto& use) {
+    list.add(points[use.a], points[use.b], topology.component[use.a]);
+  };
   if (!together) {
     for (const auto& use : uses) add(use);
   } else if (sides != (counter_clockwise | clockwise)) {

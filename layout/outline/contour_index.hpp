@@ -12,30 +12,30 @@
 
 namespace bch::detail {
 
-/// Represents an index over contours by their boxes, which finds those that may cover a point. Where contours can begin has to be
-/// known beforehand: a binary tree over these places takes in a contour, and finds those about a point, in time
-/// logarithmic in their number as long as few boxes overlap. Keeps its memory.
+/// Finds the contours that may contain a point: a binary tree over the boxes of contours. The places where contours
+/// can begin are given beforehand and become the leaves. Adding a contour and finding the contours around a point
+/// take time logarithmic in the number of places, as long as few boxes overlap. Reuses its memory.
 class ContourIndex {
  public:
-  /// Reserves room for so many places, so that begin() allocates nothing.
+  /// Reserves memory for this many places, so that begin() allocates nothing.
   void reserve(std::size_t places);
 
-  /// Forgets all contours. Contours added from now on begin in these places.
+  /// Removes all contours. Contours added from now on begin at one of these places.
   void begin(std::span<const GridPoint> places);
 
-  /// Adds a contour that begins in that place, by its number and a box around it.
+  /// Adds a contour by the index of the place where it begins, its number and a box around it.
   void add(std::size_t place, std::size_t contour, const GridBox& box);
 
-  /// Returns whether `accept`, a function of a contour's number, accepts a contour whose box holds the point.
+  /// Calls accept(number) for contours whose box contains the point until one is accepted. Returns whether one was.
   template <class Accept>
   bool any(GridPoint point, Accept accept) const {
-    std::size_t open[max_open], count = 0;
-    if (!boxes_.empty()) open[count++] = root;
+    std::size_t pending[max_pending], count = 0;
+    if (!boxes_.empty()) pending[count++] = root;
     while (count > 0) {
-      const std::size_t node = open[--count];
+      const std::size_t node = pending[--count];
       if (!boxes_[node].holds(point)) continue;
       if (node < leaves_)
-        open[count++] = 2 * node, open[count++] = 2 * node + 1;
+        pending[count++] = 2 * node, pending[count++] = 2 * node + 1;
       else if (accept(contour_[node - leaves_]))
         return true;
     }
@@ -43,11 +43,10 @@ class ContourIndex {
   }
 
  private:
-  /// The number of the root. A node's children are at twice its number and the next one.
+  /// The root. The children of node i are 2 i and 2 i + 1.
   static constexpr std::size_t root = 1;
-  /// The most nodes that wait: one of each level and both of the last. A tree has fewer levels than a number
-  /// has bits.
-  static constexpr std::size_t max_open = 65;
+  /// The most pending nodes: one per level and two of the last. A tree has fewer levels than std::size_t has bits.
+  static constexpr std::size_t max_pending = 65;
 
   struct Place {
     std::uint64_t along_curve;
@@ -56,9 +55,9 @@ class ContourIndex {
 
   std::size_t leaves_ = 0;
   std::vector<Place> sorted_;
-  std::vector<std::uint32_t> leaf_;   ///< of each place
-  std::vector<GridBox> boxes_;        ///< of node i, which holds nothing at first; leaves from leaves_ on
-  std::vector<std::size_t> contour_;  ///< of each leaf
+  std::vector<std::uint32_t> leaf_;   ///< per place
+  std::vector<GridBox> boxes_;        ///< per node, at first empty_box; leaves begin at leaves_
+  std::vector<std::size_t> contour_;  ///< per leaf
 };
 
 }  // namespace bch::detail

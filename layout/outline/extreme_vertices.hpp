@@ -14,24 +14,24 @@
 
 namespace bch::detail {
 
-/// Finds the few vertices of a mesh, in pose after pose, that decide the single disc around it and its reach:
-/// corners of its convex hull, which need no outline. They are snapped to the grid of outlines
-/// (outline_builder.hpp), so that the disc around them is the disc around the outline. It may differ in two
-/// ways only: a whole triangle seen as a point counts here, and a crossing on the hull is rounded beyond it
-/// there, both within the grid's share of a disc's margin.
+/// Finds the few vertices of a mesh, in pose after pose, that decide its reach and the smallest disc around it:
+/// corners of its convex hull, for which no outline is needed. The vertices are snapped to the grid of outlines
+/// (outline_builder.hpp), so that the disc around them is the disc around the outline. There are two exceptions, both
+/// within the part of a disc's margin that belongs to the grid: triangles seen as a point count here, and in an
+/// outline a crossing on the hull may be rounded to outside the hull.
 class ExtremeVertices {
  public:
-  /// Takes the triangles of all poses.
-  /// Shapes:  triangle indices are below `vertices`, and there is a triangle.
+  /// Takes the triangles, which are the same in all poses.
+  /// Shapes:  there is a triangle; triangle indices are below `vertices`.
   ExtremeVertices(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices);
 
-  /// Finds those of a pose. Allocates nothing once a pose had the most of them.
+  /// Finds the vertices of a pose. Allocates nothing once the pose with the most of them has been processed.
   /// Units:   metres; the ground is x-y.
-  /// Errors:  throws std::invalid_argument on a coordinate that is not finite or a reach outside the domain of
+  /// Errors:  throws std::invalid_argument if a coordinate is not finite or the reach is outside the domain of
   ///          rounding.hpp.
   void find(std::span<const Vec2> positions);
 
-  std::span<const Vec2> points() const { return points_; }  ///< one at least
+  std::span<const Vec2> points() const { return points_; }  ///< at least one
   float grid_step() const { return static_cast<float>(step_); }
 
  private:
@@ -39,8 +39,8 @@ class ExtremeVertices {
   void keep(float from_middle, float from_origin);
 
   std::vector<std::uint32_t> used_;
-  std::vector<GridPoint> grid_;  ///< up to whole blocks filled with the last vertex
-  /// The squares of the vertices' distances, in steps of the grid.
+  std::vector<GridPoint> grid_;  ///< padded by the last vertex to whole blocks
+  /// The squared distances of the vertices, in grid steps.
   std::vector<float> from_origin_, from_middle_;
   std::vector<Vec2> points_;
   double step_ = 0;

@@ -18,7 +18,7 @@ struct GridBox {
   bool holds(GridPoint p) const { return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y; }
 };
 
-/// A box without a point, which any other one enlarges to itself.
+/// The empty box. Enlarged by another box it becomes that box.
 constexpr GridBox empty_box{
     {std::numeric_limits<std::int32_t>::max(), std::numeric_limits<std::int32_t>::max()},
     {std::numeric_limits<std::int32_t>::min(), std::numeric_limits<std::int32_t>::min()}};

@@ -12,13 +12,14 @@
 
 namespace bch::detail {
 
-/// Rounds the named vertices, seen from above, to a grid of 2^-23 of the power of two above the largest
-/// coordinate: points[i] belongs to vertex used[i], and no coordinate exceeds 2^23. Returns the grid's step in
-/// metres, a power of two. So small a grid costs nothing that float had not lost at the largest coordinate, and
-/// floats hold every grid point exactly.
-/// Preconditions: used is not empty and in increasing order; its values are below positions.size(); points is as long as used.
-/// Errors:  throws std::invalid_argument on a coordinate that is not finite or a largest one outside the
-///          domain of rounding.hpp.
+/// Rounds the vertices `used`, seen from above, to a grid whose step is 2^-23 times the power of two above the
+/// largest coordinate. points[i] belongs to vertex used[i], and no coordinate exceeds 2^23 steps, so floats represent
+/// every grid point exactly. At the largest coordinate, the grid is as fine as float itself.
+/// Returns: the grid's step in metres, a power of two.
+/// Preconditions: `used` is not empty and ascends; its values are below positions.size(); points.size() ==
+///          used.size().
+/// Errors:  throws std::invalid_argument if a coordinate is not finite or the largest is outside the domain of
+///          rounding.hpp.
 double snap_to_grid(std::span<const Vec2> positions, std::span<const std::uint32_t> used,
                     std::span<GridPoint> points);
 double snap_to_grid(std::span<const Vec3> positions, std::span<const std::uint32_t> used,

@@ -11,16 +11,17 @@
 
 namespace bch::detail {
 
-/// Implements the two loops of an outline that take most of its time, several triangles or segments a register.
-/// What an outline is made of is exact (grid_geometry.hpp), so that every instruction set gives the same bits; the
-/// quotient is rounded correctly on each.
+/// Implements the two loops that take most of the time of an outline, several triangles or segments per register.
+/// Everything that decides an outline is exact (grid_geometry.hpp) and the quotient is correctly rounded, so every
+/// instruction set gives the same bits.
 template <class Simd>
 class OutlineLanes {
  public:
-  /// Finds which way the corners of triangles go round: bit 0 for counter-clockwise, bit 1 for clockwise, none where
-  /// they are on a line, or so close to one that it is left open. `count` is a multiple of triangles_together.
-  /// A turn's two terms are products of differences, which floats hold, rounded to floats. Rounding keeps order, so the
-  /// larger one is; where they are then equal, it is left open. Exact products take as long, because the loads decide.
+  /// Finds the orientation of triangles: bit 0 for counter-clockwise, bit 1 for clockwise, neither for corners on a
+  /// line or too close to one to tell. `count` is a multiple of triangles_together. The orientation is the sign of a
+  /// difference of two products. Float represents their factors exactly, and rounding a product keeps order: if the
+  /// rounded products differ, so do the exact ones, in the same order. Exact products would take as long, because
+  /// loads dominate.
   static void find_sides(const std::uint32_t* corners, std::size_t count, const GridPoint* points,
                          std::uint8_t* sides) noexcept {
     static_assert(triangles_together % Simd::width == 0);
@@ -45,18 +46,20 @@ class OutlineLanes {
     }
   }
 
-  /// Finds the candidates whose boxes meet that of the searched line, and tests them.
-  /// Returns: how many are near.
+  /// Finds the candidates whose boxes meet the box of the searched line, and tests them.
+  /// Returns: the number of these candidates.
   static std::size_t find_near(const SegmentSearch& job, const SearchedLine& searched) noexcept {
     const std::size_t count = find_meeting(job, searched);
     test_near(job, searched, count);
     return count;
   }
 
-  /// Says of each of `count` candidates that stand in job.near whether its line crosses the searched line from left to right further on than searched.at (or equally far, as far as doubles tell) and before its end,
-  /// and whether it touches its end. With O the start of the searched line, D its direction and (a, b) the candidate:
-  /// side_a = D x (a - O), side_b = D x (b - O); their difference is the denominator, `along` the numerator
-  /// and `at` the quotient of where on it the candidate is crossed. Numbers that fill a register follow those in job.near.
+  /// Tests the first `count` candidates of job.near against the searched line. A bit of job.crossing says that the
+  /// candidate crosses it from left to right, before its end and not before searched.at (as far as doubles tell); a
+  /// bit of job.ending says that the candidate touches its end. With O the start of the searched line, D its
+  /// direction and (a, b) the candidate: side_a = D x (a - O), side_b = D x (b - O). The fraction of the searched
+  /// line at the crossing has the magnitude of side_a - side_b as denominator; job.along is the numerator, job.at the
+  /// quotient. Candidates that fill up a register follow those in job.near.
   static void test_near(const SegmentSearch& job, const SearchedLine& searched, std::size_t count) noexcept {
     const Line line(searched);
     for (std::size_t word = 0, i = 0; i < count; ++word) {
@@ -92,7 +95,7 @@ class OutlineLanes {
     explicit Box(const SearchedLine& searched) noexcept
         : min_x(searched.min_x), min_y(searched.min_y), max_x(searched.max_x), max_y(searched.max_y) {}
 
-    /// Returns the bits of a block's boxes that it meets.
+    /// Returns a bit for each box of a block that this box meets.
     std::uint32_t meets(const BoxBlock& block) const noexcept {
       std::uint32_t apart = 0;
       for (std::size_t i = 0; i < boxes_per_block; i += Cells::size)
@@ -105,9 +108,9 @@ class OutlineLanes {
     }
   };
 
-  /// Writes the segments whose boxes meet that of the searched line, and zeros to fill a register: one candidate more, or
-  /// one twice, does no harm.
-  /// Returns: how many.
+  /// Writes the segments whose boxes meet the box of the searched line, padded by zeros to a whole register:
+  /// additional or repeated candidates do no harm.
+  /// Returns: the number of segments without padding.
   static std::size_t find_meeting(const SegmentSearch& job, const SearchedLine& searched) noexcept {
     const Box box(searched);
     std::uint32_t* end = job.near;
@@ -125,8 +128,8 @@ class OutlineLanes {
     return static_cast<std::size_t>(end - job.near);
   }
 
-  /// Appends the numbers of a block's boxes whose bits are set, counted from `first`. How many there are is
-  /// hard to predict, so a few are written in any case; what is not a number is overwritten by the next.
+  /// Appends the numbers, counted from `first`, of the boxes of a block whose bits are set. Their count is hard to
+  /// predict, so a few numbers are always written; surplus ones are overwritten by the next call.
   static std::uint32_t* append(std::uint32_t open, std::size_t first, std::uint32_t* end) noexcept {
     constexpr std::size_t written_in_any_case = 3;
     constexpr std::uint64_t none = std::uint64_t{1} << 63;

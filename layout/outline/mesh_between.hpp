@@ -12,18 +12,19 @@
 
 namespace bch::detail {
 
-/// Returns what of a mesh lies between two heights, as triangles of their own. Infinite heights cut nothing.
+/// Returns the part of a mesh between two heights, as separate triangles. Infinite heights clip nothing.
 ///
-/// A cut lies half a float step above the number that names it. So no vertex lies in it, and a point that two meshes share lies on the
-/// same side of it in both. A triangle that is cut becomes the fan about a corner of what is left of it. New corners are computed
-/// in double from an edge's lower end to its upper one, the same for every triangle at the edge, and then rounded to float.
-/// Precondition: triangles name positions.
-/// Errors:  throws std::invalid_argument, naming the vertex of a triangle, on a coordinate that is not finite.
+/// A clipping plane lies half a float step above the given height, so no vertex lies on it, and a point that two
+/// meshes share is on the same side in both. The part of a clipped triangle that remains becomes a fan about one of
+/// its corners. New corners are computed in double from the lower end of an edge to the upper, in the same way for
+/// every triangle at the edge, and then rounded to float.
+/// Precondition: triangle indices are below positions.size().
+/// Errors:  throws std::invalid_argument, naming the vertex of a triangle, if a coordinate is not finite.
 std::vector<std::array<Vec3, 3>> mesh_between(std::span<const Vec3> positions,
                                               std::span<const std::array<std::uint32_t, 3>> triangles,
                                               const Heights& heights);
 
-/// Returns the height at which a number cuts: between it and the next float.
+/// Returns the height of the clipping plane for a given height: between it and the next float.
 double height_of_cut(float number);
 
 }  // namespace bch::detail

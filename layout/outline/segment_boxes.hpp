@@ -10,20 +10,21 @@
 
 namespace bch::detail {
 
-/// Holds the boxes around segments, 16 to a block, and around blocks, 16 to a group. The order of the segments
-/// makes the blocks: neighbours should be near each other.
+/// Holds the boxes around segments, 16 per block, and the boxes around blocks, 16 per group. Blocks follow the order
+/// of the segments, so neighbouring segments should be near each other.
 class SegmentBoxes {
  public:
-  /// Reserves room for that many segments, so that assign() allocates nothing.
+  /// Reserves memory for this many segments, so that assign() allocates nothing.
   void reserve(std::size_t segments);
 
-  /// Builds the boxes of segments, which are followed by copies of the last one, up to a whole block.
+  /// Builds the boxes of segments. Copies of the last segment must follow them, up to a whole block.
   void assign(const Segment* segments, std::size_t count);
 
-  /// Returns the segments' lexicographically smallest end: only blocks that reach the first column of cells have it.
+  /// Returns the lexicographically smallest end of all segments. Only blocks that reach the first column of cells can
+  /// have it.
   GridPoint first_end(const Segment* segments) const;
 
-  /// Sets where the search finds the boxes, until the next assign().
+  /// Sets the pointers of a search to these boxes, valid until the next assign().
   void describe(SegmentSearch& search) const;
 
  private:

@@ -13,30 +13,31 @@
 
 namespace bch::detail {
 
-/// Represents a point between points of the grid, in steps.
+/// Represents a point that need not be on the grid, in grid steps.
 struct GridPlace {
   double x, y;
 };
 
-/// Represents a binary tree over segments, for so many of them that SegmentBoxes's two levels would be slow. A node has a box and a
-/// slab around its segments, the latter along its longest segment: parallel segments close to each other are long and
-/// thin, whatever their direction.
+/// Represents a binary tree over segments, for numbers of segments for which the two levels of SegmentBoxes would be
+/// slow. A node has a box around its segments and a slab around them, parallel to the longest of them: slabs of
+/// parallel segments close to each other are thin, whatever their direction.
 class SegmentTree {
  public:
-  /// Builds the tree over segments, which must stay as they are until the last find(). Neighbours should be
+  /// Builds the tree over segments, which must stay unchanged until the last find(). Neighbouring segments should be
   /// near each other.
   void assign(std::span<const Segment> segments);
 
-  /// Writes the numbers of segments that may come within a step of the line between two places, all that do, in
-  /// ascending order. `near` has room for all segments.
+  /// Writes the numbers of all segments that come within a grid step of the line between two places, in ascending
+  /// order, and perhaps of some others. `near` has room for all segments.
   /// Returns: how many were written.
   std::size_t find(GridPlace from, GridPlace to, std::uint32_t* near) const;
 
  private:
   struct Node {
     GridBox box;
-    double normal_x, normal_y, low, high;  ///< of unit length, and how far ends are along it
-    double length;                         ///< of the segment that the normal is of
+    double normal_x, normal_y, low,
+        high;       ///< the slab: a unit vector, and the interval of the segments along it
+    double length;  ///< of the segment to which the slab is parallel
   };
 
   void set_leaf(Node& node, std::span<const Segment> segments) const;

@@ -143,7 +143,7 @@ void sort_by_place(std::span<Edge> edges) {
   sort_by_place(edges.subspan(edges.size() / 2));
 }
 
-/// Fills island and island_vertex.
+/// Fills component and component_vertex.
 void find_islands(OutlineTopology& topology) {
   std::vector<std::uint32_t> root(topology.used.size());
   std::iota(root.begin(), root.end(), 0u);
@@ -157,11 +157,11 @@ void find_islands(OutlineTopology& topology) {
       root[std::max(v, w)] = std::min(v, w);
     }
   }
-  topology.island.resize(root.size());
+  topology.component.resize(root.size());
   for (std::uint32_t v = 0; v < root.size(); ++v) {
-    if (find(v) == v) topology.island_vertex.push_back(v);
-    const auto newest = static_cast<std::uint32_t>(topology.island_vertex.size() - 1);
-    topology.island[v] = find(v) == v ? newest : topology.island[find(v)];
+    if (find(v) == v) topology.component_vertex.push_back(v);
+    const auto newest = static_cast<std::uint32_t>(topology.component_vertex.size() - 1);
+    topology.component[v] = find(v) == v ? newest : topology.component[find(v)];
   }
 }
 

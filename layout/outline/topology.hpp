@@ -12,44 +12,43 @@
 
 namespace bch::detail {
 
-/// Holds what a mesh's connectivity says about outlines in every pose. Vertices are numbered anew, in the order of
-/// their old numbers and without those that no triangle uses.
+/// Holds what the connectivity of a mesh determines about its outlines in every pose. Vertices are renumbered: in the
+/// same order, but without vertices that no triangle uses.
 struct OutlineTopology {
-  /// Represents an edge of two triangles that use it in opposite directions, and in a parallel array these triangles: a pose
-  /// reads all of the latter and few of the former.
+  /// Represents an edge of exactly two triangles that use it in opposite directions. The triangles are in a parallel
+  /// array, because a pose reads all triangles but few edges.
   struct ManifoldEdge {
     std::uint32_t a, b;
   };
   struct EdgeTriangles {
     std::uint32_t first, second;
   };
-  /// Represents one triangle's use of any other edge.
+  /// Represents the use of a non-manifold edge by one triangle.
   struct EdgeUse {
     std::uint32_t a, b;
     std::uint32_t triangle;
-    std::int32_t direction;  ///< 1 or -1: whether the triangle goes round from a to b or from b to a
+    std::int32_t direction;  ///< 1: the triangle's boundary goes from a to b, -1: from b to a
   };
 
-  std::vector<std::uint32_t> used;  ///< old number of each vertex
+  std::vector<std::uint32_t> used;  ///< per vertex: its index in the mesh
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<ManifoldEdge> manifold;
   std::vector<EdgeTriangles> manifold_triangles;
   std::vector<EdgeUse> uses;              ///< edge after edge
-  std::vector<std::uint32_t> uses_begin;  ///< of each edge that is not manifold, and the end
+  std::vector<std::uint32_t> uses_begin;  ///< per edge that is not manifold: its first use; and the end
   std::size_t edges_of_uses() const { return uses_begin.size() - 1; }
   std::span<const EdgeUse> uses_of(std::size_t edge) const {
     return std::span(uses).subspan(uses_begin[edge], uses_begin[edge + 1] - uses_begin[edge]);
   }
-  std::vector<std::uint32_t> island;  ///< of each vertex: parts that share no vertex have different ones
-  std::vector<std::uint32_t> island_vertex;  ///< one vertex of each island
+  std::vector<std::uint32_t> component;         ///< per vertex: the component of the mesh to which it belongs
+  std::vector<std::uint32_t> component_vertex;  ///< per component: one of its vertices
 };
 
-/// Returns the topology of triangles. Vertices at the same bind position count as the same for the edges (a
-/// texture's seam does not separate a skin), and edges are put in an order that keeps neighbours in the bind
-/// pose together. What is built does not depend on either: a pose may separate such vertices. An empty bind
-/// pose means that nothing is known about it.
-/// Errors:  throws std::invalid_argument on no triangles, an index out of range, or a bind pose that has not
-///          `vertices` positions or one that is not finite where a triangle uses it.
+/// Returns the topology of triangles. Vertices at the same position in the bind pose share edges (a seam of the
+/// texture does not separate the skin), and edges that are near each other in the bind pose get near numbers. Neither
+/// changes an outline: a pose may separate such vertices. If no bind pose is known, it is empty.
+/// Errors:  throws std::invalid_argument if there are no triangles, an index is out of range, or the bind pose has
+///          neither 0 nor `vertices` positions or one that is not finite where a triangle uses it.
 OutlineTopology outline_topology(std::span<const std::array<std::uint32_t, 3>> triangles,
                                  std::size_t vertices, std::span<const Vec3> bind_pose);
 

@@ -13,15 +13,15 @@ namespace bch::detail {
 
 using GridTriangle = std::array<GridPoint, 3>;
 
-/// Represents a straight piece of the boundary of a union: the union is to its left, and nothing is to its right.
+/// Represents a straight piece of the boundary of a union: the union is to its left, nothing is to its right.
 struct BoundaryPiece {
-  GridPoint begin, end;  ///< rounded, and not the same
-  GridVector direction;  ///< of the edge that it is a piece of
+  GridPoint begin, end;  ///< rounded to the grid; they differ
+  GridVector direction;  ///< of the edge that contains the piece
 };
 
-/// Finds the boundary of the union of triangles, by definition: of every edge that has its triangles on one side, the parts whose other
-/// side no triangle covers. Exact fractions of the edge bound these parts; each is found once, also where edges lie on one
-/// line. Triangles without area do not count.
+/// Finds the boundary of the union of triangles, by definition: of every edge that has triangles on one side only,
+/// the parts whose other side no triangle covers. The ends of these parts are exact fractions of the edge. Each part
+/// is found once, even if edges are collinear. Triangles without area are ignored.
 std::vector<BoundaryPiece> union_boundary(std::span<const GridTriangle> triangles);
 
 }  // namespace bch::detail

@@ -12,9 +12,9 @@ namespace bch::detail {
 
 using GridRing = std::vector<GridPoint>;
 
-/// Joins the boundary of a union to rings of three corners and more, none of them straight or there twice, that begin at their
-/// lexicographically smallest one. Exteriors go counter-clockwise, in the order of where they begin, and each is followed by its
-/// holes, which go clockwise.
+/// Joins the boundary of a union to rings. A ring has at least three corners, none of them straight or repeated, and
+/// begins at its lexicographically smallest corner. Exteriors are counter-clockwise, in the order of their first
+/// corners; the clockwise holes of an exterior follow it.
 std::vector<GridRing> rings_of(std::vector<BoundaryPiece> boundary);
 
 }  // namespace bch::detail

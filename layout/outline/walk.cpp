@@ -53,7 +53,7 @@ void OutlineWalk::begin(const CandidateList& candidates) {
   search_.side_a = side_a_.data(), search_.side_b = side_b_.data();
   search_.along = along_.data(), search_.at = at_.data();
   search_.crossing = crossing_.data(), search_.ending = ending_.data();
-  touched_.assign(candidates.island_points().size(), 0);
+  touched_.assign(candidates.component_points().size(), 0);
   has_tree_ = candidates_->segments().size() >= many_candidates;
   if (has_tree_) tree_.assign(candidates_->segments());
 }
@@ -192,7 +192,7 @@ void OutlineWalk::take_first_direction(const Place& here, Stretch& next) {
 }
 
 void OutlineWalk::touch(std::uint32_t segment) {
-  touched_[candidates_->island(segment)] = 1;
+  touched_[candidates_->component(segment)] = 1;
 }
 
 }  // namespace bch::detail

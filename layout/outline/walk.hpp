@@ -13,8 +13,8 @@
 
 namespace bch::detail {
 
-/// Represents a straight piece of a contour: it begins at `begin` and goes on in the direction of begin.to, until where
-/// the contour's next stretch begins.
+/// Represents a straight piece of a contour. It begins at `begin` and goes in the direction from begin.from to
+/// begin.to, until the next stretch of the contour begins.
 struct Stretch {
   Place begin;
   GridPoint rounded_begin;
@@ -22,27 +22,28 @@ struct Stretch {
 
 /// Walks around connected pieces of the union, counter-clockwise along the candidates.
 ///
-/// The unbounded face is always to the right. A walk leaves the stretch it is on where the first candidate
-/// sticks out to the right, or at the stretch's end; of all candidates there it takes the first one
-/// counter-clockwise from where it came, which bounds the same face. A whisker is walked to its tip and back,
-/// and a vertex where pieces only touch is passed once for each of them.
+/// The unbounded face is always to the right. A walk leaves the current stretch where the first candidate sticks out
+/// to the right, or at the end of the stretch. Of all candidates at that point it takes the first one
+/// counter-clockwise from the direction it came from, because that candidate bounds the same face. A whisker is
+/// walked to its tip and back, and a vertex where pieces only touch is passed once for each piece.
 ///
-/// A walk ends: "the next stretch" is a one-to-one map of the finitely many directed pieces into which the
-/// candidates cut each other, so the first piece must come again, and it is the first that comes again.
+/// A walk ends: candidates cut each other into finitely many directed pieces, and the step from a piece to the next
+/// is a one-to-one map of these pieces. So some piece must come again, and the first to do so is the piece where the
+/// walk began.
 class OutlineWalk {
  public:
   explicit OutlineWalk(const OutlineLoops& loops) : loops_(&loops) {}
 
-  /// Walks along these candidates from now on, which must not change before the last walk().
+  /// Sets the candidates of the following walks. They must not change before the last walk().
   void begin(const CandidateList& candidates);
 
-  /// Appends the stretches of the contour through a vertex that is the lexicographically smallest of its
-  /// connected piece of the union, starting there.
-  /// Errors:  throws std::logic_error should the walk be longer than any face's boundary can be.
+  /// Appends the stretches of the contour that begins at `start`, the lexicographically smallest vertex of its
+  /// connected piece of the union.
+  /// Errors:  throws std::logic_error if the walk is longer than the boundary of any face can be.
   void walk(GridPoint start, std::vector<Stretch>& contour);
 
-  /// Returns whether a contour has come along a candidate of this island.
-  bool touched(std::uint32_t island) const { return touched_[island] != 0; }
+  /// Returns whether a contour has passed along a candidate of this component.
+  bool touched(std::uint32_t component) const { return touched_[component] != 0; }
 
  private:
   void find_near(const Place& here, GridPoint rounded_here);
@@ -59,12 +60,12 @@ class OutlineWalk {
   std::vector<std::uint32_t> near_;
   std::vector<double> side_a_, side_b_, along_, at_;
   std::vector<std::uint64_t> crossing_, ending_;
-  SegmentSearch search_{};      ///< with results in the arrays above
+  SegmentSearch search_{};      ///< its results are in the arrays above
   std::size_t near_count_ = 0;  ///< candidates that the current stretch may meet
   std::vector<std::uint8_t> touched_;
-  SegmentTree tree_;  ///< over the candidates, where they are many
+  SegmentTree tree_;  ///< over the candidates, if they are many
   bool has_tree_ = false;
-  double last_length_ = 0;  ///< of a stretch, where there is a tree: the next one is often about as long
+  double last_length_ = 0;  ///< of a stretch, with a tree: the next stretch is often about as long
 };
 
 }  // namespace bch::detail

@@ -12,21 +12,21 @@
 
 namespace bch::detail {
 
-/// Holds the contours of a pose, to be asked whether one of them covers a point. Keeps its memory.
+/// Holds the contours of a pose and tests whether a contour covers a point. Reuses its memory.
 class ContourCovers {
  public:
   void clear();
-  /// Adds the next contour. Its stretches need not live on.
+  /// Adds the next contour. Its stretches are copied as far as needed.
   void add(std::span<const Stretch> contour);
 
   std::size_t size() const { return begin_.size() - 1; }
-  /// Returns whether a point is inside contour i, which has the given stretches, or on it, exactly.
+  /// Returns whether a point is inside contour i or on it, exactly. `contour` has the stretches of that contour.
   bool covers(std::size_t i, std::span<const Stretch> contour, GridPoint point) const;
 
  private:
-  /// The places where stretches begin, rounded. After a contour's last one its first is repeated.
+  /// The rounded places where stretches begin. After the last of a contour, its first is repeated.
   std::vector<std::int32_t> x_, y_;
-  std::vector<GridBox> boxes_;  ///< of the stretches of a contour, part after part
+  std::vector<GridBox> boxes_;  ///< of runs of stretches, contour after contour
   std::vector<std::size_t> begin_ = {0}, boxes_begin_ = {0};
 };
 

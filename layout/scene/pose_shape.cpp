@@ -61,8 +61,8 @@ PoseShaper::PoseShaper(PoseShaper&&) noexcept = default;
 PoseShaper& PoseShaper::operator=(PoseShaper&&) noexcept = default;
 PoseShaper::~PoseShaper() = default;
 
-void PoseShaper::limit_nodes(std::size_t most) {
-  state_->hierarchy_builder.limit_nodes(most);
+void PoseShaper::limit_nodes(std::size_t max) {
+  state_->hierarchy_builder.limit_nodes(max);
 }
 
 const Shape& PoseShaper::shape(const Pose& pose) {

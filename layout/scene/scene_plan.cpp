@@ -96,8 +96,7 @@ ScenePlan plan_scene(std::span<const ScenePlan::Agent> agents, const SceneUse& u
       reject(i, "a distance of " + shortest(agents[i].distance) + " m");
     if (!(agents[i].density >= 0) || !is_finite(agents[i].density))
       reject(i, "a density of " + shortest(agents[i].density) + " people per square metre");
-    if (!is_finite(agents[i].shows.at.seconds))
-      reject(i, "at " + shortest(agents[i].shows.at.seconds) + " s");
+    if (!is_finite(agents[i].pose.at.seconds)) reject(i, "at " + shortest(agents[i].pose.at.seconds) + " s");
   }
   const std::vector<std::uint32_t> depths = depths_of(agents, use);
   ScenePlan plan;
@@ -107,7 +106,7 @@ ScenePlan plan_scene(std::span<const ScenePlan::Agent> agents, const SceneUse& u
   plan.set.culling = use.pairs_per_shape >= pairs_for_culling;
   Shapes shapes(use.pose_step);
   for (std::size_t i = 0; i < agents.size(); ++i) {
-    plan.agent_shape.push_back(shapes.number(agents[i].shows));
+    plan.agent_shape.push_back(shapes.number(agents[i].pose));
     const auto level = std::lower_bound(plan.set.depths.begin(), plan.set.depths.end(), depths[i]);
     plan.agent_level.push_back(static_cast<std::uint8_t>(level - plan.set.depths.begin()));
   }

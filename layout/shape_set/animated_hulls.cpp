@@ -57,11 +57,11 @@ HullKey hull_key(const AnimatedTreeChunk& chunk, std::size_t key, double reach, 
   return hull;
 }
 
-/// Returns the hull through a window, whose ends are larger by what the keys between depart from the straight path. Between two keys the
+/// Returns the hull through an interval, whose ends are larger by what the keys between depart from the straight path. Between two keys the
 /// extent of discs that move straight on is convex.
-HullWindow window_of(std::span<const HullKey> keys, double step) {
+HullInterval interval_of(std::span<const HullKey> keys, double step) {
   const double begin = keys.front().time, seconds = keys.back().time - begin;
-  HullWindow window{begin, keys.back().time, {}};
+  HullInterval interval{begin, keys.back().time, {}};
   for (std::uint32_t k = 0; k < hull_directions; ++k) {
     const double from = keys.front().extents[k], to = keys.back().extents[k];
     double spare = 0;
@@ -70,9 +70,9 @@ HullWindow window_of(std::span<const HullKey> keys, double step) {
     const auto in_steps = [&](double extent) {
       return static_cast<std::int16_t>(std::ceil((extent + spare) / step + 0x1p-20));
     };
-    window.extents[k] = {in_steps(from), in_steps(to)};
+    interval.extents[k] = {in_steps(from), in_steps(to)};
   }
-  return window;
+  return interval;
 }
 
 /// Returns the step in which all extents have 16 bits: one is at most sqrt(2) reaches, and what it is larger by twice as much.
@@ -89,12 +89,12 @@ AnimatedHulls animated_hulls(const std::vector<AnimatedTreeChunk>& chunks, doubl
   std::vector<HullKey> keys;
   std::array<std::vector<HullKey>, hull_bands> of_bands;  ///< likewise
   std::vector<std::size_t> begin;
-  std::vector<std::uint32_t> some;  ///< per chunk: the bands that have spheres
+  std::vector<std::uint32_t> occupied;  ///< per chunk: the bands that have spheres
   for (const AnimatedTreeChunk& chunk : chunks) {
     begin.push_back(keys.size());
     const std::vector<std::uint32_t> bands =
         in_space ? bands_of(chunk) : std::vector<std::uint32_t>(chunk.leaf_of_disc.size());
-    some.push_back(std::accumulate(bands.begin(), bands.end(), 0u, std::bit_or<>()));
+    occupied.push_back(std::accumulate(bands.begin(), bands.end(), 0u, std::bit_or<>()));
     for (std::size_t key = 0; key < chunk.times.size(); ++key) {
       keys.push_back(hull_key(chunk, key, reach, [](std::size_t) { return true; }));
       for (std::uint32_t band = 0; in_space && band < hull_bands; ++band)
@@ -107,15 +107,15 @@ AnimatedHulls animated_hulls(const std::vector<AnimatedTreeChunk>& chunks, doubl
   for (unsigned level = 0; level < AnimatedHulls::level_count; ++level)
     for (std::size_t first = 0; first < chunks.size(); first += std::size_t{1} << level) {
       const std::size_t last = std::min(first + (std::size_t{1} << level), chunks.size());
-      const auto window = [&](const std::vector<HullKey>& all) {
-        return window_of(std::span(all).subspan(begin[first], begin[last] - begin[first]), hulls.step);
+      const auto interval = [&](const std::vector<HullKey>& all) {
+        return interval_of(std::span(all).subspan(begin[first], begin[last] - begin[first]), hulls.step);
       };
-      hulls.levels[level].push_back(window(keys));
+      hulls.levels[level].push_back(interval(keys));
       if (!in_space) continue;
       HullBands& bands = hulls.bands[level].emplace_back();
-      for (std::size_t chunk = first; chunk < last; ++chunk) bands.some |= some[chunk];
+      for (std::size_t chunk = first; chunk < last; ++chunk) bands.occupied |= occupied[chunk];
       for (std::uint32_t band = 0; band < hull_bands; ++band)
-        bands.extents[band] = window(of_bands[band]).extents;
+        bands.extents[band] = interval(of_bands[band]).extents;
     }
   return hulls;
 }

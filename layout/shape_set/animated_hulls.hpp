@@ -17,19 +17,21 @@ struct AnimatedTreeChunk;
 
 constexpr std::uint32_t hull_directions = 32;
 
-/// Bodies of spheres have hulls for bands of height as well, so many, between planes that are so far apart above the agent's ground: the
-/// first one reaches from below, the last one to above all. A band's hull holds the spheres that come into it or within an overlap of it.
+/// Bodies of spheres also have hulls for hull_bands bands of height, between planes hull_band metres apart above the
+/// agent's ground. The first band extends to below all spheres, the last to above all. The hull of a band contains
+/// the spheres that come into the band or within hull_overlap of it.
 ///
-/// So two bodies need be compared in bands alone that have more height in common than the overlap: a point of both is in a band of each.
-/// Where these two have less in common, the point is within the overlap of the next band of that body whose band ends there. That one has
-/// more in common with the other body's.
+/// So two bodies need to be compared only in pairs of bands with more than hull_overlap of height in common. Proof:
+/// each of two bodies that meet has a band that contains the height of a common point. If these two bands have less
+/// height in common, one of them ends there, and the point is within hull_overlap of the next band of the same body,
+/// whose hull contains the sphere, too. The next band has more height in common with the other body's band.
 constexpr std::uint32_t hull_bands = 8;
 constexpr double hull_band = 0.25, hull_overlap = 0.01;
 static_assert(hull_band > 2 * hull_overlap);
 
-/// Says how far a body reaches through a window of time in each of the directions, in steps: at every time of it by no more than what lies
-/// evenly between both ends.
-struct HullWindow {
+/// Bounds the extents of a body in an interval of time, per direction, in steps of AnimatedHulls::step. At a time in
+/// the interval, the bound is the linear interpolation of `from`, at the begin, and `to`, at the end.
+struct HullInterval {
   struct Extent {
     std::int16_t from, to;
   };
@@ -38,23 +40,25 @@ struct HullWindow {
   Extents extents;
 };
 
-/// Holds the hulls of the bands through a window, of those that have a bit in `some`; there is nothing in the others.
+/// Holds the hulls of the bands in an interval. Bit b of `occupied` says that band b contains spheres; the others
+/// contain nothing.
 struct HullBands {
-  std::array<HullWindow::Extents, hull_bands> extents;
-  std::uint32_t some = 0;
+  std::array<HullInterval::Extents, hull_bands> extents;
+  std::uint32_t occupied = 0;
 };
 
-/// Holds the hulls of a body through windows of time, of one chunk each at level 0, and of two windows of the level below at the next ones.
+/// Holds the hulls of a body in intervals of time: of one chunk each at level 0, and of two intervals of the level
+/// below at each further level.
 struct AnimatedHulls {
   static constexpr unsigned level_count = 4;
 
   double step = 0;  ///< metres
-  std::array<std::vector<HullWindow>, level_count> levels;
-  std::array<std::vector<HullBands>, level_count> bands;  ///< of spheres, by window
+  std::array<std::vector<HullInterval>, level_count> levels;
+  std::array<std::vector<HullBands>, level_count> bands;  ///< of spheres: one per interval
 };
 
-/// Returns a direction by its number. Their ends lie evenly on the border of the square from -1 to 1, so that those of others lie
-/// between two of them, evenly, too.
+/// Returns a direction by its number. The ends of these vectors are evenly spaced on the border of the square from -1
+/// to 1, so any other direction is a linear interpolation of two neighbours.
 constexpr PlanePoint hull_direction(std::uint32_t k) noexcept {
   constexpr std::uint32_t of_side = hull_directions / 4;
   const double along = 2.0 * (k % of_side) / of_side - 1;
@@ -70,12 +74,12 @@ constexpr PlanePoint hull_direction(std::uint32_t k) noexcept {
   }
 }
 
-/// Represents a direction between two of those: `size` times (1 - fraction) of `first` and fraction of `second`.
+/// Represents any direction as `size` * ((1 - fraction) * hull_direction(first) + fraction * hull_direction(second)).
 struct HullDirection {
   std::uint32_t first, second;
   double fraction, size;
 
-  /// Takes a vector that is not 0.
+  /// Takes a vector other than 0.
   explicit HullDirection(const PlanePoint& d) noexcept {
     constexpr std::uint32_t of_side = hull_directions / 4;
     const bool along_x = std::abs(d.x) >= std::abs(d.y);
@@ -88,18 +92,18 @@ struct HullDirection {
     size = std::abs(longer);
   }
 
-  /// Says how far a body reaches in this direction at both ends of a window, times its length.
+  /// Bounds the extent in this direction, times the length of the vector, at the begin and the end of an interval.
   struct Extent {
     double from, to;
   };
-  /// Returns that at most: a body reaches no farther in the sum of two directions than the sum of how far it does in each.
-  Extent extent(const HullWindow::Extents& extents) const noexcept {
-    const HullWindow::Extent a = extents[first], b = extents[second];
+  /// Returns an upper bound: the extent in the sum of two directions is at most the sum of the extents in each.
+  Extent extent(const HullInterval::Extents& extents) const noexcept {
+    const HullInterval::Extent a = extents[first], b = extents[second];
     return {size * (a.from + (b.from - a.from) * fraction), size * (a.to + (b.to - a.to) * fraction)};
   }
 };
 
-/// Finds the hulls of chunks that follow each other.
+/// Computes the hulls of consecutive chunks.
 AnimatedHulls animated_hulls(const std::vector<AnimatedTreeChunk>& chunks, double reach);
 
 }  // namespace bch::detail

@@ -156,7 +156,8 @@ std::size_t AnimatedShape::bytes() const noexcept {
     bytes +=
         (chunk.numbers.size() + chunk.child_begin.size() + chunk.leaf_of_disc.size()) * sizeof(std::uint16_t);
   }
-  for (const std::vector<HullWindow>& level : tree_->hulls.levels) bytes += level.size() * sizeof(HullWindow);
+  for (const std::vector<HullInterval>& level : tree_->hulls.levels)
+    bytes += level.size() * sizeof(HullInterval);
   for (const std::vector<HullBands>& level : tree_->hulls.bands) bytes += level.size() * sizeof(HullBands);
   return bytes;
 }

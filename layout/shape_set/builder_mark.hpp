@@ -9,7 +9,7 @@
 
 namespace bch::detail {
 
-/// Holds where a set that is being built ends: how many shapes and parts there are, and where the next one begins.
+/// Marks the end of a set that is being built: the number of its shapes, and where the parts of the next shape begin.
 struct BuilderMark {
   std::size_t shapes = 0;
   ShapeExtent extent{.rows = first_row};

@@ -25,14 +25,14 @@ constexpr Bvh8::Block empty_block = [] {
 
 }  // namespace
 
-void Flattener::begin(const Hierarchy& hierarchy) {
+void Bvh8Builder::begin(const Hierarchy& hierarchy) {
   hierarchy_ = &hierarchy;
   const std::size_t count = hierarchy.nodes.size();
   for (auto* array : {&position_, &parent_}) array->resize(count);
   for (auto* array : {&x_, &y_, &radius_}) array->resize(std::max(array->size(), count + spare_lanes));
 }
 
-void Flattener::cut(std::uint32_t depth) {
+void Bvh8Builder::cut(std::uint32_t depth) {
   // Local variables, because a member's last store would have to be waited for at every node.
   const Hierarchy::Node* const nodes = hierarchy_->nodes.data();
   std::uint32_t *const position = position_.data(), *const parent = parent_.data();
@@ -51,20 +51,20 @@ void Flattener::cut(std::uint32_t depth) {
     ++count;
   };
   parent[0] = 0;
-  open_.assign(1, {0, depth});
-  while (!open_.empty()) {
-    auto [node, left] = open_.back();
-    open_.pop_back();
-    for (; left > 0 && !nodes[node].is_leaf(); ++node) {
+  pending_.assign(1, {0, depth});
+  while (!pending_.empty()) {
+    auto [node, levels_left] = pending_.back();
+    pending_.pop_back();
+    for (; levels_left > 0 && !nodes[node].is_leaf(); ++node) {
       visit_inner(node);
-      open_.push_back({nodes[node].second_child, --left});
+      pending_.push_back({nodes[node].second_child, --levels_left});
     }
     visit_cut(node);
   }
   count_ = count;
 }
 
-void Flattener::flatten(std::uint32_t depth, Bvh8& tree) {
+void Bvh8Builder::flatten(std::uint32_t depth, Bvh8& tree) {
   cut(depth);
   tree.count = count_;
   const std::uint32_t padded = std::max(count_, block_width);
@@ -76,32 +76,33 @@ void Flattener::flatten(std::uint32_t depth, Bvh8& tree) {
   tree.radius.assign(radius_.begin(), radius_.begin() + padded);
   take_inner(tree);
   tree.nodes_hold_discs =
-      nodes_hold_discs({x_.data(), y_.data(), radius_.data(), count_}, tree.inner, hierarchy_->reach);
-  if (!grow(&Flattener::subtrees, tree)) grow(&Flattener::even_runs, tree);
+      nodes_hold_discs({x_.data(), y_.data(), radius_.data(), count_}, tree.inner_nodes, hierarchy_->reach);
+  if (!grow(&Bvh8Builder::subtrees, tree)) grow(&Bvh8Builder::even_runs, tree);
 }
 
 /// Returns the place of a node above the cut in the in-order sequence of these nodes.
-std::uint32_t Flattener::place(std::uint32_t node) const {
+std::uint32_t Bvh8Builder::place(std::uint32_t node) const {
   return position_[hierarchy_->nodes[node].second_child] - 1;
 }
 
-void Flattener::take_inner(Bvh8& tree) const {
+void Bvh8Builder::take_inner(Bvh8& tree) const {
   const Hierarchy::Node* const nodes = hierarchy_->nodes.data();
-  tree.inner.resize(count_);
+  tree.inner_nodes.resize(count_);
   const Disc& root = nodes[0].disc;
-  tree.inner.back() = tree.is_single() ? InnerNode{root.x, root.y, root.radius, above_cut_disc} : InnerNode{};
+  tree.inner_nodes.back() =
+      tree.is_single() ? InnerNode{root.x, root.y, root.radius, above_cut_disc} : InnerNode{};
   for (const std::uint32_t node : inner_) {
     const Disc& disc = nodes[node].disc;
     const std::uint32_t is_above_cut = place(node) == position_[node] ? above_cut_disc : 0;
-    tree.inner[place(node)] = {disc.x, disc.y, disc.radius, place(parent_[node]) | is_above_cut};
+    tree.inner_nodes[place(node)] = {disc.x, disc.y, disc.radius, place(parent_[node]) | is_above_cut};
   }
 }
 
 /// Grows the tree breadth first. Returns false where the tree would be too deep.
-bool Flattener::grow(Split split, Bvh8& tree) {
+bool Bvh8Builder::grow(Split split, Bvh8& tree) {
   const Group all{0, count_, 0, count_};
   tree.root = hierarchy_->nodes[0].disc;
-  tree.outer = outer_radius(all);
+  tree.outer_radius = outer_radius(all);
   tree.top = is_window(all) ? window(all) : 0;
   tree.blocks.clear();
   level_.clear();
@@ -117,7 +118,7 @@ bool Flattener::grow(Split split, Bvh8& tree) {
         const Group& part = parts.group[i];
         const Disc& disc = hierarchy_->nodes[part.node].disc;
         block.discs.x[i] = disc.x, block.discs.y[i] = disc.y, block.discs.radius[i] = disc.radius;
-        block.outer[i] = outer_radius(part);
+        block.outer_radius[i] = outer_radius(part);
         block.node[i] =
             part.node_end - position_[part.node] == 1 ? leaf_window + part.begin : place(part.node);
         block.child[i] =
@@ -130,17 +131,17 @@ bool Flattener::grow(Split split, Bvh8& tree) {
   return true;
 }
 
-std::uint32_t Flattener::window(const Group& group) const {
+std::uint32_t Bvh8Builder::window(const Group& group) const {
   return leaf_window + std::min(group.begin, count_ < block_width ? 0 : count_ - block_width);
 }
 
 /// Returns the worth of expanding a group.
-double Flattener::worth(const Group& group) const {
+double Bvh8Builder::worth(const Group& group) const {
   if (group.size() == 1) return 0;
   return static_cast<double>(hierarchy_->nodes[group.node].disc.radius) * group.size();
 }
 
-Flattener::Parts Flattener::subtrees(const Group& group) const {
+Bvh8Builder::Parts Bvh8Builder::subtrees(const Group& group) const {
   Parts parts;
   parts.group[0] = group, parts.worth[0] = worth(group);
   parts.count = 1;
@@ -154,7 +155,7 @@ Flattener::Parts Flattener::subtrees(const Group& group) const {
 }
 
 /// Replaces a group by those of its node's children.
-void Flattener::expand(Parts& parts, std::uint32_t index) const {
+void Bvh8Builder::expand(Parts& parts, std::uint32_t index) const {
   for (std::uint32_t i = parts.count++; i > index + 1; --i)
     parts.group[i] = parts.group[i - 1], parts.worth[i] = parts.worth[i - 1];
   Group &first = parts.group[index], &other = parts.group[index + 1];
@@ -164,7 +165,7 @@ void Flattener::expand(Parts& parts, std::uint32_t index) const {
   parts.worth[index] = worth(first), parts.worth[index + 1] = worth(other);
 }
 
-Flattener::Parts Flattener::even_runs(const Group& group) const {
+Bvh8Builder::Parts Bvh8Builder::even_runs(const Group& group) const {
   Parts parts;
   parts.count = std::min(group.size(), block_width);
   const auto at = [&](std::uint64_t k) {
@@ -178,7 +179,7 @@ Flattener::Parts Flattener::even_runs(const Group& group) const {
 }
 
 /// Goes down from the node that a group has, as long as one child is above all of the group.
-void Flattener::find_lowest_node(Group& group) const {
+void Bvh8Builder::find_lowest_node(Group& group) const {
   while (group.node_end - position_[group.node] > 1) {
     const std::uint32_t second = hierarchy_->nodes[group.node].second_child, middle = position_[second];
     if (group.begin < middle && group.end > middle) break;
@@ -190,7 +191,7 @@ void Flattener::find_lowest_node(Group& group) const {
 }
 
 /// The radius about the centre of a group's node that holds its discs.
-float Flattener::outer_radius(const Group& group) const {
+float Bvh8Builder::outer_radius(const Group& group) const {
   const DiscRun run{x_.data() + group.begin, y_.data() + group.begin, radius_.data() + group.begin,
                     group.size()};
   const Disc& node = hierarchy_->nodes[group.node].disc;
@@ -198,19 +199,19 @@ float Flattener::outer_radius(const Group& group) const {
                             (1 + 0x1p-21));
 }
 
-Supports Flattener::supports() const {
+Supports Bvh8Builder::supports() const {
   return detail::supports(x_.data(), y_.data(), radius_.data(), count_, hierarchy_->reach);
 }
 
-Outer Flattener::outer(const Profile& profile) const {
+Outer Bvh8Builder::outer(const Profile& profile) const {
   return detail::outer(profile, x_.data(), y_.data(), radius_.data(), count_, hierarchy_->reach);
 }
 
 Bvh8 bvh8(const Hierarchy& hierarchy, std::uint32_t depth) {
   Bvh8 tree;
-  Flattener flattener;
-  flattener.begin(hierarchy);
-  flattener.flatten(depth, tree);
+  Bvh8Builder builder;
+  builder.begin(hierarchy);
+  builder.flatten(depth, tree);
   return tree;
 }
 

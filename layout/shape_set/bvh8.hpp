@@ -15,41 +15,47 @@
 
 namespace bch::detail {
 
-/// Represents one cut of a hierarchy as a tree of blocks over the cut's discs, with all nodes above the cut. Every disc is the
-/// hierarchy's own, the smallest of what its node holds: pruning by it is part of the answer's definition.
+/// Represents one cut of a hierarchy as a tree of blocks over the cut's discs, together with all nodes above the cut.
+/// Every disc is that of the hierarchy's own node, the smallest around the node's primitives: pruning by it is part
+/// of the definition of the answer.
 struct Bvh8 {
-  /// Holds up to eight groups of cut discs side by side; what is left over is padding. `child`: a block of this tree, or
-  /// leaf_window + the index of the first of eight discs, which hold the group and, where it has fewer, some of
-  /// its neighbours: harmless, because every disc of the cut may be tested at any time. `outer`: radii about the same
-  /// centres that hold the groups' discs. `node`: an index of `inner`, or leaf_window + that of a cut disc.
+  /// Holds up to eight groups of cut discs in parallel arrays; unused entries are padding.
+  ///
+  /// - `discs`: the discs of the nodes that are above the groups.
+  /// - `child`: a block of this tree, or leaf_window + the index of the first of eight consecutive cut discs. These
+  ///   include the whole group and, if it has fewer than eight discs, some of its neighbours. That is harmless,
+  ///   because any disc of the cut may be tested at any time.
+  /// - `outer_radius`: radii about the same centres that enclose the discs of the groups.
+  /// - `node`: an index of `inner_nodes`, or leaf_window + the index of a cut disc.
   struct Block {
     DiscBlock discs;
     std::uint32_t child[block_width];
-    float outer[block_width];
+    float outer_radius[block_width];
     std::uint32_t node[block_width];
   };
   std::vector<Block> blocks;
-  std::vector<float> x, y, radius;  ///< the cut in depth-first order; padded to eight where there are fewer
-  std::vector<InnerNode> inner;     ///< as many; links are indices
-  std::uint32_t count;              ///< discs of the cut
-  std::uint32_t top;                ///< as `child`
-  Disc root;                        ///< the hierarchy's
-  float outer;                      ///< the radius about the root's centre that holds the cut's discs
-  bool nodes_hold_discs;            ///< see held_discs.hpp
+  std::vector<float> x, y, radius;     ///< the cut discs in depth-first order, padded to at least eight
+  std::vector<InnerNode> inner_nodes;  ///< the nodes above the cut, padded to `count`; links are indices
+  std::uint32_t count;                 ///< number of discs of the cut
+  std::uint32_t top;                   ///< the root, encoded like Block::child
+  Disc root;                           ///< the disc of the hierarchy's root
+  float outer_radius;                  ///< the radius about the root's centre that encloses the cut's discs
+  bool nodes_hold_discs;               ///< see held_discs.hpp
 
   bool is_single() const { return count == 1; }
 };
 
-/// Collapses the binary tree above a cut: a block's groups come from expanding descendants of its node, those of many
-/// and large discs first, until there are eight groups or nothing to expand. What fits into a window becomes one.
-/// If that would need more than max_wide_levels, the cut's discs are grouped evenly in their order instead.
+/// Collapses the binary tree above a cut. The groups of a block come from its node: the group with the largest
+/// product of size and radius is replaced by the groups of its node's children, until there are eight groups or none
+/// can be expanded. A group of at most eight discs becomes a window. If the tree would be higher than
+/// max_wide_levels, the cut's discs are grouped evenly in their order instead.
 Bvh8 bvh8(const Hierarchy& hierarchy, std::uint32_t depth);
 
-/// Builds the trees of several cuts of one hierarchy, one after the other, and reuses its memory. Once it has
-/// seen the largest, it allocates nothing. One thread may use it at a time.
-class Flattener {
+/// Builds the trees of several cuts of a hierarchy, one after the other. It reuses memory and allocates nothing once
+/// it has processed the largest hierarchy. One thread at a time may use an object.
+class Bvh8Builder {
  public:
-  /// Takes a hierarchy, which has to live until the next call.
+  /// Takes a hierarchy, which must live until the next begin().
   void begin(const Hierarchy& hierarchy);
   /// Makes a cut the current one and collapses the tree above it.
   void flatten(std::uint32_t depth, Bvh8& tree);
@@ -58,26 +64,26 @@ class Flattener {
   Outer outer(const Profile& profile) const;
 
  private:
-  /// Represents a run of the cut's discs, and a node of the hierarchy that is above all of them.
+  /// Represents consecutive discs of the cut, and a node of the hierarchy that is above all of them.
   struct Group {
     std::uint32_t begin, end;  ///< in the list of cut discs
-    std::uint32_t node;        ///< with subtree grouping, above no others
-    std::uint32_t node_end;    ///< in the list of cut discs, of those below the node
+    std::uint32_t node;        ///< when grouped by subtrees, above no other discs
+    std::uint32_t node_end;    ///< the end, in the list of cut discs, of the discs below the node
 
     std::uint32_t size() const { return end - begin; }
   };
   static bool is_window(const Group& group) { return group.size() <= block_width; }
-  /// Holds what becomes one block.
+  /// Holds the groups that become one block.
   struct Parts {
     std::array<Group, block_width> group;
-    std::array<double, block_width> worth;  ///< of expanding each; subtree grouping only
+    std::array<double, block_width> worth;  ///< of expanding each group; only when grouped by subtrees
     std::uint32_t count = 0;
   };
-  /// Represents a node whose part of the cut is to be found so many levels below, or sooner.
-  struct Open {
-    std::uint32_t node, left;
+  /// Represents a node whose part of the cut is to be found at most `levels_left` levels below it.
+  struct PendingNode {
+    std::uint32_t node, levels_left;
   };
-  using Split = Parts (Flattener::*)(const Group&) const;
+  using Split = Parts (Bvh8Builder::*)(const Group&) const;
 
   void cut(std::uint32_t depth);
   bool grow(Split split, Bvh8& tree);
@@ -92,9 +98,9 @@ class Flattener {
   double worth(const Group& group) const;
 
   const Hierarchy* hierarchy_ = nullptr;
-  std::vector<Open> open_;
-  std::vector<std::uint32_t> position_;  ///< per node on or above the cut: the first of its discs
-  std::vector<std::uint32_t> parent_;    ///< per node below another one that is above the cut
+  std::vector<PendingNode> pending_;
+  std::vector<std::uint32_t> position_;  ///< per node on or above the cut: the index of its first cut disc
+  std::vector<std::uint32_t> parent_;    ///< per node whose parent is above the cut
   std::vector<std::uint32_t> inner_;     ///< the nodes above the cut
   std::uint32_t count_ = 0;              ///< discs of the cut
   std::vector<float> x_, y_, radius_;

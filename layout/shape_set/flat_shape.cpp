@@ -20,7 +20,7 @@ Bvh8 bvh8_of(const Root& root, const Tree& level, const float* nodes) {
   Bvh8 tree;
   tree.root = {root.x, root.y, root.radius};
   tree.count = level.count;
-  tree.outer = level.outer;
+  tree.outer_radius = level.outer_radius;
   tree.nodes_hold_discs = level.nodes_hold_discs != 0;
   const std::uint32_t begin = level.top < leaf_window ? level.top : level.discs;
   const auto local = [&](std::uint32_t name) {
@@ -42,7 +42,7 @@ Bvh8 bvh8_of(const Root& root, const Tree& level, const float* nodes) {
   for (Bvh8::Block& block : tree.blocks) {
     for (float* field : {block.discs.x, block.discs.y, block.discs.radius}) read(field, block_width);
     read_bits(block.child, local);
-    read(block.outer, block_width);
+    read(block.outer_radius, block_width);
     read_bits(block.node, [&](std::uint32_t node) {
       return node < leaf_window ? node - first_inner : node - level.discs;
     });
@@ -52,8 +52,8 @@ Bvh8 bvh8_of(const Root& root, const Tree& level, const float* nodes) {
     read(field->data(), level.stride);
   }
   in = nodes + std::size_t{first_inner} * inner_floats;
-  tree.inner.resize(level.count);
-  for (InnerNode& inner : tree.inner) {
+  tree.inner_nodes.resize(level.count);
+  for (InnerNode& inner : tree.inner_nodes) {
     std::memcpy(&inner, in, sizeof inner);
     in += inner_floats;
     inner.link -= first_inner;

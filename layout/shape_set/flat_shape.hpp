@@ -12,11 +12,12 @@
 
 namespace bch::detail {
 
-/// Returns a shape of a set as ShapeStorage::put() was given it, except for its plan and its outline's grid step, which
-/// are not stored. Of a set of single discs only the roots.
+/// Returns a shape of a set as it was given to ShapeStorage::store(), but without its plan and its outline's grid
+/// step, which are not stored. From a set of single discs it returns only the roots.
 FlatBody flat_body(const ShapeArrays& arrays, std::size_t shape);
 
-/// Reads a shape's outline from a set, without its grid step, which is not stored; without contours where the set has none.
+/// Returns a shape's outline without its grid step, which is not stored. The outline has no contours if the set has
+/// no outlines.
 Outline outline_of(const ShapeArrays& arrays, std::size_t shape);
 
 }  // namespace bch::detail

@@ -10,9 +10,10 @@
 
 namespace bch::detail {
 
-/// Returns whether every node above a disc of a cut holds it with the room of layout/base/rounding.hpp, VIII. Bodies made of discs are
-/// such; those of outlines are not, because a node's disc is the smallest about the outline below it, not about the discs.
-/// `inner`: as in Bvh8. `reach`: of the shape, metres.
+/// Returns whether every node above a disc of a cut encloses it with the margin of layout/base/rounding.hpp, VIII. So
+/// do the nodes of bodies made of discs. The nodes of outlines do not, because a node's disc is the smallest around
+/// the outline below it, not around the discs.
+/// `inner`: as Bvh8::inner_nodes. `reach`: of the shape, metres.
 bool nodes_hold_discs(const CutDiscs& discs, std::span<const InnerNode> inner, double reach) noexcept;
 
 }  // namespace bch::detail

@@ -80,9 +80,9 @@ bool ShapeFlattener::has_culling() const {
 void ShapeFlattener::add_levels(const Shape& shape, FlatShape& flat) {
   if (has_culling()) add_interior(shape, flat);
   flat.levels.resize(plan_.depths.size());
-  flattener_.begin(shape.hierarchy);
+  bvh8_builder_.begin(shape.hierarchy);
   for (std::size_t k = 0; k < plan_.depths.size(); ++k) {
-    flattener_.flatten(plan_.depths[k], flat.levels[k]);
+    bvh8_builder_.flatten(plan_.depths[k], flat.levels[k]);
     if (has_culling()) add_culling(shape, k, flat);
   }
 }
@@ -107,13 +107,13 @@ void ShapeFlattener::add_culling(const Shape& shape, std::size_t level, FlatShap
   const bool deepest = level + 1 == plan_.depths.size();
   if (flat.levels[level].is_single() && !deepest) return;
   auto& sectors = flat.profile.sectors;
-  const Outer outer_of_discs = flattener_.outer(flat.profile);
+  const Outer outer_of_discs = bvh8_builder_.outer(flat.profile);
   if (!deepest) {
     for (std::uint32_t k = 0; k < profile_sectors; ++k)
       sectors[k].shallow_outer = std::max(sectors[k].shallow_outer, outer_of_discs[k]);
     return;
   }
-  const Bounds discs{flattener_.supports(), outer_of_discs};
+  const Bounds discs{bvh8_builder_.supports(), outer_of_discs};
   const bool by_segments = has_segments(shape, flat);
   if (by_segments) points_.assign(shape.outline);
   const Bounds bounds = by_segments ? outline_bounds(flat.profile, points_, shape.hierarchy.reach) : discs;
@@ -147,16 +147,17 @@ void ShapeFlattener::add_segments(const Shape& shape, FlatShape& flat) {
   const Hierarchy& hierarchy = shape.hierarchy;
   const Outline& outline = flat.outline;
   // Each contour's first point follows its last one, which moves the points of the contours after it.
-  moved_.resize(outline.points.size());
+  numbered_segments_.resize(outline.points.size());
   for (std::uint32_t c = 0; c < outline.contours(); ++c)
-    for (std::uint32_t i = outline.contour_begin[c]; i < outline.contour_begin[c + 1]; ++i) moved_[i] = i + c;
+    for (std::uint32_t i = outline.contour_begin[c]; i < outline.contour_begin[c + 1]; ++i)
+      numbered_segments_[i] = i + c;
   std::size_t leaf = 0;
   for (std::size_t i = 0; i < hierarchy.nodes.size(); ++i) {
     if (!hierarchy.nodes[i].is_leaf()) continue;
-    held_.clear();
+    leaf_segments_.clear();
     for (std::uint32_t k = hierarchy.primitive_ranges[i].begin; k < hierarchy.primitive_ranges[i].end; ++k)
-      held_.push_back(moved_[hierarchy.source[k]]);
-    add_leaf(held_, leaf++, flat.levels.back().count, flat.leaf_segments);
+      leaf_segments_.push_back(numbered_segments_[hierarchy.source[k]]);
+    add_leaf(leaf_segments_, leaf++, flat.levels.back().count, flat.leaf_segments);
   }
   if (has_culling() &&
       std::count(flat.leaf_segments.begin(), flat.leaf_segments.begin() + flat.levels.back().count, 0u) > 0)

@@ -14,21 +14,21 @@
 
 namespace bch::detail {
 
-/// Holds all that a set stores of a shape but its heights, before it has a place there.
+/// Holds all that a set stores of a shape except its heights.
 struct FlatShape {
   double reach = 0;
-  std::vector<Bvh8> levels;  ///< one a depth
-  /// Of the outline where the deepest level has segments, else of that level's discs. This and the next two only with the plan's culling
-  /// data.
+  std::vector<Bvh8> levels;  ///< one per depth
+  /// The supports of the outline if the deepest level has segments, else of that level's discs. This and the next two
+  /// members are used only if the plan has culling data.
   Supports supports;
   Profile profile;
   DiscBlock inscribed;
-  // Only with the plan's outlines.
+  // The following members are used only if the plan has outlines.
   Outline outline;
   std::vector<Disc> contour_disc;
   float segment_margin = 0;  ///< metres; see rounding.hpp, V
   std::vector<std::uint32_t>
-      leaf_segments;  ///< of the last level, if that has exact leaves; see shape_set_view.hpp
+      leaf_segments;  ///< of the last level, if it has exact leaves; see shape_set_view.hpp
 };
 
 /// Holds the flat form of a body.
@@ -38,8 +38,8 @@ struct FlatBody {
   Heights heights;
 };
 
-/// Makes one shape after the other flat and reuses its memory. Nearly all the time that a set takes is spent
-/// here. One thread may use it at a time.
+/// Makes one shape after the other flat, reusing memory. Nearly all the time of making a set is spent here. One
+/// thread at a time may use an object.
 class ShapeFlattener {
  public:
   /// Takes the plan of the set.
@@ -50,7 +50,7 @@ class ShapeFlattener {
   /// Errors:  throws std::invalid_argument as ShapeSet does, naming the shape by `index`.
   void flatten(const Shape& shape, std::size_t index, FlatBody& flat);
 
-  /// Makes the outline of a shape flat, except for what leaves hold of it.
+  /// Copies the outline of a shape, without the segments of leaves.
   static void add_outline(const Shape& shape, FlatShape& flat);
 
  private:
@@ -64,11 +64,11 @@ class ShapeFlattener {
   void add_segments(const Shape& shape, FlatShape& flat);
 
   ShapeSetPlan plan_;
-  Flattener flattener_;
+  Bvh8Builder bvh8_builder_;
   InteriorBuilder interiors_;
   PointDiscs points_;
-  std::vector<std::uint32_t> moved_,
-      held_;  ///< numbers of segments: of all by the outline's points, and of one leaf
+  std::vector<std::uint32_t> numbered_segments_,
+      leaf_segments_;  ///< numbers of segments: per point of the outline, and of one leaf
 };
 
 }  // namespace bch::detail

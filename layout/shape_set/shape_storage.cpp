@@ -27,7 +27,7 @@ std::size_t inner_begin(const Bvh8& tree, std::size_t first_disc) {
 
 std::size_t level_end(const Bvh8& tree, std::size_t begin) {
   const std::size_t first_disc = begin + tree.blocks.size() * block_floats;
-  return inner_begin(tree, first_disc) + tree.inner.size() * inner_floats;
+  return inner_begin(tree, first_disc) + tree.inner_nodes.size() * inner_floats;
 }
 
 void require_numbers(std::size_t count, const char* what) {
@@ -139,13 +139,13 @@ void ShapeStorage::store_level(std::size_t root, const Bvh8& tree, std::size_t n
     return static_cast<std::uint32_t>(local & leaf_window ? local + first_disc : node + local * block_floats);
   };
   trees[root] = {name(tree.top), static_cast<std::uint32_t>(first_disc),
-                 static_cast<std::uint32_t>(tree.x.size()), tree.count, tree.outer};
+                 static_cast<std::uint32_t>(tree.x.size()), tree.count, tree.outer_radius};
   trees[root].nodes_hold_discs = tree.nodes_hold_discs;
   const std::uint32_t first_inner = trees[root].first_inner();
   float* out = nodes.data() + node;
   for (const Bvh8::Block& block : tree.blocks) {
     std::memcpy(out, &block.discs, sizeof block.discs);
-    std::memcpy(out + block_outer, block.outer, sizeof block.outer);
+    std::memcpy(out + block_outer, block.outer_radius, sizeof block.outer_radius);
     for (std::uint32_t k = 0; k < block_width; ++k) {
       const std::uint32_t of_block = block.node[k];
       out[block_names + k] = std::bit_cast<float>(name(block.child[k]));
@@ -157,7 +157,7 @@ void ShapeStorage::store_level(std::size_t root, const Bvh8& tree, std::size_t n
   for (const std::vector<float>* field : {&tree.x, &tree.y, &tree.radius})
     out = std::copy(field->begin(), field->end(), out);
   out = std::fill_n(out, nodes.data() + inner_begin(tree, first_disc) - out, 0.0f);
-  for (InnerNode inner : tree.inner) {
+  for (InnerNode inner : tree.inner_nodes) {
     inner.link += first_inner;
     std::memcpy(out, &inner, sizeof inner);
     out += inner_floats;

@@ -12,7 +12,7 @@
 
 namespace bch::detail {
 
-/// Holds the extents of the parts of a shape that have no fixed size: how many elements, or where the first one is.
+/// Holds, for each part of a shape without a fixed size, a number of elements or the position of the first element.
 struct ShapeExtent {
   std::size_t nodes = 0;  ///< floats; a shape begins at a multiple of 16, a cache line
   std::size_t rows = 0;   ///< of supports
@@ -22,7 +22,7 @@ struct ShapeExtent {
   friend bool operator==(const ShapeExtent&, const ShapeExtent&) = default;
 };
 
-/// Calls visit(part...) for each part, with that of every one of `extents`.
+/// Calls visit(part...) for each part, with the same part of all `extents`.
 template <class Visit, class... Extents>
 void for_each_part(Visit visit, Extents&... extents) {
   visit(extents.nodes...);
@@ -34,12 +34,12 @@ void for_each_part(Visit visit, Extents&... extents) {
 
 ShapeExtent extent_of(const FlatShape& shape);
 
-/// Returns where the next shape begins.
+/// Returns the position of the next shape's nodes, on a cache line.
 constexpr std::size_t next_line(std::size_t floats) {
   return (floats + 15) / 16 * 16;
 }
 
-/// Holds the arrays of a set, owned.
+/// Owns the arrays of a set.
 struct ShapeStorage {
   AlignedVector<std::uint32_t> depths;
   AlignedVector<Root> roots;
@@ -56,17 +56,17 @@ struct ShapeStorage {
 
   ShapeArrays arrays() const;
 
-  /// Reserves room for so many shapes of such an extent, of which nothing is written yet.
+  /// Reserves memory for `shapes` shapes of an extent, and writes nothing.
   void reserve(const ShapeSetPlan& plan, std::size_t shapes, const ShapeExtent& extent);
-  /// Makes the arrays with elements of a fixed size large enough for so many shapes, as far as the plan has them.
+  /// Resizes the arrays that have a fixed number of elements per shape and that the plan has.
   void resize(const ShapeSetPlan& plan, std::size_t shapes);
-  /// Makes the others end with such an extent behind this place.
-  /// Errors:  throws std::length_error beyond 2^31 floats of nodes or 2^32 of the others.
+  /// Resizes the other arrays so that a part of size `size` fits at `at`.
+  /// Errors:  throws std::length_error beyond 2^31 floats of nodes or 2^32 elements of another array.
   void allocate(const ShapeExtent& at, const ShapeExtent& size);
-  /// Makes the others end at this place at the latest. Allocates nothing.
+  /// Shortens the other arrays to end at `end` at the latest. Allocates nothing.
   void shorten(const ShapeExtent& end) noexcept;
-  /// Writes a shape; there has to be room. Of arrays without elements nothing is written. Different shapes may be
-  /// written at the same time.
+  /// Writes a shape into allocated places, except into arrays without elements. Threads may write different shapes at
+  /// the same time.
   void store(std::size_t shape, const FlatBody& body, const ShapeExtent& at);
 
  private:

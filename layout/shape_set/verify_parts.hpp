@@ -18,31 +18,30 @@
 #include "layout/format/shape_arrays.hpp"
 #include "layout/shape_set/verify.hpp"
 
-/// Contains the parts of verify(), and what they share.
+/// Contains the parts of verify(), and what the parts share.
 namespace bch::detail::verification {
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 
-/// Represents a shape of a set that is verified, and the list that takes the inconsistencies.
+/// Represents the shape that is being verified, and the list of inconsistencies.
 struct Verifier {
   const ShapeSet& set;
   std::vector<Inconsistency>& inconsistencies;
-  std::size_t most;  ///< inconsistencies
+  std::size_t most;  ///< the limit of inconsistencies
   std::uint32_t shape;
-  double reach;  ///< metres; of a set of roots alone what they extend to
+  double reach;  ///< metres; in a set of roots alone, the reach of the root
 
   const ShapeArrays& arrays() const { return set.arrays(); }
   std::uint32_t levels() const { return set.level_count(); }
   std::uint32_t root(std::uint32_t level) const { return shape * set.level_count() + level; }
   CutDiscs cut(std::uint32_t level) const { return cut_discs(set.view(), root(level)); }
-  /// Lengths that differ by less are equal: what rounding to float does to them, and recomputing them from a reach that
-  /// was rounded up.
+  /// The tolerance of lengths: for rounding to float, and for recomputing from a reach that was rounded up.
   double tolerance() const { return 0x1p-19 * reach; }
 
   void report(const char* array, std::uint32_t level, const std::string& what) const {
     if (inconsistencies.size() < most) inconsistencies.push_back({shape, level, array, what});
   }
-  /// Reports a stored length that is not what was recomputed.
+  /// Reports a stored length that differs from the recomputed one.
   void compare(const char* array, std::uint32_t level, const std::string& place, double stored,
                double expected) const;
 };
@@ -55,7 +54,8 @@ bool may_be_part(const Disc& part, const Disc& whole, double tolerance);
 void verify_tree(const Verifier& verifier, std::uint32_t level);
 void verify_levels(const Verifier& verifier);
 void verify_reach(const Verifier& verifier);
-/// Holds the bounds of a shape's deepest cut, and what a set stores: those of the outline where that cut has segments.
+/// Holds bounds of a shape's deepest cut: of its discs, and the bounds that a set stores, which are those of the
+/// outline if the cut has segments.
 struct DeepestBounds {
   Bounds discs, stored;
 };

@@ -50,7 +50,7 @@ class LevelTree {
     is_found_.assign(cut_.count, false);
     const Root& root = verifier_.arrays().roots[verifier_.root(level_)];
     std::vector<std::uint32_t> nodes_above;
-    verify_outer({root.x, root.y, tree_.outer}, visit(tree_.top, nodes_above));
+    verify_outer({root.x, root.y, tree_.outer_radius}, visit(tree_.top, nodes_above));
     for (std::uint32_t i = 0; i < cut_.count; ++i)
       if (!is_found_[i])
         verifier_.report("nodes", level_,

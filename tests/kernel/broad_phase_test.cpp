@@ -45,7 +45,8 @@ std::vector<Root> roots(const ShapeSet& of, const Agents& agents, bool outer) {
     const std::size_t root = std::size_t{agents.shape[i]} * of.level_count() + agents.level[i];
     const detail::Rotation r = detail::rotation(agents.heading.x()[i]);
     const double x = view.roots[root].x, y = view.roots[root].y;
-    const double radius = outer && view.trees != nullptr ? view.trees[root].outer : view.roots[root].radius;
+    const double radius =
+        outer && view.trees != nullptr ? view.trees[root].outer_radius : view.roots[root].radius;
     all.push_back({r.cosine * x - r.sine * y, r.sine * x + r.cosine * y,
                    radius + 128 * detail::rounding::unit_roundoff * (std::abs(x) + std::abs(y) + radius)});
   }

@@ -275,7 +275,7 @@ std::uint64_t hash_of(const BodyModel& model) {
       words.insert(words.end(), as_words.begin(), as_words.end());
     }
   };
-  add(model.influence_begin), add(model.influences), add(model.cuts), add(model.corner_begin),
+  add(model.influence_begin), add(model.influences), add(model.midpoints), add(model.corner_begin),
       add(model.corners);
   return XXH3_64bits(words.data(), words.size() * sizeof(words[0]));
 }

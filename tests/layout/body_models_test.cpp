@@ -32,7 +32,7 @@ void expect_same(const BodyModel& a, const BodyModel& b) {
     EXPECT_EQ(a.influences[i].weight, b.influences[i].weight);
     EXPECT_EQ(a.influences[i].centre, b.influences[i].centre);
   }
-  EXPECT_EQ(a.cuts, b.cuts);
+  EXPECT_EQ(a.midpoints, b.midpoints);
   EXPECT_EQ(a.corner_begin, b.corner_begin);
   EXPECT_EQ(a.corners, b.corners);
   EXPECT_EQ(a.least_radius, b.least_radius);
@@ -51,7 +51,7 @@ TEST(ModelBytes, GiveTheSameModel) {
 TEST(ModelBytes, HoldNumbersOfAllSizes) {
   BodyModel model;  // no valid one
   model.corners = {0, 0xffffffff, 0, 0x80000000, 1, 0x7fffffff, 127, 128, 1u << 28};
-  model.cuts = {{0xffffffff, 0}, {0, 0xffffffff}};
+  model.midpoints = {{0xffffffff, 0}, {0, 0xffffffff}};
   expect_same(model_from(bytes_of(model), nullptr), model);
 }
 
@@ -172,7 +172,7 @@ TEST(BodyModels, AreRefusedSoonWhateverTheirCuts) {
   model.corner_begin = {0, 2};
   EXPECT_TRUE(test::has(test::complaint([&] { validate(model); }), "triangle 0 outside"));
   for (std::uint32_t point = 1; point < 60; ++point) {
-    model.cuts.push_back({0, point});
+    model.midpoints.push_back({0, point});
     model.corners.push_back(point + 2);
     ++model.corner_begin[1];
   }

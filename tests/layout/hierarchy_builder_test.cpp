@@ -290,8 +290,8 @@ TEST(HierarchyBuilder, LeavesNothingHalfDone) {
 }
 
 /// Against the definition in double: rounding takes at most 8 of the margin's 320 units.
-TEST(Flattener, SupportsAreThoseOfTheCut) {
-  detail::Flattener flattener;
+TEST(Bvh8Builder, SupportsAreThoseOfTheCut) {
+  detail::Bvh8Builder flattener;
   detail::Bvh8 tree;
   for (const Shape& shape : synthetic_shapes(36, 32)) {
     flattener.begin(shape.hierarchy);

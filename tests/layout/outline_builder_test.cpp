@@ -259,7 +259,7 @@ TEST(OutlineBuilder, GivesTheSameBitsOnEveryInstructionSet) {
   }
 }
 
-// ---- Outlines of many disjoint islands. The large ones would take minutes if each island were compared with all others,
+// ---- Outlines of many disjoint components. The large ones would take minutes if each component were compared with all others,
 // beyond this test's time limit.
 
 Outline built(const Soup& soup) {
@@ -273,7 +273,7 @@ void expect_equals_arrangement(const Soup& soup) {
   ASSERT_EQ(test::on_grid(outline), test::arrangement_outline(test::on_grid(soup, outline.grid_step)));
 }
 
-/// Combs are contours of hundreds of stretches, of which each island asks a few.
+/// Combs are contours of hundreds of stretches, of which each component asks a few.
 TEST(OutlineIslands, SmallSoupsHaveTheOutlinesOfTheirArrangements) {
   test::Random random(7);
   for (const Soup& soup : {test::separate_triangles(30), test::nested_frames(3, 3), test::comb(24, false),

@@ -32,9 +32,9 @@ TEST(ScenePlan, NamesEveryShapeOnce) {
   ASSERT_EQ(plan.agent_shape.size(), 300u);
   for (std::size_t i = 0; i < agents.size(); ++i) {
     const PoseId& shape = plan.shapes.at(plan.agent_shape[i]);
-    EXPECT_EQ(shape.character, agents[i].shows.character);
-    EXPECT_EQ(shape.at.clip, agents[i].shows.at.clip);
-    EXPECT_EQ(shape.at.seconds, agents[i].shows.at.seconds);
+    EXPECT_EQ(shape.character, agents[i].pose.character);
+    EXPECT_EQ(shape.at.clip, agents[i].pose.at.clip);
+    EXPECT_EQ(shape.at.seconds, agents[i].pose.at.seconds);
   }
 }
 
@@ -45,7 +45,7 @@ TEST(ScenePlan, SharesShapesWithinThePoseStep) {
   const ScenePlan plan = plan_scene(agents, {.pose_step = 0.5f});
   EXPECT_EQ(plan.shapes.size(), 20u);
   for (std::size_t i = 0; i < agents.size(); ++i) {
-    const float later = agents[i].shows.at.seconds - plan.shapes[plan.agent_shape[i]].at.seconds;
+    const float later = agents[i].pose.at.seconds - plan.shapes[plan.agent_shape[i]].at.seconds;
     EXPECT_GE(later, 0);
     EXPECT_LT(later, 0.5f);
   }

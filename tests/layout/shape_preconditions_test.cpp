@@ -230,7 +230,7 @@ const std::vector<Damage>& all_damage() {
       {"segments of leaves", [](Arrays& a) { a.own.leaf_segments.push_back(1 << detail::leaf_count_shift); }},
       {"outer radii", [](Arrays& a) { a.lowest_block()[detail::block_outer + 3] += 1; }},
       {"outer radii", [](Arrays& a) { a.lowest_block()[detail::block_outer + 3] = nan; }},
-      {"outer radii", [](Arrays& a) { a.tree().outer += 1; }},
+      {"outer radii", [](Arrays& a) { a.tree().outer_radius += 1; }},
   };
   return all;
 }
@@ -428,8 +428,8 @@ const std::vector<Lie>& lies() {
   static const std::vector<Lie> all = {
       {"depths", "discs at depth 1", [](Arrays& a) { a.own.depths[1] = 1; }},
       {"nodes", "needs", [](Arrays& a) { a.lowest_block()[detail::block_outer] *= 0.9f; }},
-      {"nodes", "needs", [](Arrays& a) { a.tree().outer *= 1.01f; }},
-      {"nodes", "needs", [](Arrays& a) { a.tree().outer *= 0.99f; }},
+      {"nodes", "needs", [](Arrays& a) { a.tree().outer_radius *= 1.01f; }},
+      {"nodes", "needs", [](Arrays& a) { a.tree().outer_radius *= 0.99f; }},
       {"nodes", "is not below", [](Arrays& a) { add(a.name(a.lowest_block(), 1), 1); }},
       {"nodes", "sticks out of the one above", [](Arrays& a) { a.radii()[0] *= 3; }},
       {"nodes", "belongs to none", [](Arrays& a) { a.radii()[0] = 1; }},

@@ -29,14 +29,16 @@ class Walk {
   Disc disc(std::uint32_t node) const {
     const std::uint32_t i = node & ~detail::leaf_window;
     if (node >= detail::leaf_window) return {tree_.x[i], tree_.y[i], tree_.radius[i]};
-    return {tree_.inner[i].x, tree_.inner[i].y, tree_.inner[i].radius};
+    return {tree_.inner_nodes[i].x, tree_.inner_nodes[i].y, tree_.inner_nodes[i].radius};
   }
 
-  std::uint32_t above(std::uint32_t inner) const { return tree_.inner[inner].link & ~detail::above_cut_disc; }
+  std::uint32_t above(std::uint32_t inner) const {
+    return tree_.inner_nodes[inner].link & ~detail::above_cut_disc;
+  }
 
   bool is_above(std::uint32_t node, std::uint32_t i) const {
     if (node >= detail::leaf_window) return node == detail::leaf_window + i;
-    std::uint32_t at = tree_.inner[i].link >= detail::above_cut_disc ? i : i - 1;
+    std::uint32_t at = tree_.inner_nodes[i].link >= detail::above_cut_disc ? i : i - 1;
     while (at != node && at != above(at)) at = above(at);
     return at == node;
   }
@@ -100,13 +102,14 @@ TEST(Bvh8, LinksLeadToTheRoot) {
       const std::vector<Hierarchy::Node>& nodes = shape.hierarchy.nodes;
       const std::vector<std::uint32_t> discs = cut(shape.hierarchy, depth),
                                        ends = detail::subtree_ends(nodes);
-      ASSERT_EQ(tree.inner.size(), discs.size());
+      ASSERT_EQ(tree.inner_nodes.size(), discs.size());
       for (std::uint32_t i = 0; i < discs.size(); ++i) {
-        std::uint32_t at = tree.inner[i].link >= detail::above_cut_disc ? i : i - 1;
+        std::uint32_t at = tree.inner_nodes[i].link >= detail::above_cut_disc ? i : i - 1;
         for (std::uint32_t node = discs[i]; node-- > 0;) {
           if (ends[node] <= discs[i]) continue;  // not above the disc
-          EXPECT_EQ(nodes[node].disc, (Disc{tree.inner[at].x, tree.inner[at].y, tree.inner[at].radius}));
-          const std::uint32_t above = tree.inner[at].link & ~detail::above_cut_disc;
+          EXPECT_EQ(nodes[node].disc,
+                    (Disc{tree.inner_nodes[at].x, tree.inner_nodes[at].y, tree.inner_nodes[at].radius}));
+          const std::uint32_t above = tree.inner_nodes[at].link & ~detail::above_cut_disc;
           EXPECT_EQ(above == at, node == 0);
           at = above;
         }

@@ -20,8 +20,7 @@ std::vector<Shape> few_shapes() {
 ShapeOrigins origins_of(std::size_t shapes) {
   ShapeOrigins origins{0.01, {"man.glb", "walk", "", "run \xc3\xbc"}, {}};
   for (std::uint32_t s = 0; s < shapes; ++s)
-    origins.origins.push_back(
-        {0, s == 0 ? ShapeOrigin::rest_pose : 1 + s % 3, 0.25f * static_cast<float>(s)});
+    origins.origins.push_back({0, s == 0 ? ShapeOrigin::no_clip : 1 + s % 3, 0.25f * static_cast<float>(s)});
   return origins;
 }
 
@@ -39,7 +38,7 @@ std::vector<BakedClip> few_clips() {
                              {0, 1, 1}}};
   const AnimatedChunk next{{4, 4.5}, 2, {{5, 0, 1}, {6, 0, 1}, {5, 0, 1}, {6, 0, 2}}};
   const AnimatedChunk fine{{0, 0.1}, 1, {{0.1f, 0.3f, 0.2f}, {100, -0.7f, 0.2f}}};
-  return {{0, 1, {{first, next}, true}}, {3, ShapeOrigin::rest_pose, {{fine}, false}}};
+  return {{0, 1, {{first, next}, true}}, {3, ShapeOrigin::no_clip, {{fine}, false}}};
 }
 
 std::vector<BakedBody> few_bodies() {

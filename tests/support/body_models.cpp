@@ -70,7 +70,7 @@ BodyModel plain_model(const Character& character, std::uint32_t spheres, float l
   }
   BodyModel model;
   model.character = std::make_shared<Character>(character);
-  model.cuts = cut.cuts;
+  model.midpoints = cut.cuts;
   model.leaf_size = spheres > 384 ? 8 : 4;
   model.influence_begin.push_back(0), model.corner_begin.push_back(0);
   for (const auto& [begin, end] : groups) {

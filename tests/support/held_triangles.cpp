@@ -23,9 +23,9 @@ double reach_of(std::span<const Sphere> spheres) {
 
 HeldTriangles::HeldTriangles(const BodyModel& model) : model_(model) {
   const auto vertices = static_cast<std::uint32_t>(model.character->vertices.size());
-  for (std::uint32_t i = 0; i < model.cuts.size(); ++i)
-    cut_.try_emplace(std::minmax(model.cuts[i][0], model.cuts[i][1]), vertices + i);
-  owners_.resize(vertices + model.cuts.size());
+  for (std::uint32_t i = 0; i < model.midpoints.size(); ++i)
+    cut_.try_emplace(std::minmax(model.midpoints[i][0], model.midpoints[i][1]), vertices + i);
+  owners_.resize(vertices + model.midpoints.size());
   for (std::uint32_t s = 0; s < model.sphere_count(); ++s)
     for (std::uint32_t i = model.corner_begin[s]; i < model.corner_begin[s + 1]; ++i)
       owners_[model.corners[i]].push_back(s);

@@ -23,7 +23,7 @@ std::vector<IntegerTriangle> on_grid(const Soup& soup, float grid_step);
 
 std::vector<IntegerContour> on_grid(const Outline& outline);
 
-// Triangles that share no vertices, so that each is an island of its own. Coordinates are multiples of 2^-10 m.
+// Triangles that share no vertices, so that each is a component of its own. Coordinates are multiples of 2^-10 m.
 
 /// Returns triangles on a square lattice, none of which touches another.
 Soup separate_triangles(std::uint32_t count);

@@ -150,7 +150,7 @@ BodyModel assemble_model(std::shared_ptr<const Character> character, const SkinP
   }
   BodyModel model;
   model.character = std::move(character);
-  model.cuts = corners.cuts;
+  model.midpoints = corners.cuts;
   model.leaf_size = layout.leaf_size;
   model.core = choose_core(spheres, layout.core);
   model.influence_begin.push_back(0), model.corner_begin.push_back(0);

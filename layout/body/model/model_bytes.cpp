@@ -105,9 +105,9 @@ void pass(Archive& by, BodyModel& model) {
   by.size(model.influences);
   for (auto& [bone, weight, centre] : model.influences)
     by.number(bone), by.number(weight), by.number(centre.x), by.number(centre.y), by.number(centre.z);
-  by.size(model.cuts);
+  by.size(model.midpoints);
   std::uint32_t last = 0;
-  for (auto& [a, b] : model.cuts) step(by, a, last), step(by, b, a), last = a;
+  for (auto& [a, b] : model.midpoints) step(by, a, last), step(by, b, a), last = a;
   steps(by, model.corner_begin);
   steps(by, model.corners);
   by.size(model.least_radius);

@@ -63,14 +63,14 @@ class Covering {
       for (std::uint32_t i = model.corner_begin[s]; i < model.corner_begin[s + 1]; ++i)
         spheres_[model.corners[i]].push_back(s);
     const auto vertices = static_cast<std::uint32_t>(model.character->vertices.size());
-    for (std::uint32_t i = 0; i < model.cuts.size(); ++i)
-      middle_.try_emplace(std::minmax(model.cuts[i][0], model.cuts[i][1]), vertices + i);
+    for (std::uint32_t i = 0; i < model.midpoints.size(); ++i)
+      middle_.try_emplace(std::minmax(model.midpoints[i][0], model.midpoints[i][1]), vertices + i);
   }
 
   bool holds(const std::array<std::uint32_t, 3>& corners, int halvings = 0) {
     const auto [a, b, c] = corners;
     const std::size_t work = 1 + spheres_[a].size();
-    if (work > left_) refuse("cuts whose order is found soon", "none that was");
+    if (work > left_) refuse("midpoints whose order is found soon", "none that was");
     left_ -= work;
     for (const std::uint32_t s : spheres_[a])
       if (has(b, s) && has(c, s)) return true;
@@ -90,7 +90,7 @@ class Covering {
   static constexpr int max_halvings = 64;
 
   static std::size_t points(const BodyModel& model) {
-    return model.character->vertices.size() + model.cuts.size();
+    return model.character->vertices.size() + model.midpoints.size();
   }
   bool has(std::uint32_t point, std::uint32_t sphere) const {
     return std::binary_search(spheres_[point].begin(), spheres_[point].end(), sphere);
@@ -103,16 +103,16 @@ class Covering {
 
 void require_corners(const BodyModel& model) {
   const std::size_t vertices = model.character->vertices.size();
-  for (std::size_t i = 0; i < model.cuts.size(); ++i)
-    for (const std::uint32_t end : model.cuts[i])
+  for (std::size_t i = 0; i < model.midpoints.size(); ++i)
+    for (const std::uint32_t end : model.midpoints[i])
       if (end >= vertices + i)
-        refuse("cuts between earlier points", std::to_string(end) + " in cut " + std::to_string(i));
+        refuse("midpoints of earlier points", std::to_string(end) + " in midpoint " + std::to_string(i));
   for (std::size_t s = 0; s < model.sphere_count(); ++s)
     for (std::uint32_t i = model.corner_begin[s]; i < model.corner_begin[s + 1]; ++i) {
-      if (model.corners[i] >= vertices + model.cuts.size() ||
+      if (model.corners[i] >= vertices + model.midpoints.size() ||
           (i > model.corner_begin[s] && model.corners[i] <= model.corners[i - 1]))
         refuse("ascending corners of sphere " + std::to_string(s) + " below " +
-                   std::to_string(vertices + model.cuts.size()),
+                   std::to_string(vertices + model.midpoints.size()),
                std::to_string(model.corners[i]));
     }
   Covering covering(model);

@@ -42,9 +42,9 @@ SpherePoser::SpherePoser(const BodyModel& model, const BodyLayout& layout)
     : model_(model), layout_(layout), skinner_(*model.character), blend_(blend_of(model)) {
   const auto vertices = static_cast<std::uint32_t>(model.character->vertices.size());
   const auto spheres = static_cast<std::uint32_t>(model.sphere_count());
-  points_.resize(vertices + spheres + model.cuts.size());
+  points_.resize(vertices + spheres + model.midpoints.size());
   std::vector<std::uint32_t> cuts_above(vertices, 0);  ///< by point
-  for (const auto [a, b] : model.cuts) {
+  for (const auto [a, b] : model.midpoints) {
     cuts_.push_back({row_of(a), row_of(b)});
     cuts_above.push_back(1 + std::max(cuts_above[a], cuts_above[b]));
     max_cuts_ = std::max(max_cuts_, cuts_above.back());

@@ -10,7 +10,8 @@
 
 namespace bch {
 
-/// Names two agents by index. Collisions do not depend on their order; other queries report about the first.
+/// Names two agents by index. Collisions ignore their order; other queries report results for the first
+/// agent.
 struct Pair {
   std::uint32_t first;
   std::uint32_t second;
@@ -22,11 +23,11 @@ template <class Value>
 class Strided {
  public:
   constexpr Strided() = default;
-  /// Takes the first of `size` values that are `stride` bytes apart.
-  /// A stride that is no multiple of the value's alignment is an error of the query.
+  /// Takes the address of the first of `size` values that are `stride` bytes apart.
+  /// Queries reject a stride that is not a multiple of the value's alignment.
   constexpr Strided(const Value* first, std::size_t size, std::size_t stride = sizeof(Value)) noexcept
       : first_(first), size_(size), stride_(stride) {}
-  /// Takes an array: a vector, a span, an array.
+  /// Takes a contiguous range: a vector, a span, an array.
   template <class Range>
   requires std::ranges::contiguous_range<const Range> && std::ranges::sized_range<const Range> &&
       std::is_same_v<std::ranges::range_value_t<const Range>, Value>
@@ -79,7 +80,7 @@ class Numbers {
 /// Views one heading per agent, all of them angles or all directions.
 class Headings {
  public:
-  /// Holds a heading as it was given: an angle, in radians, or a direction (x, y).
+  /// Holds a heading as the caller gave it: an angle, in radians, or a direction (x, y).
   struct Value {
     double x, y = 0;
     bool is_direction = false;
@@ -88,8 +89,8 @@ class Headings {
   constexpr Headings() = default;
   constexpr Headings(const Numbers& angles) noexcept  // NOLINT(google-explicit-constructor): views are
       : x_(angles) {}
-  /// Takes unit vectors (cosine, sine): where an agent's +x points in the world.
-  /// Their lengths are from 0.999 to 1.001, and queries normalise them.
+  /// Takes unit vectors (cosine, sine), the world directions of the agents' +x axes.
+  /// Lengths must be from 0.999 to 1.001; queries normalise the vectors.
   constexpr Headings(const Numbers& x, const Numbers& y) noexcept : x_(x), y_(y), are_directions_(true) {}
   template <class Range>
   requires std::is_constructible_v<Numbers, const Range&>
@@ -101,18 +102,18 @@ class Headings {
   Value operator[](std::size_t i) const noexcept {
     return are_directions_ ? Value{x_[i], y_[i], true} : Value{x_[i]};
   }
-  constexpr const Numbers& x() const noexcept { return x_; }  ///< of directions, or the angles
-  constexpr const Numbers& y() const noexcept { return y_; }  ///< of directions
+  constexpr const Numbers& x() const noexcept { return x_; }  ///< x of the directions, or the angles
+  constexpr const Numbers& y() const noexcept { return y_; }  ///< y of the directions
 
  private:
   Numbers x_, y_;
   bool are_directions_ = false;
 };
 
-/// Views a crowd as a simulator holds it: one entry per agent in each array; nothing is copied.
-/// A heading turns a shape about its agent's position. At a heading of 0 the built-in characters face +x, and
-/// those of files stand as import.hpp says. A rotation of the root within a clip is part of the shape, not of
-/// the heading.
+/// Views a crowd in the arrays of its simulator: one entry per agent in each array; nothing is copied.
+/// A heading turns a shape about its agent's position. At heading 0 the built-in characters face +x;
+/// ImportOptions says how imported ones stand. A rotation of the root within a clip is part of the shape, not
+/// of the heading.
 /// Units:   metres and radians, counter-clockwise, on the ground plane; |x|, |y|, |z| <= 1e9 m and |heading|
 ///          <= 1e9 rad.
 struct Agents {
@@ -120,15 +121,14 @@ struct Agents {
   Numbers x;
   Numbers y;
   Headings heading;
-  Strided<std::uint8_t> level = {};  ///< index into the set's depths; empty: the last level for all
-  /// Gives the heights of the grounds that agents stand on: floors, steps, a stage.
-  /// Empty: one ground for all, and heights of shapes are ignored. Agents with a z collide only if their
-  /// ranges of height intersect, too; a ShapeSet then needs ShapeSetPlan::heights.
+  Strided<std::uint8_t> level = {};  ///< index into the set's depths; empty: all use the last level
+  /// The height of the ground under each agent: a floor, a step, a stage.
+  /// Empty: all agents stand on one ground, and the heights of shapes are ignored. Otherwise agents collide
+  /// only if their intervals of height intersect as well, and a ShapeSet needs ShapeSetPlan::heights.
   Numbers z = {};
 
   std::size_t size() const noexcept { return shape.size(); }
-  /// Returns the index of an agent's root, by its shape and level.
-  /// It is one into arrays with level_count entries per shape.
+  /// Returns the index of an agent's root in arrays with level_count entries per shape.
   std::size_t root(std::size_t agent, std::size_t level_count) const noexcept {
     return shape[agent] * level_count + (level.empty() ? level_count - 1 : level[agent]);
   }

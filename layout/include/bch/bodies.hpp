@@ -28,22 +28,22 @@ struct SphereInfluence {
 };
 
 /// Describes a body as spheres that move with a skeleton and enclose all triangles of a skin in every pose.
-/// In a pose each centre is blended from its bones, and each radius is the least that holds the sphere's
-/// corners. Every triangle, or every piece of one that `cuts` splits at midpoints of edges, has its three
-/// corners among those of one sphere.
+/// In a pose, the centre of a sphere is blended from its bones, and its radius is the least that encloses the
+/// sphere's corners. Each triangle of the skin, or each piece of a triangle that `midpoints` divides, has all
+/// three corners among the corners of one sphere.
 struct BodyModel {
   std::shared_ptr<const Character> character;  ///< its mesh, skeleton and clips
-  std::vector<std::uint32_t> influence_begin;  ///< one offset more than spheres
+  std::vector<std::uint32_t> influence_begin;  ///< sphere_count() + 1 offsets into influences
   std::vector<SphereInfluence> influences;     ///< weights of a sphere are positive and sum to 1
-  /// Makes more points: number vertices.size() + i is the midpoint of these two earlier points, in every
-  /// pose.
-  std::vector<std::array<std::uint32_t, 2>> cuts;
-  std::vector<std::uint32_t> corner_begin;  ///< one offset more than spheres
+  /// Adds points to the vertices: point vertices.size() + i is the midpoint of these two points before it, in
+  /// every pose.
+  std::vector<std::array<std::uint32_t, 2>> midpoints;
+  std::vector<std::uint32_t> corner_begin;  ///< sphere_count() + 1 offsets into corners
   std::vector<std::uint32_t> corners;       ///< indices of vertices or midpoints, ascending within a sphere
   std::vector<float> least_radius;          ///< lower bound of each sphere's radius, metres; empty: 0
-  /// Every leaf_size spheres in sequence, 4 or 8, form a leaf; they are near each other in most poses.
+  /// The number of consecutive spheres that form a leaf, 4 or 8: spheres near each other in most poses.
   std::uint32_t leaf_size = 4;
-  /// Indices of spheres that queries test first, which changes no answer. Repeats are allowed.
+  /// The indices of the spheres that queries test first. They change no answer and may repeat.
   std::array<std::uint32_t, detail::core_spheres> core = {};
 
   std::size_t sphere_count() const noexcept {
@@ -51,74 +51,74 @@ struct BodyModel {
   }
 };
 
-/// Checks all that the type above promises, and that spheres hold all triangles of the mesh.
+/// Checks what BodyModel promises, and that the spheres enclose all triangles of the mesh.
 /// Errors:  throws std::invalid_argument naming the place and the value.
 void validate(const BodyModel& model);
 
 /// Writes a model, with its character, as bytes.
-/// They are for files, other processes and other programs on machines of the same byte order.
+/// Machines of the same byte order can read them with body_model().
 /// Errors:  throws std::invalid_argument as validate() does.
 std::vector<std::byte> to_bytes(const BodyModel& model);
 
-/// Reads a model from bytes of to_bytes(), which need not be trusted.
-/// Errors:  throws std::invalid_argument on other bytes, and as validate() does.
+/// Reads a model from bytes of to_bytes(). The bytes need not be trusted.
+/// Errors:  throws std::invalid_argument if the bytes are malformed, and as validate() does.
 BodyModel body_model(std::span<const std::byte> bytes);
 
-/// Says how make_body() works.
+/// Holds the options of make_body().
 struct BodyOptions {
   std::uint32_t spheres = 256;  ///< at most 4096
-  /// Leaves out the search for better places of the spheres.
-  /// That makes a model in seconds, with errors about twice as large.
+  /// Skips the search for better positions of the spheres.
+  /// A draft takes seconds, and its errors are about twice as large.
   bool draft = false;
-  /// Called on the caller's thread, at most twenty times a second, with the part done, from 0 to 1.
+  /// Called on the caller's thread, at most twenty times per second, with the fraction done, from 0 to 1.
   /// Returning false cancels.
   std::function<bool(double fraction)> progress = {};
 };
 
-/// Makes the model of a character: spheres inside its skin, bound to its bones. The same bits on every
-/// processor.
-/// Cost:    up to a minute, a few seconds as a draft.
-/// Errors:  throws std::invalid_argument as validate(Character) does, on spheres out of range, and on a
-///          character without triangles of some area; std::system_error of std::errc::operation_canceled
-///          where it is cancelled.
+/// Makes the model of a character: spheres inside its skin, bound to its bones.
+/// The result has the same bits on every processor.
+/// Cost:    up to a minute; a few seconds for a draft.
+/// Errors:  throws std::invalid_argument as validate(Character) does, if the number of spheres is out of
+///          range, and if no triangle has an area; std::system_error of std::errc::operation_canceled if
+///          cancelled.
 BodyModel make_body(const Character& character, const BodyOptions& options = {});
 
-/// Makes the model of a rigid body from spheres, for things that move among people and share their sets.
-/// Its poses are Pose() (at rest) or a transform of its one joint, which may tilt it. Radii are the same in
-/// every pose. The model numbers spheres by groups that are near each other, not as they are given: sphere i
-/// has the centre influences[i].centre and the radius least_radius[i].
-/// Errors:  throws std::invalid_argument on no spheres or more than 4096, and on one that is not finite or
-///          has a negative radius.
+/// Makes the model of a rigid body from spheres, for objects that move among people in the same set.
+/// Its poses are Pose() (at rest) and transforms of its one joint, which may tilt it. Radii are the same in
+/// every pose. The model reorders the spheres so that near ones follow each other: sphere i has the centre
+/// influences[i].centre and the radius least_radius[i].
+/// Errors:  throws std::invalid_argument if there are no spheres or more than 4096, or if a sphere is not
+///          finite or has a negative radius.
 BodyModel make_body(std::span<const Sphere> spheres);
 
-/// Returns the model that comes with the library of a built-in character, with 64, 128, 256 or 512 spheres.
-/// It is what make_body() makes of default_male() or default_female(). Pedestrians (default_pedestrian()),
-/// who have the same skins, take the same models.
+/// Returns the library's ready-made model of a built-in character, with 64, 128, 256 or 512 spheres.
+/// It equals make_body() of default_male() or default_female(). Pedestrians (default_pedestrian()) have the
+/// same skins and take the same models.
 /// Cost:    milliseconds.
-/// Errors:  throws std::invalid_argument on another skin or skeleton, or another number of spheres; use
-///          make_body() for those.
+/// Errors:  throws std::invalid_argument for any other skin, skeleton or number of spheres; use make_body()
+///          there.
 BodyModel default_body(const Character& built_in, std::uint32_t spheres = 256);
 
 /// Holds the options of animate().
 struct AnimateOptions {
-  /// Limits how far spheres protrude from those of BodyPoser, metres, between keys more than 9 ms apart.
-  /// Closer keys have no such limit.
+  /// The largest distance by which moving spheres protrude from the spheres of BodyPoser, metres.
+  /// It applies between keys more than 9 ms apart.
   float error = 0.005f;
-  std::optional<bool> loops =
-      {};  ///< AnimatedDiscs::loops; none: whether the clip's last pose is its first one, to 0.025 mm
+  /// AnimatedDiscs::loops. Unset: true if the clip's last pose equals its first to 0.025 mm.
+  std::optional<bool> loops = {};
 };
 
-/// Makes moving spheres of a clip that hold all triangles at every real time of it.
-/// There is one for each sphere of the model; layout/animation/clip_samples.hpp has the proof. Each number of
-/// a chunk is one of 16 bits times a power of two. The heights bound those of the triangles at every real
+/// Makes moving spheres that enclose all triangles of a body at every real time of a clip.
+/// Each sphere of the model becomes one moving sphere; layout/animation/clip_samples.hpp has the proof. The
+/// numbers of a chunk are 16-bit integers times a power of two. The heights bound the triangles at every real
 /// time.
-/// Errors:  throws std::invalid_argument as validate() does, on a clip that does not exist or takes no time,
-///          on channels that jump, step or are cubic, on a character without a root joint, and on an error
-///          that is not above 0; std::domain_error as BodyPoser::spheres() does.
+/// Errors:  throws std::invalid_argument as validate() does, if the clip does not exist or takes no time, if
+///          its channels jump, step or are cubic, if the character has no root joint, and if the error is not
+///          above 0; std::domain_error as BodyPoser::spheres() does.
 AnimatedDiscs animate(const BodyModel& model, std::uint32_t clip, const AnimateOptions& options = {});
 
 /// Poses the spheres of a model, one pose after the other.
-/// Threads: one at a time may use an object. One that was moved from can only be assigned to or destroyed.
+/// Threads: one at a time may use an object. A moved-from object can only be assigned to or destroyed.
 class BodyPoser {
  public:
   /// Copies a model.
@@ -129,10 +129,10 @@ class BodyPoser {
   ~BodyPoser();
 
   /// Returns the spheres of a pose: a time of a clip, joint transforms or bone matrices.
-  /// They hold every triangle of pose_vertices(), in the same frame, whatever the pose. Valid until the next
+  /// They enclose every triangle of pose_vertices(), in the same frame. The result is valid until the next
   /// call.
-  /// Errors:  as PoseShaper::shape(); throws std::invalid_argument on a pose of vertices, which does not say
-  ///          where bones are, and std::domain_error on a reach outside 1e-6 to 1e6 m.
+  /// Errors:  as PoseShaper::shape(); throws std::invalid_argument for PosedVertices, which do not say where
+  ///          bones are, and std::domain_error if the reach is outside 1e-6 to 1e6 m.
   std::span<const Sphere> spheres(const Pose& pose);
 
  private:
@@ -140,50 +140,53 @@ class BodyPoser {
   std::unique_ptr<State> state_;
 };
 
-/// Names a pose of a body of one of several models.
+/// Names a model, by its index, and a pose of its body.
 struct PoseOfBody {
   std::uint32_t model = 0;
   Pose pose;
 };
 
-/// Says which bodies bake() makes.
+/// Selects the bodies that bake() makes.
 struct BakeBodiesOptions {
-  std::uint32_t poses =
-      100;  ///< of each model, spread evenly over its character's clips, one model after the other
-  std::vector<PoseOfBody> bodies = {};  ///< which poses of which models; none: `poses`
-  /// Called on the caller's thread, at most twenty times a second, with the bodies made so far. Returning
-  /// false cancels.
+  /// The number of poses per model, spread evenly over its character's clips; models follow each other.
+  std::uint32_t poses = 100;
+  std::vector<PoseOfBody> bodies = {};  ///< the bodies one by one; empty: `poses` of every model
+  /// Called on the caller's thread, at most twenty times per second, with the number of bodies made so far.
+  /// Returning false cancels.
   std::function<bool(std::size_t done, std::size_t total)> progress = {};
 };
 
-/// Makes a set of models in many poses, on all threads of the caller's TBB arena, with the same bits.
-/// Errors:  throws std::invalid_argument as validate() does and on a model that is not there; what
-///          BodyPoser::spheres() throws, with the number of the body; and std::system_error of
-///          std::errc::operation_canceled where it is cancelled.
+/// Makes a set of models in many poses, on all threads of the caller's TBB arena.
+/// The bits do not depend on the number of threads.
+/// Errors:  throws std::invalid_argument as validate() does and if a body's model does not exist; what
+///          BodyPoser::spheres() throws, with the number of the body; std::system_error of
+///          std::errc::operation_canceled if cancelled.
 BodySet bake(std::span<const BodyModel> models, const BakeBodiesOptions& options = {});
 /// Makes a set of one model.
 BodySet bake(const BodyModel& model, const BakeBodiesOptions& options = {});
 
-/// Holds a body for each of many agents, who all have poses of their own in every frame.
+/// Holds one body per agent, for agents that each have a pose of their own in every frame.
 ///
 ///     bch::LiveBodies bodies(models, model_of_agent);
 ///     bodies.pose(poses);                                     // in every frame
 ///     for (const auto [a, b] : crowd.collisions(bodies.set(), {body, x, y, heading})) ...
 class LiveBodies {
  public:
-  /// Copies models. Body i is one of model model_of_body[i], in the rest pose.
-  /// Errors:  throws std::invalid_argument as validate() does, and on an index of no model.
+  /// Copies the models. Body i takes models[model_of_body[i]] and begins in the rest pose.
+  /// Errors:  throws std::invalid_argument as validate() does, and if an index is out of range.
   LiveBodies(std::span<const BodyModel> models, std::span<const std::uint32_t> model_of_body);
   LiveBodies(LiveBodies&&) noexcept;
   LiveBodies& operator=(LiveBodies&&) noexcept;
   ~LiveBodies();
 
-  /// Poses all bodies, one pose a body, on all threads of the caller's TBB arena, with the same bits.
-  /// No query may run meanwhile. Allocates nothing after the first calls.
-  /// Errors:  throws std::invalid_argument on another number of poses and, naming the body, what
-  ///          BodyPoser::spheres() throws. Some bodies then have their new poses.
+  /// Poses all bodies, poses[i] for body i, on all threads of the caller's TBB arena.
+  /// The bits do not depend on the number of threads. No query may run at the same time. Allocates nothing
+  /// after the first calls.
+  /// Errors:  throws std::invalid_argument if the number of poses is not that of the bodies, and what
+  ///          BodyPoser::spheres() throws, with the number of the body. Some bodies may then have their new
+  ///          poses.
   void pose(std::span<const Pose> poses);
-  /// Returns the bodies in their present poses.
+  /// Returns the set of the bodies in their present poses.
   const BodySet& set() const noexcept;
 
  private:

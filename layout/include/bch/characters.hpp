@@ -16,11 +16,11 @@ namespace bch {
 struct Joint {
   std::string name;
   std::int32_t parent = -1;  ///< -1: a root
-  Affine3 rest;              ///< the transform in the parent's frame, where a clip does not move the joint
+  Affine3 rest;              ///< the transform in the parent's frame when no clip moves the joint
   friend bool operator==(const Joint&, const Joint&) = default;
 };
 
-/// Holds a value at a time, which is in seconds.
+/// Holds a value at a time, in seconds.
 template <class Value>
 struct Key {
   float time;
@@ -28,12 +28,12 @@ struct Key {
 };
 
 /// Selects how values between two keys are computed.
-/// Linear blends them (rotations spherically), step keeps the earlier one, cubic is a Hermite spline through
-/// the keys with the curve's tangents.
+/// Linear blends the two values (rotations spherically), step keeps the earlier one, cubic is a Hermite
+/// spline through the keys with the curve's tangents.
 enum class Interpolation : std::uint8_t { linear, step, cubic };
 
-/// Describes the interpolation of one part of a channel between its keys. Only cubic has tangents, one pair
-/// per key.
+/// Describes the interpolation of positions, rotations or scales between their keys.
+/// Only cubic curves have tangents, one pair per key.
 template <class Value>
 struct Curve {
   /// Holds the derivatives of a value at a key, per second: `in` just before the key, `out` just after it.
@@ -46,7 +46,7 @@ struct Curve {
 };
 
 /// Describes the motion of one joint relative to its parent, with keys in order of time.
-/// A part without keys stays as it is in the joint's rest transform.
+/// Positions, rotations or scales without keys stay as in Joint::rest.
 struct Channel {
   std::uint32_t joint = 0;
   std::vector<Key<Vec3>> positions;
@@ -57,7 +57,7 @@ struct Channel {
   Curve<Vec3> scale_curve;
 };
 
-/// Describes a motion of a character, from time 0 on.
+/// Describes a motion of a character that begins at time 0.
 struct Clip {
   std::string name;
   float seconds = 0;
@@ -65,8 +65,8 @@ struct Clip {
 };
 
 /// Describes a bone, which moves vertices: a joint and its inverse bind matrix.
-/// The matrix maps the mesh's own frame to the joint's frame in the bind pose, which may differ from
-/// Joint::rest.
+/// The matrix maps the mesh's own frame to the joint's frame in the bind pose. The bind pose may differ from
+/// the rest pose (Joint::rest).
 struct Bone {
   std::uint32_t joint = 0;
   Affine3 inverse_bind;
@@ -81,8 +81,8 @@ struct Influence {
 };
 
 /// Holds everything about a character that does not depend on the pose: one mesh, a skeleton, clips.
-/// The meshes of a file are concatenated; a mesh that is only attached to a node follows one bone of
-/// weight 1.
+/// The meshes of a file are concatenated. A mesh without a skin follows the node that it is attached to, as
+/// one bone of weight 1.
 struct Character {
   std::string name;
   std::vector<Joint> joints;
@@ -93,12 +93,12 @@ struct Character {
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<Clip> clips;
   Affine3 to_ground;  ///< maps the file's frame to the world: metres, z up
-  /// Selects the joint whose (x, y) is a shape's origin. -1: a mesh without skeleton, whose origin is the
-  /// centre of its bounding rectangle.
+  /// The joint whose (x, y) is a shape's origin; -1: a mesh without a skeleton, whose origin is the centre of
+  /// its bounding rectangle.
   std::int32_t root_joint = -1;
 };
 
-/// Checks all that the types above promise: indices, order of joints and keys, finite values, weights ...
+/// Checks a character's indices, the order of joints and keys, weights, and that values are finite.
 /// Errors:  throws std::invalid_argument naming the character, the place and the value.
 void validate(const Character& character);
 
@@ -110,18 +110,19 @@ struct PoseTime {
 };
 
 /// Returns the poses at the middles of `count` equal intervals of the character's clips laid end to end.
-/// The same arguments give the same poses everywhere. A character without clips has one pose, the rest pose.
+/// The same arguments give the same poses on every machine. A character without clips has one pose, the rest
+/// pose.
 std::vector<PoseTime> sample_poses(const Character& character, std::uint32_t count);
 
 /// Returns the built-in man: 1.88 m tall, a closed skin of about 2 850 triangles, 27 joints, 212 s of clips.
 /// The clips are walking, turning, side-stepping and idling. He faces +x at rest. "Characters" in
-/// layout/README.md compares him with the paper's character.
-/// Units:   metres, z up. Each call takes about ten milliseconds and returns the same bits.
+/// layout/README.md compares him with the paper's character. All calls return the same bits.
+/// Units:   metres, z up.
+/// Cost:    about ten milliseconds.
 Character default_male();
 /// Returns the built-in woman, 1.74 m tall; see default_male().
 Character default_female();
-/// Returns a bulky man, who is like default_male() but has the volume of the man of the paper's table 1.
-/// That is about 0.137 m3, by the means of the table.
+/// Returns a bulky man: default_male() with the volume of the man in the paper's table 1, about 0.137 m3.
 Character default_bulky_male();
 
 /// Selects the sex of a pedestrian's body.
@@ -129,14 +130,14 @@ enum class Sex { female, male };
 
 /// Returns a pedestrian for recorded and simulated crowds: the built-in man or woman of a given stature.
 /// Clip k is one stride (two steps) at 0.03 k m/s, k = 0 to 73, and can be repeated. The shape's origin is
-/// the point below the head, which is what cameras track. `shoulders` rotates the shoulder line from square
-/// to the walking direction, counter-clockwise. "Characters" in layout/README.md has the gait and its
-/// sources.
-/// Units:   metres, radians; a stature from 0.8 to 2.4, a rotation from -1 to 1.
-/// Errors:  throws std::invalid_argument on another stature or rotation.
+/// the point below the head, which is what cameras track. `shoulders` rotates the shoulder line,
+/// counter-clockwise, away from the perpendicular to the walking direction. "Characters" in layout/README.md
+/// has the gait and its sources.
+/// Units:   metres, radians; the stature is from 0.8 to 2.4, the rotation from -1 to 1.
+/// Errors:  throws std::invalid_argument if the stature or the rotation is out of range.
 Character default_pedestrian(Sex sex, double stature, double shoulders = 0);
 
-/// Returns the number of strides, of two steps each, that a pedestrian takes in a second.
+/// Returns how many strides of two steps a pedestrian takes per second at a walking speed.
 double pedestrian_strides_per_second(double metres_per_second);
 
 }  // namespace bch

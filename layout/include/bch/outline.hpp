@@ -13,17 +13,17 @@
 namespace bch {
 
 /// Holds the outline of what a character covers when seen from above: closed contours, counter-clockwise.
-/// Contours may touch, cross, overlap or contain themselves or each other; every segment counts. A point is
-/// inside if the even-odd rule of any one contour says so. Only OutlineOptions::holes adds clockwise
-/// contours, the holes; hierarchies and sets reject them. "Outlines" in layout/README.md says what
-/// OutlineBuilder makes.
+/// Contours may touch, cross or overlap themselves and each other, and one may contain another; queries test
+/// every segment. A point is inside if it is inside at least one contour by the even-odd rule. Only
+/// OutlineOptions::holes adds clockwise contours, the holes, which hierarchies and sets reject. "Outlines" in
+/// layout/README.md describes the outlines of OutlineBuilder.
 struct Outline {
-  std::vector<Vec2> points;  ///< metres, in the shape's frame; taken as they are, on a grid or not
+  std::vector<Vec2> points;                        ///< metres, in the shape's frame; used as given
   std::vector<std::uint32_t> contour_begin = {0};  ///< contours + 1 offsets into points
-  /// Gives the step of the grid to which points were rounded before, metres; 0 if they were not.
-  /// It is at most the reach. Discs are enlarged by 1.5 steps, so that they enclose the points as they were
-  /// before. The step of OutlineBuilder is a power of two, and coordinates are multiples below 2^23, which
-  /// floats hold exactly.
+  /// The step of the grid to which the points were rounded, metres, at most the reach; 0: not rounded.
+  /// Discs are enlarged by 1.5 steps, so that they enclose the points before rounding. The step of
+  /// OutlineBuilder is a power of two, and its coordinates are multiples of the step below 2^23, which floats
+  /// represent exactly.
   float grid_step = 0;
 
   std::size_t contours() const { return contour_begin.size() - 1; }
@@ -32,32 +32,31 @@ struct Outline {
   }
 };
 
-/// Returns the sum of the contours' signed areas, square metres: holes are subtracted, and overlaps count
-/// repeatedly.
+/// Returns the sum of the signed areas of the contours, square metres.
+/// Holes are subtracted, and overlaps count repeatedly.
 double area(const Outline& outline);
 
-/// Makes an outline of footprints: polygons on the ground, for bodies that come from no mesh.
+/// Makes an outline of footprints: polygons on the ground, for bodies without a mesh.
 /// Polygons may touch, cross and overlap, in either orientation. The last corner is joined to the first; a
-/// corner equal to the one before it does not count.
-/// Units:   metres, in the shape's frame: the agent's position is (0, 0), and its heading turns the shape
-///          about that.
-/// Errors:  throws std::invalid_argument, naming the polygon, on no polygons, on one of fewer than three
-///          corners or without area, on a corner that is not finite, and on a reach outside 1e-6 to 1e6 m.
+/// corner equal to the one before it is ignored.
+/// Units:   metres, in the shape's frame, whose origin is the agent's position.
+/// Errors:  throws std::invalid_argument if there are no polygons and, naming the polygon, if one has fewer
+///          than three corners, no area, a corner that is not finite, or a reach outside 1e-6 to 1e6 m.
 Outline outline_from_polygons(std::span<const std::vector<Vec2>> polygons);
 
-/// Returns an outline as well-known text: a MULTIPOLYGON, which obstacles_from_wkt() reads as well.
-/// Exteriors go counter-clockwise, and a clockwise contour is a hole of the exterior before it. No ring
-/// visits a point twice: contours are split there. Parts without area, such as whiskers, are left out; an
-/// outline without polygons gives MULTIPOLYGON EMPTY. Numbers are the floats' shortest text.
+/// Returns an outline as well-known text: a MULTIPOLYGON, which obstacles_from_wkt() also reads.
+/// Exteriors are counter-clockwise; a clockwise contour is a hole of the exterior before it. A contour that
+/// visits a point twice is split there. Parts without area are left out; an outline without polygons gives
+/// MULTIPOLYGON EMPTY. Numbers have the fewest digits that give the same floats.
 std::string to_wkt(const Outline& outline);
-/// Returns an outline as GeoJSON: a MultiPolygon of RFC 7946.
-/// The polygons are those of to_wkt(), in metres instead of degrees.
+/// Returns an outline as GeoJSON: a MultiPolygon of RFC 7946 with the polygons of to_wkt().
+/// Coordinates are metres, not degrees.
 std::string to_geojson(const Outline& outline);
 
-/// Checks the promises that hierarchies and shape sets rely on.
-/// They are at least one contour, offsets in order, finite points, a reach from 1e-6 to 1e6 m, and no
-/// clockwise contour (of more area than rounding to the grid explains). Takes linear time.
-/// Returns: the reach of its points.
+/// Checks what hierarchies and shape sets expect of an outline, in linear time.
+/// There is at least one contour, offsets are in order, points are finite, the reach is 1e-6 to 1e6 m, and no
+/// contour is clockwise (beyond the area that rounding to the grid explains).
+/// Returns: the reach of the points.
 /// Errors:  throws std::invalid_argument naming the contour or point and the value.
 double validate(const Outline& outline);
 

@@ -21,37 +21,37 @@ struct BuildImplementation;
 namespace bch {
 
 /// Finds the outline of one mesh in pose after pose: the outer boundary of its triangles, seen from above.
-/// The result is exact on a grid of 2^-23 of the power of two above the reach (0.12 um for a person).
-/// Triangles may be open, non-manifold, duplicated or degenerate; holes are left out. The result depends only
-/// on the union, not on how it is made of triangles. "Outlines" in layout/README.md has the rules.
+/// The result is exact on a grid whose step is 2^-23 times the power of two above the reach (0.12 um for a
+/// person). The mesh may be open or non-manifold, with duplicated or degenerate triangles; holes are left
+/// out. The result depends on the union of the triangles alone. "Outlines" in layout/README.md has the rules.
 class OutlineBuilder {
  public:
-  /// Prepares the mesh; a bind pose makes building fast.
-  /// Edges near each other in it are processed together, and vertices at one place in it are merged in every
-  /// pose that does not separate them.
-  /// Sizes:   triangle indices are below `vertices`; the bind pose has as many positions, or none.
-  /// Errors:  throws std::invalid_argument on no triangles, an index out of range, a bind pose of another
-  ///          length or with a position that is not finite. Vertices that no triangle uses do not count.
+  /// Prepares the mesh. A bind pose makes building faster and changes no outline.
+  /// Edges near each other in the bind pose are processed together. Vertices at the same place in it are
+  /// merged in each pose that does not separate them. Vertices without triangles are ignored.
+  /// Sizes:   triangle indices are below `vertices`; the bind pose has `vertices` positions or none.
+  /// Errors:  throws std::invalid_argument if there are no triangles, an index is out of range, or the bind
+  ///          pose has another length or a position that is not finite.
   OutlineBuilder(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices,
                  std::span<const Vec3> bind_pose = {});
   OutlineBuilder(OutlineBuilder&&) noexcept;
   OutlineBuilder& operator=(OutlineBuilder&&) noexcept;
   ~OutlineBuilder();
 
-  /// Writes the outline of a pose into `outline`, whose memory is used again.
+  /// Writes the outline of a pose into `outline`, whose memory is reused.
   /// Allocates nothing once the longest outline has been built.
   /// Units:   metres; the ground is x-y.
-  /// Errors:  throws std::invalid_argument on another number of positions than of vertices, a coordinate that
-  ///          is not finite, a reach outside 1e-6 to 1e6 m, or when every triangle is a point.
+  /// Errors:  throws std::invalid_argument if there is not one position per vertex, a coordinate is not
+  ///          finite, the reach is outside 1e-6 to 1e6 m, or every triangle is a point.
   void build(std::span<const Vec2> positions, Outline& outline);
   /// Writes the outline of positions with heights.
-  /// Returns: the heights of all vertices that triangles use.
-  /// Errors:  as the other overload; also on such a height that is not finite.
+  /// Returns: the interval of heights of all vertices that triangles use.
+  /// Errors:  as the other overload; also if the height of such a vertex is not finite.
   Heights build(std::span<const Vec3> positions, Outline& outline);
 
-  // For the library's own parts, which alone know this type.
+  // Internal: only the library has this type.
 
-  /// Uses a given implementation instead of the best one. This processor has to support it.
+  /// Uses a given implementation, which this processor must support, in place of the best one.
   OutlineBuilder(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices,
                  std::span<const Vec3> bind_pose, const detail::BuildImplementation& implementation);
 
@@ -60,26 +60,27 @@ class OutlineBuilder {
   std::unique_ptr<State> state_;
 };
 
-/// Says what of a mesh outline() finds.
+/// Selects the part of a mesh whose outline outline() finds, and whether to find its holes.
 struct OutlineOptions {
-  /// Clips the mesh at two heights, metres; infinite ones clip nothing.
+  /// Clips the mesh to an interval of heights, metres; infinite ends clip nothing.
   /// A clipped mesh is prepared anew in every pose.
   Heights between = {};
-  /// Also finds the holes of the union, as clockwise contours, and what lies in the holes.
-  /// They follow the counter-clockwise contour that is around them. No contour then visits a point twice, and
-  /// parts without area are left out. It takes some hundred times as long.
+  /// Also finds the holes of the union, as clockwise contours, and the parts inside the holes.
+  /// A hole follows the counter-clockwise contour around it. No contour then visits a point twice, and parts
+  /// without area are left out. Takes about a hundred times as long.
   bool holes = false;
-  /// Called as BakeOptions::progress, with the poses of outlines() done so far. Returning false cancels.
+  /// Called like BakeOptions::progress, with the number of poses that outlines() has done so far.
+  /// Returning false cancels.
   std::function<bool(std::size_t done, std::size_t total)> progress = {};
 };
 
-/// Finds the outline of a mesh as it stands: the exact union of its triangles seen from above.
-/// See OutlineBuilder. Between heights where there is nothing, or nothing but points and what is within 1e-6
-/// m of the origin, it has no contours.
-/// Sizes:   triangle indices are below positions.size(); vertices that no triangle uses do not count.
-/// Errors:  throws std::invalid_argument on no triangles, an index out of range, a coordinate that is not
-///          finite (a height only where some cut), a reach outside 1e-6 to 1e6 m, and heights that are NaN or
-///          do not ascend.
+/// Finds the outline of a mesh in one pose: the exact union of its triangles seen from above.
+/// See OutlineBuilder. The outline has no contours if nothing lies between the heights, or only points and
+/// parts within 1e-6 m of the origin.
+/// Sizes:   triangle indices are below positions.size(); vertices without triangles are ignored.
+/// Errors:  throws std::invalid_argument if there are no triangles, an index is out of range, a coordinate is
+///          not finite (heights of vertices count only if `between` clips), the reach is outside 1e-6 to 1e6
+///          m, or the heights of `between` are NaN or do not ascend.
 Outline outline(std::span<const Vec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles,
                 const OutlineOptions& options = {});
 /// Finds the outline of a character in a pose, relative to the root joint's (x, y); see PoseShaper::shape().
@@ -87,9 +88,9 @@ Outline outline(const Character& character, PoseTime at = {}, const OutlineOptio
 
 /// Finds the outlines of a mesh in many poses, on all threads of the caller's TBB arena.
 /// The mesh is prepared once for all poses.
-/// Sizes:   one pose of so many vertices after the other.
+/// Sizes:   `positions` has `vertices` positions per pose, pose after pose.
 /// Errors:  as outline(), with the number of the pose, and std::system_error of std::errc::operation_canceled
-///          where it is cancelled.
+///          if cancelled.
 std::vector<Outline> outlines(std::span<const Vec3> positions, std::size_t vertices,
                               std::span<const std::array<std::uint32_t, 3>> triangles,
                               const OutlineOptions& options = {});

@@ -23,17 +23,18 @@
 
 namespace bch {
 
-/// Maps a point as Affine3 does, in double.
-/// A joint's transform keeps all digits on its way through the skeleton.
+/// Represents an affine map like Affine3, in double.
+/// Joint transforms are multiplied along the skeleton in double.
 struct Affine3d {
   double rows[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
   friend bool operator==(const Affine3d&, const Affine3d&) = default;
 };
 
-/// Refers to affine maps in memory of the caller, of float or double, as rows or as columns.
+/// Views affine maps of float or double in the caller's memory, row-major or column-major.
+/// That memory must stay valid and unchanged while the view is in use.
 class Transforms {
  public:
-  /// Refers to a contiguous range of Affine3 or Affine3d.
+  /// Views a contiguous range of Affine3 or Affine3d.
   template <class Range>
   requires std::convertible_to<const Range&, std::span<const Affine3>> Transforms(const Range& maps)
       : Transforms(of(std::span<const Affine3>(maps))) {}
@@ -41,14 +42,14 @@ class Transforms {
   requires std::convertible_to<const Range&, std::span<const Affine3d>> Transforms(const Range& maps)
       : Transforms(of(std::span<const Affine3d>(maps))) {}
 
-  /// Refers to maps written row by row: three rows of four numbers.
-  /// A map begins `stride` numbers after the one before: 16, where a fourth row follows.
+  /// Views row-major maps: three rows of four numbers each.
+  /// Maps begin `stride` numbers apart: 12, or 16 if each has a fourth row.
   template <std::floating_point Number>
   static Transforms row_major(const Number* first, std::size_t count, std::size_t stride = 12) {
     return {first, count, stride, 4, 1, std::same_as<Number, double>};
   }
-  /// Refers to 4x4 matrices written column by column, as OpenGL, glTF, glm and Eigen keep them.
-  /// Matrices for row vectors, written row by row (Direct3D, Unreal), lie in memory the same way.
+  /// Views column-major 4x4 matrices, as OpenGL, glTF, glm and Eigen store them.
+  /// Row-major matrices for row vectors (Direct3D, Unreal) have the same layout in memory.
   template <std::floating_point Number>
   static Transforms column_major(const Number* first, std::size_t count, std::size_t stride = 16) {
     return {first, count, stride, 1, 4, std::same_as<Number, double>};
@@ -68,13 +69,13 @@ class Transforms {
 
   const void* first_;
   std::size_t count_;
-  std::size_t stride_, row_,
-      column_;  ///< in numbers: from map to map, from row to row, from column to column
+  std::size_t stride_, row_, column_;  ///< numbers from one map, row, column to the next
   bool is_double_;
 };
 
 /// Poses a character by the transforms of all joints, each in the frame of its parent.
-/// That of a joint without parent is the character's own frame, which Character::to_ground maps to the world.
+/// The transform of a joint without parent is in the character's own frame, which Character::to_ground maps
+/// to the world.
 struct LocalPose {
   Transforms joints;
 };
@@ -86,21 +87,21 @@ struct WorldPose {
 };
 
 /// Poses a character by the bone matrices of a renderer, in the order of Character::bones.
-/// Each is the world transform of a bone's joint times the bone's inverse_bind.
+/// A bone matrix is the world transform of the bone's joint times the bone's inverse_bind.
 struct SkinningPalette {
   Transforms bones;
-  /// Gives the world point that becomes the shape's origin.
-  /// Without a root joint it has no effect, and the origin is the centre of the bounding rectangle.
+  /// The world point that becomes the shape's origin, metres.
+  /// Ignored without a root joint: the origin is then the centre of the bounding rectangle.
   double x = 0, y = 0;
 };
 
-/// Poses a character by where all its vertices are: metres, z up, relative to the origin of the shape.
+/// Poses a character by the positions of all vertices: metres, z up, relative to the origin of the shape.
 struct PosedVertices {
   std::span<const Vec3> positions;
 };
 
-/// Names a pose in one of the ways above, or by a time in a clip.
-/// It refers to the caller's arrays and is used before they change.
+/// Holds a pose in one of the ways above, or as a time in a clip.
+/// It views the arrays of the caller, which must stay unchanged until the call that uses the pose returns.
 class Pose {
  public:
   using Kinds = std::variant<PoseTime, LocalPose, WorldPose, SkinningPalette, PosedVertices>;
@@ -124,26 +125,27 @@ struct WeightedPose {
   float weight = 1;
 };
 
-/// Selects the frame of joint transforms: that of LocalPose or of WorldPose.
+/// Selects the frame of joint transforms: the parent's (LocalPose) or the world (WorldPose).
 enum class JointFrame : std::uint8_t { parent, world };
 
-/// Returns the index of the joint of a name.
-/// Errors:  throws std::invalid_argument where no joint or more than one has it.
+/// Returns the index of the joint that has a name.
+/// Errors:  throws std::invalid_argument if no joint or more than one has the name.
 std::uint32_t find_joint(const Character& character, std::string_view name);
 
-// A PoseShaper has functions of these names that keep their memory.
+// PoseShaper has functions of the same names that reuse memory.
 
 /// Returns the transforms of all joints at a time of a clip.
-/// As a LocalPose or a WorldPose they give the clip's shape, bit for bit.
-/// Errors:  throws std::invalid_argument on a clip that does not exist or a time outside 0 to Clip::seconds.
+/// As a LocalPose or a WorldPose they give the same shape as the clip, bit for bit.
+/// Errors:  throws std::invalid_argument if the clip does not exist or the time is outside 0 to
+///          Clip::seconds.
 std::vector<Affine3d> joint_transforms(const Character& character, PoseTime at,
                                        JointFrame frame = JointFrame::parent);
 
-/// Returns the joint transforms of a mean of poses, in the frames of the parents.
-/// Positions and scales are weighted means; rotations are normalised weighted sums of quaternions, each with
-/// the sign that is nearer to the sum before it. Weights need not sum to 1.
-/// Errors:  throws std::invalid_argument on a weight below 0 or not finite, no weight above 0, a clip that
-///          does not exist or a time outside 0 to Clip::seconds.
+/// Returns the joint transforms of a weighted mean of poses, in the frames of the parents.
+/// Positions and scales are weighted means. Rotations are normalised weighted sums of quaternions; each
+/// quaternion takes the sign that is nearer to the sum before it. Weights need not sum to 1.
+/// Errors:  throws std::invalid_argument if a weight is negative or not finite, if no weight is above 0, if a
+///          clip does not exist or a time is outside 0 to Clip::seconds.
 std::vector<Affine3d> blend(const Character& character, std::span<const WeightedPose> poses);
 
 /// Returns the positions of all vertices in a pose: metres, z up, relative to the origin of the shape.
@@ -156,27 +158,27 @@ std::vector<Vec3> pose_vertices(const Character& character, const Pose& pose);
 ///     agents.x[i] = AxisSystem::unity.position(at.x, at.y, at.z)[0];
 ///     shaper.shape(WorldPose{AxisSystem::unity.transforms(Transforms::column_major(matrices, joints))});
 struct AxisSystem {
-  double rows[3][3];  ///< rotation or reflection from its axes to ours
-  double metres = 1;  ///< metres per unit of its lengths
-  double yaw = 1;     ///< radians counter-clockwise per unit of its headings
+  double rows[3][3];   ///< rotation or reflection from the program's axes to ours
+  double metres = 1;   ///< metres per unit of the program's lengths
+  double radians = 1;  ///< radians counter-clockwise per unit of the program's headings
 
   /// Returns Character::to_ground of a character whose vertices and joints are in these axes.
   /// Its LocalPose then needs no conversion.
   Affine3 to_ground() const;
   Vec3 point(const Vec3& theirs) const;
   std::array<double, 3> position(double x, double y, double z) const;
-  double heading(double theirs) const { return yaw * theirs; }
-  /// Returns one of its transforms in our axes and units (a change of basis).
+  double heading(double theirs) const { return radians * theirs; }
+  /// Converts a transform to our axes and units (a change of basis).
   Affine3d transform(const Affine3d& theirs) const;
   std::vector<Affine3d> transforms(const Transforms& theirs) const;
 
-  static const AxisSystem
-      unity;  ///< y up, z forwards, left-handed, metres; degrees about y, clockwise seen from above
-  static const AxisSystem
-      unreal;  ///< z up, x forwards, left-handed, centimetres; degrees about z, clockwise seen from above
+  /// Y up, z forwards, left-handed, metres; degrees about y, clockwise seen from above.
+  static const AxisSystem unity;
+  /// Z up, x forwards, left-handed, centimetres; degrees about z, clockwise seen from above.
+  static const AxisSystem unreal;
   static const AxisSystem gltf;  ///< y up, z forwards, right-handed, metres; radians
-  /// Y up, nodes look along -z, right-handed, metres; radians.
-  /// A model of a glTF file looks along z there, as in gltf.
+  /// Y up, nodes face -z, right-handed, metres; radians.
+  /// In Godot, too, a model from a glTF file faces +z, as in `gltf`.
   static const AxisSystem godot;
   static const AxisSystem ros;  ///< REP 103: our own axes and units
 };
@@ -189,50 +191,50 @@ inline constexpr AxisSystem AxisSystem::godot{{{0, 0, -1}, {-1, 0, 0}, {0, 1, 0}
 inline constexpr AxisSystem AxisSystem::ros{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
 /// Returns Character::to_ground * map for each map.
-/// Joint or bone matrices of the character's model space become those of the world, for a WorldPose or a
+/// This converts joint or bone matrices from the character's model space to the world, for a WorldPose or a
 /// SkinningPalette.
 std::vector<Affine3d> grounded(const Character& character, const Transforms& maps);
 
 /// Makes shapes of one character in pose after pose.
-/// It poses the mesh, finds the outline of the union of its triangles, and builds the contour hierarchy that
-/// splits at the centroid. It keeps its memory: a pose allocates nothing once the largest shape has been
-/// made.
-/// Threads: one at a time may use an object. One that was moved from can only be assigned to or destroyed.
+/// It poses the mesh, finds the outline of the union of its triangles, and builds the contour hierarchy. It
+/// reuses its memory: a pose allocates nothing once the largest shape has been made.
+/// Threads: one at a time may use an object. A moved-from object can only be assigned to or destroyed.
 class PoseShaper {
  public:
   /// Prepares the mesh of a valid character (see validate()), which must outlive this object.
-  /// Shapes are made for sets of a plan: hierarchies end at its deepest cut. A plan of depth 0 alone, without
-  /// heights, needs no outlines: the outermost vertices give its discs in a third of the time. `threshold`,
-  /// in metres, is the radius below which a disc is not divided.
+  /// Shapes are for sets of `plan`: hierarchies end at its deepest cut. A plan of depth 0 alone, without
+  /// heights, needs no outlines: the outermost vertices give its discs in a third of the time. Discs of a
+  /// radius below `threshold`, in metres, are not divided.
   /// Errors:  throws std::invalid_argument on a bad plan.
   explicit PoseShaper(const Character& character, const ShapeSetPlan& plan = {}, float threshold = 0.01f);
-  /// Refuses a character that nothing would keep.
+  /// Deleted, because a temporary character would not outlive this object.
   PoseShaper(const Character&&, const ShapeSetPlan& = {}, float = 0.01f) = delete;
   PoseShaper(PoseShaper&&) noexcept;
   PoseShaper& operator=(PoseShaper&&) noexcept;
   ~PoseShaper();
 
-  /// Sets the largest number of nodes of a hierarchy, 2^22 by default. Shapes of more nodes throw
-  /// std::length_error.
-  void limit_nodes(std::size_t most);
+  /// Sets the largest number of nodes of a hierarchy, 2^22 by default.
+  /// A shape that needs more nodes throws std::length_error.
+  void limit_nodes(std::size_t max);
 
-  /// Makes the shape of a pose: a time of a clip, joint transforms, bone matrices or posed vertices.
+  /// Makes the shape of a pose, valid until the next call. It has primitives if the deepest depth is
+  /// all_depths.
   /// The root joint's ground translation is removed, its rotation is not. Between keys, a clip's curves
-  /// decide. The shape is valid until the next call. It has primitives if the deepest depth is all_depths.
-  /// Errors:  throws std::invalid_argument on a clip or time out of range, on transforms or vertices of
-  ///          another number than the character has or that are not finite, and as OutlineBuilder and
-  ///          contour_hierarchy() do; std::domain_error on a position that is not finite. The shape made
-  ///          before is lost.
+  /// decide.
+  /// Errors:  throws std::invalid_argument if a clip or time is out of range, if transforms or vertices are
+  ///          not finite or not as many as the character's, and as OutlineBuilder and contour_hierarchy() do;
+  ///          std::domain_error if a posed position is not finite. After an error, the previous shape is
+  ///          lost.
   const Shape& shape(const Pose& pose);
 
   /// Makes the outline of a pose, the first step of shape(), for callers that need only outlines.
-  /// It makes none for a plan of depth 0 alone without heights.
+  /// For a plan of depth 0 alone, without heights, there is no outline.
   const Shape& make_outline(const Pose& pose);
   /// Makes the hierarchy over the last outline, the second step of shape().
   const Shape& make_hierarchy();
 
-  // Like the functions of these names above, in memory of this object: valid until the next call of any of
-  // its functions that takes a pose or a time.
+  // Like the functions of the same names above. Results lie in memory of this object and are valid until the
+  // next call of any of its functions that takes a pose or a time.
   std::span<const Affine3d> joint_transforms(PoseTime at, JointFrame frame = JointFrame::parent);
   std::span<const Affine3d> blend(std::span<const WeightedPose> poses);
   std::span<const Vec3> pose_vertices(const Pose& pose);
@@ -242,24 +244,24 @@ class PoseShaper {
   std::unique_ptr<State> state_;
 };
 
-/// Says what bake() makes of characters.
+/// Selects the shapes that bake() makes of characters.
 struct BakeOptions {
-  std::uint32_t poses =
-      100;  ///< of each character, spread evenly over its clips, one character after the other
-  std::vector<PoseId> shapes =
-      {};  ///< which poses of which characters, for instance ScenePlan::shapes; none: `poses`
+  /// The number of poses per character, spread evenly over its clips; characters follow each other.
+  std::uint32_t poses = 100;
+  /// The shapes one by one, for instance ScenePlan::shapes; empty: `poses` of every character.
+  std::vector<PoseId> shapes = {};
   ShapeSetPlan plan = {};
   float threshold = 0.01f;  ///< metres; the radius below which discs are not divided
-  /// Called on the caller's thread, at most twenty times a second, with the shapes made so far. Returning
-  /// false cancels.
+  /// Called on the caller's thread, at most twenty times per second, with the number of shapes made so far.
+  /// Returning false cancels.
   std::function<bool(std::size_t done, std::size_t total)> progress = {};
 };
 
-/// Makes a set of characters in many poses, on all threads of the caller's TBB arena, with the same bytes.
-/// Errors:  throws std::invalid_argument as validate(Character) does, on a bad plan and on a character that
-///          is not there; what PoseShaper::shape() throws, with the names of the character, clip and time;
-///          std::length_error on a set that is too large; and std::system_error of
-///          std::errc::operation_canceled where it is cancelled.
+/// Makes a set of characters in many poses, on all threads of the caller's TBB arena.
+/// The bytes do not depend on the number of threads.
+/// Errors:  throws std::invalid_argument as validate(Character) does, on a bad plan and if a character does
+///          not exist; what PoseShaper::shape() throws, naming character, clip and time; std::length_error if
+///          the set is too large; std::system_error of std::errc::operation_canceled if cancelled.
 ShapeSet bake(std::span<const Character> characters, const BakeOptions& options = {});
 /// Makes a set of one character.
 ShapeSet bake(const Character& character, const BakeOptions& options = {});

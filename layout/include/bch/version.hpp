@@ -3,13 +3,13 @@
 
 #pragma once
 
-/// Gives the version of these headers, from which the build reads it.
+/// The version of these headers, which the build reads here.
 /// Until 1.0, a change of the public surface raises the minor number; CHANGELOG.md lists the changes.
 #define BCH_VERSION_MAJOR 0
 #define BCH_VERSION_MINOR 4
 #define BCH_VERSION_PATCH 0
 
-/// Holds all that the library declares for its users.
+/// Contains all that the library declares for its users.
 namespace bch {
 
 /// Represents a version of the library.
@@ -18,7 +18,7 @@ struct Version {
   friend bool operator==(const Version&, const Version&) = default;
 };
 
-/// Returns the version of the library that the program is linked to.
+/// Returns the version of the library to which the program is linked.
 Version library_version() noexcept;
 
 }  // namespace bch

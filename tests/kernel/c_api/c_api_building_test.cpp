@@ -102,7 +102,7 @@ TEST(CApiBuilding, BodiesOfOnesOwnAreThoseOfTheLibrary) {
                             shape_from_discs({&disc, 1})};
   own[3].heights = {0.5f, 1};
   ShapeOrigins origins{static_cast<double>(0.01f), {"polygons", "capsules", "cylinder", "discs"}, {}};
-  for (std::uint32_t i = 0; i < 4; ++i) origins.origins.push_back({i, ShapeOrigin::rest_pose, 0});
+  for (std::uint32_t i = 0; i < 4; ++i) origins.origins.push_back({i, ShapeOrigin::no_clip, 0});
 
   bch_plan plan = BCH_PLAN_INIT;
   plan.heights = 1;

@@ -115,7 +115,7 @@ TEST(CApiMotions, SetsKeepThem) {
   const BakedShapes baked = load_baked(file);
   ASSERT_EQ(baked.clips.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(baked.clips[i].discs, clips[i].discs);
-  EXPECT_EQ(baked.clips[1].clip, ShapeOrigin::rest_pose);
+  EXPECT_EQ(baked.clips[1].clip, ShapeOrigin::no_clip);
   const auto loaded = made<bch_shape_set_free>(bch_shape_set_load, file.c_str(), BCH_READ);
   expect_ok(bch_shape_set_get_clip_count(loaded.get(), &count));
   EXPECT_EQ(count, 2u);

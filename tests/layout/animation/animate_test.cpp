@@ -95,7 +95,7 @@ void expect_as_said(const AnimatedDiscs& animated, float seconds) {
 /// Returns the points of a model where vertices are.
 std::vector<Vec3> points_of(const BodyModel& model, std::span<const Vec3> vertices) {
   std::vector<Vec3> points(vertices.begin(), vertices.end());
-  for (const auto& [from, to] : model.cuts) {
+  for (const auto& [from, to] : model.midpoints) {
     const Vec3 a = points[from], b = points[to];
     points.push_back({(a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2});
   }

@@ -164,7 +164,7 @@ TEST(AnimatedShape, RoundsOutward) {
   EXPECT_GT(moved, static_cast<int>(test::samples(1000)));
 }
 
-/// A hull's extents, in any direction and at any time of its window, are those of the discs at least, and in the mean hardly more.
+/// A hull's extents, in any direction and at any time of its interval, are those of the discs at least, and in the mean hardly more.
 TEST(AnimatedShape, HullsHoldDiscsThroughTheirWindows) {
   Random random(3116);
   double more = 0;
@@ -176,10 +176,10 @@ TEST(AnimatedShape, HullsHoldDiscsThroughTheirWindows) {
     for (unsigned level = 0; level < detail::AnimatedHulls::level_count; ++level) {
       const std::size_t width = std::size_t{1} << level, chunks = tree.chunks.size();
       ASSERT_EQ(tree.hulls.levels[level].size(), (chunks + width - 1) / width);
-      for (std::size_t window = 0; window * width < chunks; ++window) {
-        const detail::HullWindow& hull = tree.hulls.levels[level][window];
-        EXPECT_EQ(hull.begin, tree.chunks[window * width].times.front());
-        EXPECT_EQ(hull.end, tree.chunks[std::min((window + 1) * width, chunks) - 1].times.back());
+      for (std::size_t interval = 0; interval * width < chunks; ++interval) {
+        const detail::HullInterval& hull = tree.hulls.levels[level][interval];
+        EXPECT_EQ(hull.begin, tree.chunks[interval * width].times.front());
+        EXPECT_EQ(hull.end, tree.chunks[std::min((interval + 1) * width, chunks) - 1].times.back());
         const double share = random.uniform(0, 1), angle = random.uniform(-4, 4);
         const detail::PlanePoint d{std::cos(angle), std::sin(angle)};
         const auto [from, to] = detail::HullDirection(d).extent(hull.extents);
@@ -195,8 +195,8 @@ TEST(AnimatedShape, HullsHoldDiscsThroughTheirWindows) {
                                     ? 1e9
                                     : (band + 1) * detail::hull_band + detail::hull_overlap;
             if (double{s.z} + double{s.radius} < low || double{s.z} - double{s.radius} > high) continue;
-            const detail::HullBands& bands = tree.hulls.bands[level][window];
-            EXPECT_TRUE(bands.some >> band & 1);
+            const detail::HullBands& bands = tree.hulls.bands[level][interval];
+            EXPECT_TRUE(bands.occupied >> band & 1);
             const auto [begin, end] = detail::HullDirection(d).extent(bands.extents[band]);
             EXPECT_GE(tree.hulls.step * std::lerp(begin, end, share),
                       d.x * double{s.x} + d.y * double{s.y} + double{s.radius} - 1e-7);
