@@ -269,7 +269,7 @@ namespace Bch
                     kind = (int)kind, layout = 1, data = pinned.At(transforms), count = (UIntPtr)(transforms.Length / 16 / count), origins = pinned.At(origins)
                 };
                 poses.size = (uint)Marshal.SizeOf(poses);
-                Native.Check(Native.bch_live_bodies_pose_own(Pointer, ref poses, threads));
+                Native.Check(Native.bch_live_bodies_pose_from_arrays(Pointer, ref poses, threads));
             }
             GC.KeepAlive(this);
         }
@@ -564,7 +564,7 @@ namespace Bch
         [DllImport(library)] public static extern int bch_body_model_free(IntPtr model);
         [DllImport(library)] public static extern int bch_live_bodies_create(IntPtr[] models, UIntPtr models_count, uint[] model_of_body, UIntPtr count, out IntPtr bodies);
         [DllImport(library)] public static extern int bch_live_bodies_pose(IntPtr bodies, Pose[] poses, uint threads);
-        [DllImport(library)] public static extern int bch_live_bodies_pose_own(IntPtr bodies, ref PoseArrays poses, uint threads);
+        [DllImport(library)] public static extern int bch_live_bodies_pose_from_arrays(IntPtr bodies, ref PoseArrays poses, uint threads);
         [DllImport(library)] public static extern int bch_live_bodies_get_set(IntPtr bodies, out IntPtr set);
         [DllImport(library)] public static extern int bch_live_bodies_free(IntPtr bodies);
         [DllImport(library)] public static extern int bch_body_set_get_spheres(IntPtr set, uint body, [Out] Sphere[] spheres, UIntPtr capacity, out UIntPtr count);

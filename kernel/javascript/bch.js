@@ -260,7 +260,7 @@ export class LiveBodies extends Handle {
         count,
         origins: origins ? array(Float64Array, origins) : 0,
       });
-      call("bch_live_bodies_pose_own", this.pointer, poses.pointer, 0);
+      call("bch_live_bodies_pose_from_arrays", this.pointer, poses.pointer, 0);
     });
   }
 }

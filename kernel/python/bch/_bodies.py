@@ -15,7 +15,7 @@ import numpy.typing as npt
 from . import _library
 from ._arrays import SPHERE, Records, UInt32, address, bounded, encoded, f4, given, index, instance, instances, listed, number, pair, records, rejected, table, u4, u8
 from ._library import Exclusive, Handle, check, lib
-from ._poses import own_poses
+from ._poses import custom_poses
 from ._progress import Watched
 from ._shapes import Character, Path, _as_poses
 
@@ -270,12 +270,12 @@ class LiveBodies:
         threads : int
             Number of threads; 0: all processors.
         """
-        own = own_poses(poses)
-        array: Any = _as_poses(poses) if own is None else own
+        custom = custom_poses(poses)
+        array: Any = _as_poses(poses) if custom is None else custom
         if len(array) != len(self.bodies):
             raise rejected(poses, "poses", f"one pose for each of {len(self.bodies)} bodies")
-        of_own, of_clips = lib.bch_live_bodies_pose_own, lib.bch_live_bodies_pose
-        call, data = (of_clips, address(array)) if own is None else (of_own, byref(own.struct))
+        of_arrays, of_clips = lib.bch_live_bodies_pose_from_arrays, lib.bch_live_bodies_pose
+        call, data = (of_clips, address(array)) if custom is None else (of_arrays, byref(custom.struct))
         with self._exclusive:
             check(call(self._handle.pointer, data, bounded(threads, "threads", 0, 1024)))
 

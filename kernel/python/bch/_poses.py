@@ -45,7 +45,7 @@ def _floats(values: npt.ArrayLike, name: str, shapes: Tuple[Tuple[int, ...], ...
     return np.ascontiguousarray(array, f4 if array.dtype.itemsize <= 4 else f8)
 
 
-class OwnPoses:
+class CustomPoses:
     """Custom poses as the library takes them, with the arrays that they point to."""
 
     def __init__(self, poses: Any) -> None:
@@ -75,6 +75,6 @@ class OwnPoses:
         return len(self._array)
 
 
-def own_poses(poses: Any) -> Optional[OwnPoses]:
+def custom_poses(poses: Any) -> Optional[CustomPoses]:
     """Return custom poses, or None for those of clips."""
-    return OwnPoses(poses) if isinstance(poses, (Transforms, Vertices)) else None
+    return CustomPoses(poses) if isinstance(poses, (Transforms, Vertices)) else None

@@ -46,7 +46,7 @@ from ._arrays import (
     whole_number,
 )
 from ._library import ArgumentError, ArrayError, Exclusive, Handle, check, lib, said
-from ._poses import own_poses
+from ._poses import custom_poses
 from ._progress import Watched
 
 Path = Union[str, "os.PathLike[str]"]
@@ -581,12 +581,12 @@ class ShapeSetBuilder:
             Show a progress bar on a terminal.
         """
         instance(character, Character, "character")
-        own = own_poses(poses)
-        array: Any = _as_poses(poses) if own is None else own
+        custom = custom_poses(poses)
+        array: Any = _as_poses(poses) if custom is None else custom
         with self._exclusive, Watched(f"baking {character.name}", progress) as watched:
             work = _library.Work(threads=bounded(threads, "threads", 0, 1024), progress=watched.callback)
-            of_own, of_clips = lib.bch_shape_set_builder_add_own_poses, lib.bch_shape_set_builder_add_poses
-            add, data = (of_clips, address(array)) if own is None else (of_own, byref(own.struct))
+            of_arrays, of_clips = lib.bch_shape_set_builder_add_pose_arrays, lib.bch_shape_set_builder_add_poses
+            add, data = (of_clips, address(array)) if custom is None else (of_arrays, byref(custom.struct))
             watched.run(add(self._pointer, character._pointer, data, len(array), byref(work)))
 
     def add_sources(
@@ -757,11 +757,11 @@ class DynamicShapeSet:
             Number of threads; 0: all processors.
         """
         instance(character, Character, "character")
-        own, least = own_poses(poses), number(threshold, "threshold")
-        array: Any = _as_poses(poses) if own is None else own
+        custom, least = custom_poses(poses), number(threshold, "threshold")
+        array: Any = _as_poses(poses) if custom is None else custom
         which = given(shapes, u4, (len(array),), "shapes")
         with self._exclusive, Watched("posing", False) as watched:
             work = _library.Work(threads=bounded(threads, "threads", 0, 1024), progress=watched.callback)
-            of_own, of_clips = lib.bch_dynamic_shape_set_replace_own_poses, lib.bch_dynamic_shape_set_replace_poses
-            replace, data = (of_clips, address(array)) if own is None else (of_own, byref(own.struct))
+            of_arrays, of_clips = lib.bch_dynamic_shape_set_replace_pose_arrays, lib.bch_dynamic_shape_set_replace_poses
+            replace, data = (of_clips, address(array)) if custom is None else (of_arrays, byref(custom.struct))
             watched.run(replace(self._pointer, character._pointer, which, data, len(array), least, byref(work)))

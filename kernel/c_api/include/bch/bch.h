@@ -387,8 +387,8 @@ BCH_API bch_status bch_pose_shaper_create(const bch_character* character, const 
 /** Makes the shape of a pose, in place of the previous one. */
 BCH_API bch_status bch_pose_shaper_make(bch_pose_shaper* shaper, bch_pose pose);
 /** Makes the shape of poses[index], a pose given by arrays, in the same way. */
-BCH_API bch_status bch_pose_shaper_make_own(bch_pose_shaper* shaper, const bch_pose_arrays* poses,
-                                            size_t index);
+BCH_API bch_status bch_pose_shaper_make_from_arrays(bch_pose_shaper* shaper, const bch_pose_arrays* poses,
+                                                    size_t index);
 /** Gets the outline of the shape that was made last; see bch_shape_set_get_outline(). */
 BCH_API bch_status bch_pose_shaper_get_outline(const bch_pose_shaper* shaper, bch_outline* outline);
 /** Frees a shaper. */
@@ -405,10 +405,10 @@ BCH_API bch_status bch_shape_set_builder_add_poses(bch_shape_set_builder* builde
                                                    size_t count, const bch_work* work);
 /** Adds the shapes of `count` poses given by arrays, as bch_shape_set_builder_add_poses() does of clips. For
  * them bch_shape_set_get_origin() gives the rest pose. */
-BCH_API bch_status bch_shape_set_builder_add_own_poses(bch_shape_set_builder* builder,
-                                                       const bch_character* character,
-                                                       const bch_pose_arrays* poses, size_t count,
-                                                       const bch_work* work);
+BCH_API bch_status bch_shape_set_builder_add_pose_arrays(bch_shape_set_builder* builder,
+                                                         const bch_character* character,
+                                                         const bch_pose_arrays* poses, size_t count,
+                                                         const bch_work* work);
 /** Names the character and pose that a shape shows. */
 typedef struct bch_shape_source {
   uint32_t character; /**< index in a list of characters */
@@ -465,11 +465,11 @@ BCH_API bch_status bch_dynamic_shape_set_replace_poses(bch_dynamic_shape_set* se
                                                        const bch_pose* poses, size_t count, float threshold,
                                                        const bch_work* work);
 /** Replaces many shapes by poses given by arrays, in the same way. */
-BCH_API bch_status bch_dynamic_shape_set_replace_own_poses(bch_dynamic_shape_set* set,
-                                                           const bch_character* character,
-                                                           const uint32_t* shapes,
-                                                           const bch_pose_arrays* poses, size_t count,
-                                                           float threshold, const bch_work* work);
+BCH_API bch_status bch_dynamic_shape_set_replace_pose_arrays(bch_dynamic_shape_set* set,
+                                                             const bch_character* character,
+                                                             const uint32_t* shapes,
+                                                             const bch_pose_arrays* poses, size_t count,
+                                                             float threshold, const bch_work* work);
 /** Frees a dynamic set, and the set that it lent. */
 BCH_API bch_status bch_dynamic_shape_set_free(bch_dynamic_shape_set* set);
 
@@ -852,8 +852,8 @@ BCH_API bch_status bch_live_bodies_create(const bch_body_model* const* models, s
 BCH_API bch_status bch_live_bodies_pose(bch_live_bodies* bodies, const bch_pose* poses, uint32_t threads);
 /** Poses all bodies by transforms of the caller, one pose a body, likewise. Posed vertices are refused: they do not say where bones
  * are. */
-BCH_API bch_status bch_live_bodies_pose_own(bch_live_bodies* bodies, const bch_pose_arrays* poses,
-                                            uint32_t threads);
+BCH_API bch_status bch_live_bodies_pose_from_arrays(bch_live_bodies* bodies, const bch_pose_arrays* poses,
+                                                    uint32_t threads);
 /** Lends the bodies for queries. They belong to `bodies` and are not freed. */
 BCH_API bch_status bch_live_bodies_get_set(const bch_live_bodies* bodies, const bch_body_set** set);
 /** Frees bodies, and the set that they lent. */
