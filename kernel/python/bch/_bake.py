@@ -42,19 +42,19 @@ def bake(
     threads: int = 0,
     progress: bool = False,
 ) -> Union[ShapeSet, BodySet]:
-    """Make a set of characters in many poses: of outlines from characters, and of spheres from models of bodies.
+    """Make a set of characters in many poses: a ShapeSet from characters, or a BodySet from body models.
 
-    Ctrl-C interrupts it and leaves no file.
+    Ctrl-C interrupts the work. No partial file is left.
 
     Parameters
     ----------
     characters : Character or BodyModel, or a sequence of either
     poses : int, or poses
-        The number of poses each, spread evenly over the clips; or the poses themselves: an (n,) POSE array, a sequence of
-        (clip, seconds), Transforms or Vertices. For several characters or models: a sequence of these, one for each. Models do
-        not take Vertices. Several models take only (clip, seconds) or POSE.
+        The number of poses of each character, spread evenly over its clips; or the poses themselves: an (n,) POSE array, a
+        sequence of (clip, seconds), Transforms or Vertices. For several characters or models: a sequence of these, one for
+        each. Models do not take Vertices. Several models take only (clip, seconds) or POSE.
     plan : Plan, optional
-        Of shapes.
+        What a ShapeSet stores.
     path : path, optional
         Where to write the set of shapes.
     threads : int

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 the bch authors
 
-"""Custom poses, as arrays, for all calls that take poses of one character."""
+"""Poses as arrays of the caller, for all calls that take poses of one character."""
 
 from __future__ import annotations
 
@@ -18,20 +18,20 @@ _VERTICES, _FLOAT_ROWS, _DOUBLE_ROWS = 3, 0, 2
 
 
 class Transforms(NamedTuple):
-    """Poses by affine transforms, in the place of (clip, seconds).
+    """Poses given by affine transforms, instead of (clip, seconds).
 
-    Those that `Character.transforms` returns give the shapes of their clips, bit for bit.
+    The transforms that `Character.transforms` returns for a pose of a clip give the same shape as this pose, bit for bit.
     """
 
     transforms: npt.ArrayLike  #: (frames, joints, 4, 4) or (frames, joints, 3, 4), of any dtype of floats and any strides
     #: "parent": each joint in its parent's frame; "world": each joint in the world, metres, z up; "palette": skinning matrices,
     #: one per bone: the joint's world transform times the inverse bind matrix
     space: str = "world"
-    origins: Optional[npt.ArrayLike] = None  #: (frames, 2), of palettes: the points on the ground that are the shapes' origins
+    origins: Optional[npt.ArrayLike] = None  #: (frames, 2), for palettes: x and y of the shapes' origins
 
 
 class Vertices(NamedTuple):
-    """Poses by the positions of all vertices, in the place of (clip, seconds)."""
+    """Poses given by the positions of all vertices, instead of (clip, seconds)."""
 
     positions: npt.ArrayLike  #: (frames, n, 3), of any dtype of floats: metres, z up, relative to the origin of the shape
 
