@@ -153,8 +153,8 @@ std::vector<std::string> ShapeOptions::inputs(std::vector<std::string> files) co
 void add_leaves_option(CLI::App& command, std::string& leaves, int centimetres) {
   OptionAdder{command}(
       "--leaves", leaves, "NAME",
-      fmt::format("What to test at depth all: segments of the outlines, or discs, which collide "
-                  "up to {} cm earlier [segments]",
+      fmt::format("Test at depth all: segments of outlines, or discs, which collide up to {} cm "
+                  "earlier [segments]",
                   centimetres),
       one_of({"segments", "discs"}));
 }

@@ -209,8 +209,7 @@ Example: bch query default:female agents.csv pairs.csv > answers.csv)");
   options->answer.add_to(command);
   command.get_option("--leaves")
       ->description(
-          "At depth all: segments of outlines, or discs, up to 2 cm larger [segments; clearance, within: "
-          "discs]");
+          "At depth all: outline segments, or discs, up to 2 cm larger [segments; clearance, within: discs]");
   return [options, &command] { run_query(command, *options); };
 }
 
