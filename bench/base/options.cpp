@@ -82,7 +82,7 @@ void add_max_pairs_option(CLI::App& command, std::size_t& most, const char* what
 }
 
 void add_threads_option(CLI::App& command, std::uint32_t& threads) {
-  OptionAdder{command}("--threads", threads, "N", "Number of threads [all that the machine has]",
+  OptionAdder{command}("--threads", threads, "N", "Number of threads [one per processor]",
                        whole_between(1, 1024));
 }
 
@@ -153,7 +153,7 @@ std::vector<std::string> ShapeOptions::inputs(std::vector<std::string> files) co
 void add_leaves_option(CLI::App& command, std::string& leaves, int centimetres) {
   OptionAdder{command}(
       "--leaves", leaves, "NAME",
-      fmt::format("Test at depth all: segments of the outlines, or discs, which hit up to {} cm "
+      fmt::format("Test at depth all: segments of outlines, or discs, which collide up to {} cm "
                   "earlier [segments]",
                   centimetres),
       one_of({"segments", "discs"}));
@@ -172,7 +172,7 @@ void AnswerOptions::add_to(CLI::App& command) {
   for (const Implementation& each : implementations()) names.push_back(each.name);
   OptionAdder{command}(
       "--isa", isa, "NAME",
-      fmt::format("Instruction set of the kernel: {} [the best that runs here]", fmt::join(names, ", ")));
+      fmt::format("Instruction set of the kernel: {} [the best of this processor]", fmt::join(names, ", ")));
 }
 
 std::vector<std::uint32_t> AnswerOptions::cut_depths() const {

@@ -30,7 +30,7 @@ bool BodyKind::are_spheres(const CLI::App& command) const {
 }
 
 void add_spheres_option(CLI::App& command, std::uint32_t& spheres) {
-  OptionAdder{command}("--spheres", spheres, "N", fmt::format("Spheres of a body [{}]", spheres),
+  OptionAdder{command}("--spheres", spheres, "N", fmt::format("Spheres per body [{}]", spheres),
                        whole_between(1, detail::max_spheres));
 }
 

@@ -71,12 +71,12 @@ Examples:
   add("--rate", options->rate, "N", "N poses per second of every clip, instead of --poses",
       number_between(1e-3, 1e4))
       ->excludes("--poses");
-  command.add_flag("--heights", options->heights, "Keep the heights of bodies, which agents with a z need");
+  command.add_flag("--heights", options->heights, "Store the heights of bodies, which agents with a z need");
   add("--animated", options->animated, "CLIP",
-      "Also keep the clip of this name, or all, as moving spheres for every time (repeatable)")
+      "Also store the clip of this name, or all clips, as moving spheres (repeatable)")
       ->allow_extra_args(false);
   add("--spheres", options->spheres, "N",
-      "Keep bodies of N spheres, up to a minute each; shapes only with --poses or --rate",
+      "Store bodies of N spheres, up to a minute each; and shapes only with --poses or --rate",
       whole_between(1, detail::max_spheres));
   options->answer.add_levels_to(command);
   return [options, &command] {

@@ -120,10 +120,11 @@ std::function<void()> add_crowd_command(CLI::App& program) {
   CLI::App& command =
       *program.add_subcommand("crowd", "Place a random crowd and count its collisions at each depth");
   command.footer(
-      R"(For each depth, prints the number of colliding pairs and the share of the cylinders' collisions that it clears.
+      R"(For each depth, prints the number of colliding pairs, and the share of the single cylinders' collisions that it
+rules out.
 Shapes are drawn evenly from the poses of all characters, so a character with fewer poses appears less often.
-With --live, everybody walks, each at a time of a clip of his own, as a body of spheres bound to his bones: prints
-what a frame takes to pose all bodies and to find who collides.
+With --live, everybody walks, each at another time of a clip, as a body of spheres bound to the bones. Prints the
+time of a frame: to pose all bodies, and to find who collides.
 Examples: bch crowd --agents 2000 --density 1 --svg crowd.svg
           bch crowd --live --agents 10000)");
   const OptionAdder add(command);
@@ -134,7 +135,8 @@ Examples: bch crowd --agents 2000 --density 1 --svg crowd.svg
                         std::string(character_or_baked_help) + " (repeatable) [male, female]", "FILE");
   command.add_flag("--live", options->live,
                    "Pose everybody anew in every frame, as bodies of spheres in three dimensions");
-  add("--frames", options->frames, "N", "Frames of --live that are timed [20]", whole_between(1, 1'000'000));
+  add("--frames", options->frames, "N", "Number of frames to time with --live [20]",
+      whole_between(1, 1'000'000));
   add_spheres_option(command, options->spheres);
   options->shapes.add_to(command);
   options->answer.add_to(command);

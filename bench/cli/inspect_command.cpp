@@ -177,7 +177,7 @@ std::function<void()> add_inspect_command(CLI::App& program) {
   const auto options = std::make_shared<InspectOptions>();
   CLI::App& command = *program.add_subcommand("inspect", "Show a character or baked file and its shapes");
   command.footer(
-      R"(Reads glTF 2, FBX, Collada, MD5, IQM, OBJ, PLY and STL, and clips of these and of BVH.
+      R"(Reads glTF 2, FBX, Collada, MD5, IQM, OBJ, PLY and STL, and clips from these and from BVH.
 A file is rejected if reading it crashes or takes more than 2 GiB or 60 s.
 Spheres are shown in the pose that --shape, or --clip and --time name, else in the rest pose.
 Examples: bch inspect default:male --clip walk --time 1.5 --svg walk.svg
@@ -188,7 +188,7 @@ Examples: bch inspect default:male --clip walk --time 1.5 --svg walk.svg
   add("--clip", options->clip, "NAME", "Show this clip at --time in detail");
   add("--time", options->time, "SECONDS", "Seconds from the start of --clip", number_between(0, 1e9));
   command.add_flag("--animated", options->animated,
-                   "Show the clip as moving spheres, at --time and from key to key; also of a baked file");
+                   "Show the clip as moving spheres, at --time and between keys; also from a baked file");
   options->kind.add_to(command);
   options->shapes.add_to(command);
   add_threads_option(command, options->threads);

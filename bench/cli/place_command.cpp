@@ -127,14 +127,14 @@ void run_place(const PlaceOptions& options) {
 std::function<void()> add_place_command(CLI::App& program) {
   const auto options = std::make_shared<PlaceOptions>();
   CLI::App& command =
-      *program.add_subcommand("place", "Fill an area with people in motion who never touch each other");
+      *program.add_subcommand("place", "Fill an area with moving people who never touch each other");
   command.footer(
       R"(People walk along arcs inside the area, from random positions and at random times of their clips.
 If a clip does not walk, they stand. A clip that is shorter than --seconds is played over and over,
 its end followed by its beginning. A candidate who would touch anybody at any time is left out.
-With --paths each person of a recording is a candidate once, in random order, on his way from time 0
-on. A person whose way ends before --seconds stands there. The area is the rectangle of these ways.
-The file has to tell its times, or its frame rate, and columns that are named or those of a known format.
+With --paths each person of a recording is a candidate once, in random order, on his path from time 0
+on. A person whose path ends before --seconds stands at its end. The area is the rectangle of all paths.
+The file has to state times or its frame rate, and its columns have to be named or of a known format.
 Example: bch place --clip walk --seconds 5 --csv placed.csv)");
   const OptionAdder add(command);
   add("--character", options->characters, "FILE",
@@ -150,7 +150,7 @@ Example: bch place --clip walk --seconds 5 --csv placed.csv)");
       "Keep people out of these walls and polygons, in well-known text");
   CLI::Option* const paths =
       add("--paths", options->paths, "FILE",
-          "Recording, such as CSV with id,time,x,y[,heading], whose ways people take [random arcs]");
+          "Recording, such as CSV with id,time,x,y[,heading], whose paths people take [random arcs]");
   paths->excludes(speed);
   add("--width", options->placing.width, "METRES", "Width of the area, along x [10 m]",
       number_between(1, 1000))
@@ -160,8 +160,8 @@ Example: bch place --clip walk --seconds 5 --csv placed.csv)");
       ->excludes(paths);
   add("--seconds", options->placing.seconds, "SECONDS", "Time for which people move [10 s]",
       number_between(0.1, 600));
-  add("--tries", options->placing.tries, "N",
-      "End the search after N candidates in a row that have no room [500]", whole_between(1, 1'000'000));
+  add("--tries", options->placing.tries, "N", "Stop after N candidates in a row that found no room [500]",
+      whole_between(1, 1'000'000));
   add_seed_option(command, options->placing.seed, "positions, paths and times");
   add("--fps", options->fps, "N", "Rows of --csv per second [30]", number_between(1, 1000));
   add("--csv", options->csv, "FILE", "Write where everybody is at each time, for bch check");

@@ -178,22 +178,22 @@ std::string time_of_impact_rows(const QueryInput& input) {
 }
 
 constexpr QueryKind kinds[] = {
-    {"collide", "hit", "1 where the agents collide, else 0", collide_rows, "hit", false, true, true},
+    {"collide", "hit", "1 if the agents collide, else 0", collide_rows, "hit", false, true, true},
     {"clearance", "distance,x,y",
      R"(the least gap between their discs or, with --leaves segments,
                  their outlines, in metres, and the unit vector from the first to the second; 0,0,0 where
                  they overlap, unless --overlap deepest is given; inf,0,0 beyond --max-distance.
                  --points adds first_x,first_y,second_x,second_y)",
      clearance_rows, "distance,x,y,z", false, true, true},
-    {"within", "hit", "1 where the agents come within --max-distance of each other, else 0", within_rows,
-     "hit", false, true, true},
+    {"within", "hit", "1 if the agents are within --max-distance of each other, else 0", within_rows, "hit",
+     false, true, true},
     {"time-of-impact", "time",
      R"(when the agents first touch while each moves by its dx,dy, from 0 at
-                 the start to 1 at the end; inf where they do not touch)",
+                 the start to 1 at the end; inf if they do not touch)",
      time_of_impact_rows, "time", true},
     {"contacts", "first_disc,second_disc",
-     R"(one line for each two discs that overlap, by their
-                 numbers in the agents' cuts, counted from 0, depth first)",
+     R"(one line for each two discs that overlap: their indices
+                 among the discs of the agents' levels, from 0, in depth-first order)",
      contact_rows, "first_sphere,second_sphere,depth,x,y,z,normal_x,normal_y,normal_z", false, false},
     {"penetration", "depth,x,y",
      R"(how far (metres) and in which direction (unit vector) the first agent

@@ -154,7 +154,7 @@ std::function<void()> add_query_command(CLI::App& program) {
   id             any text
   shape          the number that bch inspect prints with the same --poses
   x,y            position, metres
-  heading        radians. At 0 a built-in character faces +x, and a character of a file stands as in the file;
+  heading        radians. At 0 a built-in character faces +x, and a character from a file stands as in the file;
                  +z of a y-up file becomes -y. For people who face +z in a y-up file (as in glTF), or -y in
                  a z-up file, the heading is the direction in which they walk plus pi/2
   level          index into --depths [the last]
@@ -165,12 +165,12 @@ Output of --what: one line per line of PAIRS.csv, in the same order, unless stat
       R"(collide and contacts test what --leaves names. within, time-of-impact and penetration use the discs of the
 cuts, and so does clearance unless --leaves segments is given. Discs cover more than outlines, so agents
 at a distance of 0 m need not collide. With --obstacles, --leaves segments applies to within, too.
-With --bodies spheres, agents have z or all one ground, and all is asked in space: directions and points have a z as
-well, and contacts are spheres that overlap: depth (metres), the point of the first that is deepest in the second,
-relative to the first agent, and the normal. Agents move on the ground, by dx,dy and for penetration. About
---obstacles, collide, clearance and within can be asked.
+With --bodies spheres, all queries are in space: directions and points have a z as well, and contacts are spheres
+that overlap, each with its depth (metres), the point of the first that is deepest in the second, relative to the
+first agent, and the normal. Agents stand at their z, or all on one ground, and move on the ground. --obstacles
+then takes collide, clearance and within.
 With --obstacles, each line is about one agent and the obstacles: id,... instead of first,second,...;
-contacts cannot be asked. FILE.wkt may have POLYGON, MULTIPOLYGON, LINESTRING, MULTILINESTRING and
+contacts is not available. FILE.wkt may have POLYGON, MULTIPOLYGON, LINESTRING, MULTILINESTRING and
 GEOMETRYCOLLECTION; Z and M are ignored.
 Notes on how a character's file was read go to standard error.
 Example: bch query default:female agents.csv pairs.csv > answers.csv)");
@@ -179,7 +179,7 @@ Example: bch query default:female agents.csv pairs.csv > answers.csv)");
   add("AGENTS.csv", options->agents, "", "Columns id,shape,x,y,heading[,z][,level][,dx,dy]")->required();
   add("PAIRS.csv", options->pairs, "", "Columns first,second: ids of agents");
   command.add_flag("--all-pairs", options->all_pairs,
-                   "Instead of PAIRS.csv: all pairs that collide or, with --max-distance, come within it");
+                   "Instead of PAIRS.csv: all pairs that collide or, with --max-distance, are within it");
   command.add_flag(
       "--guard-ids", options->guard_ids,
       "Put ' before ids that begin with =, +, - or @, unless they are numbers, for spreadsheets");
@@ -199,7 +199,7 @@ Example: bch query default:female agents.csv pairs.csv > answers.csv)");
       "Metres; for within: the distance; for clearance: the limit beyond which it is inf [no limit]",
       number_between(0, 2 * detail::rounding::largest_position));
   add("--overlap", options->overlap, "NAME",
-      "For clearance where discs overlap: zero, or deepest: the deepest overlap of two, below 0 [zero]",
+      "Clearance of overlapping discs: zero, or deepest: the deepest overlap of two, negative [zero]",
       one_of({"zero", "deepest"}));
   command.add_flag(
       "--points", options->points,
@@ -209,7 +209,7 @@ Example: bch query default:female agents.csv pairs.csv > answers.csv)");
   options->answer.add_to(command);
   command.get_option("--leaves")
       ->description(
-          "Depth all: segments of outlines, or discs, up to 2 cm early [segments; clearance, within: discs]");
+          "At depth all: outline segments, or discs, up to 2 cm larger [segments; clearance, within: discs]");
   return [options, &command] { run_query(command, *options); };
 }
 

@@ -102,7 +102,7 @@ void ObstacleOptions::add_to(CLI::App& command, const char* help) {
   command.add_flag("--walkable", walkable,
                    "Polygons of --obstacles are floors to walk on, and their borders are walls");
   add("--obstacle-heights", heights, "BOTTOM,TOP",
-      "Heights of all --obstacles, metres, as agents' z; bodies above or below pass [infinite]");
+      "Heights of --obstacles, metres, like agents' z; bodies above or below do not collide [infinite]");
 }
 
 void ObstacleOptions::require_fitting(const CLI::App& command) const {

@@ -80,23 +80,24 @@ std::function<void()> add_resolve_command(CLI::App& program) {
   CLI::App& command = *program.add_subcommand(
       "resolve", "Move people, as little as possible, until nobody overlaps anybody or a wall");
   command.footer(
-      R"(Bodies are spheres bound to the bones, in space. Nobody turns. Writes AGENTS.csv with new x and y, and to standard
-error how many sweeps that took, how far people went, and which pairs and walls are left where there is no room.
+      R"(Bodies are spheres bound to the bones, in space. Nobody turns. Writes AGENTS.csv with new x and y. Writes to standard
+error the number of sweeps, how far people moved, and how many collisions are left because there is no room.
 AGENTS.csv is that of bch query, with one more column:
-  mobility       from 0, who stays, to 1: of two who are parted, one with half of the other's goes half as far [1]
+  mobility       from 0, who never moves, to 1: of two people, one with half the mobility moves half as far [1]
 Example: bch resolve default:female agents.csv --obstacles walls.wkt > moved.csv)");
   const OptionAdder add(command);
   bch::Crowd::ResolveOptions& how = options->how;
   add("CHARACTER", options->character, "", character_help)->required();
   add("AGENTS.csv", options->agents, "", "Columns id,shape,x,y,heading[,z][,mobility]")->required();
   options->obstacles.add_to(command, "Also keep people out of these walls and polygons, in well-known text");
-  add("--sweeps", how.sweeps, "N", "Move everybody so many times at most [100]", whole_between(0, 1'000'000));
-  add("--directions", how.directions, "N", "Directions in which people may go, N even [16]",
+  add("--sweeps", how.sweeps, "N", "Largest number of sweeps, each of which moves everybody once [100]",
+      whole_between(0, 1'000'000));
+  add("--directions", how.directions, "N", "Number of directions in which people may move, even [16]",
       whole_between(2, 256));
-  add("--gap", how.gap, "METRES", "Gap between two who are parted [0.001 m]", number_between(0, 1000));
-  add("--largest-step", how.largest_step, "METRES", "Longest way of a person in a sweep [0.05 m]",
+  add("--gap", how.gap, "METRES", "Gap to leave between two people [0.001 m]", number_between(0, 1000));
+  add("--largest-step", how.largest_step, "METRES", "Longest move of a person in a sweep [0.05 m]",
       number_between(0, 1000));
-  add("--largest-shift", how.largest_shift, "METRES", "Longest way of a person in all [no limit]",
+  add("--largest-shift", how.largest_shift, "METRES", "Longest move of a person in total [no limit]",
       number_between(0, 1e9));
   add_max_pairs_option(command, options->max_pairs, "agents near each other", "agent");
   add_spheres_option(command, options->spheres);

@@ -76,14 +76,14 @@ void run_check(const CLI::App& command, CheckCommandOptions options) {
 
 std::function<void()> add_check_command(CLI::App& program) {
   const auto options = std::make_shared<CheckCommandOptions>();
-  CLI::App& command = *program.add_subcommand(
-      "check", "Put bodies on a recorded or simulated crowd, and find who runs into whom");
+  CLI::App& command =
+      *program.add_subcommand("check", "Find who runs into whom in a recorded or simulated crowd");
   command.footer(
       R"(Reads JuPedSim's SQLite and HDF5, PeTrack and Juelich text, the Pedestrian Dynamics Data Archive's
 HDF5, Pathfinder's CSV, TrajNet++, ETH/UCY, and plain CSV with columns id, frame or time, x, y. The
 format is recognized by the content of the file, not by its name. If the file does not state the
-frame rate or the unit of length, the program asks for --fps or --unit, and for --columns where they
-have no names and their rows do not tell them. It prints every assumption.
+frame rate or the unit of length, the program asks for --fps or --unit, and for --columns if columns
+have no names and are not recognized. It prints every assumption.
 Each row becomes a pedestrian of the person's stature, in the stride that belongs to the person's
 speed, with the head above the recorded position.
 Two people overlap if their outlines overlap, seen from above; with --bodies spheres if their bodies

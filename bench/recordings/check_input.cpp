@@ -230,7 +230,7 @@ void CheckInput::add_bodies_to(CLI::App& command) {
       ->allow_extra_args(false)
       ->needs(character);
   add("--body", bodies, "NAME=FILE",
-      "What rows mean by a body NAME: polygons (.wkt), or a model seen from above (repeatable)")
+      "Shape of bodies that rows call NAME: polygons (.wkt), or a model seen from above (repeatable)")
       ->allow_extra_args(false);
   add("--clip-speed", clip_speeds, "CLIP=M/S",
       "For a baked set: walking speed in a clip, 0 where people stand (repeatable)")

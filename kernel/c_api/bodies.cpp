@@ -192,7 +192,8 @@ bch_status bch_live_bodies_pose(bch_live_bodies* bodies, const bch_pose* poses, 
   });
 }
 
-bch_status bch_live_bodies_pose_own(bch_live_bodies* bodies, const bch_pose_arrays* poses, uint32_t threads) {
+bch_status bch_live_bodies_pose_from_arrays(bch_live_bodies* bodies, const bch_pose_arrays* poses,
+                                            uint32_t threads) {
   return guarded([&] {
     bch_live_bodies& of = object_of(bodies, "bodies");
     const OwnPoses own(poses, of.bodies.set().body_count());

@@ -151,10 +151,10 @@ bch_status bch_dynamic_shape_set_replace_poses(bch_dynamic_shape_set* handle, co
   });
 }
 
-bch_status bch_dynamic_shape_set_replace_own_poses(bch_dynamic_shape_set* handle,
-                                                   const bch_character* character, const uint32_t* shapes,
-                                                   const bch_pose_arrays* poses, size_t count,
-                                                   float threshold, const bch_work* work) {
+bch_status bch_dynamic_shape_set_replace_pose_arrays(bch_dynamic_shape_set* handle,
+                                                     const bch_character* character, const uint32_t* shapes,
+                                                     const bch_pose_arrays* poses, size_t count,
+                                                     float threshold, const bch_work* work) {
   return guarded([&] {
     bch_dynamic_shape_set& set = object_of(handle, "set");
     const bch_character& of = object_of(character, "character");

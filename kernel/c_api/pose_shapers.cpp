@@ -32,7 +32,8 @@ bch_status bch_pose_shaper_make(bch_pose_shaper* handle, bch_pose pose) {
   });
 }
 
-bch_status bch_pose_shaper_make_own(bch_pose_shaper* handle, const bch_pose_arrays* poses, size_t index) {
+bch_status bch_pose_shaper_make_from_arrays(bch_pose_shaper* handle, const bch_pose_arrays* poses,
+                                            size_t index) {
   return guarded([&] {
     bch_pose_shaper& shaper = object_of(handle, "shaper");
     const OwnPoses own(poses, index < SIZE_MAX ? index + 1 : index);

@@ -197,9 +197,9 @@ bch_status bch_shape_set_builder_add_poses(bch_shape_set_builder* handle, const 
   });
 }
 
-bch_status bch_shape_set_builder_add_own_poses(bch_shape_set_builder* handle, const bch_character* character,
-                                               const bch_pose_arrays* poses, size_t count,
-                                               const bch_work* work) {
+bch_status bch_shape_set_builder_add_pose_arrays(bch_shape_set_builder* handle,
+                                                 const bch_character* character, const bch_pose_arrays* poses,
+                                                 size_t count, const bch_work* work) {
   return guarded([&] {
     bch_shape_set_builder& builder = object_of(handle, "builder");
     const bch_character& of = object_of(character, "character");

@@ -42,7 +42,7 @@ namespace Bch
         public double X, Y;
     }
 
-    /// <summary>What poses of one's own are given by.</summary>
+    /// <summary>The form in which you pass poses.</summary>
     public enum PoseKind
     {
         /// <summary>The transforms of all joints, each in the frame of its parent.</summary>
@@ -218,7 +218,7 @@ namespace Bch
         }
     }
 
-    /// <summary>A body for each of many agents, who all have poses of their own in every frame. Agent i has shape i.</summary>
+    /// <summary>One body per agent, each in a new pose of its own in every frame. Agent i has shape i.</summary>
     public sealed class LiveBodies : NativeObject
     {
         private readonly int count;
@@ -245,7 +245,7 @@ namespace Bch
             }
         }
         public int Count { get { return count; } }
-        /// <summary>Poses all bodies by times of clips, on so many threads; 0: one for each processor.</summary>
+        /// <summary>Poses all bodies at times of clips, on `threads` threads; 0: one for each processor.</summary>
         public void Pose(uint[] clips, float[] seconds, uint threads = 0)
         {
             Character.Expect("clips", count, clips.Length);
@@ -255,8 +255,8 @@ namespace Bch
             Native.Check(Native.bch_live_bodies_pose(Pointer, poses, threads));
             GC.KeepAlive(this);
         }
-        /// <summary>Poses all bodies by transforms, one pose after the other: 16 floats each in columns. Of bone matrices, `origins` are x and y of the
-        /// point on the ground that is the body's origin.</summary>
+        /// <summary>Poses all bodies by transforms, one pose after the other: column-major 4 x 4 matrices, 16 floats each. For bone
+        /// matrices, `origins` are x and y of each body's origin.</summary>
         public void Pose(float[] transforms, PoseKind kind = PoseKind.BoneMatrices, double[] origins = null, uint threads = 0)
         {
             if (count == 0 || transforms.Length % (16 * count) != 0)
@@ -269,7 +269,7 @@ namespace Bch
                     kind = (int)kind, layout = 1, data = pinned.At(transforms), count = (UIntPtr)(transforms.Length / 16 / count), origins = pinned.At(origins)
                 };
                 poses.size = (uint)Marshal.SizeOf(poses);
-                Native.Check(Native.bch_live_bodies_pose_own(Pointer, ref poses, threads));
+                Native.Check(Native.bch_live_bodies_pose_from_arrays(Pointer, ref poses, threads));
             }
             GC.KeepAlive(this);
         }
@@ -291,7 +291,7 @@ namespace Bch
         /// <summary>Index of each agent's shape in the set. LiveBodies: the agent's own index.</summary>
         public readonly uint[] Shape;
         public readonly double[] X, Y, Heading;
-        /// <summary>Heights of the grounds that agents stand on; null: one ground for all.</summary>
+        /// <summary>Height of the ground under each agent; null: the same for all.</summary>
         public double[] Z;
 
         public Agents(int count)
@@ -403,7 +403,7 @@ namespace Bch
     /// <summary>Unity's axes: y up, z forwards, left-handed; degrees about y, clockwise seen from above.</summary>
     public static class Unity
     {
-        /// <summary>Puts an agent where a transform's position and eulerAngles.y say.</summary>
+        /// <summary>Sets an agent from a transform's position and eulerAngles.y.</summary>
         public static void Place(Agents agents, int i, float x, float y, float z, float degreesAboutY)
         {
             agents.X[i] = z;
@@ -424,8 +424,8 @@ namespace Bch
         }
         private static readonly int[] axis = { 2, 0, 1, 3 }; // of Unity's, for each of ours
         private static readonly float[] sign = { 1, -1, 1, 1 };
-        /// <summary>Converts transforms, 16 floats each in columns as Matrix4x4 has them: from Unity's frames to Unity's frames before, from ours to
-        /// ours afterwards.</summary>
+        /// <summary>Converts transforms in place, column-major 4 x 4 matrices as Matrix4x4: from maps between Unity's frames to maps between
+        /// ours.</summary>
         public static void Transforms(float[] columns)
         {
             var given = new float[16];
@@ -437,7 +437,7 @@ namespace Bch
                         columns[at + 4 * column + row] = sign[row] * sign[column] * given[4 * axis[column] + axis[row]];
             }
         }
-        /// <summary>Turns triangles round, three indices each: mirrored axes turn them over.</summary>
+        /// <summary>Reverses triangles, three indices each, because mirrored axes flip their orientation.</summary>
         public static void Triangles(uint[] triangles)
         {
             for (int i = 0; i + 2 < triangles.Length; i += 3)
@@ -564,7 +564,7 @@ namespace Bch
         [DllImport(library)] public static extern int bch_body_model_free(IntPtr model);
         [DllImport(library)] public static extern int bch_live_bodies_create(IntPtr[] models, UIntPtr models_count, uint[] model_of_body, UIntPtr count, out IntPtr bodies);
         [DllImport(library)] public static extern int bch_live_bodies_pose(IntPtr bodies, Pose[] poses, uint threads);
-        [DllImport(library)] public static extern int bch_live_bodies_pose_own(IntPtr bodies, ref PoseArrays poses, uint threads);
+        [DllImport(library)] public static extern int bch_live_bodies_pose_from_arrays(IntPtr bodies, ref PoseArrays poses, uint threads);
         [DllImport(library)] public static extern int bch_live_bodies_get_set(IntPtr bodies, out IntPtr set);
         [DllImport(library)] public static extern int bch_live_bodies_free(IntPtr bodies);
         [DllImport(library)] public static extern int bch_body_set_get_spheres(IntPtr set, uint body, [Out] Sphere[] spheres, UIntPtr capacity, out UIntPtr count);

@@ -63,7 +63,7 @@ export class ShapeSet implements Freed {
 }
 export function bake(characters: Character[], options?: { poses?: number } & Plan): ShapeSet;
 
-/** Poses of one's choice: of characters[character[i]] at seconds[i] of its clip[i]. */
+/** Makes shapes of chosen poses: of characters[character[i]] at seconds[i] of its clip[i]. */
 export function bakePoses(characters: Character[], poses: { character: Numbers; clip: Numbers; seconds: Numbers }, plan?: Plan): ShapeSet;
 
 /** Spheres on a skeleton that hold the skin in every pose. */

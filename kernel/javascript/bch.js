@@ -40,7 +40,7 @@ function numbersAndFloats(numbers, floats) {
   return to;
 }
 
-/** What poses of one's own are given by. */
+/** The form in which you pass poses. */
 export const kinds = { jointsInParents: 0, jointsInWorld: 1, boneMatrices: 2 };
 const layouts = { 12: 0, 16: 1 }; // of transforms, by their numbers: float rows, float columns
 
@@ -241,13 +241,13 @@ export class LiveBodies extends Handle {
     this.set = new BodySet(callPointer("bch_live_bodies_get_set", this.pointer), true);
     this.set.owner = this; // which frees it
   }
-  /** Poses all bodies by times of clips. */
+  /** Poses all bodies at times of clips. */
   poseByClips(clips, seconds) {
     for (const [name, given] of Object.entries({ clips, seconds }))
       if (given.length !== this.count) throw new RangeError(`${name}: expected ${this.count} values, one a body, found ${given.length}`);
     withScratch(() => call("bch_live_bodies_pose", this.pointer, numbersAndFloats(clips, seconds), 0));
   }
-  /** Poses all bodies by transforms, one pose after the other: 16 floats each in columns, as three.js and glTF have them, or 12 in rows. */
+  /** Poses all bodies by transforms, one pose after the other: column-major 4 x 4, as in three.js and glTF, or row-major 3 x 4. */
   pose(transforms, { kind = kinds.boneMatrices, numbers = 16, origins } = {}) {
     withScratch(() => {
       const count = transforms.length / numbers / this.count;
@@ -260,7 +260,7 @@ export class LiveBodies extends Handle {
         count,
         origins: origins ? array(Float64Array, origins) : 0,
       });
-      call("bch_live_bodies_pose_own", this.pointer, poses.pointer, 0);
+      call("bch_live_bodies_pose_from_arrays", this.pointer, poses.pointer, 0);
     });
   }
 }

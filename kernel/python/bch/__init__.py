@@ -16,8 +16,8 @@ Make or load a set of shapes, describe a crowd by arrays, and query:
 >>> for a, b in crowd.collisions(people, agents): print(a, "collides with", b)
 >>> near = crowd.clearances(people, agents, within=0.5)
 
-Lengths are in metres and angles in radians. Queries take arrays without a copy if their dtype and layout fit, and otherwise
-raise an error that says what is wanted. Every query releases the interpreter's lock, so Python threads run at the same time.
+Lengths are in metres and angles in radians. Queries use your arrays without a copy. If an array has another dtype or layout,
+the error says which is expected. Every query releases the GIL, so Python threads run at the same time.
 """
 
 from . import plot

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 the bch authors
 
-"""Animated bodies, each as one shape over all times."""
+"""Bodies that move through a whole clip."""
 
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ from ._library import ArrayError, Handle, check, lib
 
 
 class AnimatedShape:
-    """An animated body: discs or spheres whose centres and radii are linear in time between keys. `animate` makes one of a clip.
+    """An animated body: discs or spheres whose centres and radii are linear in time between keys. `animate` makes one from a
+    clip.
 
     Times outside the clip are clamped or, if it loops, wrap around.
 
@@ -69,7 +70,7 @@ class AnimatedShape:
         self.nbytes, self.chunk_count, self.key_count = int(info.bytes), int(info.chunks), int(info.keys)
 
     def discs(self, seconds: float) -> Records:
-        """Return the discs at a time of the clip, in seconds; spheres as seen from above.
+        """Return the discs at a time of the clip, in seconds; for spheres, their discs as seen from above.
 
         Returns
         -------
@@ -79,7 +80,7 @@ class AnimatedShape:
         return records(lib.bch_animated_shape_get_discs, DISC, self._pointer, number(seconds, "seconds"))
 
     def spheres(self, seconds: float) -> Records:
-        """Return the spheres at a time of the clip, in seconds: none of a body of discs.
+        """Return the spheres at a time of the clip, in seconds; empty for a body of discs.
 
         Returns
         -------

@@ -14,7 +14,7 @@ from . import _library
 from ._arrays import address, bounded, instances, listed, rejected, u4
 from ._bodies import BodyModel, BodySet, LiveBodies, _pointers
 from ._library import ArgumentError, Handle
-from ._poses import own_poses
+from ._poses import custom_poses
 from ._progress import Watched
 from ._shapes import Character, Path, Plan, ShapeSet, _as_poses, bake_shapes
 
@@ -42,19 +42,19 @@ def bake(
     threads: int = 0,
     progress: bool = False,
 ) -> Union[ShapeSet, BodySet]:
-    """Make a set of characters in many poses: of outlines from characters, and of spheres from models of bodies.
+    """Make a set of characters in many poses: a ShapeSet from characters, or a BodySet from body models.
 
-    Ctrl-C interrupts it and leaves no file.
+    Ctrl-C interrupts the work. No partial file is left.
 
     Parameters
     ----------
     characters : Character or BodyModel, or a sequence of either
     poses : int, or poses
-        The number of poses each, spread evenly over the clips; or the poses themselves: an (n,) POSE array, a sequence of
-        (clip, seconds), Transforms or Vertices. For several characters or models: a sequence of these, one for each. Models do
-        not take Vertices. Several models take only (clip, seconds) or POSE.
+        The number of poses of each character, spread evenly over its clips; or the poses themselves: an (n,) POSE array, a
+        sequence of (clip, seconds), Transforms or Vertices. For several characters or models: a sequence of these, one for
+        each. Models do not take Vertices. Several models take only (clip, seconds) or POSE.
     plan : Plan, optional
-        Of shapes.
+        What a ShapeSet stores.
     path : path, optional
         Where to write the set of shapes.
     threads : int
@@ -100,10 +100,10 @@ def _bake_bodies(models: List[BodyModel], poses: int, threads: int, progress: bo
 def _posed(models: List[BodyModel], poses: List[Any], threads: int) -> BodySet:
     if len(poses) != len(models):
         raise ArgumentError(f"poses has those of {len(poses)} models, and there are {len(models)}")
-    if len(models) > 1 and any(own_poses(of_model) is not None for of_model in poses):
+    if len(models) > 1 and any(custom_poses(of_model) is not None for of_model in poses):
         raise rejected(poses, "poses", "times of clips for several models")
     all_poses = poses[0] if len(models) == 1 else np.concatenate([_as_poses(of_model) for of_model in poses])
-    counts = [len(own_poses(of_model) or _as_poses(of_model)) for of_model in poses]
+    counts = [len(custom_poses(of_model) or _as_poses(of_model)) for of_model in poses]
     bodies = LiveBodies(models, np.repeat(np.arange(len(models), dtype=u4), counts))
     bodies.pose(all_poses, threads=threads)
     return bodies.bodies

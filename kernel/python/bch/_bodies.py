@@ -15,7 +15,7 @@ import numpy.typing as npt
 from . import _library
 from ._arrays import SPHERE, Records, UInt32, address, bounded, encoded, f4, given, index, instance, instances, listed, number, pair, records, rejected, table, u4, u8
 from ._library import Exclusive, Handle, check, lib
-from ._poses import own_poses
+from ._poses import custom_poses
 from ._progress import Watched
 from ._shapes import Character, Path, _as_poses
 
@@ -93,14 +93,14 @@ def _spheres_of(call: Any, *arguments: Any) -> npt.NDArray[np.float32]:
 
 
 def spheres_from_capsules(capsules: npt.ArrayLike, *, error: float = 0.005) -> npt.NDArray[np.float32]:
-    """Return spheres that together hold capsules, such as those of a ragdoll.
+    """Return spheres that together enclose capsules, such as those of a ragdoll.
 
     Parameters
     ----------
     capsules : (k, 7) array
         x, y and z of one end, those of the other, and the radius, metres.
     error : float
-        By how much spheres may reach out of the capsules, metres.
+        How far spheres may protrude from the capsules at most, metres.
 
     Returns
     -------
@@ -114,16 +114,16 @@ def spheres_from_capsules(capsules: npt.ArrayLike, *, error: float = 0.005) -> n
 def spheres_from_polygons(
     polygons: Sequence[npt.ArrayLike], heights: Tuple[float, float], *, error: float = 0.05
 ) -> npt.NDArray[np.float32]:
-    """Return spheres that together hold all that stands on polygons, a cart for instance.
+    """Return spheres that together enclose upright prisms over polygons, such as a cart.
 
     Parameters
     ----------
     polygons : sequence of (k, 2) arrays
         Corners in metres, relative to the agent's position, in either orientation.
     heights : (bottom, top)
-        Above the agent's ground, metres.
+        Bottom and top of the prisms above the agent's ground, metres.
     error : float
-        By how much spheres may reach out, metres.
+        How far spheres may protrude from the prisms at most, metres.
 
     Returns
     -------
@@ -141,15 +141,15 @@ def spheres_from_polygons(
 
 
 class BodyModel:
-    """A character as spheres that move with its skeleton and hold every triangle of its skin in any pose.
+    """A character as spheres that move with its skeleton and enclose every triangle of its skin in any pose.
 
     Parameters
     ----------
     character : Character
     spheres : int
-        At most 4096. More spheres err less and take longer.
+        At most 4096. More spheres fit more closely and take longer.
     draft : bool
-        Make the model in seconds in place of up to a minute. Its errors are about twice as large.
+        Make the model in seconds instead of up to a minute. Its errors are about twice as large.
     progress : bool
         Show a progress bar on standard error. Ctrl-C ends the work in any case.
     """
@@ -173,9 +173,9 @@ class BodyModel:
 
     @classmethod
     def from_spheres(cls, spheres: npt.ArrayLike) -> BodyModel:
-        """Return the model of a rigid body, for things that move among people: (n, 4) numbers, x, y, z and radius, metres.
+        """Return the model of a rigid body, such as a cart, made of spheres: (n, 4) numbers, x, y, z and radius, metres.
 
-        Its poses are the rest pose, and transforms of one joint.
+        Its poses are the rest pose, or transforms of its only joint.
         """
         array = table(spheres, f4, 4, "spheres")
         return cls._of(Handle("body_model", "from_spheres", address(array), len(array)))
@@ -190,7 +190,7 @@ class BodyModel:
 
 
 def default_body(character: Character, spheres: int = 256) -> BodyModel:
-    """Return the model of a built-in character that comes with the library, in milliseconds.
+    """Return the model that comes with the library for a built-in character. This takes milliseconds.
 
     Parameters
     ----------
@@ -208,7 +208,8 @@ def _pointers(models: Sequence[BodyModel]) -> npt.NDArray[Any]:
 
 
 def save_models(path: Path, models: Union[BodyModel, Sequence[BodyModel]]) -> None:
-    """Write models, with their characters, as a baked file, which `load_models` reads without the files that they were made from.
+    """Write models and their characters to a baked file, for `load_models`. The characters' own files are not needed to load
+    it.
 
     Parameters
     ----------
@@ -220,7 +221,7 @@ def save_models(path: Path, models: Union[BodyModel, Sequence[BodyModel]]) -> No
 
 
 def load_models(path: Path) -> List[BodyModel]:
-    """Return the models of a baked file. Files of `bch bake --spheres` have some, too."""
+    """Return the models of a baked file that `save_models` or the program's `bch bake --spheres` wrote."""
     models: List[BodyModel] = []
     count = c_size_t(1)
     while len(models) < count.value:
@@ -231,13 +232,13 @@ def load_models(path: Path) -> List[BodyModel]:
 
 
 class LiveBodies:
-    """A body for each of many agents, who all have poses of their own in every frame.
+    """One body of spheres per agent, each in a new pose of its own in every frame.
 
     Parameters
     ----------
     models : BodyModel or sequence of BodyModel
     model_of_body : (n,) uint32, or int
-        The model of each body. A number n stands for n bodies of the first model. Bodies begin in the rest pose.
+        Index of each body's model; or a number n, for n bodies of the first model. Bodies begin in the rest pose.
 
     Examples
     --------
@@ -262,7 +263,7 @@ class LiveBodies:
         self.bodies = BodySet._lent(self._handle, lent.value or 0)
 
     def pose(self, poses: Any, *, threads: int = 0) -> None:
-        """Pose all bodies, one pose a body. No query may run meanwhile.
+        """Pose all bodies, with one pose per body. No query may run at the same time.
 
         Parameters
         ----------
@@ -270,12 +271,12 @@ class LiveBodies:
         threads : int
             Number of threads; 0: all processors.
         """
-        own = own_poses(poses)
-        array: Any = _as_poses(poses) if own is None else own
+        custom = custom_poses(poses)
+        array: Any = _as_poses(poses) if custom is None else custom
         if len(array) != len(self.bodies):
             raise rejected(poses, "poses", f"one pose for each of {len(self.bodies)} bodies")
-        of_own, of_clips = lib.bch_live_bodies_pose_own, lib.bch_live_bodies_pose
-        call, data = (of_clips, address(array)) if own is None else (of_own, byref(own.struct))
+        of_arrays, of_clips = lib.bch_live_bodies_pose_from_arrays, lib.bch_live_bodies_pose
+        call, data = (of_clips, address(array)) if custom is None else (of_arrays, byref(custom.struct))
         with self._exclusive:
             check(call(self._handle.pointer, data, bounded(threads, "threads", 0, 1024)))
 

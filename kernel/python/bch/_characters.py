@@ -30,7 +30,8 @@ class Joint(NamedTuple):
 
 
 class Bone(NamedTuple):
-    """A bone, which moves vertices: a joint, and its inverse bind matrix, from the vertices' frame to the joint's in the bind pose."""
+    """A bone, which moves vertices: a joint, and an inverse bind matrix, which maps the vertices' frame to the joint's in the
+    bind pose."""
 
     joint: int
     inverse_bind: Optional[npt.ArrayLike] = None  #: (3, 4) or (4, 4); None: vertices are in the joint's frame
@@ -160,16 +161,16 @@ def make_character(
         Indices of vertices.
     name : str
     joints : sequence of Joint
-        The skeleton, parents first. Without joints the mesh does not move, and stands about the agent's position.
+        The skeleton, parents first. Without joints the mesh does not move, and its centre is the agent's position.
     bones : sequence of Bone
         The bones that move vertices.
     vertex_bones, weights : (n, k) arrays, optional
-        The bones that each vertex follows, and their weights. The weights of a vertex sum to 1, and a weight of 0 is no influence.
-        By default all vertices follow the first bone.
+        The bones that each vertex follows, and their weights. The weights of a vertex sum to 1, and a bone with weight 0 is
+        ignored. By default all vertices follow the first bone.
     motions : sequence of Motion
         The character's clips.
     root_joint : int
-        The joint whose position on the ground is the origin of a shape; -1: the middle of the mesh's bounding rectangle.
+        The joint whose x and y are the origin of a shape; -1: the centre of the mesh's bounding rectangle.
     to_ground : (3, 4) or (4, 4) array, optional
         The map from the joints' frame to metres, z up.
     """

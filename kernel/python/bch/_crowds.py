@@ -86,7 +86,7 @@ class Neighbours(Rows):
     Attributes
     ----------
     pairs : (m,) uint32
-        For each value, the number of its pair in the answer.
+        For each value, the index of its pair in the answer.
     """
 
     __slots__ = ("pairs",)
@@ -122,7 +122,7 @@ class Resolved(NamedTuple):
     y: Float64  #: (n,)
     left: UInt32  #: (m, 2), unresolved: the pairs of agents that still collide
     agents_at_walls: UInt32  #: (k,), the agents that still touch an obstacle
-    sweeps: int  #: how many were made
+    sweeps: int  #: the number of sweeps that were made
 
 
 class Penetrations(NamedTuple):
@@ -135,16 +135,16 @@ class Penetrations(NamedTuple):
 class Crowd:
     """Finds the pairs of a crowd that collide or are near each other: broad and narrow phase in one call.
 
-    An object keeps its memory from call to call, so each thread needs its own. Every method that finds pairs takes a filter, as
-    physics engines have it: two agents are a pair if each one's `mask` has a bit of the other's `category`, (n,) uint32 with one
-    entry per agent, and if the pair is not in `excluded`, (m, 2) uint32.
+    An object keeps its memory from call to call, so each thread needs its own. Every method that finds pairs accepts a filter
+    like those of physics engines: two agents are a pair if each one's `mask` has a bit of the other's `category`, (n,) uint32
+    with one entry per agent, and if the pair is not in `excluded`, (m, 2) uint32.
 
     Parameters
     ----------
     period : (float, float)
         Periods of periodic boundary conditions along x and y, metres; 0: not periodic.
     max_pairs : int, optional
-        More candidates than that raise an error.
+        More candidate pairs than this are an error.
 
     Examples
     --------
@@ -180,7 +180,7 @@ class Crowd:
         excluded: Optional[UInt32] = None,
         threads: int = 0,
     ) -> UInt32:
-        """Find every pair of agents that may collide or come within a margin of each other.
+        """Find every pair that is close enough to test (broad phase): that may collide or be within a margin.
 
         The result contains every pair for which `collide` returns True, and every pair with a `clearance` of at most the margin.
 
@@ -238,12 +238,13 @@ class Crowd:
         threads: int = 0,
         implementation: Optional[str] = None,
     ) -> Contacts:
-        """Find all discs of two agents that touch, or all spheres that overlap, for given pairs or for the whole crowd.
+        """Find which discs (in a BodySet: spheres) of two agents overlap, for given pairs or for the whole crowd.
 
         Parameters
         ----------
         pairs : (n, 2) uint32, optional
-            Each of them then has a row, which may be empty. A filter is for whole crowds.
+            The pairs to test, each with one row in the result, which may be empty. By default all pairs of the crowd; only
+            these can be filtered.
         """
         how, _ = options(leaves=leaves, threads=threads, implementation=implementation)
         bodies = isinstance(shapes, BodySet)
@@ -338,17 +339,18 @@ class Crowd:
         threads: int = 0,
         implementation: Optional[str] = None,
     ) -> Resolved:
-        """Move agents on the ground, as little as it can, until no two bodies collide and nobody touches an obstacle.
+        """Move agents on the ground, as little as possible, until no two bodies collide and nobody touches an obstacle.
 
         Each sweep moves all agents at once. It separates pairs that collide by their `nearest_free` moves, and keeps other nearby
-        pairs from coming into collision. Agents do not turn. Where there is no room, pairs are left after the last sweep.
+        pairs from coming into collision. Agents do not turn. If there is no room, some pairs still collide after the last
+        sweep.
 
         Parameters
         ----------
         directions : int
             The number of directions of `nearest_free`.
         sweeps : int
-            The limit of sweeps.
+            The largest number of sweeps.
         gap : float
             The clearance to leave between two separated agents, metres.
         largest_step : float
@@ -382,14 +384,14 @@ class Crowd:
             )
 
     def by_agent(self) -> Neighbours:
-        """Return the pairs of the last answer by agent: one row per agent of the crowd, ascending."""
+        """Return, for each agent, the agents that it is paired with in the last answer: one row per agent, ascending."""
         return self._neighbours(lib.bch_crowd_by_agent)
 
     def nearest(self, max_count: int) -> Neighbours:
-        """Return at most `max_count` neighbours of each agent of the last answer, which has to be of `clearances`, the nearest first.
+        """Return the nearest others of each agent, at most `max_count` of them, nearest first, from the answer of `clearances`.
 
-        Crowd models such as ORCA use these as neighbours. The order is that of the distances of `clearances`, not of the agents'
-        centres.
+        `clearances` has to be this crowd's last query. Its distances decide, not those of centres. Crowd models such as ORCA
+        take these agents as neighbours.
         """
         return self._neighbours(lib.bch_crowd_nearest, bounded(max_count, "max_count", 0, 2**32 - 1))
 
@@ -410,7 +412,7 @@ class Crowd:
         threads: int = 0,
         implementation: Optional[str] = None,
     ) -> Rows:
-        """Find the obstacles that each agent collides with: one row per agent of their indices, ascending."""
+        """Find the obstacles that each agent collides with: one row of obstacle indices per agent, ascending."""
         how, _ = options(leaves=leaves, threads=threads, implementation=implementation)
         bodies = isinstance(shapes, BodySet)
         at, found = pointers(shapes, agents, bodies), _library.IndexRows()

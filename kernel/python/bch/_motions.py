@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 the bch authors
 
-"""Clips as moving spheres, and the first contact of agents in motion."""
+"""Clips as moving spheres, and the first contact of moving agents."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ from ._obstacles import Obstacles
 
 
 def animate(model: BodyModel, clip: int, *, error: float = 0.005, loops: Optional[bool] = None) -> AnimatedShape:
-    """Make moving spheres that hold a body at every real time of a clip, one for each sphere of the model.
+    """Make moving spheres that enclose a body at every time of a clip, one for each sphere of the model.
 
     Parameters
     ----------
@@ -43,9 +43,9 @@ def animate(model: BodyModel, clip: int, *, error: float = 0.005, loops: Optiona
     clip : int
         Index in `Character.clips` of the model's character.
     error : float
-        By how much spheres may protrude from those of a pose at most, between keys more than 9 ms apart, metres.
+        How far the moving spheres may protrude at most from the spheres of a pose, between keys more than 9 ms apart, metres.
     loops : bool, optional
-        Whether the clip is played over and over, its end followed by its beginning at once. None: if its last pose is its first one.
+        Whether the clip repeats without a pause. None: it repeats if its last pose is its first one.
     """
     of = bounded(clip, "clip", 0, 2**32 - 1)
     options = _library.AnimateOptions(error=number(error, "error"), loops=-1 if loops is None else bool(loops))
@@ -61,8 +61,8 @@ class Mover:
     shape : AnimatedShape
     path : (k, 4) or (k, 5) numbers
         Keys of time, x, y, heading and z, in seconds, metres and radians, with ascending times. Between two keys the agent moves straight
-        and turns evenly. Before the first key and after the last one it stands there. z, by default 0, is the height of its ground, which
-        counts between bodies of spheres.
+        and turns evenly. Before the first key and after the last one it stands there. z, by default 0, is the height of its
+        ground; it matters only between bodies of spheres.
     clip_begin : float
         The time at which the clip begins, seconds.
     """
@@ -102,7 +102,7 @@ def first_contact(
     out: Optional[Float64] = None,
     threads: int = 0,
 ) -> Float64:
-    """Find when the two movers of each pair first touch, or each mover an obstacle.
+    """Find when the two movers of each pair first touch, or when each mover first touches an obstacle.
 
     Bodies of spheres meet each other in space. With discs or obstacles, both count as seen from above.
 
@@ -114,7 +114,7 @@ def first_contact(
     interval : (begin, end)
         The interval of time to search, seconds, both ends included.
     tolerance : float
-        Metres. The answer is never late, and early by at most the time in which the two come closer by this distance.
+        Metres. The answer is never too late, and too early by at most the time in which the two come closer by this distance.
     out : (m,) float64, optional
         Where to write the result.
     threads : int
@@ -150,14 +150,14 @@ def first_contact(
 def free_until(
     mover: Mover, others: Sequence[Mover], interval: Tuple[float, float], *, tolerance: float = 0.005
 ) -> float:
-    """Return the time until which a mover touches none of others, seconds; infinity if it never touches one.
+    """Return when a mover first touches one of the others, seconds; infinity if it never does.
 
     Parameters
     ----------
     mover : Mover
     others : sequence of Mover
     interval, tolerance
-        As for `first_contact`. The result is the least time that it finds for the mover and each of the others.
+        As for `first_contact`. The result is the earliest time that `first_contact` finds for the mover and each of the others.
     """
     own = _structs([instance(mover, Mover, "mover")])
     structs, (begin, end) = _structs(instances(others, Mover, "others")), _interval(interval)

@@ -17,10 +17,10 @@ from ._library import ArgumentError, ArrayError, Handle, check, lib
 
 
 class Obstacles:
-    """Obstacles that do not move; queries take them in place of pairs.
+    """Obstacles that do not move. Pass them to queries as the argument instead of pairs.
 
-    A line is one or more open polylines. An area is one or more rings, which close themselves, and the points that they enclose by
-    the even-odd rule. Holes are further rings.
+    An obstacle is a line or an area. A line is one or more open polylines. An area is all points enclosed by one or more rings,
+    by the even-odd rule, so that further rings are holes. Rings close themselves.
 
     Parameters
     ----------
@@ -80,8 +80,8 @@ class Obstacles:
         Parameters
         ----------
         text : str, or a geometry
-            A geometry is of shapely or of PedPy (attributes `wkt`, `polygon`), GeoJSON (a mapping, or the attribute
-            `__geo_interface__`), or points (n, 2) of a polygon or of each of several. It has any number of POLYGON, MULTIPOLYGON,
+            A geometry is an object of shapely or PedPy (with an attribute `wkt` or `polygon`), GeoJSON (a mapping, or an object
+            with `__geo_interface__`), or (n, 2) points, of one polygon or of several. It may consist of POLYGON, MULTIPOLYGON,
             LINESTRING, MULTILINESTRING and GEOMETRYCOLLECTION.
         walkable : bool
             If True, polygons are the floor that agents walk on, and their rings are walls: lines, without an inside. If False, polygons

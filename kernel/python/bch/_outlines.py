@@ -84,7 +84,7 @@ def outline(
     heights : (bottom, top), optional
         Cut the mesh at two heights, metres, and leave out what is below and above. They may be infinite.
     holes : bool
-        Also find holes, and what lies in them. This takes some hundred times as long.
+        Also find holes, and parts inside holes. This takes about a hundred times as long.
     threads : int
         Number of threads for many poses; 0: all processors.
     progress : bool

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Copyright (c) 2026 the bch authors
 
-"""Custom poses, as arrays, for all calls that take poses of one character."""
+"""Poses as arrays of the caller, for all calls that take poses of one character."""
 
 from __future__ import annotations
 
@@ -18,20 +18,20 @@ _VERTICES, _FLOAT_ROWS, _DOUBLE_ROWS = 3, 0, 2
 
 
 class Transforms(NamedTuple):
-    """Poses by affine transforms, in the place of (clip, seconds).
+    """Poses given by affine transforms, instead of (clip, seconds).
 
-    Those that `Character.transforms` returns give the shapes of their clips, bit for bit.
+    The transforms that `Character.transforms` returns for a pose of a clip give the same shape as this pose, bit for bit.
     """
 
     transforms: npt.ArrayLike  #: (frames, joints, 4, 4) or (frames, joints, 3, 4), of any dtype of floats and any strides
     #: "parent": each joint in its parent's frame; "world": each joint in the world, metres, z up; "palette": skinning matrices,
     #: one per bone: the joint's world transform times the inverse bind matrix
     space: str = "world"
-    origins: Optional[npt.ArrayLike] = None  #: (frames, 2), of palettes: the points on the ground that are the shapes' origins
+    origins: Optional[npt.ArrayLike] = None  #: (frames, 2), for palettes: x and y of the shapes' origins
 
 
 class Vertices(NamedTuple):
-    """Poses by the positions of all vertices, in the place of (clip, seconds)."""
+    """Poses given by the positions of all vertices, instead of (clip, seconds)."""
 
     positions: npt.ArrayLike  #: (frames, n, 3), of any dtype of floats: metres, z up, relative to the origin of the shape
 
@@ -45,7 +45,7 @@ def _floats(values: npt.ArrayLike, name: str, shapes: Tuple[Tuple[int, ...], ...
     return np.ascontiguousarray(array, f4 if array.dtype.itemsize <= 4 else f8)
 
 
-class OwnPoses:
+class CustomPoses:
     """Custom poses as the library takes them, with the arrays that they point to."""
 
     def __init__(self, poses: Any) -> None:
@@ -75,6 +75,6 @@ class OwnPoses:
         return len(self._array)
 
 
-def own_poses(poses: Any) -> Optional[OwnPoses]:
+def custom_poses(poses: Any) -> Optional[CustomPoses]:
     """Return custom poses, or None for those of clips."""
-    return OwnPoses(poses) if isinstance(poses, (Transforms, Vertices)) else None
+    return CustomPoses(poses) if isinstance(poses, (Transforms, Vertices)) else None

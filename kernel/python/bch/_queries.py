@@ -46,10 +46,10 @@ from ._shapes import ShapeSet
 
 
 class Agents:
-    """A crowd as a simulation holds it: one entry per agent in each array.
+    """The agents of a crowd: one entry per agent in each array.
 
-    Arrays of these types are viewed where they are, also fields of structured arrays. The next query sees what is written into them
-    later, as in `agents.x[:] += dx`. Numbers of other types, and lists, are copied.
+    Arrays of the types below are viewed, not copied, also fields of structured arrays: after `agents.x[:] += dx` the next query
+    sees the new values. Numbers of other types, and lists, are copied.
 
     Parameters
     ----------
@@ -59,12 +59,12 @@ class Agents:
         Positions, metres, within 1e9 m.
     heading : (n,) or (n, 2) float64, or float32
         Angles by which shapes are turned about their positions, radians, counter-clockwise. At 0 the built-in characters face
-        +x, and those of files stand as in their files. Or (n, 2) unit vectors (cos, sin): where an agent's +x points; their
+        +x, and characters from files stand as in the file. Or (n, 2) unit vectors (cos, sin): where an agent's +x points; their
         length is 1 within 1e-3.
     level : (n,) uint8, or other integers, optional
         Index into the set's depths; by default every agent uses the last level.
     z : (n,) float64, or float32, optional
-        Heights of the grounds that agents stand on, metres; by default all stand on one ground.
+        Height of the ground under each agent, metres; by default the same for all.
     """
 
     __slots__ = ("_arrays", "_struct", "_pointer")
@@ -226,10 +226,10 @@ def collide(
     implementation: Optional[str] = None,
     out: Optional[Bool] = None,
 ) -> Bool:
-    """Test whether the two agents of each pair collide, touching included.
+    """Test whether the two agents of each pair collide; touching counts.
 
-    A collision is never missed: agents collide at every level if the areas of their outlines intersect, even if one is wholly
-    inside the other.
+    A collision is never missed: agents collide at every level if their outlines overlap, even if one is wholly inside the
+    other.
 
     Parameters
     ----------
@@ -271,7 +271,7 @@ def within(
 ) -> Bool:
     """Test whether the two agents of each pair come within a distance of each other, in about the time of `collide`.
 
-    Distances are measured between the discs at the agents' levels, so they are never larger than those of the outlines.
+    Distances are measured between the discs at the agents' levels, so they are never larger than the distances of the outlines.
 
     Parameters
     ----------
@@ -341,7 +341,8 @@ def clearance(
 ) -> Float32:
     """Measure how far apart the two agents of each pair are.
 
-    The distance is never larger than that of the outlines, and 0 where they meet or one is wholly inside the other.
+    The distance is never larger than that of the outlines, and 0 if they overlap. By default it is measured between discs,
+    which are larger than the outlines, so agents at distance 0 need not collide.
 
     Parameters
     ----------
@@ -350,7 +351,7 @@ def clearance(
     agents : Agents
     pairs : (n, 2) uint32, or Obstacles
     max_distance : float
-        Metres. Pairs farther apart get infinity. Smaller limits are faster.
+        Metres. The result is infinite for pairs farther apart. Smaller limits are faster.
     leaves : {"discs", "segments"}
         With "discs", the distance is up to 3 cm less than that of the outlines. With "segments", it is that of the outlines
         themselves, in about seven times the time, for shapes that have outlines, at depth ALL_DEPTHS.
@@ -425,9 +426,10 @@ def penetration(
     implementation: Optional[str] = None,
     out: Optional[Records] = None,
 ) -> Records:
-    """Measure how far the first agent of each pair has to move until a line separates the discs of the two, and in which direction.
+    """Measure how far the first agent of each pair has to move until a straight line separates the discs of the two, and in
+    which direction.
 
-    Use it for pairs that collide. The depth may be positive where nothing overlaps yet, if one agent reaches around the other.
+    Use it for pairs that collide. The depth may be positive although nothing overlaps, if one agent reaches around the other.
 
     Parameters
     ----------
@@ -435,7 +437,8 @@ def penetration(
         Bodies move on the ground, until a line separates them as seen from above.
     agents : Agents
     pairs : (n, 2) uint32, or Obstacles
-        With obstacles (ShapeSet only), each obstacle has a shortest way out of it alone; the depth is the longest of these.
+        With obstacles (ShapeSet only), the shortest move out of each single obstacle is found; the depth is the longest of
+        these moves.
     directions : int, or (n, 2) float32
         The number of evenly spread directions to try, an even number from 2 to 256, of which the best one counts; or one
         direction per pair. Not for obstacles.
@@ -476,8 +479,8 @@ def nearest_free(
 ) -> Records:
     """Measure how far the first agent of each pair has to move on the ground to separate from the second.
 
-    The best of `directions` directions counts. The depth is 0 where the two do not
-    collide, and at most that of `penetration`, because the agents may remain interlocked.
+    The move is the shortest along `directions` evenly spread directions. The depth is 0 if the two do not collide, and at most
+    that of `penetration`, because the agents may remain interlocked.
 
     Parameters
     ----------
@@ -521,8 +524,8 @@ def time_of_impact(
 ) -> Float32:
     """Find when discs (of bodies: spheres) of the two agents of each pair first touch while they move without turning.
 
-    The time is never later than the first contact of the outlines. It is 0 where the agents collide already, even if one is
-    inside the other.
+    The time is never later than the first contact of the outlines. It is 0 if the agents already collide, even if one is inside
+    the other.
 
     Parameters
     ----------
@@ -533,7 +536,7 @@ def time_of_impact(
     dx, dy : (n,) float64
         The displacement of the first agent of each pair relative to the second, or of each agent among obstacles, metres.
     dz : (n,) float64, optional
-        The same upward (BodySet only). Nobody moves up or down without it.
+        The same upward (BodySet only); by default 0.
     threads, implementation
         As for `collide`.
     out : (n,) float32, optional

@@ -66,17 +66,17 @@ _MOST_PEOPLE = 1_000_000
 
 
 class NamedMotion(NamedTuple):
-    """A body that rows of a recording name, and the clip that it plays. One of the two may be empty."""
+    """The character and the clip that rows of a recording name. One of the two may be empty."""
 
     character: str
     clip: str
 
 
 class NamedBody(NamedTuple):
-    """A body that does not walk, which rows of a recording have; `kind` is empty where they are about people."""
+    """The body that rows of a recording have if it is not a walking person's, such as a cart. `kind` is empty for people."""
 
     kind: str  #: such as "box", or a name of `footprints`
-    length: float  #: metres; 0 where rows do not say it
+    length: float  #: metres; 0 if rows do not state it
     width: float
 
 
@@ -87,10 +87,10 @@ class Trajectory(NamedTuple):
     fps: float  #: frames per second
     format: str  #: such as "JuPedSim SQLite, version 2"
     geometry: str  #: the walkable area as well-known text, or empty
-    assumptions: List[str]  #: what the file does not say, and what is assumed instead
+    assumptions: List[str]  #: what the file does not state, and what is assumed instead
     motions: List[NamedMotion]  #: all motions that rows name, in the order of the file
     notes: Sequence[str] = ()  #: what seems to be wrong: columns that are not read, values of another unit
-    bodies: Sequence[NamedBody] = ()  #: of each of the motions: a body that does not walk has neither a character nor a clip
+    bodies: Sequence[NamedBody] = ()  #: one per motion; bodies that do not walk have neither a character nor a clip
 
     @property
     def character(self) -> "np.ndarray[Any, Any]":
@@ -104,7 +104,7 @@ class Trajectory(NamedTuple):
 
     @property
     def body(self) -> "np.ndarray[Any, Any]":
-        """The kind of body that each row has in place of a walking person's, or an empty text, (n,)."""
+        """The kind of body that each row has, or an empty text for a walking person, (n,)."""
         return self._names("kind")
 
     def _names(self, of: str) -> "np.ndarray[Any, Any]":
@@ -216,16 +216,18 @@ class Check(NamedTuple):
     #: What seems to be wrong: columns that are not read, people who are too fast or too slow, headings in degrees, walls without a segment.
     notes: List[str]
     #: With `measures=True` a row per person and frame: frame, id, density, voronoi_density (people per square metre), clearance (the least
-    #: signed distance of bodies, metres), ttc (the least time to a collision, seconds), pet (time after an encroachment, seconds), intrusion,
-    #: avoidance, `disc_` and these for discs of 0.1 m, intimate, personal (others within 0.45 and 1.2 m), collides, disc_collides (0 or
-    #: 1). bench/README.md defines them. Infinite: nobody is that near.
+    #: signed distance of bodies, metres), ttc (the least time to a collision, seconds), pet (time after an encroachment,
+    #: seconds), intrusion and avoidance (numbers of Cordes et al. 2024), `disc_` and these for discs of 0.1 m, intimate,
+    #: personal (others within 0.45 and 1.2 m), collides, disc_collides (0 or 1). bench/README.md defines them. Infinite: nobody
+    #: is that near.
     measures: Records
     #: With `measures=True` a row per pair and frame of people who overlap or will collide within 5 s: frame, first, second, distance,
     #: clearance, disc_clearance, ttc, disc_ttc.
     conflicts: Records
 
     def table(self, name: CheckTable = "events") -> "Dict[str, np.ndarray[Any, Any]]":
-        """Return a table as columns by name, (n,) each: with words for kinds, and seconds, counted from frame 0, beside frames.
+        """Return a table as a mapping of names to columns, (n,) each. Kinds are words, and there are seconds, counted from
+        frame 0, as well as frames.
 
         Parameters
         ----------
@@ -304,39 +306,40 @@ def check(
     threads: int = 0,
     progress: bool = False,
 ) -> Check:
-    """Put a walking person, or the body that it has, on every row of a recording, and find who runs into whom. Ctrl-C interrupts it.
+    """Find who runs into whom in a recording: each row becomes a walking person, or the body that the row names.
 
     A recording is a file, a table with columns by name, or arrays with an entry per row: `check("walk.sqlite")`, `check(dataframe, fps=25)`
-    or `check(frame=frame, id=id, x=x, y=y, fps=25)`. Rows are in any order. Arrays and columns are of any numbers with any stride, or
-    lists. They give the same result as a CSV file with these columns.
+    or `check(frame=frame, id=id, x=x, y=y, fps=25)`. Rows may be in any order. Arrays may have any numeric type and any stride;
+    lists are accepted, too. The result is that of a CSV file with these columns. Ctrl-C interrupts the work.
 
     Parameters
     ----------
     recording : path, or table, optional
         A table is a mapping of names to arrays, a structured array, a dataframe of pandas or polars, a table of Arrow, or anything that
         gives a column by `table[name]` and names in `columns`, `column_names` or `dtype.names`. Its columns have the names and units
-        that a header of CSV has; layout/README.md lists them. PedPy's TrajectoryData and JuPedSim's Recording are taken, too,
-        with their frame rates, and the latter with its geometry.
+        that a header of CSV has; layout/README.md lists them. PedPy's TrajectoryData and JuPedSim's Recording are accepted,
+        too, with their frame rates, and the latter with its geometry.
     frame, id : (n,) whole numbers, optional
-        The frame of a row, with `fps`, and the person. A person is in a frame once at most.
+        Each row's frame number, which needs `fps`, and the id of its person. A person has at most one row per frame.
     time : (n,) numbers, optional
-        In place of frames: seconds from any origin, or numpy's datetime64 or timedelta64.
+        Instead of `frame`: seconds from any origin, or numpy's datetime64 or timedelta64.
     x, y : (n,) numbers, optional
-        Positions of heads, metres or `unit`, within 1e8 m.
+        Positions of heads, in metres or in `unit`, within 1e8 m.
     heading : (n,) numbers, optional
         Radians, counter-clockwise from +x; NaN: the direction in which the person walks.
     stature : (n,) numbers, optional
-        Heights of people, metres or `unit`, from 1 to 2.5 m; NaN: drawn from a normal distribution, seeded by the id.
+        Heights of people, in metres or in `unit`, from 1 to 2.5 m; NaN: drawn from a normal distribution, seeded by the id.
     length, width, radius : (n,) numbers, optional
-        Sizes of bodies that do not walk, metres or `unit`, up to 20 m; NaN or 0: not said. A radius is half of the length and of the width.
-        Rows without a size and without a `body` are walking people.
+        Sizes of bodies that do not walk, in metres or in `unit`, up to 20 m; NaN or 0: unknown. A radius is half of the length
+        and of the width. Rows without a size and without a `body` are walking people.
     body : (n,) str, optional
-        The kind of each row's body: "disc", "box", "ellipse", "wheelchair", "bicycle", "trolley", "robot", or a name of `footprints`. The
-        first three need a size; the others are stretched to one, if there is one. "", None, "person" or "pedestrian": a walking
-        person. Without it a body with a length or a width is a box, and one with a radius a disc.
+        The kind of each row's body: "disc", "box", "ellipse", "wheelchair", "bicycle", "trolley", "robot", or a name of
+        `footprints`. The first three need a size; the others have one, and are stretched to the given size if there is one. "",
+        None, "person" or "pedestrian": a walking person. If `body` is not given, a row with a length or a width is a box, and
+        one with a radius is a disc.
     footprints : mapping of str to a geometry
-        What bodies of further names cover on the ground: polygons, as `Obstacles.from_wkt` takes them, in metres, about the body's
-        position, facing +x; `outline(character).wkt` of a character, for instance.
+        What other kinds of bodies cover on the ground: polygons, as `Obstacles.from_wkt` takes them, in metres, about the
+        body's position, facing +x; `outline(character).wkt` of a character, for instance.
     characters : sequence of Character, or ShapeSet
         The bodies of the people, assigned by id or as rows name them, and scaled to the people's statures; by default built-in
         pedestrians. Each character needs a clip that walks straight on, and should have one that stands. Alternatively a set that
@@ -346,10 +349,10 @@ def check(
     facing : float
         For a baked set: the direction that people face, radians, counter-clockwise from +x.
     bodies : {"outlines", "spheres"}
-        Outlines, seen from above, or bodies of spheres, which are posed at each person's phase in every frame and meet in space.
-        `depth`, `leaves` and baked sets belong to outlines.
+        What collides: outlines, seen from above, or bodies of spheres, in space, which are posed anew for each person and
+        frame. `depth`, `leaves` and baked sets are for outlines only.
     spheres : int
-        Spheres of a body: 64, 128, 256 or 512; of characters that the library has no models of up to 4096.
+        Spheres per body: 64, 128, 256 or 512; up to 4096 for characters that are not built in.
     depth : int
         Depth of the cut: 0 is one disc per body, ALL_DEPTHS all discs, or the outlines (see `leaves`).
     leaves : {"segments", "discs"}
@@ -358,14 +361,14 @@ def check(
         Also report pairs with gaps up to this distance, metres.
     max_pairs : int
         Limit of pairs of people near each other, in one frame or in the frames that one task checks (about 4096 rows); 0: 4
-        million plus 100 per person. More are an error, because each takes memory.
+        million plus 100 per person. More pairs are an error, because each takes memory.
     measures : bool
-        Also measure people and pairs: `Check.measures` and `Check.conflicts`.
+        Also fill `Check.measures` and `Check.conflicts`.
     walls : Obstacles, or a geometry as `Obstacles.from_wkt` takes, optional
         Walls to use instead of the geometry of the recording. Polygons of a geometry are the floor that people walk on, and their
         rings are walls.
     fps, unit, columns
-        As for `read_trajectory`. `columns` are of files alone.
+        As for `read_trajectory`. `columns` is for files only.
     threads : int
         Number of threads; 0: all processors. The answer is the same for any number.
     progress : bool
@@ -380,8 +383,8 @@ def check(
     FileNotFoundError, OSError
         A file that does not exist, or cannot be read. The message names the file, the row and the value.
     TypeError, ValueError
-        Arrays that are no numbers or not of one length, or an argument or a value that makes no sense. The message names the
-        argument or the column, the row, from 0, and the value.
+        Arrays that are not numeric or differ in length, or an invalid argument or value. The message names the argument or the
+        column, the row (counted from 0), and the value.
     """
     arrays: Dict[str, Any] = {"frame": frame, "time": time, "id": id, "x": x, "y": y, "heading": heading, "stature": stature}
     arrays.update(length=length, width=width, radius=radius, body=body)

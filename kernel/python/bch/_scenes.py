@@ -28,7 +28,7 @@ from ._shapes import Character, Plan, ShapeSet, ShapeSetBuilder, _as_poses
 
 
 class ScenePlan:
-    """The shapes to build for a scene, each once, and the shape and level of each agent. `plan_scene` makes one.
+    """The shapes to build for a scene, each listed once, and the shape and level of each agent. `plan_scene` makes one.
 
     Attributes
     ----------
@@ -89,7 +89,7 @@ def plan_scene(
     pose_step: float = 0.0,
     pairs_per_shape: float = math.inf,
 ) -> ScenePlan:
-    """Plan which shapes the agents of a scene need, each once, at which depths and with which further data.
+    """Find which shapes the agents of a scene need, each listed once, at which depths and with which other data.
 
     Parameters
     ----------

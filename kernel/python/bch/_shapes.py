@@ -46,7 +46,7 @@ from ._arrays import (
     whole_number,
 )
 from ._library import ArgumentError, ArrayError, Exclusive, Handle, check, lib, said
-from ._poses import own_poses
+from ._poses import custom_poses
 from ._progress import Watched
 
 Path = Union[str, "os.PathLike[str]"]
@@ -57,10 +57,10 @@ REST_POSE = 0xFFFFFFFF
 
 
 class Plan(NamedTuple):
-    """What a scene will use of its shapes; nothing else is built or stored."""
+    """Which levels and data a set stores for each shape. Nothing else is built."""
 
     depths: Sequence[int] = (ALL_DEPTHS,)  #: levels of detail, ascending: depths of the disc trees; 0: one disc, ALL_DEPTHS: all discs
-    outlines: bool = True  #: keep outlines, without which discs alone decide
+    outlines: bool = True  #: keep outlines; without them, discs decide whether agents collide
     culling: bool = True  #: keep culling data, which lets queries skip most of their work; changes no answer
     heights: bool = False  #: keep the heights of bodies, for agents at different heights
     threshold: float = 0.01  #: the radius below which discs are not divided, metres
@@ -88,10 +88,10 @@ def depth_at_density(people_per_square_metre: float) -> int: ...
 @overload
 def depth_at_density(people_per_square_metre: Float64) -> UInt32: ...
 def depth_at_density(people_per_square_metre: Union[float, Float64]) -> Union[int, UInt32]:
-    """Return the depth of the disc trees at a density.
+    """Return the depth of the disc trees to use at a density of people.
 
-    It is 0 where false collisions of single cylinders stop a walking person at most once a second, else ALL_DEPTHS.
-    Densities are in people per square metre; for an array, one depth per entry.
+    It is 0 if false collisions of single cylinders stop a walking person at most once a second, else ALL_DEPTHS. Densities are
+    in people per square metre; for an array, one depth per entry.
     """
     if isinstance(people_per_square_metre, np.ndarray):
         densities = converted(people_per_square_metre, f8, "people_per_square_metre")
@@ -191,7 +191,7 @@ class Character:
         return rows
 
     def blend(self, poses: Any, weights: npt.ArrayLike) -> Float64:
-        """Return the transforms of all joints in a mean of poses of clips by weights, each in its parent's frame.
+        """Return the transforms of all joints in the weighted mean of poses of clips, each in its parent's frame.
 
         Parameters
         ----------
@@ -292,13 +292,13 @@ def import_character(
     ----------
     path : path
     up : {"x", "y", "z"}, optional
-        The axis that points up, instead of what the file says.
+        The axis that points up, instead of the one that the file states.
     scale : float
-        Metres per unit of the file; 0: what the file says, or a guess. The character's `notes` say which.
+        Metres per unit of the file; 0: what the file states, or a guess. The character's `notes` tell which.
     clip_files : sequence of paths
         Files whose clips follow those of the character's own file.
     force_clips : bool
-        Accept clips that belong to another skeleton, too.
+        Also accept clips that belong to another skeleton.
     max_triangles, timeout, memory_limit
         Limits of reading: number of triangles, seconds, bytes.
     """
@@ -369,7 +369,7 @@ class PoseShaper:
 
 
 class Origin(NamedTuple):
-    """The character, clip and time that a shape was made from; None where a set does not know, or for the rest pose."""
+    """The character, clip and time that a shape was made from; None if unknown, and for the rest pose."""
 
     character: Optional[str]
     clip: Optional[str]
@@ -377,7 +377,7 @@ class Origin(NamedTuple):
 
 
 class KeptClip(NamedTuple):
-    """An animated body, which a set keeps with its names."""
+    """An animated body that a set stores, with its names."""
 
     character: str
     clip: Optional[str]
@@ -387,10 +387,12 @@ class KeptClip(NamedTuple):
 class ShapeSet:
     """A set of shapes of bodies, ready for queries. Any number of threads may query a set at once.
 
-    `ShapeSet.load` maps a baked file, `bake` makes a set from characters, and `ShapeSetBuilder` makes one from bodies of your own.
+    `ShapeSet.load` maps a baked file, `bake` makes a set from characters, and `ShapeSetBuilder` makes one from polygons,
+    capsules, discs, meshes and chosen poses.
 
-    Attributes: `depths`, the depth of each level; `outlines`, whether outlines are kept, else discs alone decide; `exact_leaves`,
-    whether leaves="segments" has an effect at some level of some shape; `has_heights`, whether agents may have a z.
+    Attributes: `depths`, the depth of each level; `outlines`, whether outlines are kept (if not, discs decide collisions);
+    `exact_leaves`, whether leaves="segments" has an effect at some level of some shape; `has_heights`, whether agents may have
+    a z.
     """
 
     __slots__ = ("_owner", "_pointer", "shape_count", "depths", "has_heights", "outlines", "exact_leaves", "nbytes")
@@ -502,7 +504,7 @@ class ShapeSet:
         return Origin(character, clip, origin.seconds)
 
     def keep_clip(self, shape: AnimatedShape, character: str, clip: Optional[str] = None) -> None:
-        """Keep an animated body, with its names. `save` writes it beside the shapes."""
+        """Store an animated body, with its names, in the set. `save` writes it with the shapes."""
         body, name = instance(shape, AnimatedShape, "shape"), None if clip is None else encoded(clip, "clip")
         check(lib.bch_shape_set_add_clip(self._pointer, body._pointer, encoded(character, "character"), name))
 
@@ -523,12 +525,12 @@ class ShapeSet:
         raise TypeError("a bch.ShapeSet cannot be pickled; save() it, and load() the file elsewhere, which maps it")
 
     def verify(self, most: int = 100) -> List[str]:
-        """Check that all stored data of the shapes follow from their discs and outlines, for files from elsewhere.
+        """Check a set from an untrusted file: recompute from discs and outlines all other data of the shapes, and compare.
 
         Returns
         -------
         list of str
-            One line per finding, at most `most`; none for sets that the library made.
+            One line per difference, at most `most`; none for sets that the library made.
         """
         lines: List[str] = []
         callback = _library.Finding(lambda _, line: lines.append(line.decode(errors="replace")))
@@ -543,8 +545,8 @@ class ShapeSet:
 class ShapeSetBuilder:
     """Builds a set body by body. Shapes are numbered in the order in which they are added.
 
-    If the plan keeps heights, bodies of your own may have a range of heights, (bottom, top) in metres. By default they take part at
-    every height.
+    If the plan keeps heights, polygons, capsules, discs and cylinders may have a range of heights, (bottom, top) in metres; by
+    default they are infinitely high.
 
     Parameters
     ----------
@@ -569,7 +571,7 @@ class ShapeSetBuilder:
         return byref(_library.Heights(bottom, top))
 
     def add_poses(self, character: Character, poses: Any, *, threads: int = 0, progress: bool = False) -> None:
-        """Add the shapes of a character's poses, which all processors make. Ctrl-C interrupts it, and then none is added.
+        """Add shapes of a character in poses, on all processors. If Ctrl-C interrupts the work, no shape is added.
 
         Parameters
         ----------
@@ -581,18 +583,19 @@ class ShapeSetBuilder:
             Show a progress bar on a terminal.
         """
         instance(character, Character, "character")
-        own = own_poses(poses)
-        array: Any = _as_poses(poses) if own is None else own
+        custom = custom_poses(poses)
+        array: Any = _as_poses(poses) if custom is None else custom
         with self._exclusive, Watched(f"baking {character.name}", progress) as watched:
             work = _library.Work(threads=bounded(threads, "threads", 0, 1024), progress=watched.callback)
-            of_own, of_clips = lib.bch_shape_set_builder_add_own_poses, lib.bch_shape_set_builder_add_poses
-            add, data = (of_clips, address(array)) if own is None else (of_own, byref(own.struct))
+            of_arrays, of_clips = lib.bch_shape_set_builder_add_pose_arrays, lib.bch_shape_set_builder_add_poses
+            add, data = (of_clips, address(array)) if custom is None else (of_arrays, byref(custom.struct))
             watched.run(add(self._pointer, character._pointer, data, len(array), byref(work)))
 
     def add_sources(
         self, characters: Sequence[Character], sources: Records, *, threads: int = 0, progress: bool = False
     ) -> None:
-        """Add the shapes of poses of several characters, as `plan_scene` lists them. Ctrl-C interrupts it, and then none is added.
+        """Add shapes of several characters in poses, as `plan_scene` lists them. If Ctrl-C interrupts the work, no shape is
+        added.
 
         Parameters
         ----------
@@ -715,7 +718,7 @@ def bake_shapes(
 
 
 class DynamicShapeSet:
-    """A set whose shapes are replaced while it lives, for characters whose poses are new in every frame.
+    """A set whose shapes can be replaced, for characters with new poses in every frame.
 
     Parameters
     ----------
@@ -743,7 +746,7 @@ class DynamicShapeSet:
         threshold: float = 0.01,
         threads: int = 0,
     ) -> None:
-        """Replace shapes by poses of a character, which all processors make. No query may run meanwhile.
+        """Replace shapes by new poses of a character, on all processors. No query may run at the same time.
 
         Parameters
         ----------
@@ -757,11 +760,11 @@ class DynamicShapeSet:
             Number of threads; 0: all processors.
         """
         instance(character, Character, "character")
-        own, least = own_poses(poses), number(threshold, "threshold")
-        array: Any = _as_poses(poses) if own is None else own
+        custom, least = custom_poses(poses), number(threshold, "threshold")
+        array: Any = _as_poses(poses) if custom is None else custom
         which = given(shapes, u4, (len(array),), "shapes")
         with self._exclusive, Watched("posing", False) as watched:
             work = _library.Work(threads=bounded(threads, "threads", 0, 1024), progress=watched.callback)
-            of_own, of_clips = lib.bch_dynamic_shape_set_replace_own_poses, lib.bch_dynamic_shape_set_replace_poses
-            replace, data = (of_clips, address(array)) if own is None else (of_own, byref(own.struct))
+            of_arrays, of_clips = lib.bch_dynamic_shape_set_replace_pose_arrays, lib.bch_dynamic_shape_set_replace_poses
+            replace, data = (of_clips, address(array)) if custom is None else (of_arrays, byref(custom.struct))
             watched.run(replace(self._pointer, character._pointer, which, data, len(array), least, byref(work)))

@@ -311,7 +311,7 @@ TEST_F(CApiPoses, HaveTheBitsOfTheClipInEveryWay) {
   ways[5].origins = origins.data();
   for (const bch_pose_arrays& way : ways) {
     SCOPED_TRACE(&way - ways.data());
-    expect_ok(bch_shape_set_builder_add_own_poses(builder.get(), man.get(), &way, pose_count, nullptr));
+    expect_ok(bch_shape_set_builder_add_pose_arrays(builder.get(), man.get(), &way, pose_count, nullptr));
     const auto by_arrays = test::finished(builder);
     EXPECT_TRUE(discs_of(by_arrays.get()) == expected);
     bch_shape_origin origin;
@@ -323,16 +323,16 @@ TEST_F(CApiPoses, HaveTheBitsOfTheClipInEveryWay) {
     const bch_shape_set* lent = nullptr;
     expect_ok(bch_dynamic_shape_set_get_shapes(dynamic.get(), &lent));
     const std::uint32_t turned[] = {5, 4, 3, 2, 1, 0}, straight[] = {0, 1, 2, 3, 4, 5};
-    expect_ok(bch_dynamic_shape_set_replace_own_poses(dynamic.get(), man.get(), turned, &way, pose_count,
-                                                      0.01f, nullptr));
+    expect_ok(bch_dynamic_shape_set_replace_pose_arrays(dynamic.get(), man.get(), turned, &way, pose_count,
+                                                        0.01f, nullptr));
     EXPECT_FALSE(discs_of(lent) == expected);
-    expect_ok(bch_dynamic_shape_set_replace_own_poses(dynamic.get(), man.get(), straight, &way, pose_count,
-                                                      0.01f, nullptr));
+    expect_ok(bch_dynamic_shape_set_replace_pose_arrays(dynamic.get(), man.get(), straight, &way, pose_count,
+                                                        0.01f, nullptr));
     EXPECT_TRUE(discs_of(lent) == expected);
 
     const auto shaper = made<bch_pose_shaper_free>(bch_pose_shaper_create, man.get(), nullptr);
     for (std::size_t i = 0; i < pose_count; ++i) {
-      expect_ok(bch_pose_shaper_make_own(shaper.get(), &way, i));
+      expect_ok(bch_pose_shaper_make_from_arrays(shaper.get(), &way, i));
       expect_ok(bch_shape_set_builder_add_shape(builder.get(), shaper.get()));
     }
     EXPECT_TRUE(discs_of(test::finished(builder).get()) == expected);
@@ -370,7 +370,7 @@ TEST_F(CApiPoses, AreRejectedWhereTheyDoNotFit) {
   const auto expect_rejected = [&](auto change, const std::string& message) {
     bch_pose_arrays arrays = arrays_of(BCH_JOINTS_IN_PARENTS, BCH_DOUBLE_ROWS, local.data(), joints);
     change(arrays);
-    EXPECT_EQ(bch_pose_shaper_make_own(shaper.get(), &arrays, 1), BCH_INVALID_ARGUMENT);
+    EXPECT_EQ(bch_pose_shaper_make_from_arrays(shaper.get(), &arrays, 1), BCH_INVALID_ARGUMENT);
     EXPECT_EQ(bch_last_error(), message);
   };
   expect_rejected([](auto& a) { a.count = 26; }, "poses[1]: shape: expected 27 joint transforms, found 26");
