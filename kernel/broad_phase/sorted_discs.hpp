@@ -83,15 +83,16 @@ class SortedDiscs {
 /// Counts the pairs that all tasks find, up to a limit.
 class PairCount {
  public:
-  explicit PairCount(std::size_t most) noexcept : most_(most) {}
+  explicit PairCount(std::size_t most) noexcept : max_pairs_(most) {}
   /// Errors:  throws std::length_error where there are more than the limit.
   void add(std::size_t pairs) {
-    if (count_.fetch_add(pairs, std::memory_order_relaxed) + pairs > most_)
-      throw std::length_error("candidates: expected at most " + std::to_string(most_) + " pairs, found more");
+    if (count_.fetch_add(pairs, std::memory_order_relaxed) + pairs > max_pairs_)
+      throw std::length_error("candidates: expected at most " + std::to_string(max_pairs_) +
+                              " pairs, found more");
   }
 
  private:
-  const std::size_t most_;
+  const std::size_t max_pairs_;
   std::atomic<std::size_t> count_ = 0;
 };
 

@@ -58,7 +58,7 @@ class ContactKernel {
         kernel.begin_pair(begin - k, k);
         if (capacity - offsets[begin] < std::uint64_t{kernel.rows_.count} * kernel.columns_.count)
           return begin;
-        const DiscPair* const last = kernel.place_all(contacts + offsets[begin]);
+        const DiscPair* const last = kernel.write_all(contacts + offsets[begin]);
         offsets[begin + 1] = static_cast<std::uint64_t>(last - contacts);
       }
     }
@@ -68,7 +68,7 @@ class ContactKernel {
   static void fill(const Arguments& in, std::size_t begin, std::size_t end, const std::uint64_t* offsets,
                    DiscPair* contacts) noexcept {
     for_pairs(in, begin, end, [=](ContactKernel& kernel, std::size_t pair) {
-      if (offsets[pair + 1] != offsets[pair]) kernel.place_all(contacts + offsets[pair]);
+      if (offsets[pair + 1] != offsets[pair]) kernel.write_all(contacts + offsets[pair]);
     });
   }
 
@@ -82,14 +82,14 @@ class ContactKernel {
 
   explicit ContactKernel(const Arguments& in) noexcept : in_(in), shapes_(*in.shapes) {}
 
-  template <class Use>
-  static void for_pairs(const Arguments& in, std::size_t begin, std::size_t end, Use use) noexcept {
+  template <class Visit>
+  static void for_pairs(const Arguments& in, std::size_t begin, std::size_t end, Visit visit) noexcept {
     ContactKernel kernel(in);
     for (; begin < end; begin += kernel.at_.size) {
       kernel.at_.place(in, begin, end);
       for (std::uint32_t k = 0; k < kernel.at_.size; ++k) {
         kernel.begin_pair(begin, k);
-        use(kernel, begin + k);
+        visit(kernel, begin + k);
       }
     }
   }
@@ -101,20 +101,20 @@ class ContactKernel {
     placed_.b_in_a = at_.transform(k);
     const std::uint32_t rows = swapped_ ? at_.root_b[k] : at_.root_a[k];
     const std::uint32_t columns = swapped_ ? at_.root_a[k] : at_.root_b[k];
-    if (shapes_.trees == nullptr) return visit_single_discs(shapes_.roots[rows], shapes_.roots[columns]);
+    if (shapes_.trees == nullptr) return begin_single_discs(shapes_.roots[rows], shapes_.roots[columns]);
     nodes_ = shapes_.nodes;
     const float reach_a = shapes_.reach[at_.shape_a[k]], reach_b = shapes_.reach[at_.shape_b[k]];
     reach_ = reach_a + reach_b;
     rows_ = shapes_.trees[rows], columns_ = shapes_.trees[columns];
-    held_ = (rows_.nodes_hold_discs & columns_.nodes_hold_discs) != 0 &&
-            reach_ <= float{rounding::held_reaches} * (reach_a < reach_b ? reach_a : reach_b);
+    is_conservative_ = (rows_.nodes_hold_discs & columns_.nodes_hold_discs) != 0 &&
+                       reach_ <= float{rounding::held_reaches} * (reach_a < reach_b ? reach_a : reach_b);
     const bool exact = in_.exact_leaves && rows_.segments != no_segments && columns_.segments != no_segments;
     placed_.margin = exact ? segment_margin<Simd>(shapes_, at_.shape_a[k], at_.shape_b[k]) : 0;
     first_row_ = rows_.discs, first_column_ = columns_.discs;
   }
 
   /// Examines a pair of single discs in windows of its own, because the set has none.
-  void visit_single_discs(const Root& row_disc, const Root& column_disc) noexcept {
+  void begin_single_discs(const Root& row_disc, const Root& column_disc) noexcept {
     for (DiscBlock& single : singles_)
       for (unsigned i = 0; i < block_width; ++i)
         single.x[i] = __builtin_inff(), single.y[i] = single.radius[i] = 0;
@@ -127,25 +127,25 @@ class ContactKernel {
     columns_ = {leaf_window | first_column_, first_column_, block_width, 1, 0};
   }
 
-  /// Calls use(window, mask of its own rows, nodes above the columns that may overlap them).
-  template <class Use>
-  void for_row_windows(Use use) const noexcept {
+  /// Calls visit(window, mask of its own rows, nodes above the columns that may overlap them).
+  template <class Visit>
+  void for_row_windows(Visit visit) const noexcept {
     Nodes columns;
     columns.node[columns.size++] = columns_.top;
-    visit_rows(rows_.top, last_rows() + block_width, columns, use);
-    use(last_rows() | leaf_window, ~std::uint64_t{0}, columns);
+    visit_rows(rows_.top, last_rows() + block_width, columns, visit);
+    visit(last_rows() | leaf_window, ~std::uint64_t{0}, columns);
   }
 
   /// Returns where the last eight rows begin.
   std::uint32_t last_rows() const noexcept { return first_row_ + rows_.stride - block_width; }
 
   /// Visits the row windows below a node. `end`: where the node to the right begins.
-  template <class Use>
-  void visit_rows(std::uint32_t node, std::uint32_t end, const Nodes& columns, Use& use) const noexcept {
+  template <class Visit>
+  void visit_rows(std::uint32_t node, std::uint32_t end, const Nodes& columns, Visit& visit) const noexcept {
     if (node >= leaf_window) {
       const std::uint32_t begin = node & ~leaf_window;
       const std::uint32_t stop = end < last_rows() ? end : last_rows();
-      if (begin < stop) use(node, rows_below(stop - begin), columns);
+      if (begin < stop) visit(node, rows_below(stop - begin), columns);
       return;
     }
     std::uint64_t hits[Nodes::capacity];
@@ -157,7 +157,7 @@ class ContactKernel {
       const bool is_last = i + 1 == block_width || nodes_[node + i + 1] == __builtin_inff();
       const std::uint32_t child_end = is_last ? end : first_disc(nodes_, child(node, i + 1));
       // Nodes higher up are above the same columns.
-      visit_rows(child(node, i), child_end, fits ? below : columns, use);
+      visit_rows(child(node, i), child_end, fits ? below : columns, visit);
     }
   }
 
@@ -182,37 +182,37 @@ class ContactKernel {
     return true;
   }
 
-  /// Calls use(window, hits) for each window of columns with discs that overlap those of a row window.
-  template <class Use>
+  /// Calls visit(window, hits) for each window of columns with discs that overlap those of a row window.
+  template <class Visit>
   void for_column_windows(std::uint32_t rows, std::uint64_t mask, const Nodes& columns,
-                          Use use) const noexcept {
+                          Visit visit) const noexcept {
     std::uint32_t next = 0;
-    for (std::uint32_t k = 0; k < columns.size; ++k) visit_columns(rows, mask, columns.node[k], next, use);
+    for (std::uint32_t k = 0; k < columns.size; ++k) visit_columns(rows, mask, columns.node[k], next, visit);
   }
 
-  template <class Use>
+  template <class Visit>
   void visit_columns(std::uint32_t rows, std::uint64_t mask, std::uint32_t node, std::uint32_t& next,
-                     Use& use) const noexcept {
+                     Visit& visit) const noexcept {
     std::uint64_t hits = overlaps_of(rows, node) & mask;
     if (node >= leaf_window) {
-      hits &= (first_row_of_pairs << done_lanes(node, next) & first_row_of_pairs) * first_column_of_pairs;
+      hits &= (first_row_of_pairs << visited_lanes(node, next) & first_row_of_pairs) * first_column_of_pairs;
       if (hits != 0) hits = verified(rows, node, hits);
-      if (hits != 0) use(node, hits);
+      if (hits != 0) visit(node, hits);
       return;
     }
     for (unsigned j = 0; j < block_width; ++j)
-      if (hits & first_column_of_pairs << j) visit_columns(rows, mask, child(node, j), next, use);
+      if (hits & first_column_of_pairs << j) visit_columns(rows, mask, child(node, j), next, visit);
   }
 
   /// Returns how many of a window's discs an earlier window has shown, which ended before `next`.
-  static std::uint32_t done_lanes(std::uint32_t window, std::uint32_t& next) noexcept {
+  static std::uint32_t visited_lanes(std::uint32_t window, std::uint32_t& next) noexcept {
     const std::uint32_t done = next > window ? next - window : 0;
     next = window + block_width > next ? window + block_width : next;
     return done < block_width ? done : block_width;
   }
 
   /// Places all contacts of a pair. Returns: one past the last.
-  DiscPair* place_all(DiscPair* out) const noexcept {
+  DiscPair* write_all(DiscPair* out) const noexcept {
     if ((rows_.top & columns_.top) >= leaf_window) {
       std::uint64_t hits = verified(rows_.top, columns_.top, overlaps_of(rows_.top, columns_.top));
       for (; hits != 0; hits &= hits - 1) {
@@ -222,14 +222,14 @@ class ContactKernel {
       return out;
     }
     for_row_windows([&](std::uint32_t rows, std::uint64_t mask, const Nodes& columns) {
-      out = place_rows(rows, mask, columns, out);
+      out = write_rows(rows, mask, columns, out);
     });
     return out;
   }
 
   /// Places the overlaps of a row node with the windows of columns, disc by disc.
   /// Returns: one past the last that was placed.
-  DiscPair* place_rows(std::uint32_t rows, std::uint64_t mask, const Nodes& columns,
+  DiscPair* write_rows(std::uint32_t rows, std::uint64_t mask, const Nodes& columns,
                        DiscPair* out) const noexcept {
     constexpr std::uint32_t max_kept = 16;
     std::uint32_t count[block_width] = {}, windows = 0, kept[max_kept];
@@ -271,7 +271,7 @@ class ContactKernel {
   /// there is nothing above them, and nodes that hold their discs with enough room overlap wherever these do.
   std::uint64_t verified(std::uint32_t rows, std::uint32_t columns, std::uint64_t hits) const noexcept {
     if (shapes_.trees == nullptr) return hits;
-    if (held_ && placed_.margin == 0) return hits;
+    if (is_conservative_ && placed_.margin == 0) return hits;
     std::uint64_t verified = 0;
     for (; hits != 0; hits &= hits - 1) {
       const auto bit = static_cast<unsigned>(__builtin_ctzll(hits));
@@ -328,7 +328,7 @@ class ContactKernel {
   bool swapped_;           ///< the first agent is B
   PlacedSegments placed_;  ///< with a margin of 0, discs decide
   float reach_;            ///< of both shapes
-  bool held_;              ///< nodes of either hold their discs with room enough for the other's reach
+  bool is_conservative_;   ///< nodes of either hold their discs with room enough for the other's reach
   const float* nodes_;
   Tree rows_, columns_;
   std::uint32_t first_row_, first_column_;  ///< where their discs begin

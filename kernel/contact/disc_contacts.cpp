@@ -44,7 +44,7 @@ void DiscContacts::find_in_two_passes(const Implementation& implementation, cons
 
 /// Makes rows of all pairs of those whose heights meet: the others are empty.
 void DiscContacts::add_empty_rows(const Arguments& arguments, std::span<const Pair> pairs) {
-  std::size_t row = meeting_.size();
+  std::size_t row = overlapping_heights_.size();
   offsets_.resize(pairs.size() + 1);
   offsets_[pairs.size()] = offsets_[row];
   for (std::size_t i = pairs.size(); i-- > 0;) {
@@ -54,8 +54,8 @@ void DiscContacts::add_empty_rows(const Arguments& arguments, std::span<const Pa
 }
 
 /// In one pass, with memory for as many contacts as there were before.
-void DiscContacts::find_of_few_discs(const Implementation& implementation, const Arguments& arguments,
-                                     std::size_t pairs) {
+void DiscContacts::find_few(const Implementation& implementation, const Arguments& arguments,
+                            std::size_t pairs) {
   constexpr std::size_t least_capacity = block_width * block_width;
   offsets_.resize(pairs + 1);
   offsets_[0] = 0;
@@ -79,13 +79,13 @@ Rows<DiscPair> DiscContacts::find_valid(const ShapeSet& shapes, const Agents& ag
   std::span<const Pair> queried = pairs;
   try {
     if (by_height) {
-      meeting_.clear();
-      std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(meeting_),
+      overlapping_heights_.clear();
+      std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(overlapping_heights_),
                    [&](Pair pair) { return heights_meet(arguments, pair); });
-      queried = meeting_, arguments.pairs = meeting_.data();
+      queried = overlapping_heights_, arguments.pairs = overlapping_heights_.data();
     }
     if (is_light(shapes, queried.size()))
-      find_of_few_discs(implementation, arguments, queried.size());
+      find_few(implementation, arguments, queried.size());
     else
       find_in_two_passes(implementation, arguments, queried.size());
     if (by_height) add_empty_rows(arguments, pairs);

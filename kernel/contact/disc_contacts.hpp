@@ -29,12 +29,12 @@ class DiscContacts {
  private:
   void find_in_two_passes(const Implementation& implementation, const Arguments& arguments,
                           std::size_t pairs);
-  void find_of_few_discs(const Implementation& implementation, const Arguments& arguments, std::size_t pairs);
+  void find_few(const Implementation& implementation, const Arguments& arguments, std::size_t pairs);
   void add_empty_rows(const Arguments& arguments, std::span<const Pair> pairs);
 
   std::vector<std::uint64_t> offsets_;
   std::vector<DiscPair> contacts_;
-  std::vector<Pair> meeting_;  ///< pairs whose heights meet, where heights count
+  std::vector<Pair> overlapping_heights_;  ///< pairs whose heights meet, where heights count
 };
 
 }  // namespace bch::detail

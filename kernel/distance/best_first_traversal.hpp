@@ -16,7 +16,7 @@ namespace bch::detail {
 /// Holds two nodes, not both windows, and the bounds of their pairs of discs.
 struct NodePairBounds {
   alignas(64) float bound[block_pairs];
-  std::uint64_t open;  ///< pairs that were not taken
+  std::uint64_t open;  ///< pairs that were not extracted
   std::uint32_t a, b;
 };
 
@@ -28,7 +28,7 @@ struct NodePairBounds {
 ///                                              below the other, unless that is above best(); far_beyond for
 ///                                              padding
 ///     float best()                             values above it are of no interest; only ever decreases
-///     void meet(at, a, b, first_a, first_b)    takes the values of two leaf windows, named by where they
+///     void measure_windows(at, a, b, first_a, first_b)    takes the values of two leaf windows, named by where they
 ///                                              begin
 ///
 /// The traversal visits the pair with the least bound in a block first, and skips the pairs that are above
@@ -43,27 +43,28 @@ class BestFirstTraversal {
            std::uint32_t stride_b, Measure& measure) noexcept {
     NodePairBounds* top = frames_;
     bound(at, a, b, stride_a, stride_b, measure, *top);
-    bool found = take_least(*top, measure.best(), a, b);
+    bool found = extract_least(*top, measure.best(), a, b);
     for (;;) {
       if (!found) {
         if (top == frames_) return;
         --top;
-        found = take_next(*top, measure.best(), a, b);
+        found = extract_next(*top, measure.best(), a, b);
       } else if ((a & b) >= leaf_window) {
-        meet(at, a, b, stride_a, stride_b, measure);
-        found = take_next(*top, measure.best(), a, b);
+        measure_windows(at, a, b, stride_a, stride_b, measure);
+        found = extract_next(*top, measure.best(), a, b);
       } else {
         bound(at, a, b, stride_a, stride_b, measure, *++top);
-        found = take_least(*top, measure.best(), a, b);
+        found = extract_least(*top, measure.best(), a, b);
       }
     }
   }
 
   /// Measures the discs of two windows.
-  [[gnu::always_inline]] void meet(const Transform& at, std::uint32_t a, std::uint32_t b,
-                                   std::uint32_t stride_a, std::uint32_t stride_b,
-                                   Measure& measure) const noexcept {
-    measure.meet(at, outer_discs(a, stride_a), outer_discs(b, stride_b), a & ~leaf_window, b & ~leaf_window);
+  [[gnu::always_inline]] void measure_windows(const Transform& at, std::uint32_t a, std::uint32_t b,
+                                              std::uint32_t stride_a, std::uint32_t stride_b,
+                                              Measure& measure) const noexcept {
+    measure.measure_windows(at, outer_discs(a, stride_a), outer_discs(b, stride_b), a & ~leaf_window,
+                            b & ~leaf_window);
   }
 
   void bound(const Transform& at, std::uint32_t a, std::uint32_t b, std::uint32_t stride_a,
@@ -74,16 +75,16 @@ class BestFirstTraversal {
         [&](unsigned k, Float x, Float y, Float r) { Simd::store(frame.bound + k, measure.bound(x, y, r)); });
   }
 
-  /// Takes the children below the least bound, unless that is above `best`, of a frame of which nothing was taken.
-  bool take_least(NodePairBounds& frame, float best, std::uint32_t& a, std::uint32_t& b) const noexcept {
+  /// Takes the children below the least bound, unless that is above `best`, of a frame of which nothing was extracted.
+  bool extract_least(NodePairBounds& frame, float best, std::uint32_t& a, std::uint32_t& b) const noexcept {
     const float least = least_value<Simd>(frame.bound);
-    take(frame, first_within<Simd>(frame.bound, least), a, b);
+    extract(frame, first_within<Simd>(frame.bound, least), a, b);
     return least <= best;
   }
 
-  /// Takes the children below the least bound of those that were not taken, unless that is above `best`. Mostly it
+  /// Takes the children below the least bound of those that were not extracted, unless that is above `best`. Mostly it
   /// is, which is known sooner than which is the least; else there are few.
-  bool take_next(NodePairBounds& frame, float best, std::uint32_t& a, std::uint32_t& b) const noexcept {
+  bool extract_next(NodePairBounds& frame, float best, std::uint32_t& a, std::uint32_t& b) const noexcept {
     std::uint64_t left = all_within<Simd>(frame.bound, best) & frame.open;
     if (left == 0) return false;
     auto least = static_cast<unsigned>(__builtin_ctzll(left));
@@ -91,7 +92,7 @@ class BestFirstTraversal {
       const auto k = static_cast<unsigned>(__builtin_ctzll(left));
       least = frame.bound[k] < frame.bound[least] ? k : least;
     }
-    take(frame, least, a, b);
+    extract(frame, least, a, b);
     return true;
   }
 
@@ -110,15 +111,15 @@ class BestFirstTraversal {
   /// max_wide_levels levels.
   static constexpr std::uint32_t max_frames = 2 * max_wide_levels;
 
-  void take(NodePairBounds& frame, unsigned k, std::uint32_t& a, std::uint32_t& b) const noexcept {
+  void extract(NodePairBounds& frame, unsigned k, std::uint32_t& a, std::uint32_t& b) const noexcept {
     const unsigned i = k / block_width, j = k % block_width;
     a = child(frame.a, i), b = child(frame.b, j);
-    std::uint64_t taken = std::uint64_t{1} << k;
+    std::uint64_t extracted = std::uint64_t{1} << k;
     // All of a window's discs are tested at once: its other pairs with the same child are settled with this
     // one.
-    if (frame.a >= leaf_window) taken |= first_column_of_pairs << j;
-    if (frame.b >= leaf_window) taken |= first_row_of_pairs << (k - j);
-    frame.open &= ~taken;
+    if (frame.a >= leaf_window) extracted |= first_column_of_pairs << j;
+    if (frame.b >= leaf_window) extracted |= first_row_of_pairs << (k - j);
+    frame.open &= ~extracted;
   }
 
   const float* nodes_;

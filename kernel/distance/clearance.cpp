@@ -39,10 +39,10 @@ class RangeAnswers {
   void write() {
     // A set of roots alone is as quickly searched. Segments are measured only of pairs that do not collide.
     if (arguments_.stop_below == 0 && shapes_.trees != nullptr) {
-      open_.take_apart(implementation_, arguments_.in, pairs_);
-      for (std::size_t i = 0; i < pairs_.size(); ++i) store_alone(answers_, i, 0);
+      open_.collect_apart(implementation_, arguments_.in, pairs_);
+      for (std::size_t i = 0; i < pairs_.size(); ++i) store_distance(answers_, i, 0);
     } else {
-      open_.take_all(pairs_);
+      open_.collect_all(pairs_);
     }
     search();
   }
@@ -59,7 +59,7 @@ class RangeAnswers {
       if (heights_meet(arguments_.in, pair))
         store(k, {shapes_, agents_, in_order(pair), nearest[k]});
       else
-        store_alone(answers_, open_.index(k), std::numeric_limits<float>::infinity());
+        store_distance(answers_, open_.index(k), std::numeric_limits<float>::infinity());
     }
   }
 
@@ -71,8 +71,8 @@ class RangeAnswers {
   void store(std::size_t k, const PlacedFeatures& found) noexcept {
     const std::size_t i = open_.index(k);
     const NearestFeatures& nearest = found.nearest();
-    if (nearest.a == no_node) return store_alone(answers_, i, std::numeric_limits<float>::infinity());
-    if (nearest.distance <= arguments_.stop_below) return store_alone(answers_, i, 0);
+    if (nearest.a == no_node) return store_distance(answers_, i, std::numeric_limits<float>::infinity());
+    if (nearest.distance <= arguments_.stop_below) return store_distance(answers_, i, 0);
     const bool is_turned = open_.pairs()[k].second < open_.pairs()[k].first;
     answers_.distance[i] = nearest.distance;
     if (!answers_.direction.empty()) answers_.direction[i] = found.direction(is_turned ? -1 : 1);

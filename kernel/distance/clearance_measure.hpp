@@ -15,7 +15,7 @@ namespace bch::detail {
 
 /// Measures the gap between two discs, in float:
 ///
-///     v = sqrt(x^2 + y^2) * near - (r_A + r_B)            near = 1 - 2^-20
+///     v = sqrt(x^2 + y^2) * gap_factor - (r_A + r_B)            gap_factor = 1 - 2^-20
 ///
 /// with (x, y) and the notation of layout/base/rounding.hpp. D is the distance of the exact centres, so |d|
 /// <= D + S.
@@ -25,15 +25,15 @@ namespace bch::detail {
 /// adds u D, the sum of radii u S, the last difference u D or u S. That is 15.7 u S, of which published radii
 /// have 16.5 to spare (contact_error), and 10.6 u D, for which `near` takes off 16.
 ///
-/// Bounds. A disc (C, R) that holds a cut's disc (c, r) has D' - R <= D - r, and its own v', with `nearer` =
+/// Bounds. A disc (C, R) that holds a cut's disc (c, r) has D' - R <= D - r, and its own v', with `bound_factor` =
 /// 1 - 2^-18 in place of near, exceeds D' - (R_A + R_B) by 17.7 u S + 7.6 u D for the distance (D' <= D + 2
 /// S), and 9 u S + 4 u D for what follows (R_A + R_B <= D' + S, or v' is below any v), with 3 u S + u D more
 /// where the slack is added to the sum of radii; v falls short of D - (r_A + r_B) by 15.7 u S + 26.6 u D. All
-/// together: 45.4 u S, for which `slack` = 64 u S is taken off as well, and 39.2 u D, for which nearer takes
+/// together: 45.4 u S, for which `slack` = 64 u S is taken off as well, and 39.2 u D, for which bound_factor takes
 /// 64. So v' <= v, and leaving out what is above the best never loses a tie. Its root is approximate_sqrt(),
 /// shortened by more than that is off. These sums are static_asserts in clearance_terms.hpp. A test sees the
 /// slack: without it, tests/kernel/queries_test.cpp finds other discs than brute force does, where a
-/// tiny shape lies in a disc of one that is far from its own origin. Only the proof needs that `nearer` is
+/// tiny shape lies in a disc of one that is far from its own origin. Only the proof needs that `bound_factor` is
 /// less than `near`.
 template <class Simd>
 class ClearanceMeasure {
@@ -77,59 +77,61 @@ class ClearanceMeasure {
   /// on the square have room for that and for the rounding here.
   typename Simd::Mask may_improve(Float x, Float y, Float r) const noexcept {
     const Float sum = r + Float(most_);
-    return (x * x + y * y) * Float(of_square) <= sum * sum;
+    return (x * x + y * y) * Float(square_factor) <= sum * sum;
   }
 
   /// Takes all gaps of two windows at once, because a branch on whether one is below the best so far is
   /// unpredictable.
-  [[gnu::always_inline]] void meet(const Transform& at, Discs a, Discs b, std::uint32_t first_a,
-                                   std::uint32_t first_b) noexcept {
-    if (segments_ != nullptr) return meet_segments(at, a, b, first_a, first_b);
+  [[gnu::always_inline]] void measure_windows(const Transform& at, Discs a, Discs b, std::uint32_t first_a,
+                                              std::uint32_t first_b) noexcept {
+    if (segments_ != nullptr) return collect_leaves(at, a, b, first_a, first_b);
     alignas(64) float gaps[block_pairs];
     visit_disc_pairs<Simd>(
         at, a, b, [&](unsigned k, Float x, Float y, Float r) { Simd::store(gaps + k, gap(x, y, r)); });
     const float least = least_value<Simd>(gaps);
     if (!(least <= best())) return;
     const unsigned k = first_within<Simd>(gaps, least);
-    take_discs(least, first_a + k / block_width, first_b + k % block_width);
+    update_from_discs(least, first_a + k / block_width, first_b + k % block_width);
   }
 
   /// Returns 64 u S, metres.
   float slack() const noexcept { return slack_; }
   const Tree& tree_a() const noexcept { return *tree_a_; }
   const Tree& tree_b() const noexcept { return *tree_b_; }
-  void take_discs(float gap, std::uint32_t a, std::uint32_t b) noexcept { offer({gap, true, a, b}); }
-  void take_segments(float gap, std::uint32_t a, std::uint32_t b) noexcept { offer({gap, false, a, b}); }
+  void update_from_discs(float gap, std::uint32_t a, std::uint32_t b) noexcept { update({gap, true, a, b}); }
+  void update_from_segments(float gap, std::uint32_t a, std::uint32_t b) noexcept {
+    update({gap, false, a, b});
+  }
 
   /// Returns the gaps of one register's pairs of single discs.
   static Float gap(Float x, Float y, Float r) noexcept {
     const Float square = x * x + y * y;
-    return Simd::select(square <= Float(far_beyond), xsimd::sqrt(square) * Float(near) - r,
+    return Simd::select(square <= Float(far_beyond), xsimd::sqrt(square) * Float(gap_factor) - r,
                         Float(far_beyond));
   }
 
  private:
   static constexpr float slack_per_reach = 0x1p-18f;
-  static constexpr float near = 1 - 0x1p-20f, nearer = 1 - 0x1p-18f, longer = 1 + 0x1p-20f;
-  static constexpr float of_square = 1 - 0x1p-17f, of_best = 0x1p-21f;
+  static constexpr float gap_factor = 1 - 0x1p-20f, bound_factor = 1 - 0x1p-18f, root_factor = 1 + 0x1p-20f;
+  static constexpr float square_factor = 1 - 0x1p-17f, best_slack = 0x1p-21f;
 
   static constexpr double u = rounding::unit_roundoff;
   static_assert(double{slack_per_reach} >= clearance_terms::slack * u);
-  static_assert(1 - double{near} >= clearance_terms::shortening * u);
-  static_assert(1 - double{nearer} >= clearance_terms::bound_shortening * u);
-  static_assert(1 - double{of_square} >= clearance_terms::square_shortening * u);
-  static_assert(double{of_best} >= 3 * u, "u |best| and the rounding of the sums");
+  static_assert(1 - double{gap_factor} >= clearance_terms::shortening * u);
+  static_assert(1 - double{bound_factor} >= clearance_terms::bound_shortening * u);
+  static_assert(1 - double{square_factor} >= clearance_terms::square_shortening * u);
+  static_assert(double{best_slack} >= 3 * u, "u |best| and the rounding of the sums");
 
   static Float rough_gap(Float x, Float y, Float r) noexcept {
     const Float square = x * x + y * y;
-    const Float root = approximate_sqrt<Simd>(square) * Float(nearer * (1 - Simd::approximation_error));
+    const Float root = approximate_sqrt<Simd>(square) * Float(bound_factor * (1 - Simd::approximation_error));
     // The square of padding is infinite or NaN.
     return Simd::select(square <= Float(far_beyond), root - r, Float(far_beyond));
   }
 
   /// Bounds what is nearest by the discs, and puts the leaves by that may hold it.
-  [[gnu::noinline]] void meet_segments(const Transform& at, Discs a, Discs b, std::uint32_t first_a,
-                                       std::uint32_t first_b) noexcept {
+  [[gnu::noinline]] void collect_leaves(const Transform& at, Discs a, Discs b, std::uint32_t first_a,
+                                        std::uint32_t first_b) noexcept {
     alignas(64) float gaps[block_pairs], squares[block_pairs];
     visit_disc_pairs<Simd>(at, a, b, [&](unsigned k, Float x, Float y, Float r) {
       const Float square = x * x + y * y;
@@ -137,7 +139,7 @@ class ClearanceMeasure {
       Simd::store(squares + k, Simd::select(square <= Float(far_beyond), square + r * r, Float(far_beyond)));
     });
     if (!(least_value<Simd>(gaps) <= best_)) return;
-    const float most = __builtin_sqrtf(least_value<Simd>(squares)) * longer + slack_;
+    const float most = __builtin_sqrtf(least_value<Simd>(squares)) * root_factor + slack_;
     if (max_gap(most) < best_) bound_by(max_gap(most));
     for (std::uint64_t left = all_within<Simd>(gaps, best_); left != 0; left &= left - 1) {
       const auto k = static_cast<unsigned>(__builtin_ctzll(left));
@@ -146,7 +148,7 @@ class ClearanceMeasure {
   }
 
   /// Takes what is less than the best or comes before it: segments before discs, then the lower numbers.
-  void offer(const Nearest& other) noexcept {
+  void update(const Nearest& other) noexcept {
     if (other.distance > nearest_.distance) return;
     const bool is_before = other.are_discs != nearest_.are_discs ? nearest_.are_discs
                            : other.a != nearest_.a               ? other.a < nearest_.a
@@ -175,7 +177,7 @@ class ClearanceMeasure {
 
   void bound_by(float gap) noexcept {
     best_ = gap;
-    most_ = gap + of_best * __builtin_fabsf(gap) + slack_;
+    most_ = gap + best_slack * __builtin_fabsf(gap) + slack_;
   }
 
   Segments* segments_ = nullptr;

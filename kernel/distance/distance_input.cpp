@@ -35,7 +35,7 @@ void require_valid_answers(const QueryName& context, const Answers& answers, con
 }
 
 template <class Answers>
-void store_distance(const Answers& answers, std::size_t i, float distance) noexcept {
+void store_common(const Answers& answers, std::size_t i, float distance) noexcept {
   answers.distance[i] = distance;
   if (!answers.direction.empty()) answers.direction[i] = {};
   if (!answers.points.empty()) answers.points[i] = {};
@@ -87,13 +87,13 @@ void require_on_ground(const QueryName& context, const Displacements& displaceme
                                 std::to_string(displacements.z.size()));
 }
 
-void store_alone(const ClearanceAnswers& answers, std::size_t i, float distance) noexcept {
-  store_distance(answers, i, distance);
+void store_distance(const ClearanceAnswers& answers, std::size_t i, float distance) noexcept {
+  store_common(answers, i, distance);
   if (!answers.discs.empty()) answers.discs[i] = DiscPair::none;
 }
 
-void store_alone(const BodyClearanceAnswers& answers, std::size_t i, float distance) noexcept {
-  store_distance(answers, i, distance);
+void store_distance(const BodyClearanceAnswers& answers, std::size_t i, float distance) noexcept {
+  store_common(answers, i, distance);
   if (!answers.spheres.empty()) answers.spheres[i] = DiscPair::none;
 }
 

@@ -27,7 +27,7 @@ void require_valid(const QueryName& context, const Displacements& displacements,
 void require_on_ground(const QueryName& context, const Displacements& displacements);
 
 /// Writes the distance of a pair or an agent and nothing else.
-void store_alone(const ClearanceAnswers& answers, std::size_t i, float distance) noexcept;
-void store_alone(const BodyClearanceAnswers& answers, std::size_t i, float distance) noexcept;
+void store_distance(const ClearanceAnswers& answers, std::size_t i, float distance) noexcept;
+void store_distance(const BodyClearanceAnswers& answers, std::size_t i, float distance) noexcept;
 
 }  // namespace bch::detail

@@ -31,7 +31,7 @@ double nearest_t(PlanePoint edge, PlanePoint to_point) {
 
 }  // namespace
 
-std::uint32_t leaf_that_holds(const ShapeSetView& shapes, std::size_t root, std::uint32_t point, double x,
+std::uint32_t leaf_containing(const ShapeSetView& shapes, std::size_t root, std::uint32_t point, double x,
                               double y) {
   const Tree& tree = shapes.trees[root];
   const LeafSegments<BaseLanes> leaves{shapes.leaf_segments};
@@ -131,7 +131,7 @@ DiscPair PlacedFeatures::numbers() const {
   if (nearest_.are_segments) {
     const Segments of = segments();
     const auto leaf = [this](std::uint32_t agent, std::uint32_t point, PlanePoint at) {
-      return leaf_that_holds(shapes_, root(agent), point, at.x, at.y);
+      return leaf_containing(shapes_, root(agent), point, at.x, at.y);
     };
     return {leaf(first, nearest_.a, of.a.nearest()), leaf(second, nearest_.b, of.b.nearest())};
   }

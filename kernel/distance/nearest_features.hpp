@@ -16,7 +16,7 @@ namespace bch::detail {
 
 /// Returns the number of the leaf of a tree, `root`, that holds a segment of an outline, named by the point where it begins: the one whose disc is
 /// nearest to (x, y), of equally near ones the first.
-std::uint32_t leaf_that_holds(const ShapeSetView& shapes, std::size_t root, std::uint32_t point, double x,
+std::uint32_t leaf_containing(const ShapeSetView& shapes, std::size_t root, std::uint32_t point, double x,
                               double y);
 
 /// Holds what a kernel found of two agents, and all outputs of it. What is computed here is so in double, where squares do not underflow,

@@ -85,7 +85,7 @@ class NearestSearch {
         const Step step = steps_[k];
         Searched& pair = pairs_[step.pair];
         if ((step.a & step.b) >= leaf_window) {
-          meet(step);
+          measure_windows(step);
         } else if (depth == max_kept) {
           traversal_.run(pair.at, step.a, step.b, pair.stride_a, pair.stride_b, pair.measure);
         } else {
@@ -99,8 +99,8 @@ class NearestSearch {
       for (std::uint32_t k = 0; k < left; ++k) {
         const std::uint32_t pair = steps_[k].pair;
         steps_[open].pair = pair;
-        open += traversal_.take_least(frames_[pair][depth], pairs_[pair].measure.best(), steps_[open].a,
-                                      steps_[open].b);
+        open += traversal_.extract_least(frames_[pair][depth], pairs_[pair].measure.best(), steps_[open].a,
+                                         steps_[open].b);
       }
     }
   }
@@ -121,7 +121,7 @@ class NearestSearch {
       const Step child{step.pair, traversal_.child(step.a, k / block_width),
                        traversal_.child(step.b, k % block_width)};
       if ((child.a & child.b) >= leaf_window)
-        take_window(child);
+        visit_window(child);
       else if (inner_.size < list_capacity)
         inner_.step[inner_.size++] = child;
       else
@@ -144,8 +144,8 @@ class NearestSearch {
 
   /// Measures a window's discs only if one may improve on the best; few do. An improvement spares many of the
   /// next windows.
-  void take_window(const Step& step) noexcept {
-    if (improving(step) != 0) meet(step);
+  void visit_window(const Step& step) noexcept {
+    if (improving(step) != 0) measure_windows(step);
   }
 
   /// Returns the bits of the pairs of discs that may improve on the best.
@@ -160,9 +160,9 @@ class NearestSearch {
     return bits;
   }
 
-  [[gnu::always_inline]] void meet(const Step& step) noexcept {
+  [[gnu::always_inline]] void measure_windows(const Step& step) noexcept {
     Searched& pair = pairs_[step.pair];
-    traversal_.meet(pair.at, step.a, step.b, pair.stride_a, pair.stride_b, pair.measure);
+    traversal_.measure_windows(pair.at, step.a, step.b, pair.stride_a, pair.stride_b, pair.measure);
   }
 
   void traverse(const Step& step) noexcept {

@@ -16,7 +16,7 @@ namespace bch::detail {
 /// Measures, for clearance(), the gaps between segments that exact leaves hold, lane = pair of segments. In double, with B's ends as the
 /// floats of the placement put them:
 ///
-///     w = max(0, s * near - m)        near = 1 - 2^-21, then rounded to float
+///     w = max(0, s * gap_factor - m)        gap_factor = 1 - 2^-21, then rounded to float
 ///
 /// where s is the least distance of an end from the other segment, and m the margin of exact leaves. Pairs for which collide() says 1 have
 /// a distance of 0 and are not asked about here, so that no segments cross.
@@ -46,8 +46,8 @@ namespace bch::detail {
 ///     float best()                                      gaps of leaves above it are of no interest
 ///     float nearest().distance                          no w above it is of interest
 ///     float slack()                                     64 u S
-///     void take_segments(float w, uint32 a, uint32 b)   named by the points where they begin
-///     void take_discs(float gap, uint32 a, uint32 b)    of leaves with too many segments
+///     void update_from_segments(float w, uint32 a, uint32 b)   named by the points where they begin
+///     void update_from_discs(float gap, uint32 a, uint32 b)    of leaves with too many segments
 template <class Simd, class Search>
 class SegmentGaps : private SegmentBatch<Simd> {
  public:
@@ -61,9 +61,7 @@ class SegmentGaps : private SegmentBatch<Simd> {
   }
 
   /// Returns the largest gap of discs whose segments may have a gap of at most `best`.
-  static float max_gap(float margin, float best) noexcept {
-    return best * (1 + of_distance) + margin * 2.001f;
-  }
+  static float max_gap(float margin, float best) noexcept { return best * (1 + gap_slack) + margin * 2.001f; }
 
   /// Puts two leaves by, with the gap of their discs. `search` has to stay where it is until finish().
   void add(std::uint32_t number, Search& search, std::uint32_t leaf_a, std::uint32_t leaf_b,
@@ -86,11 +84,11 @@ class SegmentGaps : private SegmentBatch<Simd> {
   using Batch::parts;
   static constexpr std::uint32_t open_capacity = 1024;
 
-  static constexpr double near = 1 - 0x1p-21;
-  static constexpr float of_distance = 0x1p-19f, longer = 1 + 0x1p-16f;
+  static constexpr double gap_factor = 1 - 0x1p-21;
+  static constexpr float gap_slack = 0x1p-19f, longer = 1 + 0x1p-16f;
   static constexpr double u = rounding::unit_roundoff;
-  static_assert((1 - near) >= (rounding::terms::position + 2) * u);
-  static_assert(double{of_distance} >= (2 * rounding::terms::position + 8 + 4) * u);
+  static_assert((1 - gap_factor) >= (rounding::terms::position + 2) * u);
+  static_assert(double{gap_slack} >= (2 * rounding::terms::position + 8 + 4) * u);
   static_assert(rounding::segment_margin >= (rounding::terms::segment_place + rounding::terms::higher) * u);
 
   struct Leaves {
@@ -110,7 +108,7 @@ class SegmentGaps : private SegmentBatch<Simd> {
         if (!this->collect(number, this->row(search.tree_a(), leaves.a), 0,
                            this->row(search.tree_b(), leaves.b), 0, number,
                            [&] { measure_collected(number); }))
-          search.take_discs(leaves.gap < 0 ? 0 : leaves.gap, leaves.a, leaves.b);
+          search.update_from_discs(leaves.gap < 0 ? 0 : leaves.gap, leaves.a, leaves.b);
       }
       measure_collected(number);
       last_[number] = 0;
@@ -124,8 +122,8 @@ class SegmentGaps : private SegmentBatch<Simd> {
     float gap[Simd::width];
     this->test_all([&](std::uint32_t k) { return measure(k, gap); },
                    [&](std::uint32_t k, unsigned lane) {
-                     searches_[number]->take_segments(gap[lane], this->segment_a(k + lane),
-                                                      this->segment_b(k + lane));
+                     searches_[number]->update_from_segments(gap[lane], this->segment_a(k + lane),
+                                                             this->segment_b(k + lane));
                    });
   }
 
@@ -156,7 +154,8 @@ class SegmentGaps : private SegmentBatch<Simd> {
     Double gaps[parts];
     for (std::uint32_t part = 0; part < parts; ++part) {
       const auto& pair = pairs[part];
-      gaps[part] = xsimd::max(xsimd::sqrt(pair.square_of_ends()) * Double(near) - pair.margin, Double(0.0));
+      gaps[part] =
+          xsimd::max(xsimd::sqrt(pair.square_of_ends()) * Double(gap_factor) - pair.margin, Double(0.0));
     }
     Simd::store(gap, Simd::to_float(gaps));
     return ~std::uint32_t{0} >> (32 - Simd::width);

@@ -51,7 +51,7 @@ class TimeOfImpactKernel {
       for (std::uint32_t k = 0; k < open_.size; ++k) time[open_.pair[k]] = time_of_roots(open_.pair[k]);
       return;
     }
-    if (shapes_.support != nullptr && open_.size != 0) part_by_supports();
+    if (shapes_.support != nullptr && open_.size != 0) reject_by_supports();
     for (std::uint32_t k = 0; k < open_.size; ++k) {
       const std::uint32_t pair = open_.pair[k];
       traversal_.add(begin + pair, at_.transform(pair), shapes_.trees[at_.root_a[pair]],
@@ -68,7 +68,7 @@ class TimeOfImpactKernel {
     }
   }
 
-  void part_by_supports() noexcept {
+  void reject_by_supports() noexcept {
     if (!shapes_.rows_in_order) {
       for (std::uint32_t k = 0; k < at_.size; ++k)
         row_a_[k] = shapes_.roots[at_.root_a[k]].row, row_b_[k] = shapes_.roots[at_.root_b[k]].row;
@@ -114,7 +114,7 @@ class TimeOfImpactKernel {
     const Root &a = shapes_.roots[at_.root_a[pair]], &b = shapes_.roots[at_.root_b[pair]];
     const auto [x, y] = at_.transform(pair).apply(b.x, b.y);
     Measure measure(x_[pair], y_[pair], 0);
-    measure.take(
+    measure.update(
         Measure::template time_of<double>(x - a.x, y - a.y, a.radius + b.radius, x_[pair], y_[pair]));
     return measure.time();
   }

@@ -152,7 +152,7 @@ class TimeOfImpactMeasure {
         select((towards > zero) & (under_root >= zero), select(left > zero, time, zero), never);
     return select(square <= r * r * Real(1 + overlap), zero, later);
   }
-  void take(double time) noexcept {
+  void update(double time) noexcept {
     if (time <= static_cast<double>(best())) time_ = static_cast<float>(time);
   }
 

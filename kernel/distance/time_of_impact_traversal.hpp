@@ -49,8 +49,8 @@ class TimeOfImpactTraversal {
       find_least(returning_);
       choose();
       for (std::uint32_t k = 0; k < fresh_.size; ++k) descend(open_[fresh_.pair[k]]);
-      take_times();
-      go_back();
+      update_times();
+      ascend();
     }
   }
 
@@ -145,7 +145,7 @@ class TimeOfImpactTraversal {
   }
 
   /// Takes the times of the disc pairs with the least bounds, which mostly exclude all others.
-  void take_times() noexcept {
+  void update_times() noexcept {
     for (std::uint32_t k = 0; k < windows_.size; ++k) {
       const Open& open = open_[windows_.pair[k]];
       const auto [x, y, r] = disc_pair<Simd>(open.b_in_a, discs_a(open), discs_b(open), open.which);
@@ -158,25 +158,25 @@ class TimeOfImpactTraversal {
                                  Simd::load(displacement_x_ + k), Simd::load(displacement_y_ + k)));
     for (std::uint32_t k = 0; k < windows_.size; ++k) {
       Open& open = open_[windows_.pair[k]];
-      open.measure.take(time_[k]);
+      open.measure.update(time_[k]);
       const std::uint64_t others =
           all_within<Simd>(open.frame->bound, open.measure.limit()) & ~(std::uint64_t{1} << open.which);
       if (others != 0) [[unlikely]]
-        take_others(open, others);
+        update_from_others(open, others);
     }
   }
 
-  void take_others(Open& open, std::uint64_t others) const noexcept {
+  void update_from_others(Open& open, std::uint64_t others) const noexcept {
     for (; others != 0; others &= others - 1) {
       const auto k = static_cast<unsigned>(__builtin_ctzll(others));
       if (!(open.frame->bound[k] <= open.measure.limit())) continue;
       const auto [x, y, r] = disc_pair<Simd>(open.b_in_a, discs_a(open), discs_b(open), k);
-      open.measure.take(Measure::template time_of<double>(x, y, r, open.measure.x(), open.measure.y()));
+      open.measure.update(Measure::template time_of<double>(x, y, r, open.measure.x(), open.measure.y()));
     }
   }
 
   /// Takes back the pairs that missed and those with windows, whose bounds are then settled.
-  void go_back() noexcept {
+  void ascend() noexcept {
     for (std::uint32_t k = 0; k < windows_.size; ++k) missed_.add_if(true, windows_.pair[k]);
     returning_.size = 0;
     for (std::uint32_t k = 0; k < missed_.size; ++k) {

@@ -17,10 +17,10 @@
 namespace bch::detail {
 namespace {
 
-constexpr double max_slack_of_bands = hull_overlap / 4;  ///< metres
+constexpr double max_band_slack = hull_overlap / 4;  ///< metres
 
 /// Slopes of the lines along which bands are examined: tangents of eighths of half a round.
-constexpr double asides[] = {0, 0.4142, -0.4142, 1, -1, 2.4142, -2.4142};
+constexpr double slopes[] = {0, 0.4142, -0.4142, 1, -1, 2.4142, -2.4142};
 
 /// The motion of one body relative to another between two times.
 struct RelativeMotion {
@@ -76,18 +76,18 @@ double ContactSearch::first(const MotionFacts& a, const MotionFacts& b, double f
   in_space_ = a.tree->in_space && b.tree->in_space;
   const double reaches = a.tree->reach + b.tree->reach,
                heights = in_space_ ? a.tree->height + b.tree->height : never;
-  const double slack_of_places =
+  const double position_slack =
       position_rounding * (a.farthest + b.farthest) + root_rounding * (reaches + (in_space_ ? heights : 0));
   for (double time = from; time <= to;) {
     const double end = std::min(a_->path_end(time), b_->path_end(time));
     const double until = is_finite(end) ? end : to + 1;
-    slack_ = slack_of_places + (a_->time_slack(time) + b_->time_slack(time));
+    slack_ = position_slack + (a_->time_slack(time) + b_->time_slack(time));
     const RelativeMotion relative(a_->pose(time), b_->pose(time), a_->pose(until), b_->pose(until));
     const auto [enter, leave] = relative.times_within(reaches + slack_, heights + slack_);
     limit_.count(1);
     if (enter <= 1) {
       const double length = until - time,
-                   last = leave < 1 ? time + leave * length : std::min(end, end_of_news(time, until));
+                   last = leave < 1 ? time + leave * length : std::min(end, end_of_two_cycles(time, until));
       const double found =
           first_near(std::min(time + enter * length, last), last, to, AnimatedHulls::level_count);
       if (found <= to) return found;
@@ -103,9 +103,9 @@ double ContactSearch::first(const MotionFacts& a, const MotionFacts& b, double f
 }
 
 /// Returns until when two bodies that stand from one time to another may do together what they have not done since the first one.
-double ContactSearch::end_of_news(double time, double until) {
+double ContactSearch::end_of_two_cycles(double time, double until) {
   const bool stand =
-      is_one_place(a_->pose(time), a_->pose(until)) && is_one_place(b_->pose(time), b_->pose(until));
+      is_same_pose(a_->pose(time), a_->pose(until)) && is_same_pose(b_->pose(time), b_->pose(until));
   if (!stand) return never;
   const double a = a_->period(time), b = b_->period(time);
   const double together = a == 0 || b == 0 || a == b ? std::max(a, b) : never;
@@ -141,20 +141,20 @@ bool ContactSearch::hulls_are_apart(double from, double end, unsigned level) con
   const double nearest = square > 0 ? std::clamp(-dot(between, relative) / square, 0.0, 1.0) : 0;
   const PlanePoint line = between + nearest * relative;
   if (squared_length(line) == 0) return false;
-  const auto along = [&](double aside) {
-    const PlanePoint direction = line + aside * PlanePoint{-line.y, line.x};
-    return LineBetween{{*a_, level, a, a_end, direction},
-                       {*b_, level, b, b_end, -1 * direction},
-                       dot(between, direction) - slack_ * length(direction),
-                       dot(at_end, direction) - slack_ * length(direction)};
+  const auto along = [&](double slope) {
+    const PlanePoint direction = line + slope * PlanePoint{-line.y, line.x};
+    return SeparatingLine{{*a_, level, a, a_end, direction},
+                          {*b_, level, b, b_end, -1 * direction},
+                          dot(between, direction) - slack_ * length(direction),
+                          dot(at_end, direction) - slack_ * length(direction)};
   };
-  std::array<std::optional<LineBetween>, std::size(asides)> lines;
-  lines[0].emplace(along(asides[0]));
+  std::array<std::optional<SeparatingLine>, std::size(slopes)> lines;
+  lines[0].emplace(along(slopes[0]));
   if (lines[0]->separates(a_->hull(level).extents, b_->hull(level).extents)) return true;
-  if (!in_space_ || slack_ > max_slack_of_bands) return false;
+  if (!in_space_ || slack_ > max_band_slack) return false;
   const auto are_apart = [&](const HullWindow::Extents& of_a, const HullWindow::Extents& of_b) {
     for (std::size_t i = 0; i < lines.size(); ++i) {
-      if (!lines[i]) lines[i].emplace(along(asides[i]));
+      if (!lines[i]) lines[i].emplace(along(slopes[i]));
       if (lines[i]->separates(of_a, of_b)) return true;
     }
     return false;
@@ -163,14 +163,14 @@ bool ContactSearch::hulls_are_apart(double from, double end, unsigned level) con
   const HullBands &bands_a = a_->bands(level), &bands_b = b_->bands(level);
   for (std::uint32_t i = 0; i < hull_bands; ++i)
     for (std::uint32_t j = 0; j < hull_bands; ++j)
-      if ((bands_a.some >> i & 1) != 0 && (bands_b.some >> j & 1) != 0 && bands_meet(i, j, low, high) &&
+      if ((bands_a.some >> i & 1) != 0 && (bands_b.some >> j & 1) != 0 && bands_overlap(i, j, low, high) &&
           !are_apart(bands_a.extents[i], bands_b.extents[j]))
         return false;
   return true;
 }
 
 double ContactSearch::first_between(double from, double end) {
-  return first_halving(from, end, tolerance_, [&](double begin, double last) {
+  return first_by_bisection(from, end, tolerance_, [&](double begin, double last) {
     limit_.count(1);
     place(begin, last);
     const double deviation = nodes_a_.deviation() + nodes_b_.deviation();

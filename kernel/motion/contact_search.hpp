@@ -54,7 +54,7 @@ class ContactSearch {
   double first(const MotionFacts& a, const MotionFacts& b, double from, double to);
 
  private:
-  double end_of_news(double time, double until);
+  double end_of_two_cycles(double time, double until);
   double first_near(double from, double end, double to, unsigned level);
   bool hulls_are_apart(double from, double end, unsigned level) const;
   double first_between(double from, double end);

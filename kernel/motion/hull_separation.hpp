@@ -20,16 +20,16 @@ namespace bch::detail {
 /// what by R1. So it reaches (1 - s) E(d0, s) + s E(d1, s) + turn^2 / 8 reach, where d0 and d1 are the direction as the body sees it at
 /// both ends. The first two are s (1 - s) (E(d0, 1) - E(d0, 0) - E(d1, 1) + E(d1, 0)) more than what lies evenly between E(d0, 0) and
 /// E(d1, 1).
-class ReachAlong {
+class SupportBound {
  public:
   /// How far it reaches at both ends, and by how much more between.
-  struct Reach {
-    double from, to, more;
+  struct Extent {
+    double from, to, bulge;
   };
 
   /// Takes a body in a window of chunks in which the interval lies, and the direction.
-  ReachAlong(const MovingBody& body, unsigned level, const PathKey& begin, const PathKey& end,
-             const PlanePoint& direction) noexcept
+  SupportBound(const MovingBody& body, unsigned level, const PathKey& begin, const PathKey& end,
+               const PlanePoint& direction) noexcept
       : step_(body.tree().hulls.step),
         fraction_(body.hull_fraction(begin.time, level)),
         fraction_at_end_(body.hull_fraction(end.time, level)),
@@ -41,7 +41,7 @@ class ReachAlong {
   }
 
   /// Says that of the whole body, or of one of its bands, in the window.
-  Reach of(const HullWindow::Extents& extents) const noexcept {
+  Extent of(const HullWindow::Extents& extents) const noexcept {
     const HullDirection::Extent first = first_.extent(extents);
     const double growth = first.to - first.from, from = step_ * (first.from + growth * fraction_);
     if (!turns_) return {from, step_ * (first.from + growth * fraction_at_end_), 0};
@@ -66,21 +66,21 @@ class ReachAlong {
 };
 
 /// Represents a line along which two bodies are examined, and how far their positions are apart along it at both ends of the interval.
-struct LineBetween {
-  ReachAlong a, b;
-  double away, away_at_end;
+struct SeparatingLine {
+  SupportBound a, b;
+  double distance, distance_at_end;
 
   /// Returns whether parts of both are apart all the time.
   bool separates(const HullWindow::Extents& of_a, const HullWindow::Extents& of_b) const noexcept {
-    const ReachAlong::Reach first = a.of(of_a), second = b.of(of_b);
-    const double more = first.more + second.more;
-    return away > first.from + second.from + more && away_at_end > first.to + second.to + more;
+    const SupportBound::Extent first = a.of(of_a), second = b.of(of_b);
+    const double bulge = first.bulge + second.bulge;
+    return distance > first.from + second.from + bulge && distance_at_end > first.to + second.to + bulge;
   }
 };
 
 /// Returns whether bands of two bodies have more height in common than the overlap, within an interval in which the first one's ground is
 /// from `low` to `high` above the second one's.
-inline bool bands_meet(std::uint32_t a, std::uint32_t b, double low, double high) noexcept {
+inline bool bands_overlap(std::uint32_t a, std::uint32_t b, double low, double high) noexcept {
   const auto bottom = [](std::uint32_t band) { return band == 0 ? -never : band * hull_band; };
   const auto top = [](std::uint32_t band) { return band + 1 == hull_bands ? never : (band + 1) * hull_band; };
   constexpr double min_overlap = hull_overlap / 2;  // the other half is for rounding

@@ -66,7 +66,7 @@ double MovingBody::clip_end(double time) noexcept {
   if (clip_end_ > time) return clip_end_;
   if (chunks_begun_ == 0) find_key(time);
   for (int i = 0; i < chunks_before_search && clip_end_ <= time; ++i) {
-    const bool is_over = !waits_ && chunk().times.back() + shift_ <= time;
+    const bool is_over = !is_before_begin_ && chunk().times.back() + shift_ <= time;
     if (is_over) key_ = chunk().times.size() - 2;
     next_key();
   }
@@ -82,24 +82,24 @@ double MovingBody::period(double time) noexcept {
 
 /// Before its beginning and after its end a clip stands still: at the first or last key, in fraction().
 void MovingBody::find_key(double time) noexcept {
-  begin_round(tree().loops ? std::floor((time - facts_->clip_begin) / tree().length()) : 0);
+  begin_cycle(tree().loops ? std::floor((time - facts_->clip_begin) / tree().length()) : 0);
   const KeyPlace place = key_place(tree(), time - shift_);
   chunk_ = place.chunk, key_ = place.key;
   ++chunks_begun_;
   const bool is_over = !tree().loops && time - shift_ >= tree().end();
-  waits_ = !tree().loops && time - shift_ < tree().begin();
-  clip_end_ = is_over ? std::numeric_limits<double>::infinity() : time_of(waits_ ? 0 : key_ + 1);
+  is_before_begin_ = !tree().loops && time - shift_ < tree().begin();
+  clip_end_ = is_over ? std::numeric_limits<double>::infinity() : time_of(is_before_begin_ ? 0 : key_ + 1);
 }
 
 void MovingBody::next_key() noexcept {
-  if (waits_) {
-    waits_ = false;
+  if (is_before_begin_) {
+    is_before_begin_ = false;
   } else if (key_ + 2 < chunk().times.size()) {
     ++key_;
   } else if (chunk_ + 1 < tree().chunks.size()) {
     ++chunk_, key_ = 0, ++chunks_begun_;
   } else if (tree().loops) {
-    begin_round(round_ + 1);
+    begin_cycle(cycle_ + 1);
     chunk_ = 0, key_ = 0, ++chunks_begun_;
   } else {
     clip_end_ = std::numeric_limits<double>::infinity();
@@ -109,9 +109,9 @@ void MovingBody::next_key() noexcept {
 }
 
 /// Rounding of one round is not handed on to the next.
-void MovingBody::begin_round(double round) noexcept {
-  round_ = round;
-  shift_ = facts_->clip_begin - tree().begin() + round * tree().length();
+void MovingBody::begin_cycle(double cycle) noexcept {
+  cycle_ = cycle;
+  shift_ = facts_->clip_begin - tree().begin() + cycle * tree().length();
 }
 
 double MovingBody::fraction(double time) const noexcept {
@@ -119,7 +119,7 @@ double MovingBody::fraction(double time) const noexcept {
 }
 
 double MovingBody::hull_end(unsigned level) const noexcept {
-  const bool moves = !waits_ && is_finite(clip_end_);
+  const bool moves = !is_before_begin_ && is_finite(clip_end_);
   return moves ? hull(level).end + shift_ : clip_end_;
 }
 

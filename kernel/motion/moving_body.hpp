@@ -64,15 +64,15 @@ class MovingBody {
  private:
   void find_key(double time) noexcept;
   void next_key() noexcept;
-  void begin_round(double round) noexcept;
+  void begin_cycle(double cycle) noexcept;
   double time_of(std::size_t key) const noexcept { return chunk().times[key] + shift_; }
 
   const MotionFacts* facts_;
   std::size_t next_on_path_ = 0;  ///< the first key of the path after the time
   std::size_t chunk_ = 0, key_ = 0;
-  double round_ = 0;    ///< of a clip that loops
-  double shift_ = 0;    ///< of the clip's times to those of the motion
-  bool waits_ = false;  ///< for its beginning, until which it stands
+  double cycle_ = 0;              ///< of a clip that loops
+  double shift_ = 0;              ///< of the clip's times to those of the motion
+  bool is_before_begin_ = false;  ///< for its beginning, until which it stands
   double clip_end_ = -std::numeric_limits<double>::infinity();
   std::uint32_t chunks_begun_ = 0;
 };

@@ -20,7 +20,7 @@ namespace bch::detail {
 /// A path is cut into stretches no longer than twice the reach; the segments within reach of one are found by the tree of boxes. Discs are enlarged by
 /// the deviation from a chord by rotation and by `slack_`, which has what ContactSearch derives, for one body, with the reach twice: no node is
 /// farther than three reaches from where a stretch begins, and no end of a segment that it touches farther than another one. Coordinates of a segment
-/// that is long or far are off by 2^-48 of these at most: StillSegment::slack. Twice that is at most 1.8e-14 of the distances to both its
+/// that is long or far are off by 2^-48 of these at most: StaticSegment::slack. Twice that is at most 1.8e-14 of the distances to both its
 /// ends together, as OutlineSegment derives for half of it.
 ///
 /// An area holds a disc wholly or not at all as long as no disc touches a segment. Whether it does can change only in the beginning and
@@ -40,10 +40,10 @@ class ObstacleSearch {
   double first_near(double from, double end, double to);
   double first_between(double from, double end);
   double first_of_nodes();
-  bool search_about(double from, double end);
+  bool find_near(double from, double end);
   void place(double from, double end);
   void open(std::uint32_t node, std::uint32_t segment, double last);
-  bool is_inside_where_a_chunk_begins(double time);
+  bool is_inside_at_chunk_begin(double time);
   bool is_in_area(double x, double y);
 
   struct Open {
@@ -59,8 +59,8 @@ class ObstacleSearch {
   MovingBody* body_ = nullptr;
   std::uint32_t chunks_tested_ = 0;  ///< chunks that had begun
   PlacedNodes nodes_;
-  std::vector<WorldSegment> found_;     ///< near the stretch
-  std::vector<StillSegment> segments_;  ///< the same, in the interval
+  std::vector<WorldSegment> found_;      ///< near the stretch
+  std::vector<StaticSegment> segments_;  ///< the same, in the interval
   std::vector<Open> open_;
 };
 

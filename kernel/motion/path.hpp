@@ -18,7 +18,7 @@ inline PathKey between_keys(const PathKey& from, const PathKey& to, double time)
 }
 
 /// Returns whether two keys are one place.
-inline bool is_one_place(const PathKey& a, const PathKey& b) noexcept {
+inline bool is_same_pose(const PathKey& a, const PathKey& b) noexcept {
   return a.x == b.x && a.y == b.y && a.z == b.z && a.heading == b.heading;
 }
 

@@ -65,15 +65,15 @@ class PlacedNodes {
 };
 
 /// Finds a first contact in an interval of time, and halves what is behind it until rotation deviates from the chord by less than half the tolerance.
-/// first_straight(from, end): the fraction of an interval at which there is one, or never, and the deviation from a chord by rotation.
+/// first_by_chords(from, end): the fraction of an interval at which there is one, or never, and the deviation from a chord by rotation.
 template <class FirstStraight>
-double first_halving(double from, double end, double tolerance, const FirstStraight& first_straight) {
-  const auto [found, deviation] = first_straight(from, end);
+double first_by_bisection(double from, double end, double tolerance, const FirstStraight& first_by_chords) {
+  const auto [found, deviation] = first_by_chords(from, end);
   if (found == never) return never;
   const double time = std::min(from + found * (end - from), end), half = time + (end - time) / 2;
   if (2 * deviation <= tolerance || !(time < half && half < end)) return time;
-  const double sooner = first_halving(time, half, tolerance, first_straight);
-  return sooner < never ? sooner : first_halving(half, end, tolerance, first_straight);
+  const double sooner = first_by_bisection(time, half, tolerance, first_by_chords);
+  return sooner < never ? sooner : first_by_bisection(half, end, tolerance, first_by_chords);
 }
 
 }  // namespace bch::detail
