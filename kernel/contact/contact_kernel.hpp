@@ -21,17 +21,19 @@
 
 namespace bch::detail {
 
-/// Finds all pairs of cut discs that overlap with all their ancestors, and whose segments meet where these decide,
-/// one pair of agents after the other. Rows are discs of a pair's first agent, columns those of its second.
-/// Row windows are visited from left to right, each with the column nodes that the blocks above it left to
-/// it, so that contacts come in order except for the eight rows of a window, which are counted before they are
-/// placed.
+/// Finds all contacts of two cuts: pairs of discs that overlap with all their ancestors, and with exact
+/// leaves whose segments touch. Handles one pair of agents after the other.
 ///
-/// No contact is named twice, although windows show some of their neighbours' discs. Of a row window only its
-/// own rows count: up to where the next window begins; but the last eight, where windows are moved back, are
-/// taken together at the end. A column counts in the first visited window that shows it.
+/// Order. "Rows" are the discs of the pair's first agent, "columns" those of the second. Row windows are
+/// visited from left to right, each with the column nodes that overlap the blocks above it. So contacts are
+/// found in order, except among the eight rows of a window; those are counted first and then written to their
+/// positions.
 ///
-/// Blocks prune as in the pair kernel's traversal, and hits of leaves are verified as there.
+/// Uniqueness. Windows may share discs with their neighbours, but no contact is reported twice. Of a row
+/// window only the rows before the next window count; the last eight rows, where windows are shifted to fit,
+/// are visited together at the end. A column counts in the first visited window that contains it.
+///
+/// Pruning and verification of hits are those of the kernel of collide().
 template <class Simd>
 class ContactKernel {
  public:
@@ -47,7 +49,8 @@ class ContactKernel {
     });
   }
 
-  /// Appends the contacts of pairs to those at offsets[begin], as far as there is room, and writes where each pair's end.
+  /// Writes the contacts of pairs from offsets[begin] on, and the end of each pair's contacts, as far as
+  /// there is room.
   /// Returns: one past the last pair that was answered.
   static std::size_t append(const Arguments& in, std::size_t begin, std::size_t end, std::uint64_t* offsets,
                             DiscPair* contacts, std::uint64_t capacity) noexcept {
@@ -73,7 +76,7 @@ class ContactKernel {
   }
 
  private:
-  /// Holds nodes of the columns, from left to right.
+  /// Holds column nodes, from left to right.
   struct Nodes {
     static constexpr std::uint32_t capacity = 32;
     std::uint32_t size = 0;
@@ -94,7 +97,7 @@ class ContactKernel {
     }
   }
 
-  /// Examines one pair of agents, of which the lower index is A; see RelativeTransforms.
+  /// Sets the current pair of agents. A is the agent with the lower index, see RelativeTransforms.
   void begin_pair(std::size_t begin, std::uint32_t k) noexcept {
     const Pair pair = in_.pairs[begin + k];
     swapped_ = pair.second < pair.first;
@@ -113,7 +116,7 @@ class ContactKernel {
     first_row_ = rows_.discs, first_column_ = columns_.discs;
   }
 
-  /// Examines a pair of single discs in windows of its own, because the set has none.
+  /// Sets the current pair for a set of single discs, which has no windows, by making two.
   void begin_single_discs(const Root& row_disc, const Root& column_disc) noexcept {
     for (DiscBlock& single : singles_)
       for (unsigned i = 0; i < block_width; ++i)
@@ -136,10 +139,10 @@ class ContactKernel {
     visit(last_rows() | leaf_window, ~std::uint64_t{0}, columns);
   }
 
-  /// Returns where the last eight rows begin.
+  /// Returns the index of the first of the last eight rows.
   std::uint32_t last_rows() const noexcept { return first_row_ + rows_.stride - block_width; }
 
-  /// Visits the row windows below a node. `end`: where the node to the right begins.
+  /// Visits the row windows below a node. `end`: the first row of the node to the right.
   template <class Visit>
   void visit_rows(std::uint32_t node, std::uint32_t end, const Nodes& columns, Visit& visit) const noexcept {
     if (node >= leaf_window) {
@@ -156,7 +159,7 @@ class ContactKernel {
       if (below.size == 0) continue;
       const bool is_last = i + 1 == block_width || nodes_[node + i + 1] == __builtin_inff();
       const std::uint32_t child_end = is_last ? end : first_disc(nodes_, child(node, i + 1));
-      // Nodes higher up are above the same columns.
+      // If the children do not fit, their parents cover the same columns.
       visit_rows(child(node, i), child_end, fits ? below : columns, visit);
     }
   }
@@ -165,8 +168,9 @@ class ContactKernel {
     return lanes < block_width ? (std::uint64_t{1} << (lanes * block_width)) - 1 : ~std::uint64_t{0};
   }
 
-  /// Collects the children of the column nodes that disc i of a row block overlaps. A window stays itself.
-  /// Returns: whether there is room for them.
+  /// Collects the children of the column nodes that disc i of a row block overlaps; a window is its own
+  /// child.
+  /// Returns: whether there is room for all.
   bool children_of_hits(const Nodes& columns, const std::uint64_t* hits, unsigned i,
                         Nodes& below) const noexcept {
     for (std::uint32_t k = 0; k < columns.size; ++k) {
@@ -204,14 +208,14 @@ class ContactKernel {
       if (hits & first_column_of_pairs << j) visit_columns(rows, mask, child(node, j), next, visit);
   }
 
-  /// Returns how many of a window's discs an earlier window has shown, which ended before `next`.
+  /// Returns how many discs of a window earlier windows contain, of which the last ended before `next`.
   static std::uint32_t visited_lanes(std::uint32_t window, std::uint32_t& next) noexcept {
     const std::uint32_t done = next > window ? next - window : 0;
     next = window + block_width > next ? window + block_width : next;
     return done < block_width ? done : block_width;
   }
 
-  /// Places all contacts of a pair. Returns: one past the last.
+  /// Writes all contacts of a pair. Returns: one past the last.
   DiscPair* write_all(DiscPair* out) const noexcept {
     if ((rows_.top & columns_.top) >= leaf_window) {
       std::uint64_t hits = verified(rows_.top, columns_.top, overlaps_of(rows_.top, columns_.top));
@@ -227,8 +231,8 @@ class ContactKernel {
     return out;
   }
 
-  /// Places the overlaps of a row node with the windows of columns, disc by disc.
-  /// Returns: one past the last that was placed.
+  /// Writes the contacts of a row window with all column windows, row by row.
+  /// Returns: one past the last.
   DiscPair* write_rows(std::uint32_t rows, std::uint64_t mask, const Nodes& columns,
                        DiscPair* out) const noexcept {
     constexpr std::uint32_t max_kept = 16;
@@ -258,8 +262,8 @@ class ContactKernel {
     return out;
   }
 
-  /// Returns which discs of two nodes overlap: bit 8 i + j is that of disc i of the rows' node and disc j of
-  /// the columns' node.
+  /// Returns which discs of two nodes overlap: bit 8 i + j is set if disc i of the row node and disc j of the
+  /// column node do.
   std::uint64_t overlaps_of(std::uint32_t rows, std::uint32_t columns) const noexcept {
     const Discs of_rows = TreeNodes<Simd>::discs(nodes_, rows, rows_.stride),
                 of_columns = TreeNodes<Simd>::discs(nodes_, columns, columns_.stride);
@@ -267,8 +271,8 @@ class ContactKernel {
     return transposed(overlapping_discs<Simd>(placed_.b_in_a, of_columns, of_rows));
   }
 
-  /// Returns the hits of two leaf windows that their ancestors confirm. Where every cut is a single disc,
-  /// there is nothing above them, and nodes that hold their discs with enough room overlap wherever these do.
+  /// Returns the hits of two leaf windows that their ancestors confirm. Single discs have no ancestors, and
+  /// conservative nodes overlap wherever discs below them do.
   std::uint64_t verified(std::uint32_t rows, std::uint32_t columns, std::uint64_t hits) const noexcept {
     if (shapes_.trees == nullptr) return hits;
     if (is_conservative_ && placed_.margin == 0) return hits;
@@ -326,9 +330,9 @@ class ContactKernel {
 
   // State of the current pair.
   bool swapped_;           ///< the first agent is B
-  PlacedSegments placed_;  ///< with a margin of 0, discs decide
+  PlacedSegments placed_;  ///< a margin of 0: discs decide
   float reach_;            ///< of both shapes
-  bool is_conservative_;   ///< nodes of either hold their discs with room enough for the other's reach
+  bool is_conservative_;   ///< nodes of both contain the discs below, with a margin for the other's reach
   const float* nodes_;
   Tree rows_, columns_;
   std::uint32_t first_row_, first_column_;  ///< where their discs begin

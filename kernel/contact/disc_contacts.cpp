@@ -16,10 +16,10 @@
 namespace bch::detail {
 namespace {
 
-constexpr std::size_t contact_grain = 256;  ///< pairs a task; each may have thousands of contacts
+constexpr std::size_t contact_grain = 256;  ///< pairs per task; each may have thousands of contacts
 
-/// Bodies of eight discs or less have so many floats of nodes, plus padding at the end of all; and one thread answers so many of their
-/// pairs before others would have begun.
+/// The number of floats of nodes of a body of at most eight discs, plus padding at the end of all; and the
+/// number of pairs of such bodies that one thread answers before others would have begun.
 constexpr std::size_t light_floats = 64, max_light_pairs = 2048;
 bool is_light(const ShapeSet& shapes, std::size_t pairs) {
   const ShapeArrays& arrays = shapes.arrays();
@@ -42,7 +42,7 @@ void DiscContacts::find_in_two_passes(const Implementation& implementation, cons
   });
 }
 
-/// Makes rows of all pairs of those whose heights meet: the others are empty.
+/// Expands the rows of pairs whose heights overlap to rows of all pairs; the others are empty.
 void DiscContacts::add_empty_rows(const Arguments& arguments, std::span<const Pair> pairs) {
   std::size_t row = overlapping_heights_.size();
   offsets_.resize(pairs.size() + 1);
@@ -53,7 +53,7 @@ void DiscContacts::add_empty_rows(const Arguments& arguments, std::span<const Pa
   }
 }
 
-/// In one pass, with memory for as many contacts as there were before.
+/// Finds contacts in one pass, with the memory of the last call's contacts.
 void DiscContacts::find_few(const Implementation& implementation, const Arguments& arguments,
                             std::size_t pairs) {
   constexpr std::size_t least_capacity = block_width * block_width;

@@ -20,7 +20,7 @@ void ApartPairs::collect_all(std::span<const Pair> pairs) noexcept {
   collect(pairs, all_apart);
 }
 
-/// No branch depends on an answer.
+/// Without a branch that depends on an answer.
 void ApartPairs::collect(std::span<const Pair> pairs, const std::uint8_t* codes) noexcept {
   size_ = 0;
   for (std::size_t i = 0; i < pairs.size(); ++i) {

@@ -13,32 +13,31 @@
 
 namespace bch::detail {
 
-/// Holds two nodes, not both windows, and the bounds of their pairs of discs.
+/// Holds two nodes, of which at least one is a block, and the bounds of their pairs of discs.
 struct NodePairBounds {
   alignas(64) float bound[block_pairs];
-  std::uint64_t open;  ///< pairs that were not extracted
+  std::uint64_t open;  ///< bits of the pairs not yet extracted
   std::uint32_t a, b;
 };
 
-/// Finds by branch and bound over two trees the least value of all pairs of cut discs. `Measure` says what a value
-/// is:
+/// Finds the least value of all pairs of discs of two cuts by branch and bound. `Measure` defines values:
 ///
-///     Float bound(Float x, Float y, Float r)   of two discs as visit_disc_pairs() gives them, lane by lane:
-///                                              not above the value of any disc below the one with any disc
-///                                              below the other, unless that is above best(); far_beyond for
-///                                              padding
-///     float best()                             values above it are of no interest; only ever decreases
-///     void measure_windows(at, a, b, first_a, first_b)    takes the values of two leaf windows, named by where they
-///                                              begin
+///     Float bound(Float x, Float y, Float r)
+///         of two discs as visit_disc_pairs() passes them, lane by lane: at most the value of any two discs
+///         below them that is up to best(); far_beyond for padding
+///     float best()
+///         larger values are ignored; never increases
+///     void measure_windows(at, a, b, first_a, first_b)
+///         compares the values of two leaf windows, which begin at first_a and first_b, with the best
 ///
-/// The traversal visits the pair with the least bound in a block first, and skips the pairs that are above
-/// the best by then.
+/// Of two nodes, the children with the least bound are visited first. Children with a bound above the best
+/// are skipped.
 template <class Simd, class Measure>
 class BestFirstTraversal {
  public:
   explicit BestFirstTraversal(const float* nodes) noexcept : nodes_(nodes) {}
 
-  /// Traverses everything below two nodes that are not both windows.
+  /// Traverses everything below two nodes, of which at least one is a block.
   void run(const Transform& at, std::uint32_t a, std::uint32_t b, std::uint32_t stride_a,
            std::uint32_t stride_b, Measure& measure) noexcept {
     NodePairBounds* top = frames_;
@@ -75,15 +74,16 @@ class BestFirstTraversal {
         [&](unsigned k, Float x, Float y, Float r) { Simd::store(frame.bound + k, measure.bound(x, y, r)); });
   }
 
-  /// Takes the children below the least bound, unless that is above `best`, of a frame of which nothing was extracted.
+  /// Extracts the children with the least bound, unless it is above `best`. Nothing was extracted from
+  /// `frame` before.
   bool extract_least(NodePairBounds& frame, float best, std::uint32_t& a, std::uint32_t& b) const noexcept {
     const float least = least_value<Simd>(frame.bound);
     extract(frame, first_within<Simd>(frame.bound, least), a, b);
     return least <= best;
   }
 
-  /// Takes the children below the least bound of those that were not extracted, unless that is above `best`. Mostly it
-  /// is, which is known sooner than which is the least; else there are few.
+  /// Extracts the children with the least bound of those not yet extracted, unless it is above `best`.
+  /// Usually all are, which is faster to find than the least; otherwise only a few are left to compare.
   bool extract_next(NodePairBounds& frame, float best, std::uint32_t& a, std::uint32_t& b) const noexcept {
     std::uint64_t left = all_within<Simd>(frame.bound, best) & frame.open;
     if (left == 0) return false;
@@ -107,7 +107,7 @@ class BestFirstTraversal {
 
  private:
   using Float = typename Simd::Float;
-  /// The most frames of a pair: every step descends on one side at least, and no tree has more than
+  /// The depth of the stack: every step descends in at least one tree, and no tree has more than
   /// max_wide_levels levels.
   static constexpr std::uint32_t max_frames = 2 * max_wide_levels;
 
@@ -115,8 +115,7 @@ class BestFirstTraversal {
     const unsigned i = k / block_width, j = k % block_width;
     a = child(frame.a, i), b = child(frame.b, j);
     std::uint64_t extracted = std::uint64_t{1} << k;
-    // All of a window's discs are tested at once: its other pairs with the same child are settled with this
-    // one.
+    // A window is visited as a whole: its other pairs with the same child are extracted with this one.
     if (frame.a >= leaf_window) extracted |= first_column_of_pairs << j;
     if (frame.b >= leaf_window) extracted |= first_row_of_pairs << (k - j);
     frame.open &= ~extracted;

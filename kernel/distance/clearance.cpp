@@ -37,7 +37,8 @@ class RangeAnswers {
 
   /// At most `ApartPairs::capacity` pairs.
   void write() {
-    // A set of roots alone is as quickly searched. Segments are measured only of pairs that do not collide.
+    // In a set of single discs the search is as fast as collide(). Segments are measured only for pairs that do
+    // not collide.
     if (arguments_.stop_below == 0 && shapes_.trees != nullptr) {
       open_.collect_apart(implementation_, arguments_.in, pairs_);
       for (std::size_t i = 0; i < pairs_.size(); ++i) store_distance(answers_, i, 0);
@@ -48,7 +49,7 @@ class RangeAnswers {
   }
 
  private:
-  /// Not inlined, so that what it keeps on the stack is not there with the other kernel.
+  /// Not inlined, so that its stack memory is not in use together with that of the other kernel.
   [[gnu::noinline]] void search() noexcept {
     NearestFeatures nearest[ApartPairs::capacity];
     arguments_.in.pairs = open_.pairs().data();
@@ -92,7 +93,7 @@ class RangeAnswers {
   const Agents& agents_;
   const std::span<const Pair> pairs_;
   const ClearanceAnswers& answers_;
-  ApartPairs open_;  ///< not answered yet
+  ApartPairs open_;  ///< pairs without an answer yet
 };
 
 }  // namespace
@@ -106,7 +107,7 @@ void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pai
   require_valid(implementation, view, agents, pairs);
 
   const float stop_below = options.overlap == Overlap::zero ? 0 : -std::numeric_limits<float>::infinity();
-  // How deep discs overlap is asked of discs.
+  // Depths of overlaps are always those of discs.
   const bool of_segments =
       exact_leaves(shapes, options.leaves, "clearance") && options.overlap == Overlap::zero;
   ClearanceArguments arguments{arguments_for(view, agents, {}),

@@ -13,7 +13,7 @@
 namespace bch::detail {
 namespace {
 
-/// Begins the message about one of what is asked.
+/// Returns the beginning of a message about one pair or agent.
 std::string place(const QueryName& context, std::size_t i) {
   return std::string(context.query) + ": " + context.one + " " + std::to_string(i) + ": ";
 }
@@ -22,7 +22,7 @@ void check_size_or_none(const QueryName& context, std::size_t size, const char* 
   if (size != 0) check_size(context, size, what);
 }
 
-/// Requires the sizes of all answers but the discs or spheres, and the options.
+/// Checks the sizes of all answers except discs or spheres, and the options.
 template <class Answers, class Options>
 void require_valid_answers(const QueryName& context, const Answers& answers, const Options& options) {
   check_size(context, answers.distance.size(), "distances");

@@ -19,10 +19,10 @@ namespace {
 
 constexpr double max_band_slack = hull_overlap / 4;  ///< metres
 
-/// Slopes of the lines along which bands are examined: tangents of eighths of half a round.
+/// Slopes of the lines along which bands are compared: the tangents of multiples of 22.5 degrees.
 constexpr double slopes[] = {0, 0.4142, -0.4142, 1, -1, 2.4142, -2.4142};
 
-/// The motion of one body relative to another between two times.
+/// The motion of body a relative to body b between two times, mapped to 0 to 1.
 struct RelativeMotion {
   double x, y, z, move_x, move_y, move_z;
 
@@ -36,8 +36,7 @@ struct RelativeMotion {
 
   double distance() const noexcept { return std::sqrt(x * x + y * y); }
 
-  /// Returns between which times, of 0 to 1, the distance is at most a radius as seen from above, and the heights differ by at most a
-  /// height; never, where there is none.
+  /// Returns the interval in which both of the following conditions hold; never, if there is none.
   std::pair<double, double> times_within(double radius, double height) const noexcept {
     const auto [enter, leave] = times_within(radius);
     const auto [from, to] = times_level(height);
@@ -45,7 +44,7 @@ struct RelativeMotion {
     return first <= last ? std::pair(first, last) : std::pair(never, never);
   }
 
-  /// Returns between which times, of 0 to 1, the heights differ by at most a height; never, where there is none.
+  /// Returns the interval in which the heights differ by at most `height`; never, if there is none.
   std::pair<double, double> times_level(double height) const noexcept {
     if (std::abs(z) <= height && std::abs(z + move_z) <= height) return {0, 1};
     if (move_z == 0) return {never, never};
@@ -54,12 +53,11 @@ struct RelativeMotion {
     return from <= to ? std::pair(from, to) : std::pair(never, never);
   }
 
-  /// Returns between which times, of 0 to 1, the distance is at most a radius as seen from above; never, where there is none.
+  /// Returns the interval in which the distance seen from above is at most `radius`; never, if there is none.
   std::pair<double, double> times_within(double radius) const noexcept {
     const double a = move_x * move_x + move_y * move_y, b = x * move_x + y * move_y,
                  c = x * x + y * y - radius * radius, across = x * move_y - y * move_x;
-    const double square =
-        a * radius * radius - across * across;  // b^2 - a c, exact enough on long paths, too
+    const double square = a * radius * radius - across * across;  // b^2 - a c, accurate on long paths, too
     if (c > 0 && (b >= 0 || square < 0)) return {never, never};
     if (!(a > 0)) return {0, 1};
     const double root = std::sqrt(std::max(square, 0.0));
@@ -93,7 +91,7 @@ double ContactSearch::first(const MotionFacts& a, const MotionFacts& b, double f
       if (found <= to) return found;
       time = end;
     } else {
-      // Farther apart, and that for as long as both take at their greatest speed.
+      // Too far apart until both have approached at their greatest speeds.
       const double gap = relative.distance() - reaches - slack_, speed = a.path_speed + b.path_speed;
       const bool waits = gap > 0 && speed > 0;
       time = std::max(end, waits ? std::nextafter(time + gap / speed * (1 - root_rounding), time) : end);
@@ -102,7 +100,8 @@ double ContactSearch::first(const MotionFacts& a, const MotionFacts& b, double f
   return never;
 }
 
-/// Returns until when two bodies that stand from one time to another may do together what they have not done since the first one.
+/// Returns the end of two common cycles of two bodies that stand still in [time, until]: later they only
+/// repeat themselves. Never, if they have no common cycle.
 double ContactSearch::end_of_two_cycles(double time, double until) {
   const bool stand =
       is_same_pose(a_->pose(time), a_->pose(until)) && is_same_pose(b_->pose(time), b_->pose(until));
@@ -112,7 +111,8 @@ double ContactSearch::end_of_two_cycles(double time, double until) {
   return together > 0 ? time + 2 * together : never;
 }
 
-/// Where both paths go straight on and the bodies are within reach: from window to window of their hulls; below these, from key to key.
+/// Searches an interval in which both paths are straight and the bodies within reach, window by window of
+/// their hulls at `level`, or key by key at level 0.
 double ContactSearch::first_near(double from, double end, double to, unsigned level) {
   for (double time = from; time <= to;) {
     if (level > 0) limit_.count(1);
@@ -131,8 +131,9 @@ double ContactSearch::first_near(double from, double end, double to, unsigned le
   return never;
 }
 
-/// Looks along the line between the positions where they are nearest to each other. Along it their distance is linear in time. Bodies of
-/// spheres may be apart in each band of height, along a line of its own: one of some about that line.
+/// Compares the hulls along the line between the positions at their least distance; along this line, the
+/// distance is linear in time. For bodies of spheres, it suffices that a line separates them in each band of
+/// height: this line or one of several rotated ones.
 bool ContactSearch::hulls_are_apart(double from, double end, unsigned level) const {
   const PathKey a = a_->pose(from), b = b_->pose(from), a_end = a_->pose(end), b_end = b_->pose(end);
   const PlanePoint between{b.x - a.x, b.y - a.y}, at_end{b_end.x - a_end.x, b_end.y - a_end.y},
@@ -186,7 +187,7 @@ void ContactSearch::place(double from, double end) {
   nodes_b_.place(*b_, {from, 0, 0, b.heading}, {end, 0, 0, b_end.heading}, in_space_);
 }
 
-/// What may touch sooner is examined first.
+/// Nodes that may touch sooner are examined first.
 double ContactSearch::first_of_nodes() {
   const AnimatedTreeChunk &a = nodes_a_.chunk(), &b = nodes_b_.chunk();
   double first = never, last = 1;

@@ -12,7 +12,8 @@
 namespace bch::detail {
 namespace {
 
-/// Returns the fraction of the time between two others that has gone by; none where these are the same, as rounding may make them.
+/// Returns the fraction of the interval [from, to] before `time`; 0 if both are equal, as rounding may make
+/// them.
 double fraction_between(double from, double to, double time) noexcept {
   return from < to ? std::clamp((time - from) / (to - from), 0.0, 1.0) : 0;
 }
@@ -71,7 +72,7 @@ double MovingBody::clip_end(double time) noexcept {
     next_key();
   }
   if (clip_end_ <= time) find_key(time);
-  while (clip_end_ <= time) next_key();  // by what rounding may leave
+  while (clip_end_ <= time) next_key();  // needed only after rounding
   return clip_end_;
 }
 
@@ -80,7 +81,8 @@ double MovingBody::period(double time) noexcept {
   return is_infinite(clip_end(time)) ? 0 : std::numeric_limits<double>::infinity();
 }
 
-/// Before its beginning and after its end a clip stands still: at the first or last key, in fraction().
+/// Before its beginning and after its end a clip stands still at its first or last key; fraction() then
+/// clamps.
 void MovingBody::find_key(double time) noexcept {
   begin_cycle(tree().loops ? std::floor((time - facts_->clip_begin) / tree().length()) : 0);
   const KeyPlace place = key_place(tree(), time - shift_);
@@ -108,7 +110,7 @@ void MovingBody::next_key() noexcept {
   clip_end_ = time_of(key_ + 1);
 }
 
-/// Rounding of one round is not handed on to the next.
+/// Computes the shift from the number of the cycle, so that rounding does not accumulate.
 void MovingBody::begin_cycle(double cycle) noexcept {
   cycle_ = cycle;
   shift_ = facts_->clip_begin - tree().begin() + cycle * tree().length();

@@ -21,7 +21,7 @@ double ObstacleSearch::first(const MotionFacts& motion, double from, double to) 
   for (double time = from; time <= to;) {
     const double end = body_->path_end(time);
     slack_ = body_->time_slack(time) + position_rounding * motion.farthest + root_rounding * 2 * reach_;
-    // One that stands does nothing new after a round.
+    // A body that stands still repeats itself after a cycle.
     const bool stands = is_same_pose(body_->pose(time), body_->pose(end));
     const double period = stands ? body_->period(time) : 0,
                  last = period > 0 ? std::min(end, time + 2 * period) : end;
@@ -32,7 +32,7 @@ double ObstacleSearch::first(const MotionFacts& motion, double from, double to) 
   return never;
 }
 
-/// Where the path goes straight on: halves paths that are long, but not where nothing is near.
+/// Searches a straight part of the path. Halves it while it is long and obstacles are near.
 double ObstacleSearch::first_on_path(double from, double end, double to) {
   limit_.count(1);
   if (from > to || !find_near(from, end)) return never;
@@ -44,7 +44,7 @@ double ObstacleSearch::first_on_path(double from, double end, double to) {
   return sooner < never ? sooner : first_on_path(half, end, to);
 }
 
-/// Finds what is near on a path. Returns: whether something is.
+/// Finds the segments near a part of the path. Returns: whether an obstacle is near.
 bool ObstacleSearch::find_near(double from, double end) {
   const PathKey a = body_->pose(from), b = body_->pose(end);
   const std::span<const LocalSegment> found =
@@ -58,7 +58,7 @@ bool ObstacleSearch::is_in_area(double x, double y) {
   return !near_.areas_that_hold({x, y, {1, 0}}, {0, 0}).empty();
 }
 
-/// From key to key of the clip.
+/// Searches key by key of the clip.
 double ObstacleSearch::first_near(double from, double end, double to) {
   for (double time = from; time <= to;) {
     limit_.count(1);
@@ -112,7 +112,7 @@ void ObstacleSearch::open(std::uint32_t node, std::uint32_t segment, double last
   if (time <= last) open_.push_back({node, segment, time});
 }
 
-/// What may touch sooner is examined first.
+/// Nodes that may touch sooner are examined first.
 double ObstacleSearch::first_of_nodes() {
   double first = never, last = 1;
   open_.clear();

@@ -9,15 +9,15 @@
 
 namespace bch::detail {
 
-/// Represents a segment that stands still: its ends, the unit vector from the one to the other, its length, and what its coordinates are
-/// off by.
+/// Represents a fixed segment: its ends, the unit vector from the first to the second, its length, and the
+/// error of its coordinates.
 struct StaticSegment {
   double ax, ay, bx, by;
   double x, y, length;
   double slack;
 };
 
-/// Holds the times of 0 to `last` at which all of some linear functions are not below 0.
+/// Holds the times in [0, last] at which several linear functions of time are all at least 0.
 class NonNegativeTimes {
  public:
   explicit NonNegativeTimes(double last) noexcept : end_(last) {}
@@ -34,11 +34,12 @@ class NonNegativeTimes {
   double begin_ = 0, end_;
 };
 
-/// Returns the first time from 0 to `last` at which a disc is at most `margin` from a segment, or never: from one of the ends, or from the
-/// line, where its centre projects onto the segment.
+/// Returns the first time in [0, last] at which a disc is within `margin` of a segment, or never: within
+/// `margin` of one of its ends, or of its line while the centre projects onto the segment.
 ///
-/// Rounding: when the centre projects onto the segment is off by what its coordinates are. It is next to an end then, as near as to
-/// the line but for less than the margin.
+/// Rounding: the time at which the centre begins to project onto the segment is off by as much as the
+///           coordinates. The
+/// centre is then beside an end, whose distance differs from that of the line by less than the margin.
 inline double first_overlap(const MovingDisc& disc, const StaticSegment& segment, double margin,
                             double last) noexcept {
   const double at_x = disc.x - segment.ax, at_y = disc.y - segment.ay, radius = disc.radius + margin;
