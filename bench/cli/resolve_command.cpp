@@ -78,27 +78,28 @@ void run_resolve(const CLI::App& command, const ResolveCommandOptions& options) 
 std::function<void()> add_resolve_command(CLI::App& program) {
   const auto options = std::make_shared<ResolveCommandOptions>();
   CLI::App& command = *program.add_subcommand(
-      "resolve", "Move people, as little as possible, until nobody overlaps anybody or a wall");
+      "resolve", "Move people, as little as possible, until no bodies overlap each other or a wall");
   command.footer(
-      R"(Bodies are spheres bound to the bones, in space. Nobody turns. Writes AGENTS.csv with new x and y. Writes to standard
-error the number of sweeps, how far people moved, and how many collisions are left because there is no room.
+      R"(Bodies are sets of spheres bound to the bones, tested in 3D. People do not turn. A sweep finds all pairs that overlap,
+and moves all people once. Writes AGENTS.csv with new x and y, and to standard error the number of sweeps, the mean and
+largest shift, and how many pairs and people at walls remain if there is not enough room (the exit code is still 0).
 AGENTS.csv is that of bch query, with one more column:
-  mobility       from 0, who never moves, to 1: of two people, one with half the mobility moves half as far [1]
+  mobility       0 (does not move) to 1: of two people moved apart, one with half the mobility moves half as far [1]
 Example: bch resolve default:female agents.csv --obstacles walls.wkt > moved.csv)");
   const OptionAdder add(command);
   bch::Crowd::ResolveOptions& how = options->how;
   add("CHARACTER", options->character, "", character_help)->required();
   add("AGENTS.csv", options->agents, "", "Columns id,shape,x,y,heading[,z][,mobility]")->required();
   options->obstacles.add_to(command, "Also keep people out of these walls and polygons, in well-known text");
-  add("--sweeps", how.sweeps, "N", "Largest number of sweeps, each of which moves everybody once [100]",
-      whole_between(0, 1'000'000));
-  add("--directions", how.directions, "N", "Number of directions in which people may move, even [16]",
-      whole_between(2, 256));
-  add("--gap", how.gap, "METRES", "Gap to leave between two people [0.001 m]", number_between(0, 1000));
-  add("--largest-step", how.largest_step, "METRES", "Longest move of a person in a sweep [0.05 m]",
+  add("--sweeps", how.sweeps, "N", "Maximum number of sweeps [100]", whole_between(0, 1'000'000));
+  add("--directions", how.directions, "N",
+      "Number of directions in which people may be moved apart, even [16]", whole_between(2, 256));
+  add("--gap", how.gap, "METRES", "Gap to leave between people who are moved apart [0.001 m]",
       number_between(0, 1000));
-  add("--largest-shift", how.largest_shift, "METRES", "Longest move of a person in total [no limit]",
-      number_between(0, 1e9));
+  add("--largest-step", how.largest_step, "METRES", "Maximum shift of a person in one sweep [0.05 m]",
+      number_between(0, 1000));
+  add("--largest-shift", how.largest_shift, "METRES",
+      "Maximum shift of a person in all sweeps together [no limit]", number_between(0, 1e9));
   add_max_pairs_option(command, options->max_pairs, "agents near each other", "agent");
   add_spheres_option(command, options->spheres);
   options->shapes.add_poses_to(command);

@@ -76,19 +76,18 @@ void run_check(const CLI::App& command, CheckCommandOptions options) {
 
 std::function<void()> add_check_command(CLI::App& program) {
   const auto options = std::make_shared<CheckCommandOptions>();
-  CLI::App& command =
-      *program.add_subcommand("check", "Find who runs into whom in a recorded or simulated crowd");
+  CLI::App& command = *program.add_subcommand(
+      "check", "Put bodies on a recorded or simulated crowd, and find the people who overlap");
   command.footer(
       R"(Reads JuPedSim's SQLite and HDF5, PeTrack and Juelich text, the Pedestrian Dynamics Data Archive's
 HDF5, Pathfinder's CSV, TrajNet++, ETH/UCY, and plain CSV with columns id, frame or time, x, y. The
 format is recognized by the content of the file, not by its name. If the file does not state the
-frame rate or the unit of length, the program asks for --fps or --unit, and for --columns if columns
-have no names and are not recognized. It prints every assumption.
-Each row becomes a pedestrian of the person's stature, in the stride that belongs to the person's
-speed, with the head above the recorded position.
-Two people overlap if their outlines overlap, seen from above; with --bodies spheres if their bodies
-meet in space, posed at each person's phase. The exit code is 1 if overlaps exceed --fail-above, and
-else 0, whatever is found.
+frame rate or the unit of length, --fps or --unit is required; if its columns have no names and
+cannot be recognized, --columns is required. The program prints every assumption.
+Each row becomes a pedestrian of the person's stature, in a stride of the person's speed, with the
+head above the recorded position.
+Two people overlap if their outlines, seen from above, do; with --bodies spheres, if their bodies
+do in 3D. The exit code is 1 if overlaps exceed --fail-above, and otherwise 0, even if people overlap.
 Example: bch check trajectories.sqlite --events events.csv)");
   options->input.add_to(command);
   add_outputs_to(command, options->outputs);
@@ -96,8 +95,9 @@ Example: bch check trajectories.sqlite --events events.csv)");
                        "Write a web page that plays the recording; it needs no network");
   OptionAdder{command}(
       "--resolve", options->resolved, "FILE.csv",
-      "Write the recording with people shifted, by little and smoothly, until no bodies overlap");
-  OptionAdder{command}("--date", options->input.date, "TEXT", "Date to show on that page [the file's]");
+      "Write the recording with people moved, by small and smooth shifts, until no bodies overlap");
+  OptionAdder{command}("--date", options->input.date, "TEXT",
+                       "Date to show on the page of --html [the file's]");
   add_threads_option(command, options->threads);
   return [options, &command] { run_check(command, *options); };
 }

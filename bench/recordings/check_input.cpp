@@ -206,14 +206,15 @@ void CheckInput::add_to(CLI::App& command) {
   add("--fps", fps, "N", "Frames per second, instead of the rate that the file states",
       number_between(1e-3, 1e4));
   add("--columns", columns, "NAMES",
-      "Column names of text or CSV, in order, such as frame,id,x,skip,y, instead of its header");
+      "Names of the columns in order, such as frame,id,x,skip,y, instead of the header of text or CSV");
   add("--unit", unit, "UNIT", "Unit of length, instead of the file's: m, cm, mm, or a number of metres");
   add("--walls", walls, "FILE.wkt", "Walkable area as well-known text (WKT), instead of the file's own");
   add_bodies_to(command);
-  add("--depth", depth, "N", "Depth of the discs to test: 0, 1, 2 ..., or all for the whole tree [all]");
+  add("--depth", depth, "N",
+      "Level of detail: depth 0, 1, 2 ... in the tree of discs of an outline, or all of it [all]");
   add_leaves_option(command, leaves, 4);
   add("--max-distance", max_distance, "M",
-      "Also write to --pairs the pairs with a gap of at most M metres [0: overlaps only]",
+      "In --pairs, also write pairs with a gap of at most M metres [0: overlaps only]",
       number_between(0, 10));
   add_max_pairs_option(command, max_pairs, "people near each other in a frame, or in 4096 rows", "person");
 }
@@ -223,17 +224,17 @@ void CheckInput::add_bodies_to(CLI::App& command) {
   kind.add_to(command);
   CLI::Option* const character =
       add("--character", characters, "FILE",
-          "Bodies, assigned by id or as the rows name them (repeatable), or one baked set [built-in]")
+          "Characters, assigned by id or named by rows (repeatable), or one baked set [built-in]")
           ->allow_extra_args(false);
   add("--clips", shapes.clips, "FILE",
       "Add the clips of this file to the characters, matched by bone name (repeatable)")
       ->allow_extra_args(false)
       ->needs(character);
   add("--body", bodies, "NAME=FILE",
-      "Shape of bodies that rows call NAME: polygons (.wkt), or a model seen from above (repeatable)")
+      "Shape of the body NAME in rows: polygons (.wkt), or a model seen from above (repeatable)")
       ->allow_extra_args(false);
   add("--clip-speed", clip_speeds, "CLIP=M/S",
-      "For a baked set: walking speed in a clip, 0 where people stand (repeatable)")
+      "For a baked set: walking speed in a clip, or 0 if people stand in it (repeatable)")
       ->allow_extra_args(false)
       ->needs(character);
   add("--facing", facing, "DEGREES",
@@ -245,7 +246,7 @@ void CheckInput::add_bodies_to(CLI::App& command) {
 void add_outputs_to(CLI::App& command, CheckOutputs& outputs) {
   const OptionAdder add(command);
   add("--events", outputs.events, "FILE.csv",
-      "Write one line per event, an overlap over time: who, from when, to when, how deep");
+      "Write one line per event, an overlap in successive frames: ids, begin, end, largest depth");
   add("--frames", outputs.frames, "FILE.csv",
       "Write one line per frame: number of people, density, overlaps");
   add("--pairs", outputs.pairs, "FILE.csv",

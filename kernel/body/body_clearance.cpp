@@ -32,8 +32,8 @@ struct Writer {
   float stop_below;
 
   void store(std::size_t i, Pair pair, const NearestSpheres& nearest) const {
-    if (nearest.a == no_slot) return store_alone(answers, i, std::numeric_limits<float>::infinity());
-    if (nearest.distance <= stop_below) return store_alone(answers, i, 0);
+    if (nearest.a == no_slot) return store_distance(answers, i, std::numeric_limits<float>::infinity());
+    if (nearest.distance <= stop_below) return store_distance(answers, i, 0);
     answers.distance[i] = nearest.distance;
     if (answers.direction.empty() && answers.spheres.empty() && answers.points.empty()) return;
     const auto [a, b] = std::minmax(pair.first, pair.second);

@@ -19,12 +19,12 @@
 namespace bch::detail {
 namespace {
 
-constexpr std::size_t agents_a_task = 2048;
-constexpr std::size_t block_discs = 1024;  ///< whose pairs a task finds
+constexpr std::size_t agents_per_task = 2048;
+constexpr std::size_t block_discs = 1024;  ///< discs whose pairs one task finds
 
 CrowdBounds bounds(const ShapeSetView& shapes, const Agents& agents, double margin) {
   return reduce_ranges(
-      agents.size(), agents_a_task, CrowdBounds(),
+      agents.size(), agents_per_task, CrowdBounds(),
       [&](std::size_t begin, std::size_t end, CrowdBounds all) {
         all.add(detail::bounds(shapes, agents, margin, begin, end));
         return all;
@@ -40,14 +40,14 @@ CrowdBounds bounds(const ShapeSetView& shapes, const Agents& agents, double marg
 void BroadPhase::sort_discs(const CrowdGrid& grid, const ShapeSetView& shapes, const Agents& agents,
                             double margin) {
   placed_.resize(agents.size());
-  for_ranges(agents.size(), agents_a_task, [&](std::size_t begin, std::size_t end) {
+  for_ranges(agents.size(), agents_per_task, [&](std::size_t begin, std::size_t end) {
     grid.place(shapes, agents, margin, begin, end, placed_.data());
   });
   const std::uint32_t classes = grid.class_count();
   radix_sort_.sort(placed_, static_cast<unsigned>(std::bit_width(grid.end_cell(classes - 1))),
                    [](const GridDisc& disc) { return disc.cell; });
   discs_.resize(agents.size());
-  for_ranges(agents.size(), agents_a_task, [&](std::size_t begin, std::size_t end) {
+  for_ranges(agents.size(), agents_per_task, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) discs_.set(i, placed_[i]);
   });
   class_begin_[0] = 0;
@@ -55,7 +55,8 @@ void BroadPhase::sort_discs(const CrowdGrid& grid, const ShapeSetView& shapes, c
     class_begin_[c + 1] = discs_.first_from(grid.end_cell(c), class_begin_[c], discs_.size());
 }
 
-/// The pairs of discs begin .. end with later ones of their class and with all of coarser classes.
+/// Finds the pairs of discs begin .. end with later discs of their class, and with all discs of coarser
+/// classes.
 void BroadPhase::find_in_block(const CrowdGrid& grid, std::size_t begin, std::size_t end, PairList& list,
                                PairCount& count) const {
   list.clear();
@@ -68,8 +69,9 @@ void BroadPhase::find_in_block(const CrowdGrid& grid, std::size_t begin, std::si
   list.report(count);
 }
 
-/// Half of the neighbourhood, so that each pair is seen once: the rest of a cell and the one beside it are a
-/// run of discs, and so are the three cells above. Both runs only move forward.
+/// Searches half of the neighbourhood, so that each pair is found once: the rest of a cell and the next cell,
+/// which are contiguous discs, and the three cells above, which are contiguous, too. Both ranges only move
+/// forward.
 void BroadPhase::find_in_class(const CrowdGrid& grid, std::uint32_t size_class, std::size_t begin,
                                std::size_t end, PairList& list, PairCount& count) const {
   const std::size_t class_end = class_begin_[size_class + 1];
@@ -92,7 +94,7 @@ void BroadPhase::find_in_class(const CrowdGrid& grid, std::uint32_t size_class, 
   }
 }
 
-/// Searches all nine cells about a disc, in the grid of every coarser class.
+/// Searches all nine cells around a disc in the grid of every coarser class.
 void BroadPhase::find_larger(const CrowdGrid& grid, std::uint32_t size_class, std::size_t begin,
                              std::size_t end, PairList& list, PairCount& count) const {
   for (std::uint32_t c = 0; c < size_class; ++c) {

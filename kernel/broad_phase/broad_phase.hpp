@@ -21,20 +21,21 @@ namespace bch::detail {
 /// Errors:  throws std::invalid_argument on a margin outside of 0 .. 2e9 m.
 void require_margin(double margin);
 
-/// Finds the pairs that a query has to test, and keeps its memory from call to call.
+/// Finds the pairs that a query has to test. Keeps its memory from call to call.
 ///
-/// Grid:    radii within a factor of four share a grid; other radii have grids of their own, so a few large agents do not slow down many
-///          small ones. A cell is no smaller than 2^-30 of the crowd's extent.
+/// Grid:    radii within a factor of four share a grid, so a few large agents do not slow down many small
+///          ones. A cell is at least 2^-30 of the crowd's extent.
 /// Threads: runs in the caller's TBB arena; one call at a time.
 class BroadPhase {
  public:
-  /// Returns every pair of agents whose root discs overlap or come within a margin of each other, and whose heights do so within a margin
-  /// of their own, once, with first < second. Other pairs
-  /// miss the margin by a few millionths of the margin, of their radii and of their shapes' reach, or by 2^-26 of the largest radius.
-  /// Order:   by place, along the rows of a grid; the same for any number of threads.
-  /// Memory:  the pairs are valid until the next call; the object keeps 72 bytes an agent and up to 24 a pair.
-  /// Errors:  throws std::invalid_argument like require_valid_agents(), and on a margin outside of 0 .. 2e9;
-  ///          std::length_error as soon as there are more pairs than `max_pairs`, before `test` is asked.
+  /// Returns every pair of agents whose root discs are within `margin` and whose height intervals are within
+  /// `height_margin` of each other, once, with first < second. It may contain pairs that exceed the margin by
+  /// a few millionths of the margin, the radii and the reaches, or by 2^-26 of the largest radius.
+  /// Order:   by position, along the rows of a grid; the same for any number of threads.
+  /// Memory:  the pairs are valid until the next call; the object keeps 72 bytes per agent and up to 24 per
+  ///          pair.
+  /// Errors:  throws std::invalid_argument like require_valid_agents(), and on a margin outside 0 .. 2e9;
+  ///          std::length_error as soon as there are more pairs than `max_pairs`, before `test` is called.
   std::span<const Pair> find(const ShapeSetView& shapes, const Agents& agents, double margin = 0,
                              std::size_t max_pairs = std::numeric_limits<std::size_t>::max(),
                              const PairTest* test = nullptr, double height_margin = 0);
@@ -54,9 +55,9 @@ class BroadPhase {
   std::vector<GridDisc> placed_;
   RadixSort<GridDisc> radix_sort_;
   SortedDiscs discs_;
-  std::array<std::size_t, CrowdGrid::max_classes + 1> class_begin_ = {};  ///< discs of a class
+  std::array<std::size_t, CrowdGrid::max_classes + 1> class_begin_ = {};  ///< first disc of each class
   std::vector<PairList> found_;                                           ///< by block
-  std::vector<std::size_t> found_begin_;                                  ///< among all
+  std::vector<std::size_t> found_begin_;  ///< index of a block's first pair among all pairs
   std::vector<Pair> pairs_;
 };
 

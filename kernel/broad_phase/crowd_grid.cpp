@@ -13,18 +13,18 @@
 namespace bch::detail {
 namespace {
 
-constexpr std::uint32_t cell_bits = 29;  ///< of a unit's number in class 0's cell
-constexpr std::uint32_t class_bits = 2;  ///< fewer from class to class
+constexpr std::uint32_t cell_bits = 29;  ///< a cell of class 0 is 2^29 units wide
+constexpr std::uint32_t class_bits = 2;  ///< each class has cells 2^2 times narrower
 
-/// The least width of a cell, of the crowd's extent: numbers of cells stay below 2^62.
+/// The least width of a cell divided by the crowd's extent, so that numbers of cells stay below 2^62.
 constexpr double least_cell = 0x1p-30;
-/// The largest radius in a cell, of its width.
+/// The largest radius in a cell divided by its width.
 constexpr double radius_of_cell = 0.5 * (1 - 0x1p-10);
-/// Rounding of a centre relative to the crowd's corner, of the crowd's extent.
+/// The rounding error of a centre relative to the crowd's corner, divided by the crowd's extent.
 constexpr double centre_rounding = 0x1p-50;
 
-/// The amount by which clearance() may be too small, with D up to the margin and twice both reaches, in units
-/// of u: a fraction of the margin and a fraction of both reaches. Each of two agents takes half of it.
+/// By how much clearance() may be too small, with D up to the margin plus twice both reaches: a fraction of
+/// the margin plus a fraction of both reaches. Each of two agents contributes half of it.
 constexpr double fraction_of_margin = 0x1p-18, fraction_of_reach = 128 * rounding::unit_roundoff;
 static_assert(2 * fraction_of_margin >= clearance_terms::short_of_distance * rounding::unit_roundoff);
 static_assert(fraction_of_reach >=
@@ -33,9 +33,9 @@ static_assert(fraction_of_reach >=
 static_assert(fraction_of_reach >= rounding::terms::query_error * rounding::unit_roundoff,
               "what collide() may accept");
 
-/// A root disc that is enlarged by half of the margin, and by more than clearance() may tell too little,
-/// which covers the rounding of collide(). Its shape's reach is at most that of the root. With a margin it
-/// holds all discs, which may stick out of the smallest one.
+/// Returns the radius of a root disc, enlarged by half the margin and by more than clearance() may be too
+/// small, which also covers the rounding of collide(). A shape's reach is at most that of its root disc. With
+/// a margin, the disc contains all other discs, which may protrude from the smallest one.
 double pruning_radius(const ShapeSetView& shapes, std::size_t root, double margin) {
   const auto [x, y, r, row] = shapes.roots[root];
   const bool has_outer = margin > 0 && shapes.trees != nullptr;
@@ -48,7 +48,7 @@ struct PruningDisc {
   double x, y, radius;  ///< metres, in the shape's frame
 };
 
-/// The disc of an agent's root.
+/// Returns the enlarged root disc of an agent.
 PruningDisc pruning_disc(const ShapeSetView& shapes, const Agents& agents, std::size_t agent, double margin) {
   const std::size_t root = agents.root(agent, shapes.level_count);
   return {static_cast<double>(shapes.roots[root].x), static_cast<double>(shapes.roots[root].y),
@@ -79,7 +79,7 @@ CrowdBounds bounds(const ShapeSetView& shapes, const Agents& agents, double marg
 }
 
 CrowdGrid::CrowdGrid(const CrowdBounds& crowd) noexcept {
-  // Turning lengthens an offset by its rounding; the corner's own counts far from the origin.
+  // Rotation lengthens an offset by rounding; far from the origin, the rounding of the corner counts.
   const double margin =
       crowd.offset * (1 + 0x1p-20) + 0x1p-50 * std::max(std::abs(crowd.min_x), std::abs(crowd.min_y));
   corner_x_ = crowd.min_x - margin;
@@ -111,14 +111,13 @@ void CrowdGrid::place(const ShapeSetView& shapes, const Agents& agents, double m
     const auto [x, y, radius] = pruning_disc(shapes, agents, i, margin);
     const Rotation turn = rotation(agents.heading[i]);
     const double offset_x = turn.cosine * x - turn.sine * y, offset_y = turn.sine * x + turn.cosine * y;
-    // The corner is taken from the position first: far from the origin, adding the offset there would lose
-    // it.
+    // The corner is subtracted first: far from the origin, position + offset would lose the offset.
     const auto at_x = static_cast<std::uint64_t>(((agents.x[i] - corner_x_) + offset_x) * units_);
     const auto at_y = static_cast<std::uint64_t>(((agents.y[i] - corner_y_) + offset_y) * units_);
     std::uint32_t c = class_count_ - 1;
     while (radius > classes_[c].max_radius) --c;
     const std::uint32_t shift = cell_bits - class_bits * c;
-    // No rounding up, whose branch nothing foretells: 2^-20 holds the rounding to float too.
+    // No rounding up, which takes an unpredictable branch: 2^-20 includes the rounding to float.
     discs[i] = {classes_[c].first + (at_y >> shift) * classes_[c].stride + (at_x >> shift),
                 static_cast<std::uint32_t>(at_x), static_cast<std::uint32_t>(at_y),
                 static_cast<float>((radius + slack_) * units_ * (1 + 0x1p-20)),

@@ -7,8 +7,8 @@
 
 namespace bch::detail {
 
-/// Returns how many pairs of neighbours are held unless a caller says otherwise: agents that are nearer each other than people can be
-/// have more, such as 3 000 at one place.
+/// Returns the default limit of the number of pairs of neighbours. Only agents closer together than people
+/// can be exceed it, such as 3 000 at one position.
 constexpr std::size_t usual_max_pairs(std::size_t agents) noexcept {
   return 4'000'000 + 100 * agents;
 }

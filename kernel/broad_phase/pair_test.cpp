@@ -45,7 +45,7 @@ void PairTest::set(const PairFilter& filter, std::size_t agents,
 }
 
 bool PairTest::accepts(Pair pair) const noexcept {
-  // Of an agent and an image; two images stand for a pair that is found without them, or with other images.
+  // Pairs of an agent and an image count; a pair of two images is also found as another pair.
   const Pair found = in_order(pair);
   if (found.first >= agents_ || origin(found.second) <= found.first) return false;
   const Pair agents{found.first, origin(found.second)};

@@ -13,13 +13,13 @@
 
 namespace bch::detail {
 
-/// Sorts fewer than 2^32 values by an unsigned key, lowest digits first; equal keys keep their order. Keeps
-/// its memory for the next call.
+/// Sorts fewer than 2^32 values by an unsigned key, stably, by least significant digits first. Keeps its
+/// memory for the next call.
 /// Threads: runs in the caller's TBB arena.
 template <class Value>
 class RadixSort {
  public:
-  /// Sorts values by their keys, which are below 2^bits. May exchange the vector's memory for its own.
+  /// Sorts values by their keys, which are below 2^bits. May swap the vector's memory with its own.
   template <class Key>
   void sort(std::vector<Value>& values, unsigned bits, Key key) {
     const unsigned passes = (bits + max_digit_bits - 1) / max_digit_bits;
@@ -36,10 +36,11 @@ class RadixSort {
   }
 
  private:
-  static constexpr unsigned max_digit_bits = 11;  ///< a block's places stay in a first-level cache
+  static constexpr unsigned max_digit_bits = 11;  ///< so the positions of a block fit in a first-level cache
   static constexpr std::size_t least_block = 2048, max_blocks = 64;
 
-  /// Makes two passes over blocks of values: how many have which digit, and, with that known, to their places.
+  /// Counts the digits in each block of values, then moves the values to the positions that these counts
+  /// determine.
   template <class Digit>
   void move_by_digit(const std::vector<Value>& values, std::size_t digits, Digit digit) {
     const std::size_t size = values.size();

@@ -19,10 +19,10 @@
 
 namespace bch::detail {
 
-/// Holds discs of a grid in the order of their cells, array by array.
+/// Holds discs of a grid, sorted by cell, as a structure of arrays.
 class SortedDiscs {
  public:
-  /// Selects the narrowest registers: most runs of neighbours are short, so wider ones would gain little.
+  /// The narrowest registers: most sequences of neighbours are short, so wider registers would gain little.
   using Simd = BaseLanes;
   static constexpr std::size_t width = Simd::width;
 
@@ -31,7 +31,7 @@ class SortedDiscs {
 
   void resize(std::size_t size) {
     cell_.resize(size);
-    // Whole registers are read: what is beyond the last disc does not matter.
+    // Whole registers are read; values beyond the last disc are ignored.
     x_.resize(size + width);
     y_.resize(size + width);
     radius_.resize(size + width);
@@ -46,14 +46,14 @@ class SortedDiscs {
     agent_[i] = disc.agent;
   }
 
-  /// Returns the first of discs begin .. end whose cell is not below `from`; else end.
+  /// Returns the first of discs begin .. end whose cell is at least `from`, or end.
   std::size_t first_from(std::uint64_t from, std::size_t begin, std::size_t end) const noexcept {
     const std::uint64_t* const cells = cell_.data();
     return static_cast<std::size_t>(std::lower_bound(cells + begin, cells + end, from) - cells);
   }
 
   /// Writes (agent of i, agent of j) for each j in begin .. end whose disc overlaps that of i.
-  /// Returns: the end of what was written. There has to be room for end - begin + width pairs.
+  /// Returns: one past the last pair. There must be room for end - begin + width pairs.
   Pair* write_overlapping(std::size_t i, std::size_t begin, std::size_t end, Pair* pairs) const noexcept {
     const Simd::Ints x(x_[i]), y(y_[i]);
     const Simd::Float radius(radius_[i]);
@@ -64,7 +64,7 @@ class SortedDiscs {
       const Simd::Float r = Simd::load(radius_.data() + first) + radius;
       std::uint32_t hits = Simd::bits(dx * dx + dy * dy <= r * r);
       hits &= (1u << std::min(width, end - first)) - 1;
-      // Every lane writes and a hit moves on: no branch, as none could be foretold.
+      // Every lane writes, but only a hit advances: a branch would be unpredictable.
       for (std::size_t k = 0; k < width; ++k) {
         *pairs = {agent, agent_[first + k]};
         pairs += hits >> k & 1;
@@ -80,22 +80,23 @@ class SortedDiscs {
   std::vector<std::uint32_t> agent_;
 };
 
-/// Counts the pairs that all tasks find, up to a limit.
+/// Counts the pairs of all tasks, up to a limit.
 class PairCount {
  public:
-  explicit PairCount(std::size_t most) noexcept : most_(most) {}
-  /// Errors:  throws std::length_error where there are more than the limit.
+  explicit PairCount(std::size_t most) noexcept : max_pairs_(most) {}
+  /// Errors:  throws std::length_error above the limit.
   void add(std::size_t pairs) {
-    if (count_.fetch_add(pairs, std::memory_order_relaxed) + pairs > most_)
-      throw std::length_error("candidates: expected at most " + std::to_string(most_) + " pairs, found more");
+    if (count_.fetch_add(pairs, std::memory_order_relaxed) + pairs > max_pairs_)
+      throw std::length_error("candidates: expected at most " + std::to_string(max_pairs_) +
+                              " pairs, found more");
   }
 
  private:
-  const std::size_t most_;
+  const std::size_t max_pairs_;
   std::atomic<std::size_t> count_ = 0;
 };
 
-/// Holds pairs that a task found.
+/// Holds the pairs of a task.
 class PairList {
  public:
   std::span<const Pair> pairs() const noexcept { return {pairs_.data(), size_}; }
@@ -109,7 +110,7 @@ class PairList {
         pairs_.begin());
   }
 
-  /// Adds the pairs of disc i with those of begin .. end that it overlaps.
+  /// Adds the pairs of disc i with the discs in begin .. end that overlap it.
   void add_overlapping(const SortedDiscs& discs, std::size_t i, std::size_t begin, std::size_t end,
                        PairCount& count) {
     const std::size_t most = size_ + (end - begin) + SortedDiscs::width;
@@ -119,7 +120,7 @@ class PairList {
     if (size_ - counted_ > uncounted) [[unlikely]]
       report(count);
   }
-  /// Counts what was not counted yet.
+  /// Adds the pairs not yet counted to `count`.
   void report(PairCount& count) {
     count.add(size_ - counted_);
     counted_ = size_;
@@ -127,7 +128,7 @@ class PairList {
 
  private:
   static constexpr std::size_t uncounted =
-      65536;  ///< pairs, about: tasks should not wait for each other to count
+      65536;  ///< pairs, approximately: frequent counting would make tasks wait for each other
 
   std::vector<Pair> pairs_;
   std::size_t size_ = 0, counted_ = 0;

@@ -21,17 +21,19 @@
 
 namespace bch::detail {
 
-/// Finds all pairs of cut discs that overlap with all their ancestors, and whose segments meet where these decide,
-/// one pair of agents after the other. Rows are discs of a pair's first agent, columns those of its second.
-/// Row windows are visited from left to right, each with the column nodes that the blocks above it left to
-/// it, so that contacts come in order except for the eight rows of a window, which are counted before they are
-/// placed.
+/// Finds all contacts of two cuts: pairs of discs that overlap with all their ancestors, and with exact
+/// leaves whose segments touch. Handles one pair of agents after the other.
 ///
-/// No contact is named twice, although windows show some of their neighbours' discs. Of a row window only its
-/// own rows count: up to where the next window begins; but the last eight, where windows are moved back, are
-/// taken together at the end. A column counts in the first visited window that shows it.
+/// Order. "Rows" are the discs of the pair's first agent, "columns" those of the second. Row windows are
+/// visited from left to right, each with the column nodes that overlap the blocks above it. So contacts are
+/// found in order, except among the eight rows of a window; those are counted first and then written to their
+/// positions.
 ///
-/// Blocks prune as in the pair kernel's traversal, and hits of leaves are verified as there.
+/// Uniqueness. Windows may share discs with their neighbours, but no contact is reported twice. Of a row
+/// window only the rows before the next window count; the last eight rows, where windows are shifted to fit,
+/// are visited together at the end. A column counts in the first visited window that contains it.
+///
+/// Pruning and verification of hits are those of the kernel of collide().
 template <class Simd>
 class ContactKernel {
  public:
@@ -47,7 +49,8 @@ class ContactKernel {
     });
   }
 
-  /// Appends the contacts of pairs to those at offsets[begin], as far as there is room, and writes where each pair's end.
+  /// Writes the contacts of pairs from offsets[begin] on, and the end of each pair's contacts, as far as
+  /// there is room.
   /// Returns: one past the last pair that was answered.
   static std::size_t append(const Arguments& in, std::size_t begin, std::size_t end, std::uint64_t* offsets,
                             DiscPair* contacts, std::uint64_t capacity) noexcept {
@@ -58,7 +61,7 @@ class ContactKernel {
         kernel.begin_pair(begin - k, k);
         if (capacity - offsets[begin] < std::uint64_t{kernel.rows_.count} * kernel.columns_.count)
           return begin;
-        const DiscPair* const last = kernel.place_all(contacts + offsets[begin]);
+        const DiscPair* const last = kernel.write_all(contacts + offsets[begin]);
         offsets[begin + 1] = static_cast<std::uint64_t>(last - contacts);
       }
     }
@@ -68,12 +71,12 @@ class ContactKernel {
   static void fill(const Arguments& in, std::size_t begin, std::size_t end, const std::uint64_t* offsets,
                    DiscPair* contacts) noexcept {
     for_pairs(in, begin, end, [=](ContactKernel& kernel, std::size_t pair) {
-      if (offsets[pair + 1] != offsets[pair]) kernel.place_all(contacts + offsets[pair]);
+      if (offsets[pair + 1] != offsets[pair]) kernel.write_all(contacts + offsets[pair]);
     });
   }
 
  private:
-  /// Holds nodes of the columns, from left to right.
+  /// Holds column nodes, from left to right.
   struct Nodes {
     static constexpr std::uint32_t capacity = 32;
     std::uint32_t size = 0;
@@ -82,41 +85,41 @@ class ContactKernel {
 
   explicit ContactKernel(const Arguments& in) noexcept : in_(in), shapes_(*in.shapes) {}
 
-  template <class Use>
-  static void for_pairs(const Arguments& in, std::size_t begin, std::size_t end, Use use) noexcept {
+  template <class Visit>
+  static void for_pairs(const Arguments& in, std::size_t begin, std::size_t end, Visit visit) noexcept {
     ContactKernel kernel(in);
     for (; begin < end; begin += kernel.transforms_.size) {
       kernel.transforms_.compute(in, begin, end);
       for (std::uint32_t k = 0; k < kernel.transforms_.size; ++k) {
         kernel.begin_pair(begin, k);
-        use(kernel, begin + k);
+        visit(kernel, begin + k);
       }
     }
   }
 
-  /// Examines one pair of agents, of which the lower index is A; see RelativeTransforms.
+  /// Sets the current pair of agents. A is the agent with the lower index, see RelativeTransforms.
   void begin_pair(std::size_t begin, std::uint32_t k) noexcept {
     const Pair pair = in_.pairs[begin + k];
     swapped_ = pair.second < pair.first;
     placed_.b_in_a = transforms_.transform(k);
     const std::uint32_t rows = swapped_ ? transforms_.root_b[k] : transforms_.root_a[k];
     const std::uint32_t columns = swapped_ ? transforms_.root_a[k] : transforms_.root_b[k];
-    if (shapes_.trees == nullptr) return visit_single_discs(shapes_.roots[rows], shapes_.roots[columns]);
+    if (shapes_.trees == nullptr) return begin_single_discs(shapes_.roots[rows], shapes_.roots[columns]);
     nodes_ = shapes_.nodes;
     const float reach_a = shapes_.reach[transforms_.shape_a[k]],
                 reach_b = shapes_.reach[transforms_.shape_b[k]];
     reach_ = reach_a + reach_b;
     rows_ = shapes_.trees[rows], columns_ = shapes_.trees[columns];
-    held_ = (rows_.nodes_hold_discs & columns_.nodes_hold_discs) != 0 &&
-            reach_ <= float{rounding::held_reaches} * (reach_a < reach_b ? reach_a : reach_b);
+    is_conservative_ = (rows_.nodes_hold_discs & columns_.nodes_hold_discs) != 0 &&
+                       reach_ <= float{rounding::held_reaches} * (reach_a < reach_b ? reach_a : reach_b);
     const bool exact = in_.exact_leaves && rows_.segments != no_segments && columns_.segments != no_segments;
     placed_.margin =
         exact ? segment_margin<Simd>(shapes_, transforms_.shape_a[k], transforms_.shape_b[k]) : 0;
     first_row_ = rows_.discs, first_column_ = columns_.discs;
   }
 
-  /// Examines a pair of single discs in windows of its own, because the set has none.
-  void visit_single_discs(const Root& row_disc, const Root& column_disc) noexcept {
+  /// Sets the current pair for a set of single discs, which has no windows, by making two.
+  void begin_single_discs(const Root& row_disc, const Root& column_disc) noexcept {
     for (DiscBlock& single : singles_)
       for (unsigned i = 0; i < block_width; ++i)
         single.x[i] = __builtin_inff(), single.y[i] = single.radius[i] = 0;
@@ -129,25 +132,25 @@ class ContactKernel {
     columns_ = {leaf_window | first_column_, first_column_, block_width, 1, 0};
   }
 
-  /// Calls use(window, mask of its own rows, nodes above the columns that may overlap them).
-  template <class Use>
-  void for_row_windows(Use use) const noexcept {
+  /// Calls visit(window, mask of its own rows, nodes above the columns that may overlap them).
+  template <class Visit>
+  void for_row_windows(Visit visit) const noexcept {
     Nodes columns;
     columns.node[columns.size++] = columns_.top;
-    visit_rows(rows_.top, last_rows() + block_width, columns, use);
-    use(last_rows() | leaf_window, ~std::uint64_t{0}, columns);
+    visit_rows(rows_.top, last_rows() + block_width, columns, visit);
+    visit(last_rows() | leaf_window, ~std::uint64_t{0}, columns);
   }
 
-  /// Returns where the last eight rows begin.
+  /// Returns the index of the first of the last eight rows.
   std::uint32_t last_rows() const noexcept { return first_row_ + rows_.stride - block_width; }
 
-  /// Visits the row windows below a node. `end`: where the node to the right begins.
-  template <class Use>
-  void visit_rows(std::uint32_t node, std::uint32_t end, const Nodes& columns, Use& use) const noexcept {
+  /// Visits the row windows below a node. `end`: the first row of the node to the right.
+  template <class Visit>
+  void visit_rows(std::uint32_t node, std::uint32_t end, const Nodes& columns, Visit& visit) const noexcept {
     if (node >= leaf_window) {
       const std::uint32_t begin = node & ~leaf_window;
       const std::uint32_t stop = end < last_rows() ? end : last_rows();
-      if (begin < stop) use(node, rows_below(stop - begin), columns);
+      if (begin < stop) visit(node, rows_below(stop - begin), columns);
       return;
     }
     std::uint64_t hits[Nodes::capacity];
@@ -158,8 +161,8 @@ class ContactKernel {
       if (below.size == 0) continue;
       const bool is_last = i + 1 == block_width || nodes_[node + i + 1] == __builtin_inff();
       const std::uint32_t child_end = is_last ? end : first_disc(nodes_, child(node, i + 1));
-      // Nodes higher up are above the same columns.
-      visit_rows(child(node, i), child_end, fits ? below : columns, use);
+      // If the children do not fit, their parents cover the same columns.
+      visit_rows(child(node, i), child_end, fits ? below : columns, visit);
     }
   }
 
@@ -167,8 +170,9 @@ class ContactKernel {
     return lanes < block_width ? (std::uint64_t{1} << (lanes * block_width)) - 1 : ~std::uint64_t{0};
   }
 
-  /// Collects the children of the column nodes that disc i of a row block overlaps. A window stays itself.
-  /// Returns: whether there is room for them.
+  /// Collects the children of the column nodes that disc i of a row block overlaps; a window is its own
+  /// child.
+  /// Returns: whether there is room for all.
   bool children_of_hits(const Nodes& columns, const std::uint64_t* hits, unsigned i,
                         Nodes& below) const noexcept {
     for (std::uint32_t k = 0; k < columns.size; ++k) {
@@ -184,37 +188,37 @@ class ContactKernel {
     return true;
   }
 
-  /// Calls use(window, hits) for each window of columns with discs that overlap those of a row window.
-  template <class Use>
+  /// Calls visit(window, hits) for each window of columns with discs that overlap those of a row window.
+  template <class Visit>
   void for_column_windows(std::uint32_t rows, std::uint64_t mask, const Nodes& columns,
-                          Use use) const noexcept {
+                          Visit visit) const noexcept {
     std::uint32_t next = 0;
-    for (std::uint32_t k = 0; k < columns.size; ++k) visit_columns(rows, mask, columns.node[k], next, use);
+    for (std::uint32_t k = 0; k < columns.size; ++k) visit_columns(rows, mask, columns.node[k], next, visit);
   }
 
-  template <class Use>
+  template <class Visit>
   void visit_columns(std::uint32_t rows, std::uint64_t mask, std::uint32_t node, std::uint32_t& next,
-                     Use& use) const noexcept {
+                     Visit& visit) const noexcept {
     std::uint64_t hits = overlaps_of(rows, node) & mask;
     if (node >= leaf_window) {
-      hits &= (first_row_of_pairs << done_lanes(node, next) & first_row_of_pairs) * first_column_of_pairs;
+      hits &= (first_row_of_pairs << visited_lanes(node, next) & first_row_of_pairs) * first_column_of_pairs;
       if (hits != 0) hits = verified(rows, node, hits);
-      if (hits != 0) use(node, hits);
+      if (hits != 0) visit(node, hits);
       return;
     }
     for (unsigned j = 0; j < block_width; ++j)
-      if (hits & first_column_of_pairs << j) visit_columns(rows, mask, child(node, j), next, use);
+      if (hits & first_column_of_pairs << j) visit_columns(rows, mask, child(node, j), next, visit);
   }
 
-  /// Returns how many of a window's discs an earlier window has shown, which ended before `next`.
-  static std::uint32_t done_lanes(std::uint32_t window, std::uint32_t& next) noexcept {
+  /// Returns how many discs of a window earlier windows contain, of which the last ended before `next`.
+  static std::uint32_t visited_lanes(std::uint32_t window, std::uint32_t& next) noexcept {
     const std::uint32_t done = next > window ? next - window : 0;
     next = window + block_width > next ? window + block_width : next;
     return done < block_width ? done : block_width;
   }
 
-  /// Places all contacts of a pair. Returns: one past the last.
-  DiscPair* place_all(DiscPair* out) const noexcept {
+  /// Writes all contacts of a pair. Returns: one past the last.
+  DiscPair* write_all(DiscPair* out) const noexcept {
     if ((rows_.top & columns_.top) >= leaf_window) {
       std::uint64_t hits = verified(rows_.top, columns_.top, overlaps_of(rows_.top, columns_.top));
       for (; hits != 0; hits &= hits - 1) {
@@ -224,14 +228,14 @@ class ContactKernel {
       return out;
     }
     for_row_windows([&](std::uint32_t rows, std::uint64_t mask, const Nodes& columns) {
-      out = place_rows(rows, mask, columns, out);
+      out = write_rows(rows, mask, columns, out);
     });
     return out;
   }
 
-  /// Places the overlaps of a row node with the windows of columns, disc by disc.
-  /// Returns: one past the last that was placed.
-  DiscPair* place_rows(std::uint32_t rows, std::uint64_t mask, const Nodes& columns,
+  /// Writes the contacts of a row window with all column windows, row by row.
+  /// Returns: one past the last.
+  DiscPair* write_rows(std::uint32_t rows, std::uint64_t mask, const Nodes& columns,
                        DiscPair* out) const noexcept {
     constexpr std::uint32_t max_kept = 16;
     std::uint32_t count[block_width] = {}, windows = 0, kept[max_kept];
@@ -260,8 +264,8 @@ class ContactKernel {
     return out;
   }
 
-  /// Returns which discs of two nodes overlap: bit 8 i + j is that of disc i of the rows' node and disc j of
-  /// the columns' node.
+  /// Returns which discs of two nodes overlap: bit 8 i + j is set if disc i of the row node and disc j of the
+  /// column node do.
   std::uint64_t overlaps_of(std::uint32_t rows, std::uint32_t columns) const noexcept {
     const Discs of_rows = TreeNodes<Simd>::discs(nodes_, rows, rows_.stride),
                 of_columns = TreeNodes<Simd>::discs(nodes_, columns, columns_.stride);
@@ -269,11 +273,11 @@ class ContactKernel {
     return transposed(overlapping_discs<Simd>(placed_.b_in_a, of_columns, of_rows));
   }
 
-  /// Returns the hits of two leaf windows that their ancestors confirm. Where every cut is a single disc,
-  /// there is nothing above them, and nodes that hold their discs with enough room overlap wherever these do.
+  /// Returns the hits of two leaf windows that their ancestors confirm. Single discs have no ancestors, and
+  /// conservative nodes overlap wherever discs below them do.
   std::uint64_t verified(std::uint32_t rows, std::uint32_t columns, std::uint64_t hits) const noexcept {
     if (shapes_.trees == nullptr) return hits;
-    if (held_ && placed_.margin == 0) return hits;
+    if (is_conservative_ && placed_.margin == 0) return hits;
     std::uint64_t verified = 0;
     for (; hits != 0; hits &= hits - 1) {
       const auto bit = static_cast<unsigned>(__builtin_ctzll(hits));
@@ -328,9 +332,9 @@ class ContactKernel {
 
   // State of the current pair.
   bool swapped_;           ///< the first agent is B
-  PlacedSegments placed_;  ///< with a margin of 0, discs decide
+  PlacedSegments placed_;  ///< a margin of 0: discs decide
   float reach_;            ///< of both shapes
-  bool held_;              ///< nodes of either hold their discs with room enough for the other's reach
+  bool is_conservative_;   ///< nodes of both contain the discs below, with a margin for the other's reach
   const float* nodes_;
   Tree rows_, columns_;
   std::uint32_t first_row_, first_column_;  ///< where their discs begin

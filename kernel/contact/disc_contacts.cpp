@@ -16,10 +16,10 @@
 namespace bch::detail {
 namespace {
 
-constexpr std::size_t contact_grain = 256;  ///< pairs a task; each may have thousands of contacts
+constexpr std::size_t contact_grain = 256;  ///< pairs per task; each may have thousands of contacts
 
-/// Bodies of eight discs or less have so many floats of nodes, plus padding at the end of all; and one thread answers so many of their
-/// pairs before others would have begun.
+/// The number of floats of nodes of a body of at most eight discs, plus padding at the end of all; and the
+/// number of pairs of such bodies that one thread answers before others would have begun.
 constexpr std::size_t light_floats = 64, max_light_pairs = 2048;
 bool is_light(const ShapeSet& shapes, std::size_t pairs) {
   const ShapeArrays& arrays = shapes.arrays();
@@ -42,9 +42,9 @@ void DiscContacts::find_in_two_passes(const Implementation& implementation, cons
   });
 }
 
-/// Makes rows of all pairs of those whose heights meet: the others are empty.
+/// Expands the rows of pairs whose heights overlap to rows of all pairs; the others are empty.
 void DiscContacts::add_empty_rows(const Arguments& arguments, std::span<const Pair> pairs) {
-  std::size_t row = meeting_.size();
+  std::size_t row = overlapping_heights_.size();
   offsets_.resize(pairs.size() + 1);
   offsets_[pairs.size()] = offsets_[row];
   for (std::size_t i = pairs.size(); i-- > 0;) {
@@ -53,9 +53,9 @@ void DiscContacts::add_empty_rows(const Arguments& arguments, std::span<const Pa
   }
 }
 
-/// In one pass, with memory for as many contacts as there were before.
-void DiscContacts::find_of_few_discs(const Implementation& implementation, const Arguments& arguments,
-                                     std::size_t pairs) {
+/// Finds contacts in one pass, with the memory of the last call's contacts.
+void DiscContacts::find_few(const Implementation& implementation, const Arguments& arguments,
+                            std::size_t pairs) {
   constexpr std::size_t least_capacity = block_width * block_width;
   offsets_.resize(pairs + 1);
   offsets_[0] = 0;
@@ -79,13 +79,13 @@ Rows<DiscPair> DiscContacts::find_valid(const ShapeSet& shapes, const Agents& ag
   std::span<const Pair> queried = pairs;
   try {
     if (by_height) {
-      meeting_.clear();
-      std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(meeting_),
+      overlapping_heights_.clear();
+      std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(overlapping_heights_),
                    [&](Pair pair) { return heights_meet(arguments, pair); });
-      queried = meeting_, arguments.pairs = meeting_.data();
+      queried = overlapping_heights_, arguments.pairs = overlapping_heights_.data();
     }
     if (is_light(shapes, queried.size()))
-      find_of_few_discs(implementation, arguments, queried.size());
+      find_few(implementation, arguments, queried.size());
     else
       find_in_two_passes(implementation, arguments, queried.size());
     if (by_height) add_empty_rows(arguments, pairs);

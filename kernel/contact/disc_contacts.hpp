@@ -14,12 +14,15 @@
 
 namespace bch::detail {
 
-/// Finds the contacts of pairs, and keeps its memory from call to call. Contacts are counted, then written, so rows are never truncated.
+/// Finds the contacts of pairs. Keeps its memory from call to call. Contacts are counted before they are
+/// written, so rows are never truncated.
 class DiscContacts {
  public:
-  /// Returns one row per pair, ordered by the first discs and then by the second discs, valid until the next call.
-  /// Errors:  throws std::invalid_argument like collide(), before the rows of the last call are touched; std::bad_alloc or
-  ///          std::length_error where memory does not hold the contacts, and the rows of the last call are then lost.
+  /// Returns one row per pair, ordered by the first discs and then by the second discs. Valid until the next
+  /// call.
+  /// Errors:  throws std::invalid_argument like collide(), before the rows of the last call are changed;
+  ///          std::bad_alloc or std::length_error if there is not enough memory, and the rows of the last
+  ///          call are then lost.
   Rows<DiscPair> find(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                       Leaves leaves, const Implementation* implementation);
   /// Does the same for pairs whose agents are known to be valid.
@@ -29,12 +32,12 @@ class DiscContacts {
  private:
   void find_in_two_passes(const Implementation& implementation, const Arguments& arguments,
                           std::size_t pairs);
-  void find_of_few_discs(const Implementation& implementation, const Arguments& arguments, std::size_t pairs);
+  void find_few(const Implementation& implementation, const Arguments& arguments, std::size_t pairs);
   void add_empty_rows(const Arguments& arguments, std::span<const Pair> pairs);
 
   std::vector<std::uint64_t> offsets_;
   std::vector<DiscPair> contacts_;
-  std::vector<Pair> meeting_;  ///< pairs whose heights meet, where heights count
+  std::vector<Pair> overlapping_heights_;  ///< pairs whose height intervals overlap, if agents have heights
 };
 
 }  // namespace bch::detail

@@ -7,21 +7,21 @@
 
 namespace bch::detail {
 
-void ApartPairs::take_apart(const Implementation& implementation, Arguments in,
-                            std::span<const Pair> pairs) noexcept {
+void ApartPairs::collect_apart(const Implementation& implementation, Arguments in,
+                               std::span<const Pair> pairs) noexcept {
   std::uint8_t states[capacity];
   in.pairs = pairs.data(), in.states = states;
   answer(implementation, in, 0, pairs.size());
-  take(pairs, states);
+  collect(pairs, states);
 }
 
-void ApartPairs::take_all(std::span<const Pair> pairs) noexcept {
+void ApartPairs::collect_all(std::span<const Pair> pairs) noexcept {
   static constexpr std::uint8_t all_apart[capacity] = {};
-  take(pairs, all_apart);
+  collect(pairs, all_apart);
 }
 
-/// No branch depends on an answer.
-void ApartPairs::take(std::span<const Pair> pairs, const std::uint8_t* states) noexcept {
+/// Without a branch that depends on an answer.
+void ApartPairs::collect(std::span<const Pair> pairs, const std::uint8_t* states) noexcept {
   size_ = 0;
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     pair_[size_] = pairs[i];

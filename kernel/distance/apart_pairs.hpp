@@ -13,21 +13,24 @@
 
 namespace bch::detail {
 
-/// Holds the pairs of a task that a search for distances or times is left with, and where they are among those of the task.
+/// Holds the pairs of a task that a search for distances or times has to examine, and their indices among the
+/// task's pairs.
 class ApartPairs {
  public:
   static constexpr std::size_t capacity = 1024;  ///< pairs of a task
 
-  /// Takes those that do not collide. The stages of collide() find the others sooner, because they have culling data for that.
-  void take_apart(const Implementation& implementation, Arguments in, std::span<const Pair> pairs) noexcept;
-  void take_all(std::span<const Pair> pairs) noexcept;
+  /// Collects the pairs that do not collide. The stages of collide() find the colliding ones faster, with
+  /// culling data.
+  void collect_apart(const Implementation& implementation, Arguments in,
+                     std::span<const Pair> pairs) noexcept;
+  void collect_all(std::span<const Pair> pairs) noexcept;
 
   std::size_t size() const noexcept { return size_; }
   std::span<const Pair> pairs() const noexcept { return {pair_, size_}; }
   std::size_t index(std::size_t k) const noexcept { return index_[k]; }
 
  private:
-  void take(std::span<const Pair> pairs, const std::uint8_t* states) noexcept;
+  void collect(std::span<const Pair> pairs, const std::uint8_t* states) noexcept;
 
   std::size_t size_ = 0;
   Pair pair_[capacity];

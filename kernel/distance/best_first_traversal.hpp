@@ -13,57 +13,57 @@
 
 namespace bch::detail {
 
-/// Holds two nodes, not both windows, and the bounds of their pairs of discs.
+/// Holds two nodes, of which at least one is a block, and the bounds of their pairs of discs.
 struct NodePairBounds {
   alignas(64) float bound[block_pairs];
-  std::uint64_t open;  ///< pairs that were not taken
+  std::uint64_t open;  ///< bits of the pairs not yet extracted
   std::uint32_t a, b;
 };
 
-/// Finds by branch and bound over two trees the least value of all pairs of cut discs. `Measure` says what a value
-/// is:
+/// Finds the least value of all pairs of discs of two cuts by branch and bound. `Measure` defines values:
 ///
-///     Float bound(Float x, Float y, Float r)   of two discs as visit_disc_pairs() gives them, lane by lane:
-///                                              not above the value of any disc below the one with any disc
-///                                              below the other, unless that is above best(); far_beyond for
-///                                              padding
-///     float best()                             values above it are of no interest; only ever decreases
-///     void meet(at, a, b, first_a, first_b)    takes the values of two leaf windows, named by where they
-///                                              begin
+///     Float bound(Float x, Float y, Float r)
+///         of two discs as visit_disc_pairs() passes them, lane by lane: at most the value of any two discs
+///         below them that is up to best(); far_beyond for padding
+///     float best()
+///         larger values are ignored; never increases
+///     void measure_windows(at, a, b, first_a, first_b)
+///         compares the values of two leaf windows, which begin at first_a and first_b, with the best
 ///
-/// The traversal visits the pair with the least bound in a block first, and skips the pairs that are above
-/// the best by then.
+/// Of two nodes, the children with the least bound are visited first. Children with a bound above the best
+/// are skipped.
 template <class Simd, class Measure>
 class BestFirstTraversal {
  public:
   explicit BestFirstTraversal(const float* nodes) noexcept : nodes_(nodes) {}
 
-  /// Traverses everything below two nodes that are not both windows.
+  /// Traverses everything below two nodes, of which at least one is a block.
   void run(const Transform& at, std::uint32_t a, std::uint32_t b, std::uint32_t stride_a,
            std::uint32_t stride_b, Measure& measure) noexcept {
     NodePairBounds* top = frames_;
     bound(at, a, b, stride_a, stride_b, measure, *top);
-    bool found = take_least(*top, measure.best(), a, b);
+    bool found = extract_least(*top, measure.best(), a, b);
     for (;;) {
       if (!found) {
         if (top == frames_) return;
         --top;
-        found = take_next(*top, measure.best(), a, b);
+        found = extract_next(*top, measure.best(), a, b);
       } else if ((a & b) >= leaf_window) {
-        meet(at, a, b, stride_a, stride_b, measure);
-        found = take_next(*top, measure.best(), a, b);
+        measure_windows(at, a, b, stride_a, stride_b, measure);
+        found = extract_next(*top, measure.best(), a, b);
       } else {
         bound(at, a, b, stride_a, stride_b, measure, *++top);
-        found = take_least(*top, measure.best(), a, b);
+        found = extract_least(*top, measure.best(), a, b);
       }
     }
   }
 
   /// Measures the discs of two windows.
-  [[gnu::always_inline]] void meet(const Transform& at, std::uint32_t a, std::uint32_t b,
-                                   std::uint32_t stride_a, std::uint32_t stride_b,
-                                   Measure& measure) const noexcept {
-    measure.meet(at, outer_discs(a, stride_a), outer_discs(b, stride_b), a & ~leaf_window, b & ~leaf_window);
+  [[gnu::always_inline]] void measure_windows(const Transform& at, std::uint32_t a, std::uint32_t b,
+                                              std::uint32_t stride_a, std::uint32_t stride_b,
+                                              Measure& measure) const noexcept {
+    measure.measure_windows(at, outer_discs(a, stride_a), outer_discs(b, stride_b), a & ~leaf_window,
+                            b & ~leaf_window);
   }
 
   void bound(const Transform& at, std::uint32_t a, std::uint32_t b, std::uint32_t stride_a,
@@ -74,16 +74,17 @@ class BestFirstTraversal {
         [&](unsigned k, Float x, Float y, Float r) { Simd::store(frame.bound + k, measure.bound(x, y, r)); });
   }
 
-  /// Takes the children below the least bound, unless that is above `best`, of a frame of which nothing was taken.
-  bool take_least(NodePairBounds& frame, float best, std::uint32_t& a, std::uint32_t& b) const noexcept {
+  /// Extracts the children with the least bound, unless it is above `best`. Nothing was extracted from
+  /// `frame` before.
+  bool extract_least(NodePairBounds& frame, float best, std::uint32_t& a, std::uint32_t& b) const noexcept {
     const float least = least_value<Simd>(frame.bound);
-    take(frame, first_within<Simd>(frame.bound, least), a, b);
+    extract(frame, first_within<Simd>(frame.bound, least), a, b);
     return least <= best;
   }
 
-  /// Takes the children below the least bound of those that were not taken, unless that is above `best`. Mostly it
-  /// is, which is known sooner than which is the least; else there are few.
-  bool take_next(NodePairBounds& frame, float best, std::uint32_t& a, std::uint32_t& b) const noexcept {
+  /// Extracts the children with the least bound of those not yet extracted, unless it is above `best`.
+  /// Usually all are, which is faster to find than the least; otherwise only a few are left to compare.
+  bool extract_next(NodePairBounds& frame, float best, std::uint32_t& a, std::uint32_t& b) const noexcept {
     std::uint64_t left = all_within<Simd>(frame.bound, best) & frame.open;
     if (left == 0) return false;
     auto least = static_cast<unsigned>(__builtin_ctzll(left));
@@ -91,7 +92,7 @@ class BestFirstTraversal {
       const auto k = static_cast<unsigned>(__builtin_ctzll(left));
       least = frame.bound[k] < frame.bound[least] ? k : least;
     }
-    take(frame, least, a, b);
+    extract(frame, least, a, b);
     return true;
   }
 
@@ -106,19 +107,18 @@ class BestFirstTraversal {
 
  private:
   using Float = typename Simd::Float;
-  /// The most frames of a pair: every step descends on one side at least, and no tree has more than
+  /// The depth of the stack: every step descends in at least one tree, and no tree has more than
   /// max_wide_levels levels.
   static constexpr std::uint32_t max_frames = 2 * max_wide_levels;
 
-  void take(NodePairBounds& frame, unsigned k, std::uint32_t& a, std::uint32_t& b) const noexcept {
+  void extract(NodePairBounds& frame, unsigned k, std::uint32_t& a, std::uint32_t& b) const noexcept {
     const unsigned i = k / block_width, j = k % block_width;
     a = child(frame.a, i), b = child(frame.b, j);
-    std::uint64_t taken = std::uint64_t{1} << k;
-    // All of a window's discs are tested at once: its other pairs with the same child are settled with this
-    // one.
-    if (frame.a >= leaf_window) taken |= first_column_of_pairs << j;
-    if (frame.b >= leaf_window) taken |= first_row_of_pairs << (k - j);
-    frame.open &= ~taken;
+    std::uint64_t extracted = std::uint64_t{1} << k;
+    // A window is visited as a whole: its other pairs with the same child are extracted with this one.
+    if (frame.a >= leaf_window) extracted |= first_column_of_pairs << j;
+    if (frame.b >= leaf_window) extracted |= first_row_of_pairs << (k - j);
+    frame.open &= ~extracted;
   }
 
   const float* nodes_;

@@ -37,18 +37,19 @@ class RangeAnswers {
 
   /// At most `ApartPairs::capacity` pairs.
   void write() {
-    // A set of roots alone is as quickly searched. Segments are measured only of pairs that do not collide.
+    // In a set of single discs the search is as fast as collide(). Segments are measured only for pairs that do
+    // not collide.
     if (arguments_.stop_below == 0 && shapes_.trees != nullptr) {
-      open_.take_apart(implementation_, arguments_.in, pairs_);
-      for (std::size_t i = 0; i < pairs_.size(); ++i) store_alone(answers_, i, 0);
+      open_.collect_apart(implementation_, arguments_.in, pairs_);
+      for (std::size_t i = 0; i < pairs_.size(); ++i) store_distance(answers_, i, 0);
     } else {
-      open_.take_all(pairs_);
+      open_.collect_all(pairs_);
     }
     search();
   }
 
  private:
-  /// Not inlined, so that what it keeps on the stack is not there with the other kernel.
+  /// Not inlined, so that its stack memory is not in use together with that of the other kernel.
   [[gnu::noinline]] void search() noexcept {
     NearestFeatures nearest[ApartPairs::capacity];
     arguments_.in.pairs = open_.pairs().data();
@@ -59,7 +60,7 @@ class RangeAnswers {
       if (heights_meet(arguments_.in, pair))
         store(k, {shapes_, agents_, in_order(pair), nearest[k]});
       else
-        store_alone(answers_, open_.index(k), std::numeric_limits<float>::infinity());
+        store_distance(answers_, open_.index(k), std::numeric_limits<float>::infinity());
     }
   }
 
@@ -71,8 +72,8 @@ class RangeAnswers {
   void store(std::size_t k, const PlacedFeatures& found) noexcept {
     const std::size_t i = open_.index(k);
     const NearestFeatures& nearest = found.nearest();
-    if (nearest.a == no_node) return store_alone(answers_, i, std::numeric_limits<float>::infinity());
-    if (nearest.distance <= arguments_.stop_below) return store_alone(answers_, i, 0);
+    if (nearest.a == no_node) return store_distance(answers_, i, std::numeric_limits<float>::infinity());
+    if (nearest.distance <= arguments_.stop_below) return store_distance(answers_, i, 0);
     const bool is_turned = open_.pairs()[k].second < open_.pairs()[k].first;
     answers_.distance[i] = nearest.distance;
     if (!answers_.direction.empty()) answers_.direction[i] = found.direction(is_turned ? -1 : 1);
@@ -92,7 +93,7 @@ class RangeAnswers {
   const Agents& agents_;
   const std::span<const Pair> pairs_;
   const ClearanceAnswers& answers_;
-  ApartPairs open_;  ///< not answered yet
+  ApartPairs open_;  ///< pairs without an answer yet
 };
 
 }  // namespace
@@ -106,7 +107,7 @@ void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pai
   require_valid(implementation, view, agents, pairs);
 
   const float stop_below = options.overlap == Overlap::zero ? 0 : -std::numeric_limits<float>::infinity();
-  // How deep discs overlap is asked of discs.
+  // Depths of overlaps are always those of discs.
   const bool of_segments =
       exact_leaves(shapes, options.leaves, "clearance") && options.overlap == Overlap::zero;
   ClearanceArguments arguments{arguments_for(view, agents, {}),

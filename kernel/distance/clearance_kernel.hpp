@@ -17,8 +17,9 @@
 
 namespace bch::detail {
 
-/// Finds the nearest discs of every pair, or with exact leaves the nearest segments. Chunk by chunk: places B in A's frame, bounds the gap by the root discs,
-/// one pair a lane, and traverses the trees of the pairs that may be within the limit.
+/// Finds the nearest discs of every pair, or with exact leaves the nearest segments. For each chunk of pairs
+/// the kernel places B in A's frame, bounds the gaps by the root discs, one pair per lane, and traverses the
+/// trees of the pairs that may be within the limit.
 template <class Simd>
 class ClearanceKernel {
  public:
@@ -79,7 +80,7 @@ class ClearanceKernel {
     return {distance, false, a, b, x, y, cosine, sine};
   }
 
-  /// Returns what the next search of the kernel is to measure.
+  /// Returns the measure of a pair, for the next search of the kernel.
   Measure measure(std::uint32_t pair) noexcept {
     Measure measure(arguments_.limit, arguments_.stop_below, reach(pair));
     const Tree &a = shapes_.trees[transforms_.root_a[pair]], &b = shapes_.trees[transforms_.root_b[pair]];
@@ -97,7 +98,7 @@ class ClearanceKernel {
   struct Step {
     Float x, y, r;
   };
-  /// Returns the step from root disc to root disc, lane = pair.
+  /// Returns the vectors from root disc to root disc, and the sums of their radii, one pair per lane.
   Step between_roots(std::uint32_t k) const noexcept {
     const auto [x, y] =
         transforms_.transforms(k).apply(Simd::load(of_b_.field[0] + k), Simd::load(of_b_.field[1] + k));
@@ -116,7 +117,7 @@ class ClearanceKernel {
     Simd::store(root_bound_ + k, Measure::bound(step.x, step.y, Simd::load(radii), Simd::load(reaches)));
   }
 
-  /// Answers pairs of a set in which every cut is a single disc.
+  /// Answers the pairs of a set of single discs.
   void answer_roots(NearestFeatures* nearest) noexcept {
     alignas(64) float gap[chunk_size], x_of[chunk_size], y_of[chunk_size];
     for (std::uint32_t k = 0; k < transforms_.size; k += Simd::width) {

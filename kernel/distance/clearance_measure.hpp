@@ -15,26 +15,37 @@ namespace bch::detail {
 
 /// Measures the gap between two discs, in float:
 ///
-///     v = sqrt(x^2 + y^2) * near - (r_A + r_B)            near = 1 - 2^-20
+///     v = sqrt(x^2 + y^2) * gap_factor - (r_A + r_B)            gap_factor = 1 - 2^-20
 ///
 /// with (x, y) and the notation of layout/base/rounding.hpp. D is the distance of the exact centres, so |d|
 /// <= D + S.
 ///
-/// Never too large. sqrt(x^2 + y^2) is off by 8.1 u P_B + 5.6 u |d| for the placement and the sum p, and u D
-/// each for the difference, for the squares and their sum, and for the root: 13.7 u S + 8.6 u D. The product
-/// adds u D, the sum of radii u S, the last difference u D or u S. That is 15.7 u S, of which published radii
-/// have 16.5 to spare (contact_error), and 10.6 u D, for which `near` takes off 16.
+/// Never too large. Errors of v, at most:
 ///
-/// Bounds. A disc (C, R) that holds a cut's disc (c, r) has D' - R <= D - r, and its own v', with `nearer` =
-/// 1 - 2^-18 in place of near, exceeds D' - (R_A + R_B) by 17.7 u S + 7.6 u D for the distance (D' <= D + 2
-/// S), and 9 u S + 4 u D for what follows (R_A + R_B <= D' + S, or v' is below any v), with 3 u S + u D more
-/// where the slack is added to the sum of radii; v falls short of D - (r_A + r_B) by 15.7 u S + 26.6 u D. All
-/// together: 45.4 u S, for which `slack` = 64 u S is taken off as well, and 39.2 u D, for which nearer takes
-/// 64. So v' <= v, and leaving out what is above the best never loses a tie. Its root is approximate_sqrt(),
-/// shortened by more than that is off. These sums are static_asserts in clearance_terms.hpp. A test sees the
-/// slack: without it, tests/kernel/queries_test.cpp finds other discs than brute force does, where a
-/// tiny shape lies in a disc of one that is far from its own origin. Only the proof needs that `nearer` is
-/// less than `near`.
+///     (1) sqrt(x^2 + y^2): 8.1 u P_B + 5.6 u |d| (placement, and the sum p) + 3 u D (the difference; the
+///         squares and their sum; the root)                                                 = 13.7 u S + 8.6
+///         u D
+///     (2) the product u D, the sum of radii u S, the last difference u D or u S
+///     (3) in total                                                                 = 15.7 u S + 10.6 u D
+///
+/// Stored radii include 16.5 u S (contact_error), and gap_factor subtracts 16 u D.
+///
+/// Bounds of nodes are never larger than gaps of discs in them. A disc (C, R) that contains a disc (c, r) of
+/// the cut has D' - R <= D - r, where D' <= D + 2 S is the distance of the nodes' centres. The bound v' has
+/// bound_factor = 1 - 2^-18 instead of gap_factor.
+///
+///     (4) v' exceeds D' - (R_A + R_B) by at most 17.7 u S + 7.6 u D (distance) + 9 u S + 4 u D (operations
+///         after it; R_A + R_B <= D' + S, or else v' is below every v) + 3 u S + u D (slack, added to the sum
+///         of radii)
+///     (5) v is smaller than D - (r_A + r_B) by at most 15.7 u S + 26.6 u D
+///     (6) in total                                                                 = 45.4 u S + 39.2 u D
+///
+/// For these, `slack` subtracts 64 u S, and bound_factor 64 u D. So v' <= v, and pruning of bounds above the
+/// best gap never loses a tie. The root of v' is approximate_sqrt(), reduced by more than its error.
+///
+/// clearance_terms.hpp checks these sums. Without the slack, tests/kernel/queries_test.cpp finds other discs
+/// than brute force does, for a tiny shape in a disc of a shape that is far from its own origin. Only the
+/// proof needs bound_factor < gap_factor.
 template <class Simd>
 class ClearanceMeasure {
  public:
@@ -42,14 +53,15 @@ class ClearanceMeasure {
 
   using Segments = SegmentGaps<Simd, ClearanceMeasure>;
 
-  /// Takes the limit and the reach: `reach` is S, metres. A gap at or below `stop_below` ends the search; nothing is nearer.
+  /// `limit`: larger gaps are not searched for. `stop_below`: a gap at most that large ends the search.
+  /// `reach`: S, metres.
   ClearanceMeasure(float limit, float stop_below, float reach) noexcept
       : stop_below_(stop_below), slack_(slack_per_reach * reach) {
     search_within({limit, false, no_node, no_node});
   }
   ClearanceMeasure() = default;
 
-  /// Measures between the segments of two trees that have some, as that number of the searches of `segments`.
+  /// Measures between the segments of two trees, which have segments, as search `number` of `segments`.
   void use_segments(Segments* segments, std::uint32_t number, const Tree& a, const Tree& b,
                     double margin) noexcept {
     segments_ = segments, number_ = number, tree_a_ = &a, tree_b_ = &b;
@@ -57,14 +69,14 @@ class ClearanceMeasure {
     search_within(nearest_);
   }
 
-  /// Names discs by where they stand among the nodes, segments by where they begin among the points; or no_node.
+  /// a and b: indices of discs among the nodes, or of the first points of segments; or no_node.
   struct Nearest {
     float distance;
     bool are_discs;
     std::uint32_t a, b;
   };
   const Nearest& nearest() const noexcept { return nearest_; }
-  /// Returns the largest gap of leaf discs that may hold what is nearer than the best.
+  /// Returns the largest gap of leaf discs that may contain features nearer than the best ones.
   float best() const noexcept { return best_; }
 
   Float bound(Float x, Float y, Float r) const noexcept { return rough_gap(x, y, r + Float(slack_)); }
@@ -72,64 +84,68 @@ class ClearanceMeasure {
     return rough_gap(x, y, r + Float(slack_per_reach) * reach);
   }
 
-  /// Returns which pairs of a block or a window may improve on the best, without square roots. v <= best
-  /// means sqrt(x^2 + y^2) <= (r + best + u |best|) (1 + 19 u). The slack, 8 u |best|, and a factor 1 - 128 u
-  /// on the square have room for that and for the rounding here.
+  /// Returns which pairs of two blocks or windows may improve on the best, without square roots:
+  ///
+  ///     v <= best   =>   sqrt(x^2 + y^2) <= (r + best + u |best|) (1 + 19 u)
+  ///
+  /// The slack, 8 u |best|, and the factor 1 - 128 u of the square exceed these terms and the rounding here.
   typename Simd::Mask may_improve(Float x, Float y, Float r) const noexcept {
     const Float sum = r + Float(most_);
-    return (x * x + y * y) * Float(of_square) <= sum * sum;
+    return (x * x + y * y) * Float(square_factor) <= sum * sum;
   }
 
-  /// Takes all gaps of two windows at once, because a branch on whether one is below the best so far is
+  /// Measures all gaps of two windows before any is compared with the best, because a branch per gap would be
   /// unpredictable.
-  [[gnu::always_inline]] void meet(const Transform& at, Discs a, Discs b, std::uint32_t first_a,
-                                   std::uint32_t first_b) noexcept {
-    if (segments_ != nullptr) return meet_segments(at, a, b, first_a, first_b);
+  [[gnu::always_inline]] void measure_windows(const Transform& at, Discs a, Discs b, std::uint32_t first_a,
+                                              std::uint32_t first_b) noexcept {
+    if (segments_ != nullptr) return collect_leaves(at, a, b, first_a, first_b);
     alignas(64) float gaps[block_pairs];
     visit_disc_pairs<Simd>(
         at, a, b, [&](unsigned k, Float x, Float y, Float r) { Simd::store(gaps + k, gap(x, y, r)); });
     const float least = least_value<Simd>(gaps);
     if (!(least <= best())) return;
     const unsigned k = first_within<Simd>(gaps, least);
-    take_discs(least, first_a + k / block_width, first_b + k % block_width);
+    update_from_discs(least, first_a + k / block_width, first_b + k % block_width);
   }
 
   /// Returns 64 u S, metres.
   float slack() const noexcept { return slack_; }
   const Tree& tree_a() const noexcept { return *tree_a_; }
   const Tree& tree_b() const noexcept { return *tree_b_; }
-  void take_discs(float gap, std::uint32_t a, std::uint32_t b) noexcept { offer({gap, true, a, b}); }
-  void take_segments(float gap, std::uint32_t a, std::uint32_t b) noexcept { offer({gap, false, a, b}); }
+  void update_from_discs(float gap, std::uint32_t a, std::uint32_t b) noexcept { update({gap, true, a, b}); }
+  void update_from_segments(float gap, std::uint32_t a, std::uint32_t b) noexcept {
+    update({gap, false, a, b});
+  }
 
-  /// Returns the gaps of one register's pairs of single discs.
+  /// Returns the gaps of pairs of discs, one per lane.
   static Float gap(Float x, Float y, Float r) noexcept {
     const Float square = x * x + y * y;
-    return Simd::select(square <= Float(far_beyond), xsimd::sqrt(square) * Float(near) - r,
+    return Simd::select(square <= Float(far_beyond), xsimd::sqrt(square) * Float(gap_factor) - r,
                         Float(far_beyond));
   }
 
  private:
   static constexpr float slack_per_reach = 0x1p-18f;
-  static constexpr float near = 1 - 0x1p-20f, nearer = 1 - 0x1p-18f, longer = 1 + 0x1p-20f;
-  static constexpr float of_square = 1 - 0x1p-17f, of_best = 0x1p-21f;
+  static constexpr float gap_factor = 1 - 0x1p-20f, bound_factor = 1 - 0x1p-18f, root_factor = 1 + 0x1p-20f;
+  static constexpr float square_factor = 1 - 0x1p-17f, best_slack = 0x1p-21f;
 
   static constexpr double u = rounding::unit_roundoff;
   static_assert(double{slack_per_reach} >= clearance_terms::slack * u);
-  static_assert(1 - double{near} >= clearance_terms::shortening * u);
-  static_assert(1 - double{nearer} >= clearance_terms::bound_shortening * u);
-  static_assert(1 - double{of_square} >= clearance_terms::square_shortening * u);
-  static_assert(double{of_best} >= 3 * u, "u |best| and the rounding of the sums");
+  static_assert(1 - double{gap_factor} >= clearance_terms::shortening * u);
+  static_assert(1 - double{bound_factor} >= clearance_terms::bound_shortening * u);
+  static_assert(1 - double{square_factor} >= clearance_terms::square_shortening * u);
+  static_assert(double{best_slack} >= 3 * u, "u |best| and the rounding of the sums");
 
   static Float rough_gap(Float x, Float y, Float r) noexcept {
     const Float square = x * x + y * y;
-    const Float root = approximate_sqrt<Simd>(square) * Float(nearer * (1 - Simd::approximation_error));
-    // The square of padding is infinite or NaN.
+    const Float root = approximate_sqrt<Simd>(square) * Float(bound_factor * (1 - Simd::approximation_error));
+    // For padding, the square is infinite or NaN.
     return Simd::select(square <= Float(far_beyond), root - r, Float(far_beyond));
   }
 
-  /// Bounds what is nearest by the discs, and puts the leaves by that may hold it.
-  [[gnu::noinline]] void meet_segments(const Transform& at, Discs a, Discs b, std::uint32_t first_a,
-                                       std::uint32_t first_b) noexcept {
+  /// Bounds the least gap of segments by the discs of two windows, and stores the leaves that may contain it.
+  [[gnu::noinline]] void collect_leaves(const Transform& at, Discs a, Discs b, std::uint32_t first_a,
+                                        std::uint32_t first_b) noexcept {
     alignas(64) float gaps[block_pairs], squares[block_pairs];
     visit_disc_pairs<Simd>(at, a, b, [&](unsigned k, Float x, Float y, Float r) {
       const Float square = x * x + y * y;
@@ -137,7 +153,7 @@ class ClearanceMeasure {
       Simd::store(squares + k, Simd::select(square <= Float(far_beyond), square + r * r, Float(far_beyond)));
     });
     if (!(least_value<Simd>(gaps) <= best_)) return;
-    const float most = __builtin_sqrtf(least_value<Simd>(squares)) * longer + slack_;
+    const float most = __builtin_sqrtf(least_value<Simd>(squares)) * root_factor + slack_;
     if (max_gap(most) < best_) bound_by(max_gap(most));
     for (std::uint64_t left = all_within<Simd>(gaps, best_); left != 0; left &= left - 1) {
       const auto k = static_cast<unsigned>(__builtin_ctzll(left));
@@ -145,8 +161,9 @@ class ClearanceMeasure {
     }
   }
 
-  /// Takes what is less than the best or comes before it: segments before discs, then the lower numbers.
-  void offer(const Nearest& other) noexcept {
+  /// Replaces the nearest features by others that are nearer, or as near and first in order: segments before
+  /// discs, then lower indices.
+  void update(const Nearest& other) noexcept {
     if (other.distance > nearest_.distance) return;
     const bool is_before = other.are_discs != nearest_.are_discs ? nearest_.are_discs
                            : other.a != nearest_.a               ? other.a < nearest_.a
@@ -158,7 +175,7 @@ class ClearanceMeasure {
     nearest_ = nearest;
     const float gap = max_gap(nearest.distance);
     if (gap < best_) bound_by(gap);
-    // No comparison with these holds.
+    // Every comparison with these is false, so the search ends.
     if (nearest.distance <= stop_below_)
       nearest_.distance = best_ = -__builtin_inff(), most_ = __builtin_nanf("");
   }
@@ -168,14 +185,14 @@ class ClearanceMeasure {
     bound_by(max_gap(nearest.distance));
   }
 
-  /// Returns the largest gap of leaf discs that may hold what is as near.
+  /// Returns the largest gap of leaf discs that may contain features at that distance.
   float max_gap(float distance) const noexcept {
     return segments_ == nullptr ? distance : Segments::max_gap(margin_, distance);
   }
 
   void bound_by(float gap) noexcept {
     best_ = gap;
-    most_ = gap + of_best * __builtin_fabsf(gap) + slack_;
+    most_ = gap + best_slack * __builtin_fabsf(gap) + slack_;
   }
 
   Segments* segments_ = nullptr;
@@ -185,7 +202,7 @@ class ClearanceMeasure {
   Nearest nearest_;
   float best_;
   float stop_below_, slack_;
-  float most_;  ///< what is compared with instead of the best
+  float most_;  ///< the best plus its slack, for may_improve()
 };
 
 }  // namespace bch::detail

@@ -5,9 +5,8 @@
 
 #include "layout/base/rounding.hpp"
 
-/// Holds the errors of a clearance, in units of u: the sums that kernel/distance/clearance_measure.hpp
-/// derives. `of_reach` counts in S, the reaches of both shapes, `of_distance` in D, the distance of the exact
-/// centres.
+/// Holds the errors of a clearance, derived in kernel/distance/clearance_measure.hpp, in units of u S
+/// (`of_reach`) and u D (`of_distance`): S is the sum of both reaches, D the distance of the exact centres.
 namespace bch::detail::clearance_terms {
 
 namespace r = rounding::terms;
@@ -21,26 +20,26 @@ static_assert(root_of_distance >= r::position + r::sum + r::apart + r::square + 
 constexpr double gap_of_reach = 15.7, gap_of_distance = 10.6;
 static_assert(gap_of_reach >= root_of_reach + 1 + 1);
 static_assert(gap_of_distance >= root_of_distance + 1 + 1);
-static_assert(r::contact_error >= gap_of_reach, "what published radii have to spare");
+static_assert(r::contact_error >= gap_of_reach, "what stored radii include");
 
-/// The amount that the gap's factor takes off, and the total by which a gap then falls short.
+/// The reduction by gap_factor, and the most by which a gap is then too small.
 constexpr double shortening = 16;
 constexpr double short_of_reach = gap_of_reach, short_of_distance = 26.6;
 static_assert(shortening >= gap_of_distance);
 static_assert(short_of_distance >= gap_of_distance + shortening);
 
-/// The amount by which a bound exceeds what it bounds: the error of the distance, with D' <= D + 2 S, of the
-/// operations after it, and of an enlarged sum of the radii. The shortfall of the gap is added.
+/// The most by which a bound exceeds a gap: the errors of the distance, with D' <= D + 2 S, of the operations
+/// after it and of the enlarged sum of the radii, and the most by which a gap is too small.
 constexpr double bound_of_reach = 45.4, bound_of_distance = 39.2;
 static_assert(bound_of_reach >= (root_of_reach + 4) + 9 + 3 + short_of_reach);
 static_assert(bound_of_distance >= (root_of_distance - 1) + 4 + 1 + short_of_distance);
 
-/// The amount that is taken off bounds: a multiple of S as a difference, of D as a factor.
+/// The reduction of bounds: in S as a difference, in D as a factor.
 constexpr double slack = 64, bound_shortening = 64;
 static_assert(slack >= bound_of_reach && bound_shortening >= bound_of_distance);
 
-/// The amount that is taken off the square of a distance that may improve on the best: twice the amount by
-/// which a gap's root is longer, and the rounding of both sides of the comparison.
+/// The reduction of the squared distance in may_improve(): twice the relative error of a gap's root, and the
+/// rounding of both sides of the comparison.
 constexpr double square_shortening = 128;
 static_assert(square_shortening >= 2 * (shortening + 3) + 6);
 

@@ -13,7 +13,7 @@
 namespace bch::detail {
 namespace {
 
-/// Begins the message about one of what is asked.
+/// Returns the beginning of a message about one pair or agent.
 std::string place(const QueryName& context, std::size_t i) {
   return std::string(context.query) + ": " + context.one + " " + std::to_string(i) + ": ";
 }
@@ -22,7 +22,7 @@ void check_size_or_none(const QueryName& context, std::size_t size, const char* 
   if (size != 0) check_size(context, size, what);
 }
 
-/// Requires the sizes of all answers but the discs or spheres, and the options.
+/// Checks the sizes of all answers except discs or spheres, and the options.
 template <class Answers, class Options>
 void require_valid_answers(const QueryName& context, const Answers& answers, const Options& options) {
   check_size(context, answers.distance.size(), "distances");
@@ -35,7 +35,7 @@ void require_valid_answers(const QueryName& context, const Answers& answers, con
 }
 
 template <class Answers>
-void store_distance(const Answers& answers, std::size_t i, float distance) noexcept {
+void store_common(const Answers& answers, std::size_t i, float distance) noexcept {
   answers.distance[i] = distance;
   if (!answers.direction.empty()) answers.direction[i] = {};
   if (!answers.points.empty()) answers.points[i] = {};
@@ -87,13 +87,13 @@ void require_on_ground(const QueryName& context, const Displacements& displaceme
                                 std::to_string(displacements.z.size()));
 }
 
-void store_alone(const ClearanceAnswers& answers, std::size_t i, float distance) noexcept {
-  store_distance(answers, i, distance);
+void store_distance(const ClearanceAnswers& answers, std::size_t i, float distance) noexcept {
+  store_common(answers, i, distance);
   if (!answers.discs.empty()) answers.discs[i] = DiscPair::none;
 }
 
-void store_alone(const BodyClearanceAnswers& answers, std::size_t i, float distance) noexcept {
-  store_distance(answers, i, distance);
+void store_distance(const BodyClearanceAnswers& answers, std::size_t i, float distance) noexcept {
+  store_common(answers, i, distance);
   if (!answers.spheres.empty()) answers.spheres[i] = DiscPair::none;
 }
 

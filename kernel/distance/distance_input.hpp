@@ -12,22 +12,24 @@
 namespace bch::detail {
 
 // The input of queries about distances, of pairs and of agents against obstacles.
-// Errors: each throws std::invalid_argument naming the query, the pair or agent where each has a value, and the value.
+// Errors: each function throws std::invalid_argument naming the query, the value, and the pair or agent if it
+// belongs to one.
 
-/// Requires of clearance() the sizes of its answers, and its options.
+/// Checks the sizes of the answers of clearance(), and its options.
 void require_valid(const QueryName& context, const ClearanceAnswers& answers,
                    const ClearanceOptions& options);
 void require_valid(const QueryName& context, const BodyClearanceAnswers& answers,
                    const BodyClearanceOptions& options);
-/// Requires of within() one distance, or as many as it answers, none of them negative or NaN.
+/// Checks the distances of within(): one, or one per answer, none negative or NaN.
 void require_distances(const QueryName& context, std::span<const double> distances);
-/// Requires of time_of_impact() the sizes of displacements and times, and displacements within the limits.
+/// Checks the sizes of displacements and times of time_of_impact(), and that displacements are within the
+/// limits.
 void require_valid(const QueryName& context, const Displacements& displacements, std::size_t times);
-/// Refuses displacements in z.
+/// Rejects displacements in z.
 void require_on_ground(const QueryName& context, const Displacements& displacements);
 
-/// Writes the distance of a pair or an agent and nothing else.
-void store_alone(const ClearanceAnswers& answers, std::size_t i, float distance) noexcept;
-void store_alone(const BodyClearanceAnswers& answers, std::size_t i, float distance) noexcept;
+/// Writes the distance of a pair or agent, and "none" to its other outputs.
+void store_distance(const ClearanceAnswers& answers, std::size_t i, float distance) noexcept;
+void store_distance(const BodyClearanceAnswers& answers, std::size_t i, float distance) noexcept;
 
 }  // namespace bch::detail

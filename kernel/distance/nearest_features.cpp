@@ -23,7 +23,8 @@ Vec2 rounded(PlanePoint v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y)};
 }
 
-/// Returns the parameter t of a segment at which it is nearest to a point, from where it begins.
+/// Returns the parameter t of the point of a segment that is nearest to a point, given relative to its
+/// beginning.
 double nearest_t(PlanePoint edge, PlanePoint to_point) {
   const double square = edge.x * edge.x + edge.y * edge.y;
   return square > 0 ? std::clamp((to_point.x * edge.x + to_point.y * edge.y) / square, 0.0, 1.0) : 0;
@@ -31,7 +32,7 @@ double nearest_t(PlanePoint edge, PlanePoint to_point) {
 
 }  // namespace
 
-std::uint32_t leaf_that_holds(const ShapeSetView& shapes, std::size_t root, std::uint32_t point, double x,
+std::uint32_t leaf_containing(const ShapeSetView& shapes, std::size_t root, std::uint32_t point, double x,
                               double y) {
   const Tree& tree = shapes.trees[root];
   const LeafSegments<BaseLanes> leaves{shapes.leaf_segments};
@@ -64,7 +65,7 @@ PlacedFeatures::Segment PlacedFeatures::segment(std::uint32_t point) const noexc
       {double{from.x}, double{from.y}}, {double{to.x} - double{from.x}, double{to.y} - double{from.y}}, 0};
 }
 
-/// Segments that do not meet are nearest at an end of one.
+/// The nearest points of two disjoint segments include an end of one.
 PlacedFeatures::Segments PlacedFeatures::segments() const {
   const auto [first, second] = pair_;
   Segments found{segment(nearest_.a), segment(nearest_.b), {}};
@@ -108,7 +109,7 @@ Vec2 PlacedFeatures::direction(double sign) const {
   return rounded(along(sign));
 }
 
-/// Returns where an agent's disc goes as far as it does along a unit vector.
+/// Returns the point of an agent's disc that is farthest along a unit vector.
 Vec2 PlacedFeatures::end(std::uint32_t agent, std::uint32_t place, PlanePoint unit) const {
   const Disc of = disc(agent, place);
   const auto [x, y] = turned(rotation(agents_.heading[agent]), PlanePoint{of.x, of.y});
@@ -131,7 +132,7 @@ DiscPair PlacedFeatures::numbers() const {
   if (nearest_.are_segments) {
     const Segments of = segments();
     const auto leaf = [this](std::uint32_t agent, std::uint32_t point, PlanePoint at) {
-      return leaf_that_holds(shapes_, root(agent), point, at.x, at.y);
+      return leaf_containing(shapes_, root(agent), point, at.x, at.y);
     };
     return {leaf(first, nearest_.a, of.a.nearest()), leaf(second, nearest_.b, of.b.nearest())};
   }

@@ -14,38 +14,39 @@
 
 namespace bch::detail {
 
-/// Returns the number of the leaf of a tree, `root`, that holds a segment of an outline, named by the point where it begins: the one whose disc is
-/// nearest to (x, y), of equally near ones the first.
-std::uint32_t leaf_that_holds(const ShapeSetView& shapes, std::size_t root, std::uint32_t point, double x,
+/// Returns the number of the leaf of tree `root` that contains the segment beginning at `point`. Of several
+/// leaves, the one whose disc is nearest to (x, y); of equally near ones, the first.
+std::uint32_t leaf_containing(const ShapeSetView& shapes, std::size_t root, std::uint32_t point, double x,
                               double y);
 
-/// Holds what a kernel found of two agents, and all outputs of it. What is computed here is so in double, where squares do not underflow,
-/// and from the positions themselves.
+/// Computes the outputs of a clearance from the nearest features that a kernel found for two agents: in
+/// double, in which squares do not underflow, and from the agents' positions.
 class PlacedFeatures {
  public:
-  /// Takes the pair, the lower index first. Everything has to outlive this.
+  /// `pair`: the lower index first. Keeps references to all arguments.
   PlacedFeatures(const ShapeSetView& shapes, const Agents& agents, Pair pair,
                  const NearestFeatures& nearest) noexcept
       : shapes_(shapes), agents_(agents), pair_(pair), nearest_(nearest) {}
 
   const NearestFeatures& nearest() const noexcept { return nearest_; }
 
-  /// Returns the numbers of the discs in the cuts. Of segments: of the leaves that hold them, those whose discs are nearest to points();
-  /// of equally near ones the first.
+  /// Returns the numbers of the discs in their cuts. For segments, those of the leaves that contain them, by
+  /// leaf_containing() of points().
   DiscPair numbers() const;
 
-  /// Returns the unit vector from one feature to the other, or with a sign of -1 that from the second to the first; (sign, 0)
-  /// where centres of discs coincide.
+  /// Returns sign (1 or -1) times the unit vector from the first feature to the second; (sign, 0) if centres
+  /// of discs coincide.
   Vec2 direction(double sign) const;
 
-  /// Returns the points that are nearest to each other.
+  /// Returns the nearest points of the two features.
   NearestPoints points() const;
 
  private:
   struct Disc {
     double x, y, radius;
   };
-  /// Represents a segment of an agent, in its frame, and the parameter t at which it is nearest to the other one.
+  /// Represents a segment of an agent, in the agent's frame, and the parameter t of its point nearest to the
+  /// other segment.
   struct Segment {
     PlanePoint from, edge;
     double t;
@@ -53,7 +54,7 @@ class PlacedFeatures {
   };
   struct Segments {
     Segment a, b;
-    PlanePoint between;  ///< from one nearest point to the other, in the world's axes
+    PlanePoint between;  ///< from a's nearest point to b's, in the world's axes
   };
 
   std::size_t root(std::uint32_t agent) const noexcept { return agents_.root(agent, shapes_.level_count); }

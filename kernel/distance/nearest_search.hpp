@@ -12,14 +12,15 @@
 
 namespace bch::detail {
 
-/// Does what BestFirstTraversal does, for many pairs of agents side by side, so that latencies and cache misses of many
-/// overlap. Beside what that asks of a measure:
+/// Does the search of BestFirstTraversal for many pairs of agents side by side, so that latencies and cache
+/// misses of many pairs overlap. A measure also has
 ///
-///     Mask may_improve(Float x, Float y, Float r)   false only where no disc below has a value up to best()
+///     Mask may_improve(Float x, Float y, Float r)   false only if no discs below have a value up to best()
 ///
-/// First every pair descends along the least bounds to its first leaves, in rounds, and keeps the bounds on
-/// its way. The best by then is near the end's, so the order of the rest hardly matters, and finding it costs
-/// more than it spares.
+/// 1. Every pair descends to its first leaves, always to the children with the least bound, and keeps the
+///    bounds on the way. One round advances each pair by a level.
+/// 2. The best value is then close to the final one, so the order of the remaining nodes hardly matters: they
+///    are visited without sorting, which would cost more than it saves.
 template <class Simd, class Measure>
 class NearestSearch {
  public:
@@ -30,7 +31,7 @@ class NearestSearch {
   std::uint32_t size() const noexcept { return size_; }
   const Measure& measure(std::uint32_t pair) const noexcept { return pairs_[pair].measure; }
 
-  /// Adds a pair, for which there has to be room.
+  /// Adds a pair; size() must be less than capacity.
   void add(const Transform& b_in_a, const Tree& a, const Tree& b, const Measure& measure) noexcept {
     steps_[size_] = {size_, a.top, b.top};
     pairs_[size_] = {measure, b_in_a, a.stride, b.stride, 0};
@@ -55,10 +56,11 @@ class NearestSearch {
  private:
   using Float = typename Simd::Float;
   using Frame = NodePairBounds;
-  static constexpr std::uint32_t max_kept = 2;  ///< frames of a descent; deeper ones are traversed at once
+  static constexpr std::uint32_t max_kept =
+      2;  ///< levels of a descent whose bounds are kept; below these, everything is traversed at once
   static constexpr std::uint32_t list_capacity = 1024;
 
-  /// Holds two agents.
+  /// Holds a pair of agents.
   struct Searched {
     Measure measure;
     Transform at;
@@ -66,7 +68,7 @@ class NearestSearch {
     std::uint32_t frames;
   };
 
-  /// Holds two nodes of such a pair.
+  /// Holds two nodes to visit, of a pair of agents.
   struct Step {
     std::uint32_t pair, a, b;
   };
@@ -76,7 +78,7 @@ class NearestSearch {
     Step step[list_capacity];
   };
 
-  /// Descends in rounds: a block for every pair, then a choice for every pair.
+  /// Descends in rounds: bounds of two blocks for every pair, then the next step for every pair.
   void descend() noexcept {
     std::uint32_t open = size_;
     for (std::uint32_t depth = 0; open != 0; ++depth) {
@@ -85,7 +87,7 @@ class NearestSearch {
         const Step step = steps_[k];
         Searched& pair = pairs_[step.pair];
         if ((step.a & step.b) >= leaf_window) {
-          meet(step);
+          measure_windows(step);
         } else if (depth == max_kept) {
           traversal_.run(pair.at, step.a, step.b, pair.stride_a, pair.stride_b, pair.measure);
         } else {
@@ -99,21 +101,21 @@ class NearestSearch {
       for (std::uint32_t k = 0; k < left; ++k) {
         const std::uint32_t pair = steps_[k].pair;
         steps_[open].pair = pair;
-        open += traversal_.take_least(frames_[pair][depth], pairs_[pair].measure.best(), steps_[open].a,
-                                      steps_[open].b);
+        open += traversal_.extract_least(frames_[pair][depth], pairs_[pair].measure.best(), steps_[open].a,
+                                         steps_[open].b);
       }
     }
   }
 
-  /// Collects the open children of a frame that may still improve on the best.
+  /// Adds the unvisited children of two nodes that may still improve on the best.
   void collect(std::uint32_t pair, const Frame& frame) noexcept {
     add_children({pair, frame.a, frame.b},
                  all_within<Simd>(frame.bound, pairs_[pair].measure.best()) & frame.open);
   }
 
-  /// Adds the children of two nodes at the set bits.
+  /// Adds the pairs of children whose bits are set.
   void add_children(const Step& step, std::uint64_t bits) noexcept {
-    // A window is tested as a whole: once with each child of the other.
+    // A window is visited as a whole, once with each child of the other node.
     if (step.a >= leaf_window) bits = fold(bits, 8) & first_row_of_pairs;
     if (step.b >= leaf_window) bits = fold(bits, 1) & first_column_of_pairs;
     for (; bits != 0; bits &= bits - 1) {
@@ -121,7 +123,7 @@ class NearestSearch {
       const Step child{step.pair, traversal_.child(step.a, k / block_width),
                        traversal_.child(step.b, k % block_width)};
       if ((child.a & child.b) >= leaf_window)
-        take_window(child);
+        visit_window(child);
       else if (inner_.size < list_capacity)
         inner_.step[inner_.size++] = child;
       else
@@ -129,7 +131,7 @@ class NearestSearch {
     }
   }
 
-  /// Ors the bits of eight lanes, each `apart` from the next, into the first.
+  /// Combines, by "or", eight bits at a distance of `apart` into the first of them.
   static std::uint64_t fold(std::uint64_t bits, unsigned apart) noexcept {
     for (unsigned far = 4 * apart; far >= apart; far /= 2) bits |= bits >> far;
     return bits;
@@ -142,13 +144,13 @@ class NearestSearch {
     }
   }
 
-  /// Measures a window's discs only if one may improve on the best; few do. An improvement spares many of the
-  /// next windows.
-  void take_window(const Step& step) noexcept {
-    if (improving(step) != 0) meet(step);
+  /// Measures the discs of two windows only if some may improve on the best, which few do. Each improvement
+  /// excludes many of the following windows.
+  void visit_window(const Step& step) noexcept {
+    if (improving(step) != 0) measure_windows(step);
   }
 
-  /// Returns the bits of the pairs of discs that may improve on the best.
+  /// Returns the bits of the pairs of discs that may improve on the best value.
   [[gnu::always_inline]] std::uint64_t improving(const Step& step) const noexcept {
     const Searched& pair = pairs_[step.pair];
     std::uint64_t bits = 0;
@@ -160,9 +162,9 @@ class NearestSearch {
     return bits;
   }
 
-  [[gnu::always_inline]] void meet(const Step& step) noexcept {
+  [[gnu::always_inline]] void measure_windows(const Step& step) noexcept {
     Searched& pair = pairs_[step.pair];
-    traversal_.meet(pair.at, step.a, step.b, pair.stride_a, pair.stride_b, pair.measure);
+    traversal_.measure_windows(pair.at, step.a, step.b, pair.stride_a, pair.stride_b, pair.measure);
   }
 
   void traverse(const Step& step) noexcept {

@@ -13,59 +13,67 @@
 
 namespace bch::detail {
 
-/// Measures, for clearance(), the gaps between segments that exact leaves hold, lane = pair of segments. In double, with B's ends as the
-/// floats of the placement put them:
+/// Measures, for clearance(), the gaps between segments of exact leaves, one pair of segments per lane. In
+/// double, from the placed ends of B's segments, which are floats:
 ///
-///     w = max(0, s * near - m)        near = 1 - 2^-21, then rounded to float
+///     w = max(0, s * gap_factor - m)        gap_factor = 1 - 2^-21, then rounded to float
 ///
-/// where s is the least distance of an end from the other segment, and m the margin of exact leaves. Pairs for which collide() says 1 have
-/// a distance of 0 and are not asked about here, so that no segments cross.
+/// s is the least distance of an end from the other segment, and m the margin of exact leaves. Pairs of
+/// agents for which collide() returns 1 have a distance of 0 and are not measured, so no two segments cross.
 ///
-/// Never too large. With D the distance of the outlines, |d| <= D + S, the placed ends are off by (turn) u |b| + (position) u |d|
-/// <= 8.9 u S + 4.6 u D, and the grids; m holds what is of S and of the grids. Near takes off 8 u, of which 4.6 are for D and 1 for
-/// the rounding of w.
+/// Let D be the distance of the outlines, so |d| <= D + S.
 ///
-/// Below D by no more than m, 8.9 u S, the grids, and (4.6 + 8 + 1) u D: (segment_price), and 0.9 um per metre of D.
+///     (1) errors of the placed ends: (turn) u |b| + (position) u |d| <= 8.9 u S + 4.6 u D, and the grids
+///     (2) w is never too large: m covers 8.9 u S and the grids; gap_factor covers 8 u D >= 4.6 u D + u D
+///         (rounding)
+///     (3) w is too small by at most m + 8.9 u S + the grids + (4.6 + 8 + 1) u D: (segment_price), and 0.9 um
+///         per metre of D
 ///
-/// Which leaves have to be examined. The nearest points of two outlines lie in two leaves that hold their segments. The gap of the
-/// discs of these is at most D, see ClearanceMeasure, and so at most w + 2 m + 14 u D: max_gap(). And some pair of leaves has a w of at most
-/// sqrt(D'^2 + r_A^2 + r_B^2), where D' is the distance of the centres: half of a smallest disc, whichever, has a point of what it holds on
-/// its edge, and so one that is no farther from a point at D' than sqrt(D'^2 + r^2). So what is nearest is sought among discs
-/// alone, and the leaves that may hold it are put by until the search ends, when few of them are left.
+/// Which leaves are examined:
 ///
-/// Which pairs of segments are measured in double. Their distances are computed in float first, f, all of one search with one placement:
+///     (4) The nearest points of two outlines lie in two leaves whose discs have a gap of at most D (see
+///         ClearanceMeasure), so of at most w + 2 m + 14 u D: max_gap().
+///     (5) Two leaves at a distance D' of their centres have w <= sqrt(D'^2 + r_A^2 + r_B^2): every half of a
+///         smallest enclosing disc has a point of its content on its circle, which is at most sqrt(D'^2 +
+///         r^2) away from a point at distance D'.
 ///
-///     |f - s| <= 30 u S + 14 u D      6 u S + 2 u D for B's ends placed in float, 12 u (D + 2 S) for the steps to the nearest point
+/// So the search compares discs alone, and stores the leaves that may contain the nearest segments. finish()
+/// measures these, after the first leaves of all searches and at the end.
 ///
-/// So the least w is at most f * longer + slack (slack = 64 u S) for every pair, and also at most the best so far. A pair may reach that
-/// only if its f is at most (that + m + slack) * longer. About one pair in ten is left.
+/// Which pairs of segments are measured in double. Their distances f are first computed in float, for all pairs
+/// of one search with one placement:
 ///
-/// `Search`: what one pair of agents is sought with; it has
+///     (6) |f - s| <= 30 u S + 14 u D: 6 u S + 2 u D for B's ends placed in float, 12 u (D + 2 S) for the steps
+///         to the nearest point
+///     (7) the least w is at most f * longer + slack (64 u S) for every pair, and at most the best so far
+///     (8) a pair can reach that bound only if its f is at most (bound + m + slack) * longer
+///
+/// About one pair in ten remains.
+///
+/// `Search` is the search of one pair of agents:
 ///
 ///     const Tree &tree_a(), &tree_b()
-///     float best()                                      gaps of leaves above it are of no interest
-///     float nearest().distance                          no w above it is of interest
-///     float slack()                                     64 u S
-///     void take_segments(float w, uint32 a, uint32 b)   named by the points where they begin
-///     void take_discs(float gap, uint32 a, uint32 b)    of leaves with too many segments
+///     float best()                                                   leaves with a larger gap are skipped
+///     float nearest().distance                                       a larger w is ignored
+///     float slack()                                                  64 u S
+///     void update_from_segments(float w, uint32 a, uint32 b)         a, b: the segments' first points
+///     void update_from_discs(float gap, uint32 a, uint32 b)          for leaves with too many segments
 template <class Simd, class Search>
 class SegmentGaps : private SegmentBatch<Simd> {
  public:
-  static constexpr std::uint32_t max_searches = 32;  ///< whose leaves are put by at a time
+  static constexpr std::uint32_t max_searches = 32;  ///< that may have stored leaves at the same time
 
   explicit SegmentGaps(const ShapeSetView& shapes) noexcept : SegmentBatch<Simd>(shapes, places_) {}
 
-  /// Says where the shapes of a search are.
+  /// Sets the relative placement and the margin of a search.
   void place(std::uint32_t search, const Transform& b_in_a, double margin) noexcept {
     places_[search] = {b_in_a, margin};
   }
 
-  /// Returns the largest gap of discs whose segments may have a gap of at most `best`.
-  static float max_gap(float margin, float best) noexcept {
-    return best * (1 + of_distance) + margin * 2.001f;
-  }
+  /// Returns the largest gap of discs whose segments may have a gap of at most `best`: (4).
+  static float max_gap(float margin, float best) noexcept { return best * (1 + gap_slack) + margin * 2.001f; }
 
-  /// Puts two leaves by, with the gap of their discs. `search` has to stay where it is until finish().
+  /// Stores two leaves with the gap of their discs, for finish(). `search` must not move until then.
   void add(std::uint32_t number, Search& search, std::uint32_t leaf_a, std::uint32_t leaf_b,
            float gap) noexcept {
     if (open_size_ == open_capacity) finish();
@@ -74,7 +82,7 @@ class SegmentGaps : private SegmentBatch<Simd> {
     last_[number] = ++open_size_;
   }
 
-  /// Measures the segments of all leaves that were put by and may still hold what is nearest.
+  /// Measures the segments of all stored leaves that may still contain the nearest ones.
   void finish() noexcept {
     if (open_size_ != 0) measure_all();
   }
@@ -86,11 +94,11 @@ class SegmentGaps : private SegmentBatch<Simd> {
   using Batch::parts;
   static constexpr std::uint32_t open_capacity = 1024;
 
-  static constexpr double near = 1 - 0x1p-21;
-  static constexpr float of_distance = 0x1p-19f, longer = 1 + 0x1p-16f;
+  static constexpr double gap_factor = 1 - 0x1p-21;
+  static constexpr float gap_slack = 0x1p-19f, longer = 1 + 0x1p-16f;
   static constexpr double u = rounding::unit_roundoff;
-  static_assert((1 - near) >= (rounding::terms::position + 2) * u);
-  static_assert(double{of_distance} >= (2 * rounding::terms::position + 8 + 4) * u);
+  static_assert((1 - gap_factor) >= (rounding::terms::position + 2) * u);
+  static_assert(double{gap_slack} >= (2 * rounding::terms::position + 8 + 4) * u);
   static_assert(rounding::segment_margin >= (rounding::terms::segment_place + rounding::terms::higher) * u);
 
   struct Leaves {
@@ -110,7 +118,7 @@ class SegmentGaps : private SegmentBatch<Simd> {
         if (!this->collect(number, this->row(search.tree_a(), leaves.a), 0,
                            this->row(search.tree_b(), leaves.b), 0, number,
                            [&] { measure_collected(number); }))
-          search.take_discs(leaves.gap < 0 ? 0 : leaves.gap, leaves.a, leaves.b);
+          search.update_from_discs(leaves.gap < 0 ? 0 : leaves.gap, leaves.a, leaves.b);
       }
       measure_collected(number);
       last_[number] = 0;
@@ -124,12 +132,12 @@ class SegmentGaps : private SegmentBatch<Simd> {
     float gap[Simd::width];
     this->test_all([&](std::uint32_t k) { return measure(k, gap); },
                    [&](std::uint32_t k, unsigned lane) {
-                     searches_[number]->take_segments(gap[lane], this->segment_a(k + lane),
-                                                      this->segment_b(k + lane));
+                     searches_[number]->update_from_segments(gap[lane], this->segment_a(k + lane),
+                                                             this->segment_b(k + lane));
                    });
   }
 
-  /// Retains the pairs that may be nearest by their distances in float.
+  /// Retains the pairs that may be nearest, by their distances in float: (8).
   void retain_nearest(std::uint32_t number) noexcept {
     const Search& search = *searches_[number];
     const auto b_in_a = places_[number].b_in_a.template in_lanes<Float>();
@@ -149,14 +157,15 @@ class SegmentGaps : private SegmentBatch<Simd> {
         [&](std::uint32_t k) { return Simd::bits(Simd::load(squares + k) <= Float(limit * limit)); });
   }
 
-  /// Measures a register of pairs. Returns: bits of all of them.
+  /// Measures one pair per lane. Returns: the bits of all lanes.
   std::uint32_t measure(std::uint32_t k, float* gap) const noexcept {
     typename Batch::Pair pairs[parts];
     this->load(k, pairs);
     Double gaps[parts];
     for (std::uint32_t part = 0; part < parts; ++part) {
       const auto& pair = pairs[part];
-      gaps[part] = xsimd::max(xsimd::sqrt(pair.square_of_ends()) * Double(near) - pair.margin, Double(0.0));
+      gaps[part] =
+          xsimd::max(xsimd::sqrt(pair.square_of_ends()) * Double(gap_factor) - pair.margin, Double(0.0));
     }
     Simd::store(gap, Simd::to_float(gaps));
     return ~std::uint32_t{0} >> (32 - Simd::width);

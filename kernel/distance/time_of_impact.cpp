@@ -24,7 +24,7 @@ namespace {
 void answer(const Implementation& implementation, TimeOfImpactArguments arguments,
             std::span<const Pair> pairs, const double* x, const double* y, float* times) {
   ApartPairs open;
-  open.take_apart(implementation, arguments.in, pairs);
+  open.collect_apart(implementation, arguments.in, pairs);
   float displacement_x[ApartPairs::capacity], displacement_y[ApartPairs::capacity],
       found[ApartPairs::capacity];
   for (std::size_t k = 0; k < open.size(); ++k) {

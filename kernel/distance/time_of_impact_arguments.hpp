@@ -7,12 +7,12 @@
 
 namespace bch::detail {
 
-/// Holds the input and output of a time of impact kernel. These are plain pointers for the reason that Arguments
-/// states. The agent of a pair with the lower index is A.
+/// Holds the input and output of a time of impact kernel, as plain pointers for the reason given at
+/// Arguments. The agent of a pair with the lower index is A.
 struct TimeOfImpactArguments {
-  Arguments in;        ///< without states; pairs that do not collide now
-  const float *x, *y;  ///< per pair: how far A moves relative to B, metres, in the world
-  float* time;         ///< per pair; infinite: none
+  Arguments in;        ///< without states; pairs that do not collide at the start
+  const float *x, *y;  ///< per pair: the displacement of A relative to B, metres, in the world
+  float* time;         ///< per pair; infinite: no contact
 };
 
 }  // namespace bch::detail

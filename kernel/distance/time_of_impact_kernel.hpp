@@ -15,9 +15,9 @@
 
 namespace bch::detail {
 
-/// Finds the first contact of every pair, none of which collides now. The kernel works chunk by chunk. It
-/// places B in A's frame, separates by their supports the pairs that a line keeps apart during all of the displacement,
-/// and traverses the trees of the rest.
+/// Finds the first contact of every pair, none of which collides at the start. For each chunk of pairs the
+/// kernel places B in A's frame, rejects by supports the pairs that a line separates during the whole
+/// displacement, and traverses the trees of the rest.
 template <class Simd>
 class TimeOfImpactKernel {
  public:
@@ -51,7 +51,7 @@ class TimeOfImpactKernel {
       for (std::uint32_t k = 0; k < open_.size; ++k) time[open_.pair[k]] = time_of_roots(open_.pair[k]);
       return;
     }
-    if (shapes_.support != nullptr && open_.size != 0) part_by_supports();
+    if (shapes_.support != nullptr && open_.size != 0) reject_by_supports();
     for (std::uint32_t k = 0; k < open_.size; ++k) {
       const std::uint32_t pair = open_.pair[k];
       traversal_.add(begin + pair, transforms_.transform(pair), shapes_.trees[transforms_.root_a[pair]],
@@ -59,7 +59,7 @@ class TimeOfImpactKernel {
     }
   }
 
-  /// Turns the displacements into A's frame.
+  /// Rotates the displacements into A's frame.
   void rotate_displacements(const float* x, const float* y) noexcept {
     for (std::uint32_t k = 0; k < transforms_.size; ++k) {
       const auto [cosine, sine] = transforms_.heading(k);
@@ -68,7 +68,7 @@ class TimeOfImpactKernel {
     }
   }
 
-  void part_by_supports() noexcept {
+  void reject_by_supports() noexcept {
     if (!shapes_.rows_follow_roots) {
       for (std::uint32_t k = 0; k < transforms_.size; ++k)
         row_a_[k] = shapes_.roots[transforms_.root_a[k]].row,
@@ -85,14 +85,19 @@ class TimeOfImpactKernel {
           [](std::uint32_t) {});
   }
 
-  /// Returns the slack of supports during the displacement. Supports may be those of outlines, beyond which discs protrude. Discs touch by
-  /// the measure at 16 u D more than by collide()'s test, D <= S + |t|. In addition to what supports have room for, in
-  /// layout/base/rounding.hpp, the displacement's product
-  /// with a direction is off by 3 u |v|, the differences by 2 u (|t| + |v|), and |t| may be 2 S + |v|: 30 u S
-  /// + 18 u |t| + 11 u |v|. Only the proof needs it: supports have room for more than tests have found.
+  /// Returns the slack of supports during the displacement v, beyond the margin that layout/base/rounding.hpp
+  /// includes in supports:
+  ///
+  ///     (1) discs may protrude from the outlines that supports belong to: `excess`
+  ///     (2) discs touch by the measure at 16 u D more than by collide()'s test, D <= S + |t|
+  ///     (3) the displacement's product with a direction is off by 3 u |v|, the differences by 2 u (|t| +
+  ///         |v|)
+  ///     (4) |t| may be 2 S + |v|; in total 30 u S + 18 u |t| + 11 u |v|
+  ///
+  /// Only the proof needs (2) to (4): supports have more margin than tests have found necessary.
   float slack(std::uint32_t pair) const noexcept {
     constexpr float relative_error = 0x1p-18f;
-    static_assert(double{relative_error} >= 30 * rounding::unit_roundoff, "the most of the three");
+    static_assert(double{relative_error} >= 30 * rounding::unit_roundoff, "the largest of the three");
     const float excess = shapes_.profiles[transforms_.shape_a[pair]].excess +
                          shapes_.profiles[transforms_.shape_b[pair]].excess;
     return excess + relative_error * (reach(pair) + __builtin_fabsf(transforms_.tx[pair]) +
@@ -104,18 +109,18 @@ class TimeOfImpactKernel {
     return shapes_.reach[transforms_.shape_a[pair]] + shapes_.reach[transforms_.shape_b[pair]];
   }
 
-  /// Returns a bound that no distance between centres of the two shapes' discs exceeds: each is within 1.42
-  /// times its shape's reach, as half of a box about others is.
+  /// Returns an upper bound of the distance between centres of discs of the two shapes. A centre is within
+  /// 1.42 times its shape's reach, as a centre of a box around other discs is.
   float farthest(std::uint32_t pair) const noexcept {
     return 2 * reach(pair) + __builtin_fabsf(transforms_.tx[pair]) + __builtin_fabsf(transforms_.ty[pair]);
   }
 
-  /// Returns the time of a pair in a set in which every cut is a single disc.
+  /// Returns the time of a pair in a set of single discs.
   float time_of_roots(std::uint32_t pair) const noexcept {
     const Root &a = shapes_.roots[transforms_.root_a[pair]], &b = shapes_.roots[transforms_.root_b[pair]];
     const auto [x, y] = transforms_.transform(pair).apply(b.x, b.y);
     Measure measure(x_[pair], y_[pair], 0);
-    measure.take(
+    measure.update(
         Measure::template time_of<double>(x - a.x, y - a.y, a.radius + b.radius, x_[pair], y_[pair]));
     return measure.time();
   }
@@ -125,7 +130,7 @@ class TimeOfImpactKernel {
   alignas(64) float x_[chunk_size], y_[chunk_size];  ///< the chunk's displacements
   RelativeTransforms<Simd> transforms_;
   SeparatingAxisTest<Simd> axis_test_;
-  std::uint32_t row_a_[chunk_size], row_b_[chunk_size];  ///< of the supports, where they are not in order
+  std::uint32_t row_a_[chunk_size], row_b_[chunk_size];  ///< rows of the supports, if they are not in order
   ChunkPairs<Simd, chunk_size> open_;
   TimeOfImpactTraversal<Simd> traversal_;
 };

@@ -12,8 +12,7 @@
 
 namespace bch::detail {
 
-/// Holds the errors of a time of impact and of its bounds, in units of u: the sums that TimeOfImpactMeasure
-/// derives.
+/// Holds the errors of a time of impact and of its bounds, derived at TimeOfImpactMeasure, in units of u.
 namespace time_of_impact_terms {
 
 namespace r = rounding::terms;
@@ -26,8 +25,7 @@ static_assert(r::length_within(r::position + r::sum, r::position + 1, r::contact
 static_assert(of_distance >= 2 * r::position + r::sum + r::apart - 0x1p-40);
 static_assert(lengthening >= of_distance + 2);
 
-/// The errors of bounds, in S and D': the discs at T, with D <= D' + 2 S; the lengths; the root of their
-/// squares; the difference.
+/// The errors of bounds, in S and D', with D <= D' + 2 S: (6), (8), (9), (10).
 constexpr double at_contact_reach = 60, at_contact_distance = 20;
 static_assert(at_contact_reach >= 20 + 2 * (lengthening + 4) && at_contact_distance >= lengthening + 4);
 constexpr double root_reach = 19, root_distance = 7, difference_reach = 15, difference_distance = 8;
@@ -40,58 +38,69 @@ static_assert(slack >= bound_reach + bound_distance + displacement_error);
 
 }  // namespace time_of_impact_terms
 
-/// Finds when two discs touch of which A's moves by t v, 0 <= t <= 1. It computes in double, from the floats
-/// (x, y), r and v,
+/// Finds the time at which two discs touch, if A's disc moves by t v, 0 <= t <= 1. In double, from the floats
+/// (x, y), r and v:
 ///
 ///     R = r + 2^-20 D,    D = |(x, y)|,    h = x v_y - y v_x,    b = x v_x + y v_y
 ///     t = (D^2 - R^2) / (b + sqrt(R^2 v^2 - h^2)),    T = float(t (1 - 2^-22))
+///     T = 0       if D <= R and b > 0, or if D^2 <= r^2 (1 + 4 u)
+///     T = never   else, if b <= 0 or the root is not real
 ///
-/// or 0 where D <= R, and never where b <= 0 or the root is not real; but 0 wherever D^2 <= r^2 (1 + 4 u),
-/// also of discs that move apart, because the outlines in them may yet meet. That holds wherever collide()'s
-/// test in float accepts the two, as it rounds the squares by 3 u of them; D <= r in double would not, and
-/// who collides needs the time 0 by its discs as well.
+/// Discs with D^2 <= r^2 (1 + 4 u) have time 0 even if they move apart, because the outlines in them may
+/// still touch later. That includes all discs which collide()'s test in float accepts, whose squares are
+/// rounded by up to 3 u; so agents that collide have time 0 by their discs, too. (D <= r in double would miss
+/// some.)
 ///
-/// Never too late, in the notation of layout/base/rounding.hpp. Where the tight discs touch at the true time
-/// t, the exact displacement between their centres is r_tight long. (x, y) is off by 8.1 u |b| + 5.6 u |d| + u D; v is
-/// rotated as d is, so t v is off by 4.6 u t |v|, and t |v| <= D + r_A + r_B; |d| <= |a| + |b| + D; and r is
-/// off by u (r_A + r_B). In all that is 13.7 u |b| + 5.6 u |a| + 5.6 u (r_A + r_B) + 11.2 u D, of which the
-/// first three are at most 14.9 u S, as in (1'). Published radii have 16.5 u S to spare, R adds 16 u D. So at
-/// t the float discs of radius R overlap, and their first contact is not later. (Discs that do not move
-/// towards each other, b <= 0, where exact ones would: b is off by some u D |v|, so those come nearer by the
-/// square of that, and overlap at the start.) Double loses 2^-51 of the squares that are subtracted, which
-/// may be much of what is left. But R exceeds what touches at t by 4.8 u D, where D > r, at least 2^-23 of
-/// itself, so that such a loss moves the contact by less than 2^-28 of what that does. The last product takes
-/// off 4 u for the rounding to float.
+/// Never too late, in the notation of layout/base/rounding.hpp. At the true time t of the exact discs, the
+/// exact distance of their centres is r_tight. Errors, with t |v| <= D + r_A + r_B and |d| <= |a| + |b| + D:
 ///
-/// Bounds are how far A has come when discs (C, R') that hold the two touch, enlarged. What is along the displacement
-/// and aside is computed at once, from discs of both sides turned into the displacement's frame by (w_x, w_y), which
-/// is v / |v| made shorter by `rough` of it: so are all lengths but the radii. At T the centres are within
-/// R'_A + R'_B + 16 u D, also of discs that move apart, and rounding adds 20 u S and 4 u D, with D
-/// <= D' + 2 S: 60 u S + 20 u D'. The turn adds 2 u of each coefficient of B's placement, of |d| and of A's
-/// centre, and rounds two sums more: 6 u P_B + 2 u P_A + 3 u |d| + u D', where centres are within 1.42
-/// reaches; with 2.5 u D' for (w_x, w_y) itself either length is off by 13 u S + 7 u D'. The squares' 3 u
-/// make that 19 u S + 7 u D' of the root, the difference is later by 15 u S + 8 u D'. A radius enlarged by 94
-/// u S + 35 u D' makes up for all, and `slack` is 256 u F, with S <= F and D' <= F: enough, too, for the
-/// squares of discs that touch during the displacement to differ by far more than their rounding, so that a root of what
-/// is not above 0, NaN, is that of discs that never touch. As radii are not made shorter, the root is longer
-/// than its part of the displacement by more than approximate_sqrt() is off; where that is exact, (w_x, w_y) is off by as
-/// much as 3 u R' <= 6 u S, for which slack has room. A time T is compared as T |v|, shorter as lengths are
-/// and then a 2^18th longer, for what |v| and the products are off by. Bounds below 0 only have to stay
-/// there.
+///     (1) (x, y): 8.1 u |b| + 5.6 u |d| + u D;   t v, rotated as d is: 4.6 u t |v|;   r: u (r_A + r_B)
+///     (2) in total 13.7 u |b| + 5.6 u |a| + 5.6 u (r_A + r_B) + 11.2 u D; the first three are at most 14.9 u
+///         S, as in (1') there
+///     (3) stored radii include 16.5 u S, and R adds 16 u D
+///     (4) the subtraction of squares in double loses 2^-51 of them, possibly much of the difference. But R
+///         exceeds the distance at t by 4.8 u D, where D > r, at least 2^-23 of itself; the loss moves the
+///         contact by less than 2^-28 of what this moves it
+///     (5) the last product subtracts 4 u, for the rounding to float
 ///
-/// A test sees the slack: without it, or with F of one shape alone, tests/kernel/queries_test.cpp finds
-/// later times than brute force does.
+/// So at time t the float discs of radius R overlap, and their first contact is not later. (If exact discs
+/// approach but b <= 0 here: b is off by a few u D |v|, so these approach by the square of that only, and
+/// overlap at the start.)
+///
+/// Bounds of nodes: how far A has moved when enlarged discs (C, R'), which contain the two discs, touch.
+/// Distances along and across the displacement are computed at once, from the discs of both sides rotated by
+/// (w_x, w_y) = v / |v| (1 - `rough`); so all lengths except radii are shortened. With D <= D' + 2 S:
+///
+///     (6) at T the centres are within R'_A + R'_B + 16 u D, also if discs move apart; rounding adds 20 u S +
+///         4 u D: in total 60 u S + 20 u D'
+///     (7) the rotation adds 2 u of each coefficient of B's placement, of |d| and of A's centre, and rounds
+///         two more sums: 6 u P_B + 2 u P_A + 3 u |d| + u D', with centres within 1.42 reaches; and 2.5 u D'
+///         for (w_x, w_y): either length is off by at most 13 u S + 7 u D'
+///     (8) with 3 u of the squares, the root is off by 19 u S + 7 u D'
+///     (9) the difference is too late by at most 15 u S + 8 u D'
+///    (10) in total 94 u S + 35 u D', for which radii are enlarged by `slack` = 256 u F, with S <= F and D'
+///         <= F
+///    (11) the slack also makes the squares of discs that touch during the displacement differ by far more
+///         than their rounding. So a negative square, whose root is NaN, belongs to discs that never touch
+///    (12) radii are not shortened, so the root exceeds its part of the displacement by more than the error
+///         of approximate_sqrt(). If that is exact, (w_x, w_y) is off by up to 3 u R' <= 6 u S, within the
+///         slack
+///    (13) a time T is compared as T |v|, shortened like lengths and then lengthened by 2^-18 of itself, for
+///         the errors of |v| and of the products. Bounds below 0 only have to stay below 0
+///
+/// Without the slack, or with F of one shape alone, tests/kernel/queries_test.cpp finds later times than
+/// brute force does.
 template <class Simd>
 class TimeOfImpactMeasure {
  public:
   using Float = typename Simd::Float;
 
   TimeOfImpactMeasure() = default;
-  /// Takes v, and F in metres.
+  /// (x, y) is v; `farthest` is F, metres.
   TimeOfImpactMeasure(float x, float y, float farthest) noexcept
       : x_(x), y_(y), slack_(slack_per_length * farthest), time_(__builtin_inff()) {
     const float square = x * x + y * y, length = __builtin_sqrtf(square);
-    // No bound of a displacement that is shorter than that is above 0.
+    // The bounds of shorter displacements are never above 0.
     const float per_length = square < 1e-30f ? 0 : (1 - Simd::approximation_error) / length;
     unit_x_ = x * per_length, unit_y_ = y * per_length;
     length_ = length * ((1 - Simd::approximation_error) * (1 + 0x1p-18f));
@@ -101,12 +110,12 @@ class TimeOfImpactMeasure {
   float y() const noexcept { return y_; }
   float time() const noexcept { return time_; }
 
-  /// Returns the limit of bounds: what is below a bound above it is later than the time so far, or than the
-  /// end of the displacement.
+  /// Returns the largest useful bound: discs below nodes with a larger bound touch later than the time found
+  /// so far, or after the end of the displacement.
   float limit() const noexcept { return best() * length_; }
 
-  /// Calls visit(k, bound) for every register of pairs as visit_disc_pairs() does; far_beyond for those that
-  /// never touch.
+  /// Calls visit(k, bounds) for one pair per lane, in the order of visit_disc_pairs(); far_beyond for pairs
+  /// that never touch.
   template <class Visit>
   [[gnu::always_inline]] void visit_bounds(const Transform& at, Discs a, Discs b,
                                            Visit visit) const noexcept {
@@ -132,7 +141,7 @@ class TimeOfImpactMeasure {
                            });
   }
 
-  /// Returns when two discs touch, infinity for never; lane by lane, or for a single pair.
+  /// Returns the time at which two discs touch, or infinity; lane by lane, or for a single pair.
   template <class Real>
   [[gnu::always_inline]] static Real time_of(Real x, Real y, Real r, Real vx, Real vy) noexcept {
     const Real zero(0.0), never(__builtin_inf());
@@ -152,7 +161,7 @@ class TimeOfImpactMeasure {
         select((towards > zero) & (under_root >= zero), select(left > zero, time, zero), never);
     return select(square <= r * r * Real(1 + overlap), zero, later);
   }
-  void take(double time) noexcept {
+  void update(double time) noexcept {
     if (time <= static_cast<double>(best())) time_ = static_cast<float>(time);
   }
 

@@ -15,11 +15,16 @@
 
 namespace bch::detail {
 
-/// Implements the last stage of TimeOfImpactKernel: branch and bound over the trees of many pairs of agents, in rounds.
-/// A round takes one step of every open pair, stage by stage, because a step of one pair is a chain of
-/// latencies, of which the processor looks ahead over few: bounds of two nodes' discs; the least of them;
-/// where that leads, the children below it or, of two windows, a time; and back to an earlier pair of nodes
-/// where nothing is left to find. Hardly any branch depends on an answer.
+/// Implements the last stage of TimeOfImpactKernel: branch and bound over the trees of many pairs of agents,
+/// in rounds. A round advances every open pair by one step. The stages of a step depend on each other, so
+/// each stage is done for all pairs before the next, which overlaps the latencies of many pairs:
+///
+/// 1. bounds of the discs of two nodes;
+/// 2. the least of these bounds;
+/// 3. descent to the children with the least bound, or of two windows, the time of these discs;
+/// 4. if nothing is left below two nodes, back to the previous two nodes.
+///
+/// Hardly any branch depends on data.
 template <class Simd>
 class TimeOfImpactTraversal {
  public:
@@ -28,12 +33,12 @@ class TimeOfImpactTraversal {
 
   TimeOfImpactTraversal(const float* nodes, float* times) noexcept : nodes_(nodes), times_(times) {}
 
-  /// Adds a pair whose time goes to times[pair]. Where there is no room, runs rounds until there is.
+  /// Adds a pair whose time goes to times[pair]. Runs rounds first if there is no room.
   void add(std::size_t pair, const Transform& b_in_a, const Tree& a, const Tree& b,
            const Measure& measure) noexcept {
-    // Few at a time, so that rounds stay long.
+    // Only a quarter of the pairs is finished at a time, so that rounds keep many pairs.
     if (fresh_.size + returning_.size == capacity) run(capacity - capacity / 4);
-    // Slots are numbered when they are first needed, because small batches need few.
+    // Slots are numbered on first use, because small batches need few.
     if (free_.size == 0) free_.add_if(true, numbered_++);
     const std::uint16_t slot = free_.pair[--free_.size];
     open_[slot] = {b_in_a,        measure,       a.top, b.top, a.stride, b.stride,
@@ -41,7 +46,7 @@ class TimeOfImpactTraversal {
     fresh_.add_if(true, slot);
   }
 
-  /// Runs rounds until at most so many pairs are open.
+  /// Runs rounds until at most `max_open` pairs are open.
   void run(std::uint32_t max_open) noexcept {
     while (fresh_.size + returning_.size > max_open) {
       bound();
@@ -49,8 +54,8 @@ class TimeOfImpactTraversal {
       find_least(returning_);
       choose();
       for (std::uint32_t k = 0; k < fresh_.size; ++k) descend(open_[fresh_.pair[k]]);
-      take_times();
-      go_back();
+      update_times();
+      ascend();
     }
   }
 
@@ -59,11 +64,11 @@ class TimeOfImpactTraversal {
   using Double = typename Simd::Double;
   using Nodes = TreeNodes<Simd>;
   using Slots = ChunkPairs<Simd, capacity>;
-  /// The most frames of a pair: every step descends on one side at least, and no tree has more than
+  /// The depth of a pair's stack: every step descends in at least one tree, and no tree has more than
   /// max_wide_levels levels.
   static constexpr std::uint32_t max_frames = 2 * max_wide_levels;
 
-  /// Holds two nodes and the bounds of their pairs of discs, far_beyond where they were followed.
+  /// Holds two nodes and the bounds of their pairs of discs; far_beyond for pairs already visited.
   struct Frame {
     alignas(64) float bound[block_pairs];
     std::uint32_t a, b;
@@ -74,10 +79,10 @@ class TimeOfImpactTraversal {
     Measure measure;
     std::uint32_t a, b;  ///< the nodes to examine
     std::uint32_t stride_a, stride_b;
-    Frame *frame, *bottom;  ///< of these nodes, and the first
+    Frame *frame, *bottom;  ///< the frame of these nodes, and the first frame of the pair
     std::size_t pair;
-    float least;          ///< bound in the frame
-    std::uint32_t which;  ///< pair of discs has it
+    float least;          ///< the least bound in the frame
+    std::uint32_t which;  ///< the pair of discs with that bound
   };
 
   Discs discs_a(const Open& open) const noexcept { return Nodes::outer_discs(nodes_, open.a, open.stride_a); }
@@ -102,7 +107,7 @@ class TimeOfImpactTraversal {
     }
   }
 
-  /// Sorts the open pairs by their next step. Fresh pairs are then those that descend.
+  /// Assigns each open pair to its next step. `fresh_` then lists the pairs that descend.
   void choose() noexcept {
     Slots below;
     windows_.size = missed_.size = 0;
@@ -122,7 +127,7 @@ class TimeOfImpactTraversal {
     fresh_ = below;
   }
 
-  /// Descends to the children below the least bound.
+  /// Descends to the children with the least bound.
   void descend(Open& open) const noexcept {
     Frame& frame = *open.frame++;
     const unsigned i = open.which / block_width, j = open.which % block_width;
@@ -131,8 +136,7 @@ class TimeOfImpactTraversal {
     };
     open.a = child(frame.a, i), open.b = child(frame.b, j);
     frame.bound[open.which] = far_beyond;
-    // All of a window's discs are tested at once: its other pairs with the same child are settled with this
-    // one.
+    // A window is visited as a whole: its other pairs with the same child are done with this one.
     if (frame.a >= leaf_window) [[unlikely]]
       close(j, block_width);
     if (frame.b >= leaf_window) [[unlikely]]
@@ -144,8 +148,9 @@ class TimeOfImpactTraversal {
     return node >= leaf_window ? node : Nodes::child(nodes_, node, lane);
   }
 
-  /// Takes the times of the disc pairs with the least bounds, which mostly exclude all others.
-  void take_times() noexcept {
+  /// Computes the times of the discs with the least bounds, which usually exclude all other discs of two
+  /// windows.
+  void update_times() noexcept {
     for (std::uint32_t k = 0; k < windows_.size; ++k) {
       const Open& open = open_[windows_.pair[k]];
       const auto [x, y, r] = disc_pair<Simd>(open.b_in_a, discs_a(open), discs_b(open), open.which);
@@ -158,25 +163,25 @@ class TimeOfImpactTraversal {
                                  Simd::load(displacement_x_ + k), Simd::load(displacement_y_ + k)));
     for (std::uint32_t k = 0; k < windows_.size; ++k) {
       Open& open = open_[windows_.pair[k]];
-      open.measure.take(time_[k]);
+      open.measure.update(time_[k]);
       const std::uint64_t others =
           all_within<Simd>(open.frame->bound, open.measure.limit()) & ~(std::uint64_t{1} << open.which);
       if (others != 0) [[unlikely]]
-        take_others(open, others);
+        update_from_others(open, others);
     }
   }
 
-  void take_others(Open& open, std::uint64_t others) const noexcept {
+  void update_from_others(Open& open, std::uint64_t others) const noexcept {
     for (; others != 0; others &= others - 1) {
       const auto k = static_cast<unsigned>(__builtin_ctzll(others));
       if (!(open.frame->bound[k] <= open.measure.limit())) continue;
       const auto [x, y, r] = disc_pair<Simd>(open.b_in_a, discs_a(open), discs_b(open), k);
-      open.measure.take(Measure::template time_of<double>(x, y, r, open.measure.x(), open.measure.y()));
+      open.measure.update(Measure::template time_of<double>(x, y, r, open.measure.x(), open.measure.y()));
     }
   }
 
-  /// Takes back the pairs that missed and those with windows, whose bounds are then settled.
-  void go_back() noexcept {
+  /// Returns pairs without useful bounds, and pairs at two windows, which are done, to their previous nodes.
+  void ascend() noexcept {
     for (std::uint32_t k = 0; k < windows_.size; ++k) missed_.add_if(true, windows_.pair[k]);
     returning_.size = 0;
     for (std::uint32_t k = 0; k < missed_.size; ++k) {
@@ -184,7 +189,7 @@ class TimeOfImpactTraversal {
       Open& open = open_[slot];
       const bool over = open.frame == open.bottom;
       open.frame -= !over;
-      // Those that are not over write a later one.
+      // Pairs that are not over overwrite this later.
       times_[open.pair] = open.measure.time();
       returning_.add_if(!over, slot);
       free_.add_if(over, slot);
@@ -193,8 +198,8 @@ class TimeOfImpactTraversal {
 
   const float* const nodes_;
   float* const times_;
-  // Pairs of agents by their slots: whose nodes are new; who goes on with nodes from before; and for the
-  // round who is at two windows, and who finds nothing below the nodes.
+  // Slots of pairs of agents: with new nodes; back at previous nodes; unused. In the current round: at two
+  // windows; with nothing left below their nodes.
   Slots fresh_, returning_, free_;
   Slots windows_, missed_;
   std::uint32_t numbered_ = 0;

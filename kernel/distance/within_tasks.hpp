@@ -17,7 +17,7 @@
 
 namespace bch::detail {
 
-/// Returns the gap of leaf discs that a distance makes; see Gaps.
+/// Returns the largest gap of leaf discs for a distance; see Gaps.
 inline float gap_of(double distance) noexcept {
   return rounding::round_up(std::min(distance, static_cast<double>(largest_limit)) * (1 + gap_share));
 }
@@ -38,7 +38,7 @@ void for_within_tasks(const Implementation& implementation, const ShapeSetView& 
   });
 }
 
-/// Requires the sizes, and the distances.
+/// Checks the sizes and distances of within().
 inline void require_within(std::span<const Pair> pairs, std::span<const double> distances,
                            std::span<const std::uint8_t> answers) {
   const QueryName context{"within", "pair", pairs.size()};

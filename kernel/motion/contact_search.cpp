@@ -17,12 +17,12 @@
 namespace bch::detail {
 namespace {
 
-constexpr double max_slack_of_bands = hull_overlap / 4;  ///< metres
+constexpr double max_band_slack = hull_overlap / 4;  ///< metres
 
-/// Slopes of the lines along which bands are examined: tangents of eighths of half a round.
-constexpr double asides[] = {0, 0.4142, -0.4142, 1, -1, 2.4142, -2.4142};
+/// Slopes of the lines along which bands are compared: the tangents of multiples of 22.5 degrees.
+constexpr double slopes[] = {0, 0.4142, -0.4142, 1, -1, 2.4142, -2.4142};
 
-/// The motion of one body relative to another between two times.
+/// The motion of body a relative to body b between two times, mapped to 0 to 1.
 struct RelativeMotion {
   double x, y, z, move_x, move_y, move_z;
 
@@ -36,8 +36,7 @@ struct RelativeMotion {
 
   double distance() const noexcept { return std::sqrt(x * x + y * y); }
 
-  /// Returns between which times, of 0 to 1, the distance is at most a radius as seen from above, and the heights differ by at most a
-  /// height; never, where there is none.
+  /// Returns the interval in which both of the following conditions hold; never, if there is none.
   std::pair<double, double> times_within(double radius, double height) const noexcept {
     const auto [enter, leave] = times_within(radius);
     const auto [from, to] = times_level(height);
@@ -45,7 +44,7 @@ struct RelativeMotion {
     return first <= last ? std::pair(first, last) : std::pair(never, never);
   }
 
-  /// Returns between which times, of 0 to 1, the heights differ by at most a height; never, where there is none.
+  /// Returns the interval in which the heights differ by at most `height`; never, if there is none.
   std::pair<double, double> times_level(double height) const noexcept {
     if (std::abs(z) <= height && std::abs(z + move_z) <= height) return {0, 1};
     if (move_z == 0) return {never, never};
@@ -54,12 +53,11 @@ struct RelativeMotion {
     return from <= to ? std::pair(from, to) : std::pair(never, never);
   }
 
-  /// Returns between which times, of 0 to 1, the distance is at most a radius as seen from above; never, where there is none.
+  /// Returns the interval in which the distance seen from above is at most `radius`; never, if there is none.
   std::pair<double, double> times_within(double radius) const noexcept {
     const double a = move_x * move_x + move_y * move_y, b = x * move_x + y * move_y,
                  c = x * x + y * y - radius * radius, across = x * move_y - y * move_x;
-    const double square =
-        a * radius * radius - across * across;  // b^2 - a c, exact enough on long paths, too
+    const double square = a * radius * radius - across * across;  // b^2 - a c, accurate on long paths, too
     if (c > 0 && (b >= 0 || square < 0)) return {never, never};
     if (!(a > 0)) return {0, 1};
     const double root = std::sqrt(std::max(square, 0.0));
@@ -76,24 +74,24 @@ double ContactSearch::first(const MotionFacts& a, const MotionFacts& b, double f
   in_space_ = a.tree->in_space && b.tree->in_space;
   const double reaches = a.tree->reach + b.tree->reach,
                heights = in_space_ ? a.tree->height + b.tree->height : never;
-  const double slack_of_places =
+  const double position_slack =
       position_rounding * (a.farthest + b.farthest) + root_rounding * (reaches + (in_space_ ? heights : 0));
   for (double time = from; time <= to;) {
     const double end = std::min(a_->path_end(time), b_->path_end(time));
     const double until = is_finite(end) ? end : to + 1;
-    slack_ = slack_of_places + (a_->time_slack(time) + b_->time_slack(time));
+    slack_ = position_slack + (a_->time_slack(time) + b_->time_slack(time));
     const RelativeMotion relative(a_->pose(time), b_->pose(time), a_->pose(until), b_->pose(until));
     const auto [enter, leave] = relative.times_within(reaches + slack_, heights + slack_);
     limit_.count(1);
     if (enter <= 1) {
       const double length = until - time,
-                   last = leave < 1 ? time + leave * length : std::min(end, end_of_news(time, until));
+                   last = leave < 1 ? time + leave * length : std::min(end, end_of_two_cycles(time, until));
       const double found =
           first_near(std::min(time + enter * length, last), last, to, AnimatedHulls::level_count);
       if (found <= to) return found;
       time = end;
     } else {
-      // Farther apart, and that for as long as both take at their greatest speed.
+      // Too far apart until both have approached at their greatest speeds.
       const double gap = relative.distance() - reaches - slack_, speed = a.path_speed + b.path_speed;
       const bool waits = gap > 0 && speed > 0;
       time = std::max(end, waits ? std::nextafter(time + gap / speed * (1 - root_rounding), time) : end);
@@ -102,17 +100,19 @@ double ContactSearch::first(const MotionFacts& a, const MotionFacts& b, double f
   return never;
 }
 
-/// Returns until when two bodies that stand from one time to another may do together what they have not done since the first one.
-double ContactSearch::end_of_news(double time, double until) {
+/// Returns the end of two common cycles of two bodies that stand still in [time, until]: later they only
+/// repeat themselves. Never, if they have no common cycle.
+double ContactSearch::end_of_two_cycles(double time, double until) {
   const bool stand =
-      is_one_place(a_->pose(time), a_->pose(until)) && is_one_place(b_->pose(time), b_->pose(until));
+      is_same_pose(a_->pose(time), a_->pose(until)) && is_same_pose(b_->pose(time), b_->pose(until));
   if (!stand) return never;
   const double a = a_->period(time), b = b_->period(time);
   const double together = a == 0 || b == 0 || a == b ? std::max(a, b) : never;
   return together > 0 ? time + 2 * together : never;
 }
 
-/// Where both paths go straight on and the bodies are within reach: from window to window of their hulls; below these, from key to key.
+/// Searches an interval in which both paths are straight and the bodies within reach, window by window of
+/// their hulls at `level`, or key by key at level 0.
 double ContactSearch::first_near(double from, double end, double to, unsigned level) {
   for (double time = from; time <= to;) {
     if (level > 0) limit_.count(1);
@@ -131,8 +131,9 @@ double ContactSearch::first_near(double from, double end, double to, unsigned le
   return never;
 }
 
-/// Looks along the line between the positions where they are nearest to each other. Along it their distance is linear in time. Bodies of
-/// spheres may be apart in each band of height, along a line of its own: one of some about that line.
+/// Compares the hulls along the line between the positions at their least distance; along this line, the
+/// distance is linear in time. For bodies of spheres, it suffices that a line separates them in each band of
+/// height: this line or one of several rotated ones.
 bool ContactSearch::hulls_are_apart(double from, double end, unsigned level) const {
   const PathKey a = a_->pose(from), b = b_->pose(from), a_end = a_->pose(end), b_end = b_->pose(end);
   const PlanePoint between{b.x - a.x, b.y - a.y}, at_end{b_end.x - a_end.x, b_end.y - a_end.y},
@@ -141,20 +142,20 @@ bool ContactSearch::hulls_are_apart(double from, double end, unsigned level) con
   const double nearest = square > 0 ? std::clamp(-dot(between, relative) / square, 0.0, 1.0) : 0;
   const PlanePoint line = between + nearest * relative;
   if (squared_length(line) == 0) return false;
-  const auto along = [&](double aside) {
-    const PlanePoint direction = line + aside * PlanePoint{-line.y, line.x};
-    return LineBetween{{*a_, level, a, a_end, direction},
-                       {*b_, level, b, b_end, -1 * direction},
-                       dot(between, direction) - slack_ * length(direction),
-                       dot(at_end, direction) - slack_ * length(direction)};
+  const auto along = [&](double slope) {
+    const PlanePoint direction = line + slope * PlanePoint{-line.y, line.x};
+    return SeparatingLine{{*a_, level, a, a_end, direction},
+                          {*b_, level, b, b_end, -1 * direction},
+                          dot(between, direction) - slack_ * length(direction),
+                          dot(at_end, direction) - slack_ * length(direction)};
   };
-  std::array<std::optional<LineBetween>, std::size(asides)> lines;
-  lines[0].emplace(along(asides[0]));
+  std::array<std::optional<SeparatingLine>, std::size(slopes)> lines;
+  lines[0].emplace(along(slopes[0]));
   if (lines[0]->separates(a_->hull(level).extents, b_->hull(level).extents)) return true;
-  if (!in_space_ || slack_ > max_slack_of_bands) return false;
+  if (!in_space_ || slack_ > max_band_slack) return false;
   const auto are_apart = [&](const HullInterval::Extents& of_a, const HullInterval::Extents& of_b) {
     for (std::size_t i = 0; i < lines.size(); ++i) {
-      if (!lines[i]) lines[i].emplace(along(asides[i]));
+      if (!lines[i]) lines[i].emplace(along(slopes[i]));
       if (lines[i]->separates(of_a, of_b)) return true;
     }
     return false;
@@ -164,13 +165,13 @@ bool ContactSearch::hulls_are_apart(double from, double end, unsigned level) con
   for (std::uint32_t i = 0; i < hull_bands; ++i)
     for (std::uint32_t j = 0; j < hull_bands; ++j)
       if ((bands_a.occupied >> i & 1) != 0 && (bands_b.occupied >> j & 1) != 0 &&
-          bands_meet(i, j, low, high) && !are_apart(bands_a.extents[i], bands_b.extents[j]))
+          bands_overlap(i, j, low, high) && !are_apart(bands_a.extents[i], bands_b.extents[j]))
         return false;
   return true;
 }
 
 double ContactSearch::first_between(double from, double end) {
-  return first_halving(from, end, tolerance_, [&](double begin, double last) {
+  return first_by_bisection(from, end, tolerance_, [&](double begin, double last) {
     limit_.count(1);
     place(begin, last);
     const double deviation = nodes_a_.deviation() + nodes_b_.deviation();
@@ -186,7 +187,7 @@ void ContactSearch::place(double from, double end) {
   nodes_b_.place(*b_, {from, 0, 0, b.heading}, {end, 0, 0, b_end.heading}, in_space_);
 }
 
-/// What may touch sooner is examined first.
+/// Nodes that may touch sooner are examined first.
 double ContactSearch::first_of_nodes() {
   const AnimatedTreeChunk &a = nodes_a_.chunk(), &b = nodes_b_.chunk();
   double first = never, last = 1;

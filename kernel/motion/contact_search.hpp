@@ -12,49 +12,57 @@
 
 namespace bch::detail {
 
-/// Finds the first contacts of two motions, pair after pair, and keeps its memory meanwhile.
+/// Finds the first contact of two motions, for one pair of motions after the other. Keeps its memory in
+/// between.
 ///
-/// Time is cut where a path has a key. Between two keys of the paths bodies come as near as their reaches for an interval at most, which a
-/// square root tells; there alone the clips are gone through, from window to window of their hulls: where these are apart along a line
-/// there is no contact, and else shorter windows are examined, in the end those between two keys of the clips. From key to key every disc
-/// moves straight on except for the deviation from a chord by rotation, so that the first time at which two nodes may touch is a root, too, and the trees are
-/// descended where there is one before the earliest contact of leaves so far. What deviates more than half the tolerance is halved in time,
-/// but only where a contact is found.
+/// 1. Time is divided at the keys of both paths. Between two keys, the bounding circles of the bodies overlap
+///    during at most one interval, found from a quadratic equation. Only that interval is searched.
+/// 2. It is divided into windows of the clips' hulls, from long windows to short ones. If the hulls of a
+///    window are separated along a line, it contains no contact. The shortest windows lie between two keys of
+///    the clips.
+/// 3. Between two keys of the clips every disc moves along a chord, except for a deviation by rotation. The
+///    first time at which two nodes may touch is then the root of a quadratic equation. The trees are
+///    descended if that time is before the earliest contact of leaves found so far.
+/// 4. If a contact is found and the deviation exceeds half the tolerance, the interval is halved, see
+///    first_by_bisection().
 ///
-/// Where both bodies are of spheres, these are tested in 3D, and only while their heights allow it. What else is known
-/// of bodies, reaches and hulls, is seen from above, which misses nothing. The reaches below are then those on the
-/// ground and in height together.
+/// If both bodies are of spheres, steps 3 and 4 are in 3D, and step 1 also requires that their heights
+/// overlap. Hulls are compared as seen from above, or for spheres also in bands of height; that misses
+/// nothing.
 ///
-/// Never late: discs are enlarged by what their paths may deviate from chords, and by `slack_`, which holds what double rounds:
+/// Never late: discs are enlarged by the deviation from chords, and by `slack_`, which bounds the rounding in
+/// double. "Reaches" are the sum of both bodies' reaches, in 3D with their heights.
 ///
-///     (time)      2^-48 of the times at the greatest speed of any disc between two keys of the path: a time of the motion becomes one
-///                 of the clip and fractions of intervals, and these a time, by fewer than 32 roundings. No number there is larger than
-///                 the largest time between the keys, twice that at which the clip begins and three times the clip's own ones:
-///                 a round is moved by (begin of the clip) - (own begin) + n (length), where n (length) is no more than a
-///                 length beyond the time since the clip began. Keys of the path are exact, so that no speed counts beyond them, and
-///                 no more than the displacement between them; nor does a disc move by more than twice the reach
-///     (position)  2^-48 of the coordinates: blends of two keys, and their difference
+///     (time)      2^-48 T v: T bounds the numbers that occur in converting a time of the motion into a time
+///                 of the clip and a fraction between keys, in fewer than 32 roundings: the largest time
+///                 between the keys, plus 2 |clip begin|, plus 3 times the largest time of the clip. (A cycle
+///                 n is shifted by (clip begin) - (own begin) + n (length), where n (length) exceeds the time
+///                 since the clip began by at most a length.) v is the greatest speed of a disc between two
+///                 keys of the path. Keys of the path are exact, so the error is at most the displacement
+///                 between them, and at most twice the reach for a disc in its body.
+///     (position)  2^-48 of the coordinates: interpolation between two keys, and their difference
 ///     (turn)      4e-10 of the reaches: rotation()
-///     (root)      2^-20 of the reaches, which is more than all but (time) and (position), and than sums along a line: a
-///                 computed root is that of a polynomial whose coefficients are off by 2^-50 of (6 reaches)^2 at most, because
-///                 nothing is placed that is farther away than the reaches. The square of what discs are enlarged by is 32
-///                 times as much, so that it is no later than
-///                 where the discs themselves touch.
+///     (root)      2^-20 of the reaches, which exceeds all but (time) and (position), and also sums along a
+///                 line. A computed root belongs to a polynomial whose coefficients are off by at most 2^-50
+///                 of (6 reaches)^2, because no disc is placed farther away than the reaches. The square of
+///                 the enlargement is 32 times as large, so the root is no later than the contact of the
+///                 original discs.
 ///
-/// At the time that is found, two discs are at most twice as far apart as both were enlarged.
+/// At the time found, the distance of two discs is at most twice the enlargement of both.
 ///
-/// Where both stand and repeat themselves together, nothing changes after a round of theirs; two are examined, which hold one whatever
-/// rounds. What else goes on for too long is given up: StepLimit.
+/// Two agents who stand still with looping clips of the same period repeat themselves. Two cycles are then
+/// examined, which contain a whole cycle in spite of rounding. StepLimit ends any other search that takes too
+/// long.
 class ContactSearch {
  public:
   explicit ContactSearch(double tolerance) : tolerance_(tolerance) {}
 
-  /// Returns the first contact from one time to another, or infinity. Contacts up to `to` do not depend on it.
+  /// Returns the time of the first contact in [from, to], or infinity. `to` does not change earlier contacts.
   /// Errors:  throws StepLimit::Reached.
   double first(const MotionFacts& a, const MotionFacts& b, double from, double to);
 
  private:
-  double end_of_news(double time, double until);
+  double end_of_two_cycles(double time, double until);
   double first_near(double from, double end, double to, unsigned level);
   bool hulls_are_apart(double from, double end, unsigned level) const;
   double first_between(double from, double end);
@@ -72,7 +80,7 @@ class ContactSearch {
   StepLimit limit_;
   bool in_space_ = false;  ///< whether both bodies are of spheres
   double slack_ = 0;
-  double margin_ = 0;  ///< what two discs are enlarged by in an interval
+  double margin_ = 0;  ///< enlargement of two discs together, in the current interval
   MovingBody* a_ = nullptr;
   MovingBody* b_ = nullptr;
   PlacedNodes nodes_a_, nodes_b_;

@@ -12,24 +12,29 @@
 
 namespace bch::detail {
 
-/// Says how far a body reaches in a direction of the world through an interval of time, from its position, times the direction's length: at
-/// both ends, and by how much more than what lies evenly between these at most.
+/// Bounds the support function of a body in a fixed direction of the world, times the direction's length,
+/// relative to the body's position, over an interval of time: by its value at both ends, and by how much it
+/// may exceed linear interpolation between these.
 ///
-/// Derivation: in the body's frame it reaches E(d, s) in direction d at a fraction s of the interval, at most, linear in s. It turns from
-/// R0 to R1, and a vector turned at s is at most turn^2 / 8 of its length away from (1 - s) of what it is turned by R0 and s of
-/// what by R1. So it reaches (1 - s) E(d0, s) + s E(d1, s) + turn^2 / 8 reach, where d0 and d1 are the direction as the body sees it at
-/// both ends. The first two are s (1 - s) (E(d0, 1) - E(d0, 0) - E(d1, 1) + E(d1, 0)) more than what lies evenly between E(d0, 0) and
-/// E(d1, 1).
-class ReachAlong {
+/// Derivation. Let 0 <= s <= 1 be the fraction of the interval, d0 and d1 the direction in the body's frame
+/// at its ends, and turn the rotation in between.
+///
+///     (1) In the body's frame, the hull bounds the support in direction d by E(d, s), which is linear in s.
+///     (2) A vector rotated by s turn differs from the mix of both ends, (1 - s) (rotated by 0) + s (rotated
+///         by turn), by at most turn^2 / 8 of its length.
+///     (3) So the support is at most (1 - s) E(d0, s) + s E(d1, s) + turn^2 / 8 reach.
+///     (4) The first two terms exceed linear interpolation between E(d0, 0) and E(d1, 1) by s (1 - s) (E(d0,
+///         1) - E(d0, 0) - E(d1, 1) + E(d1, 0)), where s (1 - s) <= 1/4.
+class SupportBound {
  public:
-  /// How far it reaches at both ends, and by how much more between.
-  struct Reach {
-    double from, to, more;
+  /// The support at both ends, and the most by which it exceeds linear interpolation.
+  struct Extent {
+    double from, to, bulge;
   };
 
-  /// Takes a body in a window of chunks in which the interval lies, and the direction.
-  ReachAlong(const MovingBody& body, unsigned level, const PathKey& begin, const PathKey& end,
-             const PlanePoint& direction) noexcept
+  /// The interval lies in the current window of the body's hulls at that level.
+  SupportBound(const MovingBody& body, unsigned level, const PathKey& begin, const PathKey& end,
+               const PlanePoint& direction) noexcept
       : step_(body.tree().hulls.step),
         fraction_(body.hull_fraction(begin.time, level)),
         fraction_at_end_(body.hull_fraction(end.time, level)),
@@ -40,8 +45,9 @@ class ReachAlong {
     deviation_ = turn * turn / 8 * body.tree().reach * length(direction);
   }
 
-  /// Says that of the whole body, or of one of its bands, in the window.
-  Reach of(const HullInterval::Extents& extents) const noexcept {
+  /// Returns the bound for the whole body, or for one of its bands of height, whose extents in the window are
+  /// given.
+  Extent of(const HullInterval::Extents& extents) const noexcept {
     const HullDirection::Extent first = first_.extent(extents);
     const double growth = first.to - first.from, from = step_ * (first.from + growth * fraction_);
     if (!turns_) return {from, step_ * (first.from + growth * fraction_at_end_), 0};
@@ -61,26 +67,29 @@ class ReachAlong {
 
   double step_, fraction_, fraction_at_end_;
   bool turns_;
-  HullDirection first_, last_;  ///< as the body sees the direction at both ends
+  HullDirection first_, last_;  ///< the direction in the body's frame at both ends
   double deviation_ = 0;
 };
 
-/// Represents a line along which two bodies are examined, and how far their positions are apart along it at both ends of the interval.
-struct LineBetween {
-  ReachAlong a, b;
-  double away, away_at_end;
+/// Represents a line that may separate two bodies, and the distance of their positions along it at both ends
+/// of the interval.
+struct SeparatingLine {
+  SupportBound a, b;
+  double distance, distance_at_end;
 
-  /// Returns whether parts of both are apart all the time.
+  /// Returns whether two parts, one of each body, are separated throughout the interval.
   bool separates(const HullInterval::Extents& of_a, const HullInterval::Extents& of_b) const noexcept {
-    const ReachAlong::Reach first = a.of(of_a), second = b.of(of_b);
-    const double more = first.more + second.more;
-    return away > first.from + second.from + more && away_at_end > first.to + second.to + more;
+    const SupportBound::Extent first = a.of(of_a), second = b.of(of_b);
+    const double bulge = first.bulge + second.bulge;
+    return distance > first.from + second.from + bulge && distance_at_end > first.to + second.to + bulge;
   }
 };
 
-/// Returns whether bands of two bodies have more height in common than the overlap, within an interval in which the first one's ground is
-/// from `low` to `high` above the second one's.
-inline bool bands_meet(std::uint32_t a, std::uint32_t b, double low, double high) noexcept {
+/// Returns whether bands a and b of two bodies have more height in common than neighbouring bands overlap, at
+/// some time of an interval. z_a and z_b are the heights of the grounds, and low <= z_a - z_b <= high:
+///
+///     min(top_a + high, top_b) - max(bottom_a + low, bottom_b) > hull_overlap / 2
+inline bool bands_overlap(std::uint32_t a, std::uint32_t b, double low, double high) noexcept {
   const auto bottom = [](std::uint32_t band) { return band == 0 ? -never : band * hull_band; };
   const auto top = [](std::uint32_t band) { return band + 1 == hull_bands ? never : (band + 1) * hull_band; };
   constexpr double min_overlap = hull_overlap / 2;  // the other half is for rounding

@@ -12,7 +12,8 @@
 namespace bch::detail {
 namespace {
 
-/// Returns the fraction of the time between two others that has gone by; none where these are the same, as rounding may make them.
+/// Returns the fraction of the interval [from, to] before `time`; 0 if both are equal, as rounding may make
+/// them.
 double fraction_between(double from, double to, double time) noexcept {
   return from < to ? std::clamp((time - from) / (to - from), 0.0, 1.0) : 0;
 }
@@ -66,12 +67,12 @@ double MovingBody::clip_end(double time) noexcept {
   if (clip_end_ > time) return clip_end_;
   if (chunks_begun_ == 0) find_key(time);
   for (int i = 0; i < chunks_before_search && clip_end_ <= time; ++i) {
-    const bool is_over = !waits_ && chunk().times.back() + shift_ <= time;
+    const bool is_over = !is_before_begin_ && chunk().times.back() + shift_ <= time;
     if (is_over) key_ = chunk().times.size() - 2;
     next_key();
   }
   if (clip_end_ <= time) find_key(time);
-  while (clip_end_ <= time) next_key();  // by what rounding may leave
+  while (clip_end_ <= time) next_key();  // needed only after rounding
   return clip_end_;
 }
 
@@ -80,26 +81,27 @@ double MovingBody::period(double time) noexcept {
   return is_infinite(clip_end(time)) ? 0 : std::numeric_limits<double>::infinity();
 }
 
-/// Before its beginning and after its end a clip stands still: at the first or last key, in fraction().
+/// Before its beginning and after its end a clip stands still at its first or last key; fraction() then
+/// clamps.
 void MovingBody::find_key(double time) noexcept {
-  begin_round(tree().loops ? std::floor((time - facts_->clip_begin) / tree().length()) : 0);
+  begin_cycle(tree().loops ? std::floor((time - facts_->clip_begin) / tree().length()) : 0);
   const KeyPlace place = key_place(tree(), time - shift_);
   chunk_ = place.chunk, key_ = place.key;
   ++chunks_begun_;
   const bool is_over = !tree().loops && time - shift_ >= tree().end();
-  waits_ = !tree().loops && time - shift_ < tree().begin();
-  clip_end_ = is_over ? std::numeric_limits<double>::infinity() : time_of(waits_ ? 0 : key_ + 1);
+  is_before_begin_ = !tree().loops && time - shift_ < tree().begin();
+  clip_end_ = is_over ? std::numeric_limits<double>::infinity() : time_of(is_before_begin_ ? 0 : key_ + 1);
 }
 
 void MovingBody::next_key() noexcept {
-  if (waits_) {
-    waits_ = false;
+  if (is_before_begin_) {
+    is_before_begin_ = false;
   } else if (key_ + 2 < chunk().times.size()) {
     ++key_;
   } else if (chunk_ + 1 < tree().chunks.size()) {
     ++chunk_, key_ = 0, ++chunks_begun_;
   } else if (tree().loops) {
-    begin_round(round_ + 1);
+    begin_cycle(cycle_ + 1);
     chunk_ = 0, key_ = 0, ++chunks_begun_;
   } else {
     clip_end_ = std::numeric_limits<double>::infinity();
@@ -108,10 +110,10 @@ void MovingBody::next_key() noexcept {
   clip_end_ = time_of(key_ + 1);
 }
 
-/// Rounding of one round is not handed on to the next.
-void MovingBody::begin_round(double round) noexcept {
-  round_ = round;
-  shift_ = facts_->clip_begin - tree().begin() + round * tree().length();
+/// Computes the shift from the number of the cycle, so that rounding does not accumulate.
+void MovingBody::begin_cycle(double cycle) noexcept {
+  cycle_ = cycle;
+  shift_ = facts_->clip_begin - tree().begin() + cycle * tree().length();
 }
 
 double MovingBody::fraction(double time) const noexcept {
@@ -119,7 +121,7 @@ double MovingBody::fraction(double time) const noexcept {
 }
 
 double MovingBody::hull_end(unsigned level) const noexcept {
-  const bool moves = !waits_ && is_finite(clip_end_);
+  const bool moves = !is_before_begin_ && is_finite(clip_end_);
   return moves ? hull(level).end + shift_ : clip_end_;
 }
 

@@ -13,66 +13,71 @@
 
 namespace bch::detail {
 
-/// Bound the errors of positions for each metre a second and second, metre of a coordinate, and metre of the reaches; see ContactSearch.
+/// Bounds of the errors of positions: per (metre per second) and second of time, per metre of coordinates,
+/// and per metre of reach; see ContactSearch.
 constexpr double time_rounding = 0x1p-48, position_rounding = 0x1p-48, root_rounding = 0x1p-20;
 
-/// Holds what a search wants to know of a motion beforehand.
+/// Holds the properties of a motion that a search needs.
 struct MotionFacts {
   const AnimatedTree* tree;
   std::span<const PathKey> path;
   double clip_begin;
-  double path_speed = 0;  ///< the most in a second, as seen from above, metres
+  double path_speed = 0;  ///< the largest, seen from above, metres per second
   double farthest = 0;    ///< the largest coordinate of a key
 
-  /// Takes a motion that is valid.
+  /// The motion must be valid.
   explicit MotionFacts(const Motion& motion);
 };
 
-/// Represents a motion at times that ascend: which keys of its path and of its clip a time lies between.
+/// Represents a motion at ascending times: the keys of its path and of its clip around the current time.
 class MovingBody {
  public:
   explicit MovingBody(const MotionFacts& facts) : facts_(&facts) {}
 
-  /// Goes on to a time, and returns until when the path goes straight on and turns evenly from there: after that time, or infinite.
+  /// Advances to a time. Returns the time of the next key of the path, until which motion and rotation are
+  /// linear; or infinity.
   double path_end(double time) noexcept;
-  /// Returns until when discs move straight on.
+  /// Returns the time until which discs move along straight lines: the next key of the clip, or infinity.
   double clip_end(double time) noexcept;
 
-  /// Returns after how long its discs repeat for good what they do from a time on: 0 where they stand still, infinite where they do not.
+  /// Returns the period of its discs from a time on: 0 if they stand still, infinity if they do not repeat.
   double period(double time) noexcept;
 
-  /// Returns by how much rounding of times moves a disc until path_end(), at most, from the time on for which that was called.
+  /// Returns a bound on the displacement of a disc by rounding of times, from the time of the last path_end()
+  /// to its result.
   double time_slack(double time) const noexcept;
-  /// Returns where the body is until path_end().
+  /// Returns the position and heading at a time before path_end().
   PathKey pose(double time) const noexcept;
-  /// Returns the keys between which it is now: the first one, and which fraction of the time to the next has gone by at a time.
+  /// Returns the last key of the clip before the current time, and the fraction of the interval to the next
+  /// key at a time.
   std::size_t key() const noexcept { return key_; }
   double fraction(double time) const noexcept;
-  /// Returns its hull through the window of chunks in which it is now, until when that goes on, and the fraction of it that has gone by.
+  /// Returns the hull over the current window of chunks at a level. Below: the end of the window, and the
+  /// fraction of the window at a time.
   const HullInterval& hull(unsigned level) const noexcept {
     return tree().hulls.levels[level][chunk_ >> level];
   }
-  /// Likewise, of a body of spheres: the hulls of its bands.
+  /// Returns the hulls of the bands of a body of spheres over that window.
   const HullBands& bands(unsigned level) const noexcept { return tree().hulls.bands[level][chunk_ >> level]; }
   double hull_end(unsigned level) const noexcept;
   double hull_fraction(double time, unsigned level) const noexcept;
   const AnimatedTree& tree() const noexcept { return *facts_->tree; }
   const AnimatedTreeChunk& chunk() const noexcept { return tree().chunks[chunk_]; }
-  /// Counts the chunks that began. Discs of one have nothing to do with those of another.
+  /// Returns how many chunks have begun; each has discs of its own.
   std::uint32_t chunks_begun() const noexcept { return chunks_begun_; }
 
  private:
   void find_key(double time) noexcept;
   void next_key() noexcept;
-  void begin_round(double round) noexcept;
+  void begin_cycle(double cycle) noexcept;
   double time_of(std::size_t key) const noexcept { return chunk().times[key] + shift_; }
 
   const MotionFacts* facts_;
-  std::size_t next_on_path_ = 0;  ///< the first key of the path after the time
+  std::size_t next_on_path_ = 0;  ///< the first key of the path after the current time
   std::size_t chunk_ = 0, key_ = 0;
-  double round_ = 0;    ///< of a clip that loops
-  double shift_ = 0;    ///< of the clip's times to those of the motion
-  bool waits_ = false;  ///< for its beginning, until which it stands
+  double cycle_ = 0;              ///< of a clip that loops
+  double shift_ = 0;              ///< of the clip's times to those of the motion
+  bool is_before_begin_ = false;  ///< the clip has not begun: the body stands still
   double clip_end_ = -std::numeric_limits<double>::infinity();
   std::uint32_t chunks_begun_ = 0;
 };

@@ -8,8 +8,8 @@
 
 namespace bch::detail {
 
-/// Represents a disc that moves straight on for a time from 0 to 1: where it begins, and how far it comes. Spheres have heights, which are
-/// the same of all discs.
+/// Represents a disc, or a sphere, that moves along a straight line and grows linearly during times 0 to 1:
+/// its values at time 0, and their changes until time 1. z is 0 for all discs.
 struct MovingDisc {
   double x, y, radius;
   double move_x, move_y, growth;
@@ -18,9 +18,10 @@ struct MovingDisc {
 
 constexpr double never = std::numeric_limits<double>::infinity();
 
-/// Returns the first time from 0 to `last` at which two discs are at most `margin` apart, or never. It is the first root of the square of
-/// the centres' distance less that of what the radii reach, f(s) = a s^2 + 2 b s + c, where c > 0: c / (-b + sqrt(b^2 - a c)), whatever
-/// the sign of a.
+/// Returns the first time in [0, last] at which the distance of two discs is at most `margin`, or never:
+///
+///     f(s) = (distance of the centres)^2 - (sum of the radii + margin)^2 = a s^2 + 2 b s + c
+///     s = c / (-b + sqrt(b^2 - a c))     first root for c > 0, for either sign of a; 0 for c <= 0
 inline double first_overlap(const MovingDisc& one, const MovingDisc& other, double margin,
                             double last) noexcept {
   const double x = one.x - other.x, y = one.y - other.y, r = one.radius + other.radius + margin;
@@ -32,7 +33,7 @@ inline double first_overlap(const MovingDisc& one, const MovingDisc& other, doub
   const double b = x * move_x + y * move_y + z * move_z - r * growth;
   const double square = b * b - a * c;
   const double divisor = std::sqrt(square > 0 ? square : 0) - b;
-  // Choices of numbers alone, so that loops over discs are vectorised.
+  // Selections without branches, so that loops over discs are vectorised.
   double time = c / divisor;
   time = c <= last * divisor ? time : never;
   time = square < 0 ? never : time;

@@ -21,8 +21,8 @@ double ObstacleSearch::first(const MotionFacts& motion, double from, double to) 
   for (double time = from; time <= to;) {
     const double end = body_->path_end(time);
     slack_ = body_->time_slack(time) + position_rounding * motion.farthest + root_rounding * 2 * reach_;
-    // One that stands does nothing new after a round.
-    const bool stands = is_one_place(body_->pose(time), body_->pose(end));
+    // A body that stands still repeats itself after a cycle.
+    const bool stands = is_same_pose(body_->pose(time), body_->pose(end));
     const double period = stands ? body_->period(time) : 0,
                  last = period > 0 ? std::min(end, time + 2 * period) : end;
     const double found = first_on_path(time, last, to);
@@ -32,10 +32,10 @@ double ObstacleSearch::first(const MotionFacts& motion, double from, double to) 
   return never;
 }
 
-/// Where the path goes straight on: halves paths that are long, but not where nothing is near.
+/// Searches a straight part of the path. Halves it while it is long and obstacles are near.
 double ObstacleSearch::first_on_path(double from, double end, double to) {
   limit_.count(1);
-  if (from > to || !search_about(from, end)) return never;
+  if (from > to || !find_near(from, end)) return never;
   const double half = from + (end - from) / 2;
   const PathKey a = body_->pose(from), b = body_->pose(end);
   const double x = b.x - a.x, y = b.y - a.y;
@@ -44,8 +44,8 @@ double ObstacleSearch::first_on_path(double from, double end, double to) {
   return sooner < never ? sooner : first_on_path(half, end, to);
 }
 
-/// Finds what is near on a path. Returns: whether something is.
-bool ObstacleSearch::search_about(double from, double end) {
+/// Finds the segments near a part of the path. Returns: whether an obstacle is near.
+bool ObstacleSearch::find_near(double from, double end) {
   const PathKey a = body_->pose(from), b = body_->pose(end);
   const std::span<const LocalSegment> found =
       near_.find_along({a.x, a.y, {1, 0}}, {0, 0}, reach_ + slack_, {b.x - a.x, b.y - a.y});
@@ -58,12 +58,12 @@ bool ObstacleSearch::is_in_area(double x, double y) {
   return !near_.areas_that_hold({x, y, {1, 0}}, {0, 0}).empty();
 }
 
-/// From key to key of the clip.
+/// Searches key by key of the clip.
 double ObstacleSearch::first_near(double from, double end, double to) {
   for (double time = from; time <= to;) {
     limit_.count(1);
     const double until = std::min(body_->clip_end(time), end);
-    if (is_inside_where_a_chunk_begins(time)) return time;
+    if (is_inside_at_chunk_begin(time)) return time;
     const double found = first_between(time, is_finite(until) ? until : time + 1);
     if (found < never) return found;
     if (until >= end) return never;
@@ -73,7 +73,7 @@ double ObstacleSearch::first_near(double from, double end, double to) {
 }
 
 double ObstacleSearch::first_between(double from, double end) {
-  return first_halving(from, end, tolerance_, [&](double begin, double last) {
+  return first_by_bisection(from, end, tolerance_, [&](double begin, double last) {
     limit_.count(found_.size());
     place(begin, last);
     margin_ = nodes_.deviation() + slack_;
@@ -92,7 +92,7 @@ void ObstacleSearch::place(double from, double end) {
   }
 }
 
-bool ObstacleSearch::is_inside_where_a_chunk_begins(double time) {
+bool ObstacleSearch::is_inside_at_chunk_begin(double time) {
   const std::uint32_t begun = body_->chunks_begun();
   if (near_.obstacles().area_tree.levels == 0 || std::exchange(chunks_tested_, begun) == begun) return false;
   const PathKey pose = body_->pose(time);
@@ -107,12 +107,12 @@ bool ObstacleSearch::is_inside_where_a_chunk_begins(double time) {
 }
 
 void ObstacleSearch::open(std::uint32_t node, std::uint32_t segment, double last) {
-  const StillSegment& still = segments_[segment];
+  const StaticSegment& still = segments_[segment];
   const double time = first_overlap(nodes_[node], still, margin_ + still.slack, last);
   if (time <= last) open_.push_back({node, segment, time});
 }
 
-/// What may touch sooner is examined first.
+/// Nodes that may touch sooner are examined first.
 double ObstacleSearch::first_of_nodes() {
   double first = never, last = 1;
   open_.clear();

@@ -8,30 +8,32 @@
 
 #include "kernel/motion/moving_body.hpp"
 #include "kernel/motion/placed_nodes.hpp"
+#include "kernel/motion/static_segment.hpp"
 #include "kernel/motion/step_limit.hpp"
-#include "kernel/motion/still_segment.hpp"
 #include "kernel/obstacles/near_segments.hpp"
 
 namespace bch::detail {
 
-/// Finds the first contacts of motions with obstacles, motion after motion, and keeps its memory meanwhile: as ContactSearch does with two
-/// motions, of which one is the segments that are near.
+/// Finds the first contact of a motion with obstacles, for one motion after the other. Keeps its memory in
+/// between. Works like ContactSearch; nearby segments replace the second body.
 ///
-/// A path is cut into stretches no longer than twice the reach; the segments within reach of one are found by the tree of boxes. Discs are enlarged by
-/// the deviation from a chord by rotation and by `slack_`, which has what ContactSearch derives, for one body, with the reach twice: no node is
-/// farther than three reaches from where a stretch begins, and no end of a segment that it touches farther than another one. Coordinates of a segment
-/// that is long or far are off by 2^-48 of these at most: StillSegment::slack. Twice that is at most 1.8e-14 of the distances to both its
-/// ends together, as OutlineSegment derives for half of it.
+/// A path is divided into parts no longer than twice the reach; the tree of boxes finds the segments within
+/// reach of a part. Discs are enlarged by the deviation from chords by rotation, and by `slack_`: the errors
+/// that ContactSearch derives, for one body and with twice the reach, because nodes are within three reaches
+/// of where the part begins, and an end of a segment that a node touches within another one. Coordinates of a
+/// long or far segment are off by 2^-48 of themselves at most (StaticSegment::slack). Twice that is at most
+/// 1.8e-14 of the sum of the distances to both its ends; OutlineSegment derives half of that.
 ///
-/// An area holds a disc wholly or not at all as long as no disc touches a segment. Whether it does can change only in the beginning and
-/// where a chunk begins, and is asked then. An area without a segment within reach holds the body if it holds the body's position.
+/// As long as no disc touches a segment, a polygon contains a disc wholly or not at all. That can change only
+/// at the beginning and where a chunk begins, and is tested there. A polygon without a segment within reach
+/// contains the body if it contains the body's position.
 class ObstacleSearch {
  public:
   ObstacleSearch(const Implementation& implementation, const ObstacleView& obstacles,
                  double tolerance) noexcept
       : near_(implementation, obstacles), tolerance_(tolerance) {}
 
-  /// Returns the first contact of a body from one time to another, or infinity. Contacts up to `to` do not depend on it.
+  /// Returns the time of the first contact in [from, to], or infinity. `to` does not change earlier contacts.
   /// Errors:  throws StepLimit::Reached.
   double first(const MotionFacts& motion, double from, double to);
 
@@ -40,10 +42,10 @@ class ObstacleSearch {
   double first_near(double from, double end, double to);
   double first_between(double from, double end);
   double first_of_nodes();
-  bool search_about(double from, double end);
+  bool find_near(double from, double end);
   void place(double from, double end);
   void open(std::uint32_t node, std::uint32_t segment, double last);
-  bool is_inside_where_a_chunk_begins(double time);
+  bool is_inside_at_chunk_begin(double time);
   bool is_in_area(double x, double y);
 
   struct Open {
@@ -55,12 +57,12 @@ class ObstacleSearch {
   double tolerance_;
   StepLimit limit_;
   double reach_ = 0, slack_ = 0;
-  double margin_ = 0;  ///< what discs are enlarged by in an interval
+  double margin_ = 0;  ///< enlargement of a disc in the current interval
   MovingBody* body_ = nullptr;
-  std::uint32_t chunks_tested_ = 0;  ///< chunks that had begun
+  std::uint32_t chunks_tested_ = 0;  ///< chunks begun at the last test of polygons
   PlacedNodes nodes_;
-  std::vector<WorldSegment> found_;     ///< near the stretch
-  std::vector<StillSegment> segments_;  ///< the same, in the interval
+  std::vector<WorldSegment> found_;      ///< near the part of the path
+  std::vector<StaticSegment> segments_;  ///< the same, relative to the interval's first position
   std::vector<Open> open_;
 };
 

@@ -9,7 +9,7 @@
 
 namespace bch::detail {
 
-/// Returns where a motion is at a time from one key of its path to the next.
+/// Returns the pose between two successive keys of a path.
 inline PathKey between_keys(const PathKey& from, const PathKey& to, double time) noexcept {
   const double fraction = std::min((time - from.time) / (to.time - from.time), 1.0);
   const auto blend = [=](double a, double b) { return a + (b - a) * fraction; };
@@ -17,8 +17,8 @@ inline PathKey between_keys(const PathKey& from, const PathKey& to, double time)
           blend(from.z, to.z)};
 }
 
-/// Returns whether two keys are one place.
-inline bool is_one_place(const PathKey& a, const PathKey& b) noexcept {
+/// Returns whether two keys have the same position and heading.
+inline bool is_same_pose(const PathKey& a, const PathKey& b) noexcept {
   return a.x == b.x && a.y == b.y && a.z == b.z && a.heading == b.heading;
 }
 

@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-// Loops over eight nodes stand in functions of their own: within other loops they would be unrolled before they are vectorised.
+// Loops over eight nodes are in separate functions: inside other loops they would be unrolled before they are
+// vectorised.
 
 namespace bch::detail {
 
@@ -43,13 +44,14 @@ void PlacedNodes::first_overlaps(std::uint32_t from, const MovingDisc& other, do
 }
 
 void PlacedNodes::place_eight(std::uint32_t from) noexcept {
-  // Not members, which a compiler takes to change with what is written.
+  // Copies of members, because the compiler assumes that the writes below may change members.
   const double step = chunk_->step, fraction = fraction_, fraction_at_end = fraction_at_end_;
   const double cosine = turn_.cosine, sine = turn_.sine, cosine_at_end = turn_at_end_.cosine,
                sine_at_end = turn_at_end_.sine;
   const double body_x = x_, body_y = y_, body_x_at_end = x_at_end_, body_y_at_end = y_at_end_;
   const auto in_metres = [step](const auto* numbers) {
-    std::array<float, animated_width> steps;  // first, because no loop of a compiler goes from 16 bits to 64
+    // By way of floats: compilers do not vectorise conversions from 16 bits to 64.
+    std::array<float, animated_width> steps;
     std::array<double, animated_width> metres;
     for (std::uint32_t lane = 0; lane < animated_width; ++lane)
       steps[lane] = static_cast<float>(numbers[lane]);

@@ -10,8 +10,9 @@
 
 namespace bch::detail {
 
-/// Counts the steps of a search, most of them from key to key of clips within reach, and ends one that short loops, long paths or fine
-/// tolerances make endless to all intents. An hour of clips with a hundred keys a second has 400 000.
+/// Counts the steps of a search, mostly from key to key of clips within reach, and ends a search that short
+/// loops, long paths or small tolerances make practically endless. An hour of clips with 100 keys per second
+/// has 400 000 steps.
 class StepLimit {
  public:
   struct Reached {};
@@ -28,8 +29,8 @@ class StepLimit {
   std::uint64_t steps_ = 0;
 };
 
-/// Returns what find() finds.
-/// Errors:  throws std::invalid_argument with the name of what was examined, where the limit is reached.
+/// Returns find().
+/// Errors:  throws std::invalid_argument with the name of the motions, if the limit is reached.
 template <class Name, class Find>
 double within_limit(const char* query, const Name& name, const Find& find) {
   try {

@@ -14,15 +14,15 @@
 
 namespace bch::detail {
 
-/// Says of what a query complains.
+/// Throws std::invalid_argument with the name of the query and the reason.
 [[noreturn]] void reject(const char* query, const std::string& why);
 
-/// Requires an interval and a tolerance to be as first_contact() says.
+/// Checks the interval and tolerance of first_contact().
 /// Errors:  throws std::invalid_argument.
 void require_valid(const char* query, const TimeInterval& interval, double tolerance);
 
-/// Checks motions, which are named in errors by the index that the first one has and those behind it.
-/// Returns: what searches know of them beforehand, as long as they live.
+/// Checks motions. Errors name them by index; the first one has index `named_from`.
+/// Returns: their properties for searches, which refer to the motions.
 /// Errors:  throws std::invalid_argument as first_contact() does.
 std::vector<MotionFacts> valid_motions(const char* query, std::span<const Motion> motions,
                                        std::size_t named_from = 0);

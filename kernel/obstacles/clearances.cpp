@@ -75,7 +75,7 @@ void put(const ClearanceAnswers& answers, std::size_t i, const NearestObstacle& 
   if (!answers.direction.empty()) answers.direction[i] = to_float(unit);
   if (!answers.discs.empty()) {
     const std::uint32_t disc =
-        is_disc ? nearest.disc : leaf_that_holds(shapes, root, nearest.point, at.x, at.y);
+        is_disc ? nearest.disc : leaf_containing(shapes, root, nearest.point, at.x, at.y);
     answers.discs[i] = {disc, nearest.segment.number};
   }
   if (!answers.points.empty())
@@ -138,8 +138,8 @@ void clearance(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& 
              [&](BodyQuery& query, std::uint32_t agent) {
                const NearestObstacle nearest =
                    query.nearest(agent, options.max_distance, zero ? 0 : -infinite_gap, zero);
-               if (nearest.is_within) return store_alone(answers, agent, 0);
-               if (!nearest.is_found) return store_alone(answers, agent, static_cast<float>(infinite_gap));
+               if (nearest.is_within) return store_distance(answers, agent, 0);
+               if (!nearest.is_found) return store_distance(answers, agent, static_cast<float>(infinite_gap));
                put(answers, agent, nearest);
              });
 }
@@ -153,8 +153,8 @@ void clearance(const BodySet& bodies, const Agents& agents, const ObstacleSet& o
   for_agents(agents.size(), make, options.max_distance, SearchMode::nearest,
              [&](SphereQuery& query, std::uint32_t agent) {
                const SphereGap nearest = query.nearest(agent, options.max_distance);
-               if (!nearest.is_found) return store_alone(answers, agent, static_cast<float>(infinite_gap));
-               if (zero && nearest.gap <= 0) return store_alone(answers, agent, 0);
+               if (!nearest.is_found) return store_distance(answers, agent, static_cast<float>(infinite_gap));
+               if (zero && nearest.gap <= 0) return store_distance(answers, agent, 0);
                put(bodies.view(), agents, agent, obstacles.view(), nearest, answers);
              });
 }

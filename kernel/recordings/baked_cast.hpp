@@ -12,16 +12,18 @@
 
 namespace bch::detail {
 
-/// Says how fast people walk in the clips of a name, metres a second; 0: they stand.
+/// Gives the speed at which people walk in the clips of that name, metres per second; 0: they stand.
 struct ClipSpeed {
   std::string clip;
   double speed;
 };
 
-/// Takes the characters of a baked set for the people of a recording: its shapes are their poses, as large as they were baked. The set
-/// shows them from above alone, so that speeds have to be told; clips without one are for rows that name them.
-/// Errors:  throws std::invalid_argument, naming the file, where the set does not say what its shapes show, on shapes without outlines, on
-///          a speed of a clip that is not there, and on a character without a clip that walks.
+/// Returns the characters of a baked set for the people of a recording. Its shapes are their poses, in the
+/// sizes that they were baked with. Shapes do not contain speeds, so these are given; clips without a speed
+/// are for rows that name them.
+/// Errors:  throws std::invalid_argument, naming the file, if the set does not describe its shapes' poses, on
+///          shapes without outlines, on a speed of an unknown clip, and on a character without a clip that
+///          walks.
 Cast baked_cast(const BakedShapes& baked, const std::string& file, std::span<const ClipSpeed> speeds);
 
 }  // namespace bch::detail

@@ -10,7 +10,8 @@
 
 namespace bch::detail {
 
-/// Returns which walls, by number, are borders of the floor: rings that no other ring encloses. Those of solid obstacles are none.
+/// Returns, by number of the wall, whether it is a border of the floor: a ring that no other ring encloses,
+/// and not a solid obstacle.
 std::vector<std::uint8_t> borders_of(const ObstacleSet& walls);
 
 }  // namespace bch::detail

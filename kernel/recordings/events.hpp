@@ -9,12 +9,12 @@
 
 namespace bch::detail {
 
-/// Joins overlaps of frames one after the other to events. Each pass is an event of its own.
+/// Joins overlaps in successive frames into events. Each pass is an event of its own.
 class EventLog {
  public:
-  /// Takes the overlaps and passes of the next frame, and where the first person of each is.
+  /// Adds the overlaps and passes of the next frame.
   void add(const CheckedFrame& frame);
-  /// Returns all events, by their first frames, then ids.
+  /// Returns all events, by first frames, then ids.
   std::vector<OverlapEvent> finish();
 
  private:

@@ -14,31 +14,32 @@
 
 namespace bch::detail {
 
-/// Holds consecutive frames that are checked at once. The last one is there for what happens between it and the one before.
+/// Holds successive frames that are checked at once. The last one only serves for contacts between it and the
+/// one before.
 class FrameBlock {
  public:
-  /// Stands for nobody.
+  /// An index that means no person.
   static constexpr std::uint32_t nobody = 0xffff'ffff;
 
   std::size_t frames() const noexcept { return frames_.size(); }
   std::int64_t frame(std::size_t i) const noexcept { return frames_[i]; }
-  /// Returns where the people of frame i begin, and, for i = frames(), their number.
+  /// Returns the index of the first person of frame i; for i = frames(), the number of people.
   std::size_t begin(std::size_t i) const noexcept { return begin_[i]; }
   std::span<const Walker> people() const noexcept { return people_; }
-  /// Returns, by person, the frame, and the same person in the frame behind it, or nobody.
+  /// Return, by person, the index of the frame, and of the same person in the next frame, or nobody.
   std::span<const std::uint32_t> frame_of() const noexcept { return frame_of_; }
   std::span<const std::uint32_t> next_of() const noexcept { return next_of_; }
 
-  /// Reads frames until there are about so many people. They begin with the last frame of the block before, if there was one.
-  /// Returns whether the recording ends with this block.
+  /// Reads frames until there are about `people` people, after the last frame of the previous block, if there
+  /// was one. Returns whether the recording ends with this block.
   bool read(WalkerReader& reader, std::size_t people, const FrameBlock& before);
 
-  /// Returns the people as agents.
+  /// Return the positions and headings of the people.
   std::span<const double> x() const noexcept { return x_; }
   std::span<const double> y() const noexcept { return y_; }
   std::span<const double> heading() const noexcept { return heading_; }
-  /// Returns where they are if every frame stands far from the others, so that people of one frame alone are neighbours. (Where the places of a
-  /// frame are hundreds of kilometres from each other, there are others.)
+  /// Returns x with every frame shifted far from the others, so that only people of the same frame are
+  /// neighbours (except in frames that extend over hundreds of kilometres).
   std::span<const double> apart_x() const noexcept { return apart_x_; }
 
  private:

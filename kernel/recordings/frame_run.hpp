@@ -17,45 +17,48 @@
 
 namespace bch::detail {
 
-/// Holds some frames of a block, one behind the other, which one task checks: enough people for the batches of the kernel, few enough for a
-/// cache. Indices are of the people of these frames. Keeps its memory for the next ones.
+/// Checks a run: successive frames of a block, which one task handles, with enough people for the kernel's
+/// batches and few enough for the cache. Indices are those of the people of the run. Keeps its memory for the
+/// next run.
 class FrameRun {
  public:
   static constexpr double near_distance = 1.2;  ///< metres
-  /// Metres, of one or of two people together, from a frame to the next; beyond, it is a jump and no way.
+  /// Metres: a longer displacement of a person, or of two relative to each other, between two frames is a
+  /// tracking jump.
   static constexpr double farthest_step = 6;
 
-  /// Takes `options`, `motions`, those that rows name, and `borders`, those of the walls, which have to live as long as this.
+  /// Keeps references to its arguments. `motions`: those that rows name. `borders`: borders_of() the walls.
   FrameRun(const CheckOptions& options, std::span<const CastMotion> motions,
            std::span<const std::uint8_t> borders)
       : options_(options), motions_(motions), borders_(borders) {}
 
-  /// Takes frames first .. last of a block, which has to live as long as the next calls; finds who is near whom and which poses people
-  /// are in.
+  /// Sets the run to frames first .. last of a block, to which it refers; finds pairs near each other and
+  /// poses of people.
   void look(const FrameBlock& block, std::size_t first, std::size_t last);
   std::span<const WalkerPose> poses() const noexcept { return poses_; }
-  /// Returns about how many pairs of neighbours run_query() will hold, or more.
+  /// Returns an estimate, mostly too large, of the number of pairs that run_query() will store.
   double expected_pairs() const;
-  /// Finds who overlaps or passes whom, and counts. `bodies` are those of with_next(); `shapes` show people, and `given_up` is what
-  /// WalkerShapes says of them.
+  /// Finds overlaps and passes, and counts them. `bodies`: of the people of with_next(). `shapes`: people's
+  /// shapes for pictures. `given_up`: WalkerShapes::given_up().
   void run_query(const RunBodies& bodies, std::span<const std::uint32_t> shapes, std::uint32_t given_up);
 
   std::size_t first() const noexcept { return first_; }
   std::size_t last() const noexcept { return last_; }
   /// Returns the number of people.
   std::size_t size() const noexcept { return end_ - begin_; }
-  /// Returns, of an array with an entry for each person of the block, those of these frames and of the one behind them.
+  /// Returns the part of an array over the block's people that belongs to the run and the frame after it.
   template <class Value>
   std::span<const Value> with_next(const std::vector<Value>& of_block) const noexcept {
     const std::size_t end = block_->begin(std::min(last_ + 1, block_->frames()));
     return std::span(of_block).subspan(begin_, end - begin_);
   }
   std::span<const CheckedPerson> people() const noexcept { return checked_people_; }
-  /// Gives the memory for pairs back where it is more than usual, because there are many runs.
+  /// Frees memory for pairs beyond the usual amount, because there are many runs.
   void let_go();
-  /// Returns who overlaps or passes whom, by frame, then ids.
+  /// Returns overlaps, passes and measured gaps, by frame, then ids.
   std::span<const CheckedPair> pairs() const noexcept { return checked_; }
-  /// Returns what is measured of people and pairs, where that is asked for; these by frame, then ids, and so many of a frame.
+  /// Return the measures of people and of pairs (by frame, then ids), and the number of pairs per frame;
+  /// empty without CheckOptions::measures.
   std::span<MeasuredPerson> measured_people() noexcept { return measured_people_; }
   std::span<const MeasuredPair> measured_pairs() const noexcept { return measured_pairs_; }
   std::size_t measured_pairs_of(std::size_t frame) const noexcept {
@@ -64,7 +67,7 @@ class FrameRun {
   const OverlapCounts& counts() const noexcept { return counts_; }
 
  private:
-  /// Returns for how many pairs memory is kept.
+  /// Returns the number of pairs whose memory is kept.
   std::size_t usual_pairs() const noexcept { return 65'536 + 32 * size(); }
   static constexpr double square(double value) { return value * value; }
   template <class Value>
@@ -118,21 +121,21 @@ class FrameRun {
   std::vector<Shoulders> shoulders_;
   std::vector<WalkerPose> poses_;
   std::size_t near_pairs_ = 0;
-  double margin_ = 0;  ///< metres: how far from each other people may be who are asked about
+  double margin_ = 0;  ///< metres: pairs within this distance are queried
   std::vector<Pair> near_, hits_;
   std::vector<std::uint8_t> near_in_discs_;
-  std::vector<Pair> apart_;  ///< may touch before the next frame, but do not in this one
+  std::vector<Pair> apart_;  ///< pairs that do not overlap in this frame, but may touch before the next
   std::vector<std::uint8_t> answers_, in_wall_;
   std::vector<std::uint8_t> overlaps_,
-      in_discs_;  ///< by person; that and near_in_discs_ have a bit for each of compared_discs
+      in_discs_;  ///< by person; in_discs_ and near_in_discs_ have a bit for each of compared_discs
   std::vector<CheckedPair> checked_;
   std::vector<CheckedPerson> checked_people_;
   OverlapCounts counts_;
   NeighbourMeasures neighbour_measures_;
   BroadPhase sweep_phase_;
-  std::vector<double> reach_;         ///< metres, by person: nothing of his body is farther from his place
+  std::vector<double> reach_;         ///< metres, by person: the body's largest distance from the position
   std::vector<float> hit_clearance_;  ///< of hits_
-  std::vector<std::uint64_t> intrusion_;  ///< of bodies, by person, in whole parts
+  std::vector<std::uint64_t> intrusion_;  ///< of bodies, by person, in fixed-point numbers
   std::vector<MeasuredPerson> measured_people_;
   std::vector<MeasuredPair> measured_pairs_;
   std::vector<std::size_t> measured_pairs_of_;  ///< by frame

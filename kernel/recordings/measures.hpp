@@ -13,44 +13,48 @@
 
 namespace bch::detail {
 
-// Numbers of the intrusion and the avoidance of Cordes, Schadschneider, Nicolas: "Dimensionless numbers reveal distinct regimes in the
-// structure and dynamics of pedestrian crowds", PNAS Nexus 3(4), 2024, pgae120; as PedPy computes them.
+// Constants of the intrusion and avoidance numbers, as in PedPy. Cordes, Schadschneider, Nicolas: "Dimensionless
+// numbers reveal distinct regimes in the structure and dynamics of pedestrian crowds", PNAS Nexus 3(4), 2024,
+// pgae120.
 constexpr double social_distance = 0.8;                     ///< metres: r_soc
 constexpr double farthest_neighbour = 3 * social_distance;  ///< metres, between centres
 constexpr double avoidance_seconds = 3;                     ///< tau_0
 
-/// The radius of discs beside bodies, metres: half of l_min of the same paper, and the radius of TrajNet++'s collisions.
+/// The radius of discs that are measured in addition to bodies, metres: half of l_min of that paper, and the
+/// radius of TrajNet++'s collisions.
 constexpr double measured_disc = 0.1;
 
 constexpr double measured_clearance =
-    social_distance - 2 * measured_disc;  ///< metres: bodies farther apart are not measured
-constexpr double measured_seconds =
-    5;  ///< how far times to collision look ahead, and times after an encroachment back
+    social_distance - 2 * measured_disc;  ///< metres: larger gaps of bodies are not measured
+constexpr double measured_seconds = 5;    ///< the largest time to collision, and since an encroachment
 
 // Distances of personal space, between centres, metres; Hall: "The hidden dimension", 1966.
 constexpr double intimate_space = 0.45, personal_space = 1.2;
 
-constexpr double cell_radius = 1.2;     ///< metres: where cells end in any case
-constexpr std::size_t cell_sides = 12;  ///< of the polygon with that radius
+constexpr double cell_radius = 1.2;     ///< metres: Voronoi cells are clipped at this distance
+constexpr std::size_t cell_sides = 12;  ///< of the clipping polygon
 
-/// Describes what is measured of a person of a frame. Least values are over all others of the frame, and infinite beyond what is measured.
+/// Holds the measures of a person in a frame. Minima are over all other people of the frame, and infinite if
+/// nobody is within range.
 struct MeasuredPerson {
   static constexpr float infinite = std::numeric_limits<float>::infinity();
 
   float voronoi_density = 0;                              ///< people per square metre
-  float clearance = infinite, disc_clearance = infinite;  ///< the least, metres; below 0: minus the depth
-  float time = infinite, disc_time = infinite;  ///< the least to a collision at present velocities, seconds
+  float clearance = infinite, disc_clearance = infinite;  ///< minimum, metres; in an overlap, minus its depth
+  float time = infinite,
+        disc_time = infinite;  ///< minimum time to a collision at present velocities, seconds
   float intrusion = 0, disc_intrusion = 0;
   float encroachment =
-      infinite;  ///< seconds since the disc of another person touched the disc of this one, where it now is
-  std::uint32_t intimate = 0, personal = 0;  ///< others within these distances, between centres
-  bool collides = false;       ///< overlaps somebody in this frame, or passes somebody before the next
+      infinite;  ///< seconds since another person's disc touched this person's disc at its present position
+  std::uint32_t intimate = 0, personal = 0;  ///< other people within these distances, between positions
+  bool collides = false;  ///< overlaps somebody in this frame, or passes through somebody before the next
   bool disc_collides = false;  ///< in this frame, or halfway between this and the next
 
   static float avoidance(float time) { return static_cast<float>(avoidance_seconds) / time; }
 };
 
-/// Describes two people of a frame who overlap, as bodies or as discs, or will do so at present velocities.
+/// Holds the measures of two people of a frame who overlap, as bodies or as discs, or will do so at present
+/// velocities.
 struct MeasuredPair {
   std::int64_t first, second;  ///< ids
   float distance;              ///< between centres, metres
@@ -58,15 +62,16 @@ struct MeasuredPair {
   float time, disc_time;
 };
 
-/// Returns when two discs touch whose centres are x, y apart, and move by vx, vy a second: 0 where they overlap, infinity where they never
-/// do. Positions and velocities are the second's less the first's, or the first's less the second's.
+/// Returns the time at which two discs touch, for a relative position (x, y) and a relative velocity (vx, vy)
+/// per second: 0 if they overlap, infinity if they never touch. Both are second - first, or both first -
+/// second.
 double disc_collision(double x, double y, double vx, double vy, double radius_sum) noexcept;
 
-/// Measures what depends on the places of the people of one frame alone: neighbours, discs and Voronoi cells. Keeps its memory for the
-/// next frame. Answers depend on nothing but these places, and the order of the people.
+/// Computes the measures that depend only on the positions of the people of a frame, in their order:
+/// neighbours, discs and Voronoi cells. Keeps its memory for the next frame.
 class NeighbourMeasures {
  public:
-  /// `x` and `y` are places, and `step_x` and `step_y` ways to the next frame, 0 where there is none.
+  /// `x`, `y`: positions. `step_x`, `step_y`: displacements until the next frame, 0 if there is none.
   void measure(std::span<const double> x, std::span<const double> y, std::span<const double> step_x,
                std::span<const double> step_y, std::span<MeasuredPerson> people);
 
@@ -77,7 +82,7 @@ class NeighbourMeasures {
     double x, y, step_x, step_y;
   };
   struct Neighbour {
-    double square, x, y;  ///< of the distance; the way to it
+    double square, x, y;  ///< square of the distance; vector to the neighbour
   };
   struct Corner {
     double x, y;

@@ -13,15 +13,16 @@
 
 namespace bch::detail {
 
-/// Remembers the ways of people for some seconds, and tells how long ago somebody was where somebody else now is. Memory: about 80 bytes for
-/// each person-frame of the last measured_seconds.
+/// Stores the paths of people for measured_seconds, and finds how long ago a person was where another person
+/// is now.
+/// Memory: about 80 bytes per person-frame of that time.
 class RecentSteps {
  public:
-  /// Takes the people of the next frame, by ascending id, and measures the encroachment of each.
+  /// Adds the people of the next frame, by ascending id, and measures the encroachment of each.
   void add(double seconds, std::span<const CheckedPerson> people, std::span<MeasuredPerson> measures);
 
  private:
-  /// Represents a straight way from one frame to the next, relative to the corner of its cell.
+  /// Represents a straight displacement from one frame to the next, relative to the corner of its cell.
   struct Step {
     std::int64_t id;
     double end;      ///< seconds
@@ -38,7 +39,7 @@ class RecentSteps {
   void forget(double before);
 
   std::unordered_map<std::uint64_t, std::vector<Step>, MixedHash>
-      cells_;  ///< steps near squares of the ground, by time
+      cells_;  ///< by cell of the ground: the steps near it, by time
   std::vector<Place> last_, now_;
   double last_seconds_ = 0, forgotten_ = 0;
 };

@@ -20,46 +20,48 @@
 
 namespace bch::detail {
 
-/// Describes how deep somebody is in a wall.
+/// Describes the overlap of a person and a wall.
 struct WallDepth {
-  std::uint32_t segment;  ///< the nearest, or that of DiscPair::none
+  std::uint32_t segment;  ///< the nearest segment, or DiscPair::none.second
   float depth;            ///< metres
-  float x, y;             ///< where he has to move
+  float x, y;             ///< unit vector of the separating displacement
 };
 
-/// Answers about the bodies that the people of a run of frames have, and those of the frame behind it.
+/// Answers queries about the bodies of the people of a run, and of the frame after it.
 class RunBodies {
  public:
   virtual ~RunBodies() = default;
 
-  /// Returns the number of each person's body, which is the shape of the agents below.
+  /// Returns the number of each person's body, which is the `shape` of the agents below.
   virtual std::span<const std::uint32_t> numbers() const noexcept = 0;
-  /// Returns the roots, for the broad phase.
+  /// Returns the bodies' roots, for the broad phase.
   virtual const ShapeSetView& roots() const noexcept = 0;
 
-  /// Finds who overlaps.
+  /// Finds the pairs that overlap.
   virtual void collide(const Agents& agents, std::span<const Pair> pairs,
                        std::span<std::uint8_t> hits) const = 0;
-  /// Finds who touches, in the sense of times_of_impact().
+  /// Finds the pairs that touch, by the criterion of times_of_impact().
   virtual void touch(const Agents& agents, std::span<const Pair> pairs,
                      std::span<std::uint8_t> hits) const = 0;
-  /// Measures how deep those overlap who do.
+  /// Measures the depths of pairs that overlap.
   virtual std::vector<Penetration> depths(const Agents& agents, std::span<const Pair> pairs) const = 0;
-  /// Measures how far people are apart who do not overlap, by what decides whether they do; infinite beyond the distance.
+  /// Measures the gaps of pairs that do not overlap, between the features that decide about overlaps;
+  /// infinite beyond `max_distance`.
   virtual std::vector<float> gaps(const Agents& agents, std::span<const Pair> pairs,
                                   double max_distance) const = 0;
-  /// Finds when people touch who move, a share of their way.
+  /// Finds the times at which moving people touch, as fractions of the displacements.
   virtual std::vector<float> times_of_impact(const Agents& agents, std::span<const Pair> pairs,
                                              const Displacements& displacements) const = 0;
 
-  /// Finds who is in a wall.
+  /// Finds the people who are in a wall.
   virtual void collide(const Agents& agents, const ObstacleSet& walls,
                        std::span<std::uint8_t> hits) const = 0;
-  /// Measures how deep those are in walls who are.
+  /// Measures the depths of people who are in walls.
   virtual std::vector<WallDepth> wall_depths(const Agents& agents, const ObstacleSet& walls) const = 0;
 };
 
-/// Answers what shapes and bodies of spheres are asked in the same way. `Set` is a set, or a reference to one that lives longer.
+/// Answers the queries that are the same for shapes and for bodies of spheres. `Set` is a set, or a reference
+/// to one that lives longer.
 template <class Set>
 class RunOf : public RunBodies {
  public:
@@ -93,16 +95,16 @@ class RunOf : public RunBodies {
   const std::remove_reference_t<Set>& set() const noexcept { return set_; }
 
  private:
-  static constexpr std::uint32_t directions = 32;  ///< of which the best one tells the depth
+  static constexpr std::uint32_t directions = 32;  ///< for penetration(): the depth is that of the best one
 
   Set set_;
   const AllOptions options_;
 };
 
-/// Answers by outlines, seen from above.
+/// Answers queries by outlines, seen from above.
 class RunOutlines : public RunOf<const ShapeSet&> {
  public:
-  /// Refers to a set, and to the shapes of all people.
+  /// Keeps references to a set, and to the shape of each person.
   RunOutlines(const ShapeSet& set, Leaves leaves, std::span<const std::uint32_t> numbers)
       : RunOf(set, {.leaves = leaves, .distance_leaves = leaves}), numbers_(numbers) {}
 
@@ -115,11 +117,11 @@ class RunOutlines : public RunOf<const ShapeSet&> {
   const std::span<const std::uint32_t> numbers_;
 };
 
-/// Answers by bodies of spheres, in space. Depths in walls are the deepest overlaps of a sphere and a wall.
+/// Answers queries by bodies of spheres, in 3D. The depth in a wall is that of the deepest sphere.
 class RunSpheres : public RunOf<BodySet> {
  public:
-  /// Poses the bodies of `people` of the run. Of the others, who are behind them, touch() poses those that it is asked about. Refers to all
-  /// arguments.
+  /// Poses the bodies of the first `people` poses, those of the run. touch() poses bodies of the next frame
+  /// as needed. Keeps references to its arguments.
   RunSpheres(const WalkerBodies& bodies, std::span<const WalkerPose> poses, std::size_t people);
 
   std::span<const std::uint32_t> numbers() const noexcept override { return numbers_; }

@@ -17,21 +17,23 @@
 
 namespace bch::detail {
 
-/// Returns models of bodies of so many spheres: of each character of a cast that is not baked or, where it is empty, of pedestrians, women
-/// and then men. Those that come with the library are taken from it, as pedestrians' are, and others are drafts.
-/// Errors:  throws std::invalid_argument as default_body() does of pedestrians and make_body() of others, naming the character.
+/// Returns models of bodies of `spheres` spheres, one per character of a cast that is not baked; for an empty
+/// cast, of the built-in woman and man. Models of built-in characters come from the library, others are
+/// drafts.
+/// Errors:  throws std::invalid_argument like default_body() and make_body(), naming the character.
 std::vector<BodyModel> body_models(CastView cast, std::uint32_t spheres);
 
-/// Poses bodies of spheres of people, of whom nobody shares a body with anybody.
+/// Poses bodies of spheres, one per person.
 class WalkerBodies {
  public:
-  /// Refers to models of body_models() or others of the same characters, which are valid.
+  /// Keeps references to valid models of the characters of `cast`, for example from body_models().
   WalkerBodies(std::span<const BodyModel> models, CastView cast);
   ~WalkerBodies();
 
-  /// Makes characters ready, of the statures that poses have, on all threads.
+  /// Builds the characters in the statures of some poses, on all threads.
   void prepare(std::span<const WalkerPose> poses);
-  /// Poses one body each, at the exact time, on all threads; several threads may call it at once. prepare() knows these poses.
+  /// Poses one body per pose at its exact time, on all threads. Several threads may call it at once. The
+  /// poses were passed to prepare().
   BodySet pose(std::span<const WalkerPose> poses) const;
 
  private:

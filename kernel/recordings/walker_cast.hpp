@@ -25,53 +25,58 @@ struct BakedPose {
 /// Represents a clip of a character.
 struct CastClip {
   std::string name;
-  double seconds;        ///< from its beginning to where it begins again
-  double speed;          ///< at which the character walks in it, at its own height, metres a second
-  std::uint32_t phases;  ///< so many that half a step between two moves no vertex by more than a centimetre
-  std::vector<BakedPose> baked = {};  ///< of a member of a baked set, by time: its phases
+  double seconds;        ///< length of a cycle
+  double speed;          ///< walking speed in the clip at the character's own height, metres per second
+  std::uint32_t phases;  ///< number of phases, such that half a phase moves no vertex by more than 1 cm
+  std::vector<BakedPose> baked = {};  ///< for a baked set: the phases, by time
 };
 
-/// Represents a custom character as the people of a recording have it: it walks along +x, except for those of a baked set, which have
-/// the size and the direction that they were baked with.
+/// Represents a custom character for the people of a recording. It walks along +x; a character of a baked set
+/// keeps the size and direction with which it was baked.
 struct CharacterEntry {
   std::string name;
-  Character character;               ///< empty where it is baked
-  double height;                     ///< in its first walk, metres; 0 where it is baked
-  std::vector<CastClip> clips;       ///< of the character
-  std::vector<std::uint32_t> walks;  ///< those in which it walks straight on, by ascending speed; never empty
+  Character character;          ///< empty if baked
+  double height;                ///< in its first walk, metres; 0 if baked
+  std::vector<CastClip> clips;  ///< all clips of the character
   std::vector<std::uint32_t>
-      idles;  ///< in which it stands; may be empty: who stands then stops in the slowest walk
+      walks;  ///< clips in which it walks straight ahead, by ascending speed; never empty
+  std::vector<std::uint32_t>
+      idles;  ///< clips in which it stands; if empty, a standing person stops in the slowest walk
   std::vector<std::string> assumptions;
 };
 
-/// Finds which clips of a character walk, how fast and where to, by the foot on the ground: that goes back under the body
-/// as fast as the body goes forward, also in a clip that walks on the spot. A clip in which it mostly does so in one direction,
-/// at 0.3 m/s or more, is a walk; one in which it hardly moves and something else does is an idle; the others, which turn, are
-/// left out, and so are walks of another direction than most.
-/// Errors:  throws std::invalid_argument, naming the character, where no clip is a walk.
+/// Classifies the clips of a character by the foot on the ground. In a walk, that foot moves back under the
+/// body at the body's speed, also if the character walks on the spot.
+///
+/// - walk: it mostly moves so in one direction, at 0.3 m/s or more - idle: it hardly moves, and something
+/// else does - other clips, such as turns, and walks in another direction than most, are left out
+///
+/// Errors:  throws std::invalid_argument, naming the character, if no clip is a walk.
 CharacterEntry character_entry(Character character, const std::string& name);
 
-/// Sorts the walks of a member by ascending speed.
+/// Sorts the walks of a character by ascending speed.
 void sort_walks(CharacterEntry& member);
 
-/// Holds the custom characters in a recording, and a view of them, which they outlive.
+/// The custom characters of a recording, and a view of them.
 using Cast = std::vector<CharacterEntry>;
 using CastView = std::span<const CharacterEntry>;
 
-/// Returns which of them a person has, by the id: the same in every run.
+/// Returns the index of the character that a person gets. It depends only on the id and the number of
+/// characters.
 std::uint32_t member_by_id(std::int64_t id, CastView cast);
 
-/// Holds the body and the clip that rows of a recording name.
+/// Holds the character and clip, or the body, that rows of a recording name.
 struct CastMotion {
-  std::optional<std::uint32_t> member;  ///< else one by the id
-  std::vector<std::uint32_t> clips;     ///< of each member; empty: by the speed
-  PlanePolygons footprint = {};         ///< of a body that does not walk, in place of both; else empty
+  std::optional<std::uint32_t> member;  ///< the character; none: member_by_id()
+  std::vector<std::uint32_t> clips;     ///< a clip for each character; empty: chosen by the speed
+  PlanePolygons footprint = {};         ///< of a body that does not walk; otherwise empty
 };
 
-/// Finds the characters and clips, or the bodies, that the rows of a recording name. A character has the name of its file, with or
-/// without the extension, and a clip the name that the file gives it. Bodies are `own` ones or those of the library.
-/// Errors:  throws TrajectoryError, naming the file, the line and the name, on what is not there, on a clip that a row names without a
-///          character and that one of them does not have, and on a body that footprint_of() rejects.
+/// Finds the characters and clips, or the bodies, that rows of a recording name. The name of a character is
+/// its file, with or without the extension; that of a clip comes from the file. Bodies are those of `own` and
+/// of the library.
+/// Errors:  throws TrajectoryError, naming the file, the line and the name, on an unknown name, on a clip
+///          without a character that not every character has, and on a body that footprint_of() rejects.
 std::vector<CastMotion> cast_motions(std::span<const NamedMotion> named, CastView cast,
                                      std::span<const Footprint> own = {});
 
@@ -81,15 +86,16 @@ struct CastPose {
   std::uint32_t clip;    ///< of the character
   std::uint32_t phase;
   float seconds;        ///< of the phase, in the clip
-  float exact_seconds;  ///< of the walker, before he is rounded to a phase
+  float exact_seconds;  ///< the time before rounding to a phase
 };
 
-/// Returns how a walker moves: as his row says, else in the walk of the nearest speed, as far in it as he has walked,
-/// or in an idle while he stands. `motions`: what cast_motions() found. `coarse`: divides the number of phases.
+/// Returns the pose of a walker: the one that the row names; or the walk with the nearest speed, advanced by
+/// the distance walked; or an idle clip while the walker stands. `motions`: from cast_motions(). `coarse`:
+/// divides the number of phases.
 CastPose cast_pose(CastView cast, std::span<const CastMotion> motions, const Walker& walker,
                    std::uint32_t coarse);
 
-/// Returns a character of a stature in metres.
+/// Returns a character scaled to a stature in metres.
 Character scaled(const CharacterEntry& member, double stature);
 
 }  // namespace bch::detail

@@ -15,23 +15,23 @@
 
 namespace bch::detail {
 
-/// Describes a person of a recording in a frame, and how he walks.
+/// Describes a person of a recording in a frame, and how the person walks.
 struct Walker {
   std::int64_t id;
   double x, y;     ///< metres
-  double heading;  ///< radians, by which his shape is turned
-  double speed;    ///< metres a second, smoothed
-  double phase;    ///< share of a stride, 0 to 1, from the left heel's contact on
+  double heading;  ///< radians, the rotation of the person's shape
+  double speed;    ///< metres per second, smoothed
+  double phase;    ///< fraction of the stride done, 0 to 1, from the contact of the left heel
   double stature;  ///< metres
   bool is_female;
-  bool is_guessed;     ///< the heading is neither of the file nor of a person who walks
-  double way = 0;      ///< metres that he has walked, from a place of his own on
-  double seconds = 0;  ///< from a time of his own on
-  std::uint32_t motion = TrackedPerson::no_motion;  ///< that the file names
+  bool is_guessed;     ///< the heading is neither from the file nor the direction of walking
+  double way = 0;      ///< distance walked, metres, from a start that differs by person
+  double seconds = 0;  ///< time, from a start that differs by person
+  std::uint32_t motion = TrackedPerson::no_motion;  ///< the motion that the file names
   float clip_seconds =
-      std::numeric_limits<float>::quiet_NaN();  ///< of its clip; NaN where the file does not say
-  double velocity_x = 0, velocity_y = 0;        ///< metres a second, smoothed as the speed is
-  bool comes_or_goes = false;                   ///< within 0.4 s of this frame there are frames without him
+      std::numeric_limits<float>::quiet_NaN();  ///< time in the clip of that motion; NaN if the file has none
+  double velocity_x = 0, velocity_y = 0;        ///< metres per second, smoothed like the speed
+  bool comes_or_goes = false;                   ///< a frame within 0.4 s of this one is without the person
 };
 
 /// Holds the people of a frame, by ascending id.
@@ -40,32 +40,36 @@ struct WalkerFrame {
   std::vector<Walker> people;
 };
 
-/// Holds how fast people are, from row to row of each.
+/// Holds statistics of speeds from row to row of each person.
 struct Speeds {
-  double way = 0, seconds = 0;         ///< of all people together; metres
-  double fastest = 0;                  ///< metres a second
-  std::int64_t person = 0, frame = 0;  ///< who is that fast, and where he then gets
+  double way = 0, seconds = 0;         ///< distance and time, summed over all people; metres
+  double fastest = 0;                  ///< metres per second
+  std::int64_t person = 0, frame = 0;  ///< the person with that speed, and the frame at its end
 
   double mean() const noexcept { return seconds > 0 ? way / seconds : 0; }
 };
 
-/// Reads a recording and finds how its people walk: speeds from positions 0.4 s before and after,
-/// or from the next ones where there are none so near, headings from the file or from the
-/// way of a person who walks, held while he stands, and strides that go on with the distance. Who stands at first faces the way of his first
-/// step, which is looked for up to 10 s ahead. Memory grows with the people of the frames within 0.4 s, or of those 10 s, up to 200 000 rows,
-/// where somebody stands at first; and by about 100 bytes for each person who has left.
-/// Errors:  throws TrajectoryError on what the reader rejects, and on a person who is 100 m away a moment later.
+/// Reads a recording and derives how its people walk.
+///
+/// Speed:   from the positions 0.4 s before and after, or the next ones if there are none within 0.4 s.
+/// Heading: from the file, or the direction of walking, or the last heading of a person who stands. A person
+/// who
+///          stands at first faces the first step, which is searched up to 10 s ahead.
+/// Phase:   advances with the distance.
+/// Memory:  grows with the people of the frames within 0.4 s; if somebody stands at first, of the frames
+///          within 10 s, up to 200 000 rows; and by about 100 bytes per person who has left.
+/// Errors:  throws TrajectoryError on what the reader rejects, and on a person who is 100 m away a moment
+///          later.
 class WalkerReader {
  public:
-  /// Takes `reader`, which has to live as long as this.
-  /// `facing`: where shapes face that are not turned, radians.
+  /// Keeps a reference to `reader`. `facing`: the direction in which unrotated shapes face, radians.
   explicit WalkerReader(TrajectoryReader& reader, double facing = 0);
 
   /// Reads the next frame. Returns false at the end.
   bool next(WalkerFrame& frame);
-  /// Returns how fast people were until now.
+  /// Returns the statistics of speeds of all frames read so far.
   const Speeds& speeds() const noexcept { return speeds_; }
-  /// Returns how many different people were read.
+  /// Returns the number of different people read so far.
   std::size_t people() const noexcept { return tracks_.size() + left_.size(); }
 
  private:
@@ -73,14 +77,14 @@ class WalkerReader {
     std::int64_t frame;
     double x, y;
   };
-  /// Holds what is known of a person: his last places, and how he walked last.
+  /// Holds the last positions of a person, and how the person walked last.
   struct Track {
     std::deque<Place> places;
-    double heading = 0, phase = 0, way = 0, stature = 0;  ///< the latter where the file has none
+    double heading = 0, phase = 0, way = 0, stature = 0;  ///< stature: if the file has none
     std::int64_t last_frame = 0;
     bool is_female = false, has_heading = false, has_walked = false;
   };
-  /// Holds what is kept of a person who has left: so much that he goes on as before if he comes back.
+  /// Holds the state of a person who has left, to continue if the person comes back.
   struct Left {
     Place last;
     double heading, phase, way;
@@ -109,15 +113,16 @@ class WalkerReader {
   bool at_end_ = false;
   std::deque<Frame> ahead_;
   std::size_t rows_ahead_ = 0;
-  std::deque<std::int64_t> before_;  ///< frames within the window before the one that is read
+  std::deque<std::int64_t> before_;  ///< frames within the window, before the current one
   std::int64_t window_begin_ = 0,
-               window_end_ = 0;  ///< the first and the last frame within the window of that one
+               window_end_ = 0;  ///< the first and the last frame within the window
   std::unordered_map<std::int64_t, Track, MixedHash> tracks_;
   std::unordered_map<std::int64_t, Left, MixedHash> left_;
-  std::size_t many_tracks_ = 0;  ///< from so many on, those who have left are looked for
+  std::size_t many_tracks_ = 0;  ///< at this number, people who have left are searched for
 };
 
-/// Returns a stature for a person whose file has none, and whether the body is a woman's, both by the id: the same in every run.
+/// Return a stature for a person if the file has none, and whether the body is a woman's. Both depend only on
+/// the id.
 double stature_by_id(std::int64_t id, bool is_female);
 bool is_female_by_id(std::int64_t id);
 

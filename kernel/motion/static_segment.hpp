@@ -9,18 +9,18 @@
 
 namespace bch::detail {
 
-/// Represents a segment that stands still: its ends, the unit vector from the one to the other, its length, and what its coordinates are
-/// off by.
-struct StillSegment {
+/// Represents a fixed segment: its ends, the unit vector from the first to the second, its length, and the
+/// error of its coordinates.
+struct StaticSegment {
   double ax, ay, bx, by;
   double x, y, length;
   double slack;
 };
 
-/// Holds the times of 0 to `last` at which all of some linear functions are not below 0.
-class TimesAbove {
+/// Holds the times in [0, last] at which several linear functions of time are all at least 0.
+class NonNegativeTimes {
  public:
-  explicit TimesAbove(double last) noexcept : end_(last) {}
+  explicit NonNegativeTimes(double last) noexcept : end_(last) {}
 
   void require_positive(double value, double growth) noexcept {
     if (value < 0)
@@ -34,18 +34,19 @@ class TimesAbove {
   double begin_ = 0, end_;
 };
 
-/// Returns the first time from 0 to `last` at which a disc is at most `margin` from a segment, or never: from one of the ends, or from the
-/// line, where its centre projects onto the segment.
+/// Returns the first time in [0, last] at which a disc is within `margin` of a segment, or never: within
+/// `margin` of one of its ends, or of its line while the centre projects onto the segment.
 ///
-/// Rounding: when the centre projects onto the segment is off by what its coordinates are. It is next to an end then, as near as to
-/// the line but for less than the margin.
-inline double first_overlap(const MovingDisc& disc, const StillSegment& segment, double margin,
+/// Rounding: the time at which the centre begins to project onto the segment is off by as much as the
+///           coordinates. The
+/// centre is then beside an end, whose distance differs from that of the line by less than the margin.
+inline double first_overlap(const MovingDisc& disc, const StaticSegment& segment, double margin,
                             double last) noexcept {
   const double at_x = disc.x - segment.ax, at_y = disc.y - segment.ay, radius = disc.radius + margin;
   const double along = at_x * segment.x + at_y * segment.y, across = segment.x * at_y - segment.y * at_x;
   const double along_move = disc.move_x * segment.x + disc.move_y * segment.y,
                across_move = segment.x * disc.move_y - segment.y * disc.move_x;
-  TimesAbove times(last);
+  NonNegativeTimes times(last);
   times.require_positive(radius - across, disc.growth - across_move);
   times.require_positive(radius + across, disc.growth + across_move);
   if (times.first() == never) return never;
