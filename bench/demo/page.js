@@ -76,14 +76,14 @@ function tell({ pairs, posing, finding }, frame) {
 
 let last;
 function frame(now) {
-  const seconds = last === undefined ? 0 : Math.min((now - last) / 1000, 0.1);
+  const elapsed = last === undefined ? 0 : (now - last) / 1000;
   const isStill = element("pause").checked;
-  if (!isStill) people.step(asked.has("step") ? Number(asked.get("step")) : seconds);
+  if (!isStill) people.step(asked.has("step") ? Number(asked.get("step")) : Math.min(elapsed, 0.1));
   const found = check.run();
   cloud.show(check.collides);
   controls.update();
   renderer.render(scene, camera);
-  tell(found, 1000 * seconds || 16);
+  tell(found, 1000 * elapsed || 16);
   last = now;
   window.demo = { people, check, found, frames };
   requestAnimationFrame(frame);
