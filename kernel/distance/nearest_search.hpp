@@ -38,7 +38,8 @@ class NearestSearch {
     ++size_;
   }
 
-  /// Searches all pairs; their measures then hold the answers. Calls between() when each pair has reached its first leaves.
+  /// Searches all pairs; their measures then hold the answers. Calls between() when each pair has reached its
+  /// first leaves.
   template <class Between>
   void run(Between between) noexcept {
     descend();

@@ -40,11 +40,11 @@ namespace bch::detail {
 /// So the search compares discs alone, and stores the leaves that may contain the nearest segments. finish()
 /// measures these, after the first leaves of all searches and at the end.
 ///
-/// Which pairs of segments are measured in double. Their distances f are first computed in float, for all pairs
-/// of one search with one placement:
+/// Which pairs of segments are measured in double. Their distances f are first computed in float, for all
+/// pairs of one search with one placement:
 ///
-///     (6) |f - s| <= 30 u S + 14 u D: 6 u S + 2 u D for B's ends placed in float, 12 u (D + 2 S) for the steps
-///         to the nearest point
+///     (6) |f - s| <= 30 u S + 14 u D: 6 u S + 2 u D for B's ends placed in float, 12 u (D + 2 S) for the
+///         steps to the nearest point
 ///     (7) the least w is at most f * longer + slack (64 u S) for every pair, and at most the best so far
 ///     (8) a pair can reach that bound only if its f is at most (bound + m + slack) * longer
 ///
