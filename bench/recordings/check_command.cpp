@@ -12,8 +12,8 @@
 #include "bench/base/options.hpp"
 #include "bench/base/output.hpp"
 #include "bench/recordings/recording_check.hpp"
-#include "bench/recordings/recording_page.hpp"
 #include "bench/recordings/resolved_recording.hpp"
+#include "kernel/recordings/page/recording_page.hpp"
 
 namespace bch::cli {
 namespace {
@@ -50,7 +50,7 @@ void run_check(const CLI::App& command, CheckCommandOptions options) {
   opened.recording.options = given_options(command);
   const Threads threads(options.threads);
   CheckTables tables(options.outputs);
-  std::optional<RecordingPage> page;
+  std::optional<detail::RecordingPage> page;
   if (!options.html.empty()) page.emplace(opened.recording);
   detail::CheckOptions how = opened.options(options.input);
   how.draws = page.has_value();

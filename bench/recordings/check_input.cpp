@@ -266,8 +266,7 @@ OpenedCheck::OpenedCheck(const CheckInput& input)
       cast(cast_of(input, baked)),
       footprints(footprints_of(input)),
       reader(detail::open_trajectory(input.file, trajectory_options(input))),
-      floor(floor_of(input, reader->info())),
-      walls(walls_of(input, floor)),
+      walls(walls_of(input, floor_of(input, reader->info()))),
       recording{input.file,
                 info_of(input, *reader, *this),
                 input.spheres(),
@@ -275,8 +274,7 @@ OpenedCheck::OpenedCheck(const CheckInput& input)
                 leaves_of(input, baked),
                 static_cast<std::uint32_t>(cast.size()),
                 baked.has_value(),
-                walls.has_value(),
-                floor,
+                walls ? &*walls : nullptr,
                 input.date.empty() ? date_of(input.file) : input.date,
                 {}} {}
 

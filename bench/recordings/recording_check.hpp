@@ -19,23 +19,11 @@
 #include "bench/base/output_file.hpp"
 #include "bench/characters/body_models.hpp"
 #include "kernel/recordings/check.hpp"
+#include "kernel/recordings/page/checked_recording.hpp"
 
 namespace bch::cli {
 
-/// Holds what is known of a checked recording besides the answers.
-struct CheckedRecording {
-  std::string file;
-  detail::TrajectoryInfo info;
-  std::uint32_t spheres;  ///< of a body; 0: people have outlines
-  std::uint32_t depth;
-  Leaves leaves;
-  std::uint32_t characters;  ///< custom ones; 0: built-in pedestrians
-  bool baked;                ///< those are of a baked set
-  bool walls;
-  std::string floor;    ///< to walk on, as well-known text, or empty
-  std::string date;     ///< for the page, or empty
-  std::string options;  ///< that the answers depend on, as they were given
-};
+using detail::CheckedRecording;
 
 constexpr const char* frame_columns = "frame,seconds,people,density,overlapping,overlapping_pairs,in_walls\n";
 constexpr const char* pair_columns = "frame,seconds,first,second,kind,depth,gap,x,y\n";
@@ -82,9 +70,6 @@ std::string check_text(const CheckedRecording& recording, const detail::CheckSum
 void write_check_json(const std::string& file, const CheckedRecording& recording,
                       const detail::CheckSummary& summary, bool has_measures);
 
-/// Returns what the bodies are, in a few words.
-std::string bodies_text(const CheckedRecording& recording);
-
 /// Returns the share of person-frames in overlap, in percent.
 double percent_in_overlap(const detail::CheckSummary& summary);
 
@@ -129,7 +114,6 @@ struct OpenedCheck {
   detail::Cast cast;
   std::vector<detail::Footprint> footprints;
   std::unique_ptr<detail::TrajectoryReader> reader;
-  std::string floor;  ///< as WKT, or empty
   std::optional<ObstacleSet> walls;
   CheckedRecording recording;
   std::vector<BodyModel> bodies;  ///< made by options(), where people have spheres

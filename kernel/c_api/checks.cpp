@@ -15,6 +15,7 @@
 #include "kernel/c_api/recordings.hpp"
 #include "kernel/recordings/baked_cast.hpp"
 #include "kernel/recordings/check.hpp"
+#include "kernel/recordings/page/recording_page.hpp"
 #include "kernel/recordings/walker_bodies.hpp"
 
 namespace bch::c_api {
@@ -150,6 +151,28 @@ std::vector<Footprint> footprints_of(const bch_check_options& options) {
   return footprints;
 }
 
+/// What the page says of the recording; empty where none is asked for.
+std::optional<CheckedRecording> recording_of(const bch_check_options& given, const TrajectoryInfo& info,
+                                             const CheckOptions& options) {
+  if (given.page == nullptr) return std::nullopt;
+  const auto text = [](const char* of) { return std::string(of == nullptr ? "" : of); };
+  const ShapeSet* const baked = options.baked;
+  CheckedRecording recording{text(given.page->title),
+                             info,
+                             given.spheres,
+                             baked == nullptr ? given.depth : baked->depths().back(),
+                             baked != nullptr && !baked->exact_leaves() ? Leaves::discs : options.leaves,
+                             static_cast<std::uint32_t>(options.cast.size()),
+                             baked != nullptr,
+                             options.walls,
+                             text(given.page->date),
+                             text(given.page->options)};
+  for (const CharacterEntry& member : options.cast)
+    recording.info.assumptions.insert(recording.info.assumptions.end(), member.assumptions.begin(),
+                                      member.assumptions.end());
+  return recording;
+}
+
 /// The bodies of spheres, or none.
 std::vector<BodyModel> bodies_of(const bch_check_options& options, CastView cast) {
   if (options.spheres == 0) return {};
@@ -176,7 +199,7 @@ std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check
   options.cast = cast;
   const std::vector<Footprint> footprints = footprints_of(given);
   options.footprints = footprints;
-  options.draws = false;
+  options.draws = given.page != nullptr;
   options.measures = given.measures != 0;
   std::vector<BodyModel> bodies;
   on_threads(given.threads, [&] { bodies = bodies_of(given, cast); });
@@ -195,10 +218,14 @@ std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check
   for (const CharacterEntry& member : cast)
     for (const std::string& line : member.assumptions) made->assumptions += line + "\n";
   const TrajectoryInfo& info = trajectory.reader->info();
+  const std::optional<CheckedRecording> recording = recording_of(given, info, options);
+  std::optional<RecordingPage> page;
+  if (recording) page.emplace(*recording);
   trajectory.is_read = true;
   on_threads(given.threads, [&] {
     const CheckSummary summary =
-        check(*trajectory.reader, options, [&](const CheckedFrame& frame, const ShapeSet&) {
+        check(*trajectory.reader, options, [&](const CheckedFrame& frame, const ShapeSet& shapes) {
+          if (page) page->add(frame, shapes);
           made->frames.push_back(frame_of(frame));
           for (const CheckedPair& pair : frame.pairs) made->pairs.push_back(pair_of(pair));
           add_measures(frame, *made);
@@ -207,6 +234,7 @@ std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check
           if (given.progress != nullptr && given.progress(given.user, done, total) != 0)
             throw Failure(BCH_CANCELLED, "cancelled by the caller");
         });
+    if (page) made->page = std::move(*page).finish(summary);
     made->summary = summary_of(summary, info);
     for (const std::string& line : summary.notes) made->notes += line + "\n";
     for (const OverlapEvent& event : summary.events) made->events.push_back(event_of(event));

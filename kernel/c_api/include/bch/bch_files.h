@@ -142,6 +142,13 @@ typedef struct bch_clip_speed {
   const char* clip;
   double speed; /**< metres per second; 0: they stand */
 } bch_clip_speed;
+/** Describes the page of a check, HTML that plays the recording without a network. The page omits what is
+ * NULL. */
+typedef struct bch_page {
+  const char* title;   /**< such as the file's name */
+  const char* date;    /**< of the recording */
+  const char* options; /**< that the results depend on */
+} bch_page;
 /** Describes what a kind of body that rows of a recording name covers on the ground. */
 typedef struct bch_footprint {
   const char* name;
@@ -177,9 +184,10 @@ typedef struct bch_check_options {
    * If rows have such bodies, spheres and a baked set are errors. */
   const bch_footprint* footprints;
   size_t footprint_count;
+  const bch_page* page; /**< or NULL: no page is made for bch_check_get_page(), of up to 30 MB */
 } bch_check_options;
 #define BCH_CHECK_OPTIONS_INIT \
-  { sizeof(bch_check_options), 0, 0, NULL, 0, NULL, NULL, BCH_ALL_DEPTHS, BCH_SEGMENTS, NULL, 0, NULL, NULL, 0, 0, 0, 0, 0, 0, NULL, 0 }
+  { sizeof(bch_check_options), 0, 0, NULL, 0, NULL, NULL, BCH_ALL_DEPTHS, BCH_SEGMENTS, NULL, 0, NULL, NULL, 0, 0, 0, 0, 0, 0, NULL, 0, NULL }
 /** Finds who runs into whom in a recording: each row becomes a walking person, or the body that the row
  * names. The recording must not have been read from. */
 BCH_API bch_status bch_check_run(bch_trajectory* trajectory, const bch_check_options* options, bch_check** check);
@@ -291,6 +299,8 @@ BCH_API bch_status bch_check_get_measures(const bch_check* check, const bch_chec
 /** Gets the measures of pairs, frame after frame; none without bch_check_options::measures. They live as long
  * as the check. */
 BCH_API bch_status bch_check_get_conflicts(const bch_check* check, const bch_check_conflict** pairs, size_t* count);
+/** Gets the page, an empty text without bch_check_options::page. It lives as long as the check. */
+BCH_API bch_status bch_check_get_page(const bch_check* check, const char** html, size_t* size);
 /** Frees a check. */
 BCH_API bch_status bch_check_free(bch_check* check);
 

@@ -17,7 +17,7 @@
 
 // How data lie in a page so that scripts can read them and nothing in them can become markup.
 
-namespace bch::cli {
+namespace bch::detail {
 
 /// Writes JSON that may stand in a script element: without "<", ">" and "&", which are written as \u003c and so on.
 /// Bytes of texts that are not UTF-8 are replaced.
@@ -82,4 +82,4 @@ std::string_view check_page_script();
 std::string_view check_page_style_hash();
 std::string_view check_page_script_hash();
 
-}  // namespace bch::cli
+}  // namespace bch::detail
