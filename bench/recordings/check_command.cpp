@@ -61,11 +61,13 @@ void run_check(const CLI::App& command, CheckCommandOptions options) {
       opened.check(how, [&](const detail::CheckedFrame& frame, const ShapeSet& shapes) {
         tables.add(frame);
         if (page) page->add(frame, shapes);
+        if (opened.against_truth) opened.against_truth->add(frame);
         if (resolved) resolved->add(frame);
       });
-  tables.finish(opened.recording, summary);
+  const detail::TruthCollisions* const truth = opened.against_truth ? &*opened.against_truth : nullptr;
+  tables.finish(opened.recording, summary, truth);
   if (page) write_file(options.html, std::move(*page).finish(summary));
-  report(opened.recording, summary, options.outputs);
+  report(opened.recording, summary, options.outputs, truth);
   if (!resolved) return;
   resolved->resolve();
   write_file(options.resolved, resolved->csv());

@@ -132,7 +132,7 @@ nlohmann::ordered_json json_of(const OverlapCount& count) {
 
 /// All but the events.
 nlohmann::ordered_json json_of(const CheckedRecording& recording, const CheckSummary& summary,
-                               bool has_measures) {
+                               bool has_measures, const TruthCollisions* truth) {
   nlohmann::ordered_json densities;
   for (std::size_t k = 0; k < density_classes.size(); ++k) {
     nlohmann::ordered_json of = json_of(summary.by_density[k]);
@@ -166,6 +166,8 @@ nlohmann::ordered_json json_of(const CheckedRecording& recording, const CheckSum
                {"by_density", densities}});
   if (has_measures)
     json.update({{"colliding_people", summary.colliding}, {"disc_colliding_people", summary.disc_colliding}});
+  if (truth != nullptr)
+    json.update({{"truth_frames", truth->frames()}, {"truth_colliding_people", truth->colliding()}});
   return json;
 }
 
@@ -225,11 +227,12 @@ void CheckTables::add(const CheckedFrame& frame) {
   }
 }
 
-void CheckTables::finish(const CheckedRecording& recording, const CheckSummary& summary) {
+void CheckTables::finish(const CheckedRecording& recording, const CheckSummary& summary,
+                         const TruthCollisions* truth) {
   for (const OverlapEvent& event : summary.events)
     if (events) events.add(event_line(event, recording.info.fps));
   frames.commit(), pairs.commit(), events.commit(), measures.commit(), conflicts.commit();
-  write_check_json(json, recording, summary, measures || conflicts);
+  write_check_json(json, recording, summary, measures || conflicts, truth);
 }
 
 std::string frame_line(const CheckedFrame& frame) {
@@ -303,10 +306,10 @@ std::string check_text(const CheckedRecording& recording, const CheckSummary& su
 }
 
 void write_check_json(const std::string& file, const CheckedRecording& recording, const CheckSummary& summary,
-                      bool has_measures) {
+                      bool has_measures, const TruthCollisions* truth) {
   if (file.empty()) return;
   // Without the brace at its end.
-  std::string head = json_text(json_of(recording, summary, has_measures));
+  std::string head = json_text(json_of(recording, summary, has_measures, truth));
   head.resize(head.size() - 2);
   StreamedFile json(file, head + ",\n  \"events\": [");
   for (const OverlapEvent& event : summary.events)
@@ -315,12 +318,18 @@ void write_check_json(const std::string& file, const CheckedRecording& recording
   json.commit();
 }
 
-void report(const CheckedRecording& recording, const CheckSummary& summary, const CheckOutputs& outputs) {
+void report(const CheckedRecording& recording, const CheckSummary& summary, const CheckOutputs& outputs,
+            const TruthCollisions* truth) {
   std::string text = check_text(recording, summary);
   if (outputs.has_measures())
     text += fmt::format("\n{} of people collide at some time, as discs of {:g} m {}.\n",
                         percent_text(summary.colliding, summary.people), measured_disc,
                         percent_text(summary.disc_colliding, summary.people));
+  if (truth != nullptr)
+    text +=
+        fmt::format("\n{} of people, as discs of {:g} m, collide with others as these truly went, in {}.\n",
+                    percent_text(truth->colliding(), summary.people), measured_disc,
+                    counted(truth->frames(), "common frame"));
   write_standard_output(text);
   if (percent_in_overlap(summary) > outputs.fail_above)
     throw CheckFailed(fmt::format("{}: {:.2f} % of person-seconds in overlap, more than {:g} %",

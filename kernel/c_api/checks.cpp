@@ -16,6 +16,7 @@
 #include "kernel/recordings/baked_cast.hpp"
 #include "kernel/recordings/check.hpp"
 #include "kernel/recordings/page/recording_page.hpp"
+#include "kernel/recordings/truth_collisions.hpp"
 #include "kernel/recordings/walker_bodies.hpp"
 
 namespace bch::c_api {
@@ -184,10 +185,16 @@ std::vector<BodyModel> bodies_of(const bch_check_options& options, CastView cast
   return body_models(cast, options.spheres);
 }
 
+/// Errors:  throws Failure where a recording is not at its beginning.
+bch_trajectory& unread(bch_trajectory& trajectory, const std::string& name) {
+  if (trajectory.is_read) throw Failure(BCH_INVALID_ARGUMENT, name + " has been read from; open it again");
+  return trajectory;
+}
+
 }  // namespace
 
 std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check_options& given) {
-  if (trajectory.is_read) throw Failure(BCH_INVALID_ARGUMENT, "trajectory has been read from; open it again");
+  unread(trajectory, "trajectory");
   CheckOptions options;
   options.plan.depths = {given.depth};
   options.leaves = one_of(given.leaves, Leaves::segments, "options->leaves");
@@ -221,11 +228,15 @@ std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check
   const std::optional<CheckedRecording> recording = recording_of(given, info, options);
   std::optional<RecordingPage> page;
   if (recording) page.emplace(*recording);
+  std::optional<TruthCollisions> truth;
+  if (given.truth != nullptr) truth.emplace(*unread(*given.truth, "options->truth").reader, info.fps);
   trajectory.is_read = true;
+  if (truth) given.truth->is_read = true;
   on_threads(given.threads, [&] {
     const CheckSummary summary =
         check(*trajectory.reader, options, [&](const CheckedFrame& frame, const ShapeSet& shapes) {
           if (page) page->add(frame, shapes);
+          if (truth) truth->add(frame);
           made->frames.push_back(frame_of(frame));
           for (const CheckedPair& pair : frame.pairs) made->pairs.push_back(pair_of(pair));
           add_measures(frame, *made);
@@ -236,6 +247,8 @@ std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check
         });
     if (page) made->page = std::move(*page).finish(summary);
     made->summary = summary_of(summary, info);
+    if (truth)
+      made->summary.truth_frames = truth->frames(), made->summary.truth_colliding_people = truth->colliding();
     for (const std::string& line : summary.notes) made->notes += line + "\n";
     for (const OverlapEvent& event : summary.events) made->events.push_back(event_of(event));
     for (std::size_t k = 0; k < density_classes.size(); ++k) {

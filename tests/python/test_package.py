@@ -687,6 +687,23 @@ class Recordings(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "page=True"):
             bch.check(path).html(out)
 
+    def test_predictions(self):
+        """TrajNet++'s Col-II, by its formula: in frames, and halfway to the next."""
+        truth = self.columns()
+        predicted = {**truth, "y": truth["y"] + 0.08 * truth["frame"] * np.sin(truth["id"])}
+        found = bch.check(**predicted, fps=25, truth=truth).summary
+        places = np.zeros((2, predicted["frame"].max() + 1, 12, 2))
+        for to, columns in zip(places, (predicted, truth)):
+            to[columns["frame"], columns["id"]] = np.c_[columns["x"], columns["y"]]
+        places = places[:, predicted["frame"].min() :]
+        halfway = (places[:, 1:] + places[:, :-1]) / 2
+        distance = np.concatenate([np.linalg.norm(own[:, :, None] - others[:, None], axis=3) for own, others in (places, halfway)])
+        distance[:, np.arange(12), np.arange(12)] = np.inf
+        self.assertEqual(found["truth_colliding_people"], (distance <= 0.2).any(axis=(0, 2)).sum())
+        self.assertTrue(0 < found["truth_colliding_people"] < 12)
+        self.assertEqual(found["truth_frames"], len(places[0]))
+        self.assertEqual(bch.check(**predicted, fps=25).summary["truth_frames"], 0)
+
     def columns(self, count=60):
         """Rows of some people, in no order, as arrays of many types."""
         random = np.random.default_rng(5)

@@ -333,6 +333,7 @@ def check(
     max_pairs: int = 0,
     measures: bool = False,
     page: bool = False,
+    truth: Any = None,
     walls: Any = None,
     fps: Optional[float] = None,
     unit: Optional[float] = None,
@@ -400,6 +401,9 @@ def check(
         Also fill `Check.measures` and `Check.conflicts`.
     page : bool
         Also make the page that `Check.html` writes, of up to 30 MB. With bodies of spheres it shows outlines, which have to be made, too.
+    truth : path, or table, optional
+        A recording of what people did whose ways `recording` predicts, with the same ids, frames and frame rate: the summary's
+        `truth_colliding_people` are those whose discs of 0.1 m collide with those of others as these truly went (TrajNet++'s Col-II).
     walls : Obstacles, or a geometry as `Obstacles.from_wkt` takes, optional
         Walls to use instead of the geometry of the recording. Polygons of a geometry are the floor that people walk on, and their
         rings are walls.
@@ -438,6 +442,10 @@ def check(
         raise ArrayError("clip_speeds and facing are for characters of a bch.ShapeSet")
     rows = None if table is None else Columns(table)  # which live until the check has read them
     trajectory = _open(rows or encoded(recording, "recording"), fps, unit, columns)
+    true_table = None if truth is None else _table_of(truth, {})
+    true_rows = None if true_table is None else Columns(true_table)
+    true_fps = fps if true_table is None or true_table.fps is None else true_table.fps
+    true_ways = None if truth is None else _open(true_rows or encoded(truth, "truth"), true_fps, unit, columns)
     cast = (ctypes.c_void_p * len(own))(*(character._pointer for character in own))
     speeds = (_library.ClipSpeed * len(clip_speeds))(
         *(_library.ClipSpeed(encoded(clip, "clip_speeds"), number(speed, "clip_speeds")) for clip, speed in clip_speeds.items())
@@ -471,6 +479,7 @@ def check(
             footprints=ctypes.cast(prints, ctypes.c_void_p),
             footprint_count=len(prints),
             page=None if shown is None else ctypes.addressof(shown),
+            truth=None if true_ways is None else true_ways.pointer,
             progress=watched.callback,
         )
         handle = Handle("check", "run", trajectory.pointer, byref(options), checked=watched.run)

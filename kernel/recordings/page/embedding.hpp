@@ -15,6 +15,8 @@
 #include <type_traits>
 #include <vector>
 
+#include "layout/base/number_class.hpp"
+
 // How data lie in a page so that scripts can read them and nothing in them can become markup.
 
 namespace bch::detail {
@@ -62,7 +64,7 @@ template <class Integer>
 Integer rounded(double value) {
   using Limits = std::numeric_limits<Integer>;
   static_assert(sizeof(Integer) <= 4);
-  if (std::isnan(value)) return 0;
+  if (is_nan(value)) return 0;
   const double whole = std::round(value);
   if (whole <= static_cast<double>(Limits::min())) return Limits::min();
   if (whole >= static_cast<double>(Limits::max())) return Limits::max();
