@@ -34,13 +34,13 @@ struct Sides {
   double first, second, margin;
 
   Sides(const Segment& of, const Segment& points, double distance) noexcept {
-    const Point2 way = minus(of[1], of[0]);
+    const Point2 edge = minus(of[1], of[0]);
     const auto side = [&](Point2 point) {
       const Point2 to = minus(point, of[0]);
-      return way.x * to.y - way.y * to.x;
+      return edge.x * to.y - edge.y * to.x;
     };
     first = side(points[0]), second = side(points[1]);
-    margin = distance * (std::abs(way.x) + std::abs(way.y));
+    margin = distance * (std::abs(edge.x) + std::abs(edge.y));
   }
 
   bool on_one_side() const noexcept {
@@ -53,11 +53,11 @@ struct Sides {
 };
 
 inline double square_distance(Point2 point, const Segment& segment) noexcept {
-  const Point2 way = minus(segment[1], segment[0]), to = minus(point, segment[0]);
-  const double square = way.x * way.x + way.y * way.y;
-  double share = 0;
-  if (square > 0) share = std::clamp((to.x * way.x + to.y * way.y) / square, 0.0, 1.0);
-  const double x = to.x - share * way.x, y = to.y - share * way.y;
+  const Point2 edge = minus(segment[1], segment[0]), to = minus(point, segment[0]);
+  const double square = edge.x * edge.x + edge.y * edge.y;
+  double t = 0;
+  if (square > 0) t = std::clamp((to.x * edge.x + to.y * edge.y) / square, 0.0, 1.0);
+  const double x = to.x - t * edge.x, y = to.y - t * edge.y;
   return x * x + y * y;
 }
 

@@ -16,46 +16,15 @@
 
 #include <bch/hierarchy.hpp>
 
+#include "layout/base/text.hpp"
+
 namespace bch::cli {
 
-/// Makes text of any origin safe to show on a terminal or a page: what would control either is written out.
-/// That is control characters (C0, DEL, C1) as "\x1b" or "\u0085"; marks that turn the direction of writing,
-/// that break lines or that are not characters as "\u202e"; and bytes that are not UTF-8 as "\xff". Line
-/// feeds stay.
-std::string printable(std::string_view text);
-
-/// Makes a name or a message printable as one line: as printable() does, and line feeds are written out as
-/// "\x0a".
-std::string printable_line(std::string_view text);
-
-/// Writes a number with its digits in groups: 12345 as "12 345".
-inline std::string grouped(std::uint64_t number) {
-  const std::string digits = fmt::format("{}", number);
-  std::string text;
-  for (std::size_t i = 0; i < digits.size(); ++i) {
-    if (i > 0 && (digits.size() - i) % 3 == 0) text.push_back(' ');
-    text.push_back(digits[i]);
-  }
-  return text;
-}
-
-/// Escapes text for HTML or SVG: see printable_line().
-inline std::string escaped(std::string_view text) {
-  std::string markup;
-  for (const char c : printable_line(text)) {
-    if (c == '&')
-      markup += "&amp;";
-    else if (c == '<')
-      markup += "&lt;";
-    else if (c == '>')
-      markup += "&gt;";
-    else if (c == '"')
-      markup += "&quot;";
-    else
-      markup += c;
-  }
-  return markup;
-}
+using detail::counted;
+using detail::escaped;
+using detail::grouped;
+using detail::printable;
+using detail::printable_line;
 
 /// Writes a line of what is known: a name, and next to it, in a column of its own, the text, see printable_line().
 inline std::string fact(std::string_view name, std::string_view text) {
@@ -64,11 +33,6 @@ inline std::string fact(std::string_view name, std::string_view text) {
 
 inline std::string depth_name(std::uint32_t depth) {
   return depth == all_depths ? "all" : fmt::format("{}", depth);
-}
-
-/// Writes a count with its noun: "1 clip", "2 clips".
-inline std::string counted(std::uint64_t count, std::string_view noun) {
-  return fmt::format("{} {}{}", grouped(count), noun, count == 1 ? "" : "s");
 }
 
 /// Converts a float to the double of the same shortest decimal: 0.1f becomes 0.1 instead of 0.10000000149.

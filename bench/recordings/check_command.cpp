@@ -12,8 +12,8 @@
 #include "bench/base/options.hpp"
 #include "bench/base/output.hpp"
 #include "bench/recordings/recording_check.hpp"
-#include "bench/recordings/recording_page.hpp"
 #include "bench/recordings/resolved_recording.hpp"
+#include "kernel/recordings/page/recording_page.hpp"
 
 namespace bch::cli {
 namespace {
@@ -50,7 +50,7 @@ void run_check(const CLI::App& command, CheckCommandOptions options) {
   opened.recording.options = given_options(command);
   const Threads threads(options.threads);
   CheckTables tables(options.outputs);
-  std::optional<RecordingPage> page;
+  std::optional<detail::RecordingPage> page;
   if (!options.html.empty()) page.emplace(opened.recording);
   detail::CheckOptions how = opened.options(options.input);
   how.draws = page.has_value();
@@ -61,11 +61,13 @@ void run_check(const CLI::App& command, CheckCommandOptions options) {
       opened.check(how, [&](const detail::CheckedFrame& frame, const ShapeSet& shapes) {
         tables.add(frame);
         if (page) page->add(frame, shapes);
+        if (opened.against_truth) opened.against_truth->add(frame);
         if (resolved) resolved->add(frame);
       });
-  tables.finish(opened.recording, summary);
+  const detail::TruthCollisions* const truth = opened.against_truth ? &*opened.against_truth : nullptr;
+  tables.finish(opened.recording, summary, truth);
   if (page) write_file(options.html, std::move(*page).finish(summary));
-  report(opened.recording, summary, options.outputs);
+  report(opened.recording, summary, options.outputs, truth);
   if (!resolved) return;
   resolved->resolve();
   write_file(options.resolved, resolved->csv());

@@ -185,7 +185,7 @@ Leaves leaves_of(const CheckInput& input, const std::optional<BakedShapes>& bake
 
 std::vector<std::string> CheckInput::files() const {
   std::vector<std::string> files = shapes.inputs(characters);
-  files.insert(files.end(), {file, walls});
+  files.insert(files.end(), {file, truth, walls});
   for (const std::string& body : bodies) files.push_back(named_file(body).second);
   return files;
 }
@@ -209,6 +209,8 @@ void CheckInput::add_to(CLI::App& command) {
       "Names of the columns in order, such as frame,id,x,skip,y, instead of the header of text or CSV");
   add("--unit", unit, "UNIT", "Unit of length, instead of the file's: m, cm, mm, or a number of metres");
   add("--walls", walls, "FILE.wkt", "Walkable area as well-known text (WKT), instead of the file's own");
+  add("--truth", truth, "FILE",
+      "Count the people who collide, as discs, with others as these went in this recording (Col-II)");
   add_bodies_to(command);
   add("--depth", depth, "N",
       "Level of detail: depth 0, 1, 2 ... in the tree of discs of an outline, or all of it [all]");
@@ -266,8 +268,7 @@ OpenedCheck::OpenedCheck(const CheckInput& input)
       cast(cast_of(input, baked)),
       footprints(footprints_of(input)),
       reader(detail::open_trajectory(input.file, trajectory_options(input))),
-      floor(floor_of(input, reader->info())),
-      walls(walls_of(input, floor)),
+      walls(walls_of(input, floor_of(input, reader->info()))),
       recording{input.file,
                 info_of(input, *reader, *this),
                 input.spheres(),
@@ -275,10 +276,13 @@ OpenedCheck::OpenedCheck(const CheckInput& input)
                 leaves_of(input, baked),
                 static_cast<std::uint32_t>(cast.size()),
                 baked.has_value(),
-                walls.has_value(),
-                floor,
+                walls ? &*walls : nullptr,
                 input.date.empty() ? date_of(input.file) : input.date,
-                {}} {}
+                {}} {
+  if (input.truth.empty()) return;
+  truth = detail::open_trajectory(input.truth, trajectory_options(input));
+  against_truth.emplace(*truth, recording.info.fps);
+}
 
 detail::CheckOptions OpenedCheck::options(const CheckInput& input) {
   detail::CheckOptions how;

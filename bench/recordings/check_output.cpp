@@ -19,10 +19,6 @@ namespace {
 
 constexpr std::size_t worst_events = 10;
 
-double percent(std::uint64_t part, std::uint64_t whole) {
-  return whole == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(whole);
-}
-
 const char* kind_of(const CheckedPair& pair) {
   return pair.is_wall ? "wall" : pair.passing ? "pass" : pair.overlap ? "overlap" : "near";
 }
@@ -81,10 +77,10 @@ std::string facts(const CheckedRecording& recording, const CheckSummary& summary
 }
 
 std::string count_line(const std::string& name, const OverlapCount& count) {
-  std::string text = fmt::format("{:>9} {:>13} {:>8.2f} %", name, grouped(count.people),
-                                 percent(count.overlapping, count.people));
+  std::string text = fmt::format("{:>9} {:>13} {:>10}", name, grouped(count.people),
+                                 percent_text(count.overlapping, count.people));
   for (const std::uint64_t disc : count.discs)
-    text += fmt::format(" {:>8.2f} %", percent(disc, count.people));
+    text += fmt::format(" {:>10}", percent_text(disc, count.people));
   return text + "\n";
 }
 
@@ -95,22 +91,18 @@ std::string density_table(const CheckSummary& summary) {
       "density", "person-frames", "bodies");
   for (const double radius : compared_discs) text += fmt::format(" {:>10}", fmt::format("{:.2f} m", radius));
   text += "\n";
-  for (std::size_t k = 0; k < density_classes.size(); ++k) {
-    const bool last = k + 1 == density_classes.size();
-    const std::string name = last ? fmt::format("{:g}-", density_classes[k])
-                                  : fmt::format("{:g}-{:g}", density_classes[k], density_classes[k + 1]);
-    if (summary.by_density[k].people > 0) text += count_line(name, summary.by_density[k]);
-  }
+  for (std::size_t k = 0; k < density_classes.size(); ++k)
+    if (summary.by_density[k].people > 0) text += count_line(density_name(k, "-"), summary.by_density[k]);
   return text + count_line("all", summary.all);
 }
 
 std::string worst_table(const CheckSummary& summary, double fps) {
   if (summary.events.empty()) return "\nNobody overlaps anybody.\n";
   std::string text = fmt::format(
-      "\n{}: {} in overlap, {} passing between two frames, {} in a wall. The deepest:\n"
+      "\n{}: {}. The deepest:\n"
       "{:>10} {:>10} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
-      counted(summary.events.size(), "event"), grouped(summary.overlap_events), grouped(summary.passings),
-      grouped(summary.wall_events), "first", "second", "from, s", "for, s", "depth, m", "x, m", "y, m");
+      counted(summary.events.size(), "event"), events_text(summary), "first", "second", "from, s", "for, s",
+      "depth, m", "x, m", "y, m");
   for (const OverlapEvent& event : worst_of(summary)) {
     const std::string second =
         event.is_wall ? fmt::format("wall {}", event.second) : fmt::format("{}", event.second);
@@ -140,7 +132,7 @@ nlohmann::ordered_json json_of(const OverlapCount& count) {
 
 /// All but the events.
 nlohmann::ordered_json json_of(const CheckedRecording& recording, const CheckSummary& summary,
-                               bool has_measures) {
+                               bool has_measures, const TruthCollisions* truth) {
   nlohmann::ordered_json densities;
   for (std::size_t k = 0; k < density_classes.size(); ++k) {
     nlohmann::ordered_json of = json_of(summary.by_density[k]);
@@ -174,6 +166,8 @@ nlohmann::ordered_json json_of(const CheckedRecording& recording, const CheckSum
                {"by_density", densities}});
   if (has_measures)
     json.update({{"colliding_people", summary.colliding}, {"disc_colliding_people", summary.disc_colliding}});
+  if (truth != nullptr)
+    json.update({{"truth_frames", truth->frames()}, {"truth_colliding_people", truth->colliding()}});
   return json;
 }
 
@@ -233,11 +227,12 @@ void CheckTables::add(const CheckedFrame& frame) {
   }
 }
 
-void CheckTables::finish(const CheckedRecording& recording, const CheckSummary& summary) {
+void CheckTables::finish(const CheckedRecording& recording, const CheckSummary& summary,
+                         const TruthCollisions* truth) {
   for (const OverlapEvent& event : summary.events)
     if (events) events.add(event_line(event, recording.info.fps));
   frames.commit(), pairs.commit(), events.commit(), measures.commit(), conflicts.commit();
-  write_check_json(json, recording, summary, measures || conflicts);
+  write_check_json(json, recording, summary, measures || conflicts, truth);
 }
 
 std::string frame_line(const CheckedFrame& frame) {
@@ -294,15 +289,6 @@ std::string event_line(const OverlapEvent& event, double fps) {
                      std::max(0.0f, event.depth), event.x, event.y);
 }
 
-std::string bodies_text(const CheckedRecording& recording) {
-  const std::string whose = recording.characters == 0 ? std::string("built-in pedestrians")
-                                                      : counted(recording.characters, "character");
-  if (recording.spheres > 0) return fmt::format("{}, {} each", whose, counted(recording.spheres, "sphere"));
-  if (recording.depth != all_depths)
-    return fmt::format("{}, discs of depth {}", whose, depth_name(recording.depth));
-  return whose + (recording.leaves == Leaves::segments ? ", their outlines" : ", discs of their leaves");
-}
-
 double percent_in_overlap(const CheckSummary& summary) {
   return percent(summary.all.overlapping, summary.all.people);
 }
@@ -310,21 +296,20 @@ double percent_in_overlap(const CheckSummary& summary) {
 std::string check_text(const CheckedRecording& recording, const CheckSummary& summary) {
   const double fps = recording.info.fps;
   std::string text = facts(recording, summary);
-  text += fact("overlaps",
-               fmt::format("{:.2f} % of person-seconds; of neighbours within 1.2 m, {:.2f} % of pairs",
-                           percent_in_overlap(summary),
-                           percent(summary.all.overlapping_pairs, summary.all.near_pairs)));
-  if (recording.walls)
-    text += fact("walls", fmt::format("{:.2f} % of person-seconds in one",
-                                      percent(summary.all.in_walls, summary.all.people)));
+  text += fact("overlaps", fmt::format("{} of person-seconds; of neighbours within 1.2 m, {} of pairs",
+                                       percent_text(summary.all.overlapping, summary.all.people),
+                                       percent_text(summary.all.overlapping_pairs, summary.all.near_pairs)));
+  if (recording.walls != nullptr)
+    text +=
+        fact("walls", percent_text(summary.all.in_walls, summary.all.people) + " of person-seconds in one");
   return text + density_table(summary) + worst_table(summary, fps);
 }
 
 void write_check_json(const std::string& file, const CheckedRecording& recording, const CheckSummary& summary,
-                      bool has_measures) {
+                      bool has_measures, const TruthCollisions* truth) {
   if (file.empty()) return;
   // Without the brace at its end.
-  std::string head = json_text(json_of(recording, summary, has_measures));
+  std::string head = json_text(json_of(recording, summary, has_measures, truth));
   head.resize(head.size() - 2);
   StreamedFile json(file, head + ",\n  \"events\": [");
   for (const OverlapEvent& event : summary.events)
@@ -333,12 +318,18 @@ void write_check_json(const std::string& file, const CheckedRecording& recording
   json.commit();
 }
 
-void report(const CheckedRecording& recording, const CheckSummary& summary, const CheckOutputs& outputs) {
+void report(const CheckedRecording& recording, const CheckSummary& summary, const CheckOutputs& outputs,
+            const TruthCollisions* truth) {
   std::string text = check_text(recording, summary);
   if (outputs.has_measures())
-    text += fmt::format("\n{:.2f} % of people collide at some time, as discs of {:g} m {:.2f} %.\n",
-                        percent(summary.colliding, summary.people), measured_disc,
-                        percent(summary.disc_colliding, summary.people));
+    text += fmt::format("\n{} of people collide at some time, as discs of {:g} m {}.\n",
+                        percent_text(summary.colliding, summary.people), measured_disc,
+                        percent_text(summary.disc_colliding, summary.people));
+  if (truth != nullptr)
+    text +=
+        fmt::format("\n{} of people, as discs of {:g} m, collide with others as these truly went, in {}.\n",
+                    percent_text(truth->colliding(), summary.people), measured_disc,
+                    counted(truth->frames(), "common frame"));
   write_standard_output(text);
   if (percent_in_overlap(summary) > outputs.fail_above)
     throw CheckFailed(fmt::format("{}: {:.2f} % of person-seconds in overlap, more than {:g} %",

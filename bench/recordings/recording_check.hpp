@@ -19,23 +19,12 @@
 #include "bench/base/output_file.hpp"
 #include "bench/characters/body_models.hpp"
 #include "kernel/recordings/check.hpp"
+#include "kernel/recordings/page/checked_recording.hpp"
+#include "kernel/recordings/truth_collisions.hpp"
 
 namespace bch::cli {
 
-/// Holds what is known of a checked recording besides the answers.
-struct CheckedRecording {
-  std::string file;
-  detail::TrajectoryInfo info;
-  std::uint32_t spheres;  ///< of a body; 0: people have outlines
-  std::uint32_t depth;
-  Leaves leaves;
-  std::uint32_t characters;  ///< custom ones; 0: built-in pedestrians
-  bool baked;                ///< those are of a baked set
-  bool walls;
-  std::string floor;    ///< to walk on, as well-known text, or empty
-  std::string date;     ///< for the page, or empty
-  std::string options;  ///< that the answers depend on, as they were given
-};
+using detail::CheckedRecording;
 
 constexpr const char* frame_columns = "frame,seconds,people,density,overlapping,overlapping_pairs,in_walls\n";
 constexpr const char* pair_columns = "frame,seconds,first,second,kind,depth,gap,x,y\n";
@@ -63,7 +52,8 @@ struct CheckTables {
   explicit CheckTables(const CheckOutputs& outputs);
   void add(const detail::CheckedFrame& frame);
   /// Writes what is told of the whole, and gives all files their names.
-  void finish(const CheckedRecording& recording, const detail::CheckSummary& summary);
+  void finish(const CheckedRecording& recording, const detail::CheckSummary& summary,
+              const detail::TruthCollisions* truth);
 };
 
 /// Returns the line of a frame, or of each of its pairs.
@@ -78,12 +68,10 @@ std::string event_line(const detail::OverlapEvent& event, double fps);
 /// Returns the summary for people.
 std::string check_text(const CheckedRecording& recording, const detail::CheckSummary& summary);
 /// Writes all of it for programs; without a name nothing. Events go to the file one by one, because there may be millions.
-/// `has_measures`: people who collide are counted in the summary.
+/// `has_measures`: people who collide are counted in the summary. `truth`: what the recording was compared with, or null.
 void write_check_json(const std::string& file, const CheckedRecording& recording,
-                      const detail::CheckSummary& summary, bool has_measures);
-
-/// Returns what the bodies are, in a few words.
-std::string bodies_text(const CheckedRecording& recording);
+                      const detail::CheckSummary& summary, bool has_measures,
+                      const detail::TruthCollisions* truth);
 
 /// Returns the share of person-frames in overlap, in percent.
 double percent_in_overlap(const detail::CheckSummary& summary);
@@ -91,11 +79,11 @@ double percent_in_overlap(const detail::CheckSummary& summary);
 /// Writes the summary to standard output.
 /// Errors:  throws CheckFailed where more person-seconds are in overlap than outputs.fail_above.
 void report(const CheckedRecording& recording, const detail::CheckSummary& summary,
-            const CheckOutputs& outputs);
+            const CheckOutputs& outputs, const detail::TruthCollisions* truth);
 
 /// Holds what is checked, and how: all that the answers depend on.
 struct CheckInput {
-  std::string file, walls, unit, columns;
+  std::string file, truth, walls, unit, columns;
   double fps = 0;  ///< 0: what the file says
   double max_distance = 0;
   std::size_t max_pairs = 0;  ///< 0: what is usual
@@ -129,10 +117,11 @@ struct OpenedCheck {
   detail::Cast cast;
   std::vector<detail::Footprint> footprints;
   std::unique_ptr<detail::TrajectoryReader> reader;
-  std::string floor;  ///< as WKT, or empty
   std::optional<ObstacleSet> walls;
   CheckedRecording recording;
-  std::vector<BodyModel> bodies;  ///< made by options(), where people have spheres
+  std::vector<BodyModel> bodies;                         ///< made by options(), where people have spheres
+  std::unique_ptr<detail::TrajectoryReader> truth;       ///< or null
+  std::optional<detail::TruthCollisions> against_truth;  ///< of these
 
   /// Opens the recording. Errors: throws UsageError, InputError, TrajectoryError.
   explicit OpenedCheck(const CheckInput& input);

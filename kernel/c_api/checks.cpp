@@ -15,6 +15,8 @@
 #include "kernel/c_api/recordings.hpp"
 #include "kernel/recordings/baked_cast.hpp"
 #include "kernel/recordings/check.hpp"
+#include "kernel/recordings/page/recording_page.hpp"
+#include "kernel/recordings/truth_collisions.hpp"
 #include "kernel/recordings/walker_bodies.hpp"
 
 namespace bch::c_api {
@@ -150,6 +152,28 @@ std::vector<Footprint> footprints_of(const bch_check_options& options) {
   return footprints;
 }
 
+/// What the page says of the recording; empty where none is asked for.
+std::optional<CheckedRecording> recording_of(const bch_check_options& given, const TrajectoryInfo& info,
+                                             const CheckOptions& options) {
+  if (given.page == nullptr) return std::nullopt;
+  const auto text = [](const char* of) { return std::string(of == nullptr ? "" : of); };
+  const ShapeSet* const baked = options.baked;
+  CheckedRecording recording{text(given.page->title),
+                             info,
+                             given.spheres,
+                             baked == nullptr ? given.depth : baked->depths().back(),
+                             baked != nullptr && !baked->exact_leaves() ? Leaves::discs : options.leaves,
+                             static_cast<std::uint32_t>(options.cast.size()),
+                             baked != nullptr,
+                             options.walls,
+                             text(given.page->date),
+                             text(given.page->options)};
+  for (const CharacterEntry& member : options.cast)
+    recording.info.assumptions.insert(recording.info.assumptions.end(), member.assumptions.begin(),
+                                      member.assumptions.end());
+  return recording;
+}
+
 /// The bodies of spheres, or none.
 std::vector<BodyModel> bodies_of(const bch_check_options& options, CastView cast) {
   if (options.spheres == 0) return {};
@@ -161,10 +185,16 @@ std::vector<BodyModel> bodies_of(const bch_check_options& options, CastView cast
   return body_models(cast, options.spheres);
 }
 
+/// Errors:  throws Failure where a recording is not at its beginning.
+bch_trajectory& unread(bch_trajectory& trajectory, const std::string& name) {
+  if (trajectory.is_read) throw Failure(BCH_INVALID_ARGUMENT, name + " has been read from; open it again");
+  return trajectory;
+}
+
 }  // namespace
 
 std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check_options& given) {
-  if (trajectory.is_read) throw Failure(BCH_INVALID_ARGUMENT, "trajectory has been read from; open it again");
+  unread(trajectory, "trajectory");
   CheckOptions options;
   options.plan.depths = {given.depth};
   options.leaves = one_of(given.leaves, Leaves::segments, "options->leaves");
@@ -176,7 +206,7 @@ std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check
   options.cast = cast;
   const std::vector<Footprint> footprints = footprints_of(given);
   options.footprints = footprints;
-  options.draws = false;
+  options.draws = given.page != nullptr;
   options.measures = given.measures != 0;
   std::vector<BodyModel> bodies;
   on_threads(given.threads, [&] { bodies = bodies_of(given, cast); });
@@ -195,10 +225,18 @@ std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check
   for (const CharacterEntry& member : cast)
     for (const std::string& line : member.assumptions) made->assumptions += line + "\n";
   const TrajectoryInfo& info = trajectory.reader->info();
+  const std::optional<CheckedRecording> recording = recording_of(given, info, options);
+  std::optional<RecordingPage> page;
+  if (recording) page.emplace(*recording);
+  std::optional<TruthCollisions> truth;
+  if (given.truth != nullptr) truth.emplace(*unread(*given.truth, "options->truth").reader, info.fps);
   trajectory.is_read = true;
+  if (truth) given.truth->is_read = true;
   on_threads(given.threads, [&] {
     const CheckSummary summary =
-        check(*trajectory.reader, options, [&](const CheckedFrame& frame, const ShapeSet&) {
+        check(*trajectory.reader, options, [&](const CheckedFrame& frame, const ShapeSet& shapes) {
+          if (page) page->add(frame, shapes);
+          if (truth) truth->add(frame);
           made->frames.push_back(frame_of(frame));
           for (const CheckedPair& pair : frame.pairs) made->pairs.push_back(pair_of(pair));
           add_measures(frame, *made);
@@ -207,7 +245,10 @@ std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check
           if (given.progress != nullptr && given.progress(given.user, done, total) != 0)
             throw Failure(BCH_CANCELLED, "cancelled by the caller");
         });
+    if (page) made->page = std::move(*page).finish(summary);
     made->summary = summary_of(summary, info);
+    if (truth)
+      made->summary.truth_frames = truth->frames(), made->summary.truth_colliding_people = truth->colliding();
     for (const std::string& line : summary.notes) made->notes += line + "\n";
     for (const OverlapEvent& event : summary.events) made->events.push_back(event_of(event));
     for (std::size_t k = 0; k < density_classes.size(); ++k) {

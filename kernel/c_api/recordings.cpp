@@ -265,6 +265,14 @@ bch_status bch_check_get_conflicts(const bch_check* check, const bch_check_confl
   });
 }
 
+bch_status bch_check_get_page(const bch_check* check, const char** html, size_t* size) {
+  return guarded([&] {
+    const std::string& page = object_of(check, "check").page;
+    required(html, "html"), required(size, "size");
+    *html = page.c_str(), *size = page.size();
+  });
+}
+
 bch_status bch_check_free(bch_check* check) {
   return free_object(check, "check");
 }

@@ -33,6 +33,7 @@ struct bch_check {
   std::vector<bch_check_conflict> conflicts;
   bch_check_summary summary = BCH_CHECK_SUMMARY_INIT;
   std::string assumptions, notes;  ///< a line each
+  std::string page;                ///< or empty
 };
 
 namespace bch::c_api {

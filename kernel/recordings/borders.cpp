@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <span>
 
-#include "kernel/obstacles/segment.hpp"
+#include "kernel/obstacles/segments_by_number.hpp"
 
 namespace bch::detail {
 namespace {
@@ -29,13 +29,11 @@ bool is_closed(std::span<const WorldSegment> segments) {
 /// The walls that are lines about something.
 std::vector<Ring> rings_of(const ObstacleView& walls) {
   std::vector<std::vector<WorldSegment>> segments(walls.obstacle_count);
-  for (std::uint32_t slot = 0; slot < walls.segment_count; ++slot)
-    segments[walls.segments[slot].obstacle].push_back(walls.segments[slot]);
+  for (const WorldSegment* segment : segments_by_number(walls))
+    segments[segment->obstacle].push_back(*segment);
   std::vector<Ring> rings;
   for (std::uint32_t wall = 0; wall < walls.obstacle_count; ++wall) {
     auto& of = segments[wall];
-    std::sort(of.begin(), of.end(),
-              [](const WorldSegment& a, const WorldSegment& b) { return a.number < b.number; });
     if (walls.is_area[wall] != 0 || !is_closed(of)) continue;
     Ring ring{wall, std::move(of), 0, 0, 0, 0};
     const auto by_x = [](const WorldSegment& a, const WorldSegment& b) { return a.ax < b.ax; };

@@ -12,7 +12,7 @@
 #include <bch/obstacles.hpp>
 #include <bch/shapes.hpp>
 
-#include "kernel/obstacles/segment.hpp"
+#include "kernel/obstacles/segments_by_number.hpp"
 #include "layout/base/heading.hpp"
 #include "layout/recordings/shown.hpp"
 
@@ -86,11 +86,8 @@ const Footprint* find_thing(const std::string& kind, std::span<const Footprint> 
 
 Footprint footprint_from_wkt(const std::string& name, std::string_view text) {
   const ObstacleSet read = obstacles_from_wkt(text);
-  std::vector<const WorldSegment*> segments(read.segment_count());  // by number
-  for (std::uint32_t slot = 0; slot < read.segment_count(); ++slot)
-    segments[read.view().segments[slot].number] = &read.view().segments[slot];
   Footprint footprint{name, {}};
-  for (const WorldSegment* segment : segments) {
+  for (const WorldSegment* segment : segments_by_number(read.view())) {
     if (read.view().is_area[segment->obstacle] == 0)
       throw std::invalid_argument("expected polygons, found a line");
     if (read.view().begins_polyline[segment->number] != 0) footprint.polygons.emplace_back();

@@ -100,7 +100,8 @@ double FrameRun::expected_pairs() const {
 void FrameRun::let_go() {
   if (answers_.capacity() <= usual_pairs()) return;
   body_phase_ = BroadPhase(), sweep_phase_ = BroadPhase();
-  let_go(answers_), let_go(hits_), let_go(apart_), let_go(checked_), let_go(measured_pairs_);
+  let_go(answers_), let_go(hits_), let_go(apart_), let_go(checked_), let_go(measured_pairs_),
+      let_go(clearances_);
 }
 
 /// Returns the people as if each frame stood far from the others.
@@ -141,15 +142,13 @@ void FrameRun::query_pairs(const RunBodies& bodies, const Agents& all) {
 void FrameRun::query_depths(const RunBodies& bodies, const Agents& all) {
   const std::vector<Penetration> depths = bodies.depths(all, hits_);
   overlaps_.assign(size(), 0);
-  hit_clearance_.clear();
   for (std::size_t i = 0; i < hits_.size(); ++i) {
     overlaps_[hits_[i].first] = overlaps_[hits_[i].second] = 1;
     CheckedPair& pair = checked_.emplace_back(checked(hits_[i]));
     pair.overlap = true;
     pair.depth = depths[i].depth;
     pair.x = static_cast<float>(depths[i].x), pair.y = static_cast<float>(depths[i].y);
-    hit_clearance_.push_back(-pair.depth);
-    if (options_.measures) measure_clearance(hits_[i], -pair.depth);
+    if (options_.measures) measure_clearance(hits_[i], pair.depth > 0 ? -pair.depth : 0, true);
   }
   const double farthest =
       options_.measures ? std::max(options_.max_distance, measured_clearance) : options_.max_distance;
@@ -159,7 +158,7 @@ void FrameRun::query_depths(const RunBodies& bodies, const Agents& all) {
     if (options_.max_distance > 0 && static_cast<double>(gaps[i]) <= options_.max_distance)
       checked_.emplace_back(checked(apart_[i])).gap = gaps[i];
     if (options_.measures && static_cast<double>(gaps[i]) <= measured_clearance)
-      measure_clearance(apart_[i], gaps[i]);
+      measure_clearance(apart_[i], gaps[i], false);
   }
 }
 

@@ -79,6 +79,12 @@ class FrameRun {
     return of_block.subspan(begin_, size());
   }
   static bool by_place(Pair a, Pair b);
+  /// Describes two people who overlap or are near each other: metres, of an overlap minus its depth.
+  struct MeasuredClearance {
+    Pair people;
+    float clearance;
+    bool overlaps;
+  };
   Agents agents(std::span<const std::uint32_t> bodies) const;
   double square_step(std::size_t person) const;
   double longest_step() const;
@@ -96,13 +102,12 @@ class FrameRun {
   void add_pass(Pair people, std::size_t next, float time, float gap);
   void query_walls(const RunBodies& bodies, const Agents& all);
   void measure_neighbours();
-  void measure_clearance(Pair pair, float clearance);
+  void measure_clearance(Pair pair, float clearance, bool overlaps);
   void sum_intrusions();
   void measure_times(const RunBodies& bodies, const Agents& all);
   std::span<const Pair> find_sweeps(const RunBodies& bodies, const Agents& all);
-  void measure_pair(Pair people, float clearance, MeasuredPair& pair);
-  void measure_pairs(const RunBodies& bodies, const Agents& all, std::span<const Pair> pairs,
-                     std::span<const float> times);
+  void measure_pairs(std::span<const Pair> pairs, std::span<const float> times);
+  float time_to_collision(const MeasuredClearance& near, float time) const;
   void report_people(std::span<const std::uint32_t> shapes, std::uint32_t given_up);
   std::uint8_t class_of(Pair pair) const;
   void count_near();
@@ -133,8 +138,8 @@ class FrameRun {
   OverlapCounts counts_;
   NeighbourMeasures neighbour_measures_;
   BroadPhase sweep_phase_;
-  std::vector<double> reach_;         ///< metres, by person: the body's largest distance from the position
-  std::vector<float> hit_clearance_;  ///< of hits_
+  std::vector<double> reach_;  ///< metres, by person: the body's largest distance from the position
+  std::vector<MeasuredClearance> clearances_;
   std::vector<std::uint64_t> intrusion_;  ///< of bodies, by person, in fixed-point numbers
   std::vector<MeasuredPerson> measured_people_;
   std::vector<MeasuredPair> measured_pairs_;

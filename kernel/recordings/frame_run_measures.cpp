@@ -7,6 +7,7 @@
 
 #include <bch/hierarchy.hpp>
 
+#include "kernel/obstacles/body_query.hpp"
 #include "kernel/recordings/frame_run.hpp"
 #include "layout/base/number_class.hpp"
 #include "layout/hierarchy/paper_hierarchies.hpp"
@@ -47,12 +48,10 @@ constexpr double intrusion_parts = 1 << 20, largest_intrusion = 1e9;
 /// Returns how far a body's discs reach from its place, or a disc where that is farther. (Discs of a cut stick out of the smallest disc.)
 double reach_of(const ShapeSetView& shapes, const Agents& agents, std::size_t agent) {
   constexpr double rounding = 1 + 1e-6;
-  const std::size_t number = agents.root(agent, shapes.level_count);
+  const auto number = static_cast<std::uint32_t>(agents.root(agent, shapes.level_count));
   const Root& root = shapes.roots[number];
-  const double x = static_cast<double>(root.x), y = static_cast<double>(root.y),
-               radius = static_cast<double>(shapes.trees != nullptr ? shapes.trees[number].outer_radius
-                                                                    : root.radius);
-  return std::max(measured_disc, rounding * (std::sqrt(x * x + y * y) + radius));
+  const double x = static_cast<double>(root.x), y = static_cast<double>(root.y);
+  return std::max(measured_disc, rounding * (std::sqrt(x * x + y * y) + outer_radius(shapes, number)));
 }
 
 }  // namespace
@@ -60,6 +59,7 @@ double reach_of(const ShapeSetView& shapes, const Agents& agents, std::size_t ag
 void FrameRun::measure_neighbours() {
   measured_people_.assign(size(), {});
   intrusion_.assign(size(), 0);
+  clearances_.clear();
   std::vector<double> step_x(size()), step_y(size());
   const auto next_of = own(block_->next_of());
   for (std::size_t i = 0; i < size(); ++i) {
@@ -78,7 +78,8 @@ void FrameRun::measure_neighbours() {
 }
 
 /// Takes the clearance of two people, at most measured_clearance.
-void FrameRun::measure_clearance(Pair pair, float clearance) {
+void FrameRun::measure_clearance(Pair pair, float clearance, bool overlaps) {
+  clearances_.push_back({pair, clearance, overlaps});
   const double gap = static_cast<double>(clearance);
   const double intrusion = gap > 0 ? std::min(square(measured_clearance / gap), largest_intrusion) : 0;
   for (const std::uint32_t i : {pair.first, pair.second}) {
@@ -139,58 +140,52 @@ void FrameRun::measure_times(const RunBodies& bodies, const Agents& all) {
     way_x.push_back((a.velocity_x - b.velocity_x) * measured_seconds);
     way_y.push_back((a.velocity_y - b.velocity_y) * measured_seconds);
   }
-  measure_pairs(bodies, all, near, bodies.times_of_impact(all, near, {way_x, way_y}));
+  measure_pairs(near, bodies.times_of_impact(all, near, {way_x, way_y}));
 }
 
-/// Keeps the pairs that collide, and their people's least times. `times` are of bodies, shares of the seconds that are looked ahead.
-void FrameRun::measure_pairs(const RunBodies& bodies, const Agents& all, std::span<const Pair> pairs,
-                             std::span<const float> times) {
+/// Keeps the pairs that collide, and their people's least times. `pairs` are by place, and `times` of bodies, shares of the seconds that are
+/// looked ahead.
+void FrameRun::measure_pairs(std::span<const Pair> pairs, std::span<const float> times) {
   const auto people = own(block_->people());
   const auto frame_of = own(block_->frame_of());
   measured_pairs_.clear();
   measured_pairs_of_.assign(last_ - first_, 0);
-  std::vector<Pair> kept;
-  std::vector<float> clearances;  // of those who overlap; of others 0 until they are measured
-  auto hit = hits_.begin();
+  std::sort(clearances_.begin(), clearances_.end(),
+            [](const auto& a, const auto& b) { return by_place(a.people, b.people); });
+  auto near = clearances_.begin();
   for (std::size_t i = 0; i < pairs.size(); ++i) {
     const auto [first, second] = pairs[i];
     const Walker &a = people[first], &b = people[second];
+    while (near != clearances_.end() && by_place(near->people, pairs[i])) ++near;
+    const bool is_near = near != clearances_.end() && !by_place(pairs[i], near->people);
     const double disc_time = disc_collision(a.x - b.x, a.y - b.y, a.velocity_x - b.velocity_x,
                                             a.velocity_y - b.velocity_y, 2 * measured_disc);
-    while (hit != hits_.end() && by_place(*hit, pairs[i])) ++hit;
-    const bool overlaps = hit != hits_.end() && !by_place(pairs[i], *hit);
-    const float time = overlaps ? 0 : times[i] * static_cast<float>(measured_seconds);
+    const float time = is_near && near->overlaps ? 0 : times[i] * static_cast<float>(measured_seconds);
     if (disc_time > measured_seconds && !is_finite(time)) continue;
     MeasuredPair& pair = measured_pairs_.emplace_back();
     pair.first = a.id, pair.second = b.id;
     pair.distance = static_cast<float>(std::sqrt(square_distance(pairs[i])));
     pair.disc_clearance = static_cast<float>(std::sqrt(square_distance(pairs[i])) - 2 * measured_disc);
-    pair.time = time;
+    pair.clearance = is_near ? near->clearance : MeasuredPerson::infinite;
+    pair.time = is_near ? time_to_collision(*near, time) : time;
     pair.disc_time = disc_time <= measured_seconds ? static_cast<float>(disc_time) : MeasuredPerson::infinite;
-    kept.push_back(pairs[i]);
-    clearances.push_back(overlaps ? hit_clearance_[static_cast<std::size_t>(hit - hits_.begin())] : 0);
+    for (const std::uint32_t k : {first, second}) {
+      measured_people_[k].time = std::min(measured_people_[k].time, pair.time);
+      measured_people_[k].disc_time = std::min(measured_people_[k].disc_time, pair.disc_time);
+    }
     ++measured_pairs_of_[frame_of[first] - first_];
   }
-  const std::vector<float> gaps = bodies.gaps(all, kept, measured_clearance);
-  for (std::size_t i = 0; i < kept.size(); ++i)
-    measure_pair(kept[i], clearances[i] < 0 ? clearances[i] : gaps[i], measured_pairs_[i]);
 }
 
-/// Completes the measures of a pair, and adds them to its people's. Leaf discs may touch before outlines do: nobody collides before the
+/// Returns when two people collide whose discs at leaves touch after a time, which may be before their outlines do: nobody collides before the
 /// clearance is used up.
-void FrameRun::measure_pair(Pair people, float clearance, MeasuredPair& pair) {
-  const Walker &a = own(block_->people())[people.first], &b = own(block_->people())[people.second];
-  pair.clearance = clearance;
-  if (clearance > 0 && is_finite(clearance)) {
-    const double speed = std::sqrt(square(a.velocity_x - b.velocity_x) + square(a.velocity_y - b.velocity_y));
-    const double earliest = static_cast<double>(clearance) / speed;
-    pair.time = earliest > measured_seconds ? MeasuredPerson::infinite
-                                            : std::max(pair.time, static_cast<float>(earliest));
-  }
-  for (const std::uint32_t k : {people.first, people.second}) {
-    measured_people_[k].time = std::min(measured_people_[k].time, pair.time);
-    measured_people_[k].disc_time = std::min(measured_people_[k].disc_time, pair.disc_time);
-  }
+float FrameRun::time_to_collision(const MeasuredClearance& near, float time) const {
+  if (near.clearance <= 0) return time;
+  const Walker &a = own(block_->people())[near.people.first], &b = own(block_->people())[near.people.second];
+  const double speed = std::sqrt(square(a.velocity_x - b.velocity_x) + square(a.velocity_y - b.velocity_y));
+  const double earliest = static_cast<double>(near.clearance) / speed;
+  return earliest > measured_seconds ? MeasuredPerson::infinite
+                                     : std::max(time, static_cast<float>(earliest));
 }
 
 }  // namespace bch::detail

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "bench/recordings/check_page.hpp"
+#include "kernel/recordings/page/check_page.hpp"
 
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
-#include "bench/recordings/embedding.hpp"
-#include "bench/recordings/kept_frames.hpp"
-#include "bench/recordings/page_shapes.hpp"
+#include "kernel/recordings/page/embedding.hpp"
+#include "kernel/recordings/page/kept_frames.hpp"
+#include "kernel/recordings/page/page_shapes.hpp"
 #include "layout/base/base64.hpp"
 #include "layout/base/random.hpp"
 #include "tests/support/bch_run.hpp"
@@ -18,11 +18,11 @@
 
 // What a page holds is what was put in, whatever it is, and it is no larger than asked.
 
-namespace bch::cli {
+namespace bch::detail {
 namespace {
 
 using Json = nlohmann::json;
-using detail::CheckedFrame, detail::CheckedPair, detail::CheckedPerson, detail::OverlapEvent;
+
 using test::Blocks, test::count_of;
 
 PageShape square(std::uint32_t shape) {
@@ -388,4 +388,4 @@ TEST(OverlapSeries, KeepsTheMostOfEachStretch) {
 }
 
 }  // namespace
-}  // namespace bch::cli
+}  // namespace bch::detail

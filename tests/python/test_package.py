@@ -667,6 +667,43 @@ class Recordings(unittest.TestCase):
         self.assertEqual(found.table("measures")["seconds"][0], frame / 25)
         self.assertEqual(len(bch.check(**columns, fps=25).measures), 0)
 
+    def test_pages(self):
+        """The page is that of the program, which is beside the interpreter where the package has it."""
+        path, out = (Path(self.folder.name) / name for name in ("walk.csv", "walk.html"))
+        rows = [f"{k / 10},{id},{0.1 * k * way},{0.05 * way}\n" for k in range(-20, 20) for id, way in ((5, 1), (7, -1))]
+        path.write_text("time,id,x_m,y_m\n" + "".join(rows))
+        found = bch.check(path, page=True)
+        found.html(out)
+        html = out.read_bytes()
+        self.assertTrue(html.startswith(b"<!DOCTYPE html>") and b"<title>walk.csv</title>" in html)
+        self.assertEqual(html.count(b'["events","1 in overlap'), 1)
+        program = Path(sys.executable).with_name("bch")
+        if program.exists():
+            subprocess.run([program, "check", path, "--html", out], check=True, stdout=subprocess.DEVNULL)
+            self.assertEqual(out.read_bytes(), html)
+        spheres = bch.check(path, bodies="spheres", spheres=64, page=True).page
+        self.assertIn(b"[\"options\",\"bodies='spheres' spheres=64\"]", spheres)
+        self.assertIn(b"<title>recording</title>", bch.check(**self.columns(), fps=25, page=True).page)
+        with self.assertRaisesRegex(ValueError, "page=True"):
+            bch.check(path).html(out)
+
+    def test_predictions(self):
+        """TrajNet++'s Col-II, by its formula: in frames, and halfway to the next."""
+        truth = self.columns()
+        predicted = {**truth, "y": truth["y"] + 0.08 * truth["frame"] * np.sin(truth["id"])}
+        found = bch.check(**predicted, fps=25, truth=truth).summary
+        places = np.zeros((2, predicted["frame"].max() + 1, 12, 2))
+        for to, columns in zip(places, (predicted, truth)):
+            to[columns["frame"], columns["id"]] = np.c_[columns["x"], columns["y"]]
+        places = places[:, predicted["frame"].min() :]
+        halfway = (places[:, 1:] + places[:, :-1]) / 2
+        distance = np.concatenate([np.linalg.norm(own[:, :, None] - others[:, None], axis=3) for own, others in (places, halfway)])
+        distance[:, np.arange(12), np.arange(12)] = np.inf
+        self.assertEqual(found["truth_colliding_people"], (distance <= 0.2).any(axis=(0, 2)).sum())
+        self.assertTrue(0 < found["truth_colliding_people"] < 12)
+        self.assertEqual(found["truth_frames"], len(places[0]))
+        self.assertEqual(bch.check(**predicted, fps=25).summary["truth_frames"], 0)
+
     def columns(self, count=60):
         """Rows of some people, in no order, as arrays of many types."""
         random = np.random.default_rng(5)

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/recordings/check_page.hpp"
+#include "kernel/recordings/page/check_page.hpp"
 #include "layout/base/random.hpp"
 #include "layout/format/shape_set_view.hpp"
 
@@ -31,8 +31,8 @@ struct Corridor {
   double length, width;
 };
 
-std::vector<std::vector<cli::PagePoint>> walls_of(const Corridor& corridor) {
-  std::vector<std::vector<cli::PagePoint>> walls;
+std::vector<std::vector<detail::PagePoint>> walls_of(const Corridor& corridor) {
+  std::vector<std::vector<detail::PagePoint>> walls;
   for (const double y : {0.0, corridor.width})
     walls.push_back({{origin_x, origin_y + y}, {origin_x + corridor.length, origin_y + y}});
   const double x = origin_x + corridor.length / 2, y = origin_y + corridor.width / 2, half = 0.15;
@@ -40,7 +40,7 @@ std::vector<std::vector<cli::PagePoint>> walls_of(const Corridor& corridor) {
   return walls;
 }
 
-ObstacleSet obstacles_of(const std::vector<std::vector<cli::PagePoint>>& walls) {
+ObstacleSet obstacles_of(const std::vector<std::vector<detail::PagePoint>>& walls) {
   std::vector<double> x, y;
   std::vector<std::uint64_t> offsets{0};
   for (const auto& wall : walls) {
@@ -81,7 +81,7 @@ void write(const std::string& name, const std::string& text) {
 /// The page, and what is expected of it.
 class Sample {
  public:
-  Sample(const cli::PageFacts& facts, std::size_t max_bytes)
+  Sample(const detail::PageFacts& facts, std::size_t max_bytes)
       : page_(
             facts, [this](std::uint32_t pose) { return shape(pose); }, max_bytes) {}
 
@@ -113,10 +113,10 @@ class Sample {
   }
 
  private:
-  cli::PageShape shape(std::uint32_t pose) const {
+  detail::PageShape shape(std::uint32_t pose) const {
     const detail::ShapeSetView& view = shapes_->view();
     const auto [begin, end] = view.shape_contours[pose - first_pose_];
-    cli::PageShape drawn{"pedestrian", {}};
+    detail::PageShape drawn{"pedestrian", {}};
     for (std::uint32_t i = begin; i < end; ++i)
       drawn.contours.emplace_back(view.points + view.contours[i].begin, view.points + view.contours[i].end);
     return drawn;
@@ -140,7 +140,7 @@ class Sample {
   const ShapeSet* shapes_ = nullptr;
   std::uint32_t first_pose_ = 0;
   Json frames_ = Json::array(), outlines_ = Json::array();
-  cli::CheckPage page_;
+  detail::CheckPage page_;
 };
 
 void write_sample(int argc, char** argv) {
@@ -155,7 +155,7 @@ void write_sample(int argc, char** argv) {
                  fps,
                  {{"<i>markup</i>", "</script><img src=x onerror=throw(2)>"}},
                  walls},
-                number(6, cli::CheckPage::default_most_bytes));
+                number(6, detail::CheckPage::default_most_bytes));
   detail::CheckSummary summary;  // of few poses, so that the page is small
   if (frames > 0) {
     const std::string recording = argv[1] + std::string(".txt");

@@ -6,8 +6,10 @@
 from __future__ import annotations
 
 import ctypes
+import inspect
 import os
 from ctypes import byref
+from datetime import datetime, timezone
 from types import MappingProxyType
 from typing import Any, Dict, List, Literal, Mapping, NamedTuple, Optional, Sequence, Union
 
@@ -16,7 +18,7 @@ import numpy.typing as npt
 
 from . import _library
 from ._arrays import Records, address, bounded, copied, encoded, f4, f8, i4, i8, instances, number, one_of, rejected, u4, u8
-from ._library import ArrayError, Handle, check as _check, lib, said
+from ._library import ArgumentError, ArrayError, Handle, check as _check, lib, said
 from ._obstacles import walls_of, well_known_text
 from ._progress import Watched
 from ._queries import LEAVES, Leaves
@@ -224,6 +226,20 @@ class Check(NamedTuple):
     #: With `measures=True` a row per pair and frame of people who overlap or will collide within 5 s: frame, first, second, distance,
     #: clearance, disc_clearance, ttc, disc_ttc.
     conflicts: Records
+    #: With `page=True` the page that `html` writes.
+    page: bytes = b""
+
+    def html(self, path: Path) -> None:
+        """Write the page of a check with `page=True`: HTML that plays the recording without a network, as `bch check --html` does.
+
+        Parameters
+        ----------
+        path : path
+        """
+        if not self.page:
+            raise ArgumentError("there is no page: check(page=True) makes one")
+        with open(path, "wb") as file:
+            file.write(self.page)
 
     def table(self, name: CheckTable = "events") -> "Dict[str, np.ndarray[Any, Any]]":
         """Return a table as a mapping of names to columns, (n,) each. Kinds are words, and there are seconds, counted from
@@ -256,6 +272,12 @@ def _records(get: Any, handle: Handle, dtype: "np.dtype[Any]") -> Records:
     return copied(pointer.value, dtype, (count.value,))
 
 
+def _text(get: Any, handle: Handle) -> bytes:
+    pointer, size = ctypes.c_void_p(), ctypes.c_size_t()
+    _check(get(handle.pointer, byref(pointer), byref(size)))
+    return ctypes.string_at(pointer.value or 0, size.value)
+
+
 def _lines(get: Any, handle: Handle) -> List[str]:
     lines = ctypes.c_char_p()
     _check(get(handle.pointer, byref(lines)))
@@ -272,6 +294,17 @@ def _table_of(recording: Any, arrays: Dict[str, Any]) -> Optional[Table]:
     if isinstance(recording, (str, bytes, os.PathLike)):
         return None
     return Table(given, _UNITS) if recording is None else table_of(recording)
+
+
+def _page(recording: Any, given: Dict[str, Any]) -> _library.Page:
+    """Return what the page shows beside the answers: the name and the date of a file, and options that are not the usual ones."""
+    title, date = "recording", None
+    if isinstance(recording, (str, bytes, os.PathLike)):
+        title = os.fsdecode(recording)
+        date = datetime.fromtimestamp(os.stat(recording).st_mtime, timezone.utc).strftime("%Y-%m-%d %H:%M UTC").encode()
+    usual = inspect.signature(check).parameters
+    options = " ".join(f"{name}={value!r}" for name, value in given.items() if value != usual[name].default)
+    return _library.Page(title=os.fsencode(title), date=date, options=options.encode())
 
 
 def check(
@@ -299,6 +332,8 @@ def check(
     max_distance: float = 0.0,
     max_pairs: int = 0,
     measures: bool = False,
+    page: bool = False,
+    truth: Any = None,
     walls: Any = None,
     fps: Optional[float] = None,
     unit: Optional[float] = None,
@@ -364,6 +399,11 @@ def check(
         million plus 100 per person. More pairs are an error, because each takes memory.
     measures : bool
         Also fill `Check.measures` and `Check.conflicts`.
+    page : bool
+        Also make the page that `Check.html` writes, of up to 30 MB. With bodies of spheres it shows outlines, which have to be made, too.
+    truth : path, or table, optional
+        A recording of what people did whose ways `recording` predicts, with the same ids, frames and frame rate: the summary's
+        `truth_colliding_people` are those whose discs of 0.1 m collide with those of others as these truly went (TrajNet++'s Col-II).
     walls : Obstacles, or a geometry as `Obstacles.from_wkt` takes, optional
         Walls to use instead of the geometry of the recording. Polygons of a geometry are the floor that people walk on, and their
         rings are walls.
@@ -402,6 +442,10 @@ def check(
         raise ArrayError("clip_speeds and facing are for characters of a bch.ShapeSet")
     rows = None if table is None else Columns(table)  # which live until the check has read them
     trajectory = _open(rows or encoded(recording, "recording"), fps, unit, columns)
+    true_table = None if truth is None else _table_of(truth, {})
+    true_rows = None if true_table is None else Columns(true_table)
+    true_fps = fps if true_table is None or true_table.fps is None else true_table.fps
+    true_ways = None if truth is None else _open(true_rows or encoded(truth, "truth"), true_fps, unit, columns)
     cast = (ctypes.c_void_p * len(own))(*(character._pointer for character in own))
     speeds = (_library.ClipSpeed * len(clip_speeds))(
         *(_library.ClipSpeed(encoded(clip, "clip_speeds"), number(speed, "clip_speeds")) for clip, speed in clip_speeds.items())
@@ -414,6 +458,8 @@ def check(
             for name, geometry in footprints.items()
         )
     )
+    given = dict(facing=facing, bodies=bodies, spheres=spheres, depth=depth, leaves=leaves, max_distance=max_distance)
+    shown = _page(recording, dict(given, fps=fps, unit=unit, columns=columns)) if page else None
     with Watched("checking", progress) as watched:
         options = _library.CheckOptions(
             threads=bounded(threads, "threads", 0, 1024),
@@ -432,6 +478,8 @@ def check(
             measures=bool(measures),
             footprints=ctypes.cast(prints, ctypes.c_void_p),
             footprint_count=len(prints),
+            page=None if shown is None else ctypes.addressof(shown),
+            truth=None if true_ways is None else true_ways.pointer,
             progress=watched.callback,
         )
         handle = Handle("check", "run", trajectory.pointer, byref(options), checked=watched.run)
@@ -448,4 +496,5 @@ def check(
         _lines(lib.bch_check_get_notes, handle),
         _records(lib.bch_check_get_measures, handle, _MEASURE),
         _records(lib.bch_check_get_conflicts, handle, _CONFLICT),
+        _text(lib.bch_check_get_page, handle),
     )

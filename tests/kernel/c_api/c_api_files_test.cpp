@@ -260,6 +260,21 @@ TEST_F(CApiRecordings, AreChecked) {
   EXPECT_EQ(measure_count, 0u);
   options.measures = 0;
 
+  const bch_page shown{"<of the test>", "yesterday", nullptr};
+  options.page = &shown;
+  const char* html = nullptr;
+  std::size_t html_size = 0;
+  const auto with_page = checked(options);
+  expect_ok(bch_check_get_page(with_page.get(), &html, &html_size));
+  const std::string page(html, html_size);
+  EXPECT_TRUE(page.starts_with("<!DOCTYPE html>") && page.ends_with("</html>\n")) << html_size;
+  EXPECT_NE(page.find("<title>&lt;of the test&gt;</title>"), std::string::npos);
+  EXPECT_NE(page.find("[\"date\",\"yesterday\"]"), std::string::npos);
+  EXPECT_EQ(page.find("[\"options\""), std::string::npos);
+  expect_ok(bch_check_get_page(check.get(), &html, &html_size));
+  EXPECT_EQ(html_size, 0u);
+  options.page = nullptr;
+
   // Objects of the library of queries.
   const auto walls =
       made<bch_obstacles_free>(bch_obstacles_from_wkt, "LINESTRING(-9 0, 9 0)", 0, -HUGE_VAL, HUGE_VAL);

@@ -142,6 +142,13 @@ typedef struct bch_clip_speed {
   const char* clip;
   double speed; /**< metres per second; 0: they stand */
 } bch_clip_speed;
+/** Describes the page of a check, HTML that plays the recording without a network. The page omits what is
+ * NULL. */
+typedef struct bch_page {
+  const char* title;   /**< such as the file's name */
+  const char* date;    /**< of the recording */
+  const char* options; /**< that the results depend on */
+} bch_page;
 /** Describes what a kind of body that rows of a recording name covers on the ground. */
 typedef struct bch_footprint {
   const char* name;
@@ -177,9 +184,13 @@ typedef struct bch_check_options {
    * If rows have such bodies, spheres and a baked set are errors. */
   const bch_footprint* footprints;
   size_t footprint_count;
+  const bch_page* page; /**< or NULL: no page is made for bch_check_get_page(), of up to 30 MB */
+  /** Or NULL: what people truly did, if the recording is a prediction, with the same ids, frames and frame
+   * rate. It must not have been read from. */
+  bch_trajectory* truth;
 } bch_check_options;
 #define BCH_CHECK_OPTIONS_INIT \
-  { sizeof(bch_check_options), 0, 0, NULL, 0, NULL, NULL, BCH_ALL_DEPTHS, BCH_SEGMENTS, NULL, 0, NULL, NULL, 0, 0, 0, 0, 0, 0, NULL, 0 }
+  { sizeof(bch_check_options), 0, 0, NULL, 0, NULL, NULL, BCH_ALL_DEPTHS, BCH_SEGMENTS, NULL, 0, NULL, NULL, 0, 0, 0, 0, 0, 0, NULL, 0, NULL, NULL }
 /** Finds who runs into whom in a recording: each row becomes a walking person, or the body that the row
  * names. The recording must not have been read from. */
 BCH_API bch_status bch_check_run(bch_trajectory* trajectory, const bch_check_options* options, bch_check** check);
@@ -199,9 +210,11 @@ typedef struct bch_check_summary {
   uint64_t colliding_people;       /**< people who overlap or pass anybody at any time; only with `measures` */
   uint64_t disc_colliding_people;  /**< the same for discs of radius 0.1 m */
   uint64_t overlap_events, pass_events, wall_events; /**< the number of events of each kind */
+  uint64_t truth_frames;           /**< frames of both recordings; only with `truth` */
+  uint64_t truth_colliding_people; /**< people whose disc of 0.1 m collides with that of another who moves as in `truth` */
 } bch_check_summary;
 #define BCH_CHECK_SUMMARY_INIT \
-  { sizeof(bch_check_summary), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 }
+  { sizeof(bch_check_summary), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 }
 /** Gets the summary of a check. */
 BCH_API bch_status bch_check_get_summary(const bch_check* check, bch_check_summary* summary);
 /** Counts the person-frames of a class of density. */
@@ -291,6 +304,8 @@ BCH_API bch_status bch_check_get_measures(const bch_check* check, const bch_chec
 /** Gets the measures of pairs, frame after frame; none without bch_check_options::measures. They live as long
  * as the check. */
 BCH_API bch_status bch_check_get_conflicts(const bch_check* check, const bch_check_conflict** pairs, size_t* count);
+/** Gets the page, an empty text without bch_check_options::page. It lives as long as the check. */
+BCH_API bch_status bch_check_get_page(const bch_check* check, const char** html, size_t* size);
 /** Frees a check. */
 BCH_API bch_status bch_check_free(bch_check* check);
 

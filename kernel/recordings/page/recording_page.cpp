@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "bench/recordings/recording_page.hpp"
-
-#include <fmt/format.h>
+#include "kernel/recordings/page/recording_page.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,33 +10,36 @@
 #include <utility>
 
 #include <bch/obstacles.hpp>
+#include <bch/version.hpp>
 
-#include "bench/base/text.hpp"
 #include "kernel/obstacles/segment.hpp"
+#include "layout/base/text.hpp"
 #include "layout/format/shape_set_view.hpp"
 
-namespace bch::cli {
-
-using namespace detail;
+namespace bch::detail {
 
 namespace {
 
-/// The segments of the floor's borders.
-std::vector<std::vector<PagePoint>> lines_of(const std::string& floor) {
+/// The segments of walls, or none.
+std::vector<std::vector<PagePoint>> lines_of(const ObstacleSet* walls) {
   std::vector<std::vector<PagePoint>> lines;
-  if (floor.empty()) return lines;
-  const ObstacleSet walls = obstacles_from_wkt(floor, Polygons::walkable);
-  for (std::uint32_t i = 0; i < walls.segment_count(); ++i) {
-    const WorldSegment& segment = walls.view().segments[i];
+  for (std::uint32_t i = 0; walls != nullptr && i < walls->segment_count(); ++i) {
+    const WorldSegment& segment = walls->view().segments[i];
     lines.push_back({{segment.ax, segment.ay}, {segment.bx, segment.by}});
   }
   return lines;
 }
 
+std::string version_text() {
+  const Version version = library_version();
+  return std::to_string(version.major) + "." + std::to_string(version.minor) + "." +
+         std::to_string(version.patch);
+}
+
 PageFacts facts_of(const CheckedRecording& recording) {
   PageFacts facts{std::filesystem::path(recording.file).filename().string(), recording.info.fps};
   facts.facts = {{"format", recording.info.format},
-                 {"people", fmt::format("{}", recording.info.people)},
+                 {"people", std::to_string(recording.info.people)},
                  {"bodies", bodies_text(recording)}};
   if (recording.spheres > 0)
     facts.facts.emplace_back("drawn", "outlines of the same people, in poses within a centimetre");
@@ -47,8 +48,8 @@ PageFacts facts_of(const CheckedRecording& recording) {
   for (const std::string& note : recording.info.notes) facts.facts.emplace_back("note", note);
   if (!recording.options.empty()) facts.facts.emplace_back("options", recording.options);
   if (!recording.date.empty()) facts.facts.emplace_back("date", recording.date);
-  facts.facts.emplace_back("checked by", "bch " BCH_VERSION);
-  facts.walls = lines_of(recording.floor);
+  facts.facts.emplace_back("checked by", "bch " + version_text());
+  facts.walls = lines_of(recording.walls);
   return facts;
 }
 
@@ -72,40 +73,27 @@ std::vector<std::vector<Vec2>> contours_of(const ShapeSetView& view, std::uint32
   return contours;
 }
 
-std::string percent(std::uint64_t part, std::uint64_t whole) {
-  return fmt::format("{:.2f} %",
-                     whole == 0 ? 0 : 100 * static_cast<double>(part) / static_cast<double>(whole));
-}
-
 std::vector<std::string> density_row(const std::string& name, const OverlapCount& count) {
   constexpr std::size_t usual = 1;  // of compared_discs
-  return {name, grouped(count.people), percent(count.overlapping, count.people),
-          percent(count.discs[usual], count.people)};
+  return {name, grouped(count.people), percent_text(count.overlapping, count.people),
+          percent_text(count.discs[usual], count.people)};
 }
 
 PageResults results_of(const CheckedRecording& recording, const CheckSummary& summary) {
   PageResults results;
   const OverlapCount& all = summary.all;
-  results.facts = {
-      {"overlaps", percent(all.overlapping, all.people) + " of person-seconds"},
-      {"neighbours", percent(all.overlapping_pairs, all.near_pairs) + " of the pairs within 1.2 m overlap"}};
-  if (recording.walls)
-    results.facts.emplace_back("walls", percent(all.in_walls, all.people) + " of person-seconds in one");
-  results.facts.emplace_back(
-      "events",
-      fmt::format("{} in overlap, {} passing between two frames, {} in a wall",
-                  grouped(summary.overlap_events), grouped(summary.passings), grouped(summary.wall_events)));
-  results.facts.emplace_back("headings", percent(summary.guessed, all.people) + " guessed");
+  results.facts = {{"overlaps", percent_text(all.overlapping, all.people) + " of person-seconds"},
+                   {"neighbours", percent_text(all.overlapping_pairs, all.near_pairs) +
+                                      " of the pairs within 1.2 m overlap"}};
+  if (recording.walls != nullptr)
+    results.facts.emplace_back("walls", percent_text(all.in_walls, all.people) + " of person-seconds in one");
+  results.facts.emplace_back("events", events_text(summary));
+  results.facts.emplace_back("headings", percent_text(summary.guessed, all.people) + " guessed");
   for (const std::string& note : summary.notes) results.facts.emplace_back("note", note);
   results.table.push_back({"people/m²", "person-frames", "overlap", "disc 0.25 m"});
-  for (std::size_t k = 0; k < density_classes.size(); ++k) {
-    if (summary.by_density[k].people == 0) continue;
-    const bool is_last = k + 1 == density_classes.size();
-    results.table.push_back(
-        density_row(is_last ? fmt::format("{:g}–", density_classes[k])
-                            : fmt::format("{:g}–{:g}", density_classes[k], density_classes[k + 1]),
-                    summary.by_density[k]));
-  }
+  for (std::size_t k = 0; k < density_classes.size(); ++k)
+    if (summary.by_density[k].people > 0)
+      results.table.push_back(density_row(density_name(k, "–"), summary.by_density[k]));
   results.table.push_back(density_row("all", all));
   return results;
 }
@@ -116,9 +104,11 @@ std::string name_of(const Walker& walker, const TrajectoryInfo& info) {
     return "pedestrian";
   const NamedMotion& motion = info.motions[walker.motion];
   if (motion.length == 0 && motion.width == 0) return motion.body;
-  const double length = motion.length > 0 ? motion.length : motion.width,
-               width = motion.width > 0 ? motion.width : motion.length;
-  return fmt::format("{}, {:g} m by {:g} m", motion.body, length, width);
+  const std::string length = number_text(motion.length) + " m", width = number_text(motion.width) + " m";
+  return motion.body + ", " +
+         (motion.width == 0    ? length + " long"
+          : motion.length == 0 ? width + " wide"
+                               : length + " by " + width);
 }
 
 }  // namespace
@@ -150,4 +140,4 @@ std::string RecordingPage::finish(const CheckSummary& summary) && {
   return std::move(page_).finish(summary.events, results_of(recording_, summary));
 }
 
-}  // namespace bch::cli
+}  // namespace bch::detail

@@ -12,13 +12,13 @@
 #include <utility>
 #include <vector>
 
-#include "bench/recordings/kept_frames.hpp"
-#include "bench/recordings/page_shapes.hpp"
 #include "kernel/recordings/check.hpp"
+#include "kernel/recordings/page/kept_frames.hpp"
+#include "kernel/recordings/page/page_shapes.hpp"
 
 // The page of a checked recording: one HTML file that plays it without a network.
 
-namespace bch::cli {
+namespace bch::detail {
 
 /// Tells what a pose looks like, once for each number.
 using PageShapeSource = std::function<PageShape(std::uint32_t pose)>;
@@ -53,17 +53,17 @@ class CheckPage {
   CheckPage(PageFacts facts, PageShapeSource shapes, std::size_t max_bytes = default_most_bytes);
 
   /// Adds the next frame. Shapes that it is the first to show are asked for.
-  void add_frame(const detail::CheckedFrame& frame);
+  void add_frame(const CheckedFrame& frame);
 
   /// Returns of how many frames one is kept so far: a power of two.
   std::uint64_t step() const { return frames_.step(); }
 
   /// Returns the page. It is larger than asked only if its first frame, walls and facts alone are.
-  std::string finish(std::span<const detail::OverlapEvent> events, PageResults results = {}) &&;
+  std::string finish(std::span<const OverlapEvent> events, PageResults results = {}) &&;
 
  private:
   std::string fixed_blocks() const;
-  std::string meta_block(std::span<const detail::OverlapEvent> events) const;
+  std::string meta_block(std::span<const OverlapEvent> events) const;
   std::string html(std::string_view data) const;
 
   PageFacts facts_;
@@ -75,4 +75,4 @@ class CheckPage {
   PageResults results_;
 };
 
-}  // namespace bch::cli
+}  // namespace bch::detail

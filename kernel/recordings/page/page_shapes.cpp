@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "bench/recordings/page_shapes.hpp"
+#include "kernel/recordings/page/page_shapes.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <span>
 
-#include "bench/base/text.hpp"
-#include "bench/recordings/embedding.hpp"
+#include "kernel/recordings/page/embedding.hpp"
 #include "layout/base/base64.hpp"
+#include "layout/base/text.hpp"
 
-namespace bch::cli {
+namespace bch::detail {
 namespace {
 
 std::int16_t millimetres(float metres) {
@@ -96,7 +96,7 @@ void PageShapes::add(const PageShape& shape) {
 std::size_t PageShapes::block_size() const {
   constexpr std::size_t tags = 500, quotes = 3;
   const std::size_t offsets = contours_begin_.size() + points_begin_.size() + discs_begin_.size();
-  return detail::base64_size(4 * (offsets + points_.size()) + 2 * discs_.size()) + tags + name_bytes_ +
+  return base64_size(4 * (offsets + points_.size()) + 2 * discs_.size()) + tags + name_bytes_ +
          quotes * size();
 }
 
@@ -107,4 +107,4 @@ std::string PageShapes::blocks() const {
   return out + number_block("discs-begin", discs_begin_) + number_block("discs", discs_);
 }
 
-}  // namespace bch::cli
+}  // namespace bch::detail

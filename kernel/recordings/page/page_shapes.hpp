@@ -9,7 +9,7 @@
 
 #include <bch/geometry.hpp>
 
-namespace bch::cli {
+namespace bch::detail {
 
 /// Holds what a person looks like in a pose: metres, in the frame of the shape, whose origin is the person's
 /// place.
@@ -53,4 +53,4 @@ class PageShapes {
   std::vector<std::int16_t> discs_;  ///< x, y, radius in millimetres
 };
 
-}  // namespace bch::cli
+}  // namespace bch::detail

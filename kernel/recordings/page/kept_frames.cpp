@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "bench/recordings/kept_frames.hpp"
+#include "kernel/recordings/page/kept_frames.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,10 +9,10 @@
 #include <span>
 #include <utility>
 
-#include "bench/recordings/embedding.hpp"
+#include "kernel/recordings/page/embedding.hpp"
 #include "layout/base/base64.hpp"
 
-namespace bch::cli {
+namespace bch::detail {
 namespace {
 
 std::int16_t kept_heading(float heading) {
@@ -64,8 +64,8 @@ KeptFrames::Place KeptFrames::place_of(PagePoint at) {
   return place;
 }
 
-KeptFrames::Person KeptFrames::kept(const detail::CheckedPerson& person) {
-  const detail::Walker& walker = person.walker;
+KeptFrames::Person KeptFrames::kept(const CheckedPerson& person) {
+  const Walker& walker = person.walker;
   return {ids_.number(walker.id),
           shapes_.number(person.pose),
           place_of({walker.x, walker.y}),
@@ -74,12 +74,12 @@ KeptFrames::Person KeptFrames::kept(const detail::CheckedPerson& person) {
           static_cast<std::uint8_t>((person.overlaps ? 1 : 0) | (person.in_wall ? 2 : 0))};
 }
 
-bool KeptFrames::add(const detail::CheckedFrame& frame) {
+bool KeptFrames::add(const CheckedFrame& frame) {
   if (seen_++ % step_ != 0) return false;
   numbers_.push_back(static_cast<double>(frame.frame));
   seconds_.push_back(frame.seconds);
-  for (const detail::CheckedPerson& person : frame.people) people_.push_back(kept(person));
-  for (const detail::CheckedPair& pair : frame.pairs)
+  for (const CheckedPerson& person : frame.people) people_.push_back(kept(person));
+  for (const CheckedPair& pair : frame.pairs)
     if (pair.overlap)
       overlaps_.push_back({ids_.number(pair.first), pair.is_wall ? wall_number : ids_.number(pair.second)});
   people_begin_.push_back(static_cast<std::uint32_t>(people_.size()));
@@ -122,8 +122,8 @@ std::size_t KeptFrames::block_size() const {
                     place = narrow_places() ? 4 : 8;
   constexpr std::size_t heading_speed_marks = 5, frame = 2 * sizeof(double) + 2 * sizeof(std::uint32_t);
   constexpr std::size_t tag = 100, tags = 12, id_digits = 8;
-  return detail::base64_size(people_.size() * (id + shape + place + heading_speed_marks) +
-                             overlaps_.size() * 2 * id + size() * frame) +
+  return base64_size(people_.size() * (id + shape + place + heading_speed_marks) + overlaps_.size() * 2 * id +
+                     size() * frame) +
          tags * tag + ids().size() * id_digits;
 }
 
@@ -181,4 +181,4 @@ std::string OverlapSeries::blocks() const {
          number_block("series-people", people_);
 }
 
-}  // namespace bch::cli
+}  // namespace bch::detail

@@ -15,9 +15,11 @@
 #include <type_traits>
 #include <vector>
 
+#include "layout/base/number_class.hpp"
+
 // How data lie in a page so that scripts can read them and nothing in them can become markup.
 
-namespace bch::cli {
+namespace bch::detail {
 
 /// Writes JSON that may stand in a script element: without "<", ">" and "&", which are written as \u003c and so on.
 /// Bytes of texts that are not UTF-8 are replaced.
@@ -62,7 +64,7 @@ template <class Integer>
 Integer rounded(double value) {
   using Limits = std::numeric_limits<Integer>;
   static_assert(sizeof(Integer) <= 4);
-  if (std::isnan(value)) return 0;
+  if (is_nan(value)) return 0;
   const double whole = std::round(value);
   if (whole <= static_cast<double>(Limits::min())) return Limits::min();
   if (whole >= static_cast<double>(Limits::max())) return Limits::max();
@@ -82,4 +84,4 @@ std::string_view check_page_script();
 std::string_view check_page_style_hash();
 std::string_view check_page_script_hash();
 
-}  // namespace bch::cli
+}  // namespace bch::detail

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "bench/recordings/check_page.hpp"
-
-#include <fmt/format.h>
+#include "kernel/recordings/page/check_page.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,11 +10,11 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "bench/base/text.hpp"
-#include "bench/recordings/embedding.hpp"
+#include "kernel/recordings/page/embedding.hpp"
 #include "layout/base/base64.hpp"
+#include "layout/base/text.hpp"
 
-namespace bch::cli {
+namespace bch::detail {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -33,12 +31,12 @@ Json json_id(std::int64_t id) {
 }
 
 /// Of a pass it is 0.
-float depth_of(const detail::OverlapEvent& event) {
+float depth_of(const OverlapEvent& event) {
   return std::max(0.0f, event.depth);
 }
 
 /// Returns the numbers of the deepest events, in their order.
-std::vector<std::size_t> listed(std::span<const detail::OverlapEvent> events) {
+std::vector<std::size_t> listed(std::span<const OverlapEvent> events) {
   std::vector<std::size_t> order(events.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   if (order.size() <= CheckPage::max_events) return order;
@@ -48,10 +46,10 @@ std::vector<std::size_t> listed(std::span<const detail::OverlapEvent> events) {
   return order;
 }
 
-Json json_events(std::span<const detail::OverlapEvent> events, double fps) {
+Json json_events(std::span<const OverlapEvent> events, double fps) {
   Json list = Json::array();
   for (const std::size_t i : listed(events)) {
-    const detail::OverlapEvent& event = events[i];
+    const OverlapEvent& event = events[i];
     Json row{json_id(event.first), event.is_wall ? Json() : json_id(event.second)};
     for (const double frame : {static_cast<double>(event.from), static_cast<double>(event.to), event.worst})
       row.push_back(rounded_to(1e6, frame / fps));
@@ -87,14 +85,13 @@ std::string policy_source(std::string_view hash) {
   std::string bytes;
   for (std::size_t i = 0; i + 1 < hash.size(); i += 2)
     bytes += static_cast<char>(std::stoi(std::string(hash.substr(i, 2)), nullptr, 16));
-  return "'sha256-" + detail::to_base64(bytes) + "'";
+  return "'sha256-" + to_base64(bytes) + "'";
 }
 
 /// Nothing is loaded, and no script runs but the page's own.
 std::string policy() {
-  return fmt::format(
-      "default-src 'none'; img-src data:; script-src {}; style-src {}; base-uri 'none'; form-action 'none'",
-      policy_source(check_page_script_hash()), policy_source(check_page_style_hash()));
+  return "default-src 'none'; img-src data:; script-src " + policy_source(check_page_script_hash()) +
+         "; style-src " + policy_source(check_page_style_hash()) + "; base-uri 'none'; form-action 'none'";
 }
 
 std::string filled(std::string_view text,
@@ -122,7 +119,7 @@ std::string CheckPage::fixed_blocks() const {
   return shapes_.blocks() + series_.blocks() + wall_blocks(facts_, frames_.corner());
 }
 
-std::string CheckPage::meta_block(std::span<const detail::OverlapEvent> events) const {
+std::string CheckPage::meta_block(std::span<const OverlapEvent> events) const {
   Json ids = Json::array();
   for (const std::int64_t id : frames_.ids()) ids.push_back(json_id(id));
   return json_block("meta", {{"fps", facts_.fps},
@@ -147,9 +144,9 @@ std::string CheckPage::html(std::string_view data) const {
   return filled(check_page_template(), tags);
 }
 
-void CheckPage::add_frame(const detail::CheckedFrame& frame) {
-  const auto overlapping = std::ranges::count_if(
-      frame.people, [](const detail::CheckedPerson& p) { return p.overlaps || p.in_wall; });
+void CheckPage::add_frame(const CheckedFrame& frame) {
+  const auto overlapping =
+      std::ranges::count_if(frame.people, [](const CheckedPerson& p) { return p.overlaps || p.in_wall; });
   series_.add(frame.seconds, static_cast<std::uint32_t>(overlapping),
               static_cast<std::uint32_t>(frame.people.size()));
   if (!frames_.add(frame)) return;
@@ -159,7 +156,7 @@ void CheckPage::add_frame(const detail::CheckedFrame& frame) {
   }
 }
 
-std::string CheckPage::finish(std::span<const detail::OverlapEvent> events, PageResults results) && {
+std::string CheckPage::finish(std::span<const OverlapEvent> events, PageResults results) && {
   results_ = std::move(results);
   const std::string fixed = fixed_blocks();
   std::string meta = meta_block(events);
@@ -170,4 +167,4 @@ std::string CheckPage::finish(std::span<const detail::OverlapEvent> events, Page
   return html(meta + frames_.blocks() + fixed);
 }
 
-}  // namespace bch::cli
+}  // namespace bch::detail

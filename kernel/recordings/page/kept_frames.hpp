@@ -12,7 +12,7 @@
 #include "kernel/recordings/check.hpp"
 #include "layout/base/mixed_hash.hpp"
 
-namespace bch::cli {
+namespace bch::detail {
 
 /// Represents a point of the ground in the recording's coordinates, metres, which floats may be too coarse
 /// for.
@@ -33,7 +33,7 @@ class Numbering {
   const std::vector<Key>& keys() const { return keys_; }
 
  private:
-  std::unordered_map<Key, std::uint32_t, detail::MixedHash> numbers_;
+  std::unordered_map<Key, std::uint32_t, MixedHash> numbers_;
   std::vector<Key> keys_;
 };
 
@@ -43,7 +43,7 @@ class KeptFrames {
  public:
   /// Keeps a frame, or counts it alone if it lies between two steps.
   /// Returns: whether it was kept.
-  bool add(const detail::CheckedFrame& frame);
+  bool add(const CheckedFrame& frame);
   /// Doubles the step and drops every second frame. With one frame or none nothing is left to drop.
   /// Returns: whether there was anything.
   bool halve();
@@ -81,7 +81,7 @@ class KeptFrames {
     std::uint32_t first, second;  ///< numbers of ids
   };
 
-  Person kept(const detail::CheckedPerson& person);
+  Person kept(const CheckedPerson& person);
   Place place_of(PagePoint at);
   void forget_unused_ids();
   bool narrow_ids() const { return ids().size() < 0xffff; }
@@ -120,4 +120,4 @@ class OverlapSeries {
   std::vector<std::uint32_t> overlapping_, people_;
 };
 
-}  // namespace bch::cli
+}  // namespace bch::detail
