@@ -22,7 +22,7 @@
 #include "bench/characters/characters.hpp"
 #include "bench/cli/commands.hpp"
 #include "bench/cli/place.hpp"
-#include "kernel/recordings/walker_cast.hpp"
+#include "kernel/recordings/character_library.hpp"
 #include "kernel/runtime/tasks.hpp"
 
 namespace bch::cli {

@@ -18,7 +18,7 @@
 #include "bench/base/text.hpp"
 #include "bench/base/wkt_input.hpp"
 #include "bench/characters/characters.hpp"
-#include "kernel/recordings/baked_cast.hpp"
+#include "kernel/recordings/baked_library.hpp"
 #include "kernel/recordings/walker_bodies.hpp"
 
 namespace bch::cli {
@@ -93,11 +93,11 @@ std::vector<detail::ClipSpeed> clip_speeds_of(const CheckInput& input) {
 }
 
 /// Characters of one's own.
-detail::Cast cast_of(const CheckInput& input, const std::optional<BakedShapes>& baked) {
-  detail::Cast cast;
+detail::CharacterLibrary library_of(const CheckInput& input, const std::optional<BakedShapes>& baked) {
+  detail::CharacterLibrary library;
   if (baked) {
     try {
-      return detail::baked_cast(*baked, input.characters[0], clip_speeds_of(input));
+      return detail::baked_library(*baked, input.characters[0], clip_speeds_of(input));
     } catch (const std::invalid_argument& error) {
       throw InputError(error.what());
     }
@@ -106,33 +106,34 @@ detail::Cast cast_of(const CheckInput& input, const std::optional<BakedShapes>& 
   const std::vector<std::string> notes = notes_of(characters);
   for (LoadedCharacter& loaded : characters) {
     try {
-      cast.push_back(detail::character_entry(std::move(loaded.character), file_name(loaded)));
+      library.push_back(detail::character_entry(std::move(loaded.character), file_name(loaded)));
     } catch (const std::invalid_argument& error) {
       throw InputError(error.what());
     }
   }
-  if (!cast.empty()) cast[0].assumptions.insert(cast[0].assumptions.begin(), notes.begin(), notes.end());
-  return cast;
+  if (!library.empty())
+    library[0].assumptions.insert(library[0].assumptions.begin(), notes.begin(), notes.end());
+  return library;
 }
 
 /// What a recording says of itself, and what was found out about the characters.
 detail::TrajectoryInfo info_of(const CheckInput& input, const detail::TrajectoryReader& reader,
                                const OpenedCheck& opened) {
-  const detail::Cast& cast = opened.cast;
+  const detail::CharacterLibrary& library = opened.library;
   detail::TrajectoryInfo info = reader.info();
   if (opened.baked)
     info.assumptions.push_back(
         fmt::format("{}: people face {:g} degrees from +x (--facing)", input.characters[0], input.facing));
-  for (const auto& member : cast)
+  for (const auto& member : library)
     info.assumptions.insert(info.assumptions.end(), member.assumptions.begin(), member.assumptions.end());
   return info;
 }
 
-/// Bodies of spheres of the cast, or of pedestrians, of whom only the number of spheres can be wrong.
-std::vector<BodyModel> bodies_of(detail::CastView cast, std::uint32_t spheres) try {
-  return detail::body_models(cast, spheres);
+/// Bodies of spheres of the library, or of pedestrians, of whom only the number of spheres can be wrong.
+std::vector<BodyModel> bodies_of(detail::CharacterLibraryView library, std::uint32_t spheres) try {
+  return detail::body_models(library, spheres);
 } catch (const std::invalid_argument& error) {
-  if (!cast.empty()) throw InputError(error.what());
+  if (!library.empty()) throw InputError(error.what());
   throw UsageError(
       fmt::format("--spheres: expected 64, 128, 256 or 512 of built-in pedestrians, found {}", spheres));
 }
@@ -265,7 +266,7 @@ void add_outputs_to(CLI::App& command, CheckOutputs& outputs) {
 
 OpenedCheck::OpenedCheck(const CheckInput& input)
     : baked(baked_of(input)),
-      cast(cast_of(input, baked)),
+      library(library_of(input, baked)),
       footprints(footprints_of(input)),
       reader(detail::open_trajectory(input.file, trajectory_options(input))),
       walls(walls_of(input, floor_of(input, reader->info()))),
@@ -274,7 +275,7 @@ OpenedCheck::OpenedCheck(const CheckInput& input)
                 input.spheres(),
                 baked ? baked->set.depths().back() : parse_depth("--depth", input.depth),
                 leaves_of(input, baked),
-                static_cast<std::uint32_t>(cast.size()),
+                static_cast<std::uint32_t>(library.size()),
                 baked.has_value(),
                 walls ? &*walls : nullptr,
                 input.date.empty() ? date_of(input.file) : input.date,
@@ -286,11 +287,11 @@ OpenedCheck::OpenedCheck(const CheckInput& input)
 
 detail::CheckOptions OpenedCheck::options(const CheckInput& input) {
   detail::CheckOptions how;
-  if (recording.spheres > 0) bodies = bodies_of(cast, recording.spheres);
+  if (recording.spheres > 0) bodies = bodies_of(library, recording.spheres);
   how.bodies = bodies;
   how.plan = {.depths = {recording.depth}};
   how.leaves = recording.leaves;
-  how.cast = cast;
+  how.library = library;
   how.footprints = footprints;
   how.baked = baked ? &baked->set : nullptr;
   how.facing = input.facing * std::numbers::pi / 180;

@@ -114,7 +114,7 @@ void add_outputs_to(CLI::App& command, CheckOutputs& outputs);
 /// Represents a recording that is open, with its walls and the characters that people have.
 struct OpenedCheck {
   std::optional<BakedShapes> baked;
-  detail::Cast cast;
+  detail::CharacterLibrary library;
   std::vector<detail::Footprint> footprints;
   std::unique_ptr<detail::TrajectoryReader> reader;
   std::optional<ObstacleSet> walls;

@@ -31,7 +31,7 @@ constexpr std::size_t no_row = static_cast<std::size_t>(-1);
 }  // namespace
 
 ResolvedRecording::ResolvedRecording(const OpenedCheck& opened)
-    : opened_(opened), bodies_(opened.bodies, opened.cast) {}
+    : opened_(opened), bodies_(opened.bodies, opened.library) {}
 
 void ResolvedRecording::add(const detail::CheckedFrame& frame) {
   for (const detail::CheckedPair& pair : frame.pairs) before_ += pair.overlap;

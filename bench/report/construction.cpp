@@ -55,24 +55,24 @@ void time_single(Table& table, std::string_view name, const std::vector<baseline
 }
 
 /// A hierarchy over an outline is timed by its builder, which makes nothing besides.
-void time_structure(Table& table, const Contestant& contestant, const std::vector<baselines::Body>& bodies) {
-  if (contestant.kind == "single") return time_single(table, contestant.name, bodies);
+void time_structure(Table& table, const Contestant& contender, const std::vector<baselines::Body>& bodies) {
+  if (contender.kind == "single") return time_single(table, contender.name, bodies);
   detail::HierarchyBuilder builder;
   Hierarchy hierarchy;
-  const detail::SplitRule rule = contestant.centre ? detail::SplitRule::centre : detail::SplitRule::centroid;
-  const baselines::Kind& kind = baselines::kind(contestant.kind);
-  time_each(table, contestant.name, bodies.size(), [&](std::size_t i) {
-    if (contestant.kind == "reference")
+  const detail::SplitRule rule = contender.centre ? detail::SplitRule::centre : detail::SplitRule::centroid;
+  const baselines::Kind& kind = baselines::kind(contender.kind);
+  time_each(table, contender.name, bodies.size(), [&](std::size_t i) {
+    if (contender.kind == "reference")
       builder.contour(bodies[i].shape.outline, 0.01f, rule, hierarchy);
     else
-      kind.build(std::span(bodies).subspan(i, 1), {.fixed_radius = contestant.fixed_radius});
+      kind.build(std::span(bodies).subspan(i, 1), {.fixed_radius = contender.fixed_radius});
   });
 }
 
-std::string_view made_from(const Contestant& contestant) {
-  if (contestant.is_disc()) return contestant.kind == "single" ? "vertices" : "nothing";
+std::string_view made_from(const Contestant& contender) {
+  if (contender.is_disc()) return contender.kind == "single" ? "vertices" : "nothing";
   const bool outlined =
-      contestant.kind == "reference" || baselines::kind(contestant.kind).exact == baselines::Truth::outline;
+      contender.kind == "reference" || baselines::kind(contender.kind).exact == baselines::Truth::outline;
   return outlined ? "outline" : "triangles";
 }
 
@@ -93,10 +93,10 @@ Table time_stages(Run& run) {
 
 void run_construction(Run& run) {
   Builds builds;
-  for (const Contestant& contestant : contestants()) {
-    if (contestant.kind == "paper_descent") continue;  // the same tree as the reference's
-    time_structure(builds.times, contestant, run.scene.bodies());
-    builds.add(contestant.name, made_from(contestant), tree_size(contestant, run.scene.bodies()));
+  for (const Contestant& contender : contenders()) {
+    if (contender.kind == "paper_descent") continue;  // the same tree as the reference's
+    time_structure(builds.times, contender, run.scene.bodies());
+    builds.add(contender.name, made_from(contender), tree_size(contender, run.scene.bodies()));
   }
   run.write("construction", builds.sizes);
   run.write("construction_times", builds.times);
@@ -122,10 +122,10 @@ void run_query_time(Run& run) {
   std::vector<Subject> subjects = {subject_of(kernel_name, run.scene.set()),
                                    subject_of(exact_leaves_name, run.scene.set(), {})};
   Structures structures(run.scene);
-  for (const Contestant& contestant : contestants()) {
-    subjects.push_back(subject_of(contestant.name, structures.of(contestant)));
-    const TreeSize size = subjects.back().size = tree_size(contestant, bodies);
-    if (contestant.kind != "bch_projected") continue;
+  for (const Contestant& contender : contenders()) {
+    subjects.push_back(subject_of(contender.name, structures.of(contender)));
+    const TreeSize size = subjects.back().size = tree_size(contender, bodies);
+    if (contender.kind != "bch_projected") continue;
     subjects.push_back(subject_of("BCH projected leaf discs", *leaf_discs));
     subjects.back().size = size;
   }
@@ -135,7 +135,7 @@ void run_query_time(Run& run) {
     const bench::Workload& workload = run.scene.workload(name);
     require_right(run, subjects[0], bench::disc_query, workload);
     require_right(run, subjects[1], {}, workload);
-    for (const Contestant& contestant : contestants()) structures.require_right(contestant, workload);
+    for (const Contestant& contender : contenders()) structures.require_right(contender, workload);
     tables.time_pairs(workload);
   }
   tables.write("query_time");

@@ -44,16 +44,16 @@ void add_kernel(Run& run, std::deque<ShapeSet>& sets, std::vector<Subject>& poin
 
 /// FCL's trees, whose times query_time has, would take most of the time.
 void add_others(Run& run, Structures& structures, std::vector<Subject>& points) {
-  for (const Contestant& contestant : contestants()) {
-    if (contestant.kind == "reference" || contestant.kind == "paper_descent" ||
-        contestant.kind.starts_with("fcl"))
+  for (const Contestant& contender : contenders()) {
+    if (contender.kind == "reference" || contender.kind == "paper_descent" ||
+        contender.kind.starts_with("fcl"))
       continue;
     for (const std::uint32_t depth :
-         contestant.has_depth ? depths_of(run) : std::vector{contestant.is_disc() ? 0 : all_depths}) {
+         contender.has_depth ? depths_of(run) : std::vector{contender.is_disc() ? 0 : all_depths}) {
       for (const std::string_view name : requested_workloads)
-        structures.require_right(contestant, run.scene.workload(name), depth);
-      points.push_back(subject_of(contestant.name, structures.of(contestant), depth));
-      points.back().arithmetic = contestant.is_disc() ? "single" : "exact";
+        structures.require_right(contender, run.scene.workload(name), depth);
+      points.push_back(subject_of(contender.name, structures.of(contender), depth));
+      points.back().arithmetic = contender.is_disc() ? "single" : "exact";
     }
   }
 }

@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t counted_pairs = 2'000;
 constexpr double shortest_run = 1e7;  ///< nanoseconds
 
-constexpr Contestant all_contestants[] = {
+constexpr Contestant all_contenders[] = {
     {"single cylinder", "single"},
     {"fixed cylinder 0.25 m", "fixed"},
     {"fixed cylinder 0.40 m", "fixed", false, 0.4f},
@@ -100,15 +100,15 @@ TreeSize tree_size(std::span<const Shape> shapes) {
   return mean_size(shapes, [](const Shape& shape) { return size_of(shape.hierarchy); });
 }
 
-TreeSize tree_size(const Contestant& contestant, std::span<const baselines::Body> bodies) {
-  const std::string_view kind = contestant.kind;
-  if (contestant.is_disc()) return {1, 0};
+TreeSize tree_size(const Contestant& contender, std::span<const baselines::Body> bodies) {
+  const std::string_view kind = contender.kind;
+  if (contender.is_disc()) return {1, 0};
   if (kind == "bch_projected") return mean_size(bodies, size_of_projected);
   if (kind.starts_with("obb_"))
     return mean_size(bodies, [&](const baselines::Body& body) { return size_of_boxes(kind, body); });
   if (kind != "reference") return {};
-  return tree_size(shapes_of(contestant.centre ? with_hierarchies(bodies, 0.01f, detail::SplitRule::centre)
-                                               : std::vector<baselines::Body>(bodies.begin(), bodies.end())));
+  return tree_size(shapes_of(contender.centre ? with_hierarchies(bodies, 0.01f, detail::SplitRule::centre)
+                                              : std::vector<baselines::Body>(bodies.begin(), bodies.end())));
 }
 
 Subject subject_of(std::string_view name, const baselines::Structure& structure, std::uint32_t max_depth) {
@@ -193,42 +193,42 @@ void SubjectTables::write(const std::string& name) const {
   if (has_slides_) run_.write(name + "_slides", slides_);
 }
 
-std::vector<Contestant> contestants() {
+std::vector<Contestant> contenders() {
   std::vector<Contestant> here;
-  std::ranges::copy_if(all_contestants, std::back_inserter(here),
+  std::ranges::copy_if(all_contenders, std::back_inserter(here),
                        [](const Contestant& one) { return bench::has_kind(one.kind); });
   return here;
 }
 
-const baselines::Structure& Structures::of(const Contestant& contestant) {
-  const auto found = made_.find(contestant.name);
+const baselines::Structure& Structures::of(const Contestant& contender) {
+  const auto found = made_.find(contender.name);
   if (found != made_.end()) return *found->second;
-  if (contestant.centre && centre_bodies_.empty())
+  if (contender.centre && centre_bodies_.empty())
     centre_bodies_ = with_hierarchies(scene_.bodies(), 0.01f, detail::SplitRule::centre);
-  const std::span<const baselines::Body> bodies = contestant.centre ? centre_bodies_ : scene_.bodies();
-  auto made = baselines::kind(contestant.kind).build(bodies, {.fixed_radius = contestant.fixed_radius});
-  return *made_.emplace(contestant.name, std::move(made)).first->second;
+  const std::span<const baselines::Body> bodies = contender.centre ? centre_bodies_ : scene_.bodies();
+  auto made = baselines::kind(contender.kind).build(bodies, {.fixed_radius = contender.fixed_radius});
+  return *made_.emplace(contender.name, std::move(made)).first->second;
 }
 
 const baselines::Structure& Structures::of(std::string_view name) {
-  const auto* const found = std::ranges::find(all_contestants, name, &Contestant::name);
-  if (found == std::end(all_contestants))
-    throw std::invalid_argument("no contestant '" + std::string(name) + "'");
+  const auto* const found = std::ranges::find(all_contenders, name, &Contestant::name);
+  if (found == std::end(all_contenders))
+    throw std::invalid_argument("no contender '" + std::string(name) + "'");
   return of(*found);
 }
 
-void Structures::require_right(const Contestant& contestant, const bench::Workload& workload,
+void Structures::require_right(const Contestant& contender, const bench::Workload& workload,
                                std::uint32_t max_depth) {
-  const bench::Hits hits = answers(subject_of(contestant.name, of(contestant), max_depth), workload);
+  const bench::Hits hits = answers(subject_of(contender.name, of(contender), max_depth), workload);
   std::string wrong;
-  if (contestant.centre) {
+  if (contender.centre) {
     const ShapeSet set(shapes_of(centre_bodies_), {{max_depth}});
     if (hits != answers(subject_of(kernel_name, set), workload))
       wrong = "a kernel over the same discs says otherwise";
   } else {
-    wrong = bench::wrong_structure(scene_, workload, baselines::kind(contestant.kind), hits, max_depth);
+    wrong = bench::wrong_structure(scene_, workload, baselines::kind(contender.kind), hits, max_depth);
   }
-  bench::require_right(contestant.name, workload, wrong);
+  bench::require_right(contender.name, workload, wrong);
 }
 
 std::vector<baselines::Body> with_hierarchies(std::span<const baselines::Body> bodies, float threshold,

@@ -13,7 +13,7 @@
 #include "kernel/c_api/objects.hpp"
 #include "kernel/c_api/obstacles.hpp"
 #include "kernel/c_api/recordings.hpp"
-#include "kernel/recordings/baked_cast.hpp"
+#include "kernel/recordings/baked_library.hpp"
 #include "kernel/recordings/check.hpp"
 #include "kernel/recordings/page/recording_page.hpp"
 #include "kernel/recordings/truth_collisions.hpp"
@@ -105,7 +105,7 @@ std::optional<ObstacleSet> own_walls(const bch_check_options& options, const Tra
 }
 
 /// The characters of a baked set.
-Cast baked_cast_of(const bch_check_options& options) {
+CharacterLibrary baked_library_of(const bch_check_options& options) {
   if (options.character_count > 0)
     throw Failure(BCH_INVALID_ARGUMENT, "options->baked and options->characters are both given");
   const bch_shape_set& set = object_of(options.baked, "options->baked");
@@ -121,19 +121,19 @@ Cast baked_cast_of(const bch_check_options& options) {
       throw Failure(BCH_INVALID_ARGUMENT, "options->clip_speeds has " + std::to_string(given.speed));
     speeds.push_back({given.clip, given.speed});
   }
-  return baked_cast(*set.own, "options->baked", speeds);
+  return baked_library(*set.own, "options->baked", speeds);
 }
 
 /// The characters of the caller.
-Cast cast_of(const bch_check_options& options) {
-  if (options.baked != nullptr) return baked_cast_of(options);
+CharacterLibrary library_of(const bch_check_options& options) {
+  if (options.baked != nullptr) return baked_library_of(options);
   if (options.character_count > 0) required(options.characters, "options->characters");
-  Cast cast;
+  CharacterLibrary library;
   for (const bch_character* character : std::span(options.characters, options.character_count)) {
     const bch_character& own = object_of(character, "options->characters");
-    cast.push_back(character_entry(*own.character, own.name));
+    library.push_back(character_entry(*own.character, own.name));
   }
-  return cast;
+  return library;
 }
 
 /// The bodies that do not walk.
@@ -163,26 +163,26 @@ std::optional<CheckedRecording> recording_of(const bch_check_options& given, con
                              given.spheres,
                              baked == nullptr ? given.depth : baked->depths().back(),
                              baked != nullptr && !baked->exact_leaves() ? Leaves::discs : options.leaves,
-                             static_cast<std::uint32_t>(options.cast.size()),
+                             static_cast<std::uint32_t>(options.library.size()),
                              baked != nullptr,
                              options.walls,
                              text(given.page->date),
                              text(given.page->options)};
-  for (const CharacterEntry& member : options.cast)
+  for (const CharacterEntry& member : options.library)
     recording.info.assumptions.insert(recording.info.assumptions.end(), member.assumptions.begin(),
                                       member.assumptions.end());
   return recording;
 }
 
 /// The bodies of spheres, or none.
-std::vector<BodyModel> bodies_of(const bch_check_options& options, CastView cast) {
+std::vector<BodyModel> bodies_of(const bch_check_options& options, CharacterLibraryView library) {
   if (options.spheres == 0) return {};
   if (options.baked != nullptr)
     throw Failure(BCH_INVALID_ARGUMENT, "options->baked has outlines, which options->spheres does not use");
   if (options.depth != BCH_ALL_DEPTHS || options.leaves != BCH_SEGMENTS)
     throw Failure(BCH_INVALID_ARGUMENT,
                   "options->depth and options->leaves belong to outlines, not to options->spheres");
-  return body_models(cast, options.spheres);
+  return body_models(library, options.spheres);
 }
 
 /// Errors:  throws Failure where a recording is not at its beginning.
@@ -202,14 +202,14 @@ std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check
     throw Failure(BCH_INVALID_ARGUMENT, "options->max_distance is " + std::to_string(given.max_distance));
   options.max_distance = given.max_distance;
   options.max_pairs = given.max_pairs;
-  const Cast cast = cast_of(given);
-  options.cast = cast;
+  const CharacterLibrary library = library_of(given);
+  options.library = library;
   const std::vector<Footprint> footprints = footprints_of(given);
   options.footprints = footprints;
   options.draws = given.page != nullptr;
   options.measures = given.measures != 0;
   std::vector<BodyModel> bodies;
-  on_threads(given.threads, [&] { bodies = bodies_of(given, cast); });
+  on_threads(given.threads, [&] { bodies = bodies_of(given, library); });
   options.bodies = bodies;
   options.baked = given.baked == nullptr ? nullptr : &object_of(given.baked, "options->baked").set;
   options.facing = given.baked == nullptr ? 0 : given.facing;
@@ -222,7 +222,7 @@ std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check
   auto made = std::make_unique<bch_check>();
   made->assumptions = trajectory.assumptions;
   made->notes = trajectory.notes;
-  for (const CharacterEntry& member : cast)
+  for (const CharacterEntry& member : library)
     for (const std::string& line : member.assumptions) made->assumptions += line + "\n";
   const TrajectoryInfo& info = trajectory.reader->info();
   const std::optional<CheckedRecording> recording = recording_of(given, info, options);

@@ -34,12 +34,12 @@ class Checker {
   Checker(const TrajectoryInfo& info, const CheckOptions& options,
           const std::function<void(const CheckedFrame&, const ShapeSet&)>& seen)
       : options_(options),
-        motions_(cast_motions(info.motions, options_.cast, options_.footprints)),
+        motions_(library_motions(info.motions, options_.library, options_.footprints)),
         seen_(seen),
         borders_(options_.walls == nullptr ? std::vector<std::uint8_t>() : borders_of(*options_.walls)),
-        shapes_(options_.plan, options_.cast, motions_, options_.baked) {
+        shapes_(options_.plan, options_.library, motions_, options_.baked) {
     require_people(info.motions);
-    if (!options_.bodies.empty()) bodies_.emplace(options_.bodies, options_.cast);
+    if (!options_.bodies.empty()) bodies_.emplace(options_.bodies, options_.library);
   }
 
   /// Checks all frames of a block but the last one, which the next block begins with or nobody asks for; at the end that one, too.
@@ -56,7 +56,7 @@ class Checker {
   void add_measures(CheckedFrame& frame, std::span<MeasuredPerson> measures);
 
   const CheckOptions options_;
-  const std::vector<CastMotion> motions_;
+  const std::vector<LibraryMotion> motions_;
   const std::function<void(const CheckedFrame&, const ShapeSet&)>& seen_;
   const std::vector<std::uint8_t> borders_;
   WalkerShapes shapes_;

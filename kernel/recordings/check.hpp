@@ -32,12 +32,12 @@ struct CheckOptions {
   double max_distance = 0;           ///< measure gaps up to this, metres; 0: measure none
   const ObstacleSet* walls = nullptr;
   std::uint32_t coarse =
-      1;               ///< 1 or 3: rounding speed or phase to a pose moves an outline by less than 1 or 3 cm
-  CastView cast = {};  ///< characters whose bodies people have; empty: built-in pedestrians
+      1;  ///< 1 or 3: rounding speed or phase to a pose moves an outline by less than 1 or 3 cm
+  CharacterLibraryView library = {};  ///< characters whose bodies people have; empty: built-in pedestrians
   const ShapeSet* baked =
-      nullptr;  ///< shapes of baked_cast(), used at their last level, not the plan's; or none
+      nullptr;  ///< shapes of baked_library(), used at their last level, not the plan's; or none
   /// Models of bodies of spheres, which replace outlines and are posed at the exact time of a clip:
-  /// body_models() of a cast that is not baked. They are tested in 3D, with all people on one ground. Empty:
+  /// body_models() of a library that is not baked. They are tested in 3D, with all people on one ground. Empty:
   /// outlines.
   std::span<const BodyModel> bodies = {};
   /// Bodies that do not walk, which rows may name in addition to those of the library. Not with spheres or
@@ -154,7 +154,7 @@ struct CheckSummary {
 /// some frames. `seen` (optional) is called for each frame in order, on the calling thread.
 /// Threads: runs in the caller's TBB arena; reads the next frames, on any of its threads, while it checks.
 ///          The same answers for any number of threads.
-/// Errors:  throws TrajectoryError, also if rows name a character or clip that the cast does not have;
+/// Errors:  throws TrajectoryError, also if rows name a character or clip that the library does not have;
 ///          TooManyPairs.
 CheckSummary check(TrajectoryReader& reader, const CheckOptions& options,
                    const std::function<void(const CheckedFrame&, const ShapeSet&)>& seen = {});

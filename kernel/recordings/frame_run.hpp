@@ -28,7 +28,7 @@ class FrameRun {
   static constexpr double farthest_step = 6;
 
   /// Keeps references to its arguments. `motions`: those that rows name. `borders`: borders_of() the walls.
-  FrameRun(const CheckOptions& options, std::span<const CastMotion> motions,
+  FrameRun(const CheckOptions& options, std::span<const LibraryMotion> motions,
            std::span<const std::uint8_t> borders)
       : options_(options), motions_(motions), borders_(borders) {}
 
@@ -114,7 +114,7 @@ class FrameRun {
   void count_overlaps();
 
   const CheckOptions& options_;
-  const std::span<const CastMotion> motions_;
+  const std::span<const LibraryMotion> motions_;
   const std::span<const std::uint8_t> borders_;
   const FrameBlock* block_ = nullptr;
   std::size_t first_ = 0, last_ = 0;  ///< frames

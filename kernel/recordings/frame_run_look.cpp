@@ -68,7 +68,8 @@ void FrameRun::look(const FrameBlock& block, std::size_t first, std::size_t last
   }
   poses_.clear();
   for (std::size_t i = 0; i < size(); ++i)
-    poses_.emplace_back(block.people()[begin_ + i], shoulders_[i], options_.coarse, options_.cast, motions_);
+    poses_.emplace_back(block.people()[begin_ + i], shoulders_[i], options_.coarse, options_.library,
+                        motions_);
 }
 
 /// Finds who is within 1.2 m of whom, what discs say of them, and how many are within 1 m.

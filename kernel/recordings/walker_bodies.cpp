@@ -41,13 +41,13 @@ BodyModel model_of_member(const CharacterEntry& member, std::uint32_t spheres) t
 
 }  // namespace
 
-std::vector<BodyModel> body_models(CastView cast, std::uint32_t spheres) {
+std::vector<BodyModel> body_models(CharacterLibraryView library, std::uint32_t spheres) {
   constexpr double any_stature = 1.7;
   std::vector<BodyModel> models;
-  if (cast.empty())
+  if (library.empty())
     for (const Sex sex : {Sex::female, Sex::male})
       models.push_back(default_body(default_pedestrian(sex, any_stature), spheres));
-  for (const CharacterEntry& member : cast) models.push_back(model_of_member(member, spheres));
+  for (const CharacterEntry& member : library) models.push_back(model_of_member(member, spheres));
   return models;
 }
 
@@ -58,7 +58,8 @@ struct WalkerBodies::Body {
   Spares<SpherePoser> posers;
 };
 
-WalkerBodies::WalkerBodies(std::span<const BodyModel> models, CastView cast) : models_(models), cast_(cast) {
+WalkerBodies::WalkerBodies(std::span<const BodyModel> models, CharacterLibraryView library)
+    : models_(models), library_(library) {
   for (const BodyModel& model : models) layouts_.push_back(layout_of(model));
 }
 WalkerBodies::~WalkerBodies() = default;
@@ -76,7 +77,7 @@ void WalkerBodies::prepare(std::span<const WalkerPose> poses) {
     for (std::size_t i = begin; i < end; ++i) {
       const std::uint32_t model = model_of(*wanted[i]);
       made[i]->model = models_[model];  // which says nothing of a stature
-      made[i]->model.character = std::make_shared<const Character>(wanted[i]->character(cast_));
+      made[i]->model.character = std::make_shared<const Character>(wanted[i]->character(library_));
       made[i]->layout = layouts_[model];
     }
   });

@@ -17,17 +17,17 @@
 
 namespace bch::detail {
 
-/// Returns models of bodies of `spheres` spheres, one per character of a cast that is not baked; for an empty
-/// cast, of the built-in woman and man. Models of built-in characters come from the library, others are
+/// Returns models of bodies of `spheres` spheres, one per character of a library that is not baked; for an empty
+/// library, of the built-in woman and man. Models of built-in characters come from the library, others are
 /// drafts.
 /// Errors:  throws std::invalid_argument like default_body() and make_body(), naming the character.
-std::vector<BodyModel> body_models(CastView cast, std::uint32_t spheres);
+std::vector<BodyModel> body_models(CharacterLibraryView library, std::uint32_t spheres);
 
 /// Poses bodies of spheres, one per person.
 class WalkerBodies {
  public:
-  /// Keeps references to valid models of the characters of `cast`, for example from body_models().
-  WalkerBodies(std::span<const BodyModel> models, CastView cast);
+  /// Keeps references to valid models of the characters of `library`, for example from body_models().
+  WalkerBodies(std::span<const BodyModel> models, CharacterLibraryView library);
   ~WalkerBodies();
 
   /// Builds the characters in the statures of some poses, on all threads.
@@ -40,7 +40,7 @@ class WalkerBodies {
   struct Body;
 
   const std::span<const BodyModel> models_;
-  const CastView cast_;
+  const CharacterLibraryView library_;
   std::vector<BodyLayout> layouts_;  ///< of the models
   std::unordered_map<std::uint64_t, std::unique_ptr<Body>, MixedHash> bodies_;
 };

@@ -36,8 +36,8 @@ std::uint32_t rounded(double value, std::uint32_t step) {
 
 }  // namespace
 
-WalkerPose::WalkerPose(const Walker& walker, Shoulders held, std::uint32_t coarse, CastView cast,
-                       std::span<const CastMotion> motions)
+WalkerPose::WalkerPose(const Walker& walker, Shoulders held, std::uint32_t coarse,
+                       CharacterLibraryView library, std::span<const LibraryMotion> motions)
     : is_female(walker.is_female),
       stature(0),
       shoulders(held),
@@ -52,9 +52,9 @@ WalkerPose::WalkerPose(const Walker& walker, Shoulders held, std::uint32_t coars
   const double size =
       std::log(std::max(walker.stature, shortest_stature) / shortest_stature) / std::log(stature_step);
   stature = std::min(rounded(size, coarse), stature_classes - 1);
-  if (!cast.empty()) {
-    const CastPose pose = cast_pose(cast, motions, walker, coarse);
-    if (cast[pose.member].height == 0) stature = 0;  // as it was baked
+  if (!library.empty()) {
+    const LibraryPose pose = library_pose(library, motions, walker, coarse);
+    if (library[pose.member].height == 0) stature = 0;  // as it was baked
     member = pose.member, clip = pose.clip, phase = pose.phase;
     seconds = pose.seconds, exact_seconds = pose.exact_seconds;
     return;
@@ -90,9 +90,9 @@ PoseTime WalkerPose::exact() const noexcept {
   return {clip, exact_seconds};
 }
 
-Character WalkerPose::character(CastView cast) const {
+Character WalkerPose::character(CharacterLibraryView library) const {
   constexpr double turn[] = {0, 0.7, -0.7};  // radians; of Shoulders
-  if (member != built_in) return scaled(cast[member], metres());
+  if (member != built_in) return scaled(library[member], metres());
   return default_pedestrian(is_female ? Sex::female : Sex::male, metres(),
                             turn[static_cast<std::size_t>(shoulders)]);
 }
@@ -103,10 +103,10 @@ struct WalkerShapes::Body {
   Spares<PoseShaper> shapers;
 };
 
-WalkerShapes::WalkerShapes(const ShapeSetPlan& plan, CastView cast, std::span<const CastMotion> motions,
-                           const ShapeSet* baked)
+WalkerShapes::WalkerShapes(const ShapeSetPlan& plan, CharacterLibraryView library,
+                           std::span<const LibraryMotion> motions, const ShapeSet* baked)
     : plan_(plan),
-      cast_(cast),
+      library_(library),
       motions_(motions),
       builder_(plan, expected_shapes),
       baked_(baked),
@@ -131,7 +131,7 @@ std::vector<WalkerShapes::Body*> WalkerShapes::bodies_of(std::span<const WalkerP
   }
   for_ranges(made.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i)
-      made[i]->character = std::make_unique<const Character>(wanted[i]->character(cast_));
+      made[i]->character = std::make_unique<const Character>(wanted[i]->character(library_));
   });
   return bodies;
 }
@@ -172,7 +172,7 @@ std::span<const WalkerPose> WalkerShapes::find(std::span<const WalkerPose> poses
   for (std::size_t i = 0; i < poses.size(); ++i) {
     if (shapes[i] != none) continue;
     const WalkerPose& pose = poses[i];
-    const auto next = baked_ != nullptr ? cast_[pose.member].clips[pose.clip].baked[pose.phase].shape
+    const auto next = baked_ != nullptr ? library_[pose.member].clips[pose.clip].baked[pose.phase].shape
                                         : static_cast<std::uint32_t>(set_->shape_count() + new_.size());
     const auto [entry, is_new] = number_of_.emplace(pose.key(), next);
     if (is_new) new_.push_back(pose);

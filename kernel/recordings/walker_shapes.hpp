@@ -13,7 +13,7 @@
 #include <bch/characters.hpp>
 #include <bch/shapes.hpp>
 
-#include "kernel/recordings/walker_cast.hpp"
+#include "kernel/recordings/character_library.hpp"
 #include "kernel/recordings/walkers.hpp"
 #include "layout/base/mixed_hash.hpp"
 
@@ -27,22 +27,22 @@ enum class Shoulders : std::uint8_t { straight, left, right };
 struct WalkerPose {
   static constexpr std::uint32_t built_in = 0xffff'ffff, on_foot = 0xffff'ffff;
 
-  std::uint32_t member = built_in;  ///< index in the cast
+  std::uint32_t member = built_in;  ///< index in the library
   std::uint32_t footprint =
       on_foot;  ///< for a body that does not walk: the index of its motion; all other members are then 0
   bool is_female;
   std::uint32_t stature;  ///< class
   Shoulders shoulders;
-  std::uint32_t clip;  ///< of default_pedestrian(), or of the cast's character
+  std::uint32_t clip;  ///< of default_pedestrian(), or of the library's character
   std::uint32_t phase;
   float seconds;        ///< time in the clip, in the middle of the phase
   float exact_seconds;  ///< the time before rounding to a phase
 
   /// Rounds a walker to a pose. `coarse`: 1 or 3, multiplies the steps of speed and phase, and the exponent
-  /// of the step of stature. `cast`: the characters whose bodies people have, which do not turn their
+  /// of the step of stature. `library`: the characters whose bodies people have, which do not turn their
   /// shoulders; empty: built-in pedestrians. `motions`: those that rows name.
-  WalkerPose(const Walker& walker, Shoulders shoulders, std::uint32_t coarse = 1, CastView cast = {},
-             std::span<const CastMotion> motions = {});
+  WalkerPose(const Walker& walker, Shoulders shoulders, std::uint32_t coarse = 1,
+             CharacterLibraryView library = {}, std::span<const LibraryMotion> motions = {});
   std::uint64_t key() const noexcept;
   std::uint64_t body() const noexcept;  ///< the same for all poses of a character in one size
   double metres() const noexcept;       ///< the stature
@@ -50,7 +50,7 @@ struct WalkerPose {
   /// Returns the pose at the time before rounding.
   PoseTime exact() const noexcept;
   /// Returns the character scaled to the stature.
-  Character character(CastView cast) const;
+  Character character(CharacterLibraryView library) const;
 };
 
 /// Caches the shapes of poses. Missing shapes are built on all threads and kept for later frames. Above
@@ -60,10 +60,10 @@ class WalkerShapes {
   /// The largest size of the cache between calls of find(): about 23 000 shapes of whole bodies.
   static constexpr std::size_t max_bytes = std::size_t{256} << 20;
 
-  /// `motions`: those that rows name. `baked`: the shapes of a baked cast, or nullptr. Keeps references to
+  /// `motions`: those that rows name. `baked`: the shapes of a baked library, or nullptr. Keeps references to
   /// all but the plan.
-  WalkerShapes(const ShapeSetPlan& plan, CastView cast, std::span<const CastMotion> motions = {},
-               const ShapeSet* baked = nullptr);
+  WalkerShapes(const ShapeSetPlan& plan, CharacterLibraryView library,
+               std::span<const LibraryMotion> motions = {}, const ShapeSet* baked = nullptr);
   ~WalkerShapes();
 
   /// Finds the index in set() of the shape of each pose, and builds missing shapes.
@@ -83,8 +83,8 @@ class WalkerShapes {
   std::vector<Body*> bodies_of(std::span<const WalkerPose> poses);
 
   const ShapeSetPlan plan_;
-  const CastView cast_;
-  const std::span<const CastMotion> motions_;
+  const CharacterLibraryView library_;
+  const std::span<const LibraryMotion> motions_;
   ShapeSetBuilder builder_;
   const ShapeSet* const baked_;
   const ShapeSet* set_;  ///< the builder's set, or the baked one

@@ -7,7 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "baselines/exact_tests.hpp"
-#include "kernel/recordings/walker_cast.hpp"
+#include "kernel/recordings/character_library.hpp"
 #include "tests/support/bch_run.hpp"
 #include "tests/support/crowd_pairs.hpp"
 #include "tests/support/test.hpp"

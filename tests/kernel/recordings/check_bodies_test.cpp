@@ -37,8 +37,8 @@ std::vector<ToldFrame> told(MadeUp& recording, const CheckOptions& options) {
 
 /// The model of a person: that of the library, or that of his character in his stature.
 BodyModel model_of(const WalkerPose& pose, const CheckOptions& options) {
-  auto character = std::make_shared<const Character>(pose.character(options.cast));
-  if (options.cast.empty()) return default_body(*character, spheres);
+  auto character = std::make_shared<const Character>(pose.character(options.library));
+  if (options.library.empty()) return default_body(*character, spheres);
   BodyModel model = options.bodies[pose.member];
   model.character = std::move(character);
   return model;
@@ -62,7 +62,7 @@ struct PosedFrame {
     BakeBodiesOptions how;
     for (const CheckedPerson& person : frame.people) {
       EXPECT_LT(person.density, 4.0f);  // so that nobody turns his shoulders
-      const WalkerPose pose(person.walker, Shoulders::straight, 1, options.cast);
+      const WalkerPose pose(person.walker, Shoulders::straight, 1, options.library);
       const auto [model, is_new] = number_of.emplace(pose.body(), static_cast<std::uint32_t>(models.size()));
       if (is_new) models.push_back(model_of(pose, options));
       how.bodies.push_back({model->second, pose.exact()});
@@ -201,9 +201,10 @@ TEST(CheckOfBodies, AnswersAreThoseOfQueriesOfEveryPair) {
   options.bodies = pedestrians;
   expect_answers(options);
 
-  const Cast cast{character_entry(default_female(), "female"), character_entry(default_male(), "male")};
-  const std::vector<BodyModel> own = body_models(cast, spheres);
-  options.cast = cast;
+  const CharacterLibrary library{character_entry(default_female(), "female"),
+                                 character_entry(default_male(), "male")};
+  const std::vector<BodyModel> own = body_models(library, spheres);
+  options.library = library;
   options.bodies = own;
   expect_answers(options);
 }

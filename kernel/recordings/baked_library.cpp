@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "kernel/recordings/baked_cast.hpp"
+#include "kernel/recordings/baked_library.hpp"
 
 #include <algorithm>
 #include <map>
@@ -26,7 +26,7 @@ std::map<std::uint32_t, ClipPoses> poses_of(const ShapeOrigins& origins) {
 }
 
 /// A clip, whose end nobody knows: it is taken for as far behind the last pose as poses are apart.
-CastClip clip_of(const std::string& name, std::vector<BakedPose> poses) {
+LibraryClip clip_of(const std::string& name, std::vector<BakedPose> poses) {
   std::stable_sort(poses.begin(), poses.end(),
                    [](const BakedPose& a, const BakedPose& b) { return a.seconds < b.seconds; });
   const auto count = static_cast<double>(poses.size());
@@ -58,7 +58,7 @@ void take_speeds(CharacterEntry& member, const std::string& file, std::span<cons
   std::vector<double> told(member.clips.size(), -1);
   std::string all;
   for (std::uint32_t k = 0; k < told.size(); ++k) {
-    CastClip& clip = member.clips[k];
+    LibraryClip& clip = member.clips[k];
     all += (k == 0 ? "" : ", ") + clip.name;
     for (const ClipSpeed& speed : speeds)
       if (speed.clip == clip.name) told[k] = speed.speed;
@@ -79,21 +79,22 @@ void validate(const BakedShapes& baked, const std::string& file) {
     throw std::invalid_argument(file + ": does not say which clips and times its shapes show");
 }
 
-void require_all_there(const Cast& cast, const std::string& file, std::span<const ClipSpeed> speeds) {
+void require_all_there(const CharacterLibrary& library, const std::string& file,
+                       std::span<const ClipSpeed> speeds) {
   for (const ClipSpeed& speed : speeds) {
-    const bool is_there = std::any_of(cast.begin(), cast.end(), [&](const CharacterEntry& member) {
+    const bool is_there = std::any_of(library.begin(), library.end(), [&](const CharacterEntry& member) {
       return std::any_of(member.clips.begin(), member.clips.end(),
-                         [&](const CastClip& clip) { return clip.name == speed.clip; });
+                         [&](const LibraryClip& clip) { return clip.name == speed.clip; });
     });
     if (!is_there) throw std::invalid_argument(file + ": has no clip called " + speed.clip);
   }
 }
 
 /// The longest time between two poses that follow each other in a clip that walks or stands.
-double longest_step(const Cast& cast) {
+double longest_step(const CharacterLibrary& library) {
   double longest = 0;
-  for (const CharacterEntry& member : cast)
-    for (const CastClip& clip : member.clips)
+  for (const CharacterEntry& member : library)
+    for (const LibraryClip& clip : member.clips)
       for (std::size_t i = 1; i < clip.baked.size(); ++i)
         longest = std::max(longest, static_cast<double>(clip.baked[i].seconds - clip.baked[i - 1].seconds));
   return longest;
@@ -101,28 +102,29 @@ double longest_step(const Cast& cast) {
 
 }  // namespace
 
-Cast baked_cast(const BakedShapes& baked, const std::string& file, std::span<const ClipSpeed> speeds) {
+CharacterLibrary baked_library(const BakedShapes& baked, const std::string& file,
+                               std::span<const ClipSpeed> speeds) {
   validate(baked, file);
   const std::vector<std::string>& names = baked.origins.names;
-  Cast cast;
+  CharacterLibrary library;
   for (auto& [character, clips] : poses_of(baked.origins)) {
-    CharacterEntry& member = cast.emplace_back(CharacterEntry{names[character], {}, 0, {}, {}, {}, {}});
+    CharacterEntry& member = library.emplace_back(CharacterEntry{names[character], {}, 0, {}, {}, {}, {}});
     for (auto& [clip, poses] : clips)
       member.clips.push_back(clip_of(clip == ShapeOrigin::no_clip ? "rest pose" : names[clip], poses));
     const bool fits = member.clips.size() <= max_baked_clips &&
                       std::all_of(member.clips.begin(), member.clips.end(),
-                                  [](const CastClip& clip) { return clip.baked.size() <= max_poses; });
+                                  [](const LibraryClip& clip) { return clip.baked.size() <= max_poses; });
     if (!fits)
       throw std::invalid_argument(file + ": has more than 65535 clips of a character, or poses of a clip");
   }
-  require_all_there(cast, file, speeds);
-  for (CharacterEntry& member : cast) take_speeds(member, file, speeds);
+  require_all_there(library, file, speeds);
+  for (CharacterEntry& member : library) take_speeds(member, file, speeds);
   std::ostringstream text;
   text.precision(3);
   text << file << ": people are as tall as they were baked, and in the pose nearest in time, at most "
-       << 500 * longest_step(cast) << " ms away";
-  cast[0].assumptions.push_back(text.str());
-  return cast;
+       << 500 * longest_step(library) << " ms away";
+  library[0].assumptions.push_back(text.str());
+  return library;
 }
 
 }  // namespace bch::detail

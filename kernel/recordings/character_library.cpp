@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "kernel/recordings/walker_cast.hpp"
+#include "kernel/recordings/character_library.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -81,7 +81,7 @@ Movement movement_of(Skinner& skinner, std::uint32_t clip) {
   return movement;
 }
 
-CastClip clip_of(const Clip& clip, const Movement& movement) {
+LibraryClip clip_of(const Clip& clip, const Movement& movement) {
   const double seconds = static_cast<double>(clip.seconds);
   const double phases = std::ceil(seconds * movement.fastest / (2 * half_step));
   return {clip.name, seconds, 0, static_cast<std::uint32_t>(std::clamp(phases, 1.0, double{max_phases}))};
@@ -148,7 +148,7 @@ CharacterEntry character_entry(Character character, const std::string& name) {
   const double length = std::sqrt(x * x + y * y);
   for (std::uint32_t k = 0; k < clips; ++k) {
     const Movement& movement = movements[k];
-    CastClip& clip = member.clips.emplace_back(clip_of(member.character.clips[k], movement));
+    LibraryClip& clip = member.clips.emplace_back(clip_of(member.character.clips[k], movement));
     if (walks(movement) && x * movement.x + y * movement.y >= same_way * length * speed_of(movement))
       clip.speed = speed_of(movement), member.walks.push_back(k);
     else if (movement.speed < fastest_idle && movement.fastest > still)
@@ -164,9 +164,9 @@ CharacterEntry character_entry(Character character, const std::string& name) {
   return member;
 }
 
-std::uint32_t member_by_id(std::int64_t id, CastView cast) {
+std::uint32_t member_by_id(std::int64_t id, CharacterLibraryView library) {
   Random random(0x2545f4914f6cdd1du ^ static_cast<std::uint64_t>(id));
-  return random.below(static_cast<std::uint32_t>(cast.size()));
+  return random.below(static_cast<std::uint32_t>(library.size()));
 }
 
 namespace {
@@ -183,14 +183,14 @@ std::uint32_t clip_by_speed(const CharacterEntry& member, const Walker& walker, 
 }
 
 /// How often a walker has gone through a clip: by the time that his row says, else by the way, else by the time.
-double turns_of(const CastClip& clip, const Walker& walker, double size) {
+double turns_of(const LibraryClip& clip, const Walker& walker, double size) {
   const double seconds = std::max(1e-3, clip.seconds);
   if (!is_nan(walker.clip_seconds)) return static_cast<double>(walker.clip_seconds) / seconds;
   return clip.speed > 0 ? walker.way / (size * clip.speed * seconds) : walker.seconds / seconds;
 }
 
 /// The baked pose nearest to a share of a clip, behind whose last one the first follows.
-std::uint32_t nearest_baked(const CastClip& clip, double share) {
+std::uint32_t nearest_baked(const LibraryClip& clip, double share) {
   const auto seconds = static_cast<float>(share * clip.seconds);
   const auto& poses = clip.baked;
   const auto after = std::upper_bound(poses.begin(), poses.end(), seconds,
@@ -206,17 +206,17 @@ std::uint32_t nearest_baked(const CastClip& clip, double share) {
 
 }  // namespace
 
-CastPose cast_pose(CastView cast, std::span<const CastMotion> motions, const Walker& walker,
-                   std::uint32_t coarse) {
-  const CastMotion* const motion =
+LibraryPose library_pose(CharacterLibraryView library, std::span<const LibraryMotion> motions,
+                         const Walker& walker, std::uint32_t coarse) {
+  const LibraryMotion* const motion =
       walker.motion == TrackedPerson::no_motion ? nullptr : &motions[walker.motion];
   const std::uint32_t member =
-      motion != nullptr && motion->member ? *motion->member : member_by_id(walker.id, cast);
-  const CharacterEntry& body = cast[member];
+      motion != nullptr && motion->member ? *motion->member : member_by_id(walker.id, library);
+  const CharacterEntry& body = library[member];
   const double size = body.height > 0 ? walker.stature / body.height : 1;
   const bool is_named = motion != nullptr && !motion->clips.empty();
   const std::uint32_t at = is_named ? motion->clips[member] : clip_by_speed(body, walker, size);
-  const CastClip& clip = body.clips[at];
+  const LibraryClip& clip = body.clips[at];
   const double turns = turns_of(clip, walker, size);
   const double share = turns - std::floor(turns);
   const auto exact = static_cast<float>(share * clip.seconds);

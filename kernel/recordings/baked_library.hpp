@@ -8,7 +8,7 @@
 
 #include <bch/files.hpp>
 
-#include "kernel/recordings/walker_cast.hpp"
+#include "kernel/recordings/character_library.hpp"
 
 namespace bch::detail {
 
@@ -24,6 +24,7 @@ struct ClipSpeed {
 /// Errors:  throws std::invalid_argument, naming the file, if the set does not describe its shapes' poses, on
 ///          shapes without outlines, on a speed of an unknown clip, and on a character without a clip that
 ///          walks.
-Cast baked_cast(const BakedShapes& baked, const std::string& file, std::span<const ClipSpeed> speeds);
+CharacterLibrary baked_library(const BakedShapes& baked, const std::string& file,
+                               std::span<const ClipSpeed> speeds);
 
 }  // namespace bch::detail

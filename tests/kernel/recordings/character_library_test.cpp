@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "kernel/recordings/walker_cast.hpp"
+#include "kernel/recordings/character_library.hpp"
 
-#include "kernel/recordings/baked_cast.hpp"
+#include "kernel/recordings/baked_library.hpp"
 #include "layout/default_character/pedestrian_speeds.hpp"
 #include "tests/support/made_up_recording.hpp"
 #include "tests/support/test.hpp"
@@ -19,7 +19,7 @@ using test::MadeUp;
 using test::unknown;
 
 /// Clips of characters walk at the speed and in the direction of their feet, and the distance drives them.
-TEST(Cast, WalksAsItsClipsSay) {
+TEST(CharacterLibrary, WalksAsItsClipsSay) {
   constexpr double speed = 1.2;
   Character person = default_pedestrian(Sex::male, 1.8);
   const auto clip = static_cast<std::uint32_t>(std::lround(speed / pedestrian_speed_step));
@@ -36,14 +36,14 @@ TEST(Cast, WalksAsItsClipsSay) {
   EXPECT_NEAR(member.clips[member.walks[1]].speed, speed, 0.1);
   ASSERT_EQ(member.idles.size(), 1u);
   Walker walker{1, 0, 0, 0, speed, 0, member.height, false, false};
-  EXPECT_EQ(cast_pose({&member, 1}, {}, walker, 1).clip, 2u);
+  EXPECT_EQ(library_pose({&member, 1}, {}, walker, 1).clip, 2u);
   const double seconds = static_cast<double>(person.clips[2].seconds);
   walker.way = 100.5 * seconds * member.clips[member.walks[1]].speed;
-  EXPECT_NEAR(static_cast<double>(cast_pose({&member, 1}, {}, walker, 1).seconds), seconds / 2, 0.03);
+  EXPECT_NEAR(static_cast<double>(library_pose({&member, 1}, {}, walker, 1).seconds), seconds / 2, 0.03);
   walker.speed = 0.4;
-  EXPECT_EQ(cast_pose({&member, 1}, {}, walker, 1).clip, 1u);
+  EXPECT_EQ(library_pose({&member, 1}, {}, walker, 1).clip, 1u);
   walker.speed = 0.1;
-  EXPECT_EQ(cast_pose({&member, 1}, {}, walker, 1).clip, 0u);
+  EXPECT_EQ(library_pose({&member, 1}, {}, walker, 1).clip, 0u);
   const CharacterEntry half = character_entry(scaled(member, member.height / 2), "half of him");
   EXPECT_NEAR(half.height, member.height / 2, 1e-3);
   EXPECT_NEAR(half.clips[half.walks[1]].speed, member.clips[member.walks[1]].speed / 2, 1e-3);
@@ -56,34 +56,34 @@ TEST(Cast, WalksAsItsClipsSay) {
   EXPECT_THROW(character_entry(person, "nobody"), std::invalid_argument);
 }
 
-std::string complaint(const NamedMotion& named, const Cast& cast) {
-  return test::complaint<TrajectoryError>([&] { cast_motions({&named, 1}, cast); });
+std::string complaint(const NamedMotion& named, const CharacterLibrary& library) {
+  return test::complaint<TrajectoryError>([&] { library_motions({&named, 1}, library); });
 }
 
 /// Rows choose the body, the clip and the time in it; what they leave open is chosen as without them.
-TEST(Cast, PlaysWhatRowsName) {
-  Cast cast;
-  for (const char* const name : {"a.glb", "b.glb"}) cast.push_back(character_entry(default_male(), name));
-  const auto seconds = [&](std::uint32_t clip) { return cast[0].clips[clip].seconds; };
-  const std::vector<NamedMotion> named{{"b", cast[0].clips[1].name, "f:1"}, {"a.glb", "", "f:2"}};
-  const auto motions = cast_motions(named, cast);
+TEST(CharacterLibrary, PlaysWhatRowsName) {
+  CharacterLibrary library;
+  for (const char* const name : {"a.glb", "b.glb"}) library.push_back(character_entry(default_male(), name));
+  const auto seconds = [&](std::uint32_t clip) { return library[0].clips[clip].seconds; };
+  const std::vector<NamedMotion> named{{"b", library[0].clips[1].name, "f:1"}, {"a.glb", "", "f:2"}};
+  const auto motions = library_motions(named, library);
   Walker walker{1, 0, 0, 0, 1.2, 0, 1.75, false, false};
   walker.motion = 0, walker.clip_seconds = static_cast<float>(3.25 * seconds(1));
-  CastPose pose = cast_pose(cast, motions, walker, 1);
+  LibraryPose pose = library_pose(library, motions, walker, 1);
   EXPECT_EQ(pose.member, 1u);
   EXPECT_EQ(pose.clip, 1u);
-  EXPECT_NEAR(static_cast<double>(pose.seconds), seconds(1) / 4, seconds(1) / cast[0].clips[1].phases);
+  EXPECT_NEAR(static_cast<double>(pose.seconds), seconds(1) / 4, seconds(1) / library[0].clips[1].phases);
   walker.motion = 1, walker.clip_seconds = unknown;
-  pose = cast_pose(cast, motions, walker, 1);
+  pose = library_pose(library, motions, walker, 1);
   EXPECT_EQ(pose.member, 0u);
-  EXPECT_TRUE(std::ranges::count(cast[0].walks, pose.clip));
-  EXPECT_EQ(complaint({"c.glb", "", "f:7"}, cast), "f:7: character 'c.glb' is none of 'a.glb', 'b.glb'");
+  EXPECT_TRUE(std::ranges::count(library[0].walks, pose.clip));
+  EXPECT_EQ(complaint({"c.glb", "", "f:7"}, library), "f:7: character 'c.glb' is none of 'a.glb', 'b.glb'");
   EXPECT_TRUE(
-      complaint({"", "fly", "f:8"}, cast).starts_with("f:8: clip 'fly' is not in 'a.glb', which has "));
+      complaint({"", "fly", "f:8"}, library).starts_with("f:8: clip 'fly' is not in 'a.glb', which has "));
   EXPECT_EQ(complaint({"", "fly", "f:8"}, {}),
             "f:8: clip 'fly' needs a file that has it: --character has to name it");
-  cast[1].name = "a.fbx";
-  EXPECT_EQ(complaint({"a", "", "f:9"}, cast), "f:9: character 'a' may be several of 'a.glb', 'a.fbx'");
+  library[1].name = "a.fbx";
+  EXPECT_EQ(complaint({"a", "", "f:9"}, library), "f:9: character 'a' may be several of 'a.glb', 'a.fbx'");
 }
 
 /// Shapes of a clip of the built-in man, and of another, turned by an angle, at 20 a second.
@@ -112,13 +112,13 @@ BakedShapes baked_man(double turn) {
 TEST(BakedCast, MovesAsItsShapesAndSpeedsSay) {
   const BakedShapes baked = baked_man(0);
   const std::vector<ClipSpeed> speeds{{"walk", 1.3}, {"idle phone", 0}};
-  const Cast cast = baked_cast(baked, "people.bch", speeds);
-  ASSERT_EQ(cast.size(), 1u);
+  const CharacterLibrary library = baked_library(baked, "people.bch", speeds);
+  ASSERT_EQ(library.size(), 1u);
   Walker walker{1, 0, 0, 0, 1.2, 0, 1.75, false, false};
   const auto shape_at = [&](double way) {
     walker.way = way;
-    const CastPose pose = cast_pose(cast, {}, walker, 1);
-    return cast[0].clips[pose.clip].baked[pose.phase].shape;
+    const LibraryPose pose = library_pose(library, {}, walker, 1);
+    return library[0].clips[pose.clip].baked[pose.phase].shape;
   };
   EXPECT_EQ(shape_at(0), 0u);
   EXPECT_EQ(shape_at(1.3 * 0.501), 10u);
@@ -139,9 +139,9 @@ TEST(BakedCast, FacesWhereItIsSaidTo) {
   std::vector<std::uint64_t> pairs;
   for (const double turn : {0.0, 1.1}) {
     const BakedShapes baked = baked_man(turn);
-    const Cast cast = baked_cast(baked, "people.bch", speeds);
+    const CharacterLibrary library = baked_library(baked, "people.bch", speeds);
     CheckOptions options;
-    options.cast = cast, options.baked = &baked.set, options.facing = turn;
+    options.library = library, options.baked = &baked.set, options.facing = turn;
     const CheckSummary summary = check_of(recording, options);
     pairs.push_back(summary.all.overlapping_pairs);
     EXPECT_EQ(summary.poses.size(), 20u);
@@ -154,7 +154,7 @@ TEST(BakedCast, FacesWhereItIsSaidTo) {
 TEST(BakedCast, RefusesWhatItCannotKnow) {
   BakedShapes baked = baked_man(0);
   const auto complaint_about = [&](const std::vector<ClipSpeed>& speeds) {
-    return test::complaint([&] { baked_cast(baked, "p.bch", speeds); });
+    return test::complaint([&] { baked_library(baked, "p.bch", speeds); });
   };
   EXPECT_EQ(complaint_about({{"hop", 1}}), "p.bch: has no clip called hop");
   EXPECT_EQ(

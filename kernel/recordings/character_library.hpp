@@ -23,7 +23,7 @@ struct BakedPose {
 };
 
 /// Represents a clip of a character.
-struct CastClip {
+struct LibraryClip {
   std::string name;
   double seconds;        ///< length of a cycle
   double speed;          ///< walking speed in the clip at the character's own height, metres per second
@@ -35,9 +35,9 @@ struct CastClip {
 /// keeps the size and direction with which it was baked.
 struct CharacterEntry {
   std::string name;
-  Character character;          ///< empty if baked
-  double height;                ///< in its first walk, metres; 0 if baked
-  std::vector<CastClip> clips;  ///< all clips of the character
+  Character character;             ///< empty if baked
+  double height;                   ///< in its first walk, metres; 0 if baked
+  std::vector<LibraryClip> clips;  ///< all clips of the character
   std::vector<std::uint32_t>
       walks;  ///< clips in which it walks straight ahead, by ascending speed; never empty
   std::vector<std::uint32_t>
@@ -58,15 +58,15 @@ CharacterEntry character_entry(Character character, const std::string& name);
 void sort_walks(CharacterEntry& member);
 
 /// The custom characters of a recording, and a view of them.
-using Cast = std::vector<CharacterEntry>;
-using CastView = std::span<const CharacterEntry>;
+using CharacterLibrary = std::vector<CharacterEntry>;
+using CharacterLibraryView = std::span<const CharacterEntry>;
 
 /// Returns the index of the character that a person gets. It depends only on the id and the number of
 /// characters.
-std::uint32_t member_by_id(std::int64_t id, CastView cast);
+std::uint32_t member_by_id(std::int64_t id, CharacterLibraryView library);
 
 /// Holds the character and clip, or the body, that rows of a recording name.
-struct CastMotion {
+struct LibraryMotion {
   std::optional<std::uint32_t> member;  ///< the character; none: member_by_id()
   std::vector<std::uint32_t> clips;     ///< a clip for each character; empty: chosen by the speed
   PlanePolygons footprint = {};         ///< of a body that does not walk; otherwise empty
@@ -77,12 +77,12 @@ struct CastMotion {
 /// of the library.
 /// Errors:  throws TrajectoryError, naming the file, the line and the name, on an unknown name, on a clip
 ///          without a character that not every character has, and on a body that footprint_of() rejects.
-std::vector<CastMotion> cast_motions(std::span<const NamedMotion> named, CastView cast,
-                                     std::span<const Footprint> own = {});
+std::vector<LibraryMotion> library_motions(std::span<const NamedMotion> named, CharacterLibraryView library,
+                                           std::span<const Footprint> own = {});
 
 /// Represents a clip of a character, and a phase of it.
-struct CastPose {
-  std::uint32_t member;  ///< of the cast
+struct LibraryPose {
+  std::uint32_t member;  ///< of the library
   std::uint32_t clip;    ///< of the character
   std::uint32_t phase;
   float seconds;        ///< of the phase, in the clip
@@ -90,10 +90,10 @@ struct CastPose {
 };
 
 /// Returns the pose of a walker: the one that the row names; or the walk with the nearest speed, advanced by
-/// the distance walked; or an idle clip while the walker stands. `motions`: from cast_motions(). `coarse`:
+/// the distance walked; or an idle clip while the walker stands. `motions`: from library_motions(). `coarse`:
 /// divides the number of phases.
-CastPose cast_pose(CastView cast, std::span<const CastMotion> motions, const Walker& walker,
-                   std::uint32_t coarse);
+LibraryPose library_pose(CharacterLibraryView library, std::span<const LibraryMotion> motions,
+                         const Walker& walker, std::uint32_t coarse);
 
 /// Returns a character scaled to a stature in metres.
 Character scaled(const CharacterEntry& member, double stature);
