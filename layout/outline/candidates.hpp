@@ -23,7 +23,7 @@ class CandidateList {
   /// Begins an empty list with capacity for this many segments.
   void begin(std::size_t capacity);
   /// Adds a segment unless it is a point. A segment is always written, so that no branch is needed; if it is a point,
-  /// the next one overwrites it. Points are moved through memory as one 64-bit value, which is fastest.
+  /// the next one overwrites it. A GridPoint is moved through memory as one 64-bit value, which is fastest.
   void add(GridPoint a, GridPoint b, std::uint32_t component) {
     const auto from = std::bit_cast<std::uint64_t>(a), to = std::bit_cast<std::uint64_t>(b);
     segments_[count_] = {std::bit_cast<GridPoint>(from), std::bit_cast<GridPoint>(to)};
@@ -36,7 +36,7 @@ class CandidateList {
   std::span<const Segment> segments() const { return {segments_.data(), count_}; }  ///< none is a point
   std::size_t capacity() const {
     return segments_.size();
-  }  ///< the allocated length: the requested capacity and one block more
+  }  ///< the allocated length: the requested capacity and one more SIMD block
   std::uint32_t component(std::size_t segment) const { return components_[segment]; }
   std::span<const GridPoint> component_points() const { return component_points_; }
   const SegmentBoxes& boxes() const { return boxes_; }
@@ -69,7 +69,7 @@ class OutlineCandidates {
 
   const OutlineLoops* loops_;
   std::vector<std::array<std::uint32_t, 3>>
-      triangles_;  ///< padded by triangles that are points to a multiple of triangles_together
+      triangles_;                      ///< padded by degenerate triangles to a multiple of triangles_together
   std::vector<std::uint8_t> sides_;    ///< of each triangle
   std::vector<std::uint32_t> chosen_;  ///< indices of the manifold edges that are candidates
   std::vector<GridPoint> component_points_;

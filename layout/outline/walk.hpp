@@ -13,8 +13,8 @@
 
 namespace bch::detail {
 
-/// Represents a straight piece of a contour. It begins at `begin` and goes in the direction from begin.from to
-/// begin.to, until the next stretch of the contour begins.
+/// Represents a straight piece of a contour. It begins at `begin`, a point of the segment from begin.from to begin.to,
+/// and goes along that segment, until the next stretch of the contour begins.
 struct Stretch {
   Place begin;
   GridPoint rounded_begin;
@@ -22,19 +22,19 @@ struct Stretch {
 
 /// Walks around connected pieces of the union, counter-clockwise along the candidates.
 ///
-/// The unbounded face is always to the right. A walk leaves the current stretch where the first candidate sticks out
-/// to the right, or at the end of the stretch. Of all candidates at that point it takes the first one
-/// counter-clockwise from the direction it came from, because that candidate bounds the same face. A whisker is
+/// The unbounded face is always to the right. A walk leaves the current stretch where the first candidate sticks out to
+/// the right, or at the end of the stretch. Of all candidates at that point it takes the first one counter-clockwise
+/// from the direction it came from, because that candidate bounds the same face. A whisker (a part without area) is
 /// walked to its tip and back, and a vertex where pieces only touch is passed once for each piece.
 ///
-/// A walk ends: candidates cut each other into finitely many directed pieces, and the step from a piece to the next
-/// is a one-to-one map of these pieces. So some piece must come again, and the first to do so is the piece where the
-/// walk began.
+/// Every walk ends, because candidates cut each other into finitely many directed pieces, and the step from a piece to
+/// the next is a one-to-one map of these pieces. So some piece must come again, and the first to do so is the piece
+/// where the walk began.
 class OutlineWalk {
  public:
   explicit OutlineWalk(const OutlineLoops& loops) : loops_(&loops) {}
 
-  /// Sets the candidates of the following walks. They must not change before the last walk().
+  /// Sets the candidates of the following walks. They must not change until the last walk() has returned.
   void begin(const CandidateList& candidates);
 
   /// Appends the stretches of the contour that begins at `start`, the lexicographically smallest vertex of its
@@ -65,7 +65,7 @@ class OutlineWalk {
   std::vector<std::uint8_t> touched_;
   SegmentTree tree_;  ///< over the candidates, if they are many
   bool has_tree_ = false;
-  double last_length_ = 0;  ///< of a stretch, with a tree: the next stretch is often about as long
+  double last_length_ = 0;  ///< of the last stretch, if there is a tree: a guess for the next one
 };
 
 }  // namespace bch::detail

@@ -17,20 +17,21 @@ struct AnimatedTreeChunk;
 
 constexpr std::uint32_t hull_directions = 32;
 
-/// Bodies of spheres also have hulls for hull_bands bands of height, between planes hull_band metres apart above the
-/// agent's ground. The first band extends to below all spheres, the last to above all. The hull of a band contains
-/// the spheres that come into the band or within hull_overlap of it.
+/// A hull bounds a body in hull_directions directions. Besides the hull of the whole body, spheres have one for each of
+/// hull_bands bands of height, between planes hull_band metres apart above the agent's ground. The first band extends
+/// to below all spheres, the last to above all. The hull of a band contains the spheres that come into the band or
+/// within hull_overlap of it.
 ///
 /// So two bodies need to be compared only in pairs of bands with more than hull_overlap of height in common. Proof:
-/// each of two bodies that meet has a band that contains the height of a common point. If these two bands have less
-/// height in common, one of them ends there, and the point is within hull_overlap of the next band of the same body,
-/// whose hull contains the sphere, too. The next band has more height in common with the other body's band.
+/// each of two bodies that meet has a band that contains the height of a common point. If these two bands have less in
+/// common, the point is within hull_overlap of the end of one. The next band of that body contains the sphere, too, and
+/// has more height in common with the other band.
 constexpr std::uint32_t hull_bands = 8;
 constexpr double hull_band = 0.25, hull_overlap = 0.01;
 static_assert(hull_band > 2 * hull_overlap);
 
-/// Bounds the extents of a body in an interval of time, per direction, in steps of AnimatedHulls::step. At a time in
-/// the interval, the bound is the linear interpolation of `from`, at the begin, and `to`, at the end.
+/// Bounds the extents of a body in an interval of time, per direction, as multiples of AnimatedHulls::step. At a time
+/// in the interval, the bound is the linear interpolation of `from`, at the start, and `to`, at the end.
 struct HullInterval {
   struct Extent {
     std::int16_t from, to;
@@ -47,14 +48,14 @@ struct HullBands {
   std::uint32_t occupied = 0;
 };
 
-/// Holds the hulls of a body in intervals of time: of one chunk each at level 0, and of two intervals of the level
-/// below at each further level.
+/// Holds the hulls of a body in intervals of time. At level 0 an interval is one chunk; at each further level it is two
+/// of the level below.
 struct AnimatedHulls {
   static constexpr unsigned level_count = 4;
 
   double step = 0;  ///< metres
   std::array<std::vector<HullInterval>, level_count> levels;
-  std::array<std::vector<HullBands>, level_count> bands;  ///< of spheres: one per interval
+  std::array<std::vector<HullBands>, level_count> bands;  ///< for bodies of spheres: one per interval
 };
 
 /// Returns a direction by its number. The ends of these vectors are evenly spaced on the border of the square from -1
@@ -92,7 +93,7 @@ struct HullDirection {
     size = std::abs(longer);
   }
 
-  /// Bounds the extent in this direction, times the length of the vector, at the begin and the end of an interval.
+  /// Bounds the dot product of the vector with the body's points, at the start and the end of an interval.
   struct Extent {
     double from, to;
   };

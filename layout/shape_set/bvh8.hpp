@@ -16,17 +16,17 @@
 namespace bch::detail {
 
 /// Represents one cut of a hierarchy as a tree of blocks over the cut's discs, together with all nodes above the cut.
-/// Every disc is that of the hierarchy's own node, the smallest around the node's primitives: pruning by it is part
-/// of the definition of the answer.
+/// Every disc is that of the hierarchy's own node, the smallest around the node's primitives. A pair is a hit only if
+/// these discs overlap, so larger ones would change answers.
 struct Bvh8 {
-  /// Holds up to eight groups of cut discs in parallel arrays; unused entries are padding.
+  /// Holds up to eight groups of the cut's discs in parallel arrays; unused entries are padding.
   ///
   /// - `discs`: the discs of the nodes that are above the groups.
-  /// - `child`: a block of this tree, or leaf_window + the index of the first of eight consecutive cut discs. These
-  ///   include the whole group and, if it has fewer than eight discs, some of its neighbours. That is harmless,
+  /// - `child`: a block of this tree, or leaf_window + the index of the first of eight consecutive discs of the cut.
+  ///   These include the whole group and, if it has fewer than eight discs, some of its neighbours. That is harmless,
   ///   because any disc of the cut may be tested at any time.
   /// - `outer_radius`: radii about the same centres that enclose the discs of the groups.
-  /// - `node`: an index of `inner_nodes`, or leaf_window + the index of a cut disc.
+  /// - `node`: an index of `inner_nodes`, or leaf_window + the index of a disc of the cut.
   struct Block {
     DiscBlock discs;
     std::uint32_t child[block_width];
@@ -34,13 +34,13 @@ struct Bvh8 {
     std::uint32_t node[block_width];
   };
   std::vector<Block> blocks;
-  std::vector<float> x, y, radius;     ///< the cut discs in depth-first order, padded to at least eight
+  std::vector<float> x, y, radius;     ///< the cut's discs in depth-first order, padded to at least eight
   std::vector<InnerNode> inner_nodes;  ///< the nodes above the cut, padded to `count`; links are indices
   std::uint32_t count;                 ///< number of discs of the cut
   std::uint32_t top;                   ///< the root, encoded like Block::child
   Disc root;                           ///< the disc of the hierarchy's root
   float outer_radius;                  ///< the radius about the root's centre that encloses the cut's discs
-  bool nodes_hold_discs;               ///< see held_discs.hpp
+  bool nodes_hold_discs;               ///< each node encloses the discs below it (held_discs.hpp)
 
   bool is_single() const { return count == 1; }
 };
@@ -66,9 +66,9 @@ class Bvh8Builder {
  private:
   /// Represents consecutive discs of the cut, and a node of the hierarchy that is above all of them.
   struct Group {
-    std::uint32_t begin, end;  ///< in the list of cut discs
-    std::uint32_t node;        ///< when grouped by subtrees, above no other discs
-    std::uint32_t node_end;    ///< the end, in the list of cut discs, of the discs below the node
+    std::uint32_t begin, end;  ///< in the list of the cut's discs
+    std::uint32_t node;        ///< when grouping by subtrees, it is above no other discs
+    std::uint32_t node_end;    ///< the end, in that list, of the discs below the node
 
     std::uint32_t size() const { return end - begin; }
   };
@@ -79,7 +79,7 @@ class Bvh8Builder {
     std::array<double, block_width> worth;  ///< of expanding each group; only when grouped by subtrees
     std::uint32_t count = 0;
   };
-  /// Represents a node whose part of the cut is to be found at most `levels_left` levels below it.
+  /// Represents a node whose discs of the cut, at most `levels_left` levels below it, are still to be collected.
   struct PendingNode {
     std::uint32_t node, levels_left;
   };
@@ -99,8 +99,8 @@ class Bvh8Builder {
 
   const Hierarchy* hierarchy_ = nullptr;
   std::vector<PendingNode> pending_;
-  std::vector<std::uint32_t> position_;  ///< per node on or above the cut: the index of its first cut disc
-  std::vector<std::uint32_t> parent_;    ///< per node whose parent is above the cut
+  std::vector<std::uint32_t> position_;  ///< per node on or above the cut: its first disc of the cut
+  std::vector<std::uint32_t> parent_;    ///< of each node on or above the cut, except the root
   std::vector<std::uint32_t> inner_;     ///< the nodes above the cut
   std::uint32_t count_ = 0;              ///< discs of the cut
   std::vector<float> x_, y_, radius_;

@@ -24,24 +24,24 @@ namespace bch {
 struct SphereInfluence {
   std::uint32_t bone;
   float weight;
-  Vec3 centre;  ///< in the space that the bone's inverse_bind maps from
+  Vec3 centre;  ///< in the mesh's frame, from which the bone's inverse_bind maps
 };
 
 /// Describes a body as spheres that move with a skeleton and enclose all triangles of a skin in every pose.
-/// In a pose, the centre of a sphere is blended from its bones, and its radius is the least that encloses the
-/// sphere's corners. Each triangle of the skin, or each piece of a triangle that `midpoints` divides, has all
-/// three corners among the corners of one sphere.
+/// In a pose, the centre of a sphere is blended from its bones, and its radius is the least that encloses its
+/// `corners`, points of the skin. Each triangle of the skin, or each piece of a triangle that `midpoints`
+/// divides, has all three corners among those of one sphere.
 struct BodyModel {
   std::shared_ptr<const Character> character;  ///< its mesh, skeleton and clips
   std::vector<std::uint32_t> influence_begin;  ///< sphere_count() + 1 offsets into influences
   std::vector<SphereInfluence> influences;     ///< weights of a sphere are positive and sum to 1
-  /// Adds points to the vertices: point vertices.size() + i is the midpoint of these two points before it, in
-  /// every pose.
+  /// Adds points to the vertices: point vertices.size() + i is halfway between these two, of lower indices,
+  /// in every pose.
   std::vector<std::array<std::uint32_t, 2>> midpoints;
   std::vector<std::uint32_t> corner_begin;  ///< sphere_count() + 1 offsets into corners
   std::vector<std::uint32_t> corners;       ///< indices of vertices or midpoints, ascending within a sphere
   std::vector<float> least_radius;          ///< lower bound of each sphere's radius, metres; empty: 0
-  /// The number of consecutive spheres that form a leaf, 4 or 8: spheres near each other in most poses.
+  /// Spheres per leaf, 4 or 8: consecutive ones, which are near each other in most poses.
   std::uint32_t leaf_size = 4;
   /// The indices of the spheres that queries test first. They change no answer and may repeat.
   std::array<std::uint32_t, detail::core_spheres> core = {};
@@ -60,7 +60,7 @@ void validate(const BodyModel& model);
 /// Errors:  throws std::invalid_argument as validate() does.
 std::vector<std::byte> to_bytes(const BodyModel& model);
 
-/// Reads a model from bytes of to_bytes(). The bytes need not be trusted.
+/// Reads a model from bytes of to_bytes(). Untrusted bytes are safe.
 /// Errors:  throws std::invalid_argument if the bytes are malformed, and as validate() does.
 BodyModel body_model(std::span<const std::byte> bytes);
 
@@ -68,14 +68,14 @@ BodyModel body_model(std::span<const std::byte> bytes);
 struct BodyOptions {
   std::uint32_t spheres = 256;  ///< at most 4096
   /// Skips the search for better positions of the spheres.
-  /// A draft takes seconds, and its errors are about twice as large.
+  /// A draft takes seconds, and its spheres fit the skin about half as closely.
   bool draft = false;
   /// Called on the caller's thread, at most twenty times per second, with the fraction done, from 0 to 1.
   /// Returning false cancels.
   std::function<bool(double fraction)> progress = {};
 };
 
-/// Makes the model of a character: spheres inside its skin, bound to its bones.
+/// Makes the model of a character: spheres that enclose its skin, bound to its bones.
 /// The result has the same bits on every processor.
 /// Cost:    up to a minute; a few seconds for a draft.
 /// Errors:  throws std::invalid_argument as validate(Character) does, if the number of spheres is out of
@@ -84,7 +84,7 @@ struct BodyOptions {
 BodyModel make_body(const Character& character, const BodyOptions& options = {});
 
 /// Makes the model of a rigid body from spheres, for objects that move among people in the same set.
-/// Its poses are Pose() (at rest) and transforms of its one joint, which may tilt it. Radii are the same in
+/// Pose it by Pose() (at rest) or a transform of its one joint, which may tilt it. Radii are the same in
 /// every pose. The model reorders the spheres so that near ones follow each other: sphere i has the centre
 /// influences[i].centre and the radius least_radius[i].
 /// Errors:  throws std::invalid_argument if there are no spheres or more than 4096, or if a sphere is not
@@ -102,19 +102,19 @@ BodyModel default_body(const Character& built_in, std::uint32_t spheres = 256);
 /// Holds the options of animate().
 struct AnimateOptions {
   /// The largest distance by which moving spheres protrude from the spheres of BodyPoser, metres.
-  /// It applies between keys more than 9 ms apart.
+  /// It may be exceeded between keys at most 9 ms apart.
   float error = 0.005f;
   /// AnimatedDiscs::loops. Unset: true if the clip's last pose equals its first to 0.025 mm.
   std::optional<bool> loops = {};
 };
 
-/// Makes moving spheres that enclose all triangles of a body at every real time of a clip.
+/// Makes moving spheres that enclose all triangles of a body at every time of a clip, also between keys.
 /// Each sphere of the model becomes one moving sphere; layout/animation/clip_samples.hpp has the proof. The
-/// numbers of a chunk are 16-bit integers times a power of two. The heights bound the triangles at every real
-/// time.
-/// Errors:  throws std::invalid_argument as validate() does, if the clip does not exist or takes no time, if
-///          its channels jump, step or are cubic, if the character has no root joint, and if the error is not
-///          above 0; std::domain_error as BodyPoser::spheres() does.
+/// numbers of a chunk are 16-bit integers times a power of two. The heights bound the triangles at all these
+/// times.
+/// Errors:  throws std::invalid_argument as validate() does, if the clip does not exist or has no duration,
+///          if its curves have jumps, steps or cubic parts, if the character has no root joint, and if the
+///          error is not above 0; std::domain_error as BodyPoser::spheres() does.
 AnimatedDiscs animate(const BodyModel& model, std::uint32_t clip, const AnimateOptions& options = {});
 
 /// Poses the spheres of a model, one pose after the other.
@@ -148,7 +148,7 @@ struct PoseOfBody {
 
 /// Selects the bodies that bake() makes.
 struct BakeBodiesOptions {
-  /// The number of poses per model, spread evenly over its character's clips; models follow each other.
+  /// The number of poses per model, spread evenly over its character's clips, model by model.
   std::uint32_t poses = 100;
   std::vector<PoseOfBody> bodies = {};  ///< the bodies one by one; empty: `poses` of every model
   /// Called on the caller's thread, at most twenty times per second, with the number of bodies made so far.

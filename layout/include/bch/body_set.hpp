@@ -69,10 +69,9 @@ class BodySet {
 
 /// Returns spheres that cover capsules, such as those of a ragdoll: one row of spheres per capsule.
 /// The spheres protrude from the capsules by at most `error`.
-/// Units:   metres; the error is more than 1e-6 of a capsule's reach.
-/// Errors:  throws std::invalid_argument if there are no capsules and, naming the capsule, if a radius is
-///          negative, a reach is outside 1e-6 to 1e6 m, or the error is too small or needs more than 4096
-///          spheres.
+/// Units:   metres; `error` must exceed 1e-6 of each capsule's reach.
+/// Errors:  throws std::invalid_argument if there are no capsules, a radius is negative, a reach is outside
+///          1e-6 to 1e6 m, or `error` is too small or needs more than 4096 spheres (naming the capsule).
 std::vector<Sphere> spheres_from_capsules(std::span<const BodySet::Capsule> capsules, float error = 0.005f);
 
 /// Returns spheres that cover upright prisms over polygons: a cart or a box among people.

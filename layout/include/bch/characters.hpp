@@ -87,7 +87,7 @@ struct Character {
   std::string name;
   std::vector<Joint> joints;
   std::vector<Bone> bones;
-  std::vector<Vec3> vertices;                  ///< in the spaces that the bones' inverse_bind map from
+  std::vector<Vec3> vertices;                  ///< in their mesh's frame, from which inverse_bind maps
   std::vector<std::uint32_t> influence_begin;  ///< vertices.size() + 1 offsets into influences
   std::vector<Influence> influences;           ///< weights of a vertex are positive and sum to 1
   std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -129,10 +129,10 @@ Character default_bulky_male();
 enum class Sex { female, male };
 
 /// Returns a pedestrian for recorded and simulated crowds: the built-in man or woman of a given stature.
-/// Clip k is one stride (two steps) at 0.03 k m/s, k = 0 to 73, and can be repeated. The shape's origin is
-/// the point below the head, which is what cameras track. `shoulders` rotates the shoulder line,
-/// counter-clockwise, away from the perpendicular to the walking direction. "Characters" in layout/README.md
-/// has the gait and its sources.
+/// Clip k is one stride (two steps) at k * 0.03 m/s, k = 0 to 73, and loops seamlessly. The shape's origin is
+/// the point below the head, which is what cameras track. `shoulders` rotates the line through the shoulders,
+/// counter-clockwise, from the perpendicular to the walking direction. "Characters" in layout/README.md has
+/// the gait and its sources.
 /// Units:   metres, radians; the stature is from 0.8 to 2.4, the rotation from -1 to 1.
 /// Errors:  throws std::invalid_argument if the stature or the rotation is out of range.
 Character default_pedestrian(Sex sex, double stature, double shoulders = 0);

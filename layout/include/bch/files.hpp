@@ -27,7 +27,7 @@ struct ShapeOrigin {
   friend bool operator==(const ShapeOrigin&, const ShapeOrigin&) = default;
 };
 
-/// Holds moving discs: a clip of a character, or others.
+/// Holds moving discs, made from a character's clip or by the caller.
 /// Character and clip are indices into ShapeOrigins::names.
 struct BakedClip {
   std::uint32_t character = 0;
@@ -79,7 +79,8 @@ enum class FileAccess {
 /// Errors:  throws BakedFileError, std::bad_alloc.
 BakedShapes load_baked(const std::filesystem::path& file, FileAccess access = FileAccess::read);
 
-/// Loads a set from bytes in memory, which begin on a cache line and stay unchanged while `memory` lives.
+/// Loads a set from bytes in memory, which must be aligned to 64 bytes and stay unchanged while `memory`
+/// lives.
 /// Error messages use `name` as the name of the file.
 BakedShapes load_baked(std::span<const std::byte> bytes, const std::string& name,
                        std::shared_ptr<const void> memory);
@@ -87,9 +88,9 @@ BakedShapes load_baked(std::span<const std::byte> bytes, const std::string& name
 /// Writes a set, clips and models of bodies as a baked file; the same content gives the same bytes.
 /// The bytes go to a temporary file beside `file`, which is renamed to `file` once it is complete.
 /// Errors:  throws BakedFileError if the file cannot be written, and removes the temporary one;
-///          std::invalid_argument if load_baked() would reject the content: the set() of a DynamicShapeSet
-///          after a shape was replaced, origins that are not as many as shapes, indices beyond the names,
-///          clips that validate() rejects.
+///          std::invalid_argument if load_baked() would reject the content, such as the set() of a
+///          DynamicShapeSet after a shape was replaced, fewer or more origins than shapes, indices beyond the
+///          names, clips that validate() rejects.
 void save_baked(const std::filesystem::path& file, const ShapeSet& set, const ShapeOrigins& origins = {},
                 std::span<const BakedClip> clips = {}, std::span<const BakedBody> bodies = {});
 

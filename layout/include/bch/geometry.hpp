@@ -24,7 +24,7 @@ struct Vec3 {
   friend bool operator==(const Vec3&, const Vec3&) = default;
 };
 
-/// Represents a rotation as a unit quaternion, or the derivative of one.
+/// Represents a rotation as a unit quaternion, or a tangent of a curve of rotations.
 struct Quaternion {
   float x = 0;
   float y = 0;
@@ -40,7 +40,7 @@ struct Affine3 {
   friend bool operator==(const Affine3&, const Affine3&) = default;
 };
 
-/// Represents a closed disc on the ground: a vertical cylinder of infinite height, seen from above.
+/// Represents a disc on the ground, boundary included: a vertical cylinder of infinite height, from above.
 struct Disc {
   float x = 0;
   float y = 0;

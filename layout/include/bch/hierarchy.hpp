@@ -11,7 +11,7 @@
 
 namespace bch {
 
-/// The depth of a cut without a depth limit: its discs are the leaves.
+/// Selects, as a depth, the cut of the full tree: its discs are the leaves.
 constexpr std::uint32_t all_depths = 0xffffffff;
 
 /// Holds a bounding cylinder hierarchy of one shape: a binary tree of discs on the ground.
@@ -58,11 +58,11 @@ static_assert(sizeof(Hierarchy::Node) == 16);
 void validate(const Hierarchy& hierarchy);
 
 /// Builds the paper's contour hierarchy.
-/// A line splits a node's segments, through their length-weighted centroid and perpendicular to the axis of
+/// A node's segments are split by a line through their length-weighted centroid, perpendicular to the axis of
 /// their larger extent; a segment goes to the side of its midpoint. If a side stays empty, the other axis is
 /// tried, then the segments are halved by count. A lone segment is halved if longer than twice the threshold,
 /// else it is a leaf. Other nodes are leaves if the radius of their disc is below the threshold.
-/// Units:   metres; the threshold is positive and finite. The result has its primitives.
+/// Units:   metres; the threshold is positive and finite. The result includes `primitives`.
 /// Errors:  throws std::invalid_argument on a bad outline or threshold, std::length_error beyond 2^22 nodes.
 Hierarchy contour_hierarchy(const Outline& outline, float threshold);
 

@@ -23,7 +23,7 @@ class ImportError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Holds the options of import_character(): limits, and values in place of the file's.
+/// Holds the options of import_character(): limits, and values that override the file's.
 /// In Collada, `scale` is relative to metres, because assimp applies the file's own unit. The up axis becomes
 /// z without any other rotation: in a y-up file, x stays and z becomes -y. So a y-up character that faces +z,
 /// as in glTF, faces -y at heading 0: it walks along heading - pi/2.
@@ -31,11 +31,11 @@ struct ImportOptions {
   /// Selects the axis of a file's frame that points up.
   enum class UpAxis : std::uint8_t { x, y, z };
 
-  std::optional<UpAxis> up;                       ///< in place of the file's or the guessed axis
-  std::optional<float> scale;                     ///< metres per unit, in place of the file's or the guess
+  std::optional<UpAxis> up;                       ///< overrides the file's or the guessed axis
+  std::optional<float> scale;                     ///< metres per unit; overrides the file's or the guess
   std::vector<std::filesystem::path> clip_files;  ///< files whose clips follow the file's own, in this order
   bool force_clips = false;                       ///< accepts clips of another skeleton, with a note
-  std::size_t max_triangles = 0x7fffffff;         ///< instances counted; files of more are rejected
+  std::size_t max_triangles = 0x7fffffff;         ///< every instance counts; files with more are rejected
 };
 
 /// Reports on an import by import_character(): what the file contained, and what was imported.
@@ -45,10 +45,10 @@ struct ImportReport {
     std::string name;
     float seconds = 0;
     std::size_t channels = 0;          ///< channels that move a joint of the character
-    std::size_t channels_in_file = 0;  ///< all; the others move cameras, helpers, joints without vertices
+    std::size_t channels_in_file = 0;  ///< all; others move cameras, helpers, joints without vertices
   };
 
-  std::string format;        ///< what read the file
+  std::string format;        ///< the name of the reader
   std::size_t meshes = 0;    ///< instances with triangles
   std::size_t vertices = 0;  ///< after vertices of equal position and influences were merged
   std::size_t triangles = 0;
@@ -68,8 +68,8 @@ struct ImportedCharacter {
 
 /// Reads a character from a file of glTF 2, PLY, FBX, Collada, MD5, IQM, OBJ or STL; clips also from BVH.
 /// The file may have up to 1 GiB and refer to files in its own folder; no file elsewhere is read. All meshes
-/// of the scene count. Units become metres, z up; the notes of the report name what was guessed. "Characters"
-/// in layout/README.md says what each format may contain and how clips are matched.
+/// of the scene are read. Units become metres, z up; the notes of the report name what was guessed.
+/// "Characters" in layout/README.md says what each format may contain and how clips are matched.
 /// Returns: a character that validate() accepts; the same files give the same character.
 /// Errors:  throws ImportError.
 ImportedCharacter import_character(const std::filesystem::path& file, const ImportOptions& options = {});
@@ -86,7 +86,7 @@ struct ImportLimits {
 
 /// Imports a character from an untrusted file in a child process: assimp crashes on some malformed files.
 /// The child reads the file as import_character() does, within limits; this process runs no code of assimp.
-/// Errors:  throws ImportError, also if the file crashes or exhausts the child; std::runtime_error if no
+/// Errors:  throws ImportError, also if the child crashes or exceeds its limits; std::runtime_error if no
 ///          child can be created.
 /// Threads: the child is a fork with only the caller's thread. A lock that another thread holds at the fork
 ///          stays locked in the child (except the C library's), and the import may then run into its time

@@ -14,16 +14,15 @@ namespace bch {
 
 /// Holds the outline of what a character covers when seen from above: closed contours, counter-clockwise.
 /// Contours may touch, cross or overlap themselves and each other, and one may contain another; queries test
-/// every segment. A point is inside if it is inside at least one contour by the even-odd rule. Only
-/// OutlineOptions::holes adds clockwise contours, the holes, which hierarchies and sets reject. "Outlines" in
-/// layout/README.md describes the outlines of OutlineBuilder.
+/// every segment. A point is inside if it is inside any contour, by the even-odd rule of that contour alone.
+/// Only OutlineOptions::holes adds clockwise contours, the holes, which hierarchies and sets reject.
 struct Outline {
   std::vector<Vec2> points;                        ///< metres, in the shape's frame; used as given
   std::vector<std::uint32_t> contour_begin = {0};  ///< contours + 1 offsets into points
   /// The step of the grid to which the points were rounded, metres, at most the reach; 0: not rounded.
   /// Discs are enlarged by 1.5 steps, so that they enclose the points before rounding. The step of
-  /// OutlineBuilder is a power of two, and its coordinates are multiples of the step below 2^23, which floats
-  /// represent exactly.
+  /// OutlineBuilder is a power of two, and its coordinates are the step times integers below 2^23, which
+  /// floats represent exactly.
   float grid_step = 0;
 
   std::size_t contours() const { return contour_begin.size() - 1; }
@@ -33,15 +32,15 @@ struct Outline {
 };
 
 /// Returns the sum of the signed areas of the contours, square metres.
-/// Holes are subtracted, and overlaps count repeatedly.
+/// Holes are subtracted, and overlaps count once per contour.
 double area(const Outline& outline);
 
 /// Makes an outline of footprints: polygons on the ground, for bodies without a mesh.
 /// Polygons may touch, cross and overlap, in either orientation. The last corner is joined to the first; a
 /// corner equal to the one before it is ignored.
 /// Units:   metres, in the shape's frame, whose origin is the agent's position.
-/// Errors:  throws std::invalid_argument if there are no polygons and, naming the polygon, if one has fewer
-///          than three corners, no area, a corner that is not finite, or a reach outside 1e-6 to 1e6 m.
+/// Errors:  throws std::invalid_argument if there are no polygons, or if one, which is named, has fewer than
+///          three corners, no area, a corner that is not finite, or a reach outside 1e-6 to 1e6 m.
 Outline outline_from_polygons(std::span<const std::vector<Vec2>> polygons);
 
 /// Returns an outline as well-known text: a MULTIPOLYGON, which obstacles_from_wkt() also reads.
@@ -55,7 +54,7 @@ std::string to_geojson(const Outline& outline);
 
 /// Checks what hierarchies and shape sets expect of an outline, in linear time.
 /// There is at least one contour, offsets are in order, points are finite, the reach is 1e-6 to 1e6 m, and no
-/// contour is clockwise (beyond the area that rounding to the grid explains).
+/// contour is clockwise (by more area than rounding to the grid explains).
 /// Returns: the reach of the points.
 /// Errors:  throws std::invalid_argument naming the contour or point and the value.
 double validate(const Outline& outline);

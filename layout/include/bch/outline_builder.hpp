@@ -21,14 +21,15 @@ struct BuildImplementation;
 namespace bch {
 
 /// Finds the outline of one mesh in pose after pose: the outer boundary of its triangles, seen from above.
-/// The result is exact on a grid whose step is 2^-23 times the power of two above the reach (0.12 um for a
-/// person). The mesh may be open or non-manifold, with duplicated or degenerate triangles; holes are left
-/// out. The result depends on the union of the triangles alone. "Outlines" in layout/README.md has the rules.
+/// The result is exact on a grid whose step is 2^-23 times the least power of two above the reach (0.12 um
+/// for a person). The mesh may be open or non-manifold, with duplicated or degenerate triangles; holes are
+/// left out. The result depends on the union of the triangles alone. "Outlines" in layout/README.md has the
+/// rules.
 class OutlineBuilder {
  public:
   /// Prepares the mesh. A bind pose makes building faster and changes no outline.
-  /// Edges near each other in the bind pose are processed together. Vertices at the same place in it are
-  /// merged in each pose that does not separate them. Vertices without triangles are ignored.
+  /// Edges near each other in the bind pose are processed together. Vertices that coincide there are merged
+  /// in each pose in which they still coincide. Vertices without triangles are ignored.
   /// Sizes:   triangle indices are below `vertices`; the bind pose has `vertices` positions or none.
   /// Errors:  throws std::invalid_argument if there are no triangles, an index is out of range, or the bind
   ///          pose has another length or a position that is not finite.
@@ -41,8 +42,8 @@ class OutlineBuilder {
   /// Writes the outline of a pose into `outline`, whose memory is reused.
   /// Allocates nothing once the longest outline has been built.
   /// Units:   metres; the ground is x-y.
-  /// Errors:  throws std::invalid_argument if there is not one position per vertex, a coordinate is not
-  ///          finite, the reach is outside 1e-6 to 1e6 m, or every triangle is a point.
+  /// Errors:  throws std::invalid_argument if the number of positions is not that of the vertices, a
+  ///          coordinate is not finite, the reach is outside 1e-6 to 1e6 m, or every triangle is a point.
   void build(std::span<const Vec2> positions, Outline& outline);
   /// Writes the outline of positions with heights.
   /// Returns: the interval of heights of all vertices that triangles use.
@@ -63,7 +64,7 @@ class OutlineBuilder {
 /// Selects the part of a mesh whose outline outline() finds, and whether to find its holes.
 struct OutlineOptions {
   /// Clips the mesh to an interval of heights, metres; infinite ends clip nothing.
-  /// A clipped mesh is prepared anew in every pose.
+  /// A clipped mesh is prepared again in every pose.
   Heights between = {};
   /// Also finds the holes of the union, as clockwise contours, and the parts inside the holes.
   /// A hole follows the counter-clockwise contour around it. No contour then visits a point twice, and parts
@@ -75,12 +76,12 @@ struct OutlineOptions {
 };
 
 /// Finds the outline of a mesh in one pose: the exact union of its triangles seen from above.
-/// See OutlineBuilder. The outline has no contours if nothing lies between the heights, or only points and
-/// parts within 1e-6 m of the origin.
+/// See OutlineBuilder. The outline is empty if nothing lies between the heights except points and parts
+/// within 1e-6 m of the origin.
 /// Sizes:   triangle indices are below positions.size(); vertices without triangles are ignored.
 /// Errors:  throws std::invalid_argument if there are no triangles, an index is out of range, a coordinate is
-///          not finite (heights of vertices count only if `between` clips), the reach is outside 1e-6 to 1e6
-///          m, or the heights of `between` are NaN or do not ascend.
+///          not finite (z is checked only if `between` clips), the reach is outside 1e-6 to 1e6 m, or the
+///          heights of `between` are NaN or do not ascend.
 Outline outline(std::span<const Vec3> positions, std::span<const std::array<std::uint32_t, 3>> triangles,
                 const OutlineOptions& options = {});
 /// Finds the outline of a character in a pose, relative to the root joint's (x, y); see PoseShaper::shape().

@@ -142,8 +142,8 @@ std::vector<Affine3d> joint_transforms(const Character& character, PoseTime at,
                                        JointFrame frame = JointFrame::parent);
 
 /// Returns the joint transforms of a weighted mean of poses, in the frames of the parents.
-/// Positions and scales are weighted means. Rotations are normalised weighted sums of quaternions; each
-/// quaternion takes the sign that is nearer to the sum before it. Weights need not sum to 1.
+/// Positions and scales are weighted means. Rotations are normalised weighted sums of quaternions; each is
+/// first negated if that brings it nearer to the sum so far. Weights need not sum to 1.
 /// Errors:  throws std::invalid_argument if a weight is negative or not finite, if no weight is above 0, if a
 ///          clip does not exist or a time is outside 0 to Clip::seconds.
 std::vector<Affine3d> blend(const Character& character, std::span<const WeightedPose> poses);
@@ -202,7 +202,7 @@ std::vector<Affine3d> grounded(const Character& character, const Transforms& map
 class PoseShaper {
  public:
   /// Prepares the mesh of a valid character (see validate()), which must outlive this object.
-  /// Shapes are for sets of `plan`: hierarchies end at its deepest cut. A plan of depth 0 alone, without
+  /// Shapes fit sets of `plan`: their hierarchies end at its deepest cut. A plan of depth 0 alone, without
   /// heights, needs no outlines: the outermost vertices give its discs in a third of the time. Discs of a
   /// radius below `threshold`, in metres, are not divided.
   /// Errors:  throws std::invalid_argument on a bad plan.
@@ -219,16 +219,16 @@ class PoseShaper {
 
   /// Makes the shape of a pose, valid until the next call. It has primitives if the deepest depth is
   /// all_depths.
-  /// The root joint's ground translation is removed, its rotation is not. Between keys, a clip's curves
-  /// decide.
+  /// The root joint's ground translation is removed, its rotation is not. Poses between keys are those of the
+  /// clip's curves.
   /// Errors:  throws std::invalid_argument if a clip or time is out of range, if transforms or vertices are
-  ///          not finite or not as many as the character's, and as OutlineBuilder and contour_hierarchy() do;
-  ///          std::domain_error if a posed position is not finite. After an error, the previous shape is
-  ///          lost.
+  ///          not finite or not as many as the character's; what OutlineBuilder and contour_hierarchy()
+  ///          throw; std::domain_error if a posed position is not finite. After an error, the previous shape
+  ///          is lost.
   const Shape& shape(const Pose& pose);
 
   /// Makes the outline of a pose, the first step of shape(), for callers that need only outlines.
-  /// For a plan of depth 0 alone, without heights, there is no outline.
+  /// For a plan of depth 0 alone, without heights, the outline is empty.
   const Shape& make_outline(const Pose& pose);
   /// Makes the hierarchy over the last outline, the second step of shape().
   const Shape& make_hierarchy();
@@ -246,7 +246,7 @@ class PoseShaper {
 
 /// Selects the shapes that bake() makes of characters.
 struct BakeOptions {
-  /// The number of poses per character, spread evenly over its clips; characters follow each other.
+  /// The number of poses per character, spread evenly over its clips, character by character.
   std::uint32_t poses = 100;
   /// The shapes one by one, for instance ScenePlan::shapes; empty: `poses` of every character.
   std::vector<PoseId> shapes = {};
@@ -259,9 +259,10 @@ struct BakeOptions {
 
 /// Makes a set of characters in many poses, on all threads of the caller's TBB arena.
 /// The bytes do not depend on the number of threads.
-/// Errors:  throws std::invalid_argument as validate(Character) does, on a bad plan and if a character does
-///          not exist; what PoseShaper::shape() throws, naming character, clip and time; std::length_error if
-///          the set is too large; std::system_error of std::errc::operation_canceled if cancelled.
+/// Errors:  throws std::invalid_argument as validate(Character) does, if the plan is bad, or if a character
+///          does not exist; what PoseShaper::shape() throws, naming character, clip and time;
+///          std::length_error if the set is too large; std::system_error of std::errc::operation_canceled if
+///          cancelled.
 ShapeSet bake(std::span<const Character> characters, const BakeOptions& options = {});
 /// Makes a set of one character.
 ShapeSet bake(const Character& character, const BakeOptions& options = {});

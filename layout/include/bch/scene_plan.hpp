@@ -25,10 +25,10 @@ struct SceneUse {
   /// Whether to keep outlines, as in ShapeSetPlan.
   bool outlines = true;
   /// Returns the cut depth for agents at a distance from the viewer; empty: all_depths.
-  /// It returns all_depths if the distance does not matter.
+  /// It should return all_depths if the distance does not matter.
   std::function<std::uint32_t(double metres)> depth = {};
   /// Returns the cut depth for the density around an agent, for example depth_at_density().
-  /// If both functions give a depth, the coarser one counts.
+  /// If both functions give a depth, the coarser one is used.
   std::function<std::uint32_t(double people_per_square_metre)> density_depth = {};
   /// Whether agents stand at different heights; see Agents::z.
   bool heights = false;
@@ -57,7 +57,7 @@ struct ScenePlan {
 
 /// Returns the cut depth that pays at a density: 0, the single cylinder, or all_depths.
 /// It is 0 where false collisions of the cylinder stop a walking person at most once per second, as measured
-/// by `bch_lab report --experiment detail`. Depths between save memory, but little time.
+/// by `bch_lab report --experiment detail`. Intermediate depths save memory, but little time.
 std::uint32_t depth_at_density(double people_per_square_metre);
 
 /// Plans which shapes a scene needs, each once, at which depths, and whether with culling data.

@@ -24,7 +24,7 @@ struct ShapeSetView;
 namespace bch {
 
 /// Represents a body seen from above: a pose of a character, a footprint, a cylinder.
-/// If the outline is empty, discs alone decide: a body inside another one collides only if discs overlap.
+/// If the outline is empty, only discs are tested: a body in a gap between another one's discs is no hit.
 struct Shape {
   Outline outline;
   Hierarchy hierarchy;
@@ -36,12 +36,12 @@ struct Shape {
 /// given order. Neighbouring discs should follow each other, because nodes group them in that order.
 /// Cost:    6 ms for 50 discs.
 /// Errors:  throws std::invalid_argument if there are no discs or more than 4096, if the reach is outside
-///          1e-6 to 1e6 m and, naming the disc, if one is not finite or has no radius.
+///          1e-6 to 1e6 m, or if a disc, which is named, is not finite or has no radius.
 Shape shape_from_discs(std::span<const Disc> discs);
 
 /// Makes a shape of polygons, a wheelchair's for instance, as outline_from_polygons() takes them.
 /// Its exact leaves are the polygons themselves.
-/// Units:   metres; the threshold is that of contour_hierarchy().
+/// Units:   metres; discs of a radius below the threshold are not divided.
 /// Errors:  throws std::invalid_argument as outline_from_polygons() and contour_hierarchy() do.
 Shape shape_from_polygons(std::span<const std::vector<Vec2>> polygons, float threshold = 0.01f);
 
@@ -55,15 +55,14 @@ struct Capsule {
 /// Makes a shape of capsules, such as the limbs of a body.
 /// The outline has one polygon per capsule, which encloses the capsule and protrudes from it by at most a
 /// tolerance.
-/// Units:   metres; the tolerance is more than 2^-20 of the capsules' reach, the threshold is that of
-///          contour_hierarchy().
+/// Units:   metres; the tolerance must exceed 2^-20 of the capsules' reach; the threshold is as above.
 /// Errors:  throws std::invalid_argument if there are no capsules, if the tolerance is not positive or too
-///          small, as shape_from_polygons() does, and, naming the capsule, if one has no radius or lies
-///          beyond 1e6 m.
+///          small, if a capsule, which is named, has no radius or lies beyond 1e6 m, and as
+///          shape_from_polygons() does.
 Shape shape_from_capsules(std::span<const Capsule> capsules, float tolerance = 0.001f,
                           float threshold = 0.01f);
 
-/// Describes moving discs in a chunk, a part of a clip; with heights they are spheres.
+/// Describes a chunk: the moving discs (spheres, if they have heights) of a part of a clip.
 /// Centres and radii change linearly from key to key.
 struct AnimatedChunk {
   std::vector<double> times;     ///< of the keys, at least two, ascending; seconds of the clip
@@ -92,9 +91,9 @@ void validate(const AnimatedDiscs& discs);
 
 /// Represents an animated body: a clip of a character, or other moving discs or spheres.
 /// Times outside the clip are clamped. If the clip loops, they wrap around, even if the last pose is not the
-/// first. Discs of animate() are stored exactly; others are rounded outward to 16 bits, by less than 0.15 mm
-/// per metre of reach. "Animated shapes" in layout/README.md describes the tree. A moved-from object can only
-/// be assigned to or destroyed.
+/// first. Discs of animate() are stored exactly; others are rounded outward to 16-bit numbers, by less than
+/// 0.15 mm per metre of reach. "Animated shapes" in layout/README.md describes the tree. A moved-from object
+/// can only be assigned to or destroyed.
 class AnimatedShape {
  public:
   /// Checks moving discs and builds the tree over them.
@@ -124,7 +123,7 @@ class AnimatedShape {
   /// Returns the body at a time as a shape without outline, whose leaves are its discs.
   /// The leaves are numbered in the order of the current chunk's tree, not of discs(), so numbers can change
   /// from chunk to chunk. ShapeSet and BuiltShape take the shape.
-  /// Cost:    a few us for 200 discs, less than making it flat.
+  /// Cost:    a few us for 200 discs, less than packing it (BuiltShape).
   Shape shape(double seconds) const;
   /// Writes the same shape into `shape`, whose memory is reused.
   void shape(double seconds, Shape& shape) const;
@@ -141,25 +140,24 @@ class AnimatedShape {
 /// Selects the test of two leaves.
 enum class Leaves {
   discs,  ///< the discs of the leaves overlap
-  /// The discs overlap, and segments of the leaves come within 1.7 um per metre of both reaches (exact
-  /// leaves).
+  /// The discs overlap, and segments of the leaves come within 1.7 um per metre of the sum of both reaches
+  /// (exact leaves).
   /// Applies to agents at depth all_depths whose shapes have exact leaves. For other agents, and for leaves
   /// of more than 127 segments, discs decide.
   segments,
 };
 
-/// Describes what a set stores of its shapes: nothing else is built.
+/// Selects what a set stores of its shapes; nothing else is built.
 struct ShapeSetPlan {
   /// Lists the levels of detail: cut depths, ascending. Level k of a shape is its cut at depths[k].
   std::vector<std::uint32_t> depths = {all_depths};
-  /// Whether to store outlines. Without them discs alone decide: a body inside another one is a hit only if
-  /// discs overlap, and there are no exact leaves.
+  /// Whether to store outlines. Without them only discs are tested (see Shape), and there are no exact
+  /// leaves.
   /// Exact leaves exist at depth all_depths, for shapes whose cut has more than one disc and whose hierarchy
   /// has primitives.
   bool outlines = true;
-  /// Whether to store culling data, which let queries skip most traversals and change no answer.
-  /// These are 32-DOPs, profiles and, with outlines, inscribed discs. They do not pay for a set that answers
-  /// few queries.
+  /// Whether to store culling data, which make queries faster and change no answer: 32-DOPs, profiles and,
+  /// with outlines, inscribed discs. They do not pay for a set that answers few queries.
   bool culling = true;
   /// Whether to store the heights of bodies, which agents at different heights need; see Agents::z.
   bool heights = false;
@@ -175,10 +173,10 @@ void validate(const ShapeSetPlan& plan);
 /// A moved-from object can only be assigned to or destroyed.
 class ShapeSet {
  public:
-  /// Makes shapes flat, each at all depths of a plan, and copies all that the plan stores.
-  /// Errors:  throws std::invalid_argument if validate() rejects the plan and, naming the shape, its
-  ///          hierarchy or its outline (unless empty or not stored); std::length_error beyond 2^31 floats in
-  ///          the arrays of nodes.
+  /// Packs shapes, each at all depths of a plan, and copies all that the plan stores.
+  /// Errors:  throws std::invalid_argument if validate() rejects the plan, or the hierarchy or outline
+  ///          (unless empty or not stored) of a shape, which is named; std::length_error beyond 2^31 floats
+  ///          in the arrays of nodes.
   explicit ShapeSet(std::span<const Shape> shapes, const ShapeSetPlan& plan = {});
   ShapeSet(ShapeSet&&) noexcept;
   ShapeSet& operator=(ShapeSet&&) noexcept;
@@ -207,10 +205,10 @@ class ShapeSet {
 
   // Internal: only the library has these types.
 
-  /// Views arrays that stay valid while `memory` lives, for instance a mapped file.
+  /// Refers to arrays that stay valid while `memory` lives, for instance a mapped file.
   /// Precondition: validate(arrays) does not throw.
   ShapeSet(const detail::ShapeArrays& arrays, std::shared_ptr<const void> memory);
-  /// Views these arrays from now on.
+  /// Refers to these arrays from now on.
   void rebind(const detail::ShapeArrays& arrays) noexcept;
   const detail::ShapeSetView& view() const noexcept;
   const detail::ShapeArrays& arrays() const noexcept;
@@ -220,8 +218,7 @@ class ShapeSet {
   std::unique_ptr<State> state_;
 };
 
-/// Holds a shape in its flat form, ready to be added to a set. Making shapes flat is nearly all the work of
-/// making a set.
+/// Holds a packed shape, ready to be added to a set. Packing is nearly all the work of making a set.
 /// An object reuses its memory for the next shape. A moved-from object can only be assigned to or destroyed.
 /// Threads: one at a time may use an object.
 class BuiltShape {
@@ -233,7 +230,7 @@ class BuiltShape {
   BuiltShape& operator=(BuiltShape&&) noexcept;
   ~BuiltShape();
 
-  /// Makes a shape flat, in place of the previous one.
+  /// Packs a shape, in place of the previous one.
   /// Errors:  throws std::invalid_argument as ShapeSet does, with `index` as the number of the shape; then
   ///          call prepare() again before adding it.
   void prepare(const Shape& shape, std::size_t index);
@@ -248,12 +245,12 @@ class BuiltShape {
   std::unique_ptr<State> state_;
 };
 
-/// Builds a set shape by shape, without all shapes in memory.
+/// Builds a set shape by shape, without holding all shapes in memory.
 /// The set has the same bytes as one that ShapeSet makes of all shapes at once. A moved-from object can only
 /// be assigned to or destroyed.
 class ShapeSetBuilder {
  public:
-  /// Begins an empty set of a plan.
+  /// Begins an empty set that follows `plan`.
   /// Memory is reserved for `expected_shapes`, an estimate; any number may be added.
   /// Errors:  throws std::invalid_argument on a bad plan.
   explicit ShapeSetBuilder(const ShapeSetPlan& plan, std::size_t expected_shapes = 0);
@@ -265,7 +262,8 @@ class ShapeSetBuilder {
   /// Errors:  throws std::length_error beyond 2^31 floats in the arrays of nodes or 2^32 roots. The shapes
   ///          added before stay unchanged.
   void add(const BuiltShape& shape);
-  /// Returns the set of the shapes so far, which can be queried until the next call of another function.
+  /// Returns the set of the shapes so far, which can be queried until the next call of another member
+  /// function.
   /// More shapes may follow.
   const ShapeSet& set();
   /// Returns the set of all added shapes. If memory runs out, the shapes stay in the builder.
@@ -273,7 +271,7 @@ class ShapeSetBuilder {
 
   // Internal: only the library has these types.
   /// Returns the nodes of the shapes so far, as the set will contain them; empty for a set of roots alone.
-  /// Valid until the next call of another function.
+  /// Valid until the next call of another member function.
   std::span<const float> nodes() const noexcept;
   /// Returns the present end of the set, for rollback().
   detail::BuilderMark mark() const noexcept;
@@ -294,7 +292,7 @@ class ShapeSetBuilder {
 /// "Plans" in layout/README.md says how memory grows, and why it stops growing after some frames.
 class DynamicShapeSet {
  public:
-  /// Copies a set with its plan, but without the gaps that the set() of a DynamicShapeSet may have.
+  /// Copies a set with its plan, but without the unused space that the set() of a DynamicShapeSet may have.
   /// A copy of a set of roots alone accepts only shapes of a single disc. A moved-from object can only be
   /// assigned to or destroyed.
   explicit DynamicShapeSet(const ShapeSet& start);
@@ -309,8 +307,8 @@ class DynamicShapeSet {
 
   /// Replaces a shape by one prepared with set().plan(), if the new shape fits into the place of the old.
   /// Threads may replace different shapes at the same time, while no query runs. Allocates nothing.
-  /// Returns: whether the shape fitted. If not, the set is unchanged and replace() is needed, as it is for
-  ///          the first shape of a single disc in a set of one level.
+  /// Returns: whether the shape fitted. If not, the set is unchanged and replace() is needed. A set of one
+  ///          level also needs it for its first shape of a single disc.
   /// Errors:  throws std::out_of_range if the index is out of range, std::invalid_argument if the shape has
   ///          another plan.
   bool try_replace(std::uint32_t shape, const BuiltShape& by);
