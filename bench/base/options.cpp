@@ -116,7 +116,7 @@ void ShapeOptions::add_to(CLI::App& command) {
   add_import_to(command);
   add_poses_to(command);
   const OptionAdder add(command);
-  add("--threshold", threshold, "METRES", "Nodes with a smaller radius are not divided [0.01 m]",
+  add("--threshold", threshold, "METRES", "Discs with a smaller radius are not divided [0.01 m]",
       number_between(1e-4, 100));
   add_limits_to(command);
 }
@@ -153,7 +153,7 @@ std::vector<std::string> ShapeOptions::inputs(std::vector<std::string> files) co
 void add_leaves_option(CLI::App& command, std::string& leaves, int centimetres) {
   OptionAdder{command}(
       "--leaves", leaves, "NAME",
-      fmt::format("Test at depth all: segments of outlines, or discs, which collide up to {} cm "
+      fmt::format("With depth all, test outlines (segments) or discs, which collide up to {} cm "
                   "earlier [segments]",
                   centimetres),
       one_of({"segments", "discs"}));

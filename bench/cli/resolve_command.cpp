@@ -81,7 +81,7 @@ std::function<void()> add_resolve_command(CLI::App& program) {
       "resolve", "Move people, as little as possible, until no bodies overlap each other or a wall");
   command.footer(
       R"(Bodies are sets of spheres bound to the bones, tested in 3D. People do not turn. A sweep finds all pairs that overlap,
-and moves all people once. Writes AGENTS.csv with new x and y, and to standard error the number of sweeps, the mean and
+and moves all people once. Prints AGENTS.csv with new x and y, and to standard error the number of sweeps, the mean and
 largest shift, and how many pairs and people at walls remain if there is not enough room (the exit code is still 0).
 AGENTS.csv is that of bch query, with one more column:
   mobility       0 (does not move) to 1: of two people moved apart, one with half the mobility moves half as far [1]
@@ -93,7 +93,7 @@ Example: bch resolve default:female agents.csv --obstacles walls.wkt > moved.csv
   options->obstacles.add_to(command, "Also keep people out of these walls and polygons, in well-known text");
   add("--sweeps", how.sweeps, "N", "Maximum number of sweeps [100]", whole_between(0, 1'000'000));
   add("--directions", how.directions, "N",
-      "Number of directions in which people may be moved apart, even [16]", whole_between(2, 256));
+      "Even number of directions in which people may be moved apart [16]", whole_between(2, 256));
   add("--gap", how.gap, "METRES", "Gap to leave between people who are moved apart [0.001 m]",
       number_between(0, 1000));
   add("--largest-step", how.largest_step, "METRES", "Maximum shift of a person in one sweep [0.05 m]",

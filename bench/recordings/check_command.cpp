@@ -86,7 +86,7 @@ HDF5, Pathfinder's CSV, TrajNet++, ETH/UCY, and plain CSV with columns id, frame
 format is recognized by the content of the file, not by its name. If the file does not state the
 frame rate or the unit of length, --fps or --unit is required; if its columns have no names and
 cannot be recognized, --columns is required. The program prints every assumption.
-Each row becomes a pedestrian of the person's stature, in a stride of the person's speed, with the
+Each row becomes a pedestrian of the person's stature, in the walking pose of the person's speed, with the
 head above the recorded position.
 Two people overlap if their outlines, seen from above, do; with --bodies spheres, if their bodies
 do in 3D. The exit code is 1 if overlaps exceed --fail-above, and otherwise 0, even if people overlap.

@@ -207,14 +207,14 @@ void CheckInput::add_to(CLI::App& command) {
   add("--fps", fps, "N", "Frames per second, instead of the rate that the file states",
       number_between(1e-3, 1e4));
   add("--columns", columns, "NAMES",
-      "Names of the columns in order, such as frame,id,x,skip,y, instead of the header of text or CSV");
+      "Names of the columns in order, instead of the file's header; skip ignores one: frame,id,x,skip,y");
   add("--unit", unit, "UNIT", "Unit of length, instead of the file's: m, cm, mm, or a number of metres");
   add("--walls", walls, "FILE.wkt", "Walkable area as well-known text (WKT), instead of the file's own");
   add("--truth", truth, "FILE",
       "Count the people who collide, as discs, with others as these went in this recording (Col-II)");
   add_bodies_to(command);
   add("--depth", depth, "N",
-      "Level of detail: depth 0, 1, 2 ... in the tree of discs of an outline, or all of it [all]");
+      "Level of detail: depth 0, 1, 2 ... in the tree of discs of an outline, or all [all]");
   add_leaves_option(command, leaves, 4);
   add("--max-distance", max_distance, "M",
       "In --pairs, also write pairs with a gap of at most M metres [0: overlaps only]",
@@ -234,7 +234,7 @@ void CheckInput::add_bodies_to(CLI::App& command) {
       ->allow_extra_args(false)
       ->needs(character);
   add("--body", bodies, "NAME=FILE",
-      "Shape of the body NAME in rows: polygons (.wkt), or a model seen from above (repeatable)")
+      "Shape of rows whose body is NAME: polygons (.wkt), or a model seen from above (repeatable)")
       ->allow_extra_args(false);
   add("--clip-speed", clip_speeds, "CLIP=M/S",
       "For a baked set: walking speed in a clip, or 0 if people stand in it (repeatable)")
@@ -257,7 +257,7 @@ void add_outputs_to(CLI::App& command, CheckOutputs& outputs) {
   add("--measures", outputs.measures, "FILE.csv",
       "Write one line per person of each frame: densities, clearance, time to collision, intrusion ...");
   add("--conflicts", outputs.conflicts, "FILE.csv",
-      "Write one line per pair of each frame that overlaps or will collide within 5 s");
+      "For each frame, write one line per pair of people who overlap or will collide within 5 s");
   add("--json", outputs.json, "FILE.json", "Write the summary and all events as JSON");
   add("--fail-above", outputs.fail_above, "P",
       "Exit with code 1 if more than P percent of person-seconds are in overlap [never]",

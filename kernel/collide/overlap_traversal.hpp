@@ -18,11 +18,12 @@
 
 namespace bch::detail {
 
-/// Implements the last stage of the pair kernel: traverses the trees of the pairs that no quicker stage decided, in
-/// rounds. Each round tests one pair of blocks for every undecided pair, so that cache misses and latencies of many pairs
-/// overlap and no branch depends on an answer. Ancestors are tested only if leaves overlap. Most pairs end after a few
-/// rounds. The rest wait until more pairs are added, because a round over three pairs takes as long as one over thirty.
-/// `capacity`: of undecided pairs; run(enough) makes room for add().
+/// Implements stages 6 and 7 of "Stages" in kernel/README.md: traverses the trees of the pairs that no quicker stage
+/// decided, in rounds. Each round tests one pair of blocks for every undecided pair, so that cache misses and latencies
+/// of many pairs overlap and no branch depends on an answer. Ancestors are tested only if leaves overlap. Most pairs end
+/// after a few rounds. The rest wait until more pairs are added, because a round over three pairs takes as long as one
+/// over thirty.
+/// `capacity`: the most undecided pairs; run(enough) makes room for add().
 template <class Simd, std::uint32_t capacity>
 class OverlapTraversal {
  public:
@@ -32,7 +33,7 @@ class OverlapTraversal {
         exact_leaves_(arguments.exact_leaves),
         segments_(shapes, placed_) {}
 
-  /// Adds a pair, whose state is at index `pair`, and stays `state_without_hit` unless the traversal finds a hit.
+  /// Adds a pair, whose state, at index `pair`, stays `state_without_hit` unless the traversal finds a hit.
   /// `reach`: the sum of the two shapes' reaches. `margin`: the sum of their segments' margins, 0 if discs decide. `gaps`
   /// are read if KnowsGaps.
   void add(std::size_t pair, std::uint8_t state_without_hit, const Transform& b_in_a, std::uint32_t root_a,
@@ -78,8 +79,8 @@ class OverlapTraversal {
     [[no_unique_address]] std::conditional_t<KnowsGaps<Simd>, Gaps, NoGaps> gaps;
   };
 
-  /// Holds two blocks, and a bit for each two of their discs that overlap and below which no test was made yet (8 i + j:
-  /// disc i of A, disc j of B).
+  /// Holds two blocks, and a bit for each pair of overlapping discs whose children are not tested yet (8 i + j: disc i
+  /// of A, disc j of B).
   struct Frame {
     std::uint32_t a, b;
     std::uint64_t unvisited;
@@ -124,7 +125,7 @@ class OverlapTraversal {
                                    Nodes::discs(nodes, b, pair.stride_b));
   }
 
-  /// Returns 1 if both blocks are windows, of whose names leaf_window is the top bit, else 0.
+  /// Returns 1 if both blocks are windows, whose indices have the top bit, leaf_window, else 0.
   [[gnu::always_inline]] static std::uint32_t both_are_windows(const Traversal& at) noexcept {
     return (at.a & at.b) / leaf_window;
   }
@@ -186,7 +187,7 @@ class OverlapTraversal {
       segments_.prefetch_points(compared[k].a, compared[k].leaves_a);
       segments_.prefetch_points(compared[k].b, compared[k].leaves_b);
     }
-    // One loop over the overlaps of all pairs, because only the end of a loop is predicted wrongly.
+    // One loop over the overlaps of all pairs: a loop for each pair would mispredict its end each time.
     for (std::uint32_t k = 0; all_overlaps > 0; --all_overlaps) {
       Compared& at = compared[k];
       const auto bit = static_cast<unsigned>(__builtin_ctzll(at.overlaps));
@@ -253,10 +254,10 @@ class OverlapTraversal {
     return {(at.a & ~leaf_window) + bit / block_width, (at.b & ~leaf_window) + bit % block_width};
   }
 
-  /// Decides pairs whose leaves overlap. Of the others, pushes the overlaps, takes the next unvisited one, and sets the
-  /// blocks to test: the children of the two discs, or a window again and the other's child. What is computed for a decided
-  /// pair is never used, which beats a branch that no processor can predict. The slots of decided pairs end up behind the
-  /// others.
+  /// Decides pairs whose leaves overlap. For each other pair, pushes the overlaps found, takes the next unvisited one, and
+  /// sets the blocks to test: the children of the two discs, or, if one block is a window already, that window and the
+  /// other's child. What is computed for a decided pair is never used, which beats a branch that no processor can predict.
+  /// The slots of decided pairs end up behind the others.
   [[gnu::always_inline]] void step() noexcept {
     const float* const nodes = shapes_.nodes;
     std::uint8_t* const states = states_;
@@ -285,8 +286,8 @@ class OverlapTraversal {
     size_ = left;
   }
 
-  /// Returns the blocks below the first unvisited overlap of two, or anything if there is none, and the overlaps that stay
-  /// unvisited.
+  /// Returns the two blocks to test next, below the first unvisited overlap (any, if there is none), and the overlaps that
+  /// stay unvisited.
   [[gnu::always_inline]] static Frame first_below(const float* nodes, const Frame& at) noexcept {
     std::uint64_t rest = at.unvisited & (at.unvisited - 1);
     const auto bit = static_cast<unsigned>(__builtin_ctzll(at.unvisited | std::uint64_t{1} << 63));

@@ -20,8 +20,8 @@
 namespace bch::detail {
 
 /// Implements collide() and within() of shapes for all instruction sets. `Simd` is a Lanes<Arch> with bits(). Every float
-/// operation that decides an answer is one of those listed in layout/base/rounding.hpp, or in Gaps, in that order, so that
-/// all instantiations and the scalar reference agree bit for bit; what only saves work is conservative.
+/// operation that decides an answer is listed in layout/base/rounding.hpp or in Gaps, and runs in the order listed there,
+/// so that all instantiations and the scalar reference agree bit for bit; what only saves work is conservative.
 ///
 /// Pairs are answered in chunks, stage by stage; "Stages" in kernel/README.md describes these.
 template <class Simd>
@@ -114,7 +114,8 @@ class PairKernel {
       std::uint32_t undecided = 0;
       for (std::uint32_t lane = 0; lane < lanes(k); ++lane) {
         const std::uint32_t decided = both_are_single(k + lane);
-        // Leaf discs within the distance may stick out of the roots, so only two single discs are rejected here.
+        // Leaf discs within the distance may stick out of the roots, so only pairs of single discs are
+        // rejected here.
         const std::uint32_t hit = (overlaps >> lane & 1) | (KnowsGaps<Simd> & (decided ^ 1));
         states_[k + lane] = static_cast<std::uint8_t>(hit * overlap);
         undecided |= (hit & (decided ^ 1)) << lane;
@@ -146,8 +147,8 @@ class PairKernel {
       undecided_.add_if(undecided_bits_[k / Simd::width] >> k % Simd::width & 1, k);
   }
 
-  /// Decides the pairs that need no traversal, and lists the others in undecided_. States begin as `overlap`, and only
-  /// separation changes them: areas that meet are a hit, whether outlines cross or one contains the other.
+  /// Decides the pairs that need no traversal, and lists the others in undecided_. Here states begin as `overlap`, and
+  /// only separation changes them: areas that meet are a hit, whether outlines cross or one contains the other.
   [[gnu::noinline]] void cull() noexcept {
     compare_profiles();
     end_stage<Simd>(Stage::profiles, transforms_.size);
@@ -174,7 +175,8 @@ class PairKernel {
     end_stage<Simd>(stage, tests);
   }
 
-  /// Accepts the pairs of a list of which two of the first `count` inscribed discs overlap; the others remain undecided.
+  /// Accepts each listed pair of which one of A's first `count` inscribed discs overlaps one of B's; moves the others to
+  /// undecided_.
   template <unsigned count>
   void accept(List& list, Stage stage) noexcept {
     const std::uint32_t tests = list.size;
@@ -247,7 +249,7 @@ class PairKernel {
   RelativeTransforms<Simd> transforms_;
   SeparatingAxisTest<Simd> axis_test_;
   ProfileTest<Simd> profiles_;
-  alignas(64) std::uint32_t row_a_[chunk_size], row_b_[chunk_size];  ///< supports; set by test_roots()
+  alignas(64) std::uint32_t row_a_[chunk_size], row_b_[chunk_size];  ///< of supports; set by test_roots()
   /// One word for each register of pairs: a bit for each of its pairs.
   std::uint32_t undecided_bits_[chunk_size / Simd::width], may_nest_[chunk_size / Simd::width];
   List undecided_, likely_, separated_;

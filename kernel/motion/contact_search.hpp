@@ -17,9 +17,9 @@ namespace bch::detail {
 ///
 /// 1. Time is divided at the keys of both paths. Between two keys, the bounding circles of the bodies overlap
 ///    during at most one interval, found from a quadratic equation. Only that interval is searched.
-/// 2. It is divided into windows of the clips' hulls, from long windows to short ones. If the hulls of a
-///    window are separated along a line, it contains no contact. The shortest windows lie between two keys of
-///    the clips.
+/// 2. It is divided into time windows for which clips store hulls (swept 32-DOPs), from long to short ones.
+///    If the hulls of a window are separated along a line, it contains no contact. The shortest windows lie
+///    between two keys of the clips.
 /// 3. Between two keys of the clips every disc moves along a chord, except for a deviation by rotation. The
 ///    first time at which two nodes may touch is then the root of a quadratic equation. The trees are
 ///    descended if that time is before the earliest contact of leaves found so far.
@@ -27,37 +27,38 @@ namespace bch::detail {
 ///    first_by_bisection().
 ///
 /// If both bodies are of spheres, steps 3 and 4 are in 3D, and step 1 also requires that their heights
-/// overlap. Hulls are compared as seen from above, or for spheres also in bands of height; that misses
-/// nothing.
+/// overlap. Hulls are compared as seen from above, or for spheres also in bands of height; hulls contain the
+/// bodies, so no contact is lost.
 ///
 /// Never late: discs are enlarged by the deviation from chords, and by `slack_`, which bounds the rounding in
-/// double. "Reaches" are the sum of both bodies' reaches, in 3D with their heights.
+/// double. Below, reaches are the sum of both bodies' reaches, in 3D with their heights.
 ///
-///     (time)      2^-48 T v: T bounds the numbers that occur in converting a time of the motion into a time
-///                 of the clip and a fraction between keys, in fewer than 32 roundings: the largest time
-///                 between the keys, plus 2 |clip begin|, plus 3 times the largest time of the clip. (A cycle
-///                 n is shifted by (clip begin) - (own begin) + n (length), where n (length) exceeds the time
-///                 since the clip began by at most a length.) v is the greatest speed of a disc between two
-///                 keys of the path. Keys of the path are exact, so the error is at most the displacement
-///                 between them, and at most twice the reach for a disc in its body.
+///     (time)      2^-48 T v: T bounds all numbers in converting a time of the motion into a time of the clip
+///                 and a fraction between keys, in fewer than 32 roundings. It is the largest time between
+///                 the keys, plus 2 |clip begin|, plus 3 times the largest time of the clip. (Cycle n is
+///                 shifted by (clip begin) - (first key's time in the clip) + n (length), where n (length)
+///                 exceeds the time since the clip began by at most a length.) v is the greatest speed of a
+///                 disc between two keys of the path. Keys of the path are exact, so the error is at most the
+///                 displacement between them, and at most twice the reach for a disc in its body.
 ///     (position)  2^-48 of the coordinates: interpolation between two keys, and their difference
 ///     (turn)      4e-10 of the reaches: rotation()
-///     (root)      2^-20 of the reaches, which exceeds all but (time) and (position), and also sums along a
-///                 line. A computed root belongs to a polynomial whose coefficients are off by at most 2^-50
-///                 of (6 reaches)^2, because no disc is placed farther away than the reaches. The square of
-///                 the enlargement is 32 times as large, so the root is no later than the contact of the
-///                 original discs.
+///     (root)      2^-20 of the reaches: more than all errors but (time) and (position), including that of
+///                 sums along a line. A computed root belongs to a polynomial whose coefficients are off by
+///                 at most 2^-50 of (6 reaches)^2, because no disc is placed farther away than the reaches.
+///                 The square of the enlargement is 32 times that error, so the root is no later than the
+///                 contact of the original discs.
 ///
 /// At the time found, the distance of two discs is at most twice the enlargement of both.
 ///
-/// Two agents who stand still with looping clips of the same period repeat themselves. Two cycles are then
+/// If two agents stand still and loop clips of the same period, their motion is periodic. Two cycles are then
 /// examined, which contain a whole cycle in spite of rounding. StepLimit ends any other search that takes too
 /// long.
 class ContactSearch {
  public:
   explicit ContactSearch(double tolerance) : tolerance_(tolerance) {}
 
-  /// Returns the time of the first contact in [from, to], or infinity. `to` does not change earlier contacts.
+  /// Returns the time of the first contact in [from, to], or infinity. A contact before `to` is the same for
+  /// every later `to`.
   /// Errors:  throws StepLimit::Reached.
   double first(const MotionFacts& a, const MotionFacts& b, double from, double to);
 

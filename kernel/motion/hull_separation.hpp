@@ -12,16 +12,17 @@
 
 namespace bch::detail {
 
-/// Bounds the support function of a body in a fixed direction of the world, times the direction's length,
-/// relative to the body's position, over an interval of time: by its value at both ends, and by how much it
-/// may exceed linear interpolation between these.
+/// Bounds how far a body extends in a fixed direction of the world, over an interval of time: the support
+/// function about the body's position, times the direction's length. The bound is linear between its values
+/// at both ends, plus a bulge.
 ///
 /// Derivation. Let 0 <= s <= 1 be the fraction of the interval, d0 and d1 the direction in the body's frame
-/// at its ends, and turn the rotation in between.
+/// at its ends, and `turn` the angle of rotation in between.
 ///
-///     (1) In the body's frame, the hull bounds the support in direction d by E(d, s), which is linear in s.
-///     (2) A vector rotated by s turn differs from the mix of both ends, (1 - s) (rotated by 0) + s (rotated
-///         by turn), by at most turn^2 / 8 of its length.
+///     (1) In the body's frame, the hull (swept 32-DOP) bounds the support in direction d by E(d, s), which
+///         is linear in s.
+///     (2) A vector rotated by s turn differs from the interpolation of both ends, (1 - s) (rotated by 0) + s
+///         (rotated by turn), by at most turn^2 / 8 of its length.
 ///     (3) So the support is at most (1 - s) E(d0, s) + s E(d1, s) + turn^2 / 8 reach.
 ///     (4) The first two terms exceed linear interpolation between E(d0, 0) and E(d1, 1) by s (1 - s) (E(d0,
 ///         1) - E(d0, 0) - E(d1, 1) + E(d1, 0)), where s (1 - s) <= 1/4.
@@ -85,8 +86,9 @@ struct SeparatingLine {
   }
 };
 
-/// Returns whether bands a and b of two bodies have more height in common than neighbouring bands overlap, at
-/// some time of an interval. z_a and z_b are the heights of the grounds, and low <= z_a - z_b <= high:
+/// Returns whether bands a and b of two bodies share, at some time of an interval, more height than
+/// neighbouring bands of one body do by construction. z_a and z_b are the heights of the grounds, and
+/// low <= z_a - z_b <= high:
 ///
 ///     min(top_a + high, top_b) - max(bottom_a + low, bottom_b) > hull_overlap / 2
 inline bool bands_overlap(std::uint32_t a, std::uint32_t b, double low, double high) noexcept {

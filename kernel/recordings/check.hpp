@@ -43,13 +43,13 @@ struct CheckOptions {
   /// Bodies that do not walk, which rows may name in addition to those of the library. Not with spheres or
   /// baked shapes.
   std::span<const Footprint> footprints = {};
-  bool draws = true;  ///< if spheres decide: also pass shapes of the same people with frames, for pictures
-  double facing = 0;  ///< radians: the direction in which baked shapes face; other shapes face 0
+  bool draws = true;      ///< if spheres decide: also pass outlines of the same people with frames, to draw
+  double facing = 0;      ///< radians: the direction in which baked shapes face; other shapes face 0
   bool measures = false;  ///< pass measures of people and pairs with frames
   std::size_t people_at_once =
       100'000;  ///< approximate number of person-frames checked at once; does not change answers
   std::size_t max_pairs =
-      0;  ///< limit of pairs of neighbours in a frame, or in a run (FrameRun); 0: usual_max_pairs()
+      0;  ///< limit of near pairs in a frame, or in those of a task (FrameRun); 0: usual_max_pairs()
 };
 
 /// Reports that a frame, or the frames of a task, have more than CheckOptions::max_pairs pairs. The message
@@ -66,10 +66,10 @@ struct CheckedPair {
   bool is_wall;
   bool overlap;  ///< the two overlap in this frame
   bool passing;  ///< the two touch between this frame and the next, but overlap in neither
-  float depth;   ///< metres: how far `first` has to move to separate; for spheres in a wall, the deepest
+  float depth;   ///< metres: how far `first` has to move to separate; for spheres in a wall, of the deepest
   float gap;     ///< in this frame, metres; 0 also if discs overlap, but not their ancestors
   float x, y;    ///< the direction of the move of `depth`, a unit vector
-  // For a pass: the time of contact after this frame, in frames, and the displacement of `first` until then.
+  // For a pass: the time from this frame to the contact, in frames, and the displacement of `first` by then.
   float after, way_x, way_y;
 };
 
@@ -133,8 +133,8 @@ struct OverlapEvent {
   double after() const noexcept { return worst - static_cast<double>(worst_frame()); }
 };
 
-/// Summarises a recording, or an interval of its frames; `people` then counts everybody up to the interval's
-/// end.
+/// Summarises a recording, or an interval of its frames; `people` then counts everybody who appeared before
+/// the interval's end.
 struct CheckSummary {
   std::uint64_t frames = 0, people = 0, guessed = 0;
   std::uint64_t overlap_events = 0, passings = 0, wall_events = 0;  ///< events of each kind
@@ -149,9 +149,10 @@ struct CheckSummary {
 };
 
 /// Puts a walking person, or the body that the row names, on every row of a recording and finds all overlaps.
-/// A person who appears or disappears within 0.4 s of a frame is not counted as in a wall that is a border of
-/// the floor (borders_of()). Reads frame by frame; memory grows with the number of people, and with those of
-/// some frames. `seen` (optional) is called for each frame in order, on the calling thread.
+/// A person who appears or disappears within 0.4 s of a frame is not counted as in a wall that is an outer
+/// border of the floor (borders_of()). Reads frame by frame; memory grows with the number of people, and with
+/// the rows of the few frames that are held at once. `seen` (optional) is called for each frame in order, on
+/// the calling thread.
 /// Threads: runs in the caller's TBB arena; reads the next frames, on any of its threads, while it checks.
 ///          The same answers for any number of threads.
 /// Errors:  throws TrajectoryError, also if rows name a character or clip that the library does not have;

@@ -27,19 +27,20 @@ class FrameRun {
   /// tracking jump.
   static constexpr double farthest_step = 6;
 
-  /// Keeps references to its arguments. `motions`: those that rows name. `borders`: borders_of() the walls.
+  /// Keeps references to its arguments. `motions`: characters and clips that rows name. `borders`:
+  /// borders_of() of the walls.
   FrameRun(const CheckOptions& options, std::span<const LibraryMotion> motions,
            std::span<const std::uint8_t> borders)
       : options_(options), motions_(motions), borders_(borders) {}
 
-  /// Sets the run to frames first .. last of a block, to which it refers; finds pairs near each other and
+  /// Begins a run of frames first .. last, inclusive, of a block that has to outlive it; finds near pairs and
   /// poses of people.
   void look(const FrameBlock& block, std::size_t first, std::size_t last);
   std::span<const WalkerPose> poses() const noexcept { return poses_; }
   /// Returns an estimate, mostly too large, of the number of pairs that run_query() will store.
   double expected_pairs() const;
   /// Finds overlaps and passes, and counts them. `bodies`: of the people of with_next(). `shapes`: people's
-  /// shapes for pictures. `given_up`: WalkerShapes::given_up().
+  /// shapes for pictures. `given_up`: how many shapes were dropped so far, WalkerShapes::given_up().
   void run_query(const RunBodies& bodies, std::span<const std::uint32_t> shapes, std::uint32_t given_up);
 
   std::size_t first() const noexcept { return first_; }
@@ -53,7 +54,7 @@ class FrameRun {
     return std::span(of_block).subspan(begin_, end - begin_);
   }
   std::span<const CheckedPerson> people() const noexcept { return checked_people_; }
-  /// Frees memory for pairs beyond the usual amount, because there are many runs.
+  /// Frees memory for pairs beyond the usual amount, which each of many runs would keep.
   void let_go();
   /// Returns overlaps, passes and measured gaps, by frame, then ids.
   std::span<const CheckedPair> pairs() const noexcept { return checked_; }

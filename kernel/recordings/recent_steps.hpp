@@ -18,7 +18,8 @@ namespace bch::detail {
 /// Memory: about 80 bytes per person-frame of that time.
 class RecentSteps {
  public:
-  /// Adds the people of the next frame, by ascending id, and measures the encroachment of each.
+  /// Adds the people of the next frame, by ascending id, and sets the post-encroachment time of each in
+  /// `measures`.
   void add(double seconds, std::span<const CheckedPerson> people, std::span<MeasuredPerson> measures);
 
  private:

@@ -25,13 +25,13 @@ struct Walker {
   double stature;  ///< metres
   bool is_female;
   bool is_guessed;     ///< the heading is neither from the file nor the direction of walking
-  double way = 0;      ///< distance walked, metres, from a start that differs by person
-  double seconds = 0;  ///< time, from a start that differs by person
-  std::uint32_t motion = TrackedPerson::no_motion;  ///< the motion that the file names
+  double way = 0;      ///< distance walked, metres, plus an offset by person
+  double seconds = 0;  ///< time, plus an offset by person
+  std::uint32_t motion = TrackedPerson::no_motion;  ///< index of the character and clip that the row names
   float clip_seconds =
       std::numeric_limits<float>::quiet_NaN();  ///< time in the clip of that motion; NaN if the file has none
   double velocity_x = 0, velocity_y = 0;        ///< metres per second, smoothed like the speed
-  bool comes_or_goes = false;                   ///< a frame within 0.4 s of this one is without the person
+  bool comes_or_goes = false;                   ///< the person is missing in a frame within 0.4 s
 };
 
 /// Holds the people of a frame, by ascending id.
@@ -53,13 +53,12 @@ struct Speeds {
 ///
 /// Speed:   from the positions 0.4 s before and after, or the next ones if there are none within 0.4 s.
 /// Heading: from the file, or the direction of walking, or the last heading of a person who stands. A person
-/// who
-///          stands at first faces the first step, which is searched up to 10 s ahead.
+///          who stands at first faces where the first step goes, which is searched up to 10 s ahead.
 /// Phase:   advances with the distance.
 /// Memory:  grows with the people of the frames within 0.4 s; if somebody stands at first, of the frames
 ///          within 10 s, up to 200 000 rows; and by about 100 bytes per person who has left.
-/// Errors:  throws TrajectoryError on what the reader rejects, and on a person who is 100 m away a moment
-///          later.
+/// Errors:  throws TrajectoryError on what the reader rejects, and on a person who jumps by 100 m or more
+///          from one row to the next.
 class WalkerReader {
  public:
   /// Keeps a reference to `reader`. `facing`: the direction in which unrotated shapes face, radians.
@@ -118,7 +117,7 @@ class WalkerReader {
                window_end_ = 0;  ///< the first and the last frame within the window
   std::unordered_map<std::int64_t, Track, MixedHash> tracks_;
   std::unordered_map<std::int64_t, Left, MixedHash> left_;
-  std::size_t many_tracks_ = 0;  ///< at this number, people who have left are searched for
+  std::size_t many_tracks_ = 0;  ///< at this number, tracks of people who have left are removed
 };
 
 /// Return a stature for a person if the file has none, and whether the body is a woman's. Both depend only on

@@ -21,7 +21,7 @@ struct PlacedTrees {
 };
 
 /// Holds the indices of the ancestors of a cut disc, from its parent to the root, sixteen at a time. If there are fewer,
-/// the root fills the rest. (`Simd` keeps instruction sets from sharing a function.)
+/// the root fills the rest. (`Simd` gives each instruction set a function of its own, which the linker cannot merge.)
 template <class Simd>
 struct AncestorPath {
   static constexpr std::uint32_t length = 16;
@@ -83,8 +83,9 @@ class AncestorTest {
   using Float = typename Simd::Float;
   static constexpr std::uint32_t length = AncestorPath<Simd>::length;
   /// How deep a point has to lie in all discs, in units of the sum of reaches, to prove that every disc of A overlaps every
-  /// disc of B: by twice that. Both calls of holds_point() and the test of two discs start from the same floats. Each of
-  /// the three rounds a difference, squares and radii, which are at most the sum of reaches.
+  /// disc of B, then by at least twice that. Both calls of holds_point() and the test of two discs start from the same
+  /// floats. In each of these three computations, a difference, squares and radii are rounded, which are at most the sum of
+  /// reaches.
   static constexpr double inside_margin = 16 * rounding::unit_roundoff;
   static_assert(2 * inside_margin >=
                 3 * (rounding::terms::apart + rounding::terms::square + rounding::terms::radii) *

@@ -10,8 +10,8 @@ namespace bch::detail {
 /// Holds the thresholds of within() on gaps between discs: two leaves whose gap is at most `leaf` are a hit; blocks whose
 /// gap is at most `bound` are descended into.
 ///
-/// Notation of layout/base/rounding.hpp. d is the distance that within() was given, r = r_A + r_B, (x, y) leads from one
-/// centre to the other. Of two leaf discs, without their ancestors,
+/// u = 2^-24 and S, the sum of both reaches, are those of layout/base/rounding.hpp. d is the distance that within() was
+/// given, r = r_A + r_B, (x, y) leads from one centre to the other. Of two leaf discs, without their ancestors,
 ///
 /// (1)  hit   <=>  x^2 + y^2 <= (r (1 + 2^-19) + g)^2,     g = d (1 + 2^-19), rounded up.
 ///
@@ -22,7 +22,7 @@ namespace bch::detail {
 ///
 /// So v <= d is a hit. Clearances are never above the distance of outlines, so outlines within d are a hit, too.
 ///
-/// Price (gap_price). (1) and v use the same rounded x^2 + y^2.
+/// Error of a hit (gap_price): how far v may exceed d. (1) and v use the same rounded x^2 + y^2.
 ///
 /// (4)  hit  =>  e <= (r + d) (1 + 34 u) (1 + 3 u)        with the rounding of g and of the right side
 /// (5)  hit  =>  v <= d + 23 u (r + d)                    by (4) and the factor of v, - 16 u; its root and product, + 2 u
@@ -31,11 +31,11 @@ namespace bch::detail {
 ///
 /// (6)  hit  =>  D - r <= g + 37 u (r + g) + 23 u S + 8 u g
 /// (7)  placing the enclosing discs is off by 23 u S + 8 u g
-/// (8)  supports and profiles round lengths up to 2 S + g; their margins hold what is of S, so that 21 u g remain
+/// (8)  supports and profiles round lengths up to 2 S + g; their margins cover all of S, so that 21 u g remain
 /// (9)  bound = g + 128 u (S + g) exceeds the sum of (6) to (8)
 ///
-/// Accepting (sure_gap). Inscribed discs and profiles that are within g are off by 11 u g, and g exceeds d by 34 u d: 64 u are
-/// taken off g.
+/// Accepting (sure_gap). The distance that inscribed discs and profiles test is wrong by up to 11 u g, and g exceeds d by up
+/// to 34 u d: they test g (1 - 64 u).
 struct Gaps {
   float leaf;   ///< g
   float bound;  ///< of discs that hold leaf discs
@@ -50,8 +50,8 @@ static_assert(gap_bound_share >= (37 + 2 * 23 + 2 * 8 + 21) * rounding::unit_rou
 static_assert(1 - double{sure_gap} >= (11 + 34 + 1) * rounding::unit_roundoff);
 static_assert(gap_price >= (34 + 3 - (16 - 2)) * rounding::unit_roundoff);
 
-/// Returns the gaps of two shapes whose reaches are S together, metres. (`Simd` keeps instruction sets from sharing a
-/// function.)
+/// Returns the gaps of two shapes whose reaches are S together, metres. (`Simd` gives each instruction set a function
+/// of its own, which the linker cannot merge.)
 template <class Simd>
 Gaps gaps(float leaf, float reach) noexcept {
   return {leaf, leaf + static_cast<float>(gap_bound_share) * (reach + leaf)};

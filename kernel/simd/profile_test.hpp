@@ -56,7 +56,7 @@ class ProfileTest {
   }
 
   /// Returns the answers for the pairs from k on, after load_sectors(). If the centres coincide, there is no line between
-  /// them and the sectors need not be opposite to each other. Then it only follows that the areas meet.
+  /// them and the sectors need not be opposite to each other. Then the only conclusion is that the areas meet.
   Answers answers(std::uint32_t k) const noexcept {
     const Float distance = Simd::load(distance_ + k), coincident(1e-20f);
     const Float outer_a = field(records_a_, sector_outer, k), outer_b = field(records_b_, sector_outer, k);
@@ -74,8 +74,8 @@ class ProfileTest {
             .likely = Simd::bits(distance < inner + Float(likely_share) * (outer - inner))};
   }
 
-  /// Returns how far discs of the pair stick out of what supports and profiles bound, metres; 0 if segments decide. Call it
-  /// after load_sectors().
+  /// Returns how far discs of the pair may stick out of the outlines, which supports and profiles bound, metres; 0 if
+  /// segments decide. Call it after load_sectors().
   float excess(std::uint32_t pair) const noexcept { return excess_[pair]; }
 
  private:
@@ -89,8 +89,8 @@ class ProfileTest {
   static constexpr std::size_t stride = 2;
   static constexpr std::uint32_t strides_each = sizeof(Sector) / sizeof(float) / stride;
   static constexpr std::uint32_t profile_strides = sizeof(Profile) / sizeof(float) / stride;
-  /// Between the distances at which areas surely meet (0) and cuts are surely apart (1): nearer pairs are likely hits. The
-  /// value was measured.
+  /// Pairs nearer than this, between the distances at which areas surely meet (0) and cuts are surely apart (1), are
+  /// likely hits. The value was measured.
   static constexpr float likely_share = 0.6f;
 
   static Float field(const Fields& of, std::uint32_t i, std::uint32_t k) noexcept {
@@ -147,8 +147,8 @@ class ProfileTest {
     }
   }
 
-  /// Returns the pseudo-angle of a direction, y / (|x| + |y|) quadrant by quadrant, in sectors: 0 to 32, where 32 is sector
-  /// 0 again; of (0, 0), any.
+  /// Returns the pseudo-angle of a direction, y / (|x| + |y|) quadrant by quadrant, in sectors, counter-clockwise from +x:
+  /// 0 to 32, where 32 is sector 0 again; for (0, 0), any.
   static Float sector(Float x, Float y) noexcept {
     constexpr float quadrant = 0.25f * profile_sectors, not_zero = 1e-30f;
     const Float zero(0.0f), ax = xsimd::abs(x), ay = xsimd::abs(y);
@@ -160,7 +160,7 @@ class ProfileTest {
   const ShapeSetView& shapes_;
   const RelativeTransforms<Simd>& transforms_;
   const bool prefetch_;
-  const float discs_decide_;  ///< 1 where no segments do, else 0
+  const float discs_decide_;  ///< 1 where discs decide, 0 where segments do
   alignas(64) std::uint32_t record_a_[chunk_size], record_b_[chunk_size];
   alignas(64) float distance_[chunk_size], sector_a_[chunk_size], sector_b_[chunk_size], excess_[chunk_size];
   Fields records_a_, records_b_;

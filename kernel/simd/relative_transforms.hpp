@@ -24,7 +24,7 @@ namespace bch::detail {
 template <class Simd>
 class RelativeTransforms {
  public:
-  /// Computes those of pairs begin .. end, at most of a chunk.
+  /// Computes the transforms of pairs begin .. end, one chunk at most.
   void compute(const Arguments& in, std::size_t begin, std::size_t end) noexcept {
     size = end - begin < chunk_size ? static_cast<std::uint32_t>(end - begin) : chunk_size;
     load_agents(in, begin);
@@ -77,7 +77,7 @@ class RelativeTransforms {
   using Double = typename Simd::Double;
   using Columns = AgentColumns<Simd>;
   static constexpr std::uint32_t doubles = Simd::doubles;        ///< per register
-  static constexpr std::uint32_t parts = Simd::width / doubles;  ///< registers of them for one of floats
+  static constexpr std::uint32_t parts = Simd::width / doubles;  ///< such registers for one of floats
 
   /// Loads the agents of each pair. The lower index is A, so that the order within a pair does not matter.
   void load_agents(const Arguments& in, std::size_t begin) noexcept {

@@ -28,8 +28,8 @@ struct CrowdOptions {
   };
 
   Period period = {};
-  /// Limits the candidates of a call, which throws std::length_error beyond: n agents at one place make
-  /// n^2 / 2 of them.
+  /// Limits the candidates of a call, which throws std::length_error if it has more: n agents at one place
+  /// make n^2 / 2 of them.
   std::size_t max_pairs = std::numeric_limits<std::size_t>::max();
 };
 
@@ -89,7 +89,7 @@ class Crowd {
     detail::CrowdMemory* memory_ = nullptr;
   };
 
-  /// Holds the pairs that have contacts, and these.
+  /// Holds the pairs that have contacts, and their contacts.
   struct Contacts {
     Pairs pairs;
     Rows<DiscPair> contacts;  ///< one row per pair, none empty
@@ -122,8 +122,8 @@ class Crowd {
     std::span<const NearestPoints> points;
 
     /// Returns at most `max_count` neighbours of each agent, the nearest first.
-    /// They are those of its pairs. Of equal distances the lower agent comes first. With Overlap::deepest the
-    /// deepest overlap is the nearest. Crowd models such as ORCA use these as neighbours.
+    /// Only pairs of this answer count. Of equal distances the lower agent comes first. With Overlap::deepest
+    /// the deepest overlap is the nearest. Crowd models such as ORCA use these as neighbours.
     /// Errors:  throws std::length_error beyond 2^32 - 1 pairs.
     Rows<Neighbour> nearest(std::uint32_t max_count) const { return pairs.nearest(distance, max_count); }
   };
@@ -206,7 +206,7 @@ class Crowd {
   /// Finds the contacts of given pairs: one row per pair, empty where there are none.
   /// A pair in the other order has the same contacts with their two discs exchanged, sorted in that order. An
   /// agent may be paired with itself. Two cuts of n discs have at most n^2 contacts.
-  /// Errors:  also like collide(), and if the Crowd has a period; std::bad_alloc or std::length_error if
+  /// Errors:  also those of collide(), and if the Crowd has a period; std::bad_alloc or std::length_error if
   ///          memory does not suffice.
   Rows<DiscPair> contacts(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                           const CollideOptions& options = {}) &;
@@ -245,8 +245,8 @@ class Crowd {
 
   /// Moves agents on the ground until no two bodies collide and nobody touches a wall.
   /// It keeps displacements small, and turns nobody. Each sweep moves all agents at once; if there is no
-  /// room, some pairs still collide after the last one. With a period, positions are modulo it, and may leave
-  /// it. See "A crowd without overlaps" in kernel/README.md.
+  /// room, some pairs still collide after the last one. With a period, agents meet across its borders; the
+  /// positions returned are not wrapped into it. See "A crowd without overlaps" in kernel/README.md.
   /// Memory:  allocates in every sweep, as nearest_free() does.
   /// Errors:  also on an odd number of directions, and on lengths and mobilities out of range.
   Resolved resolve(const BodySet& bodies, const Agents& agents, const ResolveOptions& options,

@@ -13,7 +13,7 @@
 
 namespace bch {
 
-/// Places a motion at a time: a key of its path.
+/// Holds a key of a motion's path: where the agent is at a time.
 /// Between two keys, position and heading are linear in time; the rotation is the difference of the headings,
 /// even if that is more than half a circle.
 struct PathKey {
@@ -37,19 +37,19 @@ struct TimeInterval {
 };
 
 /// Finds when the two motions of each pair first touch, or infinity if they do not within the interval.
-/// Every real time is considered, not only samples. The time is never late, and early by at most the
-/// tolerance, a distance, divided by the speed of approach: see "Motions" in kernel/accuracy.md.
-/// Sizes:   as many times as pairs, which name motions by index. A motion may be paired with itself.
+/// Every real time is considered, not only samples. The time is never late, and early by at most
+/// tolerance / (speed of approach); the tolerance is in metres. See "Motions" in kernel/accuracy.md.
+/// Sizes:   `times` as long as `pairs`, which are indices of motions. A motion meets itself at interval.from.
 /// Errors:  throws std::invalid_argument, before anything is written, on sizes that differ, on what is
-///          missing or out of range, naming it, and on a search of more than 1e8 steps.
+///          missing or out of range (named in the message), and on a search of more than 1e8 steps.
 /// Threads: runs in the caller's TBB arena. Allocates for the motions and for each task.
 void first_contact(std::span<const Motion> motions, std::span<const Pair> pairs, const TimeInterval& interval,
                    std::span<double> times, double tolerance = 0.005);
 
 /// Returns the time until which a motion touches none of the others, or infinity.
-/// It is the least time that first_contact() finds for it and each of them, with the motion as the one with
-/// the lower index. After an early contact, the other motions are examined only until then.
-/// Errors:  as first_contact(); messages number the motion itself after the others.
+/// It is the least time that first_contact() finds for the pairs (motion, other). To save time, after a
+/// contact the remaining motions are examined only up to its time.
+/// Errors:  as first_contact(); in messages, `motion` has the index others.size().
 /// Threads: uses one thread; several threads may call it at once.
 double free_until(const Motion& motion, std::span<const Motion> others, const TimeInterval& interval,
                   double tolerance = 0.005);

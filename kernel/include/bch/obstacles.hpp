@@ -52,8 +52,8 @@ class ObstacleSet {
   /// Copies the obstacles, and builds a tree of boxes and a grid of distances for them.
   /// Cost:    2 s for 10^6 segments, and 125 bytes for each. Runs in the caller's TBB arena.
   /// Errors:  throws std::invalid_argument on sizes that differ, on offsets that descend or leave their
-  ///          array, and, naming it, on a point that is not finite or beyond the limits, or on an obstacle
-  ///          whose bottom is not at most its top; std::length_error beyond 2^31 points, polylines and
+  ///          array, and on a point that is not finite or beyond the limits, or an obstacle whose bottom is
+  ///          not at most its top, which it names; std::length_error beyond 2^31 points, polylines and
   ///          obstacles.
   explicit ObstacleSet(const ObstacleArrays& obstacles);
   ObstacleSet(ObstacleSet&&) noexcept;
@@ -85,8 +85,8 @@ ObstacleSet obstacles_from_wkt(std::string_view text, Polygons polygons = Polygo
                                double top = std::numeric_limits<double>::infinity());
 
 // Queries of agents against obstacles. Each answers for every agent what the query of the same name answers
-// for every pair. A body is compared only with obstacles whose heights meet its own, as between agents with a
-// z; ShapeSetPlan::heights gives shapes heights. "Obstacles" in kernel/accuracy.md bounds the errors.
+// for every pair. A body is compared only with obstacles whose heights meet its own (see Agents::z);
+// ShapeSetPlan::heights gives shapes heights. "Obstacles" in kernel/accuracy.md bounds the errors.
 // Sizes:   one answer per agent.
 // Errors:  throw std::invalid_argument, before anything is written, as validate(shapes, agents) and the query
 //          of pairs.
@@ -139,10 +139,11 @@ void clearance(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& 
                const ClearanceAnswers& answers, const ClearanceOptions& options = {});
 
 /// Measures how far each agent has to move to leave an obstacle, and in which direction.
-/// The move is perpendicular to one segment. One move frees an agent of a convex area or a single segment;
-/// for other obstacles, call again after the move. The depth is 0, and the direction (0, 0), where nothing is
-/// touched. "Obstacles" in kernel/accuracy.md has the rules.
-/// Cost:    n log n, for the n segments near the agent or no farther than the farthest that it moves over.
+/// The move is perpendicular to one segment. One move takes an agent out of a convex area or off a single
+/// segment; for other obstacles, call again after the move. The depth is 0, and the direction (0, 0), where
+/// nothing is touched. "Obstacles" in kernel/accuracy.md has the rules.
+/// Cost:    n log n, for the n segments near the agent, or no farther than the farthest segment that its move
+///          crosses.
 void penetration(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
                  std::span<Penetration> out, const Implementation* implementation = nullptr);
 
@@ -159,7 +160,7 @@ void time_of_impact(const ShapeSet& shapes, const Agents& agents, const Displace
 /// clip are searched.
 /// Sizes:   as many times as motions. Units: as first_contact() of pairs.
 /// Errors:  throws std::invalid_argument, before anything is written, as first_contact() of pairs. Each near
-///          segment is a step of the search.
+///          segment counts towards the limit of 1e8 steps.
 void first_contact(std::span<const Motion> motions, const ObstacleSet& obstacles,
                    const TimeInterval& interval, std::span<double> times, double tolerance = 0.005);
 

@@ -44,8 +44,8 @@ struct ClearanceAnswers {
   std::span<float> distance;  ///< metres; infinite beyond max_distance
   std::span<Vec2> direction =
       {};  ///< unit vectors; (0, 0) beyond max_distance, and with Overlap::zero where the distance is 0
-  std::span<DiscPair> discs = {};        ///< the nearest discs; DiscPair::none for the same pairs
-  std::span<NearestPoints> points = {};  ///< points of these discs, or of segments; (0, 0) for the same pairs
+  std::span<DiscPair> discs = {};        ///< the nearest discs; DiscPair::none where the direction is (0, 0)
+  std::span<NearestPoints> points = {};  ///< points of these discs, or of segments; (0, 0) likewise
 };
 
 /// Measures how far apart the two agents of each pair are.
@@ -107,7 +107,7 @@ struct Penetration {
   /// Holds where the two touch after a move of nearest_free(): at the segments or spheres that separate last.
   /// Two segments touch at an end of one; the normal is perpendicular to the other. Normals never point
   /// against the move. The two are apart by the rounding that depths include, a few micrometres per metre of
-  /// their reaches; where a leaf of more than 127 segments is treated as a disc, by up to that disc.
+  /// their reaches; where a leaf of more than 127 segments is treated as a disc, by up to its diameter.
   struct Touch {
     Vec3 point;   ///< relative to the first agent's position after the move, in the world's axes; metres
     Vec3 normal;  ///< of length 1 within 1e-6, from the second agent to the first; (0, 0, 0): no collision
@@ -131,9 +131,9 @@ void penetration_along(const ShapeSet& shapes, const Agents& agents, std::span<c
                        const Implementation* implementation = nullptr);
 
 /// Measures the least depth of each pair along `directions` evenly spread directions.
-/// The first direction is the x axis. Usual numbers k of directions are 16 to 32, and the time is
-/// proportional to k. Of equal depths, that of the first direction in the order 0, k / 2, 1, k / 2 + 1 ... is
-/// chosen, as seen from the agent with the lower index. Everything else is as for penetration_along().
+/// The first direction is the x axis. Usual are 16 to 32 directions; the time is proportional to their number
+/// k. Of equal depths, that of the first direction in the order 0, k / 2, 1, k / 2 + 1 ... is chosen, as seen
+/// from the agent with the lower index. Everything else is as for penetration_along().
 /// Errors:  also on a number of directions that is odd, which would not be symmetric, below 2 or above 256.
 void penetration(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                  std::uint32_t directions, std::span<Penetration> out,
@@ -182,7 +182,7 @@ struct Displacements {
 /// The time is the least t in [0, 1] at which discs of their cuts touch, or infinity if there is none. It is
 /// 0 where the agents collide already, and never later than the outlines' first contact; "Times of impact" in
 /// kernel/accuracy.md says how early it may be.
-/// Sizes:   as many displacements in x, in y, and times as pairs. An agent may be paired with itself (0).
+/// Sizes:   as many displacements in x, in y, and times as pairs. An agent paired with itself has time 0.
 /// Errors:  as collide(), and on a displacement that is not finite or beyond the limits.
 /// Threads: runs in the caller's TBB arena. Allocates nothing.
 /// Source:  the test by translation of Stuvel et al. (2014), who move in small steps.

@@ -21,8 +21,8 @@ namespace bch {
 // What a collision is. Two agents collide at their levels (0 is the coarsest) if a disc a of one cut overlaps
 // a disc b of the other, and each of a and its ancestors overlaps each of b and its ancestors. They also
 // collide if a contour of one lies inside a contour of the other. Touching is overlap. With exact leaves
-// (Leaves::segments, at depth all_depths) segments in the two leaves have to meet, too. See "The answer" in
-// kernel/README.md.
+// (Leaves::segments, at depth all_depths) segments in the two leaves have to come within the rounding margin,
+// too. See "The answer" in kernel/README.md.
 
 // The rules that all queries share. A query over pairs writes one result per pair into spans of the caller,
 // and allocates nothing unless its header says so. Any number of queries may read one ShapeSet at once;
@@ -94,8 +94,8 @@ struct ClearanceOptions {
   Overlap overlap = Overlap::zero;
   /// Selects what distances are measured from: discs or, where shapes have exact leaves, segments of
   /// outlines.
-  /// Segments give the distance of the outlines. Discs give up to 3 cm less and take about a seventh of the
-  /// time. Overlap::deepest always measures discs.
+  /// Segments give the distance of the outlines. Distances of discs are up to 3 cm below those, and take
+  /// about a seventh of the time. Overlap::deepest always measures discs.
   Leaves leaves = Leaves::discs;
 };
 

@@ -18,7 +18,7 @@ struct Pair {
   friend bool operator==(const Pair&, const Pair&) = default;
 };
 
-/// Views one value per agent where the caller has it: in an array, or as a member of the caller's structs.
+/// Refers to one value per agent in the caller's memory: an array, or a member of the caller's structs.
 template <class Value>
 class Strided {
  public:
@@ -47,7 +47,7 @@ class Strided {
   std::size_t size_ = 0, stride_ = sizeof(Value);
 };
 
-/// Views one number per agent, all of them floats or all doubles.
+/// Refers to one number per agent, all of them floats or all doubles.
 class Numbers {
  public:
   constexpr Numbers() = default;
@@ -77,7 +77,7 @@ class Numbers {
   bool is_float_ = false;
 };
 
-/// Views one heading per agent, all of them angles or all directions.
+/// Refers to one heading per agent, all of them angles or all directions.
 class Headings {
  public:
   /// Holds a heading as the caller gave it: an angle, in radians, or a direction (x, y).
@@ -110,10 +110,10 @@ class Headings {
   bool are_directions_ = false;
 };
 
-/// Views a crowd in the arrays of its simulator: one entry per agent in each array; nothing is copied.
+/// Refers to a crowd in the arrays of its simulator: one entry per agent in each array; nothing is copied.
 /// A heading turns a shape about its agent's position. At heading 0 the built-in characters face +x;
-/// ImportOptions says how imported ones stand. A rotation of the root within a clip is part of the shape, not
-/// of the heading.
+/// ImportOptions says where imported ones face. If a clip rotates the root bone, that is part of the shape,
+/// not of the heading.
 /// Units:   metres and radians, counter-clockwise, on the ground plane; |x|, |y|, |z| <= 1e9 m and |heading|
 ///          <= 1e9 rad.
 struct Agents {
@@ -121,14 +121,14 @@ struct Agents {
   Numbers x;
   Numbers y;
   Headings heading;
-  Strided<std::uint8_t> level = {};  ///< index into the set's depths; empty: all use the last level
+  Strided<std::uint8_t> level = {};  ///< of detail: index into the set's depths; empty: the last for all
   /// The height of the ground under each agent: a floor, a step, a stage.
   /// Empty: all agents stand on one ground, and the heights of shapes are ignored. Otherwise agents collide
   /// only if their intervals of height intersect as well, and a ShapeSet needs ShapeSetPlan::heights.
   Numbers z = {};
 
   std::size_t size() const noexcept { return shape.size(); }
-  /// Returns the index of an agent's root in arrays with level_count entries per shape.
+  /// Returns the index of an agent's shape and level in arrays with level_count entries per shape.
   std::size_t root(std::size_t agent, std::size_t level_count) const noexcept {
     return shape[agent] * level_count + (level.empty() ? level_count - 1 : level[agent]);
   }

@@ -13,7 +13,7 @@
 // [simulator]
 struct People {
   std::vector<std::uint32_t> shape;   // which body each person has now
-  std::vector<double> x, y, heading;  // metres, radians; on a corridor of 20 x 6 m that closes in x
+  std::vector<double> x, y, heading;  // metres, radians; on a corridor of 20 x 6 m that is periodic in x
   std::vector<std::uint8_t> level;    // how exactly each is checked
 
   bch::Agents agents() const { return {shape, x, y, heading, level}; }
