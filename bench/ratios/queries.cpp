@@ -170,6 +170,18 @@ struct PenetrationQuery : Question {
   }
 };
 
+/// nearest_free(), with the leaves that collide() has by default.
+struct NearestFreeQuery : Question {
+  std::vector<Penetration> moves = std::vector<Penetration>(pairs.size());
+
+  NearestFreeQuery(Scene& in, const Workload& of) : Question(in, of, Leaves::segments) {}
+  void run_query(const detail::AllOptions& options) {
+    nearest_free(scene.set(), agents, pairs, penetration_directions, moves,
+                 {.implementation = options.implementation, .leaves = Leaves::segments});
+  }
+  bool is_right(std::size_t i, Method) const { return (moves[i].depth > 0) == collide(i); }
+};
+
 /// Crowd::collisions() by agent. The reference of collide() serves for it.
 struct CollisionsQuery : Question {
   using Question::Question;
@@ -270,6 +282,7 @@ void add_queries(Scene& scene) {
   for (const std::string_view name : {"colliding", "crowd"}) {
     add_query<ContactsQuery>(scene, "contacts", name);
     add_query<PenetrationQuery>(scene, "penetration", name);
+    add_query<NearestFreeQuery, false>(scene, "nearest_free", name);
   }
   // Agents of pairs of their own stand anywhere, also in each other.
   add_query<CollisionsQuery, false>(scene, "collisions", "crowd");

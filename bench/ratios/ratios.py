@@ -50,6 +50,7 @@ distances | clearance/near_miss/fcl_walls / clearance/near_miss/BEST |
 distances | clearance/near_miss/fcl_walls / exact_clearance/near_miss/BEST |
 distances | clearance/near_miss/fcl_segments / {clearance,exact_clearance}/near_miss/BEST |
 responses | {contacts,penetration,collisions}/crowd/BEST / collide/crowd/discs/BEST |
+responses | nearest_free/{colliding,crowd}/BEST / penetration/{1}/BEST |
 responses | {contacts,penetration}/crowd/reference / {1}/crowd/BEST | brute force
 obstacles | obstacles/{collide,clearance,clearance_exact,clearance_unlimited} |
 obstacles | obstacles/loop / obstacles/collide |

@@ -51,8 +51,9 @@ static_assert(segment_slack >=
 /// Holds what the search of a pair needs, for one pair after the other.
 struct Searches {
   FreeBody a, b;
-  FreeSearch<FreeSpheres> spheres, inside;
+  FreeSearch<FreeSpheres> spheres;
   FreeSearch<FreeSegments> segments;
+  FreeBound bound;
 
   /// Begins with what was taken. Nodes are floats, too, and their products.
   template <class Search>
@@ -230,14 +231,11 @@ class OutlineWays {
     const bool have_inside = take(searches, frame, [&](bool is_a, const auto& placed, FreeBody& body) {
       add_inscribed(view_, agents_.shape[is_a ? a : b], placed, body);
     });
-    if (have_inside) searches.begin(searches.inside, 0, reaches);
-    const auto bound = [&](float x, float y) {
-      float place = 0;
-      if (!have_inside) return place;
-      searches.inside.turn(x, y);
-      for (float next; (next = searches.inside.next(place)) != place;) place = next;
-      return place;
-    };
+    searches.bound.clear();
+    if (have_inside)
+      for (const FreeElement& in_a : searches.a.elements)
+        for (const FreeElement& in_b : searches.b.elements) searches.bound.add(in_a, in_b);
+    const auto bound = [&](float x, float y) { return searches.bound.place(x, y); };
     const auto finish = [&](const auto& search, Way& way) { this->finish(a, b, search, way); };
     if (!has_segments(a) || !has_segments(b)) {
       take(searches, frame, [&](bool is_a, const auto& placed, FreeBody& body) {
@@ -317,9 +315,10 @@ void nearest_free(const BodySet& bodies, const Agents& agents, std::span<const P
         of_b, [&](const auto& each) { return frame.placed(each); }, searches.b);
     const double reaches = double{header_of(of_a).reach} + double{header_of(of_b).reach};
     auto& search = searches.begin(searches.spheres, sphere_slack * reaches, reaches);
-    search.sample();
+    searches.bound.clear();
+    search.sample(searches.bound);
     find_best_way(
-        frame, axes, search, [&](float x, float y) { return search.bound(x, y); },
+        frame, axes, search, [&](float x, float y) { return searches.bound.place(x, y); },
         [](const auto&, Way& way) { way.is_end = true; }, answer);
   };
   answer_pairs(
