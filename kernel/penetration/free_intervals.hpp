@@ -7,10 +7,11 @@
 
 namespace bch::detail {
 
-/// Holds a sphere; a disc, whose z is 0; or a segment of an outline: the disc about it, and half of the way along it.
+/// Holds a sphere; a disc, whose z is 0; or a segment of an outline or of a wall: the disc about it, half of the way along it, and of a wall
+/// half of its height.
 struct FreeElement {
   float x, y, z, radius;
-  float half_x = 0, half_y = 0;
+  float half_x = 0, half_y = 0, half_z = 0;
 };
 
 /// Holds the places along a direction at which elements of A overlap elements of B, in the lanes where they do so anywhere. An element of
@@ -31,7 +32,7 @@ struct FreeIntervals {
 
 /// Holds elements side by side, as FreeSearch has them.
 struct FreeLanes {
-  FreeIntervals::Float along, across, z, radius, half_along, half_across;
+  FreeIntervals::Float along, across, z, radius, half_along, half_across, half_z;
   FreeIntervals::Float
       slope;  ///< of a segment: along by across; 0 where it lies along the direction, to the margin
 };
@@ -66,6 +67,12 @@ struct FreeSegments : FreeIntervals {
   static FreeTouch touch(const FreeLanes& a, const FreeLanes& b, float end, float margin) noexcept;
 };
 
+/// A sphere, or a disc, and a wall: the sphere's centre is h above or below the wall, so a disc of rho = sqrt(r_A^2 - h^2) must not touch the
+/// wall's segment. What A has to move by for that fills a stadium about (m, w): the discs about the segment's ends, and two sides.
+struct FreeWalls : FreeIntervals {
+  FreeWalls(const FreeLanes& a, const FreeLanes& b, float margin) noexcept;
+};
+
 /// Widens an interval by the part of a side of a parallelogram that lies in the strip. The middle of the side is at (m, w).
 [[gnu::always_inline]] inline void add_side(FreeIntervals& to, const FreeLanes& side, FreeIntervals::Float m,
                                             FreeIntervals::Float w, FreeIntervals::Float margin) noexcept {
@@ -96,6 +103,26 @@ struct FreeSegments : FreeIntervals {
   add_side(*this, b, m - a.half_along, w - a.half_across, margin);
   add_side(*this, b, m + a.half_along, w + a.half_across, margin);
   low = low - margin, high = high + margin;
+}
+
+[[gnu::always_inline]] inline FreeWalls::FreeWalls(const FreeLanes& a, const FreeLanes& b,
+                                                   float margin) noexcept {
+  const Float none(0.0f), m = b.along - a.along, w = b.across - a.across;
+  const Float h = xsimd::max(xsimd::abs(b.z - a.z) - b.half_z, none);
+  const Float square = xsimd::max(a.radius * a.radius - h * h, none), rho = xsimd::sqrt(square);
+  low = Float(__builtin_inff()), high = Float(-__builtin_inff());
+  for (const Float sign : {Float(-1.0f), Float(1.0f)}) {
+    const Float end_m = m + sign * b.half_along, end_w = w + sign * b.half_across;
+    const Float left = square - end_w * end_w, s = xsimd::sqrt(xsimd::max(left, none));
+    low = Simd::select(left > none, xsimd::min(low, end_m - s), low);
+    high = Simd::select(left > none, xsimd::max(high, end_m + s), high);
+  }
+  const Float length = xsimd::sqrt(b.half_along * b.half_along + b.half_across * b.half_across);
+  const Float by = Simd::select(length > none, rho / length, none);
+  const Float out_m = by * b.half_across, out_w = by * b.half_along;
+  add_side(*this, b, m - out_m, w + out_w, Float(margin));
+  add_side(*this, b, m + out_m, w - out_w, Float(margin));
+  are_some = (square > none) & (low < high);
 }
 
 }  // namespace bch::detail

@@ -41,8 +41,8 @@ float FreeBound::place(float x, float y) const noexcept {
 
 template <class Intervals>
 void FreeSearch<Intervals>::Rounds::resize(std::size_t count) {
-  float** const columns[] = {&x,     &y,      &z,          &radius,      &half_x, &half_y,
-                             &along, &across, &half_along, &half_across, &slope};
+  float** const columns[] = {&x,      &y,     &z,      &radius,     &half_x,      &half_y,
+                             &half_z, &along, &across, &half_along, &half_across, &slope};
   memory.resize(std::size(columns) * (count + padding));
   for (std::size_t i = 0; i < std::size(columns); ++i) *columns[i] = memory.data() + i * (count + padding);
 }
@@ -50,12 +50,12 @@ void FreeSearch<Intervals>::Rounds::resize(std::size_t count) {
 template <class Intervals>
 void FreeSearch<Intervals>::Rounds::set(std::size_t at, const FreeElement& element) {
   x[at] = element.x, y[at] = element.y, z[at] = element.z, radius[at] = element.radius;
-  half_x[at] = element.half_x, half_y[at] = element.half_y;
+  half_x[at] = element.half_x, half_y[at] = element.half_y, half_z[at] = element.half_z;
 }
 
 template <class Intervals>
 FreeElement FreeSearch<Intervals>::Rounds::element(std::uint32_t i) const {
-  return {x[i], y[i], z[i], radius[i], half_x[i], half_y[i]};
+  return {x[i], y[i], z[i], radius[i], half_x[i], half_y[i], half_z[i]};
 }
 
 template <class Intervals>
@@ -65,7 +65,7 @@ void FreeSearch<Intervals>::Rounds::turn(float to_x, float to_y, std::uint32_t c
     const Float at_x = Simd::load(&x[i]), at_y = Simd::load(&y[i]);
     Simd::store(&along[i], at_x * ex + at_y * ey);
     Simd::store(&across[i], at_x * ey - at_y * ex);
-    if constexpr (std::is_same_v<Intervals, FreeSegments>) {
+    if constexpr (!std::is_same_v<Intervals, FreeSpheres>) {
       const Float to_end_x = Simd::load(&half_x[i]), to_end_y = Simd::load(&half_y[i]);
       const Float a = to_end_x * ex + to_end_y * ey, w = to_end_x * ey - to_end_y * ex;
       Simd::store(&half_along[i], a);
@@ -79,13 +79,13 @@ template <class Intervals>
 FreeLanes FreeSearch<Intervals>::Rounds::load(std::uint32_t i) const noexcept {
   return {Simd::load(&along[i]),  Simd::load(&across[i]),     Simd::load(&z[i]),
           Simd::load(&radius[i]), Simd::load(&half_along[i]), Simd::load(&half_across[i]),
-          Simd::load(&slope[i])};
+          Simd::load(&half_z[i]), Simd::load(&slope[i])};
 }
 
 template <class Intervals>
 FreeLanes FreeSearch<Intervals>::Rounds::one(std::uint32_t i) const noexcept {
-  return {Float(along[i]),      Float(across[i]),      Float(z[i]),    Float(radius[i]),
-          Float(half_along[i]), Float(half_across[i]), Float(slope[i])};
+  return {Float(along[i]),      Float(across[i]),      Float(z[i]),      Float(radius[i]),
+          Float(half_along[i]), Float(half_across[i]), Float(half_z[i]), Float(slope[i])};
 }
 
 template <class Intervals>
@@ -240,7 +240,10 @@ float FreeSearch<Intervals>::after_gap(float place) const {
 }
 
 template <class Intervals>
-FreeTouch FreeSearch<Intervals>::touch(float place) const {
+FreeTouch FreeSearch<Intervals>::touch(float place) const requires requires {
+  &Intervals::touch;
+}
+{
   float end = -__builtin_inff();
   std::uint32_t of_a = 0, of_b = 0;
   const auto keep_last = [&](std::uint32_t i, std::uint32_t j, float, float high) {
@@ -284,5 +287,6 @@ void FreeSearch<Intervals>::visit_intervals(const MayCount& may_count, const Use
 
 template class FreeSearch<FreeSpheres>;
 template class FreeSearch<FreeSegments>;
+template class FreeSearch<FreeWalls>;
 
 }  // namespace bch::detail

@@ -57,7 +57,7 @@ class FreeSearch {
   /// Returns the end of the interval that begins next from a place in none on; or the same, where no more begins.
   float after_gap(float place) const;
   /// Returns where the elements touch whose interval is the last one to end on the way to a place in none.
-  FreeTouch touch(float place) const;
+  FreeTouch touch(float place) const requires requires { &Intervals::touch; };
 
  private:
   using Simd = FreeIntervals::Simd;
@@ -66,7 +66,7 @@ class FreeSearch {
 
   /// Holds elements, or nodes as seen from above, and where they are along a direction and across it.
   struct Rounds {
-    float *x, *y, *z, *radius, *half_x, *half_y, *along, *across, *half_along, *half_across, *slope;
+    float *x, *y, *z, *radius, *half_x, *half_y, *half_z, *along, *across, *half_along, *half_across, *slope;
     std::vector<float> memory;
     Rounds() = default;
     Rounds(Rounds&&) = default;
