@@ -38,12 +38,13 @@ struct FreeLanes {
 };
 
 /// Holds where A touches an element of B, as seen from A's position, and a unit vector from B to A. Both are along a direction, across it,
-/// and up.
+/// and up. The interval of the two has that end.
 struct FreeTouch {
   struct Vector {
     float along = 0, across = 0, up = 0;
   };
   Vector point, normal = {1, 0, 0};
+  float end = -__builtin_inff();
 };
 
 /// Spheres, or discs. Let z be how much higher B's is, and r_A what its radius is with the margin:
@@ -71,6 +72,7 @@ struct FreeSegments : FreeIntervals {
 /// wall's segment. What A has to move by for that fills a stadium about (m, w): the discs about the segment's ends, and two sides.
 struct FreeWalls : FreeIntervals {
   FreeWalls(const FreeLanes& a, const FreeLanes& b, float margin) noexcept;
+  static FreeTouch touch(const FreeLanes& a, const FreeLanes& b, float end, float margin) noexcept;
 };
 
 /// Widens an interval by the part of a side of a parallelogram that lies in the strip. The middle of the side is at (m, w).

@@ -59,7 +59,15 @@ float FreePair::after_gap(float place) const {
 }
 
 FreeTouch FreePair::touch(float place) const {
-  return kind_ == Kind::spheres ? spheres_.touch(place) : segments_.touch(place);
+  switch (kind_) {
+    case Kind::spheres:
+      return spheres_.touch(place);
+    case Kind::segments:
+      return segments_.touch(place);
+    case Kind::walls:
+      return walls_.touch(place);
+  }
+  return {};
 }
 
 }  // namespace bch::detail

@@ -29,6 +29,10 @@ namespace {
 ///
 /// Ends of segments are placed in float as well: arm, twice position, thrice sum; their middles and halves are off by 2, the part of a side by 3 of
 /// its length, which is at most 2 P, and its sums by 4. Nothing of the strip is lost, because the place across is no farther off than the margin.
+///
+/// A neighbour may be farther away than S, d, where others are in the way: all of this is in units of u max(S, d) then. Walls are placed in
+/// double, by LocalSegment, whose slack they add, and cut off where no way within S comes to: each of their numbers is off by 1, a stadium's
+/// sides by another 4, and less than what placing takes of outlines.
 constexpr double way_error = 7 + (2 * 1.1 + 3) * 2.83;
 constexpr double sphere_slack = 56 * rounding::unit_roundoff;
 static_assert(rounding::terms::sphere_error >= rounding::terms::query_error);
@@ -141,6 +145,11 @@ float OutlineSource::leave_all(const Agents& agents, Pair pair, double x, double
 
 double SphereSource::reach(std::uint32_t agent) const {
   return double{header_of(record(agent)).reach};
+}
+
+Heights SphereSource::heights(std::uint32_t agent) const {
+  const BodyHeader& header = header_of(record(agent));
+  return {header.bottom, header.top};
 }
 
 void SphereSource::find_hits(const Agents& agents, std::span<const Pair> pairs, std::uint8_t* hits) const {

@@ -19,8 +19,8 @@ namespace bch::detail {
 /// Knows agents with outlines.
 class OutlineSource {
  public:
-  /// An agent that has left all segments of another one may be inside that.
-  static constexpr bool may_be_inside = true;
+  /// Who is not in space, and has left all segments of another one, may be inside that.
+  static constexpr bool is_in_space = false;
 
   OutlineSource(const ShapeSet& shapes, const Agents& agents, const Implementation& implementation,
                 bool exact)
@@ -35,6 +35,7 @@ class OutlineSource {
   double reach(std::uint32_t agent) const;
   /// Returns whether the heights of two agents meet.
   bool may_meet(Pair pair) const;
+  static Heights heights(std::uint32_t) { return {0, 0}; }  ///< of an agent in space
   /// Finds which pairs of agents collide, on the caller's thread. They are the source's, or copies of these.
   void find_hits(const Agents& agents, std::span<const Pair> pairs, std::uint8_t* hits) const;
   /// Begins the search for a pair, in the frame of its first agent.
@@ -59,7 +60,7 @@ class OutlineSource {
 /// Knows agents with bodies of spheres, as OutlineSource does.
 class SphereSource {
  public:
-  static constexpr bool may_be_inside = false;
+  static constexpr bool is_in_space = true;
 
   SphereSource(const BodySetView& bodies, const Agents& agents, const Implementation& implementation)
       : bodies_(bodies), agents_(agents), implementation_(implementation) {}
@@ -67,6 +68,7 @@ class SphereSource {
   const Agents& agents() const { return agents_; }
   double reach(std::uint32_t agent) const;
   bool may_meet(Pair) const { return true; }
+  Heights heights(std::uint32_t agent) const;
   void find_hits(const Agents& agents, std::span<const Pair> pairs, std::uint8_t* hits) const;
   void begin(FreePair& search, Pair pair) const;
   void begin_walls(FreePair& search, std::uint32_t agent, double slack) const;

@@ -64,21 +64,23 @@ struct NoWalls {
   static float next(float place) { return place; }
   static float after_gap(float place) { return place; }
   static bool are_hit(double, double) { return false; }
+  static FreeTouch touch(float) { return {}; }
 };
 
 /// Finds the shortest way of an agent out of its neighbours and of walls, all at once: for one agent after the other, in memory of its own.
 /// The first place in no interval of any of them is found as FreeSearch finds it for one. Neighbours that are too far away to matter are
-/// left out until a way comes near them. `walls` may have what they need of the search.
+/// left out until a way comes near them.
 template <class Source, class Walls>
 class FreeWaySearch {
  public:
-  explicit FreeWaySearch(const Source& source, Walls walls = {})
-      : source_(source), walls_(std::move(walls)) {}
+  template <class... OfWalls>
+  explicit FreeWaySearch(const Source& source, const OfWalls&... of_walls)
+      : source_(source), walls_(of_walls...) {}
 
   /// Finds the best way of an agent.
   FreeWay find(std::uint32_t agent, std::span<const std::uint32_t> neighbours, const Axes& axes);
-  /// Returns where the agent and its only neighbour touch then.
-  FreeTouch touch(const FreeWay& way) { return turned(0).touch(way.place); }
+  /// Returns where the agent touches what it has left last, in the world's axes.
+  Penetration::Touch touch(const FreeWay& way);
 
  private:
   struct Neighbour {
@@ -196,11 +198,27 @@ float FreeWaySearch<Source, Walls>::next(float place) {
 }
 
 template <class Source, class Walls>
+Penetration::Touch FreeWaySearch<Source, Walls>::touch(const FreeWay& way) {
+  FreeTouch last = walls_.touch(way.place);
+  for (std::size_t k = 0; k < neighbours_.size() && last.end != way.place; ++k) {
+    if (!is_near(neighbours_[k], way.place)) continue;
+    const FreeTouch each = turned(k).touch(way.place);
+    if (each.end > last.end) last = each;
+  }
+  const auto in_world = [&](const FreeTouch::Vector& v) {
+    const double along{v.along}, across{v.across};
+    return Vec3{static_cast<float>(along * way.x + across * way.y),
+                static_cast<float>(along * way.y - across * way.x), v.up};
+  };
+  return {in_world(last.point), in_world(last.normal)};
+}
+
+template <class Source, class Walls>
 void FreeWaySearch<Source, Walls>::finish(FreeWay& way) {
   const double x = agents().x[agent_] + double{way.place} * way.x,
                y = agents().y[agent_] + double{way.place} * way.y;
   float after = way.place;
-  if constexpr (Source::may_be_inside) {
+  if constexpr (!Source::is_in_space) {
     moved_.clear(), tested_.clear(), tests_.clear();
     moved_.add(agents(), agent_);
     for (std::uint32_t k = 0; k < neighbours_.size(); ++k) {

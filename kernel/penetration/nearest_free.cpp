@@ -26,15 +26,6 @@ struct Answer {
   Penetration::Touch touch{{0, 0, 0}, {0, 0, 0}};
 };
 
-Penetration::Touch in_world(const FreeTouch& touch, const FreeWay& way) {
-  const auto turned = [&](const FreeTouch::Vector& v) {
-    const double along{v.along}, across{v.across};
-    return Vec3{static_cast<float>(along * way.x + across * way.y),
-                static_cast<float>(along * way.y - across * way.x), v.up};
-  };
-  return {turned(touch.point), turned(touch.normal)};
-}
-
 /// Returns the answer of a pair as seen from the agent with the higher index, which moves in place of the other.
 Answer from_b(const Agents& agents, std::uint32_t a, std::uint32_t b, const Answer& from_a) {
   const auto& [depth, x, y] = from_a.move;
@@ -71,7 +62,7 @@ void answer_pairs(const Source& source, std::span<const Pair> pairs, const Axes&
       if (hits[k] != 0) {
         const FreeWay way = search->find(a, {&b, 1}, axes);
         answer.move = {way.place, way.x, way.y};
-        if (!touches.empty()) answer.touch = in_world(search->touch(way), way);
+        if (!touches.empty()) answer.touch = search->touch(way);
       }
       if (second < first) answer = from_b(source.agents(), a, b, answer);
       ways[begin + k] = answer.move;
