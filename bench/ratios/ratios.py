@@ -51,6 +51,7 @@ distances | clearance/near_miss/fcl_walls / exact_clearance/near_miss/BEST |
 distances | clearance/near_miss/fcl_segments / {clearance,exact_clearance}/near_miss/BEST |
 responses | {contacts,penetration,collisions}/crowd/BEST / collide/crowd/discs/BEST |
 responses | nearest_free/{colliding,crowd}/BEST / penetration/{1}/BEST |
+responses | nearest_free_of_all/crowd/BEST / nearest_free/crowd/BEST | for both agents of a pair
 responses | {contacts,penetration}/crowd/reference / {1}/crowd/BEST | brute force
 obstacles | obstacles/{collide,clearance,clearance_exact,clearance_unlimited} |
 obstacles | obstacles/loop / obstacles/collide |
