@@ -63,6 +63,7 @@ plans | plans/{single_cylinder,depth_3,depth_6,mixed,all_discs,one_frame}/query 
 plans | plans/{single_cylinder,depth_3,depth_6,all,mixed,all_discs,one_frame}/{bake,query} |
 spheres | spheres/{128,256,512}/crowd/avx2 / collide/crowd/segments/avx2 |
 spheres | spheres_clearance/{256,512}/crowd/avx2 / clearance/crowd/avx2 |
+spheres | spheres_nearest_free/256/colliding/BEST / spheres_penetration/256/colliding/BEST |
 construction | construction/*/ISA/{skin,outline,hierarchy,levels,interior} |
 construction | construction/*/ISA/{pose,all} |
 construction | construction/*/clipper / construction/*/BEST/outline |

@@ -240,10 +240,7 @@ float FreeSearch<Intervals>::after_gap(float place) const {
 }
 
 template <class Intervals>
-FreeTouch FreeSearch<Intervals>::touch(float place) const requires requires {
-  &Intervals::touch;
-}
-{
+FreeTouch FreeSearch<Intervals>::touch(float place) const {
   float end = -__builtin_inff();
   std::uint32_t of_a = 0, of_b = 0;
   const auto keep_last = [&](std::uint32_t i, std::uint32_t j, float, float high) {

@@ -57,7 +57,7 @@ class FreeSearch {
   /// Returns the end of the interval that begins next from a place in none on; or the same, where no more begins.
   float after_gap(float place) const;
   /// Returns where the elements touch whose interval is the last one to end on the way to a place in none.
-  FreeTouch touch(float place) const requires requires { &Intervals::touch; };
+  FreeTouch touch(float place) const;
 
  private:
   using Simd = FreeIntervals::Simd;
