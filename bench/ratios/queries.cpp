@@ -10,6 +10,7 @@
 #include <utility>
 
 #include <bch/crowd.hpp>
+#include <bch/obstacles.hpp>
 #include <bch/pairs.hpp>
 
 #include "baselines/clearance_reference.hpp"
@@ -170,6 +171,36 @@ struct PenetrationQuery : Question {
   }
 };
 
+/// nearest_free(), with the leaves that collide() has by default.
+struct NearestFreeQuery : Question {
+  std::vector<Penetration> moves = std::vector<Penetration>(pairs.size());
+
+  NearestFreeQuery(Scene& in, const Workload& of) : Question(in, of, Leaves::segments) {}
+  void run_query(const detail::AllOptions& options) {
+    nearest_free(scene.set(), agents, pairs, penetration_directions, moves,
+                 {.implementation = options.implementation, .leaves = Leaves::segments});
+  }
+  bool is_right(std::size_t i, Method) const { return (moves[i].depth > 0) == collide(i); }
+};
+
+/// nearest_free() of each agent out of all others that it is paired with, at once.
+struct FreeOfAllQuery : Question {
+  std::vector<Pair> both_ways{pairs.begin(), pairs.end()};
+  std::vector<Penetration> moves = std::vector<Penetration>(agents.size());
+
+  FreeOfAllQuery(Scene& in, const Workload& of) : Question(in, of, Leaves::segments) {
+    for (const auto& [first, second] : pairs) both_ways.push_back({second, first});
+  }
+  void run_query(const detail::AllOptions& options) {
+    nearest_free(scene.set(), agents, both_ways, nullptr, penetration_directions, moves,
+                 {.implementation = options.implementation, .leaves = Leaves::segments});
+  }
+  bool is_right(std::size_t i, Method) const {
+    const bool both = moves[pairs[i].first].depth > 0 && moves[pairs[i].second].depth > 0;
+    return both || !collide(i);
+  }
+};
+
 /// Crowd::collisions() by agent. The reference of collide() serves for it.
 struct CollisionsQuery : Question {
   using Question::Question;
@@ -270,7 +301,9 @@ void add_queries(Scene& scene) {
   for (const std::string_view name : {"colliding", "crowd"}) {
     add_query<ContactsQuery>(scene, "contacts", name);
     add_query<PenetrationQuery>(scene, "penetration", name);
+    add_query<NearestFreeQuery, false>(scene, "nearest_free", name);
   }
+  add_query<FreeOfAllQuery, false>(scene, "nearest_free_of_all", "crowd");
   // Agents of pairs of their own stand anywhere, also in each other.
   add_query<CollisionsQuery, false>(scene, "collisions", "crowd");
   if (has_kind("fcl_obb_contour"))

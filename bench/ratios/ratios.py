@@ -50,6 +50,8 @@ distances | clearance/near_miss/fcl_walls / clearance/near_miss/BEST |
 distances | clearance/near_miss/fcl_walls / exact_clearance/near_miss/BEST |
 distances | clearance/near_miss/fcl_segments / {clearance,exact_clearance}/near_miss/BEST |
 responses | {contacts,penetration,collisions}/crowd/BEST / collide/crowd/discs/BEST |
+responses | nearest_free/{colliding,crowd}/BEST / penetration/{1}/BEST |
+responses | nearest_free_of_all/crowd/BEST / nearest_free/crowd/BEST | for both agents of a pair
 responses | {contacts,penetration}/crowd/reference / {1}/crowd/BEST | brute force
 obstacles | obstacles/{collide,clearance,clearance_exact,clearance_unlimited} |
 obstacles | obstacles/loop / obstacles/collide |
@@ -61,6 +63,7 @@ plans | plans/{single_cylinder,depth_3,depth_6,mixed,all_discs,one_frame}/query 
 plans | plans/{single_cylinder,depth_3,depth_6,all,mixed,all_discs,one_frame}/{bake,query} |
 spheres | spheres/{128,256,512}/crowd/avx2 / collide/crowd/segments/avx2 |
 spheres | spheres_clearance/{256,512}/crowd/avx2 / clearance/crowd/avx2 |
+spheres | spheres_nearest_free/256/colliding/BEST / spheres_penetration/256/colliding/BEST |
 construction | construction/*/ISA/{skin,outline,hierarchy,levels,interior} |
 construction | construction/*/ISA/{pose,all} |
 construction | construction/*/clipper / construction/*/BEST/outline |

@@ -63,6 +63,22 @@ Contender clearance_contender(const BodySet& bodies, const Workload& workload,
   return {call, pairs, {{"near", near}}};
 }
 
+/// Measures the ways of pairs apart, by penetration() or nearest_free().
+template <class Query>
+Contender ways_contender(const BodySet& bodies, const Workload& workload, const Query& run_query) {
+  static constexpr std::uint32_t directions = 16;
+  const auto ways = std::make_shared<std::vector<Penetration>>(workload.pairs.size());
+  const auto call = [&bodies, &workload, run_query, ways] {
+    run_query(bodies, workload.agents(), workload.pairs, directions, *ways);
+  };
+  call();
+  const baselines::BodyReference reference(bodies);
+  for (std::size_t i = 0; i < ways->size(); ++i)
+    if ((*ways)[i].depth == 0 && reference.collide(workload.agents(), workload.pairs[i]))
+      throw std::runtime_error(fmt::format("{}: the way of pair {} is wrong", workload.name, i));
+  return {call, ways->size()};
+}
+
 }  // namespace
 
 void add_spheres(Scene& scene) {
@@ -74,6 +90,20 @@ void add_spheres(Scene& scene) {
             [&scene, bodies, name, implementation] {
               return spheres_contender(bodies(), scene.workload(name), *implementation);
             });
+    for (const Implementation* implementation : supported_implementations()) {
+      add(fmt::format("spheres_penetration/{}/colliding/{}", spheres, implementation->name),
+          [&scene, bodies, implementation] {
+            return ways_contender(bodies(), scene.workload("colliding"), [implementation](auto&&... asked) {
+              penetration(asked..., implementation);
+            });
+          });
+      add(fmt::format("spheres_nearest_free/{}/colliding/{}", spheres, implementation->name),
+          [&scene, bodies, implementation] {
+            return ways_contender(bodies(), scene.workload("colliding"), [implementation](auto&&... asked) {
+              nearest_free(asked..., implementation);
+            });
+          });
+    }
     for (const std::string_view name : {"crowd", "candidates"})
       for (const Implementation* implementation : supported_implementations())
         add(fmt::format("spheres_clearance/{}/{}/{}", spheres, name, implementation->name),

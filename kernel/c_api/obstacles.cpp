@@ -50,6 +50,21 @@ struct ObstacleCallOn : CallOn<Handle> {
 };
 using ObstacleCall = ObstacleCallOn<bch_shape_set>;
 
+template <class Handle>
+bch_status free_of_all(const Handle* set, const bch_agents* agents, const bch_pair* neighbours,
+                       std::size_t count, const bch_obstacles* obstacles, std::uint32_t directions,
+                       const bch_query_options* options, bch_penetration_depth* depths, bch_touch* touches) {
+  return guarded([&] {
+    const PairCallOn<Handle> call(set, agents, neighbours, count, options);
+    const ObstacleSet* const walls = obstacles == nullptr ? nullptr : &object_of(obstacles, "obstacles").set;
+    const auto to = penetrations(depths, call.agents.size());
+    const auto ends = touches_of(touches, call.agents.size());
+    call.run([&] {
+      nearest_free(call.shapes, call.agents, call.pairs, walls, directions, to, call.options, ends);
+    });
+  });
+}
+
 }  // namespace
 
 bch_status bch_obstacles_create(const bch_obstacle_arrays* arrays, bch_obstacles** obstacles) {
@@ -187,4 +202,19 @@ bch_status bch_obstacles_clearance_bodies(const bch_body_set* set, const bch_age
       clearance(call.shapes, call.agents, call.obstacles, into, call.options);
     });
   });
+}
+
+bch_status bch_nearest_free_of_all(const bch_shape_set* set, const bch_agents* agents,
+                                   const bch_pair* neighbours, size_t count, const bch_obstacles* obstacles,
+                                   uint32_t directions, const bch_query_options* options,
+                                   bch_penetration_depth* depths, bch_touch* touches) {
+  return free_of_all(set, agents, neighbours, count, obstacles, directions, options, depths, touches);
+}
+
+bch_status bch_nearest_free_of_all_bodies(const bch_body_set* set, const bch_agents* agents,
+                                          const bch_pair* neighbours, size_t count,
+                                          const bch_obstacles* obstacles, uint32_t directions,
+                                          const bch_query_options* options, bch_penetration_depth* depths,
+                                          bch_touch* touches) {
+  return free_of_all(set, agents, neighbours, count, obstacles, directions, options, depths, touches);
 }

@@ -8,102 +8,54 @@
 #include <type_traits>
 
 namespace bch::detail {
-namespace {
-
-using Float = FreeIntervals::Float;
 static_assert(FreeIntervals::Simd::width == 4, "leaves have whole registers");
 
-float largest(Float values) noexcept {
-  return -FreeIntervals::Simd::least(-values);
+void FreeBound::add(const FreeElement& a, const FreeElement& b) noexcept {
+  const float z = b.z - a.z, radius = a.radius + b.radius;
+  // Also into the lanes behind it, which belong to the next ones.
+  for (std::uint32_t lane = count_; lane < count_ + Simd::width; ++lane)
+    x_[lane] = b.x - a.x, y_[lane] = b.y - a.y, left_[lane] = radius * radius - z * z;
+  ++count_;
 }
 
-/// Returns what all lanes hold.
-float lane_of(Float all) noexcept {
-  return FreeIntervals::Simd::least(all);
-}
-
-Float clamped(Float value, Float limit) noexcept {
-  return xsimd::min(xsimd::max(value, -limit), limit);
-}
-
-/// Widens an interval by the part of a side of a parallelogram that lies in the strip. The middle of the side is at (m, w).
-[[gnu::always_inline]] inline void add_side(FreeIntervals& to, const FreeLanes& side, Float m, Float w,
-                                            Float margin) noexcept {
-  using Simd = FreeIntervals::Simd;
-  const Float first_w = w - side.half_across, last_w = w + side.half_across;
-  const Float first = m - side.half_along + (clamped(first_w, margin) - first_w) * side.slope,
-              last = m + side.half_along + (clamped(last_w, margin) - last_w) * side.slope;
-  const auto inside = (xsimd::min(first_w, last_w) <= margin) & (-margin <= xsimd::max(first_w, last_w));
-  to.low = Simd::select(inside, xsimd::min(to.low, xsimd::min(first, last)), to.low);
-  to.high = Simd::select(inside, xsimd::max(to.high, xsimd::max(first, last)), to.high);
-}
-
-}  // namespace
-
-FreeSpheres::FreeSpheres(const FreeLanes& a, const FreeLanes& b, float) noexcept {
-  const Float m = b.along - a.along, w = b.across - a.across, z = b.z - a.z, radius = a.radius + b.radius;
-  const Float left = radius * radius - (w * w + z * z);
-  const Float s = xsimd::sqrt(xsimd::max(left, Float(0.0f)));
-  low = m - s, high = m + s, are_some = left > Float(0.0f);
-}
-
-FreeSegments::FreeSegments(const FreeLanes& a, const FreeLanes& b, float by) noexcept {
-  const Float m = b.along - a.along, w = b.across - a.across, margin(by);
-  low = Float(__builtin_inff()), high = Float(-__builtin_inff()), are_some = Simd::Mask(true);
-  add_side(*this, a, m - b.half_along, w - b.half_across, margin);
-  add_side(*this, a, m + b.half_along, w + b.half_across, margin);
-  add_side(*this, b, m - a.half_along, w - a.half_across, margin);
-  add_side(*this, b, m + a.half_along, w + a.half_across, margin);
-  low = low - margin, high = high + margin;
-}
-
-FreeTouch FreeSpheres::touch(const FreeLanes& a, const FreeLanes& b, float end, float margin) noexcept {
-  const float radius = lane_of(a.radius) - margin;
-  const FreeTouch::Vector centre{lane_of(a.along), lane_of(a.across), lane_of(a.z)};
-  const float x = centre.along + end - lane_of(b.along), y = centre.across - lane_of(b.across),
-              z = centre.up - lane_of(b.z), length = std::sqrt(x * x + y * y + z * z);
-  const FreeTouch::Vector normal{x / length, y / length, z / length};
-  return {{centre.along - radius * normal.along, centre.across - radius * normal.across,
-           centre.up - radius * normal.up},
-          normal};
-}
-
-FreeTouch FreeSegments::touch(const FreeLanes& a, const FreeLanes& b, float end, float margin) noexcept {
-  FreeTouch touch;
-  float most = -1;
-  const Float m = b.along - a.along - Float(end), w = b.across - a.across;
-  // The end of the other segment is at (along, across) from A, and at (m, w) from the middle of the side.
-  const auto compare_side = [&](const FreeLanes& side, Float to_m, Float to_w, Float along, Float across) {
-    FreeIntervals part;
-    part.low = Float(__builtin_inff()), part.high = -part.low;
-    add_side(part, side, to_m, to_w, Float(margin));
-    const float x = lane_of(side.half_along), y = lane_of(side.half_across),
-                length = std::sqrt(x * x + y * y);
-    if (!(largest(part.high) >= -4 * margin && std::abs(y) > most * length)) return;
-    most = std::abs(y) / length;
-    touch = {{lane_of(along), lane_of(across)}, {most, std::copysign(x / length, x * y > 0 ? -1.0f : 1.0f)}};
-  };
-  for (const Float sign : {Float(-1.0f), Float(1.0f)}) {
-    const Float to_b_along = sign * b.half_along, to_b_across = sign * b.half_across;
-    compare_side(a, m + to_b_along, w + to_b_across, b.along + to_b_along - Float(end),
-                 b.across + to_b_across);
-    const Float to_a_along = sign * a.half_along, to_a_across = sign * a.half_across;
-    compare_side(b, m - to_a_along, w - to_a_across, a.along + to_a_along, a.across + to_a_across);
+float FreeBound::place(float x, float y) const noexcept {
+  Float low[registers], high[registers];
+  const Float ex(x), ey(y), none(0.0f);
+  const std::uint32_t used = (count_ + Simd::width - 1) / Simd::width;
+  for (std::uint32_t k = 0; k < used; ++k) {
+    const Float dx = Simd::load(x_ + k * Simd::width), dy = Simd::load(y_ + k * Simd::width);
+    const Float m = dx * ex + dy * ey, w = dx * ey - dy * ex,
+                left = Simd::load(left_ + k * Simd::width) - w * w;
+    const Float s = xsimd::sqrt(xsimd::max(left, none));
+    low[k] = m - s, high[k] = Simd::select(left > none, m + s, none);
   }
-  return touch;
+  for (float place = 0;;) {
+    Float most(place);
+    for (std::uint32_t k = 0; k < used; ++k)
+      most = Simd::select(low[k] < most, xsimd::max(most, high[k]), most);
+    const float next = FreeIntervals::largest(most);
+    if (next == place) return place;
+    place = next;
+  }
 }
 
 template <class Intervals>
 void FreeSearch<Intervals>::Rounds::resize(std::size_t count) {
-  for (std::vector<float>* each :
-       {&x, &y, &z, &radius, &half_x, &half_y, &along, &across, &half_along, &half_across, &slope})
-    each->resize(count + padding);
+  float** const columns[] = {&x,      &y,     &z,      &radius,     &half_x,      &half_y,
+                             &half_z, &along, &across, &half_along, &half_across, &slope};
+  memory.resize(std::size(columns) * (count + padding));
+  for (std::size_t i = 0; i < std::size(columns); ++i) *columns[i] = memory.data() + i * (count + padding);
 }
 
 template <class Intervals>
 void FreeSearch<Intervals>::Rounds::set(std::size_t at, const FreeElement& element) {
   x[at] = element.x, y[at] = element.y, z[at] = element.z, radius[at] = element.radius;
-  half_x[at] = element.half_x, half_y[at] = element.half_y;
+  half_x[at] = element.half_x, half_y[at] = element.half_y, half_z[at] = element.half_z;
+}
+
+template <class Intervals>
+FreeElement FreeSearch<Intervals>::Rounds::element(std::uint32_t i) const {
+  return {x[i], y[i], z[i], radius[i], half_x[i], half_y[i], half_z[i]};
 }
 
 template <class Intervals>
@@ -113,7 +65,7 @@ void FreeSearch<Intervals>::Rounds::turn(float to_x, float to_y, std::uint32_t c
     const Float at_x = Simd::load(&x[i]), at_y = Simd::load(&y[i]);
     Simd::store(&along[i], at_x * ex + at_y * ey);
     Simd::store(&across[i], at_x * ey - at_y * ex);
-    if constexpr (std::is_same_v<Intervals, FreeSegments>) {
+    if constexpr (!std::is_same_v<Intervals, FreeSpheres>) {
       const Float to_end_x = Simd::load(&half_x[i]), to_end_y = Simd::load(&half_y[i]);
       const Float a = to_end_x * ex + to_end_y * ey, w = to_end_x * ey - to_end_y * ex;
       Simd::store(&half_along[i], a);
@@ -127,13 +79,13 @@ template <class Intervals>
 FreeLanes FreeSearch<Intervals>::Rounds::load(std::uint32_t i) const noexcept {
   return {Simd::load(&along[i]),  Simd::load(&across[i]),     Simd::load(&z[i]),
           Simd::load(&radius[i]), Simd::load(&half_along[i]), Simd::load(&half_across[i]),
-          Simd::load(&slope[i])};
+          Simd::load(&half_z[i]), Simd::load(&slope[i])};
 }
 
 template <class Intervals>
 FreeLanes FreeSearch<Intervals>::Rounds::one(std::uint32_t i) const noexcept {
-  return {Float(along[i]),      Float(across[i]),      Float(z[i]),    Float(radius[i]),
-          Float(half_along[i]), Float(half_across[i]), Float(slope[i])};
+  return {Float(along[i]),      Float(across[i]),      Float(z[i]),      Float(radius[i]),
+          Float(half_along[i]), Float(half_across[i]), Float(half_z[i]), Float(slope[i])};
 }
 
 template <class Intervals>
@@ -169,15 +121,13 @@ void FreeSearch<Intervals>::begin(const FreeBody& a, const FreeBody& b, float ma
 }
 
 template <class Intervals>
-void FreeSearch<Intervals>::sample() {
-  sample_a_.resize(max_samples), sample_b_.resize(max_samples);
+void FreeSearch<Intervals>::sample(FreeBound& to) {
   turn(1, 0);
   overlapping_.clear();
   visit(0, [&](std::uint32_t leaf_a, std::uint32_t leaf_b) { overlapping_.push_back({leaf_a, leaf_b}); });
-  samples_ = 0;
-  const std::size_t step = overlapping_.size() / max_samples + 1;
+  const std::size_t step = overlapping_.size() / FreeBound::capacity + 1;
   for (std::size_t i = 0; i < overlapping_.size(); i += step)
-    keep_sample(overlapping_[i].of_a, overlapping_[i].of_b);
+    add_sample(overlapping_[i].of_a, overlapping_[i].of_b, to);
 }
 
 template <class Intervals>
@@ -215,75 +165,62 @@ void FreeSearch<Intervals>::visit(float moved, const Use& use) {
 }
 
 template <class Intervals>
-template <class Use>
-void FreeSearch<Intervals>::visit_elements(std::uint32_t leaf_a, std::uint32_t leaf_b, float moved,
-                                           const Use& use) {
+std::uint32_t FreeSearch<Intervals>::list_elements(std::uint32_t leaf_a, std::uint32_t leaf_b, float moved) {
   const Float along(a_.nodes.along[leaf_a] + moved), across(a_.nodes.across[leaf_a]),
       radius(a_.nodes.radius[leaf_a] + node_slack_);
   const std::uint32_t first = b_.first(leaf_b);
   std::uint32_t count = 0;
   for (std::uint32_t j = 0; j < b_.leaf_size; j += Simd::width) {
-    const FreeLanes b = b_.elements.load(first + j);
-    const Float m = b.along - along, w = b.across - across, r = b.radius + radius;
+    const Float m = Simd::load(&b_.elements.along[first + j]) - along,
+                w = Simd::load(&b_.elements.across[first + j]) - across,
+                r = Simd::load(&b_.elements.radius[first + j]) + radius;
     count += Simd::compress_indices(Simd::bits(m * m + w * w <= r * r), j, &slots_[count]);
   }
-  for (std::uint32_t i = 0; i < count; ++i) use(first + slots_[i]);
+  return count;
 }
 
 template <class Intervals>
-void FreeSearch<Intervals>::keep_sample(std::uint32_t leaf_a, std::uint32_t leaf_b) {
+void FreeSearch<Intervals>::add_sample(std::uint32_t leaf_a, std::uint32_t leaf_b, FreeBound& to) {
   const auto &a = a_.elements, &b = b_.elements;
   float deepest = 0;
   std::uint32_t of_a = 0, of_b = 0;
-  visit_elements(leaf_a, leaf_b, 0, [&](std::uint32_t j) {
+  const std::uint32_t count = list_elements(leaf_a, leaf_b, 0);
+  for (std::uint32_t slot = 0; slot < count; ++slot) {
+    const std::uint32_t j = b_.first(leaf_b) + slots_[slot];
     for (std::uint32_t i = a_.first(leaf_a); i < a_.first(leaf_a + 1); ++i) {
       const float x = b.x[j] - a.x[i], y = b.y[j] - a.y[i], z = b.z[j] - a.z[i],
                   radius = a.radius[i] + b.radius[j];
       const float left = radius * radius - (x * x + y * y + z * z);
       if (left > deepest) deepest = left, of_a = i, of_b = j;
     }
-  });
-  if (deepest == 0) return;
-  const auto copy = [at = samples_](auto& to, const auto& from, std::uint32_t i) {
-    // Also into the lanes behind it, which belong to the next ones.
-    for (std::uint32_t lane = at; lane < at + Simd::width; ++lane)
-      to.set(lane, {from.x[i], from.y[i], from.z[i], from.radius[i], from.half_x[i], from.half_y[i]});
-  };
-  copy(sample_a_, a, of_a);
-  copy(sample_b_, b, of_b);
-  ++samples_;
-}
-
-template <class Intervals>
-float FreeSearch<Intervals>::bound(float x, float y) {
-  sample_a_.turn(x, y, samples_, margin_);
-  sample_b_.turn(x, y, samples_, margin_);
-  Float most(0.0f);
-  for (std::uint32_t i = 0; i < samples_; i += Simd::width) {
-    const Intervals of(sample_a_.load(i), sample_b_.load(i), margin_);
-    most = Simd::select(of.holding(Float(0.0f)), xsimd::max(most, of.high), most);
   }
-  return largest(most);
+  if (deepest > 0) to.add(a.element(of_a), b.element(of_b));
 }
 
 template <class Intervals>
 float FreeSearch<Intervals>::leave(std::uint32_t leaf_a, std::uint32_t leaf_b, float place) {
-  visit_elements(leaf_a, leaf_b, place, [&](std::uint32_t j) {
-    const FreeLanes b = b_.elements.one(j);
-    for (std::uint32_t i = a_.first(leaf_a); i < a_.first(leaf_a + 1); i += Simd::width) {
-      const FreeLanes a = a_.elements.load(i);
-      if constexpr (std::is_same_v<Intervals, FreeSegments>) {
-        // Most are apart there, which the discs about them tell sooner.
-        const Float m = b.along - a.along - Float(place), w = b.across - a.across,
-                    r = a.radius + b.radius + Float(node_slack_);
-        if (Simd::bits(m * m + w * w <= r * r) == 0) continue;
-      }
-      const Intervals of(a, b, margin_);
-      const Simd::Mask holding = of.holding(Float(place));
-      if (Simd::bits(holding) != 0) place = largest(Simd::select(holding, of.high, Float(place)));
+  const Rounds &a = a_.elements, &b = b_.elements;
+  const std::uint32_t first = a_.first(leaf_a), end = a_.first(leaf_a + 1),
+                      count = list_elements(leaf_a, leaf_b, place);
+  for (std::uint32_t slot = 0; slot < count; ++slot) {
+    const std::uint32_t j = b_.first(leaf_b) + slots_[slot];
+    const Float along(b.along[j]), across(b.across[j]), radius(b.radius[j] + node_slack_);
+    for (std::uint32_t i = first; i < end; i += Simd::width) {
+      // Most are apart there, which the discs about them tell sooner.
+      const Float m = along - Simd::load(&a.along[i]) - Float(place), w = across - Simd::load(&a.across[i]),
+                  r = Simd::load(&a.radius[i]) + radius;
+      if (Simd::bits(m * m + w * w <= r * r) != 0) place = leave_lanes(i, j, place);
     }
-  });
+  }
   return place;
+}
+
+template <class Intervals>
+float FreeSearch<Intervals>::leave_lanes(std::uint32_t i, std::uint32_t j, float place) const {
+  const Intervals of(a_.elements.load(i), b_.elements.one(j), margin_);
+  const Simd::Mask holding = of.holding(Float(place));
+  if (Simd::bits(holding) == 0) return place;
+  return FreeIntervals::largest(Simd::select(holding, of.high, Float(place)));
 }
 
 template <class Intervals>
@@ -347,5 +284,6 @@ void FreeSearch<Intervals>::visit_intervals(const MayCount& may_count, const Use
 
 template class FreeSearch<FreeSpheres>;
 template class FreeSearch<FreeSegments>;
+template class FreeSearch<FreeWalls>;
 
 }  // namespace bch::detail

@@ -8,15 +8,9 @@
 #include <vector>
 
 #include "kernel/body/space_frame.hpp"
-#include "layout/simd/lanes.hpp"
+#include "kernel/penetration/free_intervals.hpp"
 
 namespace bch::detail {
-
-/// Holds a sphere; a disc, whose z is 0; or a segment of an outline: the disc about it, and half of the way along it.
-struct FreeElement {
-  float x, y, z, radius;
-  float half_x = 0, half_y = 0;
-};
 
 /// Holds what an agent is made of, in A's frame.
 struct FreeBody {
@@ -25,53 +19,23 @@ struct FreeBody {
   std::uint32_t leaf_size = 8;        ///< a multiple of 4
 };
 
-/// Holds the places along a direction at which elements of A overlap elements of B, in the lanes where they do so anywhere. An element of
-/// B is at m along the direction and at w across it, as seen from that of A.
-struct FreeIntervals {
-  using Simd = BaseLanes;
-  using Float = Simd::Float;
+/// Bounds places by the intervals of some spheres, or discs.
+class FreeBound {
+ public:
+  static constexpr std::uint32_t capacity = 64;
 
-  Float low, high;
-  Simd::Mask are_some;
+  void clear() noexcept { count_ = 0; }
+  void add(const FreeElement& a, const FreeElement& b) noexcept;
+  /// Returns the first place along a direction, a unit vector of A's frame, that is in none of the intervals.
+  float place(float x, float y) const noexcept;
 
-  Simd::Mask holding(Float place) const noexcept { return are_some & (low < place) & (place < high); }
-};
+ private:
+  using Simd = FreeIntervals::Simd;
+  using Float = FreeIntervals::Float;
+  static constexpr std::uint32_t registers = capacity / Simd::width;
 
-/// Holds elements side by side, as FreeSearch has them.
-struct FreeLanes {
-  FreeIntervals::Float along, across, z, radius, half_along, half_across;
-  FreeIntervals::Float
-      slope;  ///< of a segment: along by across; 0 where it lies along the direction, to the margin
-};
-
-/// Holds where A touches an element of B, as seen from A's position, and a unit vector from B to A. Both are along a direction, across it,
-/// and up.
-struct FreeTouch {
-  struct Vector {
-    float along = 0, across = 0, up = 0;
-  };
-  Vector point, normal = {1, 0, 0};
-};
-
-/// Spheres, or discs. Let z be how much higher B's is, and r_A what its radius is with the margin:
-///
-///     R = r_A + r_B,    s = sqrt(R^2 - (w^2 + z^2)),    the two overlap at t  <=>  m - s < t < m + s
-///
-/// where s is real.
-struct FreeSpheres : FreeIntervals {
-  FreeSpheres(const FreeLanes& a, const FreeLanes& b, float margin) noexcept;
-  /// Returns where two, each in all lanes, touch at the end of their interval.
-  static FreeTouch touch(const FreeLanes& a, const FreeLanes& b, float end, float margin) noexcept;
-};
-
-/// Segments: what A's has to move by for the two to meet fills a parallelogram about (m, w), whose sides are the segments. The interval is
-/// that of its part within the margin of the line across = 0, and a margin longer at both ends. That part ends where its sides do, or
-/// where they leave the strip. A side along the line, to the margin, counts as a whole.
-struct FreeSegments : FreeIntervals {
-  FreeSegments(const FreeLanes& a, const FreeLanes& b, float margin) noexcept;
-  /// Returns where two touch: at the side of the parallelogram by which the line leaves it, or of two at a corner the one that is more
-  /// across the line.
-  static FreeTouch touch(const FreeLanes& a, const FreeLanes& b, float end, float margin) noexcept;
+  std::uint32_t count_ = 0;
+  alignas(64) float x_[capacity + Simd::width], y_[capacity + Simd::width], left_[capacity + Simd::width];
 };
 
 /// Finds how far A has to move along directions until no element of it overlaps one of B: for one pair after the other, in memory of its own.
@@ -84,10 +48,8 @@ class FreeSearch {
  public:
   /// Takes a pair. Nodes come within the slack of each other where elements come within the margin.
   void begin(const FreeBody& a, const FreeBody& b, float margin, float slack);
-  /// Prepares bound(), by the deepest two elements of leaves that overlap.
-  void sample();
-  /// Returns a place that the answer along a direction, a unit vector of A's frame, is not before.
-  float bound(float x, float y);
+  /// Adds the deepest two elements of leaves that overlap, of some.
+  void sample(FreeBound& to);
   /// Takes a direction.
   void turn(float x, float y);
   /// Returns a later place that the answer is not before; or the same, which is the answer then.
@@ -101,13 +63,17 @@ class FreeSearch {
   using Simd = FreeIntervals::Simd;
   using Float = FreeIntervals::Float;
   static constexpr std::uint32_t padding = 16;  ///< floats, at least a register
-  static constexpr std::uint32_t max_samples = 64;
 
   /// Holds elements, or nodes as seen from above, and where they are along a direction and across it.
   struct Rounds {
-    std::vector<float> x, y, z, radius, half_x, half_y, along, across, half_along, half_across, slope;
+    float *x, *y, *z, *radius, *half_x, *half_y, *half_z, *along, *across, *half_along, *half_across, *slope;
+    std::vector<float> memory;
+    Rounds() = default;
+    Rounds(Rounds&&) = default;
+    Rounds& operator=(Rounds&&) = default;
     void resize(std::size_t count);
     void set(std::size_t at, const FreeElement& element);
+    FreeElement element(std::uint32_t i) const;
     void turn(float to_x, float to_y, std::uint32_t count, float margin);
     FreeLanes load(std::uint32_t i) const noexcept;
     FreeLanes one(std::uint32_t i) const noexcept;  ///< in all lanes
@@ -130,17 +96,18 @@ class FreeSearch {
   /// Calls use(leaf of A, leaf of B) for leaves that may overlap where A has moved.
   template <class Use>
   void visit(float moved, const Use& use);
-  /// Calls use(slot) for elements of a leaf of B that may overlap some of a leaf of A where A has moved.
-  template <class Use>
-  void visit_elements(std::uint32_t leaf_a, std::uint32_t leaf_b, float moved, const Use& use);
+  /// Lists elements of a leaf of B that may overlap some of a leaf of A where A has moved, in slots_. Returns: their number.
+  std::uint32_t list_elements(std::uint32_t leaf_a, std::uint32_t leaf_b, float moved);
   /// Calls use(i, j, low, high) for elements of A and B and their interval, of leaves that may_count(m, w, radius): B's is at m along the
   /// direction and at w across it, as seen from A's, and the two overlap within the radius.
   template <class MayCount, class Use>
   void visit_intervals(const MayCount& may_count, const Use& use) const;
-  /// Keeps the deepest two elements of two leaves for bound(), if they overlap.
-  void keep_sample(std::uint32_t leaf_a, std::uint32_t leaf_b);
+  /// Adds the deepest two elements of two leaves, if they overlap.
+  void add_sample(std::uint32_t leaf_a, std::uint32_t leaf_b, FreeBound& to);
   /// Goes from a place to the ends of intervals of two leaves.
   float leave(std::uint32_t leaf_a, std::uint32_t leaf_b, float place);
+  /// Goes from a place to the ends of intervals of elements of A, from i on, and one of B.
+  float leave_lanes(std::uint32_t i, std::uint32_t j, float place) const;
 
   Body a_, b_;
   float margin_, node_slack_;
@@ -149,8 +116,6 @@ class FreeSearch {
     std::uint32_t of_a, of_b;
   };
   std::vector<Leaves> overlapping_;
-  Rounds sample_a_, sample_b_;
-  std::uint32_t samples_;
 };
 
 }  // namespace bch::detail

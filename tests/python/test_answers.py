@@ -91,6 +91,19 @@ class Pairs(unittest.TestCase):
         with self.assertRaisesRegex(bch.ArrayError, "wanted is an array of pairs"):
             bch.nearest_free(SHAPES, LINE, WALL)
 
+    def test_nearest_free_of_all(self):
+        both = np.array([(0, 1), (1, 0), (1, 2)], np.uint32)
+        touches = np.empty(len(LINE), bch.TOUCH)
+        free = bch.nearest_free_of_all(SHAPES, LINE, both, WALL, touches=touches)
+        self.assertEqual(len(free), len(LINE))
+        moved = bch.Agents(LINE.shape, LINE.x + free["depth"] * free["x"], LINE.y + free["depth"] * free["y"], LINE.heading)
+        self.assertFalse(bch.collide(SHAPES, moved, WALL).any())
+        alone = bch.nearest_free(SHAPES, LINE, both[:1])
+        np.testing.assert_array_equal(bch.nearest_free_of_all(SHAPES, LINE, both[:1])[:1], alone)
+        self.near(np.linalg.norm(touches["normal"], axis=1), (free["depth"] > 0).astype(float), 1e-6)
+        with self.assertRaisesRegex(bch.ArrayError, "touches .* bch.TOUCH"):
+            bch.nearest_free_of_all(SHAPES, LINE, both, touches=free)
+
     def test_time_of_impact(self):
         times = bch.time_of_impact(SHAPES, LINE, PAIRS, np.array([0, 2.2, 0]), np.array([0, 0, 5.0]))
         self.near(times, [0, 0.5, np.inf], 0.02)

@@ -54,16 +54,12 @@ CQuery clearance_into(const char* name, bool needs_memory, std::size_t count,
           [values] { return bytes(*values); }};
 }
 
-/// The query that writes depths and touches.
-CQuery nearest_free_into(const CScene& scene) {
-  const std::size_t n = scene.pairs.size();
-  const auto depths = std::make_shared<std::vector<bch_penetration_depth>>(n);
-  const auto touches = std::make_shared<std::vector<bch_touch>>(n);
-  return {"nearest free", true,
-          [=, all = &scene] {
-            return bch_nearest_free(all->set.get(), &all->agents, c_pairs(all->pairs), n, 16, &all->options,
-                                    depths->data(), touches->data());
-          },
+/// A query that writes depths and touches.
+CQuery touches_into(const char* name, std::size_t count,
+                    const std::function<bch_status(bch_penetration_depth*, bch_touch*)>& run_query) {
+  const auto depths = std::make_shared<std::vector<bch_penetration_depth>>(count);
+  const auto touches = std::make_shared<std::vector<bch_touch>>(count);
+  return {name, true, [=] { return run_query(depths->data(), touches->data()); },
           [depths, touches] {
             clear_padding(*depths);
             return bytes(*depths) + bytes(*touches);
@@ -86,7 +82,9 @@ void add_queries_of_pairs(const CScene& scene, std::vector<CQuery>& to) {
   to.push_back(into<bch_penetration_depth>("penetration", false, n, [=](auto* out) {
     return bch_penetration(set, &all->agents, pairs, n, 16, &all->options, out);
   }));
-  to.push_back(nearest_free_into(scene));
+  to.push_back(touches_into("nearest free", n, [=](auto* depths, auto* touches) {
+    return bch_nearest_free(set, &all->agents, pairs, n, 16, &all->options, depths, touches);
+  }));
   to.push_back(into<bch_penetration_depth>("penetration along", false, n, [=](auto* out) {
     return bch_penetration_along(set, &all->agents, pairs, n, all->along.data(), &all->options, out);
   }));
@@ -193,6 +191,10 @@ void add_queries_of_obstacles(const CScene& scene, std::vector<CQuery>& to) {
   }));
   to.push_back(into<bch_penetration_depth>("walls: penetration", true, n, [=](auto* out) {
     return bch_obstacles_penetration(set, &all->agents, walls, &all->options, out);
+  }));
+  to.push_back(touches_into("walls: free of all", n, [=](auto* depths, auto* touches) {
+    return bch_nearest_free_of_all(set, &all->agents, c_pairs(all->pairs), all->pairs.size(), walls, 16,
+                                   &all->options, depths, touches);
   }));
   to.push_back(into<float>("walls: time of impact", true, n, [=](auto* out) {
     return bch_obstacles_time_of_impact(set, &all->agents, walls, all->x.data(), all->y.data(), &all->options,

@@ -147,6 +147,21 @@ void clearance(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& 
 void penetration(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
                  std::span<Penetration> out, const Implementation* implementation = nullptr);
 
+/// Measures how far each agent has to move on the ground, alone, until it is free of everything at once.
+/// `neighbours` are pairs of an agent and another one in its way, in any order; `obstacles` may be null.
+/// Afterwards collide() with each of them answers 0, as long as they stay: list all neighbours that the way
+/// may come to. An agent that collides with none of them has a depth of 0. Directions and touches are those
+/// of nearest_free() of pairs; with obstacles, depths include 30 um per metre of the way and the reach.
+/// Sizes:   one answer per agent; as many touches or none. Errors: also as nearest_free() of pairs.
+/// Memory:  allocates in every call.
+void nearest_free(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> neighbours,
+                  const ObstacleSet* obstacles, std::uint32_t directions, std::span<Penetration> out,
+                  const CollideOptions& options = {}, std::span<Penetration::Touch> touches = {});
+/// Measures the same for bodies of spheres.
+void nearest_free(const BodySet& bodies, const Agents& agents, std::span<const Pair> neighbours,
+                  const ObstacleSet* obstacles, std::uint32_t directions, std::span<Penetration> out,
+                  const Implementation* implementation = nullptr, std::span<Penetration::Touch> touches = {});
+
 /// Finds when each agent first touches an obstacle while it moves by its displacement without turning.
 /// The time is the least t in [0, 1] at which a disc of the agent's cut overlaps an obstacle, or infinity if
 /// there is none. It is 0 inside an area, and if the agent's outline contains a whole polyline.

@@ -510,6 +510,52 @@ def nearest_free(
     return depths
 
 
+def nearest_free_of_all(
+    shapes: Union[ShapeSet, BodySet],
+    agents: Agents,
+    pairs: UInt32,
+    obstacles: Optional[Obstacles] = None,
+    directions: int = 16,
+    *,
+    leaves: Leaves = "segments",
+    threads: int = 0,
+    implementation: Optional[str] = None,
+    out: Optional[Records] = None,
+    touches: Optional[Records] = None,
+) -> Records:
+    """Measure how far each agent has to move on the ground, alone, until it is free of its neighbours and of obstacles at once.
+
+    Afterwards `collide` with each of them is False, if nobody else moves. The depth is 0 for agents that collide with none of them.
+
+    Parameters
+    ----------
+    shapes : ShapeSet or BodySet
+    agents : Agents
+    pairs : (n, 2) uint32
+        Pairs of an agent and a neighbour that may be in its way, in any order: list a pair both ways if either may move.
+    obstacles : Obstacles, optional
+    directions, leaves, threads, implementation
+        As for `nearest_free`.
+    out : (agents,) PENETRATION, optional
+    touches : (agents,) TOUCH, optional
+        As for `nearest_free`.
+
+    Returns
+    -------
+    (agents,) PENETRATION
+        Records of depth, in metres, and of x and y, the unit vector along which the agent moves.
+    """
+    set_at, agents_at = pointers(shapes, agents, isinstance(shapes, BodySet))
+    function = lib.bch_nearest_free_of_all_bodies if isinstance(shapes, BodySet) else lib.bch_nearest_free_of_all
+    depths = result(out, PENETRATION, (len(agents),))
+    ends = None if touches is None else address(result(touches, TOUCH, (len(agents),), "touches"))
+    walls = None if obstacles is None else obstacles._pointer
+    how, _ = options(leaves, "zero", math.inf, threads, implementation)
+    where, of = given(pairs, u4, (None, 2), "pairs"), bounded(directions, "directions", 2, 256)
+    check(function(set_at, agents_at, where, len(pairs), walls, of, how, address(depths), ends))
+    return depths
+
+
 def time_of_impact(
     shapes: Union[ShapeSet, BodySet],
     agents: Agents,

@@ -177,6 +177,15 @@ TEST(CApiBodies, AnswerAboutPairsAsInCpp) {
                                             depths.data(), touches.data()));
   expect_depths();
   expect_bytes(touches.data(), n, std::span<const Penetration::Touch>(expected_touches));
+  const std::size_t people = agents.size();
+  expected.resize(people), expected_touches.resize(people), depths.resize(people), touches.resize(people);
+  nearest_free(of.set, agents, of.crowd.pairs, nullptr, 16, expected, nullptr, expected_touches);
+  expect_ok(bch_nearest_free_of_all_bodies(of.c_set.get(), &of.agents, of.pairs(), n, nullptr, 16, nullptr,
+                                           depths.data(), touches.data()));
+  for (std::size_t i = 0; i < people; ++i)
+    ASSERT_EQ((Penetration{depths[i].depth, depths[i].x, depths[i].y}), expected[i]);
+  expect_bytes(touches.data(), people, std::span<const Penetration::Touch>(expected_touches));
+  expected.resize(n), depths.resize(n);
   const std::vector<bch_vec2> along(n, {1, 2});
   expect_ok(bch_penetration_along_bodies(of.c_set.get(), &of.agents, of.pairs(), n, along.data(), nullptr,
                                          depths.data()));

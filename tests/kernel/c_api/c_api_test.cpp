@@ -119,6 +119,9 @@ std::map<std::string, std::string> answers_of(const test::CScene& scene, const d
       test::all_answers(set, agents, walls, by, nearer.first(people), {x.first(people), y.first(people)});
   all["walls: collide"] = bytes(at_walls.hits), all["walls: within"] = bytes(at_walls.near);
   all["walls: penetration"] = bytes_of(at_walls.ways), all["walls: time of impact"] = bytes(at_walls.time);
+  depths.resize(people), touches.resize(people);
+  nearest_free(set, agents, scene.pairs, &walls, 16, depths, by, touches);
+  all["walls: free of all"] = bytes_of(depths) + bytes(touches);
   all["walls: clearance"] =
       bytes(at_walls.distance) + bytes(at_walls.direction) + bytes(at_walls.discs) + bytes(at_walls.points);
   return all;

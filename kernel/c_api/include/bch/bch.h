@@ -1090,6 +1090,21 @@ BCH_API bch_status bch_obstacles_clearance_bodies(const bch_body_set* set, const
                                                   const bch_obstacles* obstacles,
                                                   const bch_query_options* options,
                                                   const bch_body_clearance_out* out);
+/** Measures how far each agent has to move on the ground, alone, until it is free of its neighbours and of obstacles at once, as
+ * bch_nearest_free() does for pairs. `neighbours` are pairs of an agent and another one in its way, in any order; `obstacles` may be NULL.
+ * Afterwards bch_collide() of these pairs and bch_obstacles_collide() answer 0, if nobody else moves. `depths` has one entry per agent, and
+ * so has `touches`, which may be NULL. */
+BCH_API bch_status bch_nearest_free_of_all(const bch_shape_set* set, const bch_agents* agents,
+                                           const bch_pair* neighbours, size_t count,
+                                           const bch_obstacles* obstacles, uint32_t directions,
+                                           const bch_query_options* options, bch_penetration_depth* depths,
+                                           bch_touch* touches);
+/** Measures the same of bodies of spheres. */
+BCH_API bch_status bch_nearest_free_of_all_bodies(const bch_body_set* set, const bch_agents* agents,
+                                                  const bch_pair* neighbours, size_t count,
+                                                  const bch_obstacles* obstacles, uint32_t directions,
+                                                  const bch_query_options* options,
+                                                  bch_penetration_depth* depths, bch_touch* touches);
 /** Finds the obstacles that each agent's spheres touch: one row of obstacle indices per agent, ascending. */
 BCH_API bch_status bch_crowd_body_obstacles(bch_crowd* crowd, const bch_body_set* set,
                                             const bch_agents* agents, const bch_obstacles* obstacles,

@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 the bch authors
+
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "kernel/body/space_frame.hpp"
+#include "kernel/penetration/free_sources.hpp"
+#include "kernel/penetration/spread_axes.hpp"
+#include "layout/base/rounding.hpp"
+
+namespace bch::detail {
+
+/// Holds a direction, and a place along it that the answer is not before.
+struct FreeWay {
+  double x, y;       ///< in the world
+  float to_x, to_y;  ///< in the agent's frame
+  float place;
+  bool is_end = false;  ///< the place is the answer
+};
+
+/// Holds some agents of others alone, the first of which moves.
+class MovedAgents {
+ public:
+  void clear() {
+    shape_.clear(), level_.clear(), x_.clear(), y_.clear(), z_.clear(), hx_.clear(), hy_.clear();
+  }
+  void add(const Agents& agents, std::uint32_t agent) {
+    const Headings::Value heading = agents.heading[agent];
+    are_directions_ = agents.heading.are_directions();
+    shape_.push_back(agents.shape[agent]);
+    x_.push_back(agents.x[agent]), y_.push_back(agents.y[agent]);
+    hx_.push_back(heading.x), hy_.push_back(heading.y);
+    if (!agents.level.empty()) level_.push_back(agents.level[agent]);
+    if (!agents.z.empty()) z_.push_back(agents.z[agent]);
+  }
+  void move_to(double x, double y) { x_[0] = x, y_[0] = y; }
+  std::size_t size() const { return shape_.size(); }
+  Agents agents() const {
+    Agents all{shape_, x_, y_, hx_};
+    if (are_directions_) all.heading = Headings(hx_, hy_);
+    all.level = level_, all.z = z_;
+    return all;
+  }
+
+ private:
+  bool are_directions_ = false;
+  std::vector<std::uint32_t> shape_;
+  std::vector<std::uint8_t> level_;
+  std::vector<double> x_, y_, z_, hx_, hy_;
+};
+
+/// Is what a search knows of walls where there are none.
+struct NoWalls {
+  static void begin(std::uint32_t) {}
+  static void turn(float, float) {}
+  static float next(float place) { return place; }
+  static float after_gap(float place) { return place; }
+  static bool are_hit(double, double) { return false; }
+  static FreeTouch touch(float) { return {}; }
+};
+
+/// Finds the shortest way of an agent out of its neighbours and of walls, all at once: for one agent after the other, in memory of its own.
+/// The first place in no interval of any of them is found as FreeSearch finds it for one. Neighbours that are too far away to matter are
+/// left out until a way comes near them.
+template <class Source, class Walls>
+class FreeWaySearch {
+ public:
+  template <class... OfWalls>
+  explicit FreeWaySearch(const Source& source, const OfWalls&... of_walls)
+      : source_(source), walls_(of_walls...) {}
+
+  /// Finds the best way of an agent.
+  FreeWay find(std::uint32_t agent, std::span<const std::uint32_t> neighbours, const Axes& axes);
+  /// Returns where the agent touches what it has left last, in the world's axes.
+  Penetration::Touch touch(const FreeWay& way);
+
+ private:
+  struct Neighbour {
+    std::uint32_t agent;
+    float x, y, reaches;  ///< where it is, in the agent's frame, and how near it matters
+    bool is_begun;
+    std::uint32_t turn;  ///< the last one that it knows
+  };
+
+  const Agents& agents() const { return source_.agents(); }
+  void begin(std::uint32_t agent, std::span<const std::uint32_t> neighbours);
+  bool is_near(const Neighbour& neighbour, float place) const {
+    const float m = neighbour.x * x_ + neighbour.y * y_ - place, w = neighbour.x * y_ - neighbour.y * x_;
+    return m * m + w * w <= neighbour.reaches * neighbour.reaches;
+  }
+  FreePair& begun(std::size_t k);
+  /// Returns the search of a neighbour, which knows the direction.
+  FreePair& turned(std::size_t k);
+  float bound(float x, float y);
+  void turn(float x, float y) { x_ = x, y_ = y, ++turn_, walls_.turn(x, y); }
+  float next(float place);
+  /// Who has left all intervals may be inside, and is until the next one begins.
+  void finish(FreeWay& way);
+  float leave_inside(const FreeWay& way);
+
+  const Source& source_;
+  Walls walls_;
+  std::uint32_t agent_ = 0;
+  std::vector<Neighbour> neighbours_;
+  std::vector<std::unique_ptr<FreePair>> pairs_;
+  float x_ = 1, y_ = 0;
+  std::uint32_t turn_ = 0;
+  MovedAgents moved_;
+  std::vector<std::uint32_t> tested_;
+  std::vector<Pair> tests_;
+  std::vector<std::uint8_t> hits_;
+};
+
+/// The way that may be the shortest is followed by a step, until it has ended.
+template <class Source, class Walls>
+FreeWay FreeWaySearch<Source, Walls>::find(std::uint32_t agent, std::span<const std::uint32_t> neighbours,
+                                           const Axes& axes) {
+  begin(agent, neighbours);
+  const SpaceFrame frame(agents(), agent, agent);
+  std::array<FreeWay, max_directions> ways;
+  const std::uint32_t count = 2 * axes.count;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const double sign = i % 2 == 0 ? 1 : -1, x = sign * axes.x[i / 2], y = sign * axes.y[i / 2];
+    const SpacePoint e = frame.way(x, y, 0);
+    const auto to_x = static_cast<float>(e.x), to_y = static_cast<float>(e.y);
+    ways[i] = {x, y, to_x, to_y, bound(to_x, to_y)};
+  }
+  for (const FreeWay* turned = nullptr;;) {
+    FreeWay& way =
+        *std::min_element(ways.begin(), ways.begin() + count,
+                          [](const FreeWay& left, const FreeWay& right) { return left.place < right.place; });
+    if (&way != turned) turn(way.to_x, way.to_y);
+    turned = &way;
+    if (way.is_end) return way;
+    const float next = this->next(way.place);
+    if (next == way.place) finish(way);
+    way.place = std::max(way.place, next);
+  }
+}
+
+template <class Source, class Walls>
+void FreeWaySearch<Source, Walls>::begin(std::uint32_t agent, std::span<const std::uint32_t> neighbours) {
+  agent_ = agent;
+  neighbours_.clear();
+  for (const std::uint32_t other : neighbours) {
+    if (!source_.may_meet({agent, other})) continue;
+    const SpacePoint at =
+        SpaceFrame(agents(), agent, other)
+            .way(agents().x[other] - agents().x[agent], agents().y[other] - agents().y[agent], 0);
+    // With room for the rounding of all of it.
+    const double reaches =
+        1.001 * (source_.reach(agent) + source_.reach(other)) + 0x1p-20 * (std::abs(at.x) + std::abs(at.y));
+    neighbours_.push_back(
+        {other, static_cast<float>(at.x), static_cast<float>(at.y), static_cast<float>(reaches), false, 0});
+  }
+  while (pairs_.size() < neighbours_.size()) pairs_.push_back(std::make_unique<FreePair>());
+  turn_ = 0;
+  walls_.begin(agent);
+}
+
+template <class Source, class Walls>
+FreePair& FreeWaySearch<Source, Walls>::begun(std::size_t k) {
+  if (!neighbours_[k].is_begun) source_.begin(*pairs_[k], {agent_, neighbours_[k].agent});
+  neighbours_[k].is_begun = true;
+  return *pairs_[k];
+}
+
+template <class Source, class Walls>
+FreePair& FreeWaySearch<Source, Walls>::turned(std::size_t k) {
+  FreePair& pair = begun(k);
+  if (neighbours_[k].turn != turn_) pair.turn(x_, y_);
+  neighbours_[k].turn = turn_;
+  return pair;
+}
+
+template <class Source, class Walls>
+float FreeWaySearch<Source, Walls>::bound(float x, float y) {
+  x_ = x, y_ = y;
+  float place = 0;
+  for (std::size_t k = 0; k < neighbours_.size(); ++k)
+    if (is_near(neighbours_[k], 0)) place = std::max(place, begun(k).bound(x, y));
+  return place;
+}
+
+template <class Source, class Walls>
+float FreeWaySearch<Source, Walls>::next(float place) {
+  for (std::size_t k = 0; k < neighbours_.size(); ++k)
+    if (is_near(neighbours_[k], place)) place = turned(k).next(place);
+  return walls_.next(place);
+}
+
+template <class Source, class Walls>
+Penetration::Touch FreeWaySearch<Source, Walls>::touch(const FreeWay& way) {
+  FreeTouch last = walls_.touch(way.place);
+  for (std::size_t k = 0; k < neighbours_.size() && last.end != way.place; ++k) {
+    if (!is_near(neighbours_[k], way.place)) continue;
+    const FreeTouch each = turned(k).touch(way.place);
+    if (each.end > last.end) last = each;
+  }
+  const auto in_world = [&](const FreeTouch::Vector& v) {
+    const double along{v.along}, across{v.across};
+    return Vec3{static_cast<float>(along * way.x + across * way.y),
+                static_cast<float>(along * way.y - across * way.x), v.up};
+  };
+  return {in_world(last.point), in_world(last.normal)};
+}
+
+template <class Source, class Walls>
+void FreeWaySearch<Source, Walls>::finish(FreeWay& way) {
+  const double x = agents().x[agent_] + double{way.place} * way.x,
+               y = agents().y[agent_] + double{way.place} * way.y;
+  float after = way.place;
+  if constexpr (!Source::is_in_space) {
+    moved_.clear(), tested_.clear(), tests_.clear();
+    moved_.add(agents(), agent_);
+    for (std::uint32_t k = 0; k < neighbours_.size(); ++k) {
+      if (!is_near(neighbours_[k], way.place)) continue;
+      moved_.add(agents(), neighbours_[k].agent);
+      tested_.push_back(k);
+      tests_.push_back({0, static_cast<std::uint32_t>(moved_.size() - 1)});
+    }
+    moved_.move_to(x, y);
+    after = leave_inside(way);
+  }
+  if (walls_.are_hit(x, y)) after = std::max(after, walls_.after_gap(way.place));
+  way.is_end = after == way.place;
+  way.place = after;
+}
+
+template <class Source, class Walls>
+float FreeWaySearch<Source, Walls>::leave_inside(const FreeWay& way) {
+  const Agents moved = moved_.agents();
+  hits_.resize(tests_.size());
+  source_.find_hits(moved, tests_, hits_.data());
+  float after = way.place;
+  for (std::size_t i = 0; i < tests_.size(); ++i) {
+    if (hits_[i] == 0) continue;
+    const float out = turned(tested_[i]).after_gap(way.place);
+    // Leaves of too many segments are discs: this way goes until a line separates the two.
+    after =
+        std::max(after, out > way.place
+                            ? out
+                            : rounding::round_up(double{way.place} +
+                                                 double{source_.leave_all(moved, tests_[i], way.x, way.y)}));
+  }
+  return after;
+}
+
+}  // namespace bch::detail
