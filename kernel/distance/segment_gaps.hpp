@@ -48,7 +48,7 @@ namespace bch::detail {
 ///     (7) the least w is at most f * longer + slack (64 u S) for every pair, and at most the best so far
 ///     (8) a pair can reach that bound only if its f is at most (bound + m + slack) * longer
 ///
-/// About one pair in ten remains.
+/// About one pair in four remains.
 ///
 /// `Search` is the search of one pair of agents:
 ///
