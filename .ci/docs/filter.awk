@@ -3,7 +3,7 @@ FNR == 1 { name = folder = FILENAME; sub(/.*\//, "", name); sub(/\/include.*/, "
 
 # Chapters: links are relative to the file, doxygen's to the repository and not in code; members are looked for in bch.
 name ~ /\.md$/ {
-  gsub(/\]\(\.\.\//, "]("); gsub(/\[`/, "["); gsub(/`\]\(/, "](")
+  gsub(/\]\((\.\.\/)+/, "]("); gsub(/\[`/, "["); gsub(/`\]\(/, "](")
   while (match($0, /`[A-Z][A-Za-z]+::[a-z_]+\(\)`/)) $0 = substr($0, 1, RSTART) "bch::" substr($0, RSTART + 1)
   print
   next
