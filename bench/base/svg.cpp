@@ -63,6 +63,10 @@ void Svg::open_clipped_group(std::string_view id, Pixel corner, double width, do
          id, number(corner.x), number(corner.y), number(width), number(height));
 }
 
+void Svg::use(std::string_view id, double right, double down) {
+  append(out_, "<use href=\"#{}\" x=\"{}\" y=\"{}\"/>\n", id, number(right), number(down));
+}
+
 void Svg::define_ball(std::string_view id) {
   append(out_,
          "<radialGradient id=\"{0}\" cx=\"35%\" cy=\"30%\" r=\"75%\"><stop class=\"{0}-lit\"/>"

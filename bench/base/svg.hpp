@@ -40,6 +40,9 @@ class Svg {
   /// Opens a group that shows nothing outside of the rectangle.
   void open_clipped_group(std::string_view id, Pixel corner, double width, double height);
 
+  /// Draws what an earlier group drew again, elsewhere.
+  void use(std::string_view id, double right, double down);
+
   /// Defines a paint, url(#id), that makes balls of circles: from the class `id-lit` to the class `id-shade`.
   void define_ball(std::string_view id);
   void circle(Pixel centre, double radius, std::string_view classes = {});

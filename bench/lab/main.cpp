@@ -14,6 +14,7 @@
 #include "bench/base/interrupt.hpp"
 #include "bench/base/options.hpp"
 #include "bench/base/output.hpp"
+#include "bench/lab/figures.hpp"
 #include "bench/report/report.hpp"
 #include "layout/base/base64.hpp"
 #include "layout/body/model/model_bytes.hpp"
@@ -108,6 +109,25 @@ void add_models_options(CLI::App& command, ModelsOptions& options) {
       ->type_name("DIR");
 }
 
+void add_figures_options(CLI::App& command, std::string& folder) {
+  command.footer("Example: bch_lab figures --out bench");
+  command.add_option("--out", folder, "Folder for the figures")->type_name("DIR")->required();
+}
+
+/// Draws the figures of chapters that no other command draws.
+/// Returns: a line a figure.
+std::string draw_figures(const std::string& folder) {
+  const std::pair<const char*, std::string (*)()> figures[] = {{"stages.svg", lab::draw_stages},
+                                                               {"distances.svg", lab::draw_distances}};
+  std::string files;
+  for (const auto& [name, draw] : figures) {
+    const std::string file = (std::filesystem::path(folder) / name).string();
+    write_file(file, draw());
+    files += file + "\n";
+  }
+  return files;
+}
+
 int run(int argc, char** argv) {
   CLI::App program("Measures bounding cylinder hierarchies against the paper and against exact arithmetic.",
                    "bch_lab");
@@ -122,11 +142,16 @@ int run(int argc, char** argv) {
   ModelsOptions models;
   CLI::App& models_command = *program.add_subcommand(
       "models", "Make the built-in characters' bodies of spheres anew, and compare them with the library's");
+  std::string figures_folder;
+  CLI::App& figures_command = *program.add_subcommand("figures", "Draw figures of the chapters");
+  add_figures_options(figures_command, figures_folder);
   add_models_options(models_command, models);
   add_report_options(report_command, report);
   if (!parse_command_line(program, argc, argv)) return exit_success;
   if (models_command.parsed())
     write_standard_output(remake_models(models));
+  else if (figures_command.parsed())
+    write_standard_output(draw_figures(figures_folder));
   else
     run_report(report);
   return exit_success;

@@ -28,6 +28,26 @@ TEST(Cli, TheOtherProgramsGiveTheSameExitCodes) {
   }
 }
 
+/// The figures of chapters are what the laboratory draws now, legible by any program.
+TEST(Cli, FiguresAreWhatTheLaboratoryDraws) {
+  const std::string program = std::filesystem::path(BCH_PROGRAM).parent_path() / "bch_lab";
+  if (!std::filesystem::exists(program)) GTEST_SKIP() << "bch_lab is not built";
+  const TemporaryFolder folder;
+  const Ending run = run_program(program, {"figures", "--out", folder.path().string()});
+  ASSERT_EQ(run.code, 0) << run.err;
+  const std::filesystem::path bench = std::filesystem::path(__FILE__).parent_path() / "../../bench";
+  for (const std::string name : {"stages.svg", "distances.svg"}) {
+    EXPECT_TRUE(has(run.out, name));
+    const std::string svg = read_text(folder.file(name));
+    EXPECT_TRUE(svg == read_text(bench / name)) << "bch_lab figures --out bench draws another " << name;
+    EXPECT_TRUE(svg.starts_with("<svg ") && svg.ends_with("</svg>\n"));
+    EXPECT_LT(svg.size(), 60'000u);
+    EXPECT_EQ(count_of(svg, "<g"), count_of(svg, "</g>"));
+    EXPECT_TRUE(has(svg, "prefers-color-scheme: dark"));
+    for (const char* const number : {"nan", "inf"}) EXPECT_EQ(count_of(svg, number), 0u);
+  }
+}
+
 TEST(Cli, OutputThatCannotBeWrittenIsReported) {
   expect_failure(bch({"--version"}, {}, {"/dev/full", {}}), 3, {"standard output"});
 }
