@@ -69,8 +69,8 @@ class FreeSearch {
     float *x, *y, *z, *radius, *half_x, *half_y, *half_z, *along, *across, *half_along, *half_across, *slope;
     std::vector<float> memory;
     Rounds() = default;
-    Rounds(Rounds&&) = default;
-    Rounds& operator=(Rounds&&) = default;
+    Rounds(Rounds&&) noexcept = default;
+    Rounds& operator=(Rounds&&) noexcept = default;
     void resize(std::size_t count);
     void set(std::size_t at, const FreeElement& element);
     FreeElement element(std::uint32_t i) const;
