@@ -29,10 +29,10 @@ struct Length {
   std::vector<Disc> discs;  ///< of both, in the world
 };
 
-/// Holds the pair, and asks about it.
-class Asked {
+/// Answers queries about the pair.
+class PairQueries {
  public:
-  Asked(const ShapeSet& set, const Stand& woman, std::uint32_t level)
+  PairQueries(const ShapeSet& set, const Stand& woman, std::uint32_t level)
       : set_(set),
         stands_{man_stand, woman},
         levels_{static_cast<std::uint8_t>(level), static_cast<std::uint8_t>(level)} {
@@ -186,11 +186,12 @@ std::string draw_distances() {
   const std::vector<Shape> shapes = walking_pair();
   const ShapeSet set(shapes, {{4, all_depths}});
   const Stand apart_stands[] = {man_stand, apart_stand};
-  const Asked apart(set, apart_stand, fine), colliding(set, colliding_stand, fine);
+  const PairQueries apart(set, apart_stand, fine), colliding(set, colliding_stand, fine);
   ClearanceOptions of_segments, of_deepest;
   of_segments.leaves = Leaves::segments, of_deepest.overlap = Overlap::deepest;
-  const Length coarse_discs = Asked(set, apart_stand, coarse).clearance({}), leaf_discs = apart.clearance({}),
-               segments = apart.clearance(of_segments), deepest = colliding.clearance(of_deepest);
+  const Length coarse_discs = PairQueries(set, apart_stand, coarse).clearance({}),
+               leaf_discs = apart.clearance({}), segments = apart.clearance(of_segments),
+               deepest = colliding.clearance(of_deepest);
   const Penetration free = colliding.nearest_free(), separate = colliding.penetration();
   const double outlines = outline_distance(shapes, apart_stand);
   const Stand separate_stands[] = {

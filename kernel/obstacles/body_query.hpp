@@ -13,14 +13,10 @@
 
 #include "kernel/obstacles/near_segments.hpp"
 #include "layout/base/rounding.hpp"
+#include "layout/format/cut_discs.hpp"
 #include "layout/format/shape_set_view.hpp"
 
 namespace bch::detail {
-
-/// Returns the radius of a disc about the root's centre that contains all discs of the cut.
-inline double outer_radius(const ShapeSetView& shapes, std::uint32_t root) noexcept {
-  return double{shapes.trees == nullptr ? shapes.roots[root].radius : shapes.trees[root].outer_radius};
-}
 
 /// Represents an agent's shape at its position and level.
 struct PlacedBody {

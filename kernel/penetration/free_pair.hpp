@@ -31,6 +31,14 @@ class FreePair {
   FreeTouch touch(float place) const;
 
  private:
+  /// Returns what use() returns of the search for this pair's kind.
+  template <class Self, class Use>
+  static auto with_search(Self& self, const Use& use) {
+    if (self.kind_ == Kind::segments) return use(self.segments_);
+    if (self.kind_ == Kind::walls) return use(self.walls_);
+    return use(self.spheres_);
+  }
+
   Kind kind_ = Kind::spheres;
   FreeSearch<FreeSpheres> spheres_;
   FreeSearch<FreeSegments> segments_;

@@ -17,6 +17,7 @@
 #include "layout/base/rounding.hpp"
 #include "layout/body/body_record.hpp"
 #include "layout/body/sphere_rounding.hpp"
+#include "layout/format/cut_discs.hpp"
 
 namespace bch::detail {
 namespace {
@@ -63,10 +64,9 @@ double reach_of(const FreeBody& body) {
 }  // namespace
 
 double OutlineSource::reach(std::uint32_t agent) const {
-  const std::size_t index = agents_.root(agent, view_.level_count);
+  const auto index = static_cast<std::uint32_t>(agents_.root(agent, view_.level_count));
   const Root& root = view_.roots[index];
-  const double outer = double{view_.trees == nullptr ? root.radius : view_.trees[index].outer_radius};
-  return std::abs(double{root.x}) + std::abs(double{root.y}) + outer;
+  return std::abs(double{root.x}) + std::abs(double{root.y}) + outer_radius(view_, index);
 }
 
 bool OutlineSource::may_meet(Pair pair) const {

@@ -7,9 +7,9 @@
 
 #include <bch/hierarchy.hpp>
 
-#include "kernel/obstacles/body_query.hpp"
 #include "kernel/recordings/frame_run.hpp"
 #include "layout/base/number_class.hpp"
+#include "layout/format/cut_discs.hpp"
 #include "layout/hierarchy/paper_hierarchies.hpp"
 
 namespace bch::detail {

@@ -19,6 +19,11 @@ struct CutDiscs {
 /// Returns the discs of the cut of `root` = shape * level_count + level. Valid while the set lives.
 CutDiscs cut_discs(const ShapeSetView& shapes, std::uint32_t root) noexcept;
 
+/// Returns the radius of a disc about the root's centre that contains all discs of the cut.
+inline double outer_radius(const ShapeSetView& shapes, std::uint32_t root) noexcept {
+  return double{shapes.trees == nullptr ? shapes.roots[root].radius : shapes.trees[root].outer_radius};
+}
+
 /// Returns the position, among a set's nodes, of the first cut disc below a node.
 std::uint32_t first_disc(const float* nodes, std::uint32_t node) noexcept;
 
