@@ -195,6 +195,9 @@ bch_trajectory& unread(bch_trajectory& trajectory, const std::string& name) {
 
 std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check_options& given) {
   unread(trajectory, "trajectory");
+  // The check reads ahead while the truth is read.
+  if (given.truth == &trajectory)
+    throw Failure(BCH_INVALID_ARGUMENT, "options->truth is trajectory; open its file once more");
   CheckOptions options;
   options.plan.depths = {given.depth};
   options.leaves = one_of(given.leaves, Leaves::segments, "options->leaves");

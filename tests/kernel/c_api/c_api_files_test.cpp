@@ -120,6 +120,18 @@ TEST_F(CApiRecordings, AreRead) {
   EXPECT_EQ(other, nullptr);
 }
 
+TEST_F(CApiRecordings, AreNotTheirOwnTruth) {
+  const auto trajectory = opened();
+  bch_check_options options = BCH_CHECK_OPTIONS_INIT;
+  options.truth = trajectory.get();
+  bch_check* none = nullptr;
+  EXPECT_EQ(bch_check_run(trajectory.get(), &options, &none), BCH_INVALID_ARGUMENT);
+  EXPECT_STREQ(bch_last_error(), "options->truth is trajectory; open its file once more");
+  EXPECT_EQ(none, nullptr);
+  options.truth = nullptr;
+  made<bch_check_free>(bch_check_run, trajectory.get(), &options);  // it was not read from
+}
+
 /// All tables of a check, as bytes.
 std::string tables_of(const bch_check* check) {
   const bch_check_frame* frames = nullptr;

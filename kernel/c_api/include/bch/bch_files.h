@@ -186,7 +186,7 @@ typedef struct bch_check_options {
   size_t footprint_count;
   const bch_page* page; /**< or NULL: no page is made for bch_check_get_page(), of up to 30 MB */
   /** Or NULL: what people truly did, if the recording is a prediction, with the same ids, frames and frame
-   * rate. It must not have been read from. */
+   * rate. It must not have been read from, nor be the trajectory that is checked. */
   bch_trajectory* truth;
 } bch_check_options;
 #define BCH_CHECK_OPTIONS_INIT \
