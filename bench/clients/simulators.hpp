@@ -15,13 +15,21 @@ namespace bch::clients {
 
 using Plane = std::complex<double>;  ///< metres, or metres a second
 
-constexpr double radius = 0.2, wanted_speed = 1.3, fastest = 1.8;  // metres, m/s
+constexpr double usual_radius = 0.2, wanted_speed = 1.3, fastest = 1.8;  // metres, m/s
 
 /// Holds people who are on their way.
 struct People {
   std::vector<Plane> at, velocity, goal;
+  std::vector<double> radius;  ///< metres, of discs
+  double period = 0;           ///< metres, along x and y; 0: none
 
   std::size_t size() const { return at.size(); }
+  /// Returns the shortest vector from one person to another.
+  Plane between(std::size_t from, std::size_t to) const {
+    const Plane apart = at[to] - at[from];
+    if (period == 0) return apart;
+    return {std::remainder(apart.real(), period), std::remainder(apart.imag(), period)};
+  }
   Plane wanted(std::size_t i) const {
     const Plane way = goal[i] - at[i];
     return way * std::min(1.0, wanted_speed / std::max(1e-9, std::abs(way)));
@@ -44,10 +52,11 @@ inline void steer_by_social_forces(People& people, double seconds) {
   for (std::size_t i = 0; i < people.size(); ++i) {
     force[i] += (people.wanted(i) - people.velocity[i]) / relaxation;
     for (std::size_t k = 0; k < i; ++k) {
-      const Plane away = people.at[i] - people.at[k];
+      const Plane away = people.between(k, i);
       const double distance = std::max(1e-9, std::abs(away));
       const Plane push =
-          std::min(40.0, strength * std::exp((2 * radius - distance) / reach)) * away / distance;
+          std::min(40.0, strength * std::exp((people.radius[i] + people.radius[k] - distance) / reach)) *
+          away / distance;
       force[i] += push, force[k] -= push;
     }
   }
@@ -60,10 +69,11 @@ struct HalfPlane {
   Plane point, normal;
 };
 
-/// Returns the velocities with which the first of two discs does its half to avoid the second.
+/// Returns the velocities with which the first of two discs does its half to avoid the second. `both`: the sum of their radii.
 /// Source:  J. van den Berg, S. J. Guy, M. Lin, D. Manocha, "Reciprocal n-body collision avoidance", ISRR 2009, section 4.
-inline HalfPlane avoid(Plane to_other, Plane own, Plane relative, double horizon, double seconds) {
-  const double square = std::norm(to_other), both = 2 * radius;
+inline HalfPlane avoid(Plane to_other, double both, Plane own, Plane relative, double horizon,
+                       double seconds) {
+  const double square = std::norm(to_other);
   const bool overlap = square < both * both;
   const double time = overlap ? seconds : horizon;
   const Plane from_cut = relative - to_other / time;
@@ -88,9 +98,9 @@ inline void steer_by_orca(People& people, double seconds) {
   for (std::size_t i = 0; i < people.size(); ++i) {
     std::vector<HalfPlane> allowed;
     for (std::size_t k = 0; k < people.size(); ++k)
-      if (const Plane to = people.at[k] - people.at[i]; k != i && std::abs(to) < reach)
-        allowed.push_back(
-            avoid(to, people.velocity[i], people.velocity[i] - people.velocity[k], horizon, seconds));
+      if (const Plane to = people.between(i, k); k != i && std::abs(to) < reach)
+        allowed.push_back(avoid(to, people.radius[i] + people.radius[k], people.velocity[i],
+                                people.velocity[i] - people.velocity[k], horizon, seconds));
     velocity[i] = people.wanted(i);
     for (int round = 0; round < rounds; ++round)
       for (const auto& [point, normal] : allowed)

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <stdexcept>
+#include <vector>
 
 #include <bch/crowd.hpp>
 
@@ -162,6 +164,14 @@ Crowd::ResolveOptions resolve_options_of(const bch_resolve_options* given, std::
   return all;
 }
 
+/// Returns the clearances that the crowd answered last.
+/// Errors:  throws std::invalid_argument if its last answer is another.
+Crowd::Clearances last_clearances(const bch_crowd& crowd) {
+  if (!crowd.distances)
+    throw std::invalid_argument("crowd: expected clearances as its last answer, found none");
+  return {.pairs = crowd.last, .distance = *crowd.distances, .direction = {}, .discs = {}, .points = {}};
+}
+
 }  // namespace
 
 bch_status bch_crowd_create(const bch_crowd_options* given, bch_crowd** crowd) {
@@ -301,11 +311,18 @@ bch_status bch_crowd_nearest(bch_crowd* handle, uint32_t max_count, bch_neighbou
   return guarded([&] {
     const bch_crowd& crowd = object_of(handle, "crowd");
     required(neighbours, "neighbours");
-    if (!crowd.distances)
-      throw std::invalid_argument("crowd: expected clearances as its last answer, found none");
-    const Crowd::Clearances clearances{
-        .pairs = crowd.last, .distance = *crowd.distances, .direction = {}, .discs = {}, .points = {}};
-    *neighbours = neighbour_rows(clearances.nearest(max_count));
+    *neighbours = neighbour_rows(last_clearances(crowd).nearest(max_count));
+  });
+}
+
+bch_status bch_crowd_disc_radii(const bch_crowd* handle, const bch_agents* agents, double alone,
+                                double* radii) {
+  return guarded([&] {
+    const bch_crowd& crowd = object_of(handle, "crowd");
+    const Agents all = agents_of(agents);
+    required(radii, "radii");
+    const std::vector<double> computed = last_clearances(crowd).disc_radii(all, alone);
+    std::copy(computed.begin(), computed.end(), radii);
   });
 }
 

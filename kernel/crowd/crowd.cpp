@@ -11,6 +11,7 @@
 #include <bch/pairs.hpp>
 
 #include "kernel/crowd/crowd_memory.hpp"
+#include "kernel/crowd/disc_radii.hpp"
 #include "kernel/runtime/task_ranges.hpp"
 #include "layout/base/shortest.hpp"
 
@@ -38,6 +39,15 @@ Rows<Crowd::Neighbour> Crowd::Pairs::by_agent() const {
 Rows<Crowd::Neighbour> Crowd::Pairs::nearest(std::span<const float> distance, std::uint32_t max_count) const {
   if (memory_ == nullptr) return {};
   return without_tasks_from_outside([&] { return memory_->nearest(pairs_, distance, max_count); });
+}
+
+std::vector<double> Crowd::Pairs::disc_radii(std::span<const float> distance, const Agents& agents,
+                                             double alone) const {
+  if (memory_ == nullptr) return std::vector<double>(agents.size(), alone);
+  if (agents.size() != memory_->agents)
+    throw std::invalid_argument("disc_radii: expected the " + std::to_string(memory_->agents) +
+                                " agents of the clearances, found " + std::to_string(agents.size()));
+  return detail::disc_radii(pairs_, distance, agents, memory_->options.period, alone);
 }
 
 Crowd::Crowd() : Crowd(CrowdOptions{}) {}

@@ -86,6 +86,46 @@ TEST(Crowd, TellsTheNearestOfEach) {
   EXPECT_EQ(bch::Crowd::Clearances{}.nearest(5).size(), 0u);
 }
 
+/// Returns what disc_radii() promises, agent by agent, of a crowd whose period along x is a multiple of 2^-20 m.
+template <class Clearances>
+std::vector<double> mean_radii(const Clearances& found, const test::Crowd& in, double period, double alone) {
+  std::vector<double> radii;
+  for (std::uint32_t i = 0; i < in.agents().size(); ++i) {
+    double sum = 0, weights = 0;
+    for (std::size_t k = 0; k < found.pairs.size(); ++k) {
+      const auto [a, b] = found.pairs[k];
+      if (a != i && b != i) continue;
+      double x = std::abs(in.agents().x[a] - in.agents().x[b]);
+      if (period > 0) x = std::min(x, period - x);
+      const double gap{found.distance[k]}, y = in.agents().y[a] - in.agents().y[b],
+                                           weight = std::pow(std::max(gap, 0.0) + 0.1, -2);
+      sum += weight * std::max(0.0, std::hypot(x, y) - gap) / 2, weights += weight;
+    }
+    radii.push_back(weights > 0 ? sum / weights : alone);
+  }
+  return radii;
+}
+
+TEST(Crowd, DiscsStandForBodiesAmongTheirNeighbours) {
+  const test::Crowd in = people(300, 40, 40, 9);
+  for (const double period : {0.0, 40.0}) {
+    Crowd crowd(bch::CrowdOptions{.period = {.x = period}});
+    const auto found =
+        crowd.clearances(walkers, in.agents(), {.max_distance = 0.5, .overlap = Overlap::deepest});
+    const std::vector<double> radii = found.disc_radii(in.agents(), 7);
+    const std::vector<double> expected = mean_radii(found, in, period, 7);
+    ASSERT_EQ(radii.size(), expected.size());
+    for (std::size_t i = 0; i < radii.size(); ++i) EXPECT_NEAR(radii[i], expected[i], 1e-12) << i;
+    const auto alone = std::ranges::count(radii, 7.0);
+    EXPECT_GT(alone, 0);
+    EXPECT_LT(alone, 300);
+    const test::Crowd others = people(299, 40, 40, 9);
+    expect_refused("disc_radii: expected the 300 agents of the clearances, found 299",
+                   [&] { (void)found.disc_radii(others.agents(), 7); });
+  }
+  EXPECT_EQ(bch::Crowd::Clearances{}.disc_radii(in.agents(), 2), std::vector<double>(300, 2));
+}
+
 TEST(Crowd, MeasuresThePairsThatItFinds) {
   Crowd crowd;
   const test::PairScene in{people(600, 12, 12, 7), all_pairs(600)};

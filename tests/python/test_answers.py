@@ -288,12 +288,20 @@ class Scenes(unittest.TestCase):
         kept = of_pair[(0, 3)]
         self.assertEqual([len(row) for row in crowd.nearest(2)], [2, 1, 2, 2])
         self.assertEqual(crowd.nearest(1)[3].tolist(), [2])
+        # Agents 0, 2 and 3 stand at one place, so their bodies touch without a move on the ground, and only 0 and 1 say more.
+        weight = {tuple(pair): (max(gap, 0) + 0.1) ** -2 for pair, gap in zip(apart.pairs.tolist(), apart.distance.tolist())}
+        radii = crowd.disc_radii(agents, 0.3)
+        np.testing.assert_allclose(radii[1], (0.9 + 0.1) / 2, atol=1e-4)
+        np.testing.assert_allclose(radii[0], (1.0 * weight[0, 1] + 0.1 * weight[0, 2]) / 2 / sum(weight[0, i] for i in (1, 2, 3)), atol=1e-4)
+        with self.assertRaisesRegex(ValueError, "disc_radii: expected the 4 agents of the clearances, found 3"):
+            crowd.disc_radii(LINE)
         for name in ("distance", "direction", "discs", "points"):
             np.testing.assert_array_equal(getattr(apart, name)[kept], getattr(nearest, name)[2])
         found = {tuple(pair) for pair in crowd.collisions(bodies, agents).tolist()}
         self.assertEqual(found, {(0, 1), (0, 2), (2, 3)})
         self.assertEqual(crowd.by_agent()[0].tolist(), [1, 2])
         self.assertRaisesRegex(ValueError, "expected clearances as its last answer", crowd.nearest, 2)
+        self.assertRaisesRegex(ValueError, "expected clearances as its last answer", crowd.disc_radii, agents)
         mask = np.array([1, 1, 2, 2], np.uint32)
         self.assertEqual(len(crowd.collisions(bodies, agents, mask=mask)), 1)
         with self.assertRaisesRegex(bch.ArgumentError, "body 0: expected finite spheres"):

@@ -175,6 +175,16 @@ void add_queries_of_crowds(const CScene& scene, std::vector<CQuery>& to) {
         return status != BCH_OK ? status : bch_crowd_nearest(found.crowd.get(), 3, &found.neighbours);
       },
       [](const Found& found) { return row_bytes(found.neighbours); });
+  const auto radii = std::make_shared<std::vector<double>>(all->agents.count);
+  add(
+      "disc radii", true,
+      [=](Found& found) {
+        const bch_status status = bch_crowd_clearances(found.crowd.get(), set, &all->agents, 0.2, nullptr,
+                                                       &all->options, &found.near);
+        return status != BCH_OK ? status
+                                : bch_crowd_disc_radii(found.crowd.get(), &all->agents, 0.25, radii->data());
+      },
+      [=](const Found&) { return bytes(*radii); });
   add_of("penetrations", false, bch_crowd_penetrations, apart_bytes, &Found::apart, 16u, nullptr);
 }
 

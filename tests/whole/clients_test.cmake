@@ -1,5 +1,5 @@
-# Runs the clients of bench/clients twice: bodies that are moved apart overlap less than a tenth as often as those behind discs alone, and
-# as often the second time.
+# Runs the clients of bench/clients twice: bodies that are moved apart overlap less than a tenth as often as those behind discs alone, those
+# whose clearances set the radii less than two thirds as often, and all as often the second time.
 # Usage: cmake -DPROGRAM=... [-DSCRIPT=...] -P clients_test.cmake
 include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 
@@ -16,6 +16,13 @@ foreach(simulator "orca" "social forces")
     message(FATAL_ERROR "nothing is said of ${simulator} and discs")
   endif()
   set(discs ${CMAKE_MATCH_1})
+  if(NOT first MATCHES "${simulator}, radii from clearances: ([0-9]+) overlaps")
+    message(FATAL_ERROR "nothing is said of ${simulator} and radii")
+  endif()
+  math(EXPR half_more "3 * ${CMAKE_MATCH_1} / 2")
+  if(half_more GREATER discs)
+    message(FATAL_ERROR "${simulator}: ${discs} overlaps with discs, ${CMAKE_MATCH_1} with radii from clearances")
+  endif()
   if(NOT first MATCHES "${simulator}, bodies moved apart: ([0-9]+) overlaps")
     message(FATAL_ERROR "nothing is said of ${simulator} and bodies")
   endif()

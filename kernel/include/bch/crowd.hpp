@@ -8,6 +8,7 @@
 #include <limits>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include <bch/body_set.hpp>
 #include <bch/obstacles.hpp>
@@ -84,6 +85,7 @@ class Crowd {
         : pairs_(pairs), memory_(&memory) {}
 
     Rows<Neighbour> nearest(std::span<const float> distance, std::uint32_t max_count) const;
+    std::vector<double> disc_radii(std::span<const float> distance, const Agents& agents, double alone) const;
 
     std::span<const Pair> pairs_;
     detail::CrowdMemory* memory_ = nullptr;
@@ -126,6 +128,16 @@ class Crowd {
     /// the deepest overlap is the nearest. Crowd models such as ORCA use these as neighbours.
     /// Errors:  throws std::length_error beyond 2^32 - 1 pairs.
     Rows<Neighbour> nearest(std::uint32_t max_count) const { return pairs.nearest(distance, max_count); }
+
+    /// Returns the radii of discs that stand for the bodies in a simulator of discs: metres, one per agent.
+    /// Two bodies that move towards each other touch at a distance of their positions that is today's minus
+    /// the clearance. A radius is half of it, as a mean over the agent's pairs of this answer, each with the
+    /// weight 1 / (clearance + 0.1 m)^2. An agent without a pair gets `alone`. Use Overlap::deepest.
+    /// Input:   the agents of the query.
+    /// Errors:  throws std::invalid_argument on another number of agents.
+    std::vector<double> disc_radii(const Agents& agents, double alone) const {
+      return pairs.disc_radii(distance, agents, alone);
+    }
   };
 
   /// Holds the pairs of bodies of spheres within max_distance of each other.
@@ -139,6 +151,10 @@ class Crowd {
 
     /// Returns the nearest neighbours of each agent, as Clearances::nearest() does.
     Rows<Neighbour> nearest(std::uint32_t max_count) const { return pairs.nearest(distance, max_count); }
+    /// Returns the radii of discs that stand for the bodies, as Clearances::disc_radii() does.
+    std::vector<double> disc_radii(const Agents& agents, double alone) const {
+      return pairs.disc_radii(distance, agents, alone);
+    }
   };
 
   /// Holds the pairs that collide, and for each the displacement of its first agent that separates the two.

@@ -395,6 +395,18 @@ class Crowd:
         """
         return self._neighbours(lib.bch_crowd_nearest, bounded(max_count, "max_count", 0, 2**32 - 1))
 
+    def disc_radii(self, agents: Agents, alone: float = 0.25) -> Float64:
+        """Return the radii of discs that stand for the bodies in a simulator of discs, (n,) metres, from the answer of `clearances`.
+
+        A radius is half the distance of positions at which two bodies touch, in the mean over an agent's pairs, the near ones
+        foremost. An agent without a pair gets `alone`. `clearances` of the same agents, with `overlap="deepest"`, has to be this
+        crowd's last query.
+        """
+        radii = np.empty(len(instance(agents, Agents, "agents")))
+        with self._exclusive:
+            check(lib.bch_crowd_disc_radii(self._handle.pointer, agents._pointer, number(alone, "alone"), radii.ctypes.data))
+        return radii
+
     def _neighbours(self, call: Any, *most: int) -> Neighbours:
         found = _library.NeighbourRows()
         with self._exclusive:

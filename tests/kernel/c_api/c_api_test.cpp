@@ -110,6 +110,7 @@ std::map<std::string, std::string> answers_of(const test::CScene& scene, const d
   all["clearances"] = bytes(near.pairs.span()) + bytes(near.distance) + bytes(near.direction) +
                       bytes(near.discs) + bytes(near.points);
   all["nearest"] = bytes_of(near.nearest(3));
+  all["disc radii"] = bytes(near.disc_radii(agents, 0.25));
   const bch::Crowd::Penetrations apart = crowd.penetrations(set, agents, 16, by);
   all["penetrations"] =
       bytes(apart.pairs.span()) +

@@ -790,6 +790,12 @@ BCH_API bch_status bch_crowd_by_agent(bch_crowd* crowd, bch_neighbour_rows* neig
  * them. The crowd's last answer has to be from bch_crowd_clearances() or bch_crowd_body_clearances(); its
  * distances decide, not those of centres. */
 BCH_API bch_status bch_crowd_nearest(bch_crowd* crowd, uint32_t max_count, bch_neighbour_rows* neighbours);
+/** Computes the radii of discs that stand for the bodies in a simulator of discs: a radius is half the distance
+ * of positions at which two bodies touch, in the mean over an agent's pairs, the near ones foremost. Agents
+ * without a pair get `alone`, metres. The crowd's last answer has to be from bch_crowd_clearances() or
+ * bch_crowd_body_clearances() of the same agents, with BCH_OVERLAP_DEEPEST. `radii` gets one value per agent. */
+BCH_API bch_status bch_crowd_disc_radii(const bch_crowd* crowd, const bch_agents* agents, double alone,
+                                        double* radii);
 /** Finds the obstacles that each agent collides with: one row of obstacle indices per agent, ascending. */
 BCH_API bch_status bch_crowd_obstacles(bch_crowd* crowd, const bch_shape_set* set, const bch_agents* agents,
                                        const bch_obstacles* obstacles, const bch_query_options* options,
