@@ -8,6 +8,7 @@
 
 #include "kernel/distance/clearance_arguments.hpp"
 #include "kernel/distance/clearance_measure.hpp"
+#include "kernel/distance/facing_segments.hpp"
 #include "kernel/distance/nearest_search.hpp"
 #include "kernel/distance/segment_gaps.hpp"
 #include "kernel/simd/record_fields.hpp"
@@ -35,7 +36,11 @@ class ClearanceKernel {
   using Search = NearestSearch<Simd, Measure>;
 
   explicit ClearanceKernel(const ClearanceArguments& arguments) noexcept
-      : arguments_(arguments), shapes_(*arguments.in.shapes), segments_(shapes_), search_(shapes_.nodes) {}
+      : arguments_(arguments),
+        shapes_(*arguments.in.shapes),
+        segments_(shapes_),
+        facing_(shapes_),
+        search_(shapes_.nodes) {}
 
   void answer_chunk(std::size_t begin, std::size_t end) noexcept {
     transforms_.compute(arguments_.in, begin, end);
@@ -60,11 +65,26 @@ class ClearanceKernel {
   }
 
   void answer_searched(NearestFeatures* nearest) noexcept {
-    search_.run([this] { segments_.finish(); });
+    search_.run([this] {
+      segments_.finish();
+      for (std::uint32_t k = 0; k < search_.size(); ++k) measure_facing(k);
+    });
     segments_.finish();
     for (std::uint32_t k = 0; k < search_.size(); ++k)
       nearest[searched_[k]] = answer(searched_[k], search_.measure(k));
     search_.clear();
+  }
+
+  /// Ends a search if only few segments may be nearer than those of the first leaves: measures these.
+  void measure_facing(std::uint32_t k) noexcept {
+    Measure& measure = search_.measure(k);
+    const auto [distance, are_discs, a, b] = measure.nearest();
+    const std::uint32_t pair = searched_[k];
+    if (are_discs || a == no_node || !facing_.takes(transforms_.shape_a[pair], transforms_.shape_b[pair]) ||
+        !facing_.find(transforms_.transform(pair), a, b, segments_.max_distance(k, measure)))
+      return;
+    search_.end(k);
+    segments_.measure_pairs(k, measure, [this](auto use) { facing_.visit(use); });
   }
 
   NearestFeatures answer(std::uint32_t pair, const Measure& measure) const noexcept {
@@ -87,7 +107,8 @@ class ClearanceKernel {
     if (!arguments_.in.exact_leaves || a.segments == no_segments || b.segments == no_segments) return measure;
     const double margin = segment_margin<Simd>(shapes_, transforms_.shape_a[pair], transforms_.shape_b[pair]);
     segments_.place(search_.size(), transforms_.transform(pair), margin);
-    measure.use_segments(&segments_, search_.size(), a, b, margin);
+    measure.use_segments(&segments_, search_.size(), a, b, margin,
+                         facing_.takes(transforms_.shape_a[pair], transforms_.shape_b[pair]));
     return measure;
   }
 
@@ -141,6 +162,7 @@ class ClearanceKernel {
   alignas(64) float root_bound_[chunk_size];
   std::uint32_t searched_[Search::capacity];  ///< pairs of the chunk
   typename Measure::Segments segments_;
+  FacingSegments<Simd> facing_;
   static_assert(Measure::Segments::max_searches == Search::capacity);
   Search search_;
 };

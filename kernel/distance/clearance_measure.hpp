@@ -62,9 +62,10 @@ class ClearanceMeasure {
   ClearanceMeasure() = default;
 
   /// Measures between the segments of two trees, which have segments, as search `number` of `segments`.
-  void use_segments(Segments* segments, std::uint32_t number, const Tree& a, const Tree& b,
-                    double margin) noexcept {
-    segments_ = segments, number_ = number, tree_a_ = &a, tree_b_ = &b;
+  /// `probes`: of the first windows, only the two nearest leaves are stored.
+  void use_segments(Segments* segments, std::uint32_t number, const Tree& a, const Tree& b, double margin,
+                    bool probes) noexcept {
+    segments_ = segments, number_ = number, tree_a_ = &a, tree_b_ = &b, probes_ = probes;
     margin_ = static_cast<float>(margin);
     search_within(nearest_);
   }
@@ -106,6 +107,15 @@ class ClearanceMeasure {
     if (!(least <= best())) return;
     const unsigned k = first_within<Simd>(gaps, least);
     update_from_discs(least, first_a + k / block_width, first_b + k % block_width);
+  }
+
+  /// Ends probing: from now on, all leaves are stored. Returns whether there were windows of which only two
+  /// leaves were stored, and their names.
+  bool end_probe(std::uint32_t& a, std::uint32_t& b) noexcept {
+    const bool probed = probed_a_ != 0;
+    a = probed_a_, b = probed_b_;
+    probes_ = false, probed_a_ = 0;
+    return probed;
   }
 
   /// Returns 64 u S, metres.
@@ -152,7 +162,13 @@ class ClearanceMeasure {
       Simd::store(gaps + k, gap(x, y, r));
       Simd::store(squares + k, Simd::select(square <= Float(far_beyond), square + r * r, Float(far_beyond)));
     });
-    if (!(least_value<Simd>(gaps) <= best_)) return;
+    const float least = least_value<Simd>(gaps);
+    if (!(least <= best_)) return;
+    if (probes_) {
+      probes_ = false, probed_a_ = first_a | leaf_window, probed_b_ = first_b | leaf_window;
+      const unsigned k = first_within<Simd>(gaps, least);
+      return segments_->add(number_, *this, first_a + k / block_width, first_b + k % block_width, gaps[k]);
+    }
     const float most = __builtin_sqrtf(least_value<Simd>(squares)) * root_factor + slack_;
     if (max_gap(most) < best_) bound_by(max_gap(most));
     for (std::uint64_t left = all_within<Simd>(gaps, best_); left != 0; left &= left - 1) {
@@ -198,6 +214,8 @@ class ClearanceMeasure {
   Segments* segments_ = nullptr;
   const Tree *tree_a_, *tree_b_;
   std::uint32_t number_;
+  std::uint32_t probed_a_ = 0, probed_b_ = 0;  ///< windows; 0: none
+  bool probes_ = false;
   float margin_;
   Nearest nearest_;
   float best_;

@@ -19,6 +19,7 @@ namespace bch::detail {
 ///
 /// 1. Every pair descends to its first leaves, always to the children with the least bound, and keeps the
 ///    bounds on the way. One round advances each pair by a level.
+///    (A measure that probes has measured only a part of these until end_probe().)
 /// 2. The best value is then close to the final one, so the order of the remaining nodes hardly matters: they
 ///    are visited without sorting, which would cost more than it saves.
 template <class Simd, class Measure>
@@ -29,7 +30,7 @@ class NearestSearch {
   explicit NearestSearch(const float* nodes) noexcept : traversal_(nodes) {}
 
   std::uint32_t size() const noexcept { return size_; }
-  const Measure& measure(std::uint32_t pair) const noexcept { return pairs_[pair].measure; }
+  Measure& measure(std::uint32_t pair) noexcept { return pairs_[pair].measure; }
 
   /// Adds a pair; size() must be less than capacity.
   void add(const Transform& b_in_a, const Tree& a, const Tree& b, const Measure& measure) noexcept {
@@ -39,17 +40,26 @@ class NearestSearch {
   }
 
   /// Searches all pairs; their measures then hold the answers. Calls between() when each pair has reached its
-  /// first leaves.
+  /// first leaves; between() may end() searches.
   template <class Between>
   void run(Between between) noexcept {
     descend();
     between();
     inner_.size = 0;
+    for (Step step{0, 0, 0}; step.pair < size_; ++step.pair)
+      if (pairs_[step.pair].measure.end_probe(step.a, step.b)) measure_windows(step);
     for (std::uint32_t depth = max_kept; depth-- > 0;) {
       for (std::uint32_t pair = 0; pair < size_; ++pair)
         if (depth < pairs_[pair].frames) collect(pair, frames_[pair][depth]);
       expand_inner();
     }
+  }
+
+  /// Ends the search of a pair whose measure holds the answer.
+  void end(std::uint32_t pair) noexcept {
+    Step step;
+    pairs_[pair].measure.end_probe(step.a, step.b);
+    pairs_[pair].frames = 0;
   }
 
   void clear() noexcept { size_ = 0; }

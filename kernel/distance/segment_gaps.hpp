@@ -82,6 +82,19 @@ class SegmentGaps : private SegmentBatch<Simd> {
     last_[number] = ++open_size_;
   }
 
+  /// Returns the largest distance of segments that may be as near as the nearest so far: (8).
+  float max_distance(std::uint32_t number, const Search& search) const noexcept {
+    return max_distance(number, search, search.nearest().distance);
+  }
+  /// Measures the pairs of segments for which visit(use) calls use(a, b). No leaves are stored.
+  template <class Visit>
+  void measure_pairs(std::uint32_t number, Search& search, Visit visit) noexcept {
+    searches_[number] = &search;
+    const auto measure = [&] { measure_collected(number); };
+    visit([&](std::uint32_t a, std::uint32_t b) { this->append(number, a, b, number, measure); });
+    measure();
+  }
+
   /// Measures the segments of all stored leaves that may still contain the nearest ones.
   void finish() noexcept {
     if (open_size_ != 0) measure_all();
@@ -149,12 +162,15 @@ class SegmentGaps : private SegmentBatch<Simd> {
       Simd::store(squares + k, square);
       least = xsimd::min(square, least);
     }
-    const float slack = search.slack(), margin = static_cast<float>(places_[number].margin);
-    const float bound = __builtin_sqrtf(Simd::least(least)) * longer + slack,
+    const float bound = __builtin_sqrtf(Simd::least(least)) * longer + search.slack(),
                 best = search.nearest().distance;
-    const float limit = ((bound < best ? bound : best) + margin + slack) * longer;
+    const float limit = max_distance(number, search, bound < best ? bound : best);
     this->retain(
         [&](std::uint32_t k) { return Simd::bits(Simd::load(squares + k) <= Float(limit * limit)); });
+  }
+
+  float max_distance(std::uint32_t number, const Search& search, float least) const noexcept {
+    return (least + static_cast<float>(places_[number].margin) + search.slack()) * longer;
   }
 
   /// Measures one pair per lane. Returns: the bits of all lanes.

@@ -131,13 +131,18 @@ class SegmentBatch {
     }
     const auto of_a = a.segments(i), of_b = b.segments(j);
     for (std::uint32_t k = 0; k < of_a.count; ++k)
-      for (std::uint32_t l = 0; l < of_b.count; ++l) {
-        if (size_ == capacity) [[unlikely]]
-          finish();
-        segment_a_[size_] = of_a.point(k), segment_b_[size_] = of_b.point(l);
-        owner_[size_++] = placed << 16 | owner;
-      }
+      for (std::uint32_t l = 0; l < of_b.count; ++l)
+        append(placed, of_a.point(k), of_b.point(l), owner, finish);
     return of_a.count * of_b.count != 0;
+  }
+  /// Collects one pair of segments, named by the points where they begin.
+  template <class Finish>
+  [[gnu::always_inline]] void append(std::uint32_t placed, std::uint32_t a, std::uint32_t b,
+                                     std::uint32_t owner, Finish finish) noexcept {
+    if (size_ == capacity) [[unlikely]]
+      finish();
+    segment_a_[size_] = a, segment_b_[size_] = b;
+    owner_[size_++] = placed << 16 | owner;
   }
 
   /// Calls test(k) for every register of pairs, and use(k, lane) for each bit that it returns.
