@@ -295,7 +295,8 @@ class OverlapTraversal {
     if ((at.a | at.b) < leaf_window) [[likely]]
       return {Nodes::child(nodes, at.a, i), Nodes::child(nodes, at.b, j), rest};
     std::uint32_t a = at.a, b = at.b;
-    // All of a window's discs are tested at once, so its other overlaps with the same disc are visited with this one.
+    // If one node is a window, only the other node is descended. The next test is of that child and the whole window,
+    // so it covers all overlaps between the child and the window's discs: these are removed from `rest`.
     if (a < leaf_window) a = Nodes::child(nodes, a, i), rest &= ~(first_row_of_pairs << (bit - j));
     if (b < leaf_window) b = Nodes::child(nodes, b, j), rest &= ~(first_column_of_pairs << j);
     return {a, b, rest};

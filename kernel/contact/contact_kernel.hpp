@@ -21,17 +21,21 @@
 
 namespace bch::detail {
 
-/// Finds all contacts of two cuts: pairs of discs that overlap with all their ancestors, and with exact
-/// leaves whose segments touch. Handles one pair of agents after the other.
+/// Finds all contacts of two cuts. (A cut is the discs of a tree at a level of detail.) A contact is a disc
+/// of each cut such that the two discs overlap, and each ancestor of either overlaps the other disc and all
+/// of its ancestors. With exact leaves, segments of the two discs also touch. Handles one pair of agents
+/// after the other.
 ///
-/// Order. "Rows" are the discs of the pair's first agent, "columns" those of the second. Row windows are
-/// visited from left to right, each with the column nodes that overlap the blocks above it. So contacts are
-/// found in order, except among the eight rows of a window; those are counted first and then written to their
-/// positions.
+/// Order. "Rows" are the discs of the pair's first agent, "columns" those of the second. A window is a leaf
+/// of a flat tree: eight consecutive discs; the nodes above are blocks (layout/format/shape_set_view.hpp).
+/// Row windows are visited from left to right, each with the column nodes that overlap the blocks above it.
+/// So contacts are found in order, except among the eight rows of a window; those are counted first and then
+/// written to their positions.
 ///
-/// Uniqueness. Windows may share discs with their neighbours, but no contact is reported twice. Of a row
-/// window only the rows before the next window count; the last eight rows, where windows are shifted to fit,
-/// are visited together at the end. A column counts in the first visited window that contains it.
+/// Uniqueness. Windows may share discs with their neighbours, but no contact is reported twice. A row is
+/// tested in the last window that contains it: each row window is used only up to the first row of the next
+/// window. The last window begins earlier than the others would let it, so that it has eight discs; its rows
+/// are tested together at the end. A column is tested in the first visited window that contains it.
 ///
 /// Pruning and verification of hits are those of the kernel of collide().
 template <class Simd>
@@ -210,7 +214,8 @@ class ContactKernel {
       if (hits & first_column_of_pairs << j) visit_columns(rows, mask, child(node, j), next, visit);
   }
 
-  /// Returns how many discs of a window earlier windows contain, of which the last ended before `next`.
+  /// Returns how many discs of a window were in the windows visited before it, which ended before disc
+  /// `next`. Advances `next` to the end of this window.
   static std::uint32_t visited_lanes(std::uint32_t window, std::uint32_t& next) noexcept {
     const std::uint32_t done = next > window ? next - window : 0;
     next = window + block_width > next ? window + block_width : next;
@@ -334,7 +339,7 @@ class ContactKernel {
   bool swapped_;           ///< the first agent is B
   PlacedSegments placed_;  ///< a margin of 0: discs decide
   float reach_;            ///< of both shapes
-  bool is_conservative_;   ///< nodes of both contain the discs below, with a margin for the other's reach
+  bool is_conservative_;   ///< Tree::nodes_hold_discs of both, and similar reaches
   const float* nodes_;
   Tree rows_, columns_;
   std::uint32_t first_row_, first_column_;  ///< where their discs begin

@@ -44,7 +44,7 @@ struct CrowdMemory {
   };
 
   bool is_periodic() const noexcept { return options.period.x > 0 || options.period.y > 0; }
-  /// Refuses a period: given pairs name agents, not their images.
+  /// Throws if the crowd has a period. Pairs from the caller name agents, and cannot name an agent's periodic image.
   void require_no_period() const {
     if (is_periodic())
       throw std::invalid_argument(
@@ -78,7 +78,7 @@ struct CrowdMemory {
     collide(set, candidates.agents, candidates.pairs, hits, options);
     return {keep(candidates.pairs, [&](std::size_t i) { return hits[i] != 0; }), *this};
   }
-  /// Runs penetration() or nearest_free(), `query`, for the candidates that were kept.
+  /// Runs `query`, which is penetration() or nearest_free(), for the candidates that were kept.
   template <class Set, class Query>
   void measure_kept(const Set& set, const Candidates& candidates, std::uint32_t directions,
                     const Implementation* implementation, const Query& query) {
@@ -86,7 +86,7 @@ struct CrowdMemory {
     penetrations.resize(to_separate.size());
     query(set, candidates.agents, to_separate, directions, penetrations, implementation);
   }
-  /// Runs penetration() for them.
+  /// Runs penetration() for the candidates that were kept.
   template <class Set>
   Crowd::Penetrations penetrations_of_kept(const Set& set, const Candidates& candidates,
                                            std::uint32_t directions, const Implementation* implementation) {

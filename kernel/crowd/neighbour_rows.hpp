@@ -22,7 +22,8 @@ struct NeighbourRows {
   void count(std::size_t first, std::size_t last) const noexcept;
   /// Turns the counts into the ends of rows, and returns the last end.
   std::uint64_t accumulate() const noexcept;
-  /// Inserts pairs first .. last into their rows, from the end of each on, so that ends become begins.
+  /// Inserts pairs first .. last into their rows. Each row is filled backwards from its end, so that `begin`, which
+  /// held the ends, holds the begins once all pairs are inserted.
   void fill(std::size_t first, std::size_t last) const noexcept;
   /// Sorts the rows of agents first .. last.
   void sort(std::size_t first, std::size_t last) const noexcept;

@@ -25,7 +25,7 @@ template <class Simd>
 class ClearanceKernel {
  public:
   static void run(const ClearanceArguments& arguments, std::size_t begin, std::size_t end) noexcept {
-    static_assert(sizeof(ClearanceKernel) <= 256 * 1024, "what query.hpp promises, and room for calls");
+    static_assert(sizeof(ClearanceKernel) <= 256 * 1024, "fits the stack of query.hpp with room for calls");
     ClearanceKernel kernel(arguments);
     for (; begin < end; begin += chunk_size) kernel.answer_chunk(begin, end);
   }
@@ -100,7 +100,8 @@ class ClearanceKernel {
     return {distance, false, a, b, x, y, cosine, sine};
   }
 
-  /// Returns the measure of a pair, for the next search of the kernel.
+  /// Returns the ClearanceMeasure of a pair: what computes its gaps and keeps the least one. It is for the
+  /// next search of the kernel.
   Measure measure(std::uint32_t pair) noexcept {
     Measure measure(arguments_.limit, arguments_.stop_below, reach(pair));
     const Tree &a = shapes_.trees[transforms_.root_a[pair]], &b = shapes_.trees[transforms_.root_b[pair]];

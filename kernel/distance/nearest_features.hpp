@@ -19,8 +19,8 @@ namespace bch::detail {
 std::uint32_t leaf_containing(const ShapeSetView& shapes, std::size_t root, std::uint32_t point, double x,
                               double y);
 
-/// Computes the outputs of a clearance from the nearest features that a kernel found for two agents: in
-/// double, in which squares do not underflow, and from the agents' positions.
+/// Computes the outputs of a clearance from the nearest features (discs or segments) that a kernel found for
+/// two agents. It computes them from the agents' positions, in double, so that squares do not underflow.
 class PlacedFeatures {
  public:
   /// `pair`: the lower index first. Keeps references to all arguments.
@@ -30,8 +30,9 @@ class PlacedFeatures {
 
   const NearestFeatures& nearest() const noexcept { return nearest_; }
 
-  /// Returns the numbers of the discs in their cuts. For segments, those of the leaves that contain them, by
-  /// leaf_containing() of points().
+  /// Returns the numbers of the nearest discs, each counted in its agent's cut: the discs of its tree at the
+  /// agent's level. For segments, returns the numbers of the leaves that contain them, by leaf_containing()
+  /// of points().
   DiscPair numbers() const;
 
   /// Returns sign (1 or -1) times the unit vector from the first feature to the second; (sign, 0) if centres

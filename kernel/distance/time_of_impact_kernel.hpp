@@ -86,13 +86,16 @@ class TimeOfImpactKernel {
   }
 
   /// Returns the slack of supports during the displacement v, beyond the margin that layout/base/rounding.hpp
-  /// includes in supports:
+  /// includes in supports. As there, S is the sum of both reaches, t the position of B in A's frame, D the
+  /// distance of two centres, and u = 2^-24:
   ///
   ///     (1) discs may protrude from the outlines that supports belong to: `excess`
-  ///     (2) discs touch by the measure at 16 u D more than by collide()'s test, D <= S + |t|
+  ///     (2) discs touch by TimeOfImpactMeasure up to 16 u D farther apart than by collide()'s test, and D <=
+  ///         S + |t|
   ///     (3) the displacement's product with a direction is off by 3 u |v|, the differences by 2 u (|t| +
   ///         |v|)
-  ///     (4) |t| may be 2 S + |v|; in total 30 u S + 18 u |t| + 11 u |v|
+  ///     (4) supports allow for |t| <= 2 S alone, but |t| may be 2 S + |v|. With (2) and (3): 30 u S + 18 u
+  ///         |t| + 11 u |v|
   ///
   /// Only the proof needs (2) to (4): supports have more margin than tests have found necessary.
   float slack(std::uint32_t pair) const noexcept {
@@ -109,8 +112,9 @@ class TimeOfImpactKernel {
     return shapes_.reach[transforms_.shape_a[pair]] + shapes_.reach[transforms_.shape_b[pair]];
   }
 
-  /// Returns an upper bound of the distance between centres of discs of the two shapes. A centre is within
-  /// 1.42 times its shape's reach, as a centre of a box around other discs is.
+  /// Returns an upper bound of the distance between centres of discs of the two shapes. A centre may be that
+  /// of a box around other discs, which is at most sqrt(2) times the shape's reach from the origin. The
+  /// factor 2 is more than that.
   float farthest(std::uint32_t pair) const noexcept {
     return 2 * reach(pair) + __builtin_fabsf(transforms_.tx[pair]) + __builtin_fabsf(transforms_.ty[pair]);
   }

@@ -21,7 +21,8 @@ namespace bch::detail {
 ///
 /// 1. bounds of the discs of two nodes;
 /// 2. the least of these bounds;
-/// 3. descent to the children with the least bound, or of two windows, the time of these discs;
+/// 3. descent to the two children with the least bound; or, if both nodes are windows (leaves of eight
+///    consecutive discs), the time of the two discs with the least bound;
 /// 4. if nothing is left below two nodes, back to the previous two nodes.
 ///
 /// Hardly any branch depends on data.
@@ -136,7 +137,8 @@ class TimeOfImpactTraversal {
     };
     open.a = child(frame.a, i), open.b = child(frame.b, j);
     frame.bound[open.which] = far_beyond;
-    // A window is visited as a whole: its other pairs with the same child are done with this one.
+    // If one node is a window, it is visited whole with the child of the other. That visit covers the child's
+    // pairs with all discs of the window, so their bounds are closed here.
     if (frame.a >= leaf_window) [[unlikely]]
       close(j, block_width);
     if (frame.b >= leaf_window) [[unlikely]]
@@ -198,8 +200,9 @@ class TimeOfImpactTraversal {
 
   const float* const nodes_;
   float* const times_;
-  // Slots of pairs of agents: with new nodes; back at previous nodes; unused. In the current round: at two
-  // windows; with nothing left below their nodes.
+  // Slots of pairs of agents. fresh_: those at new nodes. returning_: those back at previous nodes. free_:
+  // unused. In the current round, windows_: those at two windows. missed_: those with nothing left below
+  // their nodes.
   Slots fresh_, returning_, free_;
   Slots windows_, missed_;
   std::uint32_t numbered_ = 0;

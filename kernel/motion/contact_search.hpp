@@ -24,7 +24,7 @@ namespace bch::detail {
 ///    first time at which two nodes may touch is then the root of a quadratic equation. The trees are
 ///    descended if that time is before the earliest contact of leaves found so far.
 /// 4. If a contact is found and the deviation exceeds half the tolerance, the interval is halved, see
-///    first_by_bisection().
+///    first_by_bisection() in placed_nodes.hpp.
 ///
 /// If both bodies are of spheres, steps 3 and 4 are in 3D, and step 1 also requires that their heights
 /// overlap. Hulls are compared as seen from above, or for spheres also in bands of height; hulls contain the
@@ -35,18 +35,21 @@ namespace bch::detail {
 ///
 ///     (time)      2^-48 T v: T bounds all numbers in converting a time of the motion into a time of the clip
 ///                 and a fraction between keys, in fewer than 32 roundings. It is the largest time between
-///                 the keys, plus 2 |clip begin|, plus 3 times the largest time of the clip. (Cycle n is
-///                 shifted by (clip begin) - (first key's time in the clip) + n (length), where n (length)
-///                 exceeds the time since the clip began by at most a length.) v is the greatest speed of a
-///                 disc between two keys of the path. Keys of the path are exact, so the error is at most the
-///                 displacement between them, and at most twice the reach for a disc in its body.
+///                 the keys, plus 2 |clip begin|, plus 3 times the largest time of the clip. (In cycle n,
+///                 times of the clip are shifted by (clip begin) - (time of the clip's first key) + n *
+///                 length. The product n * length exceeds the time since the clip began by at most one
+///                 length.) v is the greatest speed of a disc between two keys of the path. This bound has
+///                 two limits. Keys of the path are exact, so the error of the body's position is at most the
+///                 displacement between two of them. The error of a disc within its body is at most twice the
+///                 reach.
 ///     (position)  2^-48 of the coordinates: interpolation between two keys, and their difference
 ///     (turn)      4e-10 of the reaches: rotation()
 ///     (root)      2^-20 of the reaches: more than all errors but (time) and (position), including that of
 ///                 sums along a line. A computed root belongs to a polynomial whose coefficients are off by
 ///                 at most 2^-50 of (6 reaches)^2, because no disc is placed farther away than the reaches.
-///                 The square of the enlargement is 32 times that error, so the root is no later than the
-///                 contact of the original discs.
+///                 The enlargement adds (2^-20 reaches)^2 = 2^-40 reaches^2 or more to the polynomial, over
+///                 28 times that error of 36 * 2^-50 reaches^2, so the root is no later than the contact of
+///                 the original discs.
 ///
 /// At the time found, the distance of two discs is at most twice the enlargement of both.
 ///
@@ -57,8 +60,8 @@ class ContactSearch {
  public:
   explicit ContactSearch(double tolerance) : tolerance_(tolerance) {}
 
-  /// Returns the time of the first contact in [from, to], or infinity. A contact before `to` is the same for
-  /// every later `to`.
+  /// Returns the time of the first contact in [from, to], or infinity. If a contact is found, a later `to`
+  /// gives the same time.
   /// Errors:  throws StepLimit::Reached.
   double first(const MotionFacts& a, const MotionFacts& b, double from, double to);
 

@@ -21,8 +21,8 @@ namespace bch::detail {
 ///
 ///     (1) In the body's frame, the hull (swept 32-DOP) bounds the support in direction d by E(d, s), which
 ///         is linear in s.
-///     (2) A vector rotated by s turn differs from the interpolation of both ends, (1 - s) (rotated by 0) + s
-///         (rotated by turn), by at most turn^2 / 8 of its length.
+///     (2) A vector rotated by the angle s * turn differs from the interpolation of both ends, (1 - s)
+///         (rotated by 0) + s (rotated by turn), by at most turn^2 / 8 of its length.
 ///     (3) So the support is at most (1 - s) E(d0, s) + s E(d1, s) + turn^2 / 8 reach.
 ///     (4) The first two terms exceed linear interpolation between E(d0, 0) and E(d1, 1) by s (1 - s) (E(d0,
 ///         1) - E(d0, 0) - E(d1, 1) + E(d1, 0)), where s (1 - s) <= 1/4.
@@ -86,9 +86,9 @@ struct SeparatingLine {
   }
 };
 
-/// Returns whether bands a and b of two bodies share, at some time of an interval, more height than
-/// neighbouring bands of one body do by construction. z_a and z_b are the heights of the grounds, and
-/// low <= z_a - z_b <= high:
+/// Returns whether bands a and b of two bodies overlap in height at some time of an interval. Neighbouring
+/// bands of one body overlap by hull_overlap, so less than that need not count; half of it is left for
+/// rounding. z_a and z_b are the heights of the grounds, and low <= z_a - z_b <= high. Bands overlap if
 ///
 ///     min(top_a + high, top_b) - max(bottom_a + low, bottom_b) > hull_overlap / 2
 inline bool bands_overlap(std::uint32_t a, std::uint32_t b, double low, double high) noexcept {

@@ -13,8 +13,8 @@
 
 namespace bch::detail {
 
-/// Bounds of the errors of positions: per (metre per second) and second of time, per metre of coordinates,
-/// and per metre of reach; see ContactSearch.
+/// Factors of the errors of positions, which ContactSearch derives. time_rounding is multiplied by a speed
+/// and a time, position_rounding by a coordinate, and root_rounding by a reach.
 constexpr double time_rounding = 0x1p-48, position_rounding = 0x1p-48, root_rounding = 0x1p-20;
 
 /// Holds the properties of a motion that a search needs.
@@ -43,8 +43,8 @@ class MovingBody {
   /// Returns the period of its discs from a time on: 0 if they stand still, infinity if they do not repeat.
   double period(double time) noexcept;
 
-  /// Returns a bound on the displacement of a disc by rounding of times, from the time of the last path_end()
-  /// to its result.
+  /// Returns a bound on the displacement of a disc by rounding of times. It holds from the time at which
+  /// path_end() was last called until the time that path_end() returned.
   double time_slack(double time) const noexcept;
   /// Returns the position and heading at a time before path_end().
   PathKey pose(double time) const noexcept;
@@ -52,8 +52,9 @@ class MovingBody {
   /// key at a time.
   std::size_t key() const noexcept { return key_; }
   double fraction(double time) const noexcept;
-  /// Returns the hull over the current window of chunks at a level. Below: the end of the window, and the
-  /// fraction of the window at a time.
+  /// Returns the hull over the current window at a level: 2^level successive chunks of the clip
+  /// (AnimatedTreeChunk), among them the current one. hull_end() is the end of that window, and
+  /// hull_fraction() the fraction of it at a time.
   const HullInterval& hull(unsigned level) const noexcept {
     return tree().hulls.levels[level][chunk_ >> level];
   }

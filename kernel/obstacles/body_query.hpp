@@ -38,7 +38,8 @@ constexpr double farthest_gap = 8 * rounding::largest_position;
 /// Holds the nearest obstacle of an agent.
 struct NearestObstacle {
   double gap;  ///< metres; if nothing was found, the limit
-  /// The nearest part of the agent: a segment of its outline, by its first point; or no_point, and a disc of its cut.
+  /// The nearest part of the agent. It is a segment of the outline, given by its first point, or, if `point` is
+  /// no_point, the disc `disc` of the agent's cut: of the discs at its level of detail.
   std::uint32_t point = no_point, disc = 0;
   const PlacedBody* body = nullptr;
   LocalSegment segment = {};
@@ -99,13 +100,15 @@ class BodyQuery {
     return nearest(agent, distance, distance, true).is_within;
   }
 
-  /// Returns whether an area contains a disc of a body (with exact leaves, a part of its outline) that touches none of the
-  /// area's segments, or the body's outline contains a polyline. Precondition: near() found all segments in the root's disc.
+  /// Returns whether one of two things holds: the body's outline contains a polyline, or an area contains a part of the
+  /// body that touches none of the area's segments. That part is a disc or, with exact leaves, a part of the outline.
+  /// Precondition: near_body() or another search of NearSegments found all segments in the root's disc.
   bool is_inside(const PlacedBody& body);
-  /// Returns whether an obstacle is an area that contains a part of a body that its segments, given if near, do not touch.
+  /// Returns whether an obstacle is an area that contains a part of a body which touches none of the area's segments.
+  /// `segments` are those of the area that are near the body.
   bool area_holds(const PlacedBody& body, std::span<const LocalSegment> segments, std::uint32_t obstacle);
-  /// Calls found(obstacle) for the areas that contain a body and have no segment near it, until it returns false. Returns:
-  /// whether it did.
+  /// Calls found(obstacle) for the areas that contain a body and have no segment near it, until found() returns false.
+  /// Returns: whether found() returned false.
   template <class Found>
   bool visit_areas_beyond(const PlacedBody& body, const Found& found) {
     if (is_too_large_for_areas(body.root())) return false;
@@ -115,9 +118,10 @@ class BodyQuery {
   }
 
  protected:
-  /// Calls visit(segments) for growing distances beyond that of prepare(), until no segment beyond can be nearer than `nearest`,
-  /// or its gap is at most `stop_below`. The segment nearest to the body's centre comes first: its gap exceeds the least one by
-  /// at most twice the outer radius, so that few others remain.
+  /// Calls visit(segments) for growing distances beyond that of prepare(). visit() updates `nearest`. The search ends
+  /// when no segment beyond the distance can be nearer than `nearest`, or when the gap of `nearest` is at most
+  /// `stop_below`. The segment nearest to the body's centre comes first: its gap exceeds the least one by at most twice
+  /// the outer radius, so that few others remain.
   template <class Nearest, class Visit>
   void search_outward(const PlacedBody& body, double stop_below, const Nearest& nearest, const Visit& visit) {
     constexpr double least_step = 0.05;  // metres

@@ -30,8 +30,8 @@ struct AncestorPath {
   /// Begins the path above a cut disc, whose index in `nodes` is `disc`: sets its first node only.
   void begin(const float* nodes, const Tree& tree, std::uint32_t disc) noexcept {
     const std::uint32_t beside = tree.first_inner() + (disc - tree.discs);
-    // Inner nodes are stored in-order, between the discs of their left and of their right subtree: disc k is the first
-    // child of node k, or the second child of node k - 1.
+    // Inner nodes are stored in-order: node k lies between discs k and k + 1. If the first child of node k is a cut
+    // disc (above_cut_disc), that child is disc k. Otherwise disc k is the second child of node k - 1.
     node[0] = beside - (link(nodes, beside) < above_cut_disc);
   }
   /// Sets node k, the parent of node k - 1.
@@ -82,10 +82,10 @@ class AncestorTest {
  private:
   using Float = typename Simd::Float;
   static constexpr std::uint32_t length = AncestorPath<Simd>::length;
-  /// How deep a point has to lie in all discs, in units of the sum of reaches, to prove that every disc of A overlaps every
-  /// disc of B, then by at least twice that. Both calls of holds_point() and the test of two discs start from the same
-  /// floats. In each of these three computations, a difference, squares and radii are rounded, which are at most the sum of
-  /// reaches.
+  /// The least depth, in units of the sum of reaches, at which a point inside all discs proves overlaps. If a point
+  /// lies that deep in every disc of both paths, each disc of A overlaps each disc of B by at least twice the depth.
+  /// Rounding is covered: both calls of holds_point() and the test of two discs start from the same floats, and each of
+  /// these three computations rounds one difference, squares and radii, which are at most the sum of reaches.
   static constexpr double inside_margin = 16 * rounding::unit_roundoff;
   static_assert(2 * inside_margin >=
                 3 * (rounding::terms::apart + rounding::terms::square + rounding::terms::radii) *

@@ -16,15 +16,17 @@ struct ShapeSetView;
 /// The number of pairs that a kernel takes through its stages together.
 constexpr std::uint32_t chunk_size = 256;
 
-/// Locates one value of each agent: at any stride, and numbers as floats or doubles.
+/// Locates one value of each agent in the caller's memory. The values may be any number of bytes apart. Numbers are
+/// floats or doubles.
 struct AgentColumn {
   const unsigned char* first;  ///< null: there are no values
   std::uint64_t stride;        ///< bytes
   bool is_float;
 };
 
-/// Holds what a pair kernel reads and writes: plain pointers only, because the linker may keep any object's copy of an inline
-/// function, compiled for instructions that the processor lacks.
+/// Holds what a pair kernel reads and writes. Members are plain pointers, because the inline functions of a class such
+/// as std::span are compiled in every object file that uses it. The linker keeps one copy for all of them, perhaps one
+/// that was compiled for AVX-512, and a processor without these instructions would crash in it.
 struct Arguments {
   const ShapeSetView* shapes;
   std::uint32_t agent_count;
@@ -36,7 +38,7 @@ struct Arguments {
   AgentColumn agent_level;      ///< null: the last level
   AgentColumn agent_z;          ///< null: heights are ignored
   const Pair* pairs;
-  const float* gaps;  ///< per pair, Gaps::leaf of within(); null: collide()
+  const float* gaps;  ///< per pair, the threshold of within() (Gaps::leaf, gaps.hpp); null: collide()
   std::uint8_t* states;
   bool exact_leaves;  ///< if both trees have segments, these decide; see Leaves
   // Prefetch agents or shapes: set if there are more than the near caches hold.

@@ -27,7 +27,9 @@ namespace bch::detail {
 /// (4)  hit  =>  e <= (r + d) (1 + 34 u) (1 + 3 u)        with the rounding of g and of the right side
 /// (5)  hit  =>  v <= d + 23 u (r + d)                    by (4) and the factor of v, - 16 u; its root and product, + 2 u
 ///
-/// Bounds. `bound` is for discs that hold leaf discs, and for lines that separate these. With D the distance of centres,
+/// Bounds. `bound` is for discs that enclose leaf discs, and for lines that separate leaf discs. D is the exact
+/// distance of the centres of two leaf discs. Their float placement is off by at most 23 u S + 8 u g, so e differs from
+/// D by at most that, which (6) adds to (4). The enclosing discs are placed with the same error, which (7) adds.
 ///
 /// (6)  hit  =>  D - r <= g + 37 u (r + g) + 23 u S + 8 u g
 /// (7)  placing the enclosing discs is off by 23 u S + 8 u g

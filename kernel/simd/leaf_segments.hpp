@@ -17,7 +17,7 @@ struct LeafSegments {
 
   /// Holds the segments of a leaf, by the points where they begin.
   struct List {
-    std::uint32_t first, count;   ///< 0: more than 127, so that the disc decides
+    std::uint32_t first, count;   ///< a count of 0: more than 127 segments, so the disc decides
     const std::uint32_t* listed;  ///< offsets from `first`; null: 0, 1, ...
 
     std::uint32_t point(std::uint32_t i) const noexcept {

@@ -34,7 +34,7 @@ class ProfileTest {
         discs_decide_(arguments.exact_leaves ? 0.0f : 1.0f) {}
 
   /// Finds, for all pairs of the chunk, the line between the centres, and loads the sectors of both profiles along it.
-  /// `row_a`, `row_b`: the rows of the roots; null if rows follow roots.
+  /// `row_a`, `row_b`: for each pair, Root::row of the two roots; null if ShapeSetView::rows_follow_roots.
   void load_sectors(const std::uint32_t* row_a, const std::uint32_t* row_b) noexcept {
     const float* const records = &shapes_.profiles->x;
     const std::uint32_t count = transforms_.whole_registers();

@@ -17,7 +17,7 @@ namespace bch::detail {
 enum class Meeting : std::uint8_t {
   none,
   within_margin,  ///< they come within the margin of each other
-  sure,           ///< also, the outlines surely cross, so that some leaves overlap with all ancestors
+  sure,           ///< they also surely cross: some two leaves and all their ancestors overlap
 };
 
 /// Returns the distance, metres, up to which segments of two shapes meet. (`Simd` keeps instruction sets from sharing a
@@ -38,8 +38,10 @@ class SegmentTest : private SegmentBatch<Simd> {
       SegmentBatch<Simd>::prefetch_points, SegmentBatch<Simd>::row;
   using typename SegmentBatch<Simd>::Row;
 
-  /// Collects all pairs of a segment of leaf i of row a and a segment of leaf j of row b. Calls use(owner, meeting) for each
-  /// pair that meets, now or in finish(). Leaves of too many segments are treated as within the margin.
+  /// Collects all pairs of a segment of leaf i of row a and a segment of leaf j of row b. (A row, LeafSegments::Row,
+  /// counts the leaves of a tree from one leaf on.) `placed` is the index of the PlacedSegments that place B, and
+  /// `owner` a number of the caller's for this pair of leaves. Calls use(owner, meeting) for each pair of segments that
+  /// meets, now or in finish(). Leaves of too many segments are treated as within the margin.
   template <class Use>
   [[gnu::always_inline]] void add(std::uint32_t placed, const Row& a, std::uint32_t i, const Row& b,
                                   std::uint32_t j, std::uint32_t owner, Use use) noexcept {
@@ -64,7 +66,8 @@ class SegmentTest : private SegmentBatch<Simd> {
 
   /// Computes for each pair apart_, above 0 where a line separates the segments, and sure_, above 0 where they surely
   /// cross.
-  /// Returns: the bits of the pairs whose apart_ may not be above 0.
+  /// Returns: the bits of all pairs whose apart_ is at most 0, and perhaps of pairs where it is so little above 0 that
+  ///          a float rounds it to 0.
   std::uint32_t test(std::uint32_t k) noexcept {
     Pair pairs[parts];
     this->load(k, pairs);

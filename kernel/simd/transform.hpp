@@ -11,9 +11,9 @@ struct PointIn {
   Float x, y;
 };
 
-/// Maps from B's frame into A's: a rotation (c, s), then a translation; one, or a register of them. Every answer depends on
-/// the order of these operations (layout/base/rounding.hpp), so they are written only here. (Inlined for certain, so that
-/// instruction sets share no function.)
+/// Maps from B's frame into A's: a rotation (c, s), then a translation; one, or a register of them. Every answer
+/// depends on the order of these operations (layout/base/rounding.hpp), so they are written only here. (Always inlined:
+/// of an ordinary inline function, the linker could keep a copy that was compiled for another instruction set.)
 template <class Float>
 struct TransformOf {
   Float c, s, tx, ty;

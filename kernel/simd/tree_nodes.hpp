@@ -10,29 +10,31 @@
 
 namespace bch::detail {
 
-/// Decodes the name of a block: its index in ShapeSetView::nodes, with the top bit set for a leaf window. (`Simd` keeps
-/// instruction sets from sharing a function.)
+/// Decodes the name of a node of a flat tree (layout/format/shape_set_view.hpp): its index in ShapeSetView::nodes, with
+/// the top bit set for a window, which is a leaf of eight consecutive discs of the cut. All other nodes are blocks.
+/// (`Simd` keeps instruction sets from sharing a function.)
 template <class Simd>
 struct TreeNodes {
-  /// Returns a mask, all ones if the block is a window. GCC would compile a condition to a branch, and no processor can
-  /// predict which blocks are windows.
+  /// Returns a mask, all ones if the node is a window. GCC would compile a condition to a branch, and no processor can
+  /// predict which nodes are windows.
   static std::uint32_t all_if_leaf(std::uint32_t node) noexcept { return -(node / leaf_window); }
 
-  /// Returns the discs of a block. `stride` is that of its tree.
+  /// Returns the eight discs of a node. In a window, an x, its y and its radius are `stride` floats apart
+  /// (Tree::stride); in a block they are block_width floats apart.
   static Discs discs(const float* nodes, std::uint32_t node, std::uint32_t stride) noexcept {
     const std::size_t to_y = block_width + (all_if_leaf(node) & (stride - block_width));
     return {nodes + (node & ~leaf_window), to_y, 2 * to_y};
   }
 
-  /// Returns the discs of a block, if it is no window with the outer radii.
+  /// Returns the eight discs of a node. Those of a block have the outer radii in place of their own.
   static Discs outer_discs(const float* nodes, std::uint32_t node, std::uint32_t stride) noexcept {
     const std::uint32_t leaf = all_if_leaf(node);
     return {nodes + (node & ~leaf_window), block_width + (leaf & (stride - block_width)),
             block_outer + (leaf & (2 * stride - block_outer))};
   }
 
-  /// Prefetches a block's discs, and the names of its children. (Here and elsewhere inlined for certain: GCC 12 drops the
-  /// calls of functions that do nothing else.)
+  /// Prefetches a node's discs, and the names of a block's children. (Here and elsewhere inlined for certain: GCC 12
+  /// drops the calls of functions that do nothing else.)
   [[gnu::always_inline]] static void prefetch(const float* nodes, std::uint32_t node,
                                               std::uint32_t stride) noexcept {
     const Discs at = discs(nodes, node, stride);

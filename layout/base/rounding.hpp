@@ -13,11 +13,13 @@
 /// Derives how much discs must be enlarged, so that a query in float never misses a hit of the exact outlines.
 /// tests/kernel/rounding_test.cpp measures every step and tests the whole against exact arithmetic.
 ///
-/// Notation. u = 2^-24, the unit roundoff of float: fl(x op y) = (x op y)(1 + e), |e| <= u. A shape's *reach* P is the largest
-/// distance of its points from its origin. A disc's *tight* radius r is the largest distance of its node's primitives from its
-/// centre, which is a float and exact. For shapes A and B at relative position d, S = P_A + P_B. a and b are a disc's
-/// centre of each, D the exact distance between the two. First-order terms only: the products of two errors, and what
-/// double loses (2^-53 = 2^-29 u), are below 2^-10 of them and are added at the end (higher).
+/// Notation. u = 2^-24, the unit roundoff of float: fl(x op y) = (x op y)(1 + e), |e| <= u. A shape's *reach* P is the
+/// largest distance of its points from its origin. A disc's *tight* radius r is the largest distance of its node's
+/// primitives from the disc's centre. The centre is taken as stored, in float, so it has no error. A *cut disc* is a
+/// disc of the cut that a query compares: of a node at the level's depth, or of a leaf above it. For shapes A and B at
+/// relative position d, S = P_A + P_B. a and b are a disc's centre of each, D the exact distance between the two.
+/// First-order terms only: the products of two errors, and what double loses (2^-53 = 2^-29 u), are below 2^-10 of them
+/// and are added at the end (higher).
 ///
 /// Names in parentheses are those of the constants below, in namespace terms, in units of u. Every sum of this text is a
 /// static_assert over them, so that a margin below what the text asks for does not compile. The other derivations of the
@@ -58,9 +60,10 @@
 ///
 ///     7.1 u P_B + 4.6 u (2 S) + u (2 S + P_B) + u S + u S + 1.5 u S  <=  22.8 u S  <=  23 u S                (1)
 ///
-/// and that is (query_error). If both discs touch, and each is the smallest around its content, the bound is smaller: some
-/// point of the content is at least sqrt(|a|^2 + r^2) from the origin, so that |a|^2 + r_A^2 <= P_A^2. With
-/// |d| <= |a| + |b| + D and D <= r_A + r_B the same terms are
+/// and that is (query_error). If both discs touch, and each is the smallest around its content, the bound is smaller.
+/// The content touches every closed semicircle of its smallest disc, also the one that faces away from the origin. A
+/// point there is at least sqrt(|a|^2 + r^2) from the origin, so |a|^2 + r_A^2 <= P_A^2. With |d| <= |a| + |b| + D and
+/// D <= r_A + r_B the same terms are
 ///
 ///     13.7 u |b| + 5.6 u |a| + 9.1 u (r_A + r_B)  <=  16.5 u P_B + 10.7 u P_A  <=  16.5 u S                  (1')
 ///
@@ -76,39 +79,43 @@
 ///
 /// which makes 25.43 u P, published as query_margin, 25.5 u P, and rounded up.
 ///
-/// Halving: the error of a midpoint is half the sum of the errors of its ends, plus u P. So after k halvings it is off by
-/// (2 k + 1) / 3 u P: at most 8.4 u P after 12, which make 4096 pieces of one segment. After more halvings parity helps:
-/// midpoints that were rounded have an even last bit, so that the next one is exact. Coordinates from 2^E to 2^(E + 1) are then
-/// off by (4 k + 6) / 9 u 2^E at most (every difference of up to 2^15 units in the last place was tried; tests/kernel/rounding_test.cpp
-/// repeats a part of that). And k halvings move a coordinate only where its ends are 2^k units apart, so that P is at least
-/// (1 + 2^(k - 23)) 2^E: 8.6 u P after any number of halvings.
+/// Halving: the error of a midpoint is half the sum of the errors of its ends, plus u P. So after k halvings it is off
+/// by (2 k + 1) / 3 u P: at most 8.4 u P after 12, which make 4096 pieces of one segment. After more halvings parity
+/// helps: midpoints that were rounded have an even last bit, so that the next one is exact. Coordinates from 2^E to
+/// 2^(E + 1) are then off by (4 k + 6) / 9 u 2^E at most (every difference of up to 2^15 units in the last place was
+/// tried; tests/kernel/rounding_test.cpp repeats a part of that). And k halvings are possible in a coordinate only if
+/// the ends of the segment differ in it by at least 2^k units in the last place, which are 2^(E - 23) each. The larger
+/// end, and with it P, is then at least 2^E + 2^k 2^(E - 23) = (1 + 2^(k - 23)) 2^E. So the error is at most 8.6 u P
+/// after any number of halvings.
 ///
-/// The cost of the margin: if the float test accepts, D is at most the tight radii plus the margins,
-/// (25.5 + 2) u S with the rounding up, and 23 u S by (1), plus the grid, whose step is at most 2^-22 P:
+/// The cost of the margin: if the float test accepts, D is at most the sum of the tight radii and of four terms: the
+/// margins, 25.5 u S; their rounding up, 2 u S; the error of the test, 23 u S by (1); and 1.5 grid steps, each step at
+/// most 2^-22 P. So
 ///
 ///     (price)    a false positive has a gap of at most 50.5 u S + 1.5 * 2^-22 S = 3.4e-6 S
 ///
-/// IV. Supports separate two shapes when t.u > h_A + a h_B + b h_B' for a direction u of A, where h_B and
-/// h_B' are B's supports on either side of -u and a, b >= 0 follow from the rotation.
+/// IV. Supports: how far a shape extends from its origin along 32 fixed directions (layout/culling/supports.hpp). They
+/// separate two shapes if t.v > h_A + alpha h_B + beta h_B' for one of A's directions v. h_B and h_B' are B's supports
+/// along its two directions next to -v, and the weights alpha, beta >= 0 follow from the rotation.
 ///
-///     (support_place)    21.2 u S        t and its product with u, rounded: 9.2 u S + 6 u |t|, with |t| <= 2 S where it
+///     (support_place)    21.2 u S        t and its product with v, rounded: 9.2 u S + 6 u |t|, with |t| <= 2 S where it
 ///                                        matters
-///     (support_weight)   59 u            a and b each: (turn) and what the sector's own rotation adds, 11.5 u together,
-///                                        through a quotient by sin 11.25 degrees; times a support of at most 2 P
+///     (support_weight)   59 u            alpha and beta each: (turn), and the rotation from one of B's directions to -v,
+///                                        11.5 u together, divided by sin 11.25 degrees; times a support of at most 2 P
 ///     (support_sums)     6 u S           the sums
 ///
 /// All together
 ///
 ///     21.2 u S + 4 * 59 u S + 6 u S  <=  264 u S                                                             (2)
 ///
-/// Discs that the float test accepts are at most 23 u S apart, so supports enlarged by 287 u P each, and by the 5.2 u P of
-/// their own rounding (support_float, layout/culling/supports.cpp), never separate them: support_margin. Supports of outlines never
-/// separate segments that meet, which are at most (segment_price) apart. Only
-/// this proof needs all of it; tests fail where it has the other sign.
+/// Discs that the float test accepts are at most 23 u S apart, so supports enlarged by 287 u P each, and by the 5.2 u P
+/// of their own rounding (support_float, layout/culling/supports.cpp), never separate them: support_margin. Supports of
+/// outlines never separate segments that meet, which are at most (segment_price) apart. Only this proof needs all of
+/// support_margin. Tests pass with less, and fail if the margin is subtracted.
 ///
-/// V. Exact leaves: segments. Two segments are compared in double (kernel/simd/segment_test.hpp), B's ends placed by the floats
-/// (c, s) and t. Rounding in double is 2^-29 u, part of (higher). Where outlines meet, |d| <= |a| + |b| <= S for their common point,
-/// and the placed ends are off by
+/// V. Exact leaves: segments. Two segments are compared in double (kernel/simd/segment_test.hpp), B's ends placed by
+/// the floats (c, s) and t. Rounding in double is 2^-29 u, part of (higher). Where outlines meet in a point, it is at
+/// most P_A from A's origin and P_B from B's, so |d| <= S. The placed ends are off by
 ///
 ///     (segment_place)    8.9 u S         (turn) of |b|, and (position) of |d|
 ///
@@ -116,13 +123,15 @@
 ///
 ///     (segment_margin)   13 u P          of either shape, and 1.5 of its grid steps
 ///
-/// of the other, or where both ends of each lie on different sides of the other's line, at least 0.7 (sure_share) of that
-/// margin away from it. No miss: outlines that meet, snapped and placed, are at most (segment_place) and 1.5 of each grid
-/// step apart. Either the placed segments are disjoint, and then an end is as near as that to the other; or they cross and
-/// an end is within sqrt(2) 0.7 of the margin of the other's line, so that some end is as near as that to the other segment:
-/// of two segments that cross at a narrow angle the one that ends first between both. (The test compares with the sum of
-/// the coordinates of a segment, which is up to sqrt(2) of its length.) A crossing by (sure_share) is one of the outlines
-/// themselves, because it can only come apart where an end passes the other segment, and no end moves so far:
+/// of the other, or where both ends of each lie on different sides of the other's line, at least 0.7 (sure_share) of
+/// that margin away from it. No miss: outlines that meet, snapped and placed, are at most (segment_place) and 1.5 of
+/// each grid step apart. If the placed segments are disjoint, an end of one is at most that far from the other. If they
+/// cross without the test of sides being met, an end is within sqrt(2) 0.7 of the margin of the other's line. (The test
+/// multiplies the margin by |x| + |y| of a segment (x, y) in place of its length; that sum is up to sqrt(2) times the
+/// length.) Then some end is at most that far from the other segment: this end or, if it lies beyond an end of the
+/// other segment, that other end, which is nearer to the crossing. A crossing by (sure_share) is a crossing of the
+/// outlines themselves. They could only be apart if, without the errors, an end were on the other side of the other
+/// segment, and no end is off by so much:
 ///
 ///     sure_share * segment_margin > segment_place
 ///
@@ -142,11 +151,12 @@
 /// Heights of agents at different grounds are compared in double with a slack of 1e-9 m and 2^-50 of the difference, compared with which the
 /// rounding of two sums of lengths up to 1e6 m is nothing.
 ///
-/// VIII. Nodes that enclose the discs below them, as in bodies made of discs, overlap wherever the discs do, if they enclose
-/// them with a margin, (held_margin). The float test accepts discs with D <= r_A + r_B + (query_error) S. With R >= |C - c| + r + margin, a node of A and a
-/// disc of B are at most R_A + r_B - room_A + (query_error) S apart, and the test accepts what is at most R_A + r_B - (query_error) S apart. So
-/// the margin of either shape has to be 2 (query_error) S; the margins of two nodes add up. Margins are fractions of their own
-/// shape's reach: they suffice if S is at most (held_reaches) times the lesser reach.
+/// VIII. Nodes that enclose the discs below them, as in bodies made of discs, overlap wherever the discs do, if they
+/// enclose them with a margin, (held_margin). The float test accepts discs with D <= r_A + r_B + (query_error) S. With
+/// R >= |C - c| + r + margin, a node of A and a disc of B are at most R_A + r_B - margin_A + (query_error) S apart, and
+/// the test accepts what is at most R_A + r_B - (query_error) S apart. So the margin of either shape has to be 2
+/// (query_error) S; the margins of two nodes add up. Margins are fractions of their own shape's reach: they suffice if
+/// S is at most (held_reaches) times the lesser reach.
 namespace bch::detail::rounding {
 
 constexpr double unit_roundoff = 0x1p-24;

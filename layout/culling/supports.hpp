@@ -16,13 +16,14 @@
 namespace bch::detail {
 
 /// Holds the supports of a set of discs: its largest extent along each of support_directions directions. Direction k
-/// has the angle k * 2 pi / support_directions. First come all even directions, then all odd ones, each list twice,
-/// so that a rotation of the set is an offset into the array, and half of the directions are one load.
+/// has the angle k * 2 pi / support_directions. First come all even directions, then all odd ones, so that half of
+/// the directions are loaded at once. Each of the two lists is stored twice in succession, so that a rotation of the
+/// set is an offset into the array.
 ///
 /// Two sets are disjoint if along some direction the sum of their supports is less than the distance of their
 /// origins. Between two directions, the support is at most that of the corner where the two supporting lines meet.
-/// rounding.hpp derives how much supports are enlarged, so that the float test never separates discs whose float test
-/// is a hit, nor segments that meet.
+/// rounding.hpp derives how much supports are enlarged, so that supports compared in float never separate two discs
+/// that the float test of discs accepts, nor two segments that meet.
 using Supports = std::array<float, support_stride>;
 
 /// Holds the points of an outline as discs of radius 0.

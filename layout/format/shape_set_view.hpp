@@ -14,7 +14,8 @@ constexpr std::uint32_t block_width = 8;
 /// The longest path, in blocks, from a root block to a leaf. Kernels size their stacks by it.
 constexpr std::uint32_t max_wide_levels = 10;
 
-/// The number of directions of supports, and the number of floats in a row of supports; see supports.hpp.
+/// The number of directions of supports, and the number of floats in a row of supports, which stores each of them
+/// twice; see supports.hpp.
 constexpr std::uint32_t support_directions = 32;
 constexpr std::uint32_t support_stride = 2 * support_directions;
 
@@ -24,11 +25,13 @@ struct DiscBlock {
   float x[block_width], y[block_width], radius[block_width];
 };
 
-/// A node is named by the position of its first disc in ShapeSetView::nodes. With the bit leaf_window it is a window:
-/// any eight consecutive discs of the cut. Without that bit it is a block, with these arrays of eight: x, y and
-/// radius of nodes of the hierarchy; the names of the nodes below, as bits; outer radii, which about the same centres
-/// enclose the cut's discs below (these discs may protrude from the smallest disc); and the numbers of the nodes in
-/// the hierarchy: that of an inner node, or leaf_window + the position of a disc of the cut.
+/// A node of the flat tree is named by a 32-bit number: the position of its first disc in ShapeSetView::nodes. A name
+/// with the bit leaf_window names a window: any eight consecutive discs of the cut. A name without that bit names a
+/// block, which has six arrays of eight. The first three are x, y and radius of nodes of the hierarchy. The fourth
+/// has the names of the nodes below them, stored as the bits of floats. The fifth has outer radii: a disc about the
+/// same centre with the outer radius encloses all discs of the cut below, which may protrude from the node's own
+/// disc. The sixth has the nodes' numbers in the hierarchy: the number of an inner node, or leaf_window + the
+/// position of a disc of the cut.
 constexpr std::uint32_t leaf_window = 0x80000000;
 constexpr std::uint32_t block_names = 3 * block_width;  ///< from a block's first x, like the next two
 constexpr std::uint32_t block_outer = 4 * block_width;
@@ -36,9 +39,9 @@ constexpr std::uint32_t block_nodes = 5 * block_width;
 constexpr std::uint32_t block_floats = 6 * block_width;
 
 /// Represents an inner node: a node above the cut of a level. Inner nodes follow the cut's discs, in the in-order
-/// sequence of the binary tree: node k of a level is the one whose first child has disc k of the cut as its last
-/// disc. There is no such node for the last disc; padding takes its place. If the cut is one disc, that disc is the
-/// only inner node, as its own root.
+/// sequence of the binary tree. So inner node k stands between discs k and k + 1 of the cut: disc k is the last one
+/// below its first child, and disc k + 1 the first one below its second child. The last disc has no such node;
+/// padding takes its place. If the cut is one disc, that disc is the only inner node, as its own root.
 struct InnerNode {
   float x, y, radius;
   /// The number, in the whole set, of the parent (for the root: of itself), and perhaps above_cut_disc.
@@ -55,7 +58,7 @@ struct Root {
   std::uint32_t row;  ///< the row of its supports, single_disc or no_supports
 };
 constexpr std::uint32_t single_disc = 0;  ///< the cut is the root disc alone
-constexpr std::uint32_t no_supports = 1;  ///< the cut has more discs, and another level is the deepest
+constexpr std::uint32_t no_supports = 1;  ///< several discs, but supports are of the deepest cut alone
 constexpr std::uint32_t first_row = 2;
 static_assert(sizeof(Root) == 16);
 
@@ -72,8 +75,9 @@ struct Tree {
   float outer_radius;    ///< metres: the root's outer radius
   std::uint32_t segments = no_segments;  ///< position of the leaves' words in leaf_segments, or no_segments
   std::uint32_t points = 0;              ///< with segments: position of the shape's points
-  /// 1: every inner node encloses its cut discs with a margin. So nodes of two such trees overlap wherever their
-  /// discs do, unless one shape is much larger than the other; see layout/base/rounding.hpp, VIII. 0: not so.
+  /// 1: every inner node encloses the cut discs below it with a margin; 0: some may not. Nodes of two trees with 1
+  /// overlap wherever the discs below them do, unless one shape is much larger than the other (section VIII of
+  /// layout/base/rounding.hpp).
   std::uint32_t nodes_hold_discs = 0;
 
   /// Returns the number of the first inner node: its position in `nodes` divided by inner_floats. (Always inlined, so
@@ -109,8 +113,8 @@ struct Sector {
 /// Represents the extents of a shape along lines from a centre: a header, followed by sectors of the same size.
 struct Profile {
   float x, y;  ///< the centre
-  /// How far discs of the deepest cut protrude from the bounds of the outline (supports and `outer`), metres; 0 if
-  /// these bound discs.
+  /// How far discs of the deepest cut protrude from the outline, metres, where the stored supports and `outer` are
+  /// bounds of the outline. 0 where they are bounds of the discs.
   float excess;
   float discs_decide;  ///< 1 where a leaf of the deepest cut has no segments, else 0
   Sector sectors[profile_sectors];

@@ -35,13 +35,14 @@ class HierarchyBuilder {
   void contour(const Outline& outline, float threshold, SplitRule rule, Hierarchy& hierarchy,
                std::uint32_t deepest = all_depths);
 
-  /// Makes only the root of contour(). `points` has all points of the outline on its convex hull that decide its
-  /// reach or the disc around it. After an exception the hierarchy has no nodes.
+  /// Makes only the root of contour(). Its reach and its disc depend on a few points of the outline, which lie on the
+  /// convex hull. `points` has to contain all of these, and may contain others. After an exception the hierarchy has
+  /// no nodes.
   /// Errors:  throws std::invalid_argument if there are no points or the reach is outside the domain of rounding.hpp.
   void root(std::span<const Vec2> points, float grid_step, Hierarchy& hierarchy);
 
-  /// Builds the hierarchy that projected_hierarchy() documents, without primitives. After an exception the hierarchy
-  /// has no nodes.
+  /// Builds the hierarchy of projected_hierarchy() (paper_hierarchies.hpp), over triangles seen from above, without
+  /// primitives. After an exception the hierarchy has no nodes.
   void projected(std::span<const Vec2> vertices, std::span<const std::array<std::uint32_t, 3>> triangles,
                  Hierarchy& hierarchy);
 
@@ -49,13 +50,13 @@ class HierarchyBuilder {
   void add_primitives(Hierarchy& hierarchy) const;
 
  private:
-  /// Represents a node to be made: a range of the order. Its items are listed in the order or, for a second child, in
-  /// the scratch.
+  /// Represents a node to be made. Its items (segments or triangles) will take the places begin .. end of order_.
+  /// Until then `list` has their indices: in order_ itself or, for a second child, in scratch_.
   struct PendingNode {
     std::uint32_t begin, end;
     std::uint32_t* list;
     std::uint32_t*
-        scratch;  ///< memory for the second side of a split: after the lists of pending nodes, or the list itself
+        scratch;  ///< where a split writes its second side: in scratch_, for a second child over its own list
     std::uint32_t parent;
     std::uint32_t below;  ///< the number of levels allowed below
     SplitMeasure measure;
@@ -71,7 +72,7 @@ class HierarchyBuilder {
   /// Represents a node of several items whose disc is computed once the order of all items is final.
   struct Unsolved {
     std::uint32_t node;
-    std::uint32_t begin, end;  ///< of the order
+    std::uint32_t begin, end;  ///< places in order_
   };
 
   void begin(double reach, double margin, double threshold, std::size_t items);
@@ -98,7 +99,7 @@ class HierarchyBuilder {
   std::vector<std::uint32_t> order_, scratch_;
   std::vector<PendingNode> pending_;
   EvenHalves even_halves_;
-  std::array<Half, 256> halves_;  ///< more than the halvings between any two lengths of float
+  std::array<Half, 256> halves_;  ///< one per halving; ends meet before 256 of them
 
   std::uint32_t node_count_ = 0;
   std::size_t max_nodes_ = std::size_t{1} << 22;

@@ -49,7 +49,7 @@ class ContourIndex {
   static constexpr std::size_t max_pending = 65;
 
   struct Place {
-    std::uint64_t along_curve;
+    std::uint64_t along_curve;  ///< position on Morton's space-filling curve
     std::uint32_t number;
   };
 

@@ -14,7 +14,7 @@ namespace bch::detail {
 
 /// Rounds the vertices `used`, seen from above, to a grid whose step is 2^-23 times the power of two above the
 /// largest coordinate. points[i] belongs to vertex used[i], and no coordinate exceeds 2^23 steps, so floats represent
-/// every grid point exactly. At the largest coordinate, the grid is as fine as float itself.
+/// every grid point exactly. At the largest coordinate, the step is twice the distance between neighbouring floats.
 /// Returns: the grid's step in metres, a power of two.
 /// Preconditions: `used` is not empty and ascends; its values are below positions.size(); points.size() ==
 ///          used.size().

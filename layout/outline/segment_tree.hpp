@@ -18,9 +18,9 @@ struct GridPlace {
   double x, y;
 };
 
-/// Represents a binary tree over segments, for numbers of segments for which the two levels of SegmentBoxes would be
-/// slow. A node has a box around its segments and a slab around them, parallel to the longest of them: slabs of
-/// parallel segments close to each other are thin, whatever their direction.
+/// Represents a binary tree over segments. It is for so many segments that SegmentBoxes, which has only two levels,
+/// would be slow. A node has a box around its segments and a slab around them, parallel to the longest of them:
+/// slabs of parallel segments close to each other are thin, whatever their direction.
 class SegmentTree {
  public:
   /// Builds the tree over segments, which must stay unchanged until the last find(). Neighbouring segments should be

@@ -15,8 +15,9 @@ namespace bch::detail {
 /// Holds what the connectivity of a mesh determines about its outlines in every pose. Vertices are renumbered: in the
 /// same order, but without vertices that no triangle uses.
 struct OutlineTopology {
-  /// Represents an edge of exactly two triangles that use it in opposite directions. The triangles are in a parallel
-  /// array, because a pose reads all triangles but few edges.
+  /// Represents an edge of exactly two triangles that use it in opposite directions. The parallel array
+  /// manifold_triangles names these two triangles, because a pose reads them for every edge, but the two vertices for
+  /// few edges.
   struct ManifoldEdge {
     std::uint32_t a, b;
   };

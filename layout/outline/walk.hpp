@@ -20,12 +20,14 @@ struct Stretch {
   GridPoint rounded_begin;
 };
 
-/// Walks around connected pieces of the union, counter-clockwise along the candidates.
+/// Walks around connected pieces of the union of a pose's triangles, counter-clockwise. It follows the candidates: the
+/// edges that may be part of the outline (OutlineCandidates).
 ///
 /// The unbounded face is always to the right. A walk leaves the current stretch where the first candidate sticks out to
-/// the right, or at the end of the stretch. Of all candidates at that point it takes the first one counter-clockwise
-/// from the direction it came from, because that candidate bounds the same face. A whisker (a part without area) is
-/// walked to its tip and back, and a vertex where pieces only touch is passed once for each piece.
+/// the right, or at the end of the stretch. Of all candidates at that point it takes the one that turns the farthest to
+/// the right, because that candidate bounds the same face. (From the direction straight back, that is the first
+/// candidate counter-clockwise.) A whisker (a part without area) is walked to its tip and back, and a vertex where
+/// pieces only touch is passed once for each piece.
 ///
 /// Every walk ends, because candidates cut each other into finitely many directed pieces, and the step from a piece to
 /// the next is a one-to-one map of these pieces. So some piece must come again, and the first to do so is the piece
@@ -42,7 +44,7 @@ class OutlineWalk {
   /// Errors:  throws std::logic_error if the walk is longer than the boundary of any face can be.
   void walk(GridPoint start, std::vector<Stretch>& contour);
 
-  /// Returns whether a contour has passed along a candidate of this component.
+  /// Returns whether a contour has passed along a candidate of this component of the mesh (CandidateList::component).
   bool touched(std::uint32_t component) const { return touched_[component] != 0; }
 
  private:

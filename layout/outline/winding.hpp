@@ -16,7 +16,8 @@ namespace bch::detail {
 class ContourCovers {
  public:
   void clear();
-  /// Adds the next contour. Its stretches are copied as far as needed.
+  /// Adds the next contour. Only the rounded points where its stretches begin are copied; covers() takes the
+  /// stretches again for exact tests.
   void add(std::span<const Stretch> contour);
 
   std::size_t size() const { return begin_.size() - 1; }
