@@ -29,8 +29,8 @@ struct CrowdOptions {
   };
 
   Period period = {};
-  /// Limits the candidates of a call, which throws std::length_error if it has more: n agents at one place
-  /// make n^2 / 2 of them.
+  /// Limits the candidate pairs of a call, which throws std::length_error if there are more. (n agents at one
+  /// place make n^2 / 2 candidates.)
   std::size_t max_pairs = std::numeric_limits<std::size_t>::max();
 };
 
@@ -125,7 +125,7 @@ class Crowd {
 
     /// Returns at most `max_count` neighbours of each agent, the nearest first.
     /// Only pairs of this answer count. Of equal distances the lower agent comes first. With Overlap::deepest
-    /// the deepest overlap is the nearest. Crowd models such as ORCA use these as neighbours.
+    /// the deepest overlap is the nearest. Crowd models such as ORCA take these as the people to avoid.
     /// Errors:  throws std::length_error beyond 2^32 - 1 pairs.
     Rows<Neighbour> nearest(std::uint32_t max_count) const { return pairs.nearest(distance, max_count); }
 
@@ -165,13 +165,13 @@ class Crowd {
 
   /// Holds the options of resolve().
   struct ResolveOptions {
-    std::uint32_t directions = 16;  ///< that nearest_free() tries
-    std::uint32_t sweeps = 100;     ///< at most
+    std::uint32_t directions = 16;  ///< how many nearest_free() tries
+    std::uint32_t sweeps = 100;     ///< the most to make
     double gap = 0.001;             ///< metres, clearance to leave between separated agents
     double largest_step = 0.05;     ///< metres, limit of an agent's displacement in a sweep
     double largest_shift = std::numeric_limits<double>::infinity();  ///< metres, limit in all sweeps
-    /// Weights the displacements of agents, from 0 (fixed) to 1. Of two agents, the one with half the
-    /// mobility moves half as far.
+    /// Says how easily each agent moves, from 0 (fixed) to 1. Of two agents that separate, the one with half
+    /// the mobility of the other moves half as far.
     std::span<const double> mobility = {};   ///< one per agent; empty: 1 each
     const ObstacleSet* obstacles = nullptr;  ///< walls that bodies must not touch; null: none
     const Implementation* implementation = nullptr;
@@ -193,8 +193,8 @@ class Crowd {
 
   /// Finds the pairs whose root discs, at the agents' levels, come within a margin of each other.
   /// They contain every pair that collides, and every pair with a clearance of at most the margin. For
-  /// time_of_impact() use a margin of twice the longest displacement of an agent. Some pairs may be farther
-  /// apart, by a few millionths of the margin, of their radii and of their shapes' reaches.
+  /// time_of_impact() use a margin of twice the longest displacement of an agent. Rounding may add pairs that
+  /// are farther apart by a few millionths of the margin, of their radii and of their shapes' reaches.
   /// Units:   the margin is metres, from 0 to 2e9.
   Pairs candidates(const ShapeSet& shapes, const Agents& agents, double margin = 0,
                    const PairFilter& filter = {}) &;
@@ -203,8 +203,8 @@ class Crowd {
   Pairs collisions(const ShapeSet& shapes, const Agents& agents, const CollideOptions& options = {},
                    const PairFilter& filter = {}) &;
 
-  // The same for bodies of spheres. Candidates are pairs whose enclosing discs, as seen from above, and whose
-  // heights come within the margin of each other.
+  // The same for bodies of spheres. Candidates are pairs whose enclosing discs, as seen from above, come
+  // within the margin of each other, and whose heights do, too.
   Pairs candidates(const BodySet& bodies, const Agents& agents, double margin = 0,
                    const PairFilter& filter = {}) &;
   Pairs collisions(const BodySet& bodies, const Agents& agents,
@@ -220,15 +220,17 @@ class Crowd {
                     const PairFilter& filter = {}) &;
 
   /// Finds the contacts of given pairs: one row per pair, empty where there are none.
-  /// A pair in the other order has the same contacts with their two discs exchanged, sorted in that order. An
-  /// agent may be paired with itself. Two cuts of n discs have at most n^2 contacts.
+  /// If the two agents of a pair are exchanged, each contact has its two discs exchanged, and contacts are
+  /// sorted by the discs of the new first agent. An agent may be paired with itself. Two cuts of n discs have
+  /// at most n^2 contacts.
   /// Errors:  also those of collide(), and if the Crowd has a period; std::bad_alloc or std::length_error if
   ///          memory does not suffice.
   Rows<DiscPair> contacts(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                           const CollideOptions& options = {}) &;
 
-  /// Finds all pairs of spheres that overlap, of bodies that collide: contacts for a physics engine.
-  /// Bodies deep in each other have hundreds; clearances() with Overlap::deepest returns only the deepest.
+  /// Finds all pairs of overlapping spheres of bodies that collide: contacts for a physics engine.
+  /// Two bodies deep in each other have hundreds; clearances() with Overlap::deepest returns only the
+  /// deepest.
   /// Order:   contacts of a pair by the first spheres, then the second spheres.
   BodyContacts contacts(const BodySet& bodies, const Agents& agents,
                         const Implementation* implementation = nullptr, const PairFilter& filter = {}) &;
@@ -260,9 +262,10 @@ class Crowd {
                                 const Implementation* implementation = nullptr) &;
 
   /// Moves agents on the ground until no two bodies collide and nobody touches a wall.
-  /// It keeps displacements small, and turns nobody. Each sweep moves all agents at once; if there is no
-  /// room, some pairs still collide after the last one. With a period, agents meet across its borders; the
-  /// positions returned are not wrapped into it. See "A crowd without overlaps" in kernel/README.md.
+  /// It keeps displacements small, and turns nobody. Each sweep moves all agents at once. If there is too
+  /// little room, some pairs still collide after the last sweep. With a period, agents meet across its
+  /// borders, and the positions returned may lie outside the period. See "A crowd without overlaps" in
+  /// kernel/README.md.
   /// Memory:  allocates in every sweep, as nearest_free() does.
   /// Errors:  also on an odd number of directions, and on lengths and mobilities out of range.
   Resolved resolve(const BodySet& bodies, const Agents& agents, const ResolveOptions& options,

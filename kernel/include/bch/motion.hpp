@@ -37,18 +37,19 @@ struct TimeInterval {
 };
 
 /// Finds when the two motions of each pair first touch, or infinity if they do not within the interval.
-/// Every real time is considered, not only samples. The time is never late, and early by at most
-/// tolerance / (speed of approach); the tolerance is in metres. See "Motions" in kernel/accuracy.md.
-/// Sizes:   `times` as long as `pairs`, which are indices of motions. A motion meets itself at interval.from.
-/// Errors:  throws std::invalid_argument, before anything is written, on sizes that differ, on what is
-///          missing or out of range (named in the message), and on a search of more than 1e8 steps.
+/// Every real time is considered, not only samples. The time is never late. It is early by at most tolerance
+/// / (speed of approach), with the tolerance in metres. See "Motions" in kernel/accuracy.md.
+/// Sizes:   `times` is as long as `pairs`, which are indices of motions. A motion paired with itself has the
+///          time interval.from.
+/// Errors:  throws std::invalid_argument, before anything is written, on sizes that differ, on a value that
+///          is missing or out of range, which the message names, and on a search of more than 1e8 steps.
 /// Threads: runs in the caller's TBB arena. Allocates for the motions and for each task.
 void first_contact(std::span<const Motion> motions, std::span<const Pair> pairs, const TimeInterval& interval,
                    std::span<double> times, double tolerance = 0.005);
 
 /// Returns the time until which a motion touches none of the others, or infinity.
-/// It is the least time that first_contact() finds for the pairs (motion, other). To save time, after a
-/// contact the remaining motions are examined only up to its time.
+/// It is the least time that first_contact() finds for the pairs (motion, other). Once a contact is found,
+/// the remaining motions are examined only up to the time of that contact.
 /// Errors:  as first_contact(); in messages, `motion` has the index others.size().
 /// Threads: uses one thread; several threads may call it at once.
 double free_until(const Motion& motion, std::span<const Motion> others, const TimeInterval& interval,

@@ -43,18 +43,18 @@ enum class Polygons {
 
 /// Holds obstacles that do not move: lines, such as walls, and areas, such as pillars and furniture.
 /// A line is one or more open polylines. An area is one or more polylines that are closed to rings, and the
-/// points that they enclose by the even-odd rule. Obstacles may cross, touch, nest and repeat each other and
-/// themselves; only penetration() needs simple polygons. Segments are numbered in the order of the points.
+/// points that they enclose by the even-odd rule. Obstacles may cross, touch, contain and repeat each other
+/// and themselves; only penetration() needs simple polygons. Segments are numbered in the order of the
+/// points.
 /// Threads: any number of queries may read one set at once. A set that was moved from can only be assigned to
 ///          or destroyed.
 class ObstacleSet {
  public:
   /// Copies the obstacles, and builds a tree of boxes and a grid of distances for them.
   /// Cost:    2 s for 10^6 segments, and 125 bytes for each. Runs in the caller's TBB arena.
-  /// Errors:  throws std::invalid_argument on sizes that differ, on offsets that descend or leave their
-  ///          array, and on a point that is not finite or beyond the limits, or an obstacle whose bottom is
-  ///          not at most its top, which it names; std::length_error beyond 2^31 points, polylines and
-  ///          obstacles.
+  /// Errors:  throws std::invalid_argument on sizes that differ and on offsets that descend or leave their
+  ///          array; also, naming it, on a point that is not finite or beyond the limits, or an obstacle
+  ///          whose bottom is above its top; std::length_error beyond 2^31 points, polylines or obstacles.
   explicit ObstacleSet(const ObstacleArrays& obstacles);
   ObstacleSet(ObstacleSet&&) noexcept;
   ObstacleSet& operator=(ObstacleSet&&) noexcept;
@@ -66,7 +66,7 @@ class ObstacleSet {
   /// Errors:  throws std::out_of_range on an index out of range.
   std::uint32_t obstacle_of(std::uint32_t segment) const;
 
-  // For the library's own parts, which alone know these types.
+  // Internal, for the library's own code; the type is not public.
   /// Returns the arrays that queries read.
   const detail::ObstacleView& view() const noexcept;
 
@@ -100,8 +100,9 @@ void collide(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& ob
              std::span<std::uint8_t> hits, const CollideOptions& options = {});
 
 /// Tests whether each agent comes within a distance of an obstacle: writes 1 if so and 0 otherwise.
-/// There is one distance for all agents, or one each. The answer is 1 where clearance() with the same leaves
-/// and no limit is at most the distance, apart from the rounding of that clearance to float.
+/// There is one distance for all agents, or one each. The answer is 1 where clearance(), with the same leaves
+/// and no limit, is at most the distance; but clearance() is rounded to float, so the two may differ by that
+/// rounding.
 void within(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
             std::span<const double> distances, std::span<std::uint8_t> answers, Leaves leaves = Leaves::discs,
             const Implementation* implementation = nullptr);
@@ -123,9 +124,9 @@ void within(const BodySet& bodies, const Agents& agents, const ObstacleSet& obst
 
 /// Measures how far each agent is in space from the nearest obstacle.
 /// That is the least gap between a sphere and an obstacle; with Overlap::zero it is 0 exactly where collide()
-/// answers 1. The direction leads from the agent to the obstacle; `spheres` holds the indices of the sphere
-/// and of the segment, or 2^32 - 1 for a sphere above, in or below an area. Points are relative to the
-/// agent's position. Of equal gaps, that of the first obstacle is chosen.
+/// answers 1. The direction leads from the agent to the obstacle. `spheres` holds the index of the sphere and
+/// that of the segment, which is 2^32 - 1 if the sphere is above, in or below an area. Points are relative to
+/// the agent's position. Of equal gaps, that of the first obstacle is chosen.
 void clearance(const BodySet& bodies, const Agents& agents, const ObstacleSet& obstacles,
                const BodyClearanceAnswers& answers, const BodyClearanceOptions& options = {});
 
@@ -142,16 +143,16 @@ void clearance(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& 
 /// The move is perpendicular to one segment. One move takes an agent out of a convex area or off a single
 /// segment; for other obstacles, call again after the move. The depth is 0, and the direction (0, 0), where
 /// nothing is touched. "Obstacles" in kernel/accuracy.md has the rules.
-/// Cost:    n log n, for the n segments near the agent, or no farther than the farthest segment that its move
-///          crosses.
+/// Cost:    n log n steps for n segments: those near the agent and, if its move crosses segments farther
+///          away, all up to the farthest of these.
 void penetration(const ShapeSet& shapes, const Agents& agents, const ObstacleSet& obstacles,
                  std::span<Penetration> out, const Implementation* implementation = nullptr);
 
-/// Measures how far each agent has to move on the ground, alone, until it is free of everything at once.
-/// `neighbours` are pairs of an agent and another one in its way, in any order; `obstacles` may be null.
-/// Afterwards collide() with each of them answers 0, as long as they stay: list all neighbours that the way
-/// may come to. An agent that collides with none of them has a depth of 0. Directions and touches are those
-/// of nearest_free() of pairs; with obstacles, depths include 30 um per metre of the way and the reach.
+/// Measures how far each agent has to move on the ground to be free of all neighbours and obstacles at once.
+/// Only this agent moves. `neighbours` are pairs of an agent and another one, in any order: all that the move
+/// may come near. `obstacles` may be null. If nothing else moves, collide() with each of them then answers 0.
+/// An agent that collides with nothing has a depth of 0. Directions and touches (Penetration::Touch) are as
+/// in nearest_free() of pairs. With obstacles, depths include 30 um per metre of the move and of the reach.
 /// Sizes:   one answer per agent; as many touches or none. Errors: also as nearest_free() of pairs.
 /// Memory:  allocates in every call.
 void nearest_free(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> neighbours,
@@ -171,8 +172,8 @@ void time_of_impact(const ShapeSet& shapes, const Agents& agents, const Displace
 
 /// Finds when each motion first touches an obstacle, or infinity if it does not within the interval.
 /// Bodies are compared as seen from above, and heights of obstacles are ignored. The time is never late;
-/// "Motions" in kernel/accuracy.md says how early it may be. For a body at rest, only two cycles of a looping
-/// clip are searched.
+/// "Motions" in kernel/accuracy.md says how early it may be. If a body stands still, only two cycles of its
+/// looping clip are searched.
 /// Sizes:   as many times as motions. Units: as first_contact() of pairs.
 /// Errors:  throws std::invalid_argument, before anything is written, as first_contact() of pairs. Each near
 ///          segment counts towards the limit of 1e8 steps.
@@ -180,7 +181,7 @@ void first_contact(std::span<const Motion> motions, const ObstacleSet& obstacles
                    const TimeInterval& interval, std::span<double> times, double tolerance = 0.005);
 
 /// Returns the time until which a motion touches none of the others and no obstacle, or infinity.
-/// It is the least of what first_contact() finds for both.
+/// It is the least time that first_contact() finds for the other motions and for the obstacles.
 /// Errors:  as free_until() without obstacles.
 /// Threads: uses one thread; several threads may call it at once.
 double free_until(const Motion& motion, std::span<const Motion> others, const ObstacleSet& obstacles,

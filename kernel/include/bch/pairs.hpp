@@ -31,8 +31,8 @@ void collide(const BodySet& bodies, const Agents& agents, std::span<const Pair> 
              std::span<std::uint8_t> hits, const Implementation* implementation = nullptr);
 
 /// Holds the points of two agents that are nearest to each other.
-/// Each is relative to its own agent's position, in the world's axes, metres: the lever arm of a contact,
-/// equally exact far from the origin.
+/// Each is relative to its own agent's position, in the world's axes, metres. So it is the lever arm of a
+/// contact, and equally exact far from the origin.
 struct NearestPoints {
   Vec2 first, second;
   friend bool operator==(const NearestPoints&, const NearestPoints&) = default;
@@ -45,13 +45,13 @@ struct ClearanceAnswers {
   std::span<Vec2> direction =
       {};  ///< unit vectors; (0, 0) beyond max_distance, and with Overlap::zero where the distance is 0
   std::span<DiscPair> discs = {};        ///< the nearest discs; DiscPair::none where the direction is (0, 0)
-  std::span<NearestPoints> points = {};  ///< points of these discs, or of segments; (0, 0) likewise
+  std::span<NearestPoints> points = {};  ///< points of these discs, or of segments; else (0, 0)
 };
 
 /// Measures how far apart the two agents of each pair are.
-/// That is the least gap between a disc of one and a disc of the other, or with Leaves::segments between
-/// outlines. It is 0 where these overlap or the agents collide (negative with Overlap::deepest), and infinite
-/// where ranges of height are disjoint. "Distances" in kernel/accuracy.md has the definitions and errors.
+/// That is the least gap between discs of their cuts, or with Leaves::segments between their outlines. It is
+/// 0 (with Overlap::deepest negative) where these overlap or the agents collide, and infinite where ranges of
+/// height are disjoint. "Distances" in kernel/accuracy.md has the errors.
 /// Sizes:   as many distances as pairs; as many directions, discs and points as pairs, or none.
 /// Errors:  as collide(), and on a max_distance that is negative or NaN, or an unknown overlap or leaves.
 /// Threads: runs in the caller's TBB arena. Allocates nothing.
@@ -60,11 +60,12 @@ void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pai
 
 /// Tests whether the two agents of each pair come within a distance: writes 1 if so and 0 otherwise.
 /// They do if a disc of one cut is within the distance of a disc of the other, or one agent is inside the
-/// other's outline. It is several times as fast as clearance(); "Within a distance" in kernel/accuracy.md
+/// other's outline. This is several times as fast as clearance(); "Within a distance" in kernel/accuracy.md
 /// compares both.
 /// Units:   distances are metres, not negative; an infinite one includes every pair whose heights meet.
 /// Sizes:   one distance for all pairs, or as many as pairs; as many answers as pairs.
-/// Errors:  as collide(), and on a distance that is negative or NaN, naming the pair where each has one.
+/// Errors:  as collide(), and on a distance that is negative or NaN, naming the pair if there is one per
+///          pair.
 /// Threads: runs in the caller's TBB arena. Allocates nothing.
 void within(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
             std::span<const double> distances, std::span<std::uint8_t> answers,
@@ -105,9 +106,9 @@ void within(const BodySet& bodies, const Agents& agents, std::span<const Pair> p
 /// Holds how far, and in which direction, the first agent of a pair moves to separate from the second.
 struct Penetration {
   /// Holds where the two touch after a move of nearest_free(): at the segments or spheres that separate last.
-  /// Two segments touch at an end of one; the normal is perpendicular to the other. Normals never point
-  /// against the move. The two are apart by the rounding that depths include, a few micrometres per metre of
-  /// their reaches; where a leaf of more than 127 segments is treated as a disc, by up to its diameter.
+  /// Two segments touch at an end of one, and the normal is perpendicular to the other. Normals never point
+  /// against the move. Depths include the rounding, so the two are then a few micrometres per metre of their
+  /// reaches apart. A leaf of more than 127 segments is treated as a disc, which may add its diameter.
   struct Touch {
     Vec3 point;   ///< relative to the first agent's position after the move, in the world's axes; metres
     Vec3 normal;  ///< of length 1 within 1e-6, from the second agent to the first; (0, 0, 0): no collision
@@ -120,9 +121,10 @@ struct Penetration {
 };
 
 /// Measures how far the first agent of each pair moves along a given direction to separate from the second.
-/// Afterwards a line separates all discs of the two, and collide() answers 0. Call it only for pairs that
-/// collide: the depth of others may be positive, too. It is 0 if ranges of height are disjoint. "Penetration"
-/// in kernel/accuracy.md defines the depth and proves its properties.
+/// After the move, a line separates all discs of the two, and collide() answers 0. Call this function only
+/// for pairs that collide: the depth of other pairs may be positive, too. The depth is 0 if the agents'
+/// ranges of height are disjoint. "Penetration" in kernel/accuracy.md defines the depth and proves its
+/// properties.
 /// Sizes:   as many directions, of any length, and answers as pairs.
 /// Errors:  as collide(), and on a direction that is zero or not finite, naming the pair.
 /// Threads: runs in the caller's TBB arena. Allocates nothing.
@@ -131,10 +133,10 @@ void penetration_along(const ShapeSet& shapes, const Agents& agents, std::span<c
                        const Implementation* implementation = nullptr);
 
 /// Measures the least depth of each pair along `directions` evenly spread directions.
-/// The first direction is the x axis. Usual are 16 to 32 directions; the time is proportional to their number
-/// k. Of equal depths, that of the first direction in the order 0, k / 2, 1, k / 2 + 1 ... is chosen, as seen
-/// from the agent with the lower index. Everything else is as for penetration_along().
-/// Errors:  also on a number of directions that is odd, which would not be symmetric, below 2 or above 256.
+/// The first direction is the x axis. 16 to 32 directions are usual; the time is proportional to their number
+/// k. Of equal depths, that of the first direction in the order 0, k / 2, 1, k / 2 + 1 ... is chosen, where
+/// directions are those of the agent with the lower index. Everything else is as for penetration_along().
+/// Errors:  also on a number of directions that is odd (which would not be symmetric), below 2 or above 256.
 void penetration(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                  std::uint32_t directions, std::span<Penetration> out,
                  const Implementation* implementation = nullptr);
@@ -151,20 +153,19 @@ void penetration(const BodySet& bodies, const Agents& agents, std::span<const Pa
                  std::uint32_t directions, std::span<Penetration> out,
                  const Implementation* implementation = nullptr);
 
-/// Measures how far the first agent of each pair moves on the ground until the two are free of each other.
+/// Measures how far the first agent of each pair moves on the ground until the two no longer collide.
 /// It moves along the best of `directions` evenly spread directions, until no segments of the two outlines
-/// meet or, where collide() tests discs, no discs of the cuts overlap. They may stay interlocked, without a
-/// separating line, so the depth is at most that of penetration(), up to rounding. collide() answers 0
-/// afterwards; where it answers 0 before, the depth is 0. It grows from 0 at contact, and may jump where a
-/// gap opens or closes. Sizes, symmetry, directions and errors are those of penetration() and collide();
-/// touches.size() is out.size() or 0.
+/// meet or, if collide() tests discs, no discs of the cuts overlap; then collide() answers 0. No line need
+/// separate the two, so the depth is at most that of penetration(), up to rounding. It is 0 if they do not
+/// collide, grows from 0 at contact, and may jump where a gap opens or closes. Sizes, symmetry, directions
+/// and errors are those of penetration() and collide(); touches.size() is out.size() or 0.
 /// Memory:  allocates in every call. Threads: runs in the caller's TBB arena.
 void nearest_free(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
                   std::uint32_t directions, std::span<Penetration> out, const CollideOptions& options = {},
                   std::span<Penetration::Touch> touches = {});
 
-/// Measures the same until no sphere of the first agent's body overlaps one of the second's.
-/// The touch is on the first agent's sphere, and its normal is that of the two spheres, in space.
+/// Measures how far the first body of each pair moves until none of its spheres overlaps one of the second's.
+/// The point of touch is on a sphere of the first agent, and the normal leads along the two spheres' centres.
 void nearest_free(const BodySet& bodies, const Agents& agents, std::span<const Pair> pairs,
                   std::uint32_t directions, std::span<Penetration> out,
                   const Implementation* implementation = nullptr, std::span<Penetration::Touch> touches = {});

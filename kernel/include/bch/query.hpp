@@ -18,18 +18,19 @@ struct Kernels;
 
 namespace bch {
 
-// What a collision is. Two agents collide at their levels (0 is the coarsest) if a disc a of one cut overlaps
-// a disc b of the other, and each of a and its ancestors overlaps each of b and its ancestors. They also
-// collide if a contour of one lies inside a contour of the other. Touching is overlap. With exact leaves
-// (Leaves::segments, at depth all_depths) segments in the two leaves have to come within the rounding margin,
-// too. See "The answer" in kernel/README.md.
+// What a collision is. A shape is a binary tree of discs over its outline. The cut of an agent's shape at the
+// agent's level (0 is the coarsest) is the nodes at one depth of the tree, and the leaves above. Two agents
+// collide if a disc a of one cut overlaps a disc b of the other, and each of a and its ancestors overlaps
+// each of b and its ancestors. They also collide if a contour of one lies inside a contour of the other.
+// Touching is overlap. With exact leaves (Leaves::segments, at depth all_depths), segments in the two leaves
+// also have to come within the rounding margin. See "The answer" in kernel/README.md.
 
 // The rules that all queries share. A query over pairs writes one result per pair into spans of the caller,
 // and allocates nothing unless its header says so. Any number of queries may read one ShapeSet at once;
 // nothing may replace its shapes meanwhile. The work runs in the caller's TBB arena (call from
 // tbb::task_arena(n).execute() for n threads) or by an Executor. Each thread needs 320 KiB of stack. While a
-// query waits for its tasks, TBB may run other tasks on the thread, so hold no lock. Results have the same
-// bits on every processor, for any number of threads and any split of the batch.
+// query waits for its tasks, TBB may run other tasks on the calling thread, so call with no lock held.
+// Results have the same bits on every processor, for any number of threads and any split of the batch.
 
 /// Describes one compilation of the queries for an instruction set. All implementations give the same bits.
 struct Implementation {
@@ -54,15 +55,15 @@ const Implementation& implementation(std::string_view name);
 /// Runs the tasks of queries: a caller's own task system in place of TBB. Answers are the same bits.
 struct Executor {
   /// Calls task(data, i) once for each i in [0, count), on any threads, and returns when all have ended.
-  /// Tasks may run in any order and throw nothing; a task may call run() again. While run() waits it may run
-  /// other tasks on the thread, but no query by the same Crowd.
+  /// Tasks may run in any order and throw nothing; a task may call run() again. While run() waits, it may run
+  /// other tasks on its thread, but none that query the same Crowd.
   void (*run)(void* context, std::size_t count, void (*task)(void* data, std::size_t i),
               void* data) = nullptr;
   void* context = nullptr;    ///< given to run()
   std::uint32_t threads = 1;  ///< tasks that run at once; a query is divided into at most 8 tasks per thread
 
   /// Sets the executor that runs the tasks of all queries from now on.
-  /// One without run() restores what the library was built with.
+  /// An executor without run() restores the task system that the library was built with.
   /// Errors:  throws std::invalid_argument on other than 1 to 1024 threads.
   /// Threads: no query may run meanwhile.
   static void set(const Executor& executor);
@@ -71,8 +72,8 @@ struct Executor {
 /// Selects what clearance() returns for pairs whose discs overlap.
 enum class Overlap {
   zero,  ///< a distance of 0, without a direction or discs: such pairs cost hardly more than in collide()
-  /// The deepest overlap of two discs, as a negative distance, and its direction: a depth for forces between
-  /// coarse cuts.
+  /// The deepest overlap of two discs, as a negative distance, and its direction: a depth for contact forces
+  /// between agents at coarse levels.
   deepest,
 };
 
@@ -92,10 +93,9 @@ struct ClearanceOptions {
   /// are rejected.
   double max_distance = std::numeric_limits<double>::infinity();
   Overlap overlap = Overlap::zero;
-  /// Selects what distances are measured from: discs or, where shapes have exact leaves, segments of
-  /// outlines.
-  /// Segments give the distance of the outlines. Distances of discs are up to 3 cm below those, and take
-  /// about a seventh of the time. Overlap::deepest always measures discs.
+  /// Selects between what distances are measured: discs or, if both shapes have exact leaves, segments.
+  /// Segments give the distance of the outlines. Distances between discs are up to 3 cm less, and take about
+  /// a seventh of the time. Overlap::deepest always measures discs.
   Leaves leaves = Leaves::discs;
 };
 
@@ -107,7 +107,7 @@ struct BodyClearanceOptions {
 };
 
 /// Names two discs by their numbers in the cuts of a pair's agents.
-/// The order is that of ShapeSet::discs() and cut().
+/// The discs of a cut are numbered in the order of ShapeSet::discs() and cut().
 struct DiscPair {
   std::uint32_t first;   ///< a disc of the pair's first agent
   std::uint32_t second;  ///< a disc of its second agent

@@ -10,8 +10,8 @@
 
 namespace bch {
 
-/// Names two agents by index. Collisions ignore their order; other queries report results for the first
-/// agent.
+/// Names two agents by index. For collisions the order does not matter; other queries report results for the
+/// first agent.
 struct Pair {
   std::uint32_t first;
   std::uint32_t second;
@@ -23,15 +23,15 @@ template <class Value>
 class Strided {
  public:
   constexpr Strided() = default;
-  /// Takes the address of the first of `size` values that are `stride` bytes apart.
+  /// Refers to `size` values, `stride` bytes apart, of which `first` is the first.
   /// Queries reject a stride that is not a multiple of the value's alignment.
   constexpr Strided(const Value* first, std::size_t size, std::size_t stride = sizeof(Value)) noexcept
       : first_(first), size_(size), stride_(stride) {}
-  /// Takes a contiguous range: a vector, a span, an array.
+  /// Refers to the values of a contiguous range: a vector, a span, an array.
   template <class Range>
   requires std::ranges::contiguous_range<const Range> && std::ranges::sized_range<const Range> &&
       std::is_same_v<std::ranges::range_value_t<const Range>, Value>
-  constexpr Strided(const Range& values) noexcept  // NOLINT(google-explicit-constructor): views are
+  constexpr Strided(const Range& values) noexcept  // NOLINT(google-explicit-constructor): a view
       : Strided(std::ranges::data(values), std::ranges::size(values)) {}
 
   constexpr std::size_t size() const noexcept { return size_; }
@@ -51,14 +51,14 @@ class Strided {
 class Numbers {
  public:
   constexpr Numbers() = default;
-  constexpr Numbers(Strided<double> values) noexcept  // NOLINT(google-explicit-constructor): views are
+  constexpr Numbers(Strided<double> values) noexcept  // NOLINT(google-explicit-constructor): a view
       : first_(values.data()), size_(values.size()), stride_(values.stride()) {}
-  constexpr Numbers(Strided<float> values) noexcept  // NOLINT(google-explicit-constructor): views are
+  constexpr Numbers(Strided<float> values) noexcept  // NOLINT(google-explicit-constructor): a view
       : first_(values.data()), size_(values.size()), stride_(values.stride()), is_float_(true) {}
   template <class Range>
   requires std::is_convertible_v<const Range&, Strided<double>> ||
       std::is_convertible_v<const Range&, Strided<float>>
-  constexpr Numbers(const Range& values) noexcept  // NOLINT(google-explicit-constructor): views are
+  constexpr Numbers(const Range& values) noexcept  // NOLINT(google-explicit-constructor): a view
       : Numbers(Strided<std::ranges::range_value_t<const Range>>(values)) {}
 
   constexpr std::size_t size() const noexcept { return size_; }
@@ -87,14 +87,14 @@ class Headings {
   };
 
   constexpr Headings() = default;
-  constexpr Headings(const Numbers& angles) noexcept  // NOLINT(google-explicit-constructor): views are
+  constexpr Headings(const Numbers& angles) noexcept  // NOLINT(google-explicit-constructor): a view
       : x_(angles) {}
-  /// Takes unit vectors (cosine, sine), the world directions of the agents' +x axes.
+  /// Takes directions in the world: the unit vector (cosine, sine) of each agent's +x axis.
   /// Lengths must be from 0.999 to 1.001; queries normalise the vectors.
   constexpr Headings(const Numbers& x, const Numbers& y) noexcept : x_(x), y_(y), are_directions_(true) {}
   template <class Range>
   requires std::is_constructible_v<Numbers, const Range&>
-  constexpr Headings(const Range& angles) noexcept  // NOLINT(google-explicit-constructor): views are
+  constexpr Headings(const Range& angles) noexcept  // NOLINT(google-explicit-constructor): a view
       : x_(angles) {}
 
   constexpr std::size_t size() const noexcept { return x_.size(); }
@@ -112,8 +112,8 @@ class Headings {
 
 /// Refers to a crowd in the arrays of its simulator: one entry per agent in each array; nothing is copied.
 /// A heading turns a shape about its agent's position. At heading 0 the built-in characters face +x;
-/// ImportOptions says where imported ones face. If a clip rotates the root bone, that is part of the shape,
-/// not of the heading.
+/// ImportOptions says where imported ones face. If a clip rotates the root bone, that rotation is part of the
+/// shape, not of the heading.
 /// Units:   metres and radians, counter-clockwise, on the ground plane; |x|, |y|, |z| <= 1e9 m and |heading|
 ///          <= 1e9 rad.
 struct Agents {
@@ -121,7 +121,7 @@ struct Agents {
   Numbers x;
   Numbers y;
   Headings heading;
-  Strided<std::uint8_t> level = {};  ///< of detail: index into the set's depths; empty: the last for all
+  Strided<std::uint8_t> level = {};  ///< level of detail: index into the set's depths; empty: the last
   /// The height of the ground under each agent: a floor, a step, a stage.
   /// Empty: all agents stand on one ground, and the heights of shapes are ignored. Otherwise agents collide
   /// only if their intervals of height intersect as well, and a ShapeSet needs ShapeSetPlan::heights.

@@ -28,20 +28,20 @@ struct SphereInfluence {
 };
 
 /// Describes a body as spheres that move with a skeleton and enclose all triangles of a skin in every pose.
-/// In a pose, the centre of a sphere is blended from its bones, and its radius is the least that encloses its
-/// `corners`, points of the skin. Each triangle of the skin, or each piece of a triangle that `midpoints`
-/// divides, has all three corners among those of one sphere.
+/// In a pose, the centre of a sphere is blended from its bones. The radius is the least that encloses the
+/// sphere's `corners`, which are points of the skin. `midpoints` divide some triangles into pieces. All three
+/// corners of each triangle, or of each piece of a divided one, are corners of the same sphere.
 struct BodyModel {
   std::shared_ptr<const Character> character;  ///< its mesh, skeleton and clips
   std::vector<std::uint32_t> influence_begin;  ///< sphere_count() + 1 offsets into influences
   std::vector<SphereInfluence> influences;     ///< weights of a sphere are positive and sum to 1
-  /// Adds points to the vertices: point vertices.size() + i is halfway between these two, of lower indices,
-  /// in every pose.
+  /// Adds points to the vertices: point vertices.size() + i is, in every pose, halfway between the two points
+  /// of entry i, whose indices are lower.
   std::vector<std::array<std::uint32_t, 2>> midpoints;
   std::vector<std::uint32_t> corner_begin;  ///< sphere_count() + 1 offsets into corners
   std::vector<std::uint32_t> corners;       ///< indices of vertices or midpoints, ascending within a sphere
   std::vector<float> least_radius;          ///< lower bound of each sphere's radius, metres; empty: 0
-  /// Spheres per leaf, 4 or 8: consecutive ones, which are near each other in most poses.
+  /// The number of consecutive spheres per leaf, 4 or 8. They should be near each other in most poses.
   std::uint32_t leaf_size = 4;
   /// The indices of the spheres that queries test first. They change no answer and may repeat.
   std::array<std::uint32_t, detail::core_spheres> core = {};
@@ -68,7 +68,7 @@ BodyModel body_model(std::span<const std::byte> bytes);
 struct BodyOptions {
   std::uint32_t spheres = 256;  ///< at most 4096
   /// Skips the search for better positions of the spheres.
-  /// A draft takes seconds, and its spheres fit the skin about half as closely.
+  /// Such a draft takes seconds, and its spheres fit the skin about half as closely.
   bool draft = false;
   /// Called on the caller's thread, at most twenty times per second, with the fraction done, from 0 to 1.
   /// Returning false cancels.
@@ -84,9 +84,9 @@ struct BodyOptions {
 BodyModel make_body(const Character& character, const BodyOptions& options = {});
 
 /// Makes the model of a rigid body from spheres, for objects that move among people in the same set.
-/// Pose it by Pose() (at rest) or a transform of its one joint, which may tilt it. Radii are the same in
-/// every pose. The model reorders the spheres so that near ones follow each other: sphere i has the centre
-/// influences[i].centre and the radius least_radius[i].
+/// Pose the model by Pose() (at rest) or by a transform of its one joint, which may tilt it. Radii are the
+/// same in every pose. The model reorders the spheres so that near ones follow each other: sphere i has the
+/// centre influences[i].centre and the radius least_radius[i].
 /// Errors:  throws std::invalid_argument if there are no spheres or more than 4096, or if a sphere is not
 ///          finite or has a negative radius.
 BodyModel make_body(std::span<const Sphere> spheres);
@@ -110,8 +110,8 @@ struct AnimateOptions {
 
 /// Makes moving spheres that enclose all triangles of a body at every time of a clip, also between keys.
 /// Each sphere of the model becomes one moving sphere; layout/animation/clip_samples.hpp has the proof. The
-/// numbers of a chunk are 16-bit integers times a power of two. The heights bound the triangles at all these
-/// times.
+/// numbers of a chunk are 16-bit integers times a power of two. AnimatedDiscs::heights bound the triangles at
+/// all times.
 /// Errors:  throws std::invalid_argument as validate() does, if the clip does not exist or has no duration,
 ///          if its curves have jumps, steps or cubic parts, if the character has no root joint, and if the
 ///          error is not above 0; std::domain_error as BodyPoser::spheres() does.

@@ -51,7 +51,7 @@ class BodySet {
   /// Errors:  as spheres().
   Heights heights(std::uint32_t body) const;
 
-  // Internal: only the library has these types.
+  // Internal, for the library's own code; the types in namespace detail are not public.
   /// Allocates one record per body; body i has layout layouts[layout_of_body[i]].
   /// Each record must be written before it is read.
   BodySet(std::vector<detail::BodyLayout> layouts, std::span<const std::uint32_t> layout_of_body);

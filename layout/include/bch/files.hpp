@@ -85,7 +85,7 @@ BakedShapes load_baked(const std::filesystem::path& file, FileAccess access = Fi
 BakedShapes load_baked(std::span<const std::byte> bytes, const std::string& name,
                        std::shared_ptr<const void> memory);
 
-/// Writes a set, clips and models of bodies as a baked file; the same content gives the same bytes.
+/// Writes a set, clips and models of bodies to a baked file. The same content gives the same bytes.
 /// The bytes go to a temporary file beside `file`, which is renamed to `file` once it is complete.
 /// Errors:  throws BakedFileError if the file cannot be written, and removes the temporary one;
 ///          std::invalid_argument if load_baked() would reject the content, such as the set() of a

@@ -40,7 +40,8 @@ struct Affine3 {
   friend bool operator==(const Affine3&, const Affine3&) = default;
 };
 
-/// Represents a disc on the ground, boundary included: a vertical cylinder of infinite height, from above.
+/// Represents a disc on the ground, boundary included: a vertical cylinder of infinite height, seen from
+/// above.
 struct Disc {
   float x = 0;
   float y = 0;
@@ -57,7 +58,7 @@ struct Sphere {
   friend bool operator==(const Sphere&, const Sphere&) = default;
 };
 
-/// Holds the range of heights of a body or of a part of one; all heights by default.
+/// Holds the range of heights of a body or of a part of a body; all heights by default.
 /// Units:   metres above the ground that its agent stands on.
 struct Heights {
   float bottom = -std::numeric_limits<float>::infinity();

@@ -11,7 +11,7 @@
 
 namespace bch {
 
-/// Selects, as a depth, the cut of the full tree: its discs are the leaves.
+/// Selects, as a depth of cut(), the leaves of the tree: this depth is below every node.
 constexpr std::uint32_t all_depths = 0xffffffff;
 
 /// Holds a bounding cylinder hierarchy of one shape: a binary tree of discs on the ground.
@@ -42,7 +42,8 @@ struct Hierarchy {
   std::vector<Node> nodes;  ///< the root first; never empty
   double reach = 0;         ///< metres: largest distance of a primitive's point from the origin
 
-  // The primitives of the nodes, which exact leaves need. Without exact leaves, all of these may be empty.
+  // The primitives of the nodes. Exact leaves need them: leaves that queries test by their segments, not by
+  // their discs. Without exact leaves, all of these may be empty.
   std::vector<Primitive> primitives;  ///< in the order of the leaves
   /// Per primitive: the index of the outline segment or the triangle that it is, or is a piece of.
   std::vector<std::uint32_t> source;
@@ -60,8 +61,9 @@ void validate(const Hierarchy& hierarchy);
 /// Builds the paper's contour hierarchy.
 /// A node's segments are split by a line through their length-weighted centroid, perpendicular to the axis of
 /// their larger extent; a segment goes to the side of its midpoint. If a side stays empty, the other axis is
-/// tried, then the segments are halved by count. A lone segment is halved if longer than twice the threshold,
-/// else it is a leaf. Other nodes are leaves if the radius of their disc is below the threshold.
+/// tried, then the segments are halved by count. A node of one segment is halved if the segment is longer
+/// than twice the threshold; else it is a leaf. Any other node is a leaf if the radius of its disc is below
+/// the threshold.
 /// Units:   metres; the threshold is positive and finite. The result includes `primitives`.
 /// Errors:  throws std::invalid_argument on a bad outline or threshold, std::length_error beyond 2^22 nodes.
 Hierarchy contour_hierarchy(const Outline& outline, float threshold);

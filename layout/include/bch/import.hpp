@@ -88,9 +88,9 @@ struct ImportLimits {
 /// The child reads the file as import_character() does, within limits; this process runs no code of assimp.
 /// Errors:  throws ImportError, also if the child crashes or exceeds its limits; std::runtime_error if no
 ///          child can be created.
-/// Threads: the child is a fork with only the caller's thread. A lock that another thread holds at the fork
-///          stays locked in the child (except the C library's), and the import may then run into its time
-///          limit.
+/// Threads: the child is made by fork() and has only the caller's thread. If another thread holds a lock at
+///          the fork, it stays locked in the child (except locks of the C library), and the import may then
+///          run into its time limit.
 ImportedCharacter import_in_child(const std::filesystem::path& file, const ImportOptions& options = {},
                                   const ImportLimits& limits = {});
 

@@ -14,14 +14,15 @@ namespace bch {
 
 /// Holds the outline of what a character covers when seen from above: closed contours, counter-clockwise.
 /// Contours may touch, cross or overlap themselves and each other, and one may contain another; queries test
-/// every segment. A point is inside if it is inside any contour, by the even-odd rule of that contour alone.
-/// Only OutlineOptions::holes adds clockwise contours, the holes, which hierarchies and sets reject.
+/// every segment. A point is inside the outline if it is inside any contour, by the even-odd rule applied to
+/// that contour alone. Clockwise contours, the holes, occur only with OutlineOptions::holes; hierarchies and
+/// sets reject them.
 struct Outline {
   std::vector<Vec2> points;                        ///< metres, in the shape's frame; used as given
   std::vector<std::uint32_t> contour_begin = {0};  ///< contours + 1 offsets into points
   /// The step of the grid to which the points were rounded, metres, at most the reach; 0: not rounded.
   /// Discs are enlarged by 1.5 steps, so that they enclose the points before rounding. The step of
-  /// OutlineBuilder is a power of two, and its coordinates are the step times integers below 2^23, which
+  /// OutlineBuilder is a power of two, and coordinates are the step times integers of at most 2^23, which
   /// floats represent exactly.
   float grid_step = 0;
 
@@ -54,7 +55,7 @@ std::string to_geojson(const Outline& outline);
 
 /// Checks what hierarchies and shape sets expect of an outline, in linear time.
 /// There is at least one contour, offsets are in order, points are finite, the reach is 1e-6 to 1e6 m, and no
-/// contour is clockwise (by more area than rounding to the grid explains).
+/// contour is clockwise (an area that rounding to the grid may have made negative is allowed).
 /// Returns: the reach of the points.
 /// Errors:  throws std::invalid_argument naming the contour or point and the value.
 double validate(const Outline& outline);

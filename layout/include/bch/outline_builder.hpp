@@ -28,8 +28,8 @@ namespace bch {
 class OutlineBuilder {
  public:
   /// Prepares the mesh. A bind pose makes building faster and changes no outline.
-  /// Edges near each other in the bind pose are processed together. Vertices that coincide there are merged
-  /// in each pose in which they still coincide. Vertices without triangles are ignored.
+  /// Edges near each other in the bind pose are processed together. Vertices that coincide in the bind pose
+  /// are merged in each pose in which they still coincide. Vertices that no triangle uses are ignored.
   /// Sizes:   triangle indices are below `vertices`; the bind pose has `vertices` positions or none.
   /// Errors:  throws std::invalid_argument if there are no triangles, an index is out of range, or the bind
   ///          pose has another length or a position that is not finite.
@@ -50,7 +50,7 @@ class OutlineBuilder {
   /// Errors:  as the other overload; also if the height of such a vertex is not finite.
   Heights build(std::span<const Vec3> positions, Outline& outline);
 
-  // Internal: only the library has this type.
+  // Internal, for the library's own code; the type BuildImplementation is not public.
 
   /// Uses a given implementation, which this processor must support, in place of the best one.
   OutlineBuilder(std::span<const std::array<std::uint32_t, 3>> triangles, std::size_t vertices,
@@ -67,8 +67,8 @@ struct OutlineOptions {
   /// A clipped mesh is prepared again in every pose.
   Heights between = {};
   /// Also finds the holes of the union, as clockwise contours, and the parts inside the holes.
-  /// A hole follows the counter-clockwise contour around it. No contour then visits a point twice, and parts
-  /// without area are left out. Takes about a hundred times as long.
+  /// A hole follows the counter-clockwise contour around it. With holes, no contour visits a point twice, and
+  /// parts without area are left out. Takes about a hundred times as long.
   bool holes = false;
   /// Called like BakeOptions::progress, with the number of poses that outlines() has done so far.
   /// Returning false cancels.
@@ -76,8 +76,8 @@ struct OutlineOptions {
 };
 
 /// Finds the outline of a mesh in one pose: the exact union of its triangles seen from above.
-/// See OutlineBuilder. The outline is empty if nothing lies between the heights except points and parts
-/// within 1e-6 m of the origin.
+/// See OutlineBuilder. The outline is empty if nothing of the mesh lies between the heights. Single points,
+/// and parts within 1e-6 m of the origin, count as nothing.
 /// Sizes:   triangle indices are below positions.size(); vertices without triangles are ignored.
 /// Errors:  throws std::invalid_argument if there are no triangles, an index is out of range, a coordinate is
 ///          not finite (z is checked only if `between` clips), the reach is outside 1e-6 to 1e6 m, or the

@@ -202,9 +202,9 @@ std::vector<Affine3d> grounded(const Character& character, const Transforms& map
 class PoseShaper {
  public:
   /// Prepares the mesh of a valid character (see validate()), which must outlive this object.
-  /// Shapes fit sets of `plan`: their hierarchies end at its deepest cut. A plan of depth 0 alone, without
-  /// heights, needs no outlines: the outermost vertices give its discs in a third of the time. Discs of a
-  /// radius below `threshold`, in metres, are not divided.
+  /// The shapes are for sets with this `plan`: their hierarchies end at its deepest cut. A plan of depth 0
+  /// alone, without heights, needs no outlines: the outermost vertices give its discs in a third of the time.
+  /// Discs with a radius below `threshold`, in metres, are not divided.
   /// Errors:  throws std::invalid_argument on a bad plan.
   explicit PoseShaper(const Character& character, const ShapeSetPlan& plan = {}, float threshold = 0.01f);
   /// Deleted, because a temporary character would not outlive this object.
@@ -217,10 +217,10 @@ class PoseShaper {
   /// A shape that needs more nodes throws std::length_error.
   void limit_nodes(std::size_t max);
 
-  /// Makes the shape of a pose, valid until the next call. It has primitives if the deepest depth is
-  /// all_depths.
-  /// The root joint's ground translation is removed, its rotation is not. Poses between keys are those of the
-  /// clip's curves.
+  /// Makes the shape of a pose, valid until the next call. Its hierarchy has primitives if the deepest depth
+  /// is all_depths.
+  /// The root joint's translation along the ground is removed; its rotation is kept. Between keys, poses
+  /// follow the clip's curves.
   /// Errors:  throws std::invalid_argument if a clip or time is out of range, if transforms or vertices are
   ///          not finite or not as many as the character's; what OutlineBuilder and contour_hierarchy()
   ///          throw; std::domain_error if a posed position is not finite. After an error, the previous shape

@@ -36,7 +36,8 @@ struct SceneUse {
   /// 0: agents share a shape only if their poses are equal.
   float pose_step = 0;
   /// The expected number of pairs tested per shape in its lifetime.
-  /// From 500 pairs on, culling data save more time than they take to build, and shapes get them.
+  /// From 500 pairs on, culling data (see ShapeSetPlan) save more time than they take to build, so shapes get
+  /// them.
   double pairs_per_shape = std::numeric_limits<double>::infinity();
 };
 
@@ -55,9 +56,10 @@ struct ScenePlan {
   std::vector<std::uint8_t> agent_level;   ///< one per agent: Agents::level
 };
 
-/// Returns the cut depth that pays at a density: 0, the single cylinder, or all_depths.
-/// It is 0 where false collisions of the cylinder stop a walking person at most once per second, as measured
-/// by `bch_lab report --experiment detail`. Intermediate depths save memory, but little time.
+/// Returns the cut depth that pays at a density of people: 0, the single cylinder, or all_depths.
+/// It is 0 if, at that density, false collisions of the cylinder stop a walking person at most once per
+/// second, as measured by `bch_lab report --experiment detail`. Intermediate depths save memory, but little
+/// time.
 std::uint32_t depth_at_density(double people_per_square_metre);
 
 /// Plans which shapes a scene needs, each once, at which depths, and whether with culling data.

@@ -24,7 +24,8 @@ struct ShapeSetView;
 namespace bch {
 
 /// Represents a body seen from above: a pose of a character, a footprint, a cylinder.
-/// If the outline is empty, only discs are tested: a body in a gap between another one's discs is no hit.
+/// If the outline is empty, only discs are tested: a body in a gap between the discs of another one does not
+/// collide.
 struct Shape {
   Outline outline;
   Hierarchy hierarchy;
@@ -33,13 +34,14 @@ struct Shape {
 
 /// Makes a shape of discs, such as the three to fifty discs of a body in mechanical crowd models.
 /// The shape has no outline. Discs are enlarged only by the rounding margin, and queries number them in the
-/// given order. Neighbouring discs should follow each other, because nodes group them in that order.
+/// given order. Discs near each other should follow each other, because nodes of the tree group them in that
+/// order.
 /// Cost:    6 ms for 50 discs.
 /// Errors:  throws std::invalid_argument if there are no discs or more than 4096, if the reach is outside
 ///          1e-6 to 1e6 m, or if a disc, which is named, is not finite or has no radius.
 Shape shape_from_discs(std::span<const Disc> discs);
 
-/// Makes a shape of polygons, a wheelchair's for instance, as outline_from_polygons() takes them.
+/// Makes a shape of polygons, for instance of a wheelchair. They are those of outline_from_polygons().
 /// Its exact leaves are the polygons themselves.
 /// Units:   metres; discs of a radius below the threshold are not divided.
 /// Errors:  throws std::invalid_argument as outline_from_polygons() and contour_hierarchy() do.
@@ -62,7 +64,7 @@ struct Capsule {
 Shape shape_from_capsules(std::span<const Capsule> capsules, float tolerance = 0.001f,
                           float threshold = 0.01f);
 
-/// Describes a chunk: the moving discs (spheres, if they have heights) of a part of a clip.
+/// Describes a chunk: a part of a clip, and its moving discs, which are spheres if they have heights.
 /// Centres and radii change linearly from key to key.
 struct AnimatedChunk {
   std::vector<double> times;     ///< of the keys, at least two, ascending; seconds of the clip
@@ -74,11 +76,11 @@ struct AnimatedChunk {
   friend bool operator==(const AnimatedChunk&, const AnimatedChunk&) = default;
 };
 
-/// Describes a clip as moving discs, in chunks that each begin when the chunk before ends.
+/// Describes a clip as moving discs, in chunks. Each chunk begins when the chunk before it ends.
 struct AnimatedDiscs {
   std::vector<AnimatedChunk> chunks;  ///< from the clip's beginning to its end
   bool loops = false;                 ///< whether the clip repeats; it then lasts at least 1 ms
-  Heights heights = {};               ///< of the body over the whole clip; by default all heights
+  Heights heights = {};               ///< range of the body over the whole clip; by default all
   friend bool operator==(const AnimatedDiscs&, const AnimatedDiscs&) = default;
 };
 
@@ -90,10 +92,10 @@ struct AnimatedDiscs {
 void validate(const AnimatedDiscs& discs);
 
 /// Represents an animated body: a clip of a character, or other moving discs or spheres.
-/// Times outside the clip are clamped. If the clip loops, they wrap around, even if the last pose is not the
-/// first. Discs of animate() are stored exactly; others are rounded outward to 16-bit numbers, by less than
-/// 0.15 mm per metre of reach. "Animated shapes" in layout/README.md describes the tree. A moved-from object
-/// can only be assigned to or destroyed.
+/// Times outside the clip are clamped or, if the clip loops, wrap around, even if the last pose is not the
+/// first. Discs of animate() are stored exactly. Other discs are rounded outward to 16-bit numbers, by less
+/// than 0.15 mm per metre of reach. "Animated shapes" in layout/README.md describes the tree. A moved-from
+/// object can only be assigned to or destroyed.
 class AnimatedShape {
  public:
   /// Checks moving discs and builds the tree over them.
@@ -112,23 +114,23 @@ class AnimatedShape {
   /// Returns whether the discs are spheres.
   bool in_space() const noexcept;
   /// Returns the radius about the agent's position that encloses all discs at every time, metres.
-  /// Spheres count as seen from above.
+  /// For spheres, their discs as seen from above are enclosed.
   double reach() const noexcept;
   std::size_t bytes() const noexcept;
   /// Returns the discs at a time as stored, in the order of AnimatedDiscs.
-  /// Spheres are discs as seen from above.
+  /// For spheres, returns their discs as seen from above.
   std::vector<Disc> discs(double seconds) const;
   /// Returns the spheres at a time, in the same order; empty if the body is made of discs.
   std::vector<Sphere> spheres(double seconds) const;
   /// Returns the body at a time as a shape without outline, whose leaves are its discs.
   /// The leaves are numbered in the order of the current chunk's tree, not of discs(), so numbers can change
-  /// from chunk to chunk. ShapeSet and BuiltShape take the shape.
+  /// from chunk to chunk. Pass the shape to ShapeSet or BuiltShape.
   /// Cost:    a few us for 200 discs, less than packing it (BuiltShape).
   Shape shape(double seconds) const;
   /// Writes the same shape into `shape`, whose memory is reused.
   void shape(double seconds, Shape& shape) const;
 
-  // Internal: only the library has this type.
+  // Internal, for the library's own code; the type AnimatedTree is not public.
   /// Returns the tree of the discs.
   const detail::AnimatedTree& tree() const noexcept { return *tree_; }
 
@@ -140,10 +142,10 @@ class AnimatedShape {
 /// Selects the test of two leaves.
 enum class Leaves {
   discs,  ///< the discs of the leaves overlap
-  /// The discs overlap, and segments of the leaves come within 1.7 um per metre of the sum of both reaches
-  /// (exact leaves).
-  /// Applies to agents at depth all_depths whose shapes have exact leaves. For other agents, and for leaves
-  /// of more than 127 segments, discs decide.
+  /// The discs overlap, and segments of the outlines in the two leaves come within 1.7 um per metre of the
+  /// sum of both reaches (exact leaves).
+  /// This applies to agents at depth all_depths whose shapes have exact leaves (see ShapeSetPlan). For other
+  /// agents, and for leaves of more than 127 segments, discs decide.
   segments,
 };
 
@@ -156,8 +158,9 @@ struct ShapeSetPlan {
   /// Exact leaves exist at depth all_depths, for shapes whose cut has more than one disc and whose hierarchy
   /// has primitives.
   bool outlines = true;
-  /// Whether to store culling data, which make queries faster and change no answer: 32-DOPs, profiles and,
-  /// with outlines, inscribed discs. They do not pay for a set that answers few queries.
+  /// Whether to store culling data, which make queries faster and change no answer: bounds of the shape along
+  /// 32 directions and in 32 sectors and, with outlines, discs inside it. For a set that answers few queries,
+  /// building them takes longer than they save.
   bool culling = true;
   /// Whether to store the heights of bodies, which agents at different heights need; see Agents::z.
   bool heights = false;
@@ -169,14 +172,15 @@ struct ShapeSetPlan {
 ///          ascend.
 void validate(const ShapeSetPlan& plan);
 
-/// Holds many shapes in flat form for batch queries: structure of arrays, on cache lines, immutable.
+/// Holds many shapes in flat form for batch queries: immutable, as structures of arrays that are aligned to
+/// cache lines.
 /// A moved-from object can only be assigned to or destroyed.
 class ShapeSet {
  public:
   /// Packs shapes, each at all depths of a plan, and copies all that the plan stores.
-  /// Errors:  throws std::invalid_argument if validate() rejects the plan, or the hierarchy or outline
-  ///          (unless empty or not stored) of a shape, which is named; std::length_error beyond 2^31 floats
-  ///          in the arrays of nodes.
+  /// Errors:  throws std::invalid_argument if validate() rejects the plan or, naming the shape, a hierarchy
+  ///          or an outline that is stored and not empty; std::length_error beyond 2^31 floats in the arrays
+  ///          of nodes.
   explicit ShapeSet(std::span<const Shape> shapes, const ShapeSetPlan& plan = {});
   ShapeSet(ShapeSet&&) noexcept;
   ShapeSet& operator=(ShapeSet&&) noexcept;
@@ -189,7 +193,7 @@ class ShapeSet {
   bool has_heights() const noexcept;
   /// Returns whether any shape has exact leaves at any level.
   bool exact_leaves() const noexcept;
-  /// Returns whether every cut is a single disc, so that the set has roots and no other nodes.
+  /// Returns whether every cut is a single disc, so that the set has only roots and no other nodes.
   bool roots_only() const noexcept;
   /// Returns the plan of what is stored. A set of roots alone has neither outlines nor culling data.
   ShapeSetPlan plan() const;
@@ -203,7 +207,7 @@ class ShapeSet {
   /// Errors:  throws std::out_of_range if the index is out of range.
   float bounding_radius(std::uint32_t shape) const;
 
-  // Internal: only the library has these types.
+  // Internal, for the library's own code; the types in namespace detail are not public.
 
   /// Refers to arrays that stay valid while `memory` lives, for instance a mapped file.
   /// Precondition: validate(arrays) does not throw.
@@ -218,7 +222,7 @@ class ShapeSet {
   std::unique_ptr<State> state_;
 };
 
-/// Holds a packed shape, ready to be added to a set. Packing is nearly all the work of making a set.
+/// Holds a packed shape, ready to be added to a set. (Packing is nearly all the work of making a set.)
 /// An object reuses its memory for the next shape. A moved-from object can only be assigned to or destroyed.
 /// Threads: one at a time may use an object.
 class BuiltShape {
@@ -231,11 +235,11 @@ class BuiltShape {
   ~BuiltShape();
 
   /// Packs a shape, in place of the previous one.
-  /// Errors:  throws std::invalid_argument as ShapeSet does, with `index` as the number of the shape; then
-  ///          call prepare() again before adding it.
+  /// Errors:  throws std::invalid_argument as ShapeSet does, with `index` as the number of the shape. After
+  ///          an error, call prepare() again before adding the object.
   void prepare(const Shape& shape, std::size_t index);
 
-  // Internal: only the library has these types.
+  // Internal, for the library's own code; the types in namespace detail are not public.
   /// Returns the arrays that builders and sets copy.
   detail::FlatBody& flat() noexcept;
   const detail::FlatBody& flat() const noexcept;
@@ -269,7 +273,7 @@ class ShapeSetBuilder {
   /// Returns the set of all added shapes. If memory runs out, the shapes stay in the builder.
   ShapeSet finish() &&;
 
-  // Internal: only the library has these types.
+  // Internal, for the library's own code; the types in namespace detail are not public.
   /// Returns the nodes of the shapes so far, as the set will contain them; empty for a set of roots alone.
   /// Valid until the next call of another member function.
   std::span<const float> nodes() const noexcept;
@@ -305,17 +309,17 @@ class DynamicShapeSet {
   /// gaps; a DynamicShapeSet that copies it has none.
   const ShapeSet& set() const noexcept;
 
-  /// Replaces a shape by one prepared with set().plan(), if the new shape fits into the place of the old.
-  /// Threads may replace different shapes at the same time, while no query runs. Allocates nothing.
-  /// Returns: whether the shape fitted. If not, the set is unchanged and replace() is needed. A set of one
-  ///          level also needs it for its first shape of a single disc.
+  /// Replaces a shape by one prepared with set().plan(), if the new shape fits into the memory of the old
+  /// one. Threads may replace different shapes at the same time, while no query runs. Allocates nothing.
+  /// Returns: whether the shape fitted. If not, the set is unchanged and replace() is needed. In a set of one
+  ///          level, replace() is also needed for the first shape of a single disc.
   /// Errors:  throws std::out_of_range if the index is out of range, std::invalid_argument if the shape has
   ///          another plan.
   bool try_replace(std::uint32_t shape, const BuiltShape& by);
 
   /// Replaces a shape, in a new place if the old place is too small.
-  /// One thread at a time may call it: arrays may move, which makes earlier views of set() invalid. If
-  /// try_replace() would refuse, it takes time linear in the number of shapes.
+  /// One thread at a time may call it: arrays may move, which makes earlier views of set() invalid. If the
+  /// shape does not fit, it takes time linear in the number of shapes.
   /// Errors:  as try_replace(); std::length_error as ShapeSet. The shape is then unchanged.
   void replace(std::uint32_t shape, const BuiltShape& by);
 
