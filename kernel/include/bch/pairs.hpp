@@ -60,12 +60,10 @@ void clearance(const ShapeSet& shapes, const Agents& agents, std::span<const Pai
 
 /// Tests whether the two agents of each pair come within a distance: writes 1 if so and 0 otherwise.
 /// They do if a disc of one cut is within the distance of a disc of the other, or one agent is inside the
-/// other's outline. This is several times as fast as clearance(); "Within a distance" in kernel/accuracy.md
-/// compares both.
+/// other's outline. This is several times as fast as clearance(); see also kernel/accuracy.md.
 /// Units:   distances are metres, not negative; an infinite one includes every pair whose heights meet.
 /// Sizes:   one distance for all pairs, or as many as pairs; as many answers as pairs.
-/// Errors:  as collide(), and on a distance that is negative or NaN, naming the pair if there is one per
-///          pair.
+/// Errors:  as collide(), and on a distance that is negative or NaN, whose pair is named.
 /// Threads: runs in the caller's TBB arena. Allocates nothing.
 void within(const ShapeSet& shapes, const Agents& agents, std::span<const Pair> pairs,
             std::span<const double> distances, std::span<std::uint8_t> answers,

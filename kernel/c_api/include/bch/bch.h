@@ -16,7 +16,7 @@
  *           arguments. Unless it returns BCH_OK, nothing has been written, and bch_last_error() says what is
  *           wrong.
  * Handles:  an object is a pointer that a function creates and that the free function of its kind frees;
- *           freeing NULL does nothing. A pointer that is no live object of the right kind gives
+ *           freeing NULL does nothing. A pointer that is not a live object of the right kind gives
  *           BCH_INVALID_ARGUMENT. If several threads free one object, one succeeds. A pointer that a getter
  *           returned is valid until its object is freed.
  * Structs:  those that begin with `size` may grow at their end in later versions: initialise them by the
@@ -25,8 +25,9 @@
  * Arrays:   belong to the caller, are packed, and are read during the call only. An empty one may be NULL.
  * Units:    metres and radians, counter-clockwise. A heading of 0 does not turn a shape, and the built-in
  *           characters then face +x.
- * Threads:  functions may be called from any thread. An object that a function does not take as const may be
- *           used by one thread at a time. Any number of threads may query a set or obstacles at the same time.
+ * Threads:  functions may be called from any thread. While a function that takes an object without const runs,
+ *           no other thread may use that object. Any number of threads may query a set or obstacles at the same
+ *           time.
  * Memory:   a failed allocation gives BCH_NO_MEMORY. Queries of pairs allocate nothing, except clearances and
  *           times of impact of agents at different heights. No function throws, ends the program or prints.
  */
@@ -100,8 +101,8 @@ typedef struct bch_heights {
 } bch_heights;
 
 /** Receives the progress of a function, on the caller's thread while the function works: `done` of `total`
- * parts are ready; a total of 0 is unknown. Returning anything but 0 cancels the function, which then returns
- * BCH_CANCELLED. */
+ * parts are ready. If `total` is 0, it is not known. Returning anything but 0 cancels the function, which
+ * then returns BCH_CANCELLED. */
 typedef int32_t (*bch_progress)(void* user, uint64_t done, uint64_t total);
 
 /** Says how functions that take long do their work: on how many threads, and with which callback. */
@@ -126,10 +127,10 @@ BCH_API bch_status bch_character_default(int32_t which, bch_character** characte
 
 /** Names the sexes of pedestrians. */
 enum { BCH_PEDESTRIAN_FEMALE = 0, BCH_PEDESTRIAN_MALE = 1 };
-/** Makes a pedestrian of a stature in metres, for recorded and simulated crowds. Clip k is one stride at k *
- * BCH_PEDESTRIAN_SPEED_STEP, in metres per second, from 0 to 2.19. The origin of the shape is below the head.
- * `shoulders` is the angle by which the shoulders are turned from facing the walking direction, radians,
- * counter-clockwise. */
+/** Makes a pedestrian of a stature in metres, for recorded and simulated crowds. Clip k is one stride at a
+ * speed of k * BCH_PEDESTRIAN_SPEED_STEP metres per second, from 0 to 2.19. The origin of the shape is below
+ * the head. `shoulders` is the angle between the direction that the shoulders face and the walking direction,
+ * radians, counter-clockwise. */
 BCH_API bch_status bch_character_pedestrian(int32_t sex, double stature, double shoulders,
                                             bch_character** character);
 #define BCH_PEDESTRIAN_SPEED_STEP 0.03
@@ -150,8 +151,8 @@ enum {
   BCH_STEP = 1,   /**< keeps the earlier key */
   BCH_CUBIC = 2   /**< a Hermite spline with tangents; rotations are normalised after they are blended */
 };
-/** Describes how a part of a joint's transform moves: keys in order of time. Without keys that part stays as
- * it is at rest. */
+/** Describes how a part of a joint's transform (positions, rotations or scales) moves: keys in order of time.
+ * Without keys that part stays as it is at rest. */
 typedef struct bch_curve {
   const float* times; /**< seconds from the start of the clip */
   const float*
@@ -270,7 +271,7 @@ typedef struct bch_pose_arrays {
   const void* data; /**< the numbers */
   size_t count;     /**< of transforms or vertices in a pose */
   size_t
-      stride; /**< from one transform or vertex to the next, in numbers, at least its own; 0: packed */
+      stride; /**< numbers from one transform or vertex to the next, at least the size of one; 0: packed */
   const double*
       origins; /**< for bone matrices: x and y of each pose's origin in the world; NULL: (0, 0) */
 } bch_pose_arrays;
@@ -297,10 +298,12 @@ BCH_API bch_status bch_character_free(bch_character* character);
 /** Holds shapes of bodies, ready to be queried. */
 typedef struct bch_shape_set bch_shape_set;
 
-/** Stands for the depth of a level that has all discs of a shape. */
+/** Selects the deepest level of detail, as a depth in bch_plan: the leaves of a shape's tree of discs. */
 #define BCH_ALL_DEPTHS 0xffffffffu
 
-/** Says which levels and data a set stores for each shape. Nothing else is built. */
+/** Says which levels and data a set stores for each shape. Nothing else is built. Over the outline of each
+ * shape, seen from above, stands a binary tree of discs. A level of detail is the discs at one depth of the
+ * tree, and the leaves above that depth. */
 typedef struct bch_plan {
   uint32_t size;    /**< sizeof(bch_plan) */
   int32_t outlines; /**< not 0: keep outlines; without them discs decide whether agents collide */
@@ -334,7 +337,7 @@ typedef struct bch_shape_set_info {
   uint32_t levels;
   int32_t has_heights;  /**< not 0: agents may have a z */
   int32_t outlines;     /**< not 0: outlines are kept; 0: discs decide whether agents collide */
-  int32_t exact_leaves; /**< not 0: BCH_SEGMENTS has an effect at some level of some shape */
+  int32_t exact_leaves; /**< not 0: some shape can be tested by the segments of its outline (BCH_SEGMENTS) */
   uint64_t bytes;
   const uint32_t* depths; /**< one per level; lives as long as the set */
 } bch_shape_set_info;
@@ -360,7 +363,8 @@ BCH_API bch_status bch_shape_set_get_radius(const bch_shape_set* set, uint32_t s
 BCH_API bch_status bch_shape_set_get_discs(const bch_shape_set* set, uint32_t shape, uint32_t level,
                                            bch_disc* discs, size_t capacity, size_t* count);
 
-/** Holds closed contours: contour i has points offsets[i] to offsets[i + 1]. */
+/** Holds closed contours: contour i has points offsets[i] to offsets[i + 1]. The caller provides the arrays
+ * and their capacities. */
 typedef struct bch_outline {
   uint32_t size; /**< sizeof(bch_outline) */
   bch_vec2* points;
@@ -401,7 +405,7 @@ BCH_API bch_status bch_pose_shaper_create(const bch_character* character, const 
                                           bch_pose_shaper** shaper);
 /** Makes the shape of a pose. It replaces the previous one. */
 BCH_API bch_status bch_pose_shaper_make(bch_pose_shaper* shaper, bch_pose pose);
-/** Makes the shape of pose number `index` of arrays, likewise. */
+/** Makes the shape of pose number `index` of arrays. It replaces the previous one. */
 BCH_API bch_status bch_pose_shaper_make_from_arrays(bch_pose_shaper* shaper, const bch_pose_arrays* poses,
                                                     size_t index);
 /** Gets the outline of the shape that was made last; see bch_shape_set_get_outline(). */
@@ -443,7 +447,8 @@ BCH_API bch_status bch_shape_set_builder_add_shape(bch_shape_set_builder* builde
 BCH_API bch_status bch_shape_set_builder_add_polygons(bch_shape_set_builder* builder, const bch_vec2* corners,
                                                       const uint64_t* offsets, size_t polygons,
                                                       const bch_heights* heights);
-/** Adds a body of capsules. Its outline is nowhere farther from the capsules than `tolerance`, in metres. */
+/** Adds a body of capsules. Its outline encloses the capsules, and protrudes from them by at most
+ * `tolerance`, in metres. */
 BCH_API bch_status bch_shape_set_builder_add_capsules(bch_shape_set_builder* builder,
                                                       const bch_capsule* capsules, size_t count,
                                                       float tolerance, const bch_heights* heights);
@@ -475,14 +480,15 @@ BCH_API bch_status bch_dynamic_shape_set_get_shapes(const bch_dynamic_shape_set*
 /** Replaces a shape by the one that a shaper made last. The shaper has to have the set's plan. */
 BCH_API bch_status bch_dynamic_shape_set_replace(bch_dynamic_shape_set* set, uint32_t shape,
                                                  const bch_pose_shaper* shaper);
-/** Replaces many shapes by poses of a character, on many threads: shapes[i], each at most once, by poses[i].
- * `threshold` is as in bch_plan. After an error or a cancellation some shapes are new, and others are
- * unchanged. */
+/** Replaces many shapes by poses of a character, on many threads: shape shapes[i] by the pose poses[i]. No
+ * shape may be named twice. `threshold` is as in bch_plan. After an error or a cancellation some shapes are
+ * new, and others are unchanged. */
 BCH_API bch_status bch_dynamic_shape_set_replace_poses(bch_dynamic_shape_set* set,
                                                        const bch_character* character, const uint32_t* shapes,
                                                        const bch_pose* poses, size_t count, float threshold,
                                                        const bch_work* work);
-/** Replaces many shapes by poses given by arrays, in the same way. */
+/** Replaces many shapes by poses given by arrays, as bch_dynamic_shape_set_replace_poses() does for poses of
+ * clips. */
 BCH_API bch_status bch_dynamic_shape_set_replace_pose_arrays(bch_dynamic_shape_set* set,
                                                              const bch_character* character,
                                                              const uint32_t* shapes,
@@ -499,9 +505,9 @@ typedef struct bch_outlines bch_outlines;
 typedef struct bch_outline_options {
   uint32_t size; /**< sizeof(bch_outline_options) */
   int32_t
-      holes; /**< not 0: also holes, as clockwise contours after the one around them, and parts inside holes */
-  float bottom; /**< metres; what is below is cut off; -infinity: nothing */
-  float top;    /**< metres; what is above is cut off; infinity: nothing */
+      holes; /**< not 0: also holes (clockwise contours after the contour around them), and parts inside holes */
+  float bottom; /**< metres; the mesh below is cut off; -infinity: nothing is cut off */
+  float top;    /**< metres; the mesh above is cut off; infinity: nothing is cut off */
 } bch_outline_options;
 #define BCH_OUTLINE_OPTIONS_INIT \
   { sizeof(bch_outline_options), 0, -INFINITY, INFINITY }
@@ -564,7 +570,7 @@ typedef struct bch_pair {
 } bch_pair;
 
 enum {
-  BCH_DISCS = 0,   /**< two leaves collide if their discs overlap */
+  BCH_DISCS = 0,   /**< two leaves of the trees of discs collide if their discs overlap */
   BCH_SEGMENTS = 1 /**< at depth BCH_ALL_DEPTHS, segments of the two outlines must meet as well */
 };
 enum {
@@ -621,7 +627,8 @@ BCH_API bch_status bch_within(const bch_shape_set* set, const bch_agents* agents
                               size_t count, const double* distances, size_t distance_count,
                               const bch_query_options* options, uint8_t* answers);
 
-/** Names one disc of each agent of a pair, by its index among the discs of the agent's level. */
+/** Names one disc of each agent of a pair, by its index among the discs of the agent's level (see
+ * bch_shape_set_get_discs()). */
 typedef struct bch_disc_pair {
   uint32_t first, second;
 } bch_disc_pair;
@@ -667,9 +674,9 @@ typedef struct bch_touch {
   bch_vec3 point;  /**< relative to the first agent's position after the move, in the world's axes */
   bch_vec3 normal; /**< a unit vector from the second agent to the first; (0, 0, 0): the two do not collide */
 } bch_touch;
-/** Measures the shortest move, along the best of such directions, after which bch_collide() with the same
- * `leaves` answers 0. The two may stay interlocked. The depth is 0 if they do not collide. `touches` may be
- * NULL. */
+/** Measures the shortest move, along the best of `directions` directions as in bch_penetration(), after which
+ * bch_collide() with the same `leaves` answers 0. The two may then still be interlocked, so that no straight
+ * line separates them. The depth is 0 if they do not collide. `touches` may be NULL. */
 BCH_API bch_status bch_nearest_free(const bch_shape_set* set, const bch_agents* agents, const bch_pair* pairs,
                                     size_t count, uint32_t directions, const bch_query_options* options,
                                     bch_penetration_depth* depths, bch_touch* touches);
@@ -755,8 +762,8 @@ typedef struct bch_crowd_penetration_view {
 
 /** Makes a crowd, which keeps its memory from call to call. `options` may be NULL. */
 BCH_API bch_status bch_crowd_create(const bch_crowd_options* options, bch_crowd** crowd);
-/** Finds every pair of agents whose root discs overlap or come within a margin. Each pair is returned once,
- * with first < second. `filter` may be NULL here and below. */
+/** Finds every pair of agents whose root discs (the discs around whole shapes) come within a margin of each
+ * other. Each pair is returned once, with first < second. `filter` may be NULL here and below. */
 BCH_API bch_status bch_crowd_candidates(bch_crowd* crowd, const bch_shape_set* set, const bch_agents* agents,
                                         double margin, const bch_pair_filter* filter,
                                         const bch_query_options* options, const bch_pair** pairs,
@@ -765,12 +772,12 @@ BCH_API bch_status bch_crowd_candidates(bch_crowd* crowd, const bch_shape_set* s
 BCH_API bch_status bch_crowd_collisions(bch_crowd* crowd, const bch_shape_set* set, const bch_agents* agents,
                                         const bch_pair_filter* filter, const bch_query_options* options,
                                         const bch_pair** pairs, size_t* count);
-/** Finds the discs that overlap, one row for each pair that has such discs. */
+/** Finds the pairs of discs that make agents collide, one row for each pair of agents that has any. */
 BCH_API bch_status bch_crowd_contacts(bch_crowd* crowd, const bch_shape_set* set, const bch_agents* agents,
                                       const bch_pair_filter* filter, const bch_query_options* options,
                                       bch_contact_rows* contacts);
-/** Finds the discs of given pairs that overlap, one row per pair, which may be empty. `contacts->pairs` is
- * `pairs`. */
+/** Finds the pairs of discs that make the agents of given pairs collide, one row per given pair, which may be
+ * empty. `contacts->pairs` is `pairs`. */
 BCH_API bch_status bch_crowd_contacts_of(bch_crowd* crowd, const bch_shape_set* set, const bch_agents* agents,
                                          const bch_pair* pairs, size_t count,
                                          const bch_query_options* options, bch_contact_rows* contacts);
@@ -786,9 +793,9 @@ BCH_API bch_status bch_crowd_penetrations(bch_crowd* crowd, const bch_shape_set*
                                           bch_crowd_penetration_view* penetrations);
 /** Returns, for each agent, the others that it is paired with in the last answer: one row per agent. */
 BCH_API bch_status bch_crowd_by_agent(bch_crowd* crowd, bch_neighbour_rows* neighbours);
-/** Returns the nearest others of each agent, at most `max_count`, nearest first, as crowd models such as ORCA need
- * them. The crowd's last answer has to be from bch_crowd_clearances() or bch_crowd_body_clearances(); its
- * distances decide, not those of centres. */
+/** Returns the nearest others of each agent, at most `max_count`, nearest first, as crowd models such as ORCA
+ * need them. The crowd's last answer has to be from bch_crowd_clearances() or bch_crowd_body_clearances();
+ * "nearest" is by the distances of that answer, not by those of centres. */
 BCH_API bch_status bch_crowd_nearest(bch_crowd* crowd, uint32_t max_count, bch_neighbour_rows* neighbours);
 /** Computes the radii of discs that stand for the bodies in a simulator of discs: a radius is half the distance
  * of positions at which two bodies touch, in the mean over an agent's pairs, the near ones foremost. Agents
@@ -825,8 +832,8 @@ typedef struct bch_space_capsule {
 BCH_API bch_status bch_spheres_from_capsules(const bch_space_capsule* capsules, size_t capsule_count,
                                              float error, bch_sphere* spheres, size_t capacity,
                                              size_t* count);
-/** Gets spheres that together enclose upright prisms over polygons, likewise. Polygon i has corners
- * offsets[i] to offsets[i + 1]; all prisms have the same heights. */
+/** Gets spheres that together enclose upright prisms over polygons, as bch_spheres_from_capsules() does for
+ * capsules. Polygon i has corners offsets[i] to offsets[i + 1]; all prisms have the same heights. */
 BCH_API bch_status bch_spheres_from_polygons(const bch_vec2* corners, const uint64_t* offsets,
                                              size_t polygons, const bch_heights* heights, float error,
                                              bch_sphere* spheres, size_t capacity, size_t* count);
@@ -853,7 +860,7 @@ typedef struct bch_body_model bch_body_model;
 typedef struct bch_body_options {
   uint32_t size;    /**< sizeof(bch_body_options) */
   uint32_t spheres; /**< at most 4096 */
-  int32_t draft;    /**< not 0: a model in seconds, whose errors are about twice as large */
+  int32_t draft;    /**< not 0: made in seconds, but protrudes about twice as far from the skin */
 } bch_body_options;
 #define BCH_BODY_OPTIONS_INIT \
   { sizeof(bch_body_options), 256, 0 }
@@ -893,8 +900,8 @@ BCH_API bch_status bch_live_bodies_create(const bch_body_model* const* models, s
 /** Poses all bodies at times of clips, one pose per body, on `threads` threads; 0: one for each processor. No
  * query may run during the call. */
 BCH_API bch_status bch_live_bodies_pose(bch_live_bodies* bodies, const bch_pose* poses, uint32_t threads);
-/** Poses all bodies by transforms, one pose per body, likewise. BCH_POSED_VERTICES is an error, because
- * vertices do not tell where bones are. */
+/** Poses all bodies by transforms, one pose per body, as bch_live_bodies_pose() does at times of clips.
+ * BCH_POSED_VERTICES is an error, because vertices do not tell where bones are. */
 BCH_API bch_status bch_live_bodies_pose_from_arrays(bch_live_bodies* bodies, const bch_pose_arrays* poses,
                                                     uint32_t threads);
 /** Gets the bodies as a set, for queries. It belongs to `bodies`: do not free it. */
@@ -924,13 +931,14 @@ BCH_API bch_status bch_time_of_impact_bodies(const bch_body_set* set, const bch_
 BCH_API bch_status bch_penetration_bodies(const bch_body_set* set, const bch_agents* agents,
                                           const bch_pair* pairs, size_t count, uint32_t directions,
                                           const bch_query_options* options, bch_penetration_depth* depths);
-/** Measures the shortest such move after which no sphere of one body overlaps one of the other. The two may
- * stay interlocked. The depth is 0 if they do not collide. */
+/** Measures the shortest move on the ground, along the best of `directions` directions, after which no sphere
+ * of one body overlaps one of the other. The two may then still be interlocked, so that no straight line
+ * separates them. The depth is 0 if they do not collide. */
 BCH_API bch_status bch_nearest_free_bodies(const bch_body_set* set, const bch_agents* agents,
                                            const bch_pair* pairs, size_t count, uint32_t directions,
                                            const bch_query_options* options, bch_penetration_depth* depths);
-/** Measures the same, and gets where the two touch after the move: a point in space on a sphere of the first
- * agent. */
+/** Measures the same as bch_nearest_free_bodies(), and gets where the two touch after the move: a point in
+ * space on a sphere of the first agent. */
 BCH_API bch_status bch_nearest_free_bodies_touches(const bch_body_set* set, const bch_agents* agents,
                                                    const bch_pair* pairs, size_t count, uint32_t directions,
                                                    const bch_query_options* options,
@@ -1032,7 +1040,7 @@ typedef struct bch_obstacle_arrays {
   size_t obstacle_count;            /**< without offsets the number of polylines */
   const uint8_t* is_area;           /**< 1: an area, which its polylines enclose as rings; NULL: no areas */
   const double* bottom;             /**< per obstacle, metres; may be infinite; NULL: all are */
-  const double* top; /**< likewise; bodies with heights collide only where heights overlap */
+  const double* top; /**< like bottom; bodies with heights collide only where heights overlap */
 } bch_obstacle_arrays;
 #define BCH_OBSTACLE_ARRAYS_INIT \
   { sizeof(bch_obstacle_arrays), NULL, NULL, NULL, 0, NULL, 0, NULL, NULL, NULL }
@@ -1051,7 +1059,8 @@ BCH_API bch_status bch_obstacles_get_owner(const bch_obstacles* obstacles, uint3
 /** Frees obstacles. */
 BCH_API bch_status bch_obstacles_free(bch_obstacles* obstacles);
 
-/* Each of these does for each agent and the obstacles what the query of the same name does for each pair. */
+/* Each of the next functions answers, for each agent and the obstacles, what the query of the same name answers
+ * for each pair of agents. */
 
 /** Tests whether each agent collides with an obstacle, and writes 1 or 0 to `hits`. */
 BCH_API bch_status bch_obstacles_collide(const bch_shape_set* set, const bch_agents* agents,
@@ -1096,10 +1105,11 @@ BCH_API bch_status bch_obstacles_clearance_bodies(const bch_body_set* set, const
                                                   const bch_obstacles* obstacles,
                                                   const bch_query_options* options,
                                                   const bch_body_clearance_out* out);
-/** Measures how far each agent has to move on the ground, alone, until it is free of its neighbours and of obstacles at once, as
- * bch_nearest_free() does for pairs. `neighbours` are pairs of an agent and another one in its way, in any order; `obstacles` may be NULL.
- * Afterwards bch_collide() of these pairs and bch_obstacles_collide() answer 0, if nobody else moves. `depths` has one entry per agent, and
- * so has `touches`, which may be NULL. */
+/** Measures how far each agent has to move on the ground until it is free of all its neighbours and of all
+ * obstacles at once, if only this agent moves. `neighbours` are pairs of an agent and another one that may be
+ * in its way, in any order; `obstacles` may be NULL. If nobody else moves, bch_collide() of these pairs and
+ * bch_obstacles_collide() answer 0 afterwards. `depths` has one entry per agent, and so has `touches`, which
+ * may be NULL. Directions and answers are as for bch_nearest_free(). */
 BCH_API bch_status bch_nearest_free_of_all(const bch_shape_set* set, const bch_agents* agents,
                                            const bch_pair* neighbours, size_t count,
                                            const bch_obstacles* obstacles, uint32_t directions,
@@ -1121,9 +1131,9 @@ typedef struct bch_resolve_options {
   uint32_t size;                  /**< sizeof(bch_resolve_options) */
   uint32_t directions;            /**< as for bch_nearest_free_bodies() */
   uint32_t sweeps;                /**< the largest number of sweeps */
-  double gap;                     /**< metres, between two agents that were separated */
-  double largest_step;            /**< metres, for an agent in one sweep */
-  double largest_shift;           /**< metres, from an agent's first position */
+  double gap;                     /**< metres, clearance to leave between two agents that were separated */
+  double largest_step;            /**< metres, the largest displacement of an agent in one sweep */
+  double largest_shift;           /**< metres, the largest displacement of an agent in all sweeps */
   const double* mobility;         /**< one per agent, from 0 (fixed) to 1; NULL: 1 for all */
   const bch_obstacles* obstacles; /**< which bodies must not touch; may be NULL */
 } bch_resolve_options;
@@ -1157,7 +1167,7 @@ typedef struct bch_animated_shape bch_animated_shape;
 /** Says how moving spheres of a clip are made. */
 typedef struct bch_animate_options {
   uint32_t size; /**< sizeof(bch_animate_options) */
-  float error;   /**< metres: how much farther spheres may protrude between keys than at keys */
+  float error;   /**< metres: how far moving spheres may protrude from the posed spheres between keys */
   int32_t loops; /**< 1: the clip repeats; 0: it ends; -1: it repeats if its last pose is its first */
 } bch_animate_options;
 #define BCH_ANIMATE_OPTIONS_INIT \
@@ -1202,7 +1212,7 @@ BCH_API bch_status bch_animated_shape_get_info(const bch_animated_shape* shape,
  * and to `count` the number of all. */
 BCH_API bch_status bch_animated_shape_get_discs(const bch_animated_shape* shape, double seconds,
                                                 bch_disc* discs, size_t capacity, size_t* count);
-/** Gets the spheres at a time, likewise; a body of discs has none. */
+/** Gets the spheres at a time, as bch_animated_shape_get_discs() gets discs; a body of discs has none. */
 BCH_API bch_status bch_animated_shape_get_spheres(const bch_animated_shape* shape, double seconds,
                                                   bch_sphere* spheres, size_t capacity, size_t* count);
 /** Frees a body. */
@@ -1237,7 +1247,7 @@ typedef struct bch_motion {
 } bch_motion;
 /** Finds when the two motions of each pair first touch, between the times `from` and `to`, both included, in
  * seconds; infinity if they do not touch. Two bodies of spheres are compared in space, others as seen from
- * above. The time is never too late, and too early by at most the time in which the two come closer by
+ * above. The time is never too late. It is too early by at most the time in which the two come closer by
  * `tolerance` metres, for instance 0.005. `threads` 0: one for each processor. */
 BCH_API bch_status bch_first_contact(const bch_motion* motions, size_t motion_count, const bch_pair* pairs,
                                      size_t count, double from, double to, double tolerance, uint32_t threads,
@@ -1258,8 +1268,8 @@ BCH_API bch_status bch_free_until(const bch_motion* motion, const bch_motion* ot
  * divided by the area of that circle. */
 BCH_API bch_status bch_local_densities(const double* x, const double* y, size_t count, double radius,
                                        double* densities);
-/** Finds the depth of disc trees to use at a density: 0 if false collisions of single cylinders stop a walker
- * at most once a second, else BCH_ALL_DEPTHS. */
+/** Finds the depth of disc trees to use at a density of people: 0, a single cylinder per shape, if false
+ * collisions of the cylinders stop a walker at most once a second at that density, else BCH_ALL_DEPTHS. */
 BCH_API bch_status bch_depth_at_density(double people_per_square_metre, uint32_t* depth);
 
 /** Describes the agents of a scene to plan, with one entry per agent in each array. */
@@ -1289,7 +1299,8 @@ typedef struct bch_scene_plan bch_scene_plan;
 /** Finds which shapes a scene needs, at which depths and with which other data. */
 BCH_API bch_status bch_scene_plan_create(const bch_scene_agents* agents, const bch_scene_use* use,
                                          bch_scene_plan** plan);
-/** Gets the plan of the set to build; its arrays live as long as the scene plan, like the next. */
+/** Gets the plan of the set to build. Its arrays, and those of the next two functions, live as long as the
+ * scene plan. */
 BCH_API bch_status bch_scene_plan_get_set(const bch_scene_plan* plan, bch_plan* set);
 /** Gets the shapes to build, for bch_shape_set_builder_add_sources(). */
 BCH_API bch_status bch_scene_plan_get_shapes(const bch_scene_plan* plan, const bch_shape_source** shapes,
