@@ -16,9 +16,9 @@ bool contour_holds(const Vec2* points, const Contour& contour, PointIn<double> p
 
 /// Returns whether a contour of one agent lies inside the other's, for two agents whose cuts do not overlap.
 ///
-/// Their outlines do not meet, so one point decides for its contour. Rounding cannot change that: what the test of discs or
-/// of segments rejects is more than u S apart (layout/base/rounding.hpp), while this test, in double, is off by less than
-/// 1e-9 S.
+/// Their outlines do not meet, so one point of a contour decides for the whole contour. Rounding cannot change that:
+/// what the test of discs or of segments rejects is more than u S apart (layout/base/rounding.hpp), while this test, in
+/// double, is off by less than 1e-9 S.
 /// Preconditions: valid indices; the set keeps outlines.
 bool one_contains_other(const Arguments& in, Pair pair) noexcept;
 

@@ -115,7 +115,8 @@ class BestFirstTraversal {
     const unsigned i = k / block_width, j = k % block_width;
     a = child(frame.a, i), b = child(frame.b, j);
     std::uint64_t extracted = std::uint64_t{1} << k;
-    // A window is visited as a whole: its other pairs with the same child are extracted with this one.
+    // If one node is a window, it is visited whole with the child of the other. That visit covers the child's
+    // pairs with all discs of the window, so all of these are extracted.
     if (frame.a >= leaf_window) extracted |= first_column_of_pairs << j;
     if (frame.b >= leaf_window) extracted |= first_row_of_pairs << (k - j);
     frame.open &= ~extracted;

@@ -34,8 +34,8 @@ class MovingBody {
  public:
   explicit MovingBody(const MotionFacts& facts) : facts_(&facts) {}
 
-  /// Advances to a time. Returns the time of the next key of the path, until which motion and rotation are
-  /// linear; or infinity.
+  /// Advances to a time. Returns the time of the next key of the path, or infinity. Motion and rotation are
+  /// linear until then.
   double path_end(double time) noexcept;
   /// Returns the time until which discs move along straight lines: the next key of the clip, or infinity.
   double clip_end(double time) noexcept;
@@ -48,8 +48,8 @@ class MovingBody {
   double time_slack(double time) const noexcept;
   /// Returns the position and heading at a time before path_end().
   PathKey pose(double time) const noexcept;
-  /// Returns the last key of the clip before the current time, and the fraction of the interval to the next
-  /// key at a time.
+  /// Returns the last key of the clip before the current time. fraction() is the fraction, at a time, of the
+  /// interval from this key to the next.
   std::size_t key() const noexcept { return key_; }
   double fraction(double time) const noexcept;
   /// Returns the hull over the current window at a level: 2^level successive chunks of the clip

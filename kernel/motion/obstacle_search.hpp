@@ -19,10 +19,10 @@ namespace bch::detail {
 ///
 /// A path is divided into parts no longer than twice the reach; the tree of boxes finds the segments within
 /// reach of a part. Discs are enlarged by the deviation from chords by rotation, and by `slack_`: the errors
-/// that ContactSearch derives, for one body and with twice the reach, because nodes are within three reaches
-/// of where the part begins, and an end of a segment that a node touches within another one. Coordinates of a
-/// long or far segment are off by 2^-48 of themselves at most (StaticSegment::slack). Twice that is at most
-/// 1.8e-14 of the sum of the distances to both its ends; OutlineSegment derives half of that.
+/// that ContactSearch derives, for one body and with twice the reach. Twice is needed because nodes are
+/// within three reaches of where the part begins, and the ends of segments that they touch within one more.
+/// Coordinates of a long or far segment are off by 2^-48 of themselves at most (StaticSegment::slack). Twice
+/// that is at most 1.8e-14 of the sum of the distances to both its ends; OutlineSegment derives half of that.
 ///
 /// As long as no disc touches a segment, a polygon contains a disc wholly or not at all. That can change only
 /// at the beginning and where a chunk begins, and is tested there. A polygon without a segment within reach

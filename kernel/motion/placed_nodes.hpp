@@ -53,8 +53,8 @@ class PlacedNodes {
                       std::array<double, animated_width>& times) const noexcept;
 
  private:
-  /// Places eight nodes, the children of one and possibly nodes behind them, whose memory exists and whose
-  /// values are the same either way.
+  /// Places eight successive nodes: the children of one node and, if these are fewer than eight, nodes behind
+  /// them. Memory for those exists, and their values do not depend on which call places them.
   void place_eight(std::uint32_t from) noexcept;
 
   const AnimatedTreeChunk* chunk_ = nullptr;

@@ -37,9 +37,9 @@ class NonNegativeTimes {
 /// Returns the first time in [0, last] at which a disc is within `margin` of a segment, or never: within
 /// `margin` of one of its ends, or of its line while the centre projects onto the segment.
 ///
-/// Rounding: the time at which the centre begins to project onto the segment is off by as much as the
-///           coordinates. The
-/// centre is then beside an end, whose distance differs from that of the line by less than the margin.
+/// Rounding. The time at which the centre begins to project onto the segment is off by as much as the
+/// coordinates. The centre is then beside an end of the segment, and its distance from that end differs from
+/// its distance from the line by less than the margin.
 inline double first_overlap(const MovingDisc& disc, const StaticSegment& segment, double margin,
                             double last) noexcept {
   const double at_x = disc.x - segment.ax, at_y = disc.y - segment.ay, radius = disc.radius + margin;

@@ -10,9 +10,9 @@
 
 namespace bch::detail {
 
-/// Counts the steps of a search, mostly from key to key of clips within reach, and ends a search that short
-/// loops, long paths or small tolerances make practically endless. An hour of clips with 100 keys per second
-/// has 400 000 steps.
+/// Counts the steps of a search, and ends the search at a limit. Most steps lead from one key of the clips to
+/// the next, while bodies are within reach of each other. Short loops, long paths or small tolerances can
+/// make a search practically endless. An hour of clips with 100 keys per second has 400 000 steps.
 class StepLimit {
  public:
   struct Reached {};

@@ -29,8 +29,8 @@ struct Discs {
   [[gnu::always_inline]] const float* radius() const noexcept { return x + to_radius; }
 };
 
-/// Bits of the pairs of eight discs and eight (bit 8 i + j: disc i of A, disc j of B) that have A's first disc, and that
-/// have B's first disc.
+/// Masks over the pairs of eight discs of A and eight of B, where bit 8 i + j stands for disc i of A and disc j of B:
+/// all pairs with A's first disc, and all pairs with B's first disc.
 constexpr std::uint64_t first_row_of_pairs = 0xff, first_column_of_pairs = 0x0101010101010101;
 
 /// The number of pairs of discs of two blocks.
@@ -39,10 +39,11 @@ constexpr unsigned block_pairs = block_width * block_width;
 template <class Simd, unsigned count, class Visit>
 void visit_pairs_called(const Transform& b_in_a, Discs a, Discs b, Visit visit) noexcept;
 
-/// Calls visit(k, x, y, r) for every register of pairs of the first `count` (4 or 8) discs of A and of B. Its lanes are the
-/// pairs from k on; pair count * i + j is of disc i of A and disc j of B. (x, y) leads from A's disc to B's in A's frame, r
-/// is the sum of radii. The operations are those of layout/base/rounding.hpp. Padding gives infinities and NaN. It is
-/// inlined because a call takes longer than a test; not for a width of 1, where its copies would fill the object file.
+/// Calls visit(k, x, y, r) for every register of pairs of the first `count` (4 or 8) discs of A and of B. Its lanes are
+/// the pairs from k on; pair count * i + j is of disc i of A and disc j of B. (x, y) leads from A's disc to B's in A's
+/// frame, r is the sum of radii. The operations are those of layout/base/rounding.hpp. Padding gives infinities and
+/// NaN. It is inlined because a call takes longer than a test. With a width of 1 it is not, because its copies would
+/// fill the object file.
 template <class Simd, unsigned count = block_width, bool called = Simd::width == 1, class Visit>
 [[gnu::always_inline]] inline void visit_disc_pairs(const Transform& b_in_a, Discs a, Discs b,
                                                     Visit visit) noexcept {

@@ -25,7 +25,7 @@ namespace bch::detail {
 /// Error of a hit (gap_price): how far v may exceed d. (1) and v use the same rounded x^2 + y^2.
 ///
 /// (4)  hit  =>  e <= (r + d) (1 + 34 u) (1 + 3 u)        with the rounding of g and of the right side
-/// (5)  hit  =>  v <= d + 23 u (r + d)                    by (4) and the factor of v, - 16 u; its root and product, + 2 u
+/// (5)  hit => v <= d + 23 u (r + d) by (4); the factor of v takes off 16 u, its root and product add 2 u
 ///
 /// Bounds. `bound` is for discs that enclose leaf discs, and for lines that separate leaf discs. D is the exact
 /// distance of the centres of two leaf discs. Their float placement is off by at most 23 u S + 8 u g, so e differs from
@@ -33,11 +33,11 @@ namespace bch::detail {
 ///
 /// (6)  hit  =>  D - r <= g + 37 u (r + g) + 23 u S + 8 u g
 /// (7)  placing the enclosing discs is off by 23 u S + 8 u g
-/// (8)  supports and profiles round lengths up to 2 S + g; their margins cover all of S, so that 21 u g remain
+/// (8) supports and profiles round lengths of up to 2 S + g; their margins cover the errors in S; 21 u g remain
 /// (9)  bound = g + 128 u (S + g) exceeds the sum of (6) to (8)
 ///
-/// Accepting (sure_gap). The distance that inscribed discs and profiles test is wrong by up to 11 u g, and g exceeds d by up
-/// to 34 u d: they test g (1 - 64 u).
+/// Accepting (sure_gap). Inscribed discs and profiles may accept only pairs within d. The distance that they test is
+/// wrong by up to 11 u g, and g exceeds d by up to 34 u d, so they test g (1 - 64 u).
 struct Gaps {
   float leaf;   ///< g
   float bound;  ///< of discs that hold leaf discs

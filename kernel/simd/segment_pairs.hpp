@@ -45,7 +45,7 @@ struct SegmentPair {
   }
 
  private:
-  /// Returns less than the square of every segment that is no point.
+  /// Returns a number below the squared length of every segment that is not a point.
   static Real shortest_square() noexcept {
     if constexpr (std::is_same_v<Real, typename Simd::Double>)
       return Real(1e-300);
@@ -224,7 +224,8 @@ class SegmentBatch {
     }
   }
 
-  /// So many pairs of segments of two leaves are collected without a loop. Most leaves have one or two segments.
+  /// Two leaves with at most this many pairs of segments are collected without a loop. Most leaves have one or two
+  /// segments.
   static constexpr std::uint32_t few = 4;
   /// Holds two numbers of 32 bits each, which are added at once.
   using Two = std::uint64_t;
