@@ -114,6 +114,7 @@ class ContactKernel {
                 reach_b = shapes_.reach[transforms_.shape_b[k]];
     reach_ = reach_a + reach_b;
     rows_ = shapes_.trees[rows], columns_ = shapes_.trees[columns];
+    // Nodes enclose their discs with a margin that suffices for reaches up to this sum: rounding.hpp, VIII.
     is_conservative_ = (rows_.nodes_hold_discs & columns_.nodes_hold_discs) != 0 &&
                        reach_ <= float{rounding::held_reaches} * (reach_a < reach_b ? reach_a : reach_b);
     const bool exact = in_.exact_leaves && rows_.segments != no_segments && columns_.segments != no_segments;

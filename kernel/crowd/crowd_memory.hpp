@@ -37,7 +37,8 @@ struct AnswersOfPairs {
 
 /// Finds the pairs of a crowd, keeps those that answer a query, and reuses its memory from call to call.
 struct CrowdMemory {
-  /// Holds the agents of a query, followed by images if the crowd is periodic, and the pairs of these that are candidates.
+  /// Holds the agents of a query, followed by their images if the crowd is periodic, and the candidate pairs among
+  /// them.
   struct Candidates {
     Agents agents;
     std::span<const Pair> pairs;

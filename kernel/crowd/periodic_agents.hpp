@@ -14,9 +14,10 @@
 
 namespace bch::detail {
 
-/// Holds the agents of a periodic crowd, at positions within one period, followed by images of those near its borders, shifted
-/// by a period. Two agents that meet across a border do so twice. PairTest accepts only the agent with the lower index with
-/// the other's image: in that order an answer is the same as without a border.
+/// Holds the agents of a periodic crowd, at positions within one period, followed by images of those near its borders,
+/// shifted by a period. Two agents that meet across a border do so twice: each meets an image of the other. PairTest
+/// accepts only the pair of the agent with the lower index and the image of the other one: in that order an answer is
+/// the same as without a border.
 class PeriodicAgents {
  public:
   /// Sets the agents, which are valid. `margin`: as for BroadPhase::find().

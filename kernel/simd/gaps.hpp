@@ -10,8 +10,9 @@ namespace bch::detail {
 /// Holds the thresholds of within() on gaps between discs: two leaves whose gap is at most `leaf` are a hit; blocks whose
 /// gap is at most `bound` are descended into.
 ///
-/// u = 2^-24 and S, the sum of both reaches, are those of layout/base/rounding.hpp. d is the distance that within() was
-/// given, r = r_A + r_B, (x, y) leads from one centre to the other. Of two leaf discs, without their ancestors,
+/// As in layout/base/rounding.hpp, u = 2^-24, and S is the sum of both reaches (largest distances of a shape's points
+/// from its origin). d is the distance that within() was given, r = r_A + r_B, and (x, y) leads from one centre to the
+/// other. Two leaf discs are a hit, without regard to their ancestors, if
 ///
 /// (1)  hit   <=>  x^2 + y^2 <= (r (1 + 2^-19) + g)^2,     g = d (1 + 2^-19), rounded up.
 ///
