@@ -48,8 +48,8 @@ struct OutlineTopology {
 /// Returns the topology of triangles. Vertices at the same position in the bind pose share edges (a seam of the
 /// texture does not separate the skin), and edges that are near each other in the bind pose get near numbers. Neither
 /// changes an outline: a pose may separate such vertices. If no bind pose is known, it is empty.
-/// Errors:  throws std::invalid_argument if there are no triangles, an index is out of range, or the bind pose has
-///          neither 0 nor `vertices` positions or one that is not finite where a triangle uses it.
+/// Errors:  throws std::invalid_argument if there are no triangles, an index is out of range, the number of positions
+///          in the bind pose is neither 0 nor `vertices`, or a position that a triangle uses is not finite.
 OutlineTopology outline_topology(std::span<const std::array<std::uint32_t, 3>> triangles,
                                  std::size_t vertices, std::span<const Vec3> bind_pose);
 

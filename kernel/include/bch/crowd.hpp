@@ -130,9 +130,9 @@ class Crowd {
     Rows<Neighbour> nearest(std::uint32_t max_count) const { return pairs.nearest(distance, max_count); }
 
     /// Returns the radii of discs that stand for the bodies in a simulator of discs: metres, one per agent.
-    /// Two bodies that move towards each other touch at a distance of their positions that is today's minus
-    /// the clearance. A radius is half of it, as a mean over the agent's pairs of this answer, each with the
-    /// weight 1 / (clearance + 0.1 m)^2. An agent without a pair gets `alone`. Use Overlap::deepest.
+    /// If two bodies moved towards each other, they would touch once the distance of their positions is less
+    /// by the clearance. An agent's radius is half of that distance, as a mean over its pairs of this answer
+    /// with weights of 1 / (clearance + 0.1 m)^2. An agent without a pair gets `alone`. Use Overlap::deepest.
     /// Input:   the agents of the query.
     /// Errors:  throws std::invalid_argument on another number of agents.
     std::vector<double> disc_radii(const Agents& agents, double alone) const {

@@ -797,10 +797,11 @@ BCH_API bch_status bch_crowd_by_agent(bch_crowd* crowd, bch_neighbour_rows* neig
  * need them. The crowd's last answer has to be from bch_crowd_clearances() or bch_crowd_body_clearances();
  * "nearest" is by the distances of that answer, not by those of centres. */
 BCH_API bch_status bch_crowd_nearest(bch_crowd* crowd, uint32_t max_count, bch_neighbour_rows* neighbours);
-/** Computes the radii of discs that stand for the bodies in a simulator of discs: a radius is half the distance
- * of positions at which two bodies touch, in the mean over an agent's pairs, the near ones foremost. Agents
- * without a pair get `alone`, metres. The crowd's last answer has to be from bch_crowd_clearances() or
- * bch_crowd_body_clearances() of the same agents, with BCH_OVERLAP_DEEPEST. `radii` gets one value per agent. */
+/** Computes, for each agent, the radius of a disc that stands for its body in a simulator of discs. It is
+ * half the distance of positions at which two bodies would touch, as a mean over the agent's pairs, in which
+ * near pairs weigh more. Agents without a pair get `alone`, metres. The crowd's last answer has to be from
+ * bch_crowd_clearances() or bch_crowd_body_clearances() of the same agents, with BCH_OVERLAP_DEEPEST. `radii`
+ * gets one value per agent. */
 BCH_API bch_status bch_crowd_disc_radii(const bch_crowd* crowd, const bch_agents* agents, double alone,
                                         double* radii);
 /** Finds the obstacles that each agent collides with: one row of obstacle indices per agent, ascending. */
