@@ -95,7 +95,7 @@ struct ClearanceOptions {
   Overlap overlap = Overlap::zero;
   /// Selects between what distances are measured: discs or, if both shapes have exact leaves, segments.
   /// Segments give the distance of the outlines. Distances between discs are up to 3 cm less, and take about
-  /// a seventh of the time. Overlap::deepest always measures discs.
+  /// a quarter of the time. Overlap::deepest always measures discs.
   Leaves leaves = Leaves::discs;
 };
 
