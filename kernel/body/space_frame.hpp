@@ -45,6 +45,7 @@ class SpaceFrame {
     const double z = b_in_a_.tz;
     return {x, y, c.radius, z + c.bottom, z + c.top};
   }
+  const Transform& ground() const { return b_in_a_.ground; }
   double distance() const {
     const auto [ground, z] = b_in_a_;
     return std::abs(double{ground.tx}) + std::abs(double{ground.ty}) + std::abs(double{z});

@@ -12,6 +12,7 @@
 #include "kernel/obstacles/box_query.hpp"
 #include "kernel/obstacles/obstacle_kernel.hpp"
 #include "kernel/penetration/extent_kernel.hpp"
+#include "kernel/penetration/free_kernel.hpp"
 #include "kernel/runtime/agent_check.hpp"
 #include "kernel/runtime/kernels.hpp"
 
@@ -49,6 +50,10 @@ constexpr Kernels kernel_table{
     .append_contacts = Guarded<Simd, &ContactKernel<Simd>::append>::call,
     .fill_contacts = Guarded<Simd, &ContactKernel<Simd>::fill>::call,
     .extents = Guarded<Simd, &ExtentKernel<Simd>::run>::call,
+    .free_place = Guarded<Simd, &FreeKernel<Simd>::place>::call,
+    .free_bound = Guarded<Simd, &FreeKernel<Simd>::bound>::call,
+    .free_turn = Guarded<Simd, &FreeKernel<Simd>::turn>::call,
+    .free_next = Guarded<Simd, &FreeKernel<Simd>::next>::call,
     .clearance = Guarded<Simd, &ClearanceKernel<Simd>::run>::call,
     .time_of_impact = Guarded<Simd, &TimeOfImpactKernel<Simd>::run>::call,
     .overlapping_boxes = Guarded<Simd, &BoxQuery<Simd>::run>::call,

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 
 #include "kernel/obstacles/body_query.hpp"
 #include "kernel/penetration/free_bodies.hpp"
@@ -91,18 +92,14 @@ void ObstacleWalls<Query, Source>::take(double limit) {
   const double within = body->outer_radius() + limit,
                reach = within + std::abs(double{body->centre().x}) + std::abs(double{body->centre().y});
   double slack = 0;
-  std::vector<FreeElement>& elements = search_.b.elements;
-  elements.clear();
-  for (const LocalSegment& segment : query_.near().find(body->place, body->centre(), within)) {
-    elements.push_back(element(segment, reach));
+  const std::span<const LocalSegment> segments = query_.near().find(body->place, body->centre(), within);
+  is_empty_ = segments.empty();
+  if (is_empty_) return;
+  begin_leaves(segments.size(), search_.b);
+  for (const LocalSegment& segment : segments) {
+    search_.b.add(element(segment, reach));
     slack = std::max(slack, segment.slack);
   }
-  is_empty_ = elements.empty();
-  if (is_empty_) return;
-  bound_leaves(search_.b);
-  constexpr double everywhere = 1e30;
-  for (Cylinder& node : search_.b.nodes) node.bottom = -everywhere, node.top = everywhere;
-  search_.sampled.clear();
   source_.begin_walls(search_, agent_, slack + 0x1p-50 * std::abs(ground()));
 }
 

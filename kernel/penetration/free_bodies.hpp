@@ -4,12 +4,11 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
+#include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "kernel/body/space_frame.hpp"
-#include "kernel/penetration/free_search.hpp"
+#include "kernel/penetration/free_pair.hpp"
 #include "layout/body/body_record.hpp"
 #include "layout/format/cut_discs.hpp"
 #include "layout/format/shape_set_view.hpp"
@@ -18,83 +17,52 @@
 
 namespace bch::detail {
 
-/// Takes a record. Here and below `placed` takes spheres into A's frame.
+/// Takes a record. `placed` takes spheres into A's frame.
 template <class Placed>
 void take_record(const float* record, const Placed& placed, FreeBody& body) {
-  body.elements.clear(), body.nodes.clear();
-  body.leaf_size = header_of(record).leaf_size;
-  const std::uint32_t leaves = header_of(record).leaf_count;
-  for (std::uint32_t slot = 0; slot < leaves * body.leaf_size; ++slot) {
+  const std::uint32_t leaves = header_of(record).leaf_count, size = header_of(record).leaf_size;
+  body.begin(leaves * size, size);
+  for (std::uint32_t slot = 0; slot < leaves * size; ++slot) {
     const Sphere sphere = placed(sphere_of(record, slot));
-    body.elements.push_back({sphere.x, sphere.y, sphere.z, sphere.radius});
+    body.add({sphere.x, sphere.y, sphere.z, sphere.radius});
   }
-  for (std::uint32_t leaf = 0; leaf < leaves; ++leaf) body.nodes.push_back(placed(node_of(record, leaf)));
-  body.nodes.push_back(placed(whole_of(record)));
+  for (std::uint32_t leaf = 0; leaf < leaves; ++leaf) body.add_node(placed(node_of(record, leaf)));
+  body.add_node(placed(whole_of(record)));
 }
 
-/// Adds discs.
-template <class Placed>
-void add_discs(const CutDiscs& discs, const Placed& placed, FreeBody& body) {
+/// Begins a body whose leaves are made of consecutive elements, in registers: as many leaves as 16 bits count.
+inline void begin_leaves(std::size_t elements, FreeBody& body, std::uint32_t width = 8) {
+  body.begin(elements, std::max(8U, width) * static_cast<std::uint32_t>(1 + elements / 400'000));
+}
+
+/// Takes discs of A's frame.
+inline void take_discs(const Kernels& kernels, const CutDiscs& discs, const Transform& to_a, FreeBody& body) {
+  begin_leaves(discs.count, body, kernels.width);
   for (std::uint32_t i = 0; i < discs.count; ++i) {
-    const Sphere disc = placed(Sphere{discs.x[i], discs.y[i], 0, discs.radius[i]});
-    body.elements.push_back({disc.x, disc.y, 0, disc.radius});
+    const auto [x, y] = to_a.apply(discs.x[i], discs.y[i]);
+    body.add({x, y, 0, discs.radius[i]});
   }
 }
 
-/// Adds the segments of an outline.
-template <class Placed>
-void add_segments(const ShapeSetView& shapes, std::uint32_t shape, const Placed& placed, FreeBody& body) {
-  const auto end = [&](std::uint32_t i) {
-    return placed(Sphere{shapes.points[i].x, shapes.points[i].y, 0, 0});
-  };
-  for (std::uint32_t k = shapes.shape_contours[shape].begin; k < shapes.shape_contours[shape].end; ++k) {
-    const Contour& contour = shapes.contours[k];
-    Sphere from = end(contour.begin);
-    for (std::uint32_t i = contour.begin; i < contour.end; ++i) {
-      const Sphere to = end(i + 1);
-      const float x = (to.x - from.x) / 2, y = (to.y - from.y) / 2;
-      body.elements.push_back({(from.x + to.x) / 2, (from.y + to.y) / 2, 0, std::sqrt(x * x + y * y), x, y});
-      from = to;
-    }
-  }
+/// Takes the segments of an outline.
+inline void take_segments(const Kernels& kernels, const ShapeSetView& shapes, std::uint32_t shape,
+                          const Transform& to_a, FreeBody& body) {
+  const auto [first, last] = shapes.shape_contours[shape];
+  const auto count = [&](std::uint32_t k) { return shapes.contours[k].end - shapes.contours[k].begin; };
+  std::size_t segments = 0;
+  for (std::uint32_t k = first; k < last; ++k) segments += count(k);
+  begin_leaves(segments, body, kernels.width);
+  for (std::uint32_t k = first; k < last; ++k)
+    body.add_segments(kernels, shapes.points + shapes.contours[k].begin, count(k), to_a);
 }
 
-/// Adds the discs inside an outline, where the set has some.
-template <class Placed>
-void add_inscribed(const ShapeSetView& shapes, std::uint32_t shape, const Placed& placed, FreeBody& body) {
-  if (shapes.inscribed == nullptr) return;
+/// Returns the discs inside an outline; none where the set has none.
+inline CutDiscs inscribed_discs(const ShapeSetView& shapes, std::uint32_t shape) {
+  if (shapes.inscribed == nullptr) return {};
   const DiscBlock& discs = shapes.inscribed[shape];
   std::uint32_t count = 0;
   while (count < block_width && discs.radius[count] > 0) ++count;
-  add_discs({discs.x, discs.y, discs.radius, count}, placed, body);
-}
-
-/// Returns a cylinder around elements on the ground.
-inline Cylinder around(std::span<const FreeElement> elements) {
-  float left = elements[0].x, right = left, low = elements[0].y, high = low;
-  for (const FreeElement& each : elements) {
-    left = std::min(left, each.x), right = std::max(right, each.x);
-    low = std::min(low, each.y), high = std::max(high, each.y);
-  }
-  const float x = (left + right) / 2, y = (low + high) / 2;
-  float radius = 0;
-  for (const FreeElement& each : elements) {
-    const float dx = each.x - x, dy = each.y - y;
-    radius = std::max(radius, std::sqrt(dx * dx + dy * dy) + each.radius);
-  }
-  return {double{x}, double{y}, double{radius}, 0, 0};
-}
-
-/// Makes leaves of elements of an outline, which come along its contours.
-inline void bound_leaves(FreeBody& body) {
-  // As many leaves as 16 bits count.
-  body.leaf_size = 8 * static_cast<std::uint32_t>(1 + body.elements.size() / 400'000);
-  while (body.elements.size() % body.leaf_size != 0) body.elements.push_back(body.elements.back());
-  body.nodes.clear();
-  const std::span<const FreeElement> all = body.elements;
-  for (std::size_t i = 0; i < all.size(); i += body.leaf_size)
-    body.nodes.push_back(around(all.subspan(i, body.leaf_size)));
-  body.nodes.push_back(around(all));
+  return {discs.x, discs.y, discs.radius, count};
 }
 
 }  // namespace bch::detail

@@ -9,14 +9,15 @@
 namespace bch::detail {
 namespace {
 
-using Float = FreeIntervals::Float;
+using Lanes = FreeLanes<BaseLanes>;
+using Float = BaseLanes::Float;
 /// Returns what all lanes hold.
 float lane_of(Float all) noexcept {
-  return FreeIntervals::Simd::least(all);
+  return BaseLanes::least(all);
 }
 
 /// Returns where a sphere touches what its centre is seen from, by a vector.
-FreeTouch touch_of_sphere(const FreeLanes& a, const FreeTouch::Vector& to_centre, float end,
+FreeTouch touch_of_sphere(const Lanes& a, const FreeTouch::Vector& to_centre, float end,
                           float margin) noexcept {
   const auto [x, y, z] = to_centre;
   const float radius = lane_of(a.radius) - margin, length = std::sqrt(x * x + y * y + z * z);
@@ -29,13 +30,15 @@ FreeTouch touch_of_sphere(const FreeLanes& a, const FreeTouch::Vector& to_centre
 
 }  // namespace
 
-FreeTouch FreeSpheres::touch(const FreeLanes& a, const FreeLanes& b, float end, float margin) noexcept {
+template <>
+FreeTouch FreeSpheres<BaseLanes>::touch(const Lanes& a, const Lanes& b, float end, float margin) noexcept {
   const float x = lane_of(a.along) + end - lane_of(b.along), y = lane_of(a.across) - lane_of(b.across),
               z = lane_of(a.z) - lane_of(b.z);
   return touch_of_sphere(a, {x, y, z}, end, margin);
 }
 
-FreeTouch FreeWalls::touch(const FreeLanes& a, const FreeLanes& b, float end, float margin) noexcept {
+template <>
+FreeTouch FreeWalls<BaseLanes>::touch(const Lanes& a, const Lanes& b, float end, float margin) noexcept {
   const float x = lane_of(a.along) + end - lane_of(b.along), y = lane_of(a.across) - lane_of(b.across),
               z = lane_of(a.z) - lane_of(b.z);
   const float half_x = lane_of(b.half_along), half_y = lane_of(b.half_across), half_z = lane_of(b.half_z);
@@ -45,14 +48,15 @@ FreeTouch FreeWalls::touch(const FreeLanes& a, const FreeLanes& b, float end, fl
                          margin);
 }
 
-FreeTouch FreeSegments::touch(const FreeLanes& a, const FreeLanes& b, float end, float margin) noexcept {
+template <>
+FreeTouch FreeSegments<BaseLanes>::touch(const Lanes& a, const Lanes& b, float end, float margin) noexcept {
   FreeTouch touch;
   touch.end = end;
   float most = -1;
   const Float m = b.along - a.along - Float(end), w = b.across - a.across;
   // The end of the other segment is at (along, across) from A, and at (m, w) from the middle of the side.
-  const auto compare_side = [&](const FreeLanes& side, Float to_m, Float to_w, Float along, Float across) {
-    FreeIntervals part;
+  const auto compare_side = [&](const Lanes& side, Float to_m, Float to_w, Float along, Float across) {
+    FreeIntervals<BaseLanes> part;
     part.low = Float(__builtin_inff()), part.high = -part.low;
     add_side(part, side, to_m, to_w, Float(margin));
     const float x = lane_of(side.half_along), y = lane_of(side.half_across),

@@ -4,45 +4,78 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
-#include "kernel/penetration/free_search.hpp"
+#include <bch/query.hpp>
+
+#include "kernel/body/space_frame.hpp"
+#include "kernel/penetration/free_intervals.hpp"
+#include "kernel/penetration/free_task.hpp"
+#include "kernel/runtime/kernels.hpp"
+#include "kernel/simd/transform.hpp"
 
 namespace bch::detail {
 
-/// Finds how far an agent, A, has to move along directions until nothing of it overlaps another one, or a wall: by the search for what both
-/// are made of, for one pair after the other.
+/// Holds what an agent is made of, in A's frame, in memory of its own.
+class FreeBody {
+ public:
+  FreeBody() = default;
+  FreeBody(FreeBody&&) noexcept = default;
+  FreeBody& operator=(FreeBody&&) noexcept = default;
+
+  /// Begins with room for so many elements.
+  void begin(std::size_t elements, std::uint32_t leaf_size);
+  void add(const FreeElement& element) noexcept;
+  void add_node(const Cylinder& node) noexcept;
+  /// Adds the segments between consecutive points. Segments come along contours, so that they make leaves.
+  void add_segments(const Kernels& kernels, const Vec2* points, std::uint32_t count,
+                    const Transform& to_a) noexcept;
+  /// Fills the last leaf, with the last element, and makes nodes where there are none.
+  void finish() noexcept;
+
+  std::uint32_t size() const noexcept { return size_; }
+  const FreeLeaves& leaves() const noexcept { return leaves_; }
+  FreeElement element(std::uint32_t i) const noexcept;
+
+ private:
+  FreeLeaves leaves_{};
+  std::uint32_t size_ = 0, nodes_ = 0;
+  std::vector<float> memory_;
+};
+
+/// Finds how far an agent, A, has to move along directions until nothing of it overlaps another one, or a wall: for one pair after the other,
+/// in memory of its own. FreeKernel searches.
 class FreePair {
  public:
-  enum class Kind : std::uint8_t { spheres, segments, walls };
+  FreeBody a, b;  ///< to begin with
 
-  FreeBody a, b;      ///< to begin with
-  FreeBound sampled;  ///< to bound with
+  /// Clears the bound, and adds to it.
+  void clear_bound() noexcept;
+  void bound_by(const FreeElement& of_a, const FreeElement& of_b) noexcept;
+  /// Begins with both bodies. The margin says how near elements may come, `reaches` how far the elements of both are off, metres.
+  void begin(const Implementation& implementation, FreeKind kind, double margin, double reaches);
+  /// Bounds by the deepest two elements of leaves that overlap, of some.
+  void sample();
 
-  /// Takes both bodies. The margin says how near elements may come, `reaches` how far the elements of both are off, metres.
-  void begin(Kind kind, double margin, double reaches);
-  /// Bounds by some of the spheres that overlap.
-  void sample() { spheres_.sample(sampled); }
-
-  float bound(float x, float y) const noexcept { return sampled.place(x, y); }
-  // As in FreeSearch.
-  void turn(float x, float y);
-  float next(float place);
+  /// As in FreeKernel.
+  void bound(float x, float y, float* places) const noexcept;
+  void turn(float x, float y) noexcept;
+  float next(float place) noexcept;
+  /// Returns the end of the interval that begins next from a place in none on; or the same, where no more begins.
   float after_gap(float place) const;
+  /// Returns where the elements touch whose interval is the last one to end on the way to a place in none.
   FreeTouch touch(float place) const;
 
  private:
-  /// Returns what use() returns of the search for this pair's kind.
-  template <class Self, class Use>
-  static auto with_search(Self& self, const Use& use) {
-    if (self.kind_ == Kind::segments) return use(self.segments_);
-    if (self.kind_ == Kind::walls) return use(self.walls_);
-    return use(self.spheres_);
-  }
+  struct Leaves {
+    std::uint32_t of_a, of_b;
+  };
 
-  Kind kind_ = Kind::spheres;
-  FreeSearch<FreeSpheres> spheres_;
-  FreeSearch<FreeSegments> segments_;
-  FreeSearch<FreeWalls> walls_;
+  const Kernels* kernels_ = nullptr;
+  FreeTask task_{};
+  FreeBound bound_;
+  std::vector<std::uint16_t> lists_;
+  std::vector<Leaves> overlapping_;
 };
 
 }  // namespace bch::detail

@@ -45,6 +45,7 @@ static_assert(segment_slack >=
                   rounding::unit_roundoff);
 
 constexpr auto unmoved = [](const auto& of_a) { return of_a; };
+constexpr Transform unmoved_ground{1, 0, 0, 0};
 
 /// Returns how far two that a move may bring together are off.
 double reaches_of(const Agents& agents, Pair pair, double reaches) {
@@ -55,9 +56,11 @@ double reaches_of(const Agents& agents, Pair pair, double reaches) {
 
 double reach_of(const FreeBody& body) {
   double reach = 0;
-  for (const FreeElement& each : body.elements)
+  for (std::uint32_t i = 0; i < body.size(); ++i) {
+    const FreeElement each = body.element(i);
     reach = std::max(reach, std::abs(double{each.x}) + std::abs(double{each.y}) + std::abs(double{each.z}) +
                                 double{each.radius});
+  }
   return reach;
 }
 
@@ -95,45 +98,44 @@ bool OutlineSource::has_wide_leaves(std::uint32_t agent) const {
 void OutlineSource::begin(FreePair& search, Pair pair) const {
   const auto [a, b] = pair;
   const SpaceFrame frame(agents_, a, b);
-  const auto placed = [&](const Sphere& each) { return frame.placed(each); };
+  const Transform& b_in_a = frame.ground();
+  const Kernels& kernels = *implementation_.kernels;
   const AgentDiscs of_a(view_, agents_, a), of_b(view_, agents_, b);
   const double reaches = reaches_of(agents_, pair, double{of_a.reach} + double{of_b.reach});
   // Where discs inside the outlines overlap, the two collide.
-  FreeBody &to_a = search.a, &to_b = search.b;
-  to_a.elements.clear(), to_b.elements.clear();
-  add_inscribed(view_, agents_.shape[a], unmoved, to_a);
-  add_inscribed(view_, agents_.shape[b], placed, to_b);
-  search.sampled.clear();
-  for (const FreeElement& in_a : to_a.elements)
-    for (const FreeElement& in_b : to_b.elements) search.sampled.add(in_a, in_b);
-  to_a.elements.clear(), to_b.elements.clear();
+  search.clear_bound();
+  const CutDiscs in_a = inscribed_discs(view_, agents_.shape[a]),
+                 in_b = inscribed_discs(view_, agents_.shape[b]);
+  for (std::uint32_t j = 0; j < in_b.count; ++j) {
+    const auto [x, y] = b_in_a.apply(in_b.x[j], in_b.y[j]);
+    for (std::uint32_t i = 0; i < in_a.count; ++i)
+      search.bound_by({in_a.x[i], in_a.y[i], 0, in_a.radius[i]}, {x, y, 0, in_b.radius[j]});
+  }
   const bool by_segments = has_segments(a) && has_segments(b);
   if (by_segments) {
-    add_segments(view_, agents_.shape[a], unmoved, to_a);
-    add_segments(view_, agents_.shape[b], placed, to_b);
+    take_segments(kernels, view_, agents_.shape[a], unmoved_ground, search.a);
+    take_segments(kernels, view_, agents_.shape[b], b_in_a, search.b);
   } else {
-    add_discs(of_a.discs, unmoved, to_a);
-    add_discs(of_b.discs, placed, to_b);
+    take_discs(kernels, of_a.discs, unmoved_ground, search.a);
+    take_discs(kernels, of_b.discs, b_in_a, search.b);
   }
-  bound_leaves(to_a), bound_leaves(to_b);
-  if (!by_segments) return search.begin(FreePair::Kind::spheres, sphere_slack * reaches, reaches);
+  if (!by_segments) return search.begin(implementation_, FreeKind::spheres, sphere_slack * reaches, reaches);
   const double margin = segment_margin<BaseLanes>(view_, agents_.shape[a], agents_.shape[b]);
-  search.begin(FreePair::Kind::segments, margin + segment_slack * reaches, reaches);
+  search.begin(implementation_, FreeKind::segments, margin + segment_slack * reaches, reaches);
 }
 
 void OutlineSource::begin_walls(FreePair& search, std::uint32_t agent, double slack) const {
   const AgentDiscs of_agent(view_, agents_, agent);
   const double reaches = double{of_agent.reach} + reach_of(search.b);
   const bool by_segments = has_segments(agent) && !has_wide_leaves(agent);
-  search.a.elements.clear();
   if (by_segments)
-    add_segments(view_, agents_.shape[agent], unmoved, search.a);
+    take_segments(*implementation_.kernels, view_, agents_.shape[agent], unmoved_ground, search.a);
   else
-    add_discs(of_agent.discs, unmoved, search.a);
-  bound_leaves(search.a);
-  if (!by_segments) return search.begin(FreePair::Kind::walls, slack + segment_slack * reaches, reaches);
+    take_discs(*implementation_.kernels, of_agent.discs, unmoved_ground, search.a);
+  if (!by_segments)
+    return search.begin(implementation_, FreeKind::walls, slack + segment_slack * reaches, reaches);
   const double margin = view_.segment_margin[agents_.shape[agent]];
-  search.begin(FreePair::Kind::segments, margin + slack + segment_slack * reaches, reaches);
+  search.begin(implementation_, FreeKind::segments, margin + slack + segment_slack * reaches, reaches);
 }
 
 float OutlineSource::leave_all(const Agents& agents, Pair pair, double x, double y) const {
@@ -162,15 +164,15 @@ void SphereSource::begin(FreePair& search, Pair pair) const {
   take_record(
       record(pair.second), [&](const auto& each) { return frame.placed(each); }, search.b);
   const double reaches = reaches_of(agents_, pair, reach(pair.first) + reach(pair.second));
-  search.begin(FreePair::Kind::spheres, sphere_slack * reaches, reaches);
-  search.sampled.clear();
+  search.begin(implementation_, FreeKind::spheres, sphere_slack * reaches, reaches);
+  search.clear_bound();
   search.sample();
 }
 
 void SphereSource::begin_walls(FreePair& search, std::uint32_t agent, double slack) const {
   take_record(record(agent), unmoved, search.a);
   const double reaches = reach(agent) + reach_of(search.b);
-  search.begin(FreePair::Kind::walls, slack + segment_slack * reaches, reaches);
+  search.begin(implementation_, FreeKind::walls, slack + segment_slack * reaches, reaches);
 }
 
 }  // namespace bch::detail

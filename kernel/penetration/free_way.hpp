@@ -23,20 +23,20 @@ struct FreeWay {
   double x, y;       ///< in the world
   float to_x, to_y;  ///< in the agent's frame
   float place;
-  bool is_end = false;  ///< the place is the answer
+  bool is_end;  ///< the place is the answer
 };
 
-/// Holds some agents of others alone, the first of which moves.
+/// Holds some agents of others alone, which have moved, or the first of which moves.
 class MovedAgents {
  public:
   void clear() {
     shape_.clear(), level_.clear(), x_.clear(), y_.clear(), z_.clear(), hx_.clear(), hy_.clear();
   }
-  void add(const Agents& agents, std::uint32_t agent) {
+  void add(const Agents& agents, std::uint32_t agent, double x = 0, double y = 0) {
     const Headings::Value heading = agents.heading[agent];
     are_directions_ = agents.heading.are_directions();
     shape_.push_back(agents.shape[agent]);
-    x_.push_back(agents.x[agent]), y_.push_back(agents.y[agent]);
+    x_.push_back(agents.x[agent] + x), y_.push_back(agents.y[agent] + y);
     hx_.push_back(heading.x), hy_.push_back(heading.y);
     if (!agents.level.empty()) level_.push_back(agents.level[agent]);
     if (!agents.z.empty()) z_.push_back(agents.z[agent]);
@@ -68,7 +68,7 @@ struct NoWalls {
 };
 
 /// Finds the shortest way of an agent out of its neighbours and of walls, all at once: for one agent after the other, in memory of its own.
-/// The first place in no interval of any of them is found as FreeSearch finds it for one. Neighbours that are too far away to matter are
+/// The first place in no interval of any of them is found as FreeKernel finds it for one. Neighbours that are too far away to matter are
 /// left out until a way comes near them.
 template <class Source, class Walls>
 class FreeWaySearch {
@@ -77,8 +77,9 @@ class FreeWaySearch {
   explicit FreeWaySearch(const Source& source, const OfWalls&... of_walls)
       : source_(source), walls_(of_walls...) {}
 
-  /// Finds the best way of an agent.
-  FreeWay find(std::uint32_t agent, std::span<const std::uint32_t> neighbours, const Axes& axes);
+  /// Finds the best way of an agent. If it is open, somebody else has to test whether it ends inside another one.
+  FreeWay find(std::uint32_t agent, std::span<const std::uint32_t> neighbours, const Axes& axes,
+               bool is_open = false);
   /// Returns where the agent touches what it has left last, in the world's axes.
   Penetration::Touch touch(const FreeWay& way);
 
@@ -99,7 +100,8 @@ class FreeWaySearch {
   FreePair& begun(std::size_t k);
   /// Returns the search of a neighbour, which knows the direction.
   FreePair& turned(std::size_t k);
-  float bound(float x, float y);
+  /// Bounds a direction and the opposite one.
+  void bound(float x, float y, float* places);
   void turn(float x, float y) { x_ = x, y_ = y, ++turn_, walls_.turn(x, y); }
   float next(float place);
   /// Who has left all intervals may be inside, and is until the next one begins.
@@ -122,27 +124,33 @@ class FreeWaySearch {
 /// The way that may be the shortest is followed by a step, until it has ended.
 template <class Source, class Walls>
 FreeWay FreeWaySearch<Source, Walls>::find(std::uint32_t agent, std::span<const std::uint32_t> neighbours,
-                                           const Axes& axes) {
+                                           const Axes& axes, bool is_open) {
   begin(agent, neighbours);
   const SpaceFrame frame(agents(), agent, agent);
   std::array<FreeWay, max_directions> ways;
+  std::array<float, max_directions> places{};
   const std::uint32_t count = 2 * axes.count;
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const double sign = i % 2 == 0 ? 1 : -1, x = sign * axes.x[i / 2], y = sign * axes.y[i / 2];
+  for (std::uint32_t i = 0; i < count; i += 2) {
+    const double x = axes.x[i / 2], y = axes.y[i / 2];
     const SpacePoint e = frame.way(x, y, 0);
     const auto to_x = static_cast<float>(e.x), to_y = static_cast<float>(e.y);
-    ways[i] = {x, y, to_x, to_y, bound(to_x, to_y)};
+    bound(to_x, to_y, &places[i]);
+    ways[i] = {x, y, to_x, to_y, places[i], false};
+    ways[i + 1] = {-x, -y, -to_x, -to_y, places[i + 1], false};
   }
-  for (const FreeWay* turned = nullptr;;) {
-    FreeWay& way =
-        *std::min_element(ways.begin(), ways.begin() + count,
-                          [](const FreeWay& left, const FreeWay& right) { return left.place < right.place; });
-    if (&way != turned) turn(way.to_x, way.to_y);
-    turned = &way;
+  for (std::uint32_t turned = count;;) {
+    const auto least =
+        static_cast<std::uint32_t>(std::min_element(places.begin(), places.begin() + count) - places.begin());
+    FreeWay& way = ways[least];
+    if (least != turned) turn(way.to_x, way.to_y);
+    turned = least;
     if (way.is_end) return way;
     const float next = this->next(way.place);
-    if (next == way.place) finish(way);
-    way.place = std::max(way.place, next);
+    if (next == way.place) {
+      way.is_end = is_open;
+      if (!is_open) finish(way);
+    }
+    way.place = places[least] = std::max(way.place, next);
   }
 }
 
@@ -182,12 +190,14 @@ FreePair& FreeWaySearch<Source, Walls>::turned(std::size_t k) {
 }
 
 template <class Source, class Walls>
-float FreeWaySearch<Source, Walls>::bound(float x, float y) {
+void FreeWaySearch<Source, Walls>::bound(float x, float y, float* places) {
   x_ = x, y_ = y;
-  float place = 0;
-  for (std::size_t k = 0; k < neighbours_.size(); ++k)
-    if (is_near(neighbours_[k], 0)) place = std::max(place, begun(k).bound(x, y));
-  return place;
+  for (std::size_t k = 0; k < neighbours_.size(); ++k) {
+    if (!is_near(neighbours_[k], 0)) continue;
+    float each[2];
+    begun(k).bound(x, y, each);
+    places[0] = std::max(places[0], each[0]), places[1] = std::max(places[1], each[1]);
+  }
 }
 
 template <class Source, class Walls>

@@ -43,30 +43,76 @@ Answer from_b(const Agents& agents, std::uint32_t a, std::uint32_t b, const Answ
 
 constexpr std::size_t pairs_at_once = 64;
 
+/// Answers some pairs after others, in memory of its own.
+template <class Source>
+class PairAnswers {
+ public:
+  PairAnswers(const Source& source, const Axes& axes, bool with_touches)
+      : source_(source), axes_(axes), with_touches_(with_touches), search_(source) {}
+
+  /// Answers up to pairs_at_once pairs.
+  void answer(std::span<const Pair> pairs) {
+    hits_.resize(pairs.size()), answers_.assign(pairs.size(), {});
+    source_.find_hits(source_.agents(), pairs, hits_.data());
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+      if (hits_[i] != 0) find(pairs[i], answers_[i], true);
+    if constexpr (!Source::is_in_space) close(pairs);
+  }
+  /// Returns the answer of a pair that was answered.
+  Answer of(std::size_t i, Pair pair) const {
+    const auto [a, b] = std::minmax(pair.first, pair.second);
+    return pair.second < pair.first ? from_b(source_.agents(), a, b, answers_[i]) : answers_[i];
+  }
+
+ private:
+  void find(Pair pair, Answer& to, bool is_open) {
+    const auto [a, b] = std::minmax(pair.first, pair.second);
+    const FreeWay way = search_.find(a, {&b, 1}, axes_, is_open);
+    to.move = {way.place, way.x, way.y};
+    if (with_touches_) to.touch = search_.touch(way);
+  }
+  /// Tests all ends at once. Few of them are inside the other, from where their ways go on.
+  void close(std::span<const Pair> pairs) {
+    moved_.clear(), ended_.clear(), tests_.clear();
+    for (std::uint32_t i = 0; i < pairs.size(); ++i) {
+      if (hits_[i] == 0) continue;
+      const auto [a, b] = std::minmax(pairs[i].first, pairs[i].second);
+      const auto& [depth, x, y] = answers_[i].move;
+      const auto at = static_cast<std::uint32_t>(moved_.size());
+      moved_.add(source_.agents(), a, double{depth} * x, double{depth} * y);
+      moved_.add(source_.agents(), b);
+      ended_.push_back(i), tests_.push_back({at, at + 1});
+    }
+    source_.find_hits(moved_.agents(), tests_, hits_.data());
+    for (std::size_t k = 0; k < tests_.size(); ++k)
+      if (hits_[k] != 0) find(pairs[ended_[k]], answers_[ended_[k]], false);
+  }
+
+  const Source& source_;
+  const Axes& axes_;
+  const bool with_touches_;
+  FreeWaySearch<Source, NoWalls> search_;
+  std::vector<std::uint8_t> hits_;
+  std::vector<Answer> answers_;
+  MovedAgents moved_;
+  std::vector<std::uint32_t> ended_;
+  std::vector<Pair> tests_;
+};
+
 /// Answers pairs, each as seen from the agent with the lower index. Searches need memory, so answers are written once all have ended.
 template <class Source>
 void answer_pairs(const Source& source, std::span<const Pair> pairs, const Axes& axes,
                   std::span<Penetration> out, std::span<Penetration::Touch> to_touches) {
-  using Search = FreeWaySearch<Source, NoWalls>;
   std::vector<Penetration> ways(pairs.size());
   std::vector<Penetration::Touch> touches(to_touches.size());
-  Spares<Search> spares;
+  Spares<PairAnswers<Source>> spares;
   for_pair_ranges(pairs.size(), pairs_at_once, [&](std::size_t begin, std::size_t size) {
-    const auto search = spares.borrow([&] { return Search(source); });
-    std::uint8_t hits[pairs_at_once];
-    source.find_hits(source.agents(), pairs.subspan(begin, size), hits);
-    for (std::size_t k = 0; k < size; ++k) {
-      const auto [first, second] = pairs[begin + k];
-      const auto [a, b] = std::minmax(first, second);
-      Answer answer;
-      if (hits[k] != 0) {
-        const FreeWay way = search->find(a, {&b, 1}, axes);
-        answer.move = {way.place, way.x, way.y};
-        if (!touches.empty()) answer.touch = search->touch(way);
-      }
-      if (second < first) answer = from_b(source.agents(), a, b, answer);
-      ways[begin + k] = answer.move;
-      if (!touches.empty()) touches[begin + k] = answer.touch;
+    const auto answers = spares.borrow([&] { return PairAnswers<Source>(source, axes, !touches.empty()); });
+    answers->answer(pairs.subspan(begin, size));
+    for (std::size_t i = begin; i < begin + size; ++i) {
+      const Answer answer = answers->of(i - begin, pairs[i]);
+      ways[i] = answer.move;
+      if (!touches.empty()) touches[i] = answer.touch;
     }
   });
   std::copy(ways.begin(), ways.end(), out.begin());

@@ -9,6 +9,7 @@
 namespace bch {
 struct DiscPair;
 struct Pair;
+struct Vec2;
 }  // namespace bch
 
 namespace bch::detail {
@@ -21,9 +22,14 @@ struct Box;
 struct BoxBlock;
 struct BoxHit;
 struct ClearanceArguments;
+struct FreeBound;
+struct FreeColumns;
+struct FreeTask;
 struct ObstacleArguments;
 struct ObstacleGap;
 struct TimeOfImpactArguments;
+template <class Float>
+struct TransformOf;
 
 /// Holds the lowest and the highest agent of some pairs; without pairs, low > high.
 struct AgentRange {
@@ -59,6 +65,12 @@ struct Kernels {
   /// Writes the interval that discs span along each axis: the least c . axis - r and the largest c . axis + r.
   void (*extents)(const CutDiscs& discs, const float* axis_x, const float* axis_y, std::uint32_t axes,
                   float* low, float* high) noexcept;
+  /// Place segments, bound two opposite directions, turn a pair into a direction, and search it; see FreeKernel.
+  void (*free_place)(const Vec2* points, std::uint32_t count, const TransformOf<float>& to_a,
+                     const FreeColumns& to, std::uint32_t first) noexcept;
+  void (*free_bound)(const FreeBound& by, float x, float y, float* places) noexcept;
+  void (*free_turn)(const FreeTask& task, float x, float y) noexcept;
+  float (*free_next)(const FreeTask& task, float place) noexcept;
   /// Writes the nearest discs of pairs begin .. end, with as much stack as run(); see ClearanceArguments.
   void (*clearance)(const ClearanceArguments& arguments, std::size_t begin, std::size_t end) noexcept;
   /// Writes the times of impact of pairs begin .. end, which do not collide now; see TimeOfImpactArguments.
