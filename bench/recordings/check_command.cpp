@@ -57,17 +57,19 @@ void run_check(const CLI::App& command, CheckCommandOptions options) {
   how.measures = options.outputs.has_measures();
   std::optional<ResolvedRecording> resolved;
   if (!options.resolved.empty()) resolved.emplace(opened);
+  std::optional<detail::TruthCollisions> truth;
+  if (opened.truth) truth.emplace(*opened.truth, opened.reader->info(), how);
   const detail::CheckSummary summary =
       opened.check(how, [&](const detail::CheckedFrame& frame, const ShapeSet& shapes) {
         tables.add(frame);
         if (page) page->add(frame, shapes);
-        if (opened.against_truth) opened.against_truth->add(frame);
+        if (truth) truth->add(frame);
         if (resolved) resolved->add(frame);
       });
-  const detail::TruthCollisions* const truth = opened.against_truth ? &*opened.against_truth : nullptr;
-  tables.finish(opened.recording, summary, truth);
+  const detail::TruthCollisions* const of_truth = truth ? &*truth : nullptr;
+  tables.finish(opened.recording, summary, of_truth);
   if (page) write_file(options.html, std::move(*page).finish(summary));
-  report(opened.recording, summary, options.outputs, truth);
+  report(opened.recording, summary, options.outputs, of_truth);
   if (!resolved) return;
   resolved->resolve();
   write_file(options.resolved, resolved->csv());

@@ -211,7 +211,7 @@ void CheckInput::add_to(CLI::App& command) {
   add("--unit", unit, "UNIT", "Unit of length, instead of the file's: m, cm, mm, or a number of metres");
   add("--walls", walls, "FILE.wkt", "Walkable area as well-known text (WKT), instead of the file's own");
   add("--truth", truth, "FILE",
-      "Count the people who collide, as discs, with others as these went in this recording (Col-II)");
+      "Count the people who collide with others as these went in this recording (Col-II)");
   add_bodies_to(command);
   add("--depth", depth, "N",
       "Level of detail: depth 0, 1, 2 ... in the tree of discs of an outline, or all [all]");
@@ -280,9 +280,7 @@ OpenedCheck::OpenedCheck(const CheckInput& input)
                 walls ? &*walls : nullptr,
                 input.date.empty() ? date_of(input.file) : input.date,
                 {}} {
-  if (input.truth.empty()) return;
-  truth = detail::open_trajectory(input.truth, trajectory_options(input));
-  against_truth.emplace(*truth, recording.info.fps);
+  if (!input.truth.empty()) truth = detail::open_trajectory(input.truth, trajectory_options(input));
 }
 
 detail::CheckOptions OpenedCheck::options(const CheckInput& input) {

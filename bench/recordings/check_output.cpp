@@ -167,7 +167,9 @@ nlohmann::ordered_json json_of(const CheckedRecording& recording, const CheckSum
   if (has_measures)
     json.update({{"colliding_people", summary.colliding}, {"disc_colliding_people", summary.disc_colliding}});
   if (truth != nullptr)
-    json.update({{"truth_frames", truth->frames()}, {"truth_colliding_people", truth->colliding()}});
+    json.update({{"truth_frames", truth->frames()},
+                 {"truth_colliding_people", truth->colliding()},
+                 {"truth_disc_colliding_people", truth->disc_colliding()}});
   return json;
 }
 
@@ -257,31 +259,6 @@ std::string pair_lines(const CheckedFrame& frame) {
   return lines;
 }
 
-std::string measure_lines(const CheckedFrame& frame) {
-  std::string lines;
-  for (std::size_t i = 0; i < frame.people.size(); ++i) {
-    const CheckedPerson& person = frame.people[i];
-    const MeasuredPerson& of = frame.measures[i];
-    fmt::format_to(std::back_inserter(lines),
-                   "{},{:.4f},{},{:.3f},{:.3f},{},{},{:.4f},{:.4f},{:.3f},{:.3f},{:.3f},{:.4g},{:.4g},{:.4g},"
-                   "{:.4g},{:d},{:d}\n",
-                   frame.frame, frame.seconds, person.walker.id, person.density, of.voronoi_density,
-                   of.intimate, of.personal, of.clearance, of.disc_clearance, of.time, of.disc_time,
-                   of.encroachment, of.intrusion, of.disc_intrusion, MeasuredPerson::avoidance(of.time),
-                   MeasuredPerson::avoidance(of.disc_time), of.collides, of.disc_collides);
-  }
-  return lines;
-}
-
-std::string conflict_lines(const CheckedFrame& frame) {
-  std::string lines;
-  for (const MeasuredPair& pair : frame.measured_pairs)
-    fmt::format_to(std::back_inserter(lines), "{},{:.4f},{},{},{:.4f},{:.4f},{:.4f},{:.3f},{:.3f}\n",
-                   frame.frame, frame.seconds, pair.first, pair.second, pair.distance, pair.clearance,
-                   pair.disc_clearance, pair.time, pair.disc_time);
-  return lines;
-}
-
 std::string event_line(const OverlapEvent& event, double fps) {
   return fmt::format("{},{},{},{:.4f},{:.4f},{},{:.4f},{:.4f},{:.3f},{:.3f}\n", event.first, event.second,
                      kind_of(event), static_cast<double>(event.from) / fps,
@@ -326,10 +303,10 @@ void report(const CheckedRecording& recording, const CheckSummary& summary, cons
                         percent_text(summary.colliding, summary.people), measured_disc,
                         percent_text(summary.disc_colliding, summary.people));
   if (truth != nullptr)
-    text +=
-        fmt::format("\n{} of people, as discs of {:g} m, collide with others as these truly went, in {}.\n",
-                    percent_text(truth->colliding(), summary.people), measured_disc,
-                    counted(truth->frames(), "common frame"));
+    text += fmt::format(
+        "\n{} of people collide with others as these truly went, as discs of {:g} m {}, in {}.\n",
+        percent_text(truth->colliding(), summary.people), measured_disc,
+        percent_text(truth->disc_colliding(), summary.people), counted(truth->frames(), "common frame"));
   write_standard_output(text);
   if (percent_in_overlap(summary) > outputs.fail_above)
     throw CheckFailed(fmt::format("{}: {:.2f} % of person-seconds in overlap, more than {:g} %",

@@ -119,9 +119,8 @@ struct OpenedCheck {
   std::unique_ptr<detail::TrajectoryReader> reader;
   std::optional<ObstacleSet> walls;
   CheckedRecording recording;
-  std::vector<BodyModel> bodies;                         ///< made by options(), where people have spheres
-  std::unique_ptr<detail::TrajectoryReader> truth;       ///< or null
-  std::optional<detail::TruthCollisions> against_truth;  ///< of these
+  std::vector<BodyModel> bodies;                    ///< made by options(), where people have spheres
+  std::unique_ptr<detail::TrajectoryReader> truth;  ///< or null
 
   /// Opens the recording. Errors: throws UsageError, InputError, TrajectoryError.
   explicit OpenedCheck(const CheckInput& input);

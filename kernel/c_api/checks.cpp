@@ -232,7 +232,7 @@ std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check
   std::optional<RecordingPage> page;
   if (recording) page.emplace(*recording);
   std::optional<TruthCollisions> truth;
-  if (given.truth != nullptr) truth.emplace(*unread(*given.truth, "options->truth").reader, info.fps);
+  if (given.truth != nullptr) truth.emplace(*unread(*given.truth, "options->truth").reader, info, options);
   trajectory.is_read = true;
   if (truth) given.truth->is_read = true;
   on_threads(given.threads, [&] {
@@ -251,7 +251,8 @@ std::unique_ptr<bch_check> run_check(bch_trajectory& trajectory, const bch_check
     if (page) made->page = std::move(*page).finish(summary);
     made->summary = summary_of(summary, info);
     if (truth)
-      made->summary.truth_frames = truth->frames(), made->summary.truth_colliding_people = truth->colliding();
+      made->summary.truth_frames = truth->frames(), made->summary.truth_colliding_people = truth->colliding(),
+      made->summary.truth_disc_colliding_people = truth->disc_colliding();
     for (const std::string& line : summary.notes) made->notes += line + "\n";
     for (const OverlapEvent& event : summary.events) made->events.push_back(event_of(event));
     for (std::size_t k = 0; k < density_classes.size(); ++k) {

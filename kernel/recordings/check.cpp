@@ -38,7 +38,7 @@ class Checker {
         seen_(seen),
         borders_(options_.walls == nullptr ? std::vector<std::uint8_t>() : borders_of(*options_.walls)),
         shapes_(options_.plan, options_.library, motions_, options_.baked) {
-    require_people(info.motions);
+    require_people(info.motions, options_);
     if (!options_.bodies.empty()) bodies_.emplace(options_.bodies, options_.library);
   }
 
@@ -47,7 +47,6 @@ class Checker {
   CheckSummary finish(std::size_t people);
 
  private:
-  void require_people(std::span<const NamedMotion> named) const;
   std::size_t look(const FrameBlock& block, std::size_t frames);
   void pose(std::size_t runs);
   std::size_t queried_at_once(std::size_t first, std::size_t end) const;
@@ -70,15 +69,6 @@ class Checker {
   std::vector<WalkerPose> poses_;
   std::vector<std::uint32_t> shape_;
 };
-
-/// Errors:  throws TrajectoryError where rows have bodies that do not walk, and the options no place for them.
-void Checker::require_people(std::span<const NamedMotion> named) const {
-  if (options_.bodies.empty() && options_.baked == nullptr) return;
-  for (const NamedMotion& motion : named)
-    if (!motion.body.empty())
-      throw TrajectoryError(motion.place + ": body " + trajectory::shown(motion.body) +
-                            " is an outline, which neither --bodies spheres nor a baked set takes");
-}
 
 /// Divides a block into runs of frames, the last frame being one where it does not belong to the block.
 std::vector<std::size_t> run_begins(const FrameBlock& block, std::size_t frames) {
@@ -226,6 +216,14 @@ std::vector<std::string> notes_on(const Speeds& speeds, const ObstacleSet* walls
 }
 
 }  // namespace
+
+void require_people(std::span<const NamedMotion> named, const CheckOptions& options) {
+  if (options.bodies.empty() && options.baked == nullptr) return;
+  for (const NamedMotion& motion : named)
+    if (!motion.body.empty())
+      throw TrajectoryError(motion.place + ": body " + trajectory::shown(motion.body) +
+                            " is an outline, which neither --bodies spheres nor a baked set takes");
+}
 
 OverlapCount& OverlapCount::operator+=(const OverlapCount& other) {
   people += other.people, guessed += other.guessed;

@@ -52,6 +52,9 @@ struct CheckOptions {
       0;  ///< limit of near pairs in a frame, or in those of a task (FrameRun); 0: usual_max_pairs()
 };
 
+/// Errors:  throws TrajectoryError where rows have bodies that do not walk, and the options no place for them.
+void require_people(std::span<const NamedMotion> named, const CheckOptions& options);
+
 /// Reports that a frame, or the frames of a task, have more than CheckOptions::max_pairs pairs. The message
 /// names them.
 class TooManyPairs : public std::length_error {

@@ -58,15 +58,14 @@ void FrameBlock::place() {
   for (const Walker& walker : people_) low = std::min(low, walker.x), high = std::max(high, walker.x);
   const double spacing =
       std::min(high - low + between_frames, farthest / static_cast<double>(frames_.size()));
-  x_.clear(), y_.clear(), heading_.clear(), apart_x_.clear(), frame_of_.clear();
+  for (std::vector<double>* const values : {&x_, &y_, &heading_, &apart_x_}) values->resize(people_.size());
+  frame_of_.resize(people_.size());
   for (std::size_t i = 0; i < frames_.size(); ++i)
     for (std::size_t k = begin_[i]; k < begin_[i + 1]; ++k) {
       const Walker& walker = people_[k];
-      x_.push_back(walker.x);
-      y_.push_back(walker.y);
-      heading_.push_back(walker.heading);
-      apart_x_.push_back(walker.x + spacing * static_cast<double>(i));
-      frame_of_.push_back(static_cast<std::uint32_t>(i));
+      x_[k] = walker.x, y_[k] = walker.y, heading_[k] = walker.heading;
+      apart_x_[k] = walker.x + spacing * static_cast<double>(i);
+      frame_of_[k] = static_cast<std::uint32_t>(i);
     }
 }
 

@@ -31,10 +31,10 @@ const ShapeSet& near_discs() {
 
 /// A bit for each of the compared discs that are nearer than they are wide.
 std::uint8_t discs_of(double square_distance) {
-  std::uint8_t bits = 0;
+  unsigned bits = 0;
   for (std::size_t k = 0; k < compared_discs.size(); ++k)
-    bits |= static_cast<std::uint8_t>((square_distance < 4 * compared_discs[k] * compared_discs[k]) << k);
-  return bits;
+    bits |= unsigned{square_distance < 4 * compared_discs[k] * compared_discs[k]} << k;
+  return static_cast<std::uint8_t>(bits);
 }
 
 std::uint8_t density_class(double density) {

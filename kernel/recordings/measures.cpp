@@ -36,16 +36,6 @@ constexpr std::array<std::array<double, 2>, cell_sides> unit_corners{{{1, 0},
 
 }  // namespace
 
-/// The smaller root of |p + t v|^2 = r^2, in the form that does not cancel.
-double disc_collision(double x, double y, double vx, double vy, double radius_sum) noexcept {
-  const double gap = x * x + y * y - radius_sum * radius_sum;
-  if (gap <= 0) return 0;
-  const double approach = -(x * vx + y * vy), speed = vx * vx + vy * vy;
-  const double under_root = approach * approach - speed * gap;
-  if (!(approach > 0 && under_root >= 0)) return std::numeric_limits<double>::infinity();
-  return gap / (approach + std::sqrt(under_root));
-}
-
 void NeighbourMeasures::measure(std::span<const double> x, std::span<const double> y,
                                 std::span<const double> step_x, std::span<const double> step_y,
                                 std::span<MeasuredPerson> people) {

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -65,7 +66,15 @@ struct MeasuredPair {
 /// Returns the time at which two discs touch, for a relative position (x, y) and a relative velocity (vx, vy)
 /// per second: 0 if they overlap, infinity if they never touch. Both are second - first, or both first -
 /// second.
-double disc_collision(double x, double y, double vx, double vy, double radius_sum) noexcept;
+inline double disc_collision(double x, double y, double vx, double vy, double radius_sum) noexcept {
+  // The smaller root of |p + t v|^2 = r^2, in the form that does not cancel.
+  const double gap = x * x + y * y - radius_sum * radius_sum;
+  if (gap <= 0) return 0;
+  const double approach = -(x * vx + y * vy), speed = vx * vx + vy * vy;
+  const double under_root = approach * approach - speed * gap;
+  if (!(approach > 0 && under_root >= 0)) return std::numeric_limits<double>::infinity();
+  return gap / (approach + std::sqrt(under_root));
+}
 
 /// Computes the measures that depend only on the positions of the people of a frame, in their order:
 /// neighbours, discs and Voronoi cells. Keeps its memory for the next frame.

@@ -63,7 +63,7 @@ WalkerPose::WalkerPose(const Walker& walker, Shoulders held, std::uint32_t coars
   const std::uint32_t phases = phases_at(clip, coarse);
   phase = std::min(static_cast<std::uint32_t>(walker.phase * phases), phases - 1);
   const double share = (phase + 0.5) / phases;
-  const double strides = pedestrian_strides_per_second(clip * pedestrian_speed_step);
+  const double strides = strides_per_second(clip * pedestrian_speed_step);
   seconds = static_cast<float>(share / strides);
   exact_seconds = static_cast<float>(walker.phase / strides);
 }

@@ -8,10 +8,9 @@
 #include <sstream>
 #include <utility>
 
-#include <bch/characters.hpp>
-
 #include "layout/base/number_class.hpp"
 #include "layout/base/random.hpp"
+#include "layout/default_character/pedestrian_speeds.hpp"
 
 namespace bch::detail {
 namespace {
@@ -73,8 +72,14 @@ bool WalkerReader::read_one() {
     at_end_ = true;
     return false;
   }
+  // Mostly those of the frame before; both are in the order of ids.
+  const Frame* const before = ahead_.empty() ? nullptr : &ahead_.back();
+  std::size_t k = 0;
   for (const TrackedPerson& person : next.people) {
-    Track& track = track_of(person.id);
+    while (before != nullptr && k < before->people.size() && before->people[k].id < person.id) ++k;
+    const bool was_there =
+        before != nullptr && k < before->people.size() && before->people[k].id == person.id;
+    Track& track = was_there ? *before->tracks[k] : track_of(person.id);
     if (!track.places.empty()) measure(track.places.back(), person, next.frame);
     track.places.push_back({next.frame, person.x, person.y});
     next.tracks.push_back(&track);
@@ -121,8 +126,8 @@ Walker WalkerReader::walk(const TrackedPerson& person, Track& track, std::int64_
     track.places.pop_front();
   const Place first = track.places.front();
   // The last one within the window, or, where there is none, the next.
-  auto last = std::partition_point(track.places.begin(), track.places.end(),
-                                   [&](const Place& place) { return place.frame <= frame + window_; });
+  auto last = track.places.end();
+  while (last != track.places.begin() && std::prev(last)->frame > frame + window_) --last;
   const bool is_there_at_end = std::prev(last)->frame == window_end_;
   if (last == track.places.end() || std::prev(last)->frame > frame) --last;
   const double seconds = static_cast<double>(last->frame - first.frame) / fps_;
@@ -140,7 +145,7 @@ Walker WalkerReader::walk(const TrackedPerson& person, Track& track, std::int64_
   }
   const double since = track.has_walked ? static_cast<double>(frame - track.last_frame) / fps_ : 0;
   track.has_walked = true;
-  if (speed > 0.05) track.phase += since * pedestrian_strides_per_second(speed);
+  if (speed > 0.05) track.phase += since * strides_per_second(speed);
   track.way += since * speed;
   track.phase -= std::floor(track.phase);
   track.last_frame = frame;

@@ -88,7 +88,7 @@ void scale(Character& character, float factor) {
 
 double pedestrian_strides_per_second(double metres_per_second) {
   const FloatingPointStateGuard floats;
-  return 0.5 * (1.3 + 0.5 * metres_per_second);
+  return strides_per_second(metres_per_second);
 }
 
 Character default_pedestrian(Sex sex, double stature, double shoulders) {
@@ -106,7 +106,7 @@ Character default_pedestrian(Sex sex, double stature, double shoulders) {
   for (std::uint32_t k = 0; k < pedestrian_speeds; ++k) {
     const double speed = k * pedestrian_speed_step;
     // The body walks as it is drawn, and is scaled below.
-    const Stride stride{speed * shape.stature / stature, pedestrian_strides_per_second(speed), shoulders};
+    const Stride stride{speed * shape.stature / stature, strides_per_second(speed), shoulders};
     character.clips.push_back(bake(character, joints, "walk " + shortest(static_cast<float>(speed)) + " m/s",
                                    1 / stride.strides_per_second, Travel::authored,
                                    striding(manner, stride)));

@@ -11,12 +11,19 @@ namespace bch::detail::trajectory {
 
 void IdCount::add(std::int64_t id) {
   constexpr std::size_t most = std::size_t{1} << 20;
-  if (too_many_ || (id == last_ && !ids_.empty())) return;
-  last_ = id;
-  ids_.insert(id);
-  if (ids_.size() <= most) return;
+  if (too_many_) return;
+  if (id >= 0 && id < static_cast<std::int64_t>(most)) {
+    const auto place = static_cast<std::size_t>(id);
+    if (place >= small_.size()) small_.resize(std::max(place + 1, 2 * small_.size()));
+    if (small_[place]) return;
+    small_[place] = true;
+    ++count_;
+  } else {
+    count_ += ids_.insert(id).second;
+  }
+  if (count_ <= most) return;
   too_many_ = true;
-  ids_ = {};
+  ids_ = {}, small_ = {};
 }
 
 void StepCount::add(std::int64_t step) {

@@ -8,6 +8,7 @@
 #include <map>
 #include <optional>
 #include <unordered_set>
+#include <vector>
 
 #include "layout/base/mixed_hash.hpp"
 #include "layout/recordings/row.hpp"
@@ -21,11 +22,12 @@ class IdCount {
  public:
   void add(std::int64_t id);
   /// Returns the number of ids; 0 where there were more.
-  std::uint64_t count() const { return too_many_ ? 0 : ids_.size(); }
+  std::uint64_t count() const { return too_many_ ? 0 : count_; }
 
  private:
-  std::unordered_set<std::int64_t, MixedHash> ids_;
-  std::int64_t last_ = 0;
+  std::vector<bool> small_;                          ///< from 0 on: whether there was that id
+  std::unordered_set<std::int64_t, MixedHash> ids_;  ///< the others
+  std::uint64_t count_ = 0;
   bool too_many_ = false;
 };
 

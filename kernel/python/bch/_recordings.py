@@ -403,7 +403,8 @@ def check(
         Also make the page that `Check.html` writes, of up to 30 MB. With bodies of spheres it shows outlines, which have to be made, too.
     truth : path, or table, optional
         A recording of what people did whose ways `recording` predicts, with the same ids, frames and frame rate: the summary's
-        `truth_colliding_people` are those whose discs of 0.1 m collide with those of others as these truly went (TrajNet++'s Col-II).
+        `truth_colliding_people` are those whose bodies overlap those of others as these truly went, `truth_disc_colliding_people` the same
+        for discs of 0.1 m (TrajNet++'s Col-II).
     walls : Obstacles, or a geometry as `Obstacles.from_wkt` takes, optional
         Walls to use instead of the geometry of the recording. Polygons of a geometry are the floor that people walk on, and their
         rings are walls.

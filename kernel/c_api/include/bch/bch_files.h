@@ -211,10 +211,11 @@ typedef struct bch_check_summary {
   uint64_t disc_colliding_people;  /**< the same for discs of radius 0.1 m */
   uint64_t overlap_events, pass_events, wall_events; /**< the number of events of each kind */
   uint64_t truth_frames;           /**< frames of both recordings; only with `truth` */
-  uint64_t truth_colliding_people; /**< people whose disc of 0.1 m collides with that of another who moves as in `truth` */
+  uint64_t truth_colliding_people;      /**< people whose body overlaps that of another who moves as in `truth` */
+  uint64_t truth_disc_colliding_people; /**< the same for discs of radius 0.1 m */
 } bch_check_summary;
 #define BCH_CHECK_SUMMARY_INIT \
-  { sizeof(bch_check_summary), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 }
+  { sizeof(bch_check_summary), 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0 }
 /** Gets the summary of a check. */
 BCH_API bch_status bch_check_get_summary(const bch_check* check, bch_check_summary* summary);
 /** Counts the person-frames of a class of density. */
