@@ -38,9 +38,15 @@ std::string report_of(const AgentTable& before, const bch::Crowd::Resolved& afte
   }
   const auto fixed = static_cast<std::size_t>(std::ranges::count(before.mobility, 0));
   const double agents = std::max(1.0, static_cast<double>(before.id.size()));
+  double turned = 0, farthest = 0;
+  for (const double turn : after.turn)
+    turned += std::abs(turn), farthest = std::max(farthest, std::abs(turn));
+  const std::string turns =
+      fact("turn", fmt::format("{:.4f} rad on average, {:.4f} rad at most", turned / agents, farthest));
   return fact("agents", fmt::format("{}, {} fixed", grouped(before.id.size()), grouped(fixed))) +
          fact("sweeps", grouped(after.sweeps)) +
          fact("shift", fmt::format("{:.4f} m on average, {:.4f} m at most", sum / agents, largest)) +
+         (after.turn.empty() ? "" : turns) +
          fact("left", fmt::format("{} in collision, {} at a wall", counted(after.left.size(), "pair"),
                                   counted(after.agents_at_walls.size(), "agent")));
 }
@@ -69,6 +75,7 @@ void run_resolve(const CLI::App& command, const ResolveCommandOptions& options) 
   const std::string report = report_of(table, after) + notes_text(from);
   table.shape = shape;
   table.x.assign(after.x.begin(), after.x.end()), table.y.assign(after.y.begin(), after.y.end());
+  for (std::size_t i = 0; i < after.turn.size(); ++i) table.heading[i] += after.turn[i];
   write_standard_data(csv_of(table));
   std::fputs(report.c_str(), stderr);  // standard output is for data
 }
@@ -80,9 +87,9 @@ std::function<void()> add_resolve_command(CLI::App& program) {
   CLI::App& command = *program.add_subcommand(
       "resolve", "Move people, as little as possible, until no bodies overlap each other or a wall");
   command.footer(
-      R"(Bodies are sets of spheres bound to the bones, tested in 3D. People do not turn. A sweep finds all pairs that overlap,
-and moves all people once. Prints AGENTS.csv with new x and y, and to standard error the number of sweeps, the mean and
-largest shift, and how many pairs and people at walls remain if there is not enough room (the exit code is still 0).
+      R"(Bodies are sets of spheres bound to the bones, tested in 3D. A sweep finds all pairs that overlap, and moves all
+people once. Prints AGENTS.csv with new x, y and heading, and to standard error the number of sweeps, the mean and
+largest shift and turn, and how many pairs and people at walls remain if there is not enough room (the exit code is still 0).
 AGENTS.csv is that of bch query, with one more column:
   mobility       0 (does not move) to 1: of two people moved apart, one with half the mobility moves half as far [1]
 Example: bch resolve default:female agents.csv --obstacles walls.wkt > moved.csv)");
@@ -100,6 +107,8 @@ Example: bch resolve default:female agents.csv --obstacles walls.wkt > moved.csv
       number_between(0, 1000));
   add("--largest-shift", how.largest_shift, "METRES",
       "Maximum shift of a person in all sweeps together [no limit]", number_between(0, 1e9));
+  add("--largest-turn", how.largest_turn, "RADIANS",
+      "Maximum turn of a person in all sweeps together [0: nobody turns]", number_between(0, 3.2));
   add_max_pairs_option(command, options->max_pairs, "agents near each other", "agent");
   add_spheres_option(command, options->spheres);
   options->shapes.add_poses_to(command);

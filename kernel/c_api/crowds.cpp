@@ -155,8 +155,8 @@ void hand_out_obstacles(bch_crowd* handle, const Handle* set, const bch_agents* 
 
 Crowd::ResolveOptions resolve_options_of(const bch_resolve_options* given, std::size_t agents) {
   const auto options = sized(given, bch_resolve_options BCH_RESOLVE_OPTIONS_INIT, "resolve_options");
-  Crowd::ResolveOptions all{options.directions, options.sweeps, options.gap, options.largest_step,
-                            options.largest_shift};
+  Crowd::ResolveOptions all{options.directions,   options.sweeps,        options.gap,
+                            options.largest_step, options.largest_shift, options.largest_turn};
   if (options.mobility != nullptr)
     all.mobility = array_of(options.mobility, agents, "resolve_options->mobility");
   if (options.obstacles != nullptr)
@@ -356,7 +356,8 @@ bch_status bch_crowd_body_resolve(bch_crowd* handle, const bch_body_set* set, co
                  c_pairs(found.left.span()),
                  found.agents_at_walls.size(),
                  found.agents_at_walls.data(),
-                 found.sweeps};
+                 found.sweeps,
+                 found.turn.empty() ? nullptr : found.turn.data()};
   });
 }
 

@@ -16,6 +16,7 @@
 #include "kernel/penetration/spread_axes.hpp"
 #include "kernel/runtime/pair_validation.hpp"
 #include "layout/base/floating_point_state.hpp"
+#include "layout/base/heading.hpp"
 #include "layout/base/shortest.hpp"
 
 // A sweep is a step of a solver of contacts. Pairs that collide are to move by their shortest moves, nearest_free(); pairs that are near are
@@ -29,6 +30,7 @@ namespace {
 
 constexpr std::uint32_t sweeps_to_disentangle = 8;
 constexpr double longest_step = 1000;  ///< metres
+constexpr double longest_turn = 3.2;   ///< radians: half a turn
 /// A nearest point above or below says nothing of the ground: directions have at least this length there.
 constexpr double least_on_ground = 0.3;
 
@@ -43,6 +45,9 @@ void require_valid(const Crowd::ResolveOptions& options, std::size_t agents) {
   require_length("gap", options.gap, longest_step);
   require_length("largest_step", options.largest_step, longest_step);
   require_length("largest_shift", options.largest_shift, std::numeric_limits<double>::infinity());
+  if (!(options.largest_turn >= 0 && options.largest_turn <= longest_turn))
+    throw std::invalid_argument("resolve: expected a largest_turn of 0 to " + shortest(longest_turn) +
+                                " rad, found " + shortest(options.largest_turn));
   if (!options.mobility.empty())
     check_size({"resolve", "agent", agents}, options.mobility.size(), "mobilities");
   for (std::size_t i = 0; i < options.mobility.size(); ++i)
@@ -69,7 +74,8 @@ void limit_approach(SeparationSolver& solver, std::uint32_t first, std::uint32_t
 
 }  // namespace
 
-void Resolution::begin(const Agents& agents) {
+void Resolution::begin(const Agents& agents, bool may_turn) {
+  turn.assign(may_turn ? agents.size() : 0, 0);
   x.resize(agents.size()), y.resize(agents.size());
   for (std::size_t i = 0; i < agents.size(); ++i) x[i] = agents.x[i], y[i] = agents.y[i];
   first_x = x, first_y = y;
@@ -77,11 +83,25 @@ void Resolution::begin(const Agents& agents) {
 
 void Resolution::move(const Crowd::ResolveOptions& options) {
   for (std::size_t i = 0; i < x.size(); ++i) {
-    auto [dx, dy] = solver.displacement(i);
+    double dx = solver.displacement(i).x, dy = solver.displacement(i).y;
     shorten(dx, dy, options.largest_step);
     double shift_x = x[i] + dx - first_x[i], shift_y = y[i] + dy - first_y[i];
     shorten(shift_x, shift_y, options.largest_shift);
     x[i] = first_x[i] + shift_x, y[i] = first_y[i] + shift_y;
+  }
+  for (std::size_t i = 0; i < turn.size(); ++i) {
+    const double step = std::clamp(solver.displacement(i).turn, -options.largest_step, options.largest_step);
+    turn[i] = std::clamp(turn[i] + step / SeparationSolver::turn_length, -options.largest_turn,
+                         options.largest_turn);
+  }
+}
+
+void Resolution::set_headings(const Headings& headings) {
+  heading_x.resize(turn.size()), heading_y.resize(turn.size());
+  for (std::size_t i = 0; i < turn.size(); ++i) {
+    const Rotation from = rotation(headings[i]), by = rotation(turn[i]);
+    heading_x[i] = from.cosine * by.cosine - from.sine * by.sine;
+    heading_y[i] = from.sine * by.cosine + from.cosine * by.sine;
   }
 }
 
@@ -95,12 +115,14 @@ class Sweeps {
       : memory_(memory),
         of_(memory.resolution),
         bodies_(bodies),
+        given_(agents),
         agents_(agents),
         options_(options),
         filter_(filter),
         reach_(options.gap + 2 * options.largest_step) {
-    of_.begin(agents);
+    of_.begin(agents, options.largest_turn > 0);
     agents_.x = of_.x, agents_.y = of_.y;
+    set_headings();
   }
 
   Crowd::Resolved run() {
@@ -110,13 +132,32 @@ class Sweeps {
       add_walls();
       add_pairs(sweep);
       if (!is_open_ || sweep == options_.sweeps)
-        return {of_.x, of_.y, memory_.kept_pairs(), of_.agents_at_walls, sweep};
+        return {of_.x, of_.y, of_.turn, memory_.kept_pairs(), of_.agents_at_walls, sweep};
       of_.solver.solve();
       of_.move(options_);
+      set_headings();
     }
   }
 
  private:
+  void set_headings() {
+    if (of_.turn.empty()) return;
+    of_.set_headings(given_.heading);
+    agents_.heading = Headings(of_.heading_x, of_.heading_y);
+  }
+
+  /// Returns how far the point of touch of pair i, of agents or their images, moves along (x, y) as each agent turns.
+  SeparationSolver::Arms arms(const Agents& agents, std::size_t i) const {
+    if (of_.touches.empty()) return {};
+    const auto [first, second] = memory_.to_separate[i];
+    const auto [depth, x, y] = memory_.penetrations[i];
+    const double at_x{of_.touches[i].point.x}, at_y{of_.touches[i].point.y};
+    const double from_x = at_x + agents.x[first] + double{depth} * x - agents.x[second],
+                 from_y = at_y + agents.y[first] + double{depth} * y - agents.y[second];
+    return {(at_x * y - at_y * x) / SeparationSolver::turn_length,
+            (from_x * y - from_y * x) / SeparationSolver::turn_length};
+  }
+
   /// Keeps the pairs that collide.
   void add_pairs(std::uint32_t sweep) {
     const CrowdMemory::Candidates candidates = memory_.find(bodies_, agents_, reach_, filter_);
@@ -131,14 +172,17 @@ class Sweeps {
     const auto measure = [&](const auto& query) {
       memory_.measure_kept(bodies_, candidates, options_.directions, options_.implementation, query);
     };
-    if (sweep % sweeps_to_disentangle == 0 && sweep > 0)
+    of_.touches.clear();
+    if (sweep % sweeps_to_disentangle == 0 && sweep > 0) {
       measure(CrowdMemory::by_penetration);
-    else
-      measure([](auto&&... of) { nearest_free(of...); });
+    } else {
+      if (!of_.turn.empty()) of_.touches.resize(memory_.pairs.size());
+      measure([this](auto&&... of) { nearest_free(of..., of_.touches); });
+    }
     for (std::size_t i = 0; i < memory_.pairs.size(); ++i) {
       const auto [first, second] = memory_.pairs[i];
       const auto [depth, x, y] = memory_.penetrations[i];
-      of_.solver.add(first, second, x, y, double{depth} + options_.gap);
+      of_.solver.add(first, second, x, y, double{depth} + options_.gap, arms(candidates.agents, i));
       is_open_ |= of_.solver.mobility(first) + of_.solver.mobility(second) > 0;
     }
     for (std::size_t i = 0; i < candidates.pairs.size(); ++i) {
@@ -170,6 +214,7 @@ class Sweeps {
   CrowdMemory& memory_;
   Resolution& of_;
   const BodySet& bodies_;
+  const Agents& given_;
   Agents agents_;
   const Crowd::ResolveOptions& options_;
   const PairFilter& filter_;

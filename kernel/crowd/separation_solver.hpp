@@ -13,7 +13,8 @@ namespace bch::detail {
 /// Finds small displacements of agents on the ground that separate pairs and keep others apart, as physics engines solve
 /// contacts (projected Gauss-Seidel). Reuses its memory.
 ///
-/// A constraint between two agents is (d_first - d_second) . (x, y) >= least. Each one pushes its agents apart, in proportion
+/// A constraint between two agents is (d_first - d_second) . (x, y) >= least, where d also has the displacement, by a turn of the
+/// agent, of the point at which the two touch. Each one pushes its agents apart, in proportion
 /// to their mobilities, and never pulls, but may undo earlier pushes of its own. The displacements converge to those with the
 /// least sum of squares. Constraints push in the order in which they were added, on one thread, so that the bits depend on
 /// nothing else.
@@ -21,8 +22,16 @@ class SeparationSolver {
  public:
   static constexpr std::uint32_t nobody = 0xffffffff;  ///< the second agent of a constraint with a wall
 
+  /// Turning by an angle counts as much as a displacement by this times the angle; metres. Half a shoulder's width.
+  static constexpr double turn_length = 0.2;
+
   struct Displacement {
     double x = 0, y = 0;
+    double turn = 0;  ///< radians times turn_length
+  };
+  /// Holds how far the point of touch moves along (x, y) as an agent turns by 1 / turn_length; 0: it may not turn.
+  struct Arms {
+    double first = 0, second = 0;
   };
 
   /// Begins with displacements of 0. `mobility` has one number per agent, or none (1 each), and has to outlive solve().
@@ -33,7 +42,7 @@ class SeparationSolver {
   }
 
   /// Adds a constraint; (x, y) is a unit vector. One between agents that cannot move is ignored.
-  void add(std::uint32_t first, std::uint32_t second, double x, double y, double least);
+  void add(std::uint32_t first, std::uint32_t second, double x, double y, double least, Arms arms = {0, 0});
   void solve();
 
   double mobility(std::uint32_t agent) const {
@@ -46,6 +55,7 @@ class SeparationSolver {
   struct Constraint {
     std::uint32_t first, second;
     double x, y, least;
+    Arms arms;
     double effective_mass;  ///< each agent moves by this times its mobility per missing metre
     double pushed = 0;      ///< sum of all pushes
   };

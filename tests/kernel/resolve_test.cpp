@@ -20,6 +20,7 @@ struct Answer {
   std::vector<Pair> left;
   std::vector<std::uint32_t> agents_at_walls;
   std::uint32_t sweeps;
+  std::vector<double> turn = {};
 
   friend bool operator==(const Answer&, const Answer&) = default;
 };
@@ -32,7 +33,8 @@ Answer resolved(const BodySet& bodies, const BodyCrowd& crowd, const Crowd::Reso
           {found.y.begin(), found.y.end()},
           {found.left.begin(), found.left.end()},
           {found.agents_at_walls.begin(), found.agents_at_walls.end()},
-          found.sweeps};
+          found.sweeps,
+          {found.turn.begin(), found.turn.end()}};
 }
 
 /// People who stand close, on a staircase.
@@ -44,9 +46,16 @@ struct Scene {
   std::size_t hits(const Answer& at) const {
     BodyCrowd moved = crowd;
     moved.x = at.x, moved.y = at.y;
+    for (std::size_t i = 0; i < at.turn.size(); ++i) moved.heading[i] += at.turn[i];
     std::vector<std::uint8_t> answers(moved.pairs.size());
     collide(bodies, moved.agents(), moved.pairs, answers);
     return static_cast<std::size_t>(std::ranges::count(answers, 1));
+  }
+  double mean_shift(const Answer& at) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < at.x.size(); ++i)
+      sum += std::hypot(at.x[i] - crowd.x[i], at.y[i] - crowd.y[i]);
+    return sum / static_cast<double>(at.x.size());
   }
   double largest_shift(const Answer& at) const {
     double largest = 0;
@@ -80,12 +89,62 @@ TEST(Resolve, PartsACrowdAndMovesItLittle) {
 
 TEST(Resolve, IsTheSameOnEveryImplementationAndForAnyNumberOfThreads) {
   const Scene scene;
-  const Answer expected = resolved(scene.bodies, scene.crowd);
-  for (const Implementation& implementation : test::supported())
-    for (const unsigned threads : {1u, 2u})
-      test::on_threads(threads, [&] {
-        EXPECT_EQ(resolved(scene.bodies, scene.crowd, {.implementation = &implementation}), expected);
-      });
+  for (const double turn : {0.0, 0.5}) {
+    const Answer expected = resolved(scene.bodies, scene.crowd, {.largest_turn = turn});
+    for (const Implementation& implementation : test::supported())
+      for (const unsigned threads : {1u, 2u})
+        test::on_threads(threads, [&] {
+          EXPECT_EQ(
+              resolved(scene.bodies, scene.crowd, {.largest_turn = turn, .implementation = &implementation}),
+              expected);
+        });
+  }
+}
+
+/// Four spheres in a row along x, as wide as shoulders: two rows at right angles overlap at the end of one.
+struct TwoRows {
+  std::vector<std::vector<Sphere>> spheres = {
+      {{-0.3f, 0, 1, 0.1f}, {-0.1f, 0, 1, 0.1f}, {0.1f, 0, 1, 0.1f}, {0.3f, 0, 1, 0.1f}}};
+  BodySet bodies{spheres};
+  BodyCrowd crowd{{0, 0}, {0, 0.35}, {0, 0.15}, {0, 0}, {0, 0.5}, {}};
+};
+
+TEST(Resolve, ThoseWhoTurnShiftLess) {
+  const Scene scene;
+  const Answer still = resolved(scene.bodies, scene.crowd),
+               turned = resolved(scene.bodies, scene.crowd, {.largest_turn = 0.4});
+  EXPECT_TRUE(still.turn.empty());
+  ASSERT_EQ(turned.turn.size(), scene.crowd.x.size());
+  const auto [least, largest] = std::ranges::minmax(turned.turn);
+  EXPECT_GE(least, -0.4);
+  EXPECT_LE(largest, 0.4);
+  EXPECT_LT(least, -0.05);
+  EXPECT_GT(largest, 0.05);
+  EXPECT_TRUE(turned.left.empty());
+  EXPECT_EQ(scene.hits(turned), 0u);
+  EXPECT_LT(scene.mean_shift(turned), 0.95 * scene.mean_shift(still));
+}
+
+TEST(Resolve, DirectionsTurnAsAnglesDo) {
+  const TwoRows scene;
+  const Answer angles = resolved(scene.bodies, scene.crowd, {.largest_turn = 1});
+  EXPECT_TRUE(angles.left.empty());
+  EXPECT_GT(std::abs(angles.turn[0]) + std::abs(angles.turn[1]), 0.01);
+  Agents agents = scene.crowd.agents();
+  const std::vector<double> cosines = {1, std::cos(0.5)}, sines = {0, std::sin(0.5)};
+  agents.heading = Headings(cosines, sines);
+  Crowd finder;
+  const Crowd::Resolved directions = finder.resolve(scene.bodies, agents, {.largest_turn = 1});
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_NEAR(directions.turn[i], angles.turn[i], 1e-5);
+    EXPECT_NEAR(directions.x[i], angles.x[i], 1e-5);
+    EXPECT_NEAR(directions.y[i], angles.y[i], 1e-5);
+  }
+  // Whoever has no mobility does not turn.
+  const std::vector<double> one = {0, 1};
+  const Answer second = resolved(scene.bodies, scene.crowd, {.largest_turn = 1, .mobility = one});
+  EXPECT_EQ(second.turn[0], 0);
+  EXPECT_TRUE(second.left.empty());
 }
 
 TEST(Resolve, TwoGoHalfTheWayOrAsTheirMobilitiesSay) {
@@ -156,6 +215,8 @@ TEST(Resolve, RefusesWhatIsInvalid) {
   expect_refused({.gap = -1}, "resolve: expected a gap of 0 to 1000 m, found -1");
   expect_refused({.largest_step = NAN}, "resolve: expected a largest_step of 0 to 1000 m, found nan");
   expect_refused({.largest_shift = -1}, "resolve: expected a largest_shift of 0 to inf m, found -1");
+  expect_refused({.largest_turn = -1}, "resolve: expected a largest_turn of 0 to 3.2 rad, found -1");
+  expect_refused({.largest_turn = NAN}, "resolve: expected a largest_turn of 0 to 3.2 rad, found nan");
   expect_refused({.mobility = two}, "resolve: 3 agents but 2 mobilities");
   expect_refused({.mobility = large}, "resolve: agent 2: expected a mobility of 0 to 1, found 2");
 }
@@ -180,6 +241,23 @@ TEST(SeparationSolver, FindsTheLeastSumOfSquares) {
   begin();
   solver.add(0, SeparationSolver::nobody, 1, 0, -0.2);  // a wall
   expect_displacements({-0.2, 0, 0.2, 0.1});
+}
+
+TEST(SeparationSolver, TurnsWhereThatIsLess) {
+  // The first agent may turn, with an arm of one: half of the displacement is by turning, as squares are least.
+  SeparationSolver solver;
+  solver.begin(2, {});
+  solver.add(0, SeparationSolver::nobody, 1, 0, 0.2, {1, 0});
+  solver.solve();
+  EXPECT_NEAR(solver.displacement(0).x, 0.1, 1e-9);
+  EXPECT_NEAR(solver.displacement(0).turn, 0.1, 1e-9);
+  // The second one's turn counts the other way.
+  solver.begin(2, {});
+  solver.add(0, 1, 1, 0, 0.3, {0, 1});
+  solver.solve();
+  EXPECT_NEAR(solver.displacement(0).x, 0.1, 1e-9);
+  EXPECT_NEAR(solver.displacement(1).x, -0.1, 1e-9);
+  EXPECT_NEAR(solver.displacement(1).turn, -0.1, 1e-9);
 }
 
 }  // namespace

@@ -326,6 +326,12 @@ class Scenes(unittest.TestCase):
         self.assertEqual((found.left.tolist(), found.agents_at_walls.tolist(), found.x[0]), ([], [], agents.x[0]))
         self.assertEqual(len(crowd.collisions(bodies, bch.Agents(agents.shape, found.x, found.y, agents.heading, z=agents.z))), 0)
         self.assertEqual(crowd.resolve(bodies, agents, sweeps=0).left.tolist(), contacts.pairs.tolist())
+        self.assertEqual(found.turn.tolist(), [0] * len(agents))
+        apart = bch.Agents(np.array([0, 0], np.uint32), np.array([0.0, 0.9]), np.array([0.0, 0.3]), np.zeros(2))
+        turned = crowd.resolve(bodies, apart, largest_turn=0.3)
+        self.assertEqual(len(turned.left), 0)
+        self.assertGreater(np.abs(turned.turn).max(), 0.01)
+        self.assertLessEqual(np.abs(turned.turn).max(), 0.3)
         np.testing.assert_array_equal(pushed.penetrations["depth"][:1], bch.penetration(bodies, agents, pushed.pairs)["depth"][:1])
 
     def test_bodies_and_obstacles(self):

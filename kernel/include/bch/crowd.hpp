@@ -170,6 +170,8 @@ class Crowd {
     double gap = 0.001;             ///< metres, clearance to leave between separated agents
     double largest_step = 0.05;     ///< metres, limit of an agent's displacement in a sweep
     double largest_shift = std::numeric_limits<double>::infinity();  ///< metres, limit in all sweeps
+    double largest_turn =
+        0;  ///< radians, limit of an agent's turn in all sweeps; 0: agents keep their headings
     /// Says how easily each agent moves, from 0 (fixed) to 1. Of two agents that separate, the one with half
     /// the mobility of the other moves half as far.
     std::span<const double> mobility = {};   ///< one per agent; empty: 1 each
@@ -178,8 +180,9 @@ class Crowd {
   };
   /// Holds where the agents of a crowd are after resolve(), and what they still touch.
   struct Resolved {
-    std::span<const double> x, y;                    ///< one per agent
-    Pairs left;                                      ///< pairs that still collide
+    std::span<const double> x, y;  ///< one per agent
+    std::span<const double> turn;  ///< radians to add to headings, one per agent; empty: none
+    Pairs left;                    ///< pairs that still collide
     std::span<const std::uint32_t> agents_at_walls;  ///< agents that still touch a wall, ascending
     std::uint32_t sweeps;                            ///< how many were made
   };
@@ -262,12 +265,12 @@ class Crowd {
                                 const Implementation* implementation = nullptr) &;
 
   /// Moves agents on the ground until no two bodies collide and nobody touches a wall.
-  /// It keeps displacements small, and turns nobody. Each sweep moves all agents at once. If there is too
+  /// It keeps displacements small, and turns agents up to largest_turn. Each sweep moves all agents at once. If there is too
   /// little room, some pairs still collide after the last sweep. With a period, agents meet across its
   /// borders, and the positions returned may lie outside the period. See "A crowd without overlaps" in
   /// kernel/README.md.
   /// Memory:  allocates in every sweep, as nearest_free() does.
-  /// Errors:  also on an odd number of directions, and on lengths and mobilities out of range.
+  /// Errors:  also on an odd number of directions, and on lengths, turns and mobilities out of range.
   Resolved resolve(const BodySet& bodies, const Agents& agents, const ResolveOptions& options,
                    const PairFilter& filter = {}) &;
 

@@ -123,6 +123,7 @@ class Resolved(NamedTuple):
     left: UInt32  #: (m, 2), unresolved: the pairs of agents that still collide
     agents_at_walls: UInt32  #: (k,), the agents that still touch an obstacle
     sweeps: int  #: the number of sweeps that were made
+    turn: Float64  #: (n,), radians to add to the agents' headings; zeros if `largest_turn` is 0
 
 
 class Penetrations(NamedTuple):
@@ -331,6 +332,7 @@ class Crowd:
         gap: float = 0.001,
         largest_step: float = 0.05,
         largest_shift: float = math.inf,
+        largest_turn: float = 0,
         mobility: Optional[Float64] = None,
         obstacles: Optional[Obstacles] = None,
         category: Optional[UInt32] = None,
@@ -342,7 +344,7 @@ class Crowd:
         """Move agents on the ground, as little as possible, until no two bodies collide and nobody touches an obstacle.
 
         Each sweep moves all agents at once. It separates pairs that collide by their `nearest_free` moves, and keeps other nearby
-        pairs from coming into collision. Agents do not turn. If there is no room, some pairs still collide after the last
+        pairs from coming into collision. If there is no room, some pairs still collide after the last
         sweep.
 
         Parameters
@@ -357,6 +359,8 @@ class Crowd:
             The limit of an agent's move in one sweep, metres.
         largest_shift : float
             The limit of its total move, metres.
+        largest_turn : float
+            The limit of an agent's turn from its heading, radians.
         mobility : (n,) float64, optional
             Weights of moves, from 0 (fixed) to 1. Of two agents, the one with half the mobility moves half as far.
         """
@@ -369,6 +373,7 @@ class Crowd:
             gap=number(gap, "gap"),
             largest_step=number(largest_step, "largest_step"),
             largest_shift=number(largest_shift, "largest_shift"),
+            largest_turn=number(largest_turn, "largest_turn"),
             mobility=None if mobility is None else given(mobility, f8, (len(agents),), "mobility"),
             obstacles=None if obstacles is None else instance(obstacles, Obstacles, "obstacles")._pointer,
         )
@@ -381,6 +386,7 @@ class Crowd:
                 copied(found.left, u4, (found.left_count, 2)),
                 copied(found.agents_at_walls, u4, (found.agents_at_walls_count,)),
                 found.sweeps,
+                copied(found.turn, f8, (found.count,)) if found.turn else np.zeros(found.count),
             )
 
     def by_agent(self) -> Neighbours:

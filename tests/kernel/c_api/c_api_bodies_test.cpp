@@ -224,10 +224,14 @@ TEST(CApiBodies, AnswerAboutCrowdsAsInCpp) {
   options.obstacles = of.c_walls;
   bch_resolved_view resolved;
   for (const std::uint32_t sweeps : {0u, 1u}) {
-    options.sweeps = sweeps;
-    const Crowd::Resolved expected = crowd.resolve(
-        of.set, agents,
-        {.directions = 8, .sweeps = sweeps, .gap = 0.01, .mobility = mobility, .obstacles = &of.walls});
+    options.sweeps = sweeps, options.largest_turn = 0.5 * sweeps;
+    const Crowd::Resolved expected = crowd.resolve(of.set, agents,
+                                                   {.directions = 8,
+                                                    .sweeps = sweeps,
+                                                    .gap = 0.01,
+                                                    .largest_turn = options.largest_turn,
+                                                    .mobility = mobility,
+                                                    .obstacles = &of.walls});
     expect_ok(bch_crowd_body_resolve(of.c_crowd, of.c_set.get(), &of.agents, &options, nullptr, nullptr,
                                      &resolved));
     expect_bytes(resolved.x, resolved.count, expected.x);
@@ -235,6 +239,8 @@ TEST(CApiBodies, AnswerAboutCrowdsAsInCpp) {
     expect_bytes(resolved.left, resolved.left_count, expected.left.span());
     expect_bytes(resolved.agents_at_walls, resolved.agents_at_walls_count, expected.agents_at_walls);
     EXPECT_EQ(resolved.sweeps, expected.sweeps);
+    EXPECT_EQ(resolved.turn == nullptr, sweeps == 0);
+    expect_bytes(resolved.turn, expected.turn.size(), expected.turn);
   }
 }
 

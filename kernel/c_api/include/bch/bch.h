@@ -1137,9 +1137,10 @@ typedef struct bch_resolve_options {
   double largest_shift;           /**< metres, the largest displacement of an agent in all sweeps */
   const double* mobility;         /**< one per agent, from 0 (fixed) to 1; NULL: 1 for all */
   const bch_obstacles* obstacles; /**< which bodies must not touch; may be NULL */
+  double largest_turn;            /**< radians, from an agent's first heading; 0: headings do not change */
 } bch_resolve_options;
 #define BCH_RESOLVE_OPTIONS_INIT \
-  { sizeof(bch_resolve_options), 16, 100, 0.001, 0.05, HUGE_VAL, NULL, NULL }
+  { sizeof(bch_resolve_options), 16, 100, 0.001, 0.05, HUGE_VAL, NULL, NULL, 0 }
 /** Views the new positions, and the collisions that are left. */
 typedef struct bch_resolved_view {
   size_t count;    /**< of agents */
@@ -1150,6 +1151,7 @@ typedef struct bch_resolved_view {
   size_t agents_at_walls_count;
   const uint32_t* agents_at_walls; /**< agents that still touch an obstacle, ascending */
   uint32_t sweeps;             /**< the number of sweeps made */
+  const double* turn;          /**< radians to add to headings, one per agent; NULL: largest_turn is 0 */
 } bch_resolved_view;
 /** Moves agents on the ground, as little as possible, until no two bodies collide and nobody touches an
  * obstacle. `resolve_options` may be NULL. */
