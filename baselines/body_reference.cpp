@@ -35,11 +35,11 @@ BodyReference::BodyReference(const BodySet& bodies) {
 std::vector<Sphere> BodyReference::placed(const Agents& agents, Pair pair) const {
   const auto [a, b] = std::minmax(pair.first, pair.second);
   const FloatPlacement place = float_placement(agents, pair);
-  const float rise = agents.z.empty() ? 0 : static_cast<float>(agents.z[b] - agents.z[a]);
+  const float dz = agents.z.empty() ? 0 : static_cast<float>(agents.z[b] - agents.z[a]);
   std::vector<Sphere> spheres = spheres_[agents.shape[b]];
   for (Sphere& s : spheres)
     s = {place.x + (place.cosine * s.x - place.sine * s.y), place.y + (place.sine * s.x + place.cosine * s.y),
-         rise + s.z, s.radius};
+         dz + s.z, s.radius};
   return spheres;
 }
 

@@ -11,7 +11,7 @@ namespace {
 
 /// Calls visit(point) for all points of what a node holds.
 template <class Visit>
-void visit_held(const Hierarchy& hierarchy, std::uint32_t node, Visit visit) {
+void visit_content(const Hierarchy& hierarchy, std::uint32_t node, Visit visit) {
   const auto [begin, end] = hierarchy.primitive_ranges.at(node);
   for (std::uint32_t i = begin; i < end; ++i) {
     const Hierarchy::Primitive& primitive = hierarchy.primitives[i];
@@ -32,9 +32,9 @@ ExactDisc tight_disc(const Hierarchy& hierarchy, std::uint32_t node) {
   const QuadVector centre{disc.x, disc.y};
   // Only what double may mistake for the farthest is examined slowly.
   double rough = 0;
-  visit_held(hierarchy, node, [&](Vec2 p) { rough = std::max(rough, square_in_double(p, disc)); });
+  visit_content(hierarchy, node, [&](Vec2 p) { rough = std::max(rough, square_in_double(p, disc)); });
   Quad farthest = 0;
-  visit_held(hierarchy, node, [&](Vec2 p) {
+  visit_content(hierarchy, node, [&](Vec2 p) {
     if (square_in_double(p, disc) >= (1 - 1e-14) * rough)
       farthest = std::max(farthest, square(QuadVector{p.x, p.y} - centre));
   });

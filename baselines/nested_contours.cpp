@@ -49,7 +49,7 @@ bool NestedContours::one_may_be_inside(const Contour& a, const Contour& b, Point
 }
 
 /// By the parity of the edges to the point's right.
-bool NestedContours::holds(const Contour& outer, Point2 point) const noexcept {
+bool NestedContours::contains(const Contour& outer, Point2 point) const noexcept {
   bool odd = false;
   Point2 from = exact(points_[outer.end - 1]);
   for (std::uint32_t i = outer.begin; i < outer.end; ++i) {
@@ -71,8 +71,8 @@ bool NestedContours::query(const Agents& agents, Pair pair, const FloatPlacement
     for (const Contour& a : contours_of(agents.shape[first])) {
       if (!one_may_be_inside(a, b, centre)) continue;
       const Placement exactly = placement(agents, pair);
-      if (a.radius > b.radius ? holds(a, exactly.place(points_[b.begin]))
-                              : holds(b, back(exactly, exact(points_[a.begin]))))
+      if (a.radius > b.radius ? contains(a, exactly.place(points_[b.begin]))
+                              : contains(b, back(exactly, exact(points_[a.begin]))))
         return true;
     }
   }

@@ -36,7 +36,7 @@ class NestedContours {
 
   std::span<const Contour> contours_of(std::uint32_t shape) const noexcept;
   static bool one_may_be_inside(const Contour& a, const Contour& b, Point2 b_centre) noexcept;
-  bool holds(const Contour& outer, Point2 point) const noexcept;
+  bool contains(const Contour& outer, Point2 point) const noexcept;
 
   std::vector<Vec2> points_;
   std::vector<Contour> contours_;

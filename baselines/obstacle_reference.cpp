@@ -117,14 +117,14 @@ bool ObstacleReference::collides(const Agents& agents, std::uint32_t agent,
     if (std::all_of(path.begin(), path.end(), overlaps) && (!exact || outline_overlaps(list.nodes[i])))
       return true;
   }
-  return outline_holds(agents, agent, obstacle);
+  return outline_contains(agents, agent, obstacle);
 }
 
-bool ObstacleReference::outline_holds(const Agents& agents, std::uint32_t agent,
-                                      const ReferenceObstacle& obstacle) const {
+bool ObstacleReference::outline_contains(const Agents& agents, std::uint32_t agent,
+                                         const ReferenceObstacle& obstacle) const {
   const Outline& outline = shapes_[agents.shape[agent]].outline;
   const detail::Rotation turn = detail::rotation(agents.heading[agent]);
-  const auto holds = [&](std::span<const Vec2> contour, double x, double y) {
+  const auto contains = [&](std::span<const Vec2> contour, double x, double y) {
     bool odd = false;
     Vec2 a = contour.back();
     for (const Vec2 b : contour) {
@@ -138,7 +138,7 @@ bool ObstacleReference::outline_holds(const Agents& agents, std::uint32_t agent,
     const double dx = segment[0] - agents.x[agent], dy = segment[1] - agents.y[agent];
     const double x = turn.cosine * dx + turn.sine * dy, y = turn.cosine * dy - turn.sine * dx;
     for (std::size_t i = 0; i < outline.contours(); ++i)
-      if (holds(outline.contour(i), x, y)) return true;
+      if (contains(outline.contour(i), x, y)) return true;
     return false;
   });
 }
@@ -198,9 +198,9 @@ ObstacleReference::Gap ObstacleReference::outline_gap(const Agents& agents, std:
   return least;
 }
 
-bool ObstacleReference::holds_the_outline(const Agents& agents, std::uint32_t agent,
-                                          const ReferenceObstacle& obstacle) const {
-  if (!segments_.decide(agents, {agent, agent})) return holds_a_centre(agents, agent, obstacle);
+bool ObstacleReference::contains_the_outline(const Agents& agents, std::uint32_t agent,
+                                             const ReferenceObstacle& obstacle) const {
+  if (!segments_.decide(agents, {agent, agent})) return contains_a_centre(agents, agent, obstacle);
   const Shape& shape = shapes_[agents.shape[agent]];
   const detail::Rotation turn = detail::rotation(agents.heading[agent]);
   return std::any_of(shape.outline.points.begin(), shape.outline.points.end(), [&](Vec2 point) {
@@ -209,8 +209,8 @@ bool ObstacleReference::holds_the_outline(const Agents& agents, std::uint32_t ag
   });
 }
 
-bool ObstacleReference::holds_a_centre(const Agents& agents, std::uint32_t agent,
-                                       const ReferenceObstacle& obstacle) const {
+bool ObstacleReference::contains_a_centre(const Agents& agents, std::uint32_t agent,
+                                          const ReferenceObstacle& obstacle) const {
   const std::span<const Disc> discs = cuts_.of(agents, agent);
   const detail::Rotation turn = detail::rotation(agents.heading[agent]);
   return std::any_of(discs.begin(), discs.end(), [&](const Disc& disc) {

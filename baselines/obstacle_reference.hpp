@@ -32,7 +32,7 @@ class ObstacleReference {
 
   bool collides(const Agents& agents, std::uint32_t agent, const ReferenceObstacle& obstacle) const;
   /// Returns whether the agent's outline holds a point of the obstacle.
-  bool outline_holds(const Agents& agents, std::uint32_t agent, const ReferenceObstacle& obstacle) const;
+  bool outline_contains(const Agents& agents, std::uint32_t agent, const ReferenceObstacle& obstacle) const;
 
   /// Holds the least gap, and of equal ones that of the first disc, then of the first segment, numbered
   /// through all obstacles.
@@ -49,9 +49,10 @@ class ObstacleReference {
                   std::span<const ReferenceObstacle> obstacles) const;
 
   /// Returns whether an area holds the centre of a disc of the cut.
-  bool holds_a_centre(const Agents& agents, std::uint32_t agent, const ReferenceObstacle& obstacle) const;
+  bool contains_a_centre(const Agents& agents, std::uint32_t agent, const ReferenceObstacle& obstacle) const;
   /// Returns whether an area holds something of the agent's outline where segments decide.
-  bool holds_the_outline(const Agents& agents, std::uint32_t agent, const ReferenceObstacle& obstacle) const;
+  bool contains_the_outline(const Agents& agents, std::uint32_t agent,
+                            const ReferenceObstacle& obstacle) const;
 
  private:
   std::span<const Shape> shapes_;

@@ -12,7 +12,7 @@ namespace bch::baselines {
 namespace {
 
 /// Returns how much higher b stands than a.
-double rise(const Agents& agents, std::uint32_t a, std::uint32_t b) {
+double dz(const Agents& agents, std::uint32_t a, std::uint32_t b) {
   return agents.z.empty() ? 0 : agents.z[b] - agents.z[a];
 }
 
@@ -21,7 +21,7 @@ FloatPlacement between(const Agents& agents, std::uint32_t a, std::uint32_t b, c
   const float dx = static_cast<float>(agents.x[b] - agents.x[a]);
   const float dy = static_cast<float>(agents.y[b] - agents.y[a]);
   return {u.cosine * v.cosine + u.sine * v.sine, u.cosine * v.sine - u.sine * v.cosine,
-          u.cosine * dx + u.sine * dy, u.cosine * dy - u.sine * dx, static_cast<float>(rise(agents, a, b))};
+          u.cosine * dx + u.sine * dy, u.cosine * dy - u.sine * dx, static_cast<float>(dz(agents, a, b))};
 }
 
 double without_dust(double value) {
@@ -56,7 +56,7 @@ Placement placement(const Agents& agents, Pair pair) noexcept {
 Placement placement_in_space(const Agents& agents, Pair pair) noexcept {
   Placement there = placement(agents, pair);
   const auto [a, b] = std::minmax(pair.first, pair.second);
-  there.z = without_dust(rise(agents, a, b));
+  there.z = without_dust(dz(agents, a, b));
   return there;
 }
 

@@ -47,7 +47,7 @@ struct Sides {
     return std::min(first, second) > margin || std::max(first, second) < -margin;
   }
   bool on_both_sides() const noexcept {
-    const double sure = detail::rounding::sure_share * margin;
+    const double sure = detail::rounding::sure_fraction * margin;
     return std::max(first, second) > sure && std::min(first, second) < -sure;
   }
 };

@@ -28,7 +28,7 @@ class Welzl {
     shuffle();
     Circle disc = around(points_[0], points_[0]);
     for (std::size_t i = 1; i < points_.size(); ++i)
-      if (!holds(disc, points_[i])) disc = through(i, points_[i]);
+      if (!contains(disc, points_[i])) disc = through(i, points_[i]);
     return disc;
   }
 
@@ -47,17 +47,17 @@ class Welzl {
   Circle through(std::size_t count, Vec2 p) const {
     Circle disc = around(points_[0], p);
     for (std::size_t i = 1; i < count; ++i)
-      if (!holds(disc, points_[i])) disc = through(i, p, points_[i]);
+      if (!contains(disc, points_[i])) disc = through(i, p, points_[i]);
     return disc;
   }
   Circle through(std::size_t count, Vec2 p, Vec2 q) const {
     Circle disc = around(p, q);
     for (std::size_t i = 0; i < count; ++i)
-      if (!holds(disc, points_[i])) disc = around(p, q, points_[i]);
+      if (!contains(disc, points_[i])) disc = around(p, q, points_[i]);
     return disc;
   }
 
-  static bool holds(const Circle& disc, Vec2 p) {
+  static bool contains(const Circle& disc, Vec2 p) {
     const double x = static_cast<double>(p.x) - disc.x, y = static_cast<double>(p.y) - disc.y;
     return x * x + y * y <= disc.square_radius * (1 + 1e-12);
   }

@@ -117,21 +117,21 @@ struct ShapeMaker {
   double threshold;
   const ShapeSetPlan& plan;
   const CostLimits& limits;
-  std::vector<std::optional<PoseShaper>> shapers{characters.size()};
+  std::vector<std::optional<ShapeBuilder>> shape_builders{characters.size()};
 
   ShapeTiming make(const PoseId& source, Shape& made) {
     const LoadedCharacter& from = characters[source.character];
-    auto& shaper = shapers[source.character];
+    auto& shape_builder = shape_builders[source.character];
     try {
-      if (!shaper) {
-        shaper.emplace(from.character, plan, static_cast<float>(threshold));
-        shaper->limit_nodes(limits.nodes);
+      if (!shape_builder) {
+        shape_builder.emplace(from.character, plan, static_cast<float>(threshold));
+        shape_builder->limit_nodes(limits.nodes);
       }
       const auto begin = Clock::now();
-      const Shape& shape = shaper->make_outline(source.at);
+      const Shape& shape = shape_builder->make_outline(source.at);
       require_contours(from, source.at, shape, limits);
       const auto middle = Clock::now();
-      shaper->make_hierarchy();
+      shape_builder->make_hierarchy();
       const ShapeTiming timing{seconds_between(begin, middle), seconds_between(middle, Clock::now())};
       made = shape;
       return timing;

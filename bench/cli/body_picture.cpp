@@ -112,7 +112,7 @@ void draw_spheres(Svg& svg, const View& view, const Subject& subject, const Plac
 void draw_skin(Svg& svg, const View& view, const Subject& subject, const Placement& placement) {
   std::vector<Vec3> seen;
   for (const Vec3& point : subject.skin) seen.push_back(view.turn(point));
-  draw_outline(svg, placement, PoseShaper(subject.character).make_outline(PosedVertices{seen}).outline);
+  draw_outline(svg, placement, ShapeBuilder(subject.character).make_outline(PosedVertices{seen}).outline);
 }
 
 void draw_bones(Svg& svg, const View& view, const Bones& bones, const Placement& placement) {

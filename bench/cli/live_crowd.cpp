@@ -90,11 +90,11 @@ CrowdPicture picture_of(const LiveRun& run) {
     const Disc disc = cylinder(i);
     picture.reach = std::max(picture.reach, std::hypot(double{disc.x}, double{disc.y}) + double{disc.radius});
   }
-  const auto shapers = std::make_shared<std::vector<PoseShaper>>();
-  for (const LoadedCharacter& loaded : run.characters) shapers->emplace_back(loaded.character);
-  picture.body = [&run, &bodies, shapers, cylinder](std::uint32_t agent) {
+  const auto shape_builders = std::make_shared<std::vector<ShapeBuilder>>();
+  for (const LoadedCharacter& loaded : run.characters) shape_builders->emplace_back(loaded.character);
+  picture.body = [&run, &bodies, shape_builders, cylinder](std::uint32_t agent) {
     const PoseId& pose = run.crowd.poses()[agent];
-    return DrawnBody{(*shapers)[pose.character].make_outline(pose.at).outline, cylinder(agent),
+    return DrawnBody{(*shape_builders)[pose.character].make_outline(pose.at).outline, cylinder(agent),
                      bodies.spheres(agent)};
   };
   std::set_difference(run.candidates.begin(), run.candidates.end(), run.collisions.begin(),

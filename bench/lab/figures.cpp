@@ -68,7 +68,7 @@ std::vector<Shape> walking_pair() {
   const Character man = default_male(), woman = default_female();
   const auto walk = [](const Character& character, float seconds) {
     const auto clip = std::ranges::find(character.clips, "walk", &Clip::name) - character.clips.begin();
-    return PoseShaper(character).shape({static_cast<std::uint32_t>(clip), seconds});
+    return ShapeBuilder(character).shape({static_cast<std::uint32_t>(clip), seconds});
   };
   return {walk(man, 0.55f), walk(woman, 2.0f)};
 }

@@ -25,9 +25,9 @@ double disc_gap(const Disc& a, const Disc& b) {
 
 /// Returns where a sector of profiles begins, as a direction; see SectorField of kernel/simd/profile_test.hpp.
 Vec2 sector_begin(unsigned sector) {
-  const double share = (sector % 16 <= 8 ? sector % 16 : 16 - sector % 16) / 8.0;
-  const double x = sector % 32 > 8 && sector % 32 < 24 ? share - 1 : 1 - share,
-               y = sector % 32 > 16 ? -share : share;
+  const double fraction = (sector % 16 <= 8 ? sector % 16 : 16 - sector % 16) / 8.0;
+  const double x = sector % 32 > 8 && sector % 32 < 24 ? fraction - 1 : 1 - fraction,
+               y = sector % 32 > 16 ? -fraction : fraction;
   const double length = std::hypot(x, y);
   return {static_cast<float>(x / length), static_cast<float>(y / length)};
 }
@@ -124,9 +124,9 @@ double inscribed_gap(const ShapeSetView& view) {
 // ---- Traversal.
 
 Disc Traversal::disc(unsigned person, std::uint32_t name, unsigned lane) const {
-  const bool is_window = name >= detail::leaf_window;
-  const std::size_t step = is_window ? view_.trees[person].stride : detail::block_width;
-  const float* const x = view_.nodes + (name & ~detail::leaf_window) + lane;
+  const bool is_leaf_block = name >= detail::leaf_bit;
+  const std::size_t step = is_leaf_block ? view_.trees[person].stride : detail::block_width;
+  const float* const x = view_.nodes + (name & ~detail::leaf_bit) + lane;
   return stands[person].place({x[0], x[step], x[2 * step]});
 }
 
@@ -157,15 +157,15 @@ void Traversal::compare(std::uint32_t a, std::uint32_t b, std::size_t level) {
     for (unsigned j = 0; j < detail::block_width; ++j) {
       if (!(disc_gap(disc(0, a, i), disc(1, b, j)) <= 0)) continue;
       overlapping[0][level].insert(a + i), overlapping[1][level].insert(b + j);
-      if ((a & b) >= detail::leaf_window)
-        leaves.insert({(a & ~detail::leaf_window) + i, (b & ~detail::leaf_window) + j});
+      if ((a & b) >= detail::leaf_bit)
+        leaves.insert({(a & ~detail::leaf_bit) + i, (b & ~detail::leaf_bit) + j});
       else
         compare(child(a, i), child(b, j), level + 1);
     }
 }
 
 std::uint32_t Traversal::child(std::uint32_t name, unsigned lane) const {
-  return name >= detail::leaf_window
+  return name >= detail::leaf_bit
              ? name
              : std::bit_cast<std::uint32_t>(view_.nodes[name + detail::block_names + lane]);
 }

@@ -62,7 +62,7 @@ class Traversal {
 
   /// Returns a disc, of a block or of the cut, in the world.
   Disc disc(unsigned person, std::uint32_t name, unsigned lane) const;
-  Disc leaf(unsigned person, std::uint32_t at) const { return disc(person, at | detail::leaf_window, 0); }
+  Disc leaf(unsigned person, std::uint32_t at) const { return disc(person, at | detail::leaf_bit, 0); }
 
   /// Returns the discs of the topmost block that overlap none.
   std::vector<Disc> top(unsigned person) const;

@@ -40,7 +40,7 @@ class Scenery {
     double half_side;           ///< of a square, of which streets take a tenth
     bool rows, columns;         ///< streets
     double inner, outer, x, y;  ///< of a ring, where outer is not 0
-    bool holds(double px, double py) const;
+    bool contains(double px, double py) const;
   };
 
   std::vector<Layer> layers_;

@@ -48,7 +48,7 @@ Scenery::Scenery(const std::string& kind, std::uint64_t agents, double density) 
     layers_ = {square(1, half)};
 }
 
-bool Scenery::Layer::holds(double px, double py) const {
+bool Scenery::Layer::contains(double px, double py) const {
   if (outer > 0) {
     const double squared = (px - x) * (px - x) + (py - y) * (py - y);
     return squared <= outer * outer && squared >= inner * inner;
@@ -69,7 +69,7 @@ DistributedCrowd::Agent Scenery::agent(std::uint64_t number, std::uint32_t shape
     const double reach = layer.outer > 0 ? layer.outer : layer.half_side;
     agent.x = layer.x + reach * (2 * random.uniform(1) - 1);
     agent.y = layer.y + reach * (2 * random.uniform(1) - 1);
-  } while (!layer.holds(agent.x, agent.y));
+  } while (!layer.contains(agent.x, agent.y));
   return agent;
 }
 

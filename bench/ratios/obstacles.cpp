@@ -106,9 +106,9 @@ struct Floor {
                              : reference.gap(agents, agent, plan.reference))
                           .gap;
     for (const auto& obstacle : plan.reference)
-      if (reference.outline_holds(agents, agent, obstacle) ||
-          (exact ? reference.holds_the_outline(agents, agent, obstacle)
-                 : reference.holds_a_centre(agents, agent, obstacle)))
+      if (reference.outline_contains(agents, agent, obstacle) ||
+          (exact ? reference.contains_the_outline(agents, agent, obstacle)
+                 : reference.contains_a_centre(agents, agent, obstacle)))
         expected = 0;
     expected = std::max(expected, 0.0);
     return expected > limit ? std::isinf(distance)

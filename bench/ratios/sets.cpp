@@ -29,14 +29,14 @@ class Baked {
   Baked(Scene& scene, const ShapeSetPlan& plan, std::vector<PoseId> sources)
       : plan_(plan), sources_(std::move(sources)), prepared_(plan) {
     for (const cli::LoadedCharacter& character : scene.characters())
-      shapers_.emplace_back(character.character, plan, leaf_threshold);
+      shape_builders_.emplace_back(character.character, plan, leaf_threshold);
     set_.emplace(build());
   }
 
   ShapeSet build() {
     ShapeSetBuilder builder(plan_, sources_.size());
     for (std::size_t i = 0; i < sources_.size(); ++i) {
-      prepared_.prepare(shapers_[sources_[i].character].shape(sources_[i].at), i);
+      prepared_.prepare(shape_builders_[sources_[i].character].shape(sources_[i].at), i);
       builder.add(prepared_);
     }
     return std::move(builder).finish();
@@ -53,7 +53,7 @@ class Baked {
  private:
   ShapeSetPlan plan_;
   std::vector<PoseId> sources_;
-  std::vector<PoseShaper> shapers_;
+  std::vector<ShapeBuilder> shape_builders_;
   BuiltShape prepared_;
   std::optional<ShapeSet> set_;
 };
@@ -70,13 +70,13 @@ std::uint32_t by_distance(double metres) {
 /// The scene's crowd, and its shapes and levels as a plan for it has them.
 struct Planned {
   const Workload& workload;
-  SceneUse use;
+  SceneRequirements requirements;
   ScenePlan plan;
   Baked baked;
 
-  Planned(Scene& scene, const SceneUse& of)
+  Planned(Scene& scene, const SceneRequirements& of)
       : workload(scene.workload("crowd")),
-        use(of),
+        requirements(of),
         plan(plan_of(scene)),
         baked(scene, plan.set, plan.shapes) {}
 
@@ -86,13 +86,13 @@ struct Planned {
     for (std::size_t i = 0; i < crowd.size(); ++i)
       agents.push_back({scene.sources()[crowd.shape[i]],
                         std::hypot(crowd.x[i] - 0.5 * crowd.side, crowd.y[i] - 0.5 * crowd.side)});
-    return plan_scene(agents, use);
+    return plan_scene(agents, requirements);
   }
 
   /// Answers are compared with the reference's over the scene's own shapes.
   Contender query(Scene& scene) const {
     const cli::Crowd& crowd = workload.crowd;
-    const detail::AllOptions query{.leaves = use.outlines ? Leaves::segments : Leaves::discs};
+    const detail::AllOptions query{.leaves = requirements.outlines ? Leaves::segments : Leaves::discs};
     return collide_contender(baked.set(),
                              {plan.agent_shape, crowd.x, crowd.y, crowd.heading, plan.agent_level},
                              workload.pairs, query, [&](const Hits& hits) {
@@ -102,8 +102,9 @@ struct Planned {
   }
 };
 
-void add_plan(Scene& scene, const std::string& name, const SceneUse& use) {
-  const auto planned = once([&scene, use] { return std::make_shared<Planned>(scene, use); });
+void add_plan(Scene& scene, const std::string& name, const SceneRequirements& requirements) {
+  const auto planned =
+      once([&scene, requirements] { return std::make_shared<Planned>(scene, requirements); });
   add(name + "/bake", [planned] { return planned().baked.contender(); });
   add(name + "/query", [planned, &scene] { return planned().query(scene); });
 }

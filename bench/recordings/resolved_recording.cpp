@@ -91,8 +91,8 @@ void ResolvedRecording::smooth(std::vector<double>& shift) const {
   std::vector<double> earlier = shift, later = shift, earlier_weight(size(), 1), later_weight(size(), 1);
   const auto add = [&](std::vector<double>& sum, std::vector<double>& weight, std::size_t to,
                        std::size_t from) {
-    const double share = std::exp(-std::abs(seconds_[to] - seconds_[from]) / width_seconds);
-    sum[to] += share * sum[from], weight[to] += share * weight[from];
+    const double fraction = std::exp(-std::abs(seconds_[to] - seconds_[from]) / width_seconds);
+    sum[to] += fraction * sum[from], weight[to] += fraction * weight[from];
   };
   for (std::size_t i = 0; i < size(); ++i)
     if (previous_[i] != no_row) add(earlier, earlier_weight, i, previous_[i]);

@@ -21,11 +21,11 @@ constexpr std::uint32_t fitted_poses = 12;
 
 /// Makes shapes of one character ready for a set, pose by pose.
 struct ShapeWorkshop {
-  PoseShaper shaper;
+  ShapeBuilder shape_builder;
   BuiltShape prepared{ShapeSetPlan{}};
 
   explicit ShapeWorkshop(const Character& character)
-      : shaper(character, {}, static_cast<float>(shape_threshold)) {}
+      : shape_builder(character, {}, static_cast<float>(shape_threshold)) {}
 };
 
 /// Returns something of each character of a scene.
@@ -62,7 +62,7 @@ void BodySubjects::add_outlines() {
   all_.push_back({std::move(subject),
                   [this, workshops](std::size_t shape) {
                     ShapeWorkshop& of = (*workshops)[scene_.sources()[shape].character];
-                    of.prepared.prepare(of.shaper.shape(WorldPose{joints_[shape]}), shape);
+                    of.prepared.prepare(of.shape_builder.shape(WorldPose{joints_[shape]}), shape);
                   },
                   false});
 }

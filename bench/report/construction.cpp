@@ -55,7 +55,7 @@ void time_single(Table& table, std::string_view name, const std::vector<baseline
 }
 
 /// A hierarchy over an outline is timed by its builder, which makes nothing besides.
-void time_structure(Table& table, const Contestant& contender, const std::vector<baselines::Body>& bodies) {
+void time_structure(Table& table, const Contender& contender, const std::vector<baselines::Body>& bodies) {
   if (contender.kind == "single") return time_single(table, contender.name, bodies);
   detail::HierarchyBuilder builder;
   Hierarchy hierarchy;
@@ -69,7 +69,7 @@ void time_structure(Table& table, const Contestant& contender, const std::vector
   });
 }
 
-std::string_view made_from(const Contestant& contender) {
+std::string_view made_from(const Contender& contender) {
   if (contender.is_disc()) return contender.kind == "single" ? "vertices" : "nothing";
   const bool outlined =
       contender.kind == "reference" || baselines::kind(contender.kind).exact == baselines::Truth::outline;
@@ -93,7 +93,7 @@ Table time_stages(Run& run) {
 
 void run_construction(Run& run) {
   Builds builds;
-  for (const Contestant& contender : contenders()) {
+  for (const Contender& contender : contenders()) {
     if (contender.kind == "paper_descent") continue;  // the same tree as the reference's
     time_structure(builds.times, contender, run.scene.bodies());
     builds.add(contender.name, made_from(contender), tree_size(contender, run.scene.bodies()));
@@ -122,7 +122,7 @@ void run_query_time(Run& run) {
   std::vector<Subject> subjects = {subject_of(kernel_name, run.scene.set()),
                                    subject_of(exact_leaves_name, run.scene.set(), {})};
   Structures structures(run.scene);
-  for (const Contestant& contender : contenders()) {
+  for (const Contender& contender : contenders()) {
     subjects.push_back(subject_of(contender.name, structures.of(contender)));
     const TreeSize size = subjects.back().size = tree_size(contender, bodies);
     if (contender.kind != "bch_projected") continue;
@@ -135,7 +135,7 @@ void run_query_time(Run& run) {
     const bench::Workload& workload = run.scene.workload(name);
     require_right(run, subjects[0], bench::disc_query, workload);
     require_right(run, subjects[1], {}, workload);
-    for (const Contestant& contender : contenders()) structures.require_right(contender, workload);
+    for (const Contender& contender : contenders()) structures.require_right(contender, workload);
     tables.time_pairs(workload);
   }
   tables.write("query_time");

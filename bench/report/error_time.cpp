@@ -44,7 +44,7 @@ void add_kernel(Run& run, std::deque<ShapeSet>& sets, std::vector<Subject>& poin
 
 /// FCL's trees, whose times query_time has, would take most of the time.
 void add_others(Run& run, Structures& structures, std::vector<Subject>& points) {
-  for (const Contestant& contender : contenders()) {
+  for (const Contender& contender : contenders()) {
     if (contender.kind == "reference" || contender.kind == "paper_descent" ||
         contender.kind.starts_with("fcl"))
       continue;

@@ -31,11 +31,11 @@ void measure_detail(Run& run, const Character& character, SubjectTables& tables,
   const std::string triangles = fmt::format("{}", character.triangles.size());
   std::vector<baselines::Body> bodies;
   detail::Skinner skinner(character);
-  PoseShaper shaper(character);
+  ShapeBuilder shape_builder(character);
   for (const PoseTime& at : sample_poses(character, std::min(run.sizes().poses, max_costly_poses))) {
     const auto positions = skinner.pose(at);
     const bench::Stopwatch watch(1);
-    const Shape& shape = shaper.shape(at);
+    const Shape& shape = shape_builder.shape(at);
     builds.add({triangles, "BCH outline", bodies.size(), watch.nanoseconds() / 1000});
     bodies.push_back({{positions.begin(), positions.end()}, character.triangles, shape});
   }

@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t counted_pairs = 2'000;
 constexpr double shortest_run = 1e7;  ///< nanoseconds
 
-constexpr Contestant all_contenders[] = {
+constexpr Contender all_contenders[] = {
     {"single cylinder", "single"},
     {"fixed cylinder 0.25 m", "fixed"},
     {"fixed cylinder 0.40 m", "fixed", false, 0.4f},
@@ -100,7 +100,7 @@ TreeSize tree_size(std::span<const Shape> shapes) {
   return mean_size(shapes, [](const Shape& shape) { return size_of(shape.hierarchy); });
 }
 
-TreeSize tree_size(const Contestant& contender, std::span<const baselines::Body> bodies) {
+TreeSize tree_size(const Contender& contender, std::span<const baselines::Body> bodies) {
   const std::string_view kind = contender.kind;
   if (contender.is_disc()) return {1, 0};
   if (kind == "bch_projected") return mean_size(bodies, size_of_projected);
@@ -193,14 +193,14 @@ void SubjectTables::write(const std::string& name) const {
   if (has_slides_) run_.write(name + "_slides", slides_);
 }
 
-std::vector<Contestant> contenders() {
-  std::vector<Contestant> here;
+std::vector<Contender> contenders() {
+  std::vector<Contender> here;
   std::ranges::copy_if(all_contenders, std::back_inserter(here),
-                       [](const Contestant& one) { return bench::has_kind(one.kind); });
+                       [](const Contender& one) { return bench::has_kind(one.kind); });
   return here;
 }
 
-const baselines::Structure& Structures::of(const Contestant& contender) {
+const baselines::Structure& Structures::of(const Contender& contender) {
   const auto found = made_.find(contender.name);
   if (found != made_.end()) return *found->second;
   if (contender.centre && centre_bodies_.empty())
@@ -211,13 +211,13 @@ const baselines::Structure& Structures::of(const Contestant& contender) {
 }
 
 const baselines::Structure& Structures::of(std::string_view name) {
-  const auto* const found = std::ranges::find(all_contenders, name, &Contestant::name);
+  const auto* const found = std::ranges::find(all_contenders, name, &Contender::name);
   if (found == std::end(all_contenders))
     throw std::invalid_argument("no contender '" + std::string(name) + "'");
   return of(*found);
 }
 
-void Structures::require_right(const Contestant& contender, const bench::Workload& workload,
+void Structures::require_right(const Contender& contender, const bench::Workload& workload,
                                std::uint32_t max_depth) {
   const bench::Hits hits = answers(subject_of(contender.name, of(contender), max_depth), workload);
   std::string wrong;

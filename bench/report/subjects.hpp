@@ -136,7 +136,7 @@ class SubjectTables {
 };
 
 /// Represents a structure by the name that tables have for it.
-struct Contestant {
+struct Contender {
   std::string_view name;  ///< "OBB outline"
   std::string_view kind;  ///< of baselines::kinds()
   bool has_depth = false;
@@ -147,23 +147,23 @@ struct Contestant {
 };
 
 /// Returns the paper's structures, then others; those of FCL only where the build has it.
-std::vector<Contestant> contenders();
+std::vector<Contender> contenders();
 
-TreeSize tree_size(const Contestant& contender, std::span<const baselines::Body> bodies);
+TreeSize tree_size(const Contender& contender, std::span<const baselines::Body> bodies);
 
 /// Holds structures over all bodies of a scene, each made when it is first asked for.
 class Structures {
  public:
   explicit Structures(bench::Scene& scene) : scene_(scene) {}
 
-  const baselines::Structure& of(const Contestant& contender);
+  const baselines::Structure& of(const Contender& contender);
   /// Errors:  throws std::invalid_argument on a name that no contender has.
   const baselines::Structure& of(std::string_view name);
 
   /// Checks a structure's answers for a workload of the scene.
   /// Errors:  throws std::runtime_error where wrong_structure() finds the answers wrong, or, for hierarchies
   ///          that are not the scene's, where they differ from those of a kernel over the same hierarchies.
-  void require_right(const Contestant& contender, const bench::Workload& workload,
+  void require_right(const Contender& contender, const bench::Workload& workload,
                      std::uint32_t max_depth = all_depths);
 
  private:

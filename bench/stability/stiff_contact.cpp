@@ -45,8 +45,9 @@ constexpr std::uint32_t free_directions = 64;
 ShapeSet make_shapes() {
   std::vector<Shape> all;
   for (const Character& character : {default_male(), default_female()}) {
-    PoseShaper shaper(character);
-    for (const PoseTime& time : sample_poses(character, people_shapes / 2)) all.push_back(shaper.shape(time));
+    ShapeBuilder shape_builder(character);
+    for (const PoseTime& time : sample_poses(character, people_shapes / 2))
+      all.push_back(shape_builder.shape(time));
   }
   all.push_back(raw_specimen({{-5, -0.2f}, {5, -0.2f}, {5, 0.2f}, {-5, 0.2f}}, 0.02).shape);
   return ShapeSet(all, {.depths = {std::begin(cuts), std::end(cuts)}});

@@ -158,8 +158,8 @@ Quad gap_of_discs(const ExactCut& a, const ExactCut& b, QuadVector at, double re
 /// Returns how far the heights of two agents are apart, metres; exactly.
 Quad gap_of_heights(const PlacedSpecimen& a, const PlacedSpecimen& b) {
   const Heights of_a = a.specimen->shape.heights, of_b = b.specimen->shape.heights;
-  const Quad rise = Quad{b.z} - Quad{a.z};
-  return std::max(Quad{of_b.bottom} + rise - Quad{of_a.top}, Quad{of_a.bottom} - Quad{of_b.top} - rise);
+  const Quad dz = Quad{b.z} - Quad{a.z};
+  return std::max(Quad{of_b.bottom} + dz - Quad{of_a.top}, Quad{of_a.bottom} - Quad{of_b.top} - dz);
 }
 
 /// The plain test: discs in the world's coordinates, everything in one type.

@@ -18,7 +18,7 @@ PoseBaker::PoseBaker(std::vector<BakedCharacter> characters, const ShapeSetPlan&
       plan_(plan),
       threshold_(threshold),
       max_nodes_(max_nodes),
-      shapers_(characters_.size()) {
+      shape_builders_(characters_.size()) {
   validate(plan);
 }
 
@@ -44,19 +44,20 @@ void PoseBaker::add(ShapeSetBuilder& to, std::size_t count,
       });
 }
 
-PoseShaper PoseBaker::shaper_of(std::uint32_t character) const {
-  PoseShaper shaper(*characters_[character].character, plan_, threshold_);
-  if (max_nodes_) shaper.limit_nodes(*max_nodes_);
-  return shaper;
+ShapeBuilder PoseBaker::shape_builder_of(std::uint32_t character) const {
+  ShapeBuilder shape_builder(*characters_[character].character, plan_, threshold_);
+  if (max_nodes_) shape_builder.limit_nodes(*max_nodes_);
+  return shape_builder;
 }
 
 void PoseBaker::prepare(BuiltShape& place, const PoseOfCharacter& source, std::size_t i,
                         const BakeSteps& steps) {
   try {
-    const auto shaper = shapers_[source.character].borrow([&] { return shaper_of(source.character); });
-    const Shape& outline = shaper->make_outline(source.pose);
+    const auto shape_builder =
+        shape_builders_[source.character].borrow([&] { return shape_builder_of(source.character); });
+    const Shape& outline = shape_builder->make_outline(source.pose);
     if (steps.outlined) steps.outlined(i, outline);
-    place.prepare(shaper->make_hierarchy(), i);
+    place.prepare(shape_builder->make_hierarchy(), i);
   } catch (const std::length_error& error) {
     throw std::length_error(name_of(source, i) + error.what());
   } catch (const std::domain_error& error) {

@@ -41,13 +41,13 @@ struct BakeSteps {
 /// bytes for any number of threads. What was learned of the meshes is kept for the next poses.
 class PoseBaker {
  public:
-  /// Takes characters that are valid, and what PoseShaper takes.
+  /// Takes characters that are valid, and what ShapeBuilder takes.
   /// Errors:  throws std::invalid_argument on a bad plan.
   PoseBaker(std::vector<BakedCharacter> characters, const ShapeSetPlan& plan, float threshold,
             std::optional<std::size_t> max_nodes = {});
 
   /// Adds the shapes of `count` poses. After an exception only some of them have been added.
-  /// Errors:  throws what PoseShaper::shape() and `steps` throw, the former with the names of the character and of the clip and time or
+  /// Errors:  throws what ShapeBuilder::shape() and `steps` throw, the former with the names of the character and of the clip and time or
   ///          the pose's number, and std::invalid_argument on a character that is not there.
   void add(ShapeSetBuilder& to, std::size_t count, const std::function<PoseOfCharacter(std::size_t)>& pose_of,
            const BakeSteps& steps = {});
@@ -55,14 +55,14 @@ class PoseBaker {
 
  private:
   void prepare(BuiltShape& place, const PoseOfCharacter& source, std::size_t i, const BakeSteps& steps);
-  PoseShaper shaper_of(std::uint32_t character) const;
+  ShapeBuilder shape_builder_of(std::uint32_t character) const;
   std::string name_of(const PoseOfCharacter& source, std::size_t i) const;
 
   std::vector<BakedCharacter> characters_;
   ShapeSetPlan plan_;
   float threshold_;
   std::optional<std::size_t> max_nodes_;
-  std::vector<Spares<PoseShaper>> shapers_;  ///< by character
+  std::vector<Spares<ShapeBuilder>> shape_builders_;  ///< by character
 };
 
 }  // namespace bch::detail

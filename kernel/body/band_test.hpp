@@ -33,7 +33,7 @@ class BandTest {
   explicit BandTest(const RelativeTransforms<Simd>& transforms) noexcept
       : directions_(transforms), transforms_(transforms) {}
 
-  /// Finds the directions of all pairs of the chunk.
+  /// Finds the directions of all pairs of the packet.
   void place() noexcept { directions_.place(); }
 
   /// Returns the pairs of bands that may meet and that no line separates.

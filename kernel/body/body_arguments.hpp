@@ -16,7 +16,7 @@ struct BodyArguments {
   const BodySetView* bodies;
 };
 
-/// Returns the bodies of a pair of a chunk.
+/// Returns the bodies of a pair of a packet.
 template <class Simd>
 [[gnu::always_inline]] inline PlacedBodies placed_bodies(const BodyArguments& in,
                                                          const RelativeTransforms<Simd>& transforms,

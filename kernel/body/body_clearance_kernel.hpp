@@ -13,7 +13,7 @@
 
 namespace bch::detail {
 
-/// Finds the nearest spheres of every pair of bodies. Chunk by chunk: places B in A's frame, leaves out pairs that a line or a height
+/// Finds the nearest spheres of every pair of bodies. Packet by packet: places B in A's frame, leaves out pairs that a line or a height
 /// keeps farther apart than the limit, and searches the leaves of the rest, one pair after the other.
 template <class Simd>
 class BodyClearanceKernel {
@@ -21,7 +21,7 @@ class BodyClearanceKernel {
   static void run(const BodyClearanceArguments& arguments, std::size_t begin, std::size_t end) noexcept {
     static_assert(sizeof(BodyClearanceKernel) <= 256 * 1024, "what Kernels promises");
     BodyClearanceKernel kernel(arguments);
-    for (; begin < end; begin += chunk_size) {
+    for (; begin < end; begin += packet_size) {
       kernel.transforms_.compute(arguments.in.pairs, begin, end);
       kernel.bands_.place();
       for (std::uint32_t pair = 0; pair < kernel.transforms_.size; ++pair)

@@ -11,7 +11,7 @@
 #include "kernel/body/leaf_search.hpp"
 #include "kernel/body/placed_bodies.hpp"
 #include "kernel/body/sphere_pairs.hpp"
-#include "kernel/simd/chunk_pairs.hpp"
+#include "kernel/simd/packet_pairs.hpp"
 #include "kernel/simd/relative_transforms.hpp"
 
 namespace bch::detail {
@@ -20,7 +20,7 @@ namespace bch::detail {
 /// the other, that is, overlaps it or comes within a gap. That test alone decides a hit; what only saves work rejects nothing that it
 /// accepts (layout/body/sphere_rounding.hpp).
 ///
-/// Pairs are answered in chunks, stage by stage, and each stage leaves fewer of them open: place B in A's frame; separate bands of
+/// Pairs are answered in packets, stage by stage, and each stage leaves fewer of them open: place B in A's frame; separate bands of
 /// height by their supports; accept pairs whose core spheres meet; search the leaves of what is left.
 template <class Simd>
 class BodyKernel {
@@ -28,17 +28,17 @@ class BodyKernel {
   static void run(const BodyArguments& arguments, std::size_t begin, std::size_t end) noexcept {
     static_assert(sizeof(BodyKernel) <= 256 * 1024, "what Kernels promises");
     BodyKernel kernel(arguments);
-    for (; begin < end; begin += chunk_size) {
+    for (; begin < end; begin += packet_size) {
       kernel.transforms_.compute(arguments.pairs, begin, end);
       kernel.gaps_ = arguments.pairs.gaps == nullptr ? nullptr : arguments.pairs.gaps + begin;
-      kernel.answer_chunk(arguments.pairs.states + begin);
+      kernel.answer_packet(arguments.pairs.states + begin);
     }
   }
 
  private:
   explicit BodyKernel(const BodyArguments& arguments) noexcept : in_(arguments), bands_(transforms_) {}
 
-  void answer_chunk(std::uint8_t* states) noexcept {
+  void answer_packet(std::uint8_t* states) noexcept {
     __builtin_memset(states, 0, transforms_.size);
     separate();
     accept<8>(states);
@@ -105,13 +105,13 @@ class BodyKernel {
     return leaves_.run(placed, of_a, of_b, count);
   }
 
-  using List = ChunkPairs<Simd, chunk_size>;
+  using List = PacketPairs<Simd, packet_size>;
 
   const BodyArguments& in_;
-  const float* gaps_ = nullptr;  ///< of the chunk
+  const float* gaps_ = nullptr;  ///< of the packet
   RelativeTransforms<Simd> transforms_;
   BandTest<Simd> bands_;
-  std::uint16_t open_bands_[chunk_size];
+  std::uint16_t open_bands_[packet_size];
   List open_;
   LeafSearch<Simd> leaves_;
 };

@@ -196,7 +196,7 @@ bch_status bch_live_bodies_pose_from_arrays(bch_live_bodies* bodies, const bch_p
                                             uint32_t threads) {
   return guarded([&] {
     bch_live_bodies& of = object_of(bodies, "bodies");
-    const OwnPoses own(poses, of.bodies.set().body_count());
+    const CustomPoses own(poses, of.bodies.set().body_count());
     pose_all(
         of, [&](std::size_t i) { return own[i]; }, threads);
   });

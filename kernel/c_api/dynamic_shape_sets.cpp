@@ -24,27 +24,27 @@ class Workshop {
 
   const BuiltShape& make(const std::shared_ptr<const Character>& character, float threshold, const Pose& pose,
                          std::size_t i, uint32_t shape) {
-    prepared_.prepare(shape_of_pose(shaper(character, threshold), pose, i), shape);
+    prepared_.prepare(shape_of_pose(shape_builder(character, threshold), pose, i), shape);
     return prepared_;
   }
 
  private:
   struct Learned {
     Learned(const std::shared_ptr<const Character>& of, const ShapeSetPlan& plan, float down_to)
-        : character(of), threshold(down_to), shaper(*of, plan, down_to) {}
+        : character(of), threshold(down_to), shape_builder(*of, plan, down_to) {}
 
     const std::shared_ptr<const Character> character;
     const float threshold;
-    PoseShaper shaper;
+    ShapeBuilder shape_builder;
   };
   const ShapeSetPlan plan_;
   BuiltShape prepared_;
   std::list<Learned> learned_;
 
-  PoseShaper& shaper(const std::shared_ptr<const Character>& character, float threshold) {
+  ShapeBuilder& shape_builder(const std::shared_ptr<const Character>& character, float threshold) {
     for (Learned& each : learned_)
-      if (each.character == character && each.threshold == threshold) return each.shaper;
-    return learned_.emplace_back(character, plan_, threshold).shaper;
+      if (each.character == character && each.threshold == threshold) return each.shape_builder;
+    return learned_.emplace_back(character, plan_, threshold).shape_builder;
   }
 };
 
@@ -128,11 +128,11 @@ bch_status bch_dynamic_shape_set_get_shapes(const bch_dynamic_shape_set* set, co
 }
 
 bch_status bch_dynamic_shape_set_replace(bch_dynamic_shape_set* handle, uint32_t shape,
-                                         const bch_pose_shaper* shaper) {
+                                         const bch_shape_builder* shape_builder) {
   return guarded([&] {
     bch_dynamic_shape_set& set = object_of(handle, "set");
     BuiltShape prepared(set.plan);
-    prepared.prepare(made_by(object_of(shaper, "shaper")), shape);
+    prepared.prepare(made_by(object_of(shape_builder, "shape_builder")), shape);
     set.dynamic.replace(shape, prepared);
   });
 }
@@ -158,7 +158,7 @@ bch_status bch_dynamic_shape_set_replace_pose_arrays(bch_dynamic_shape_set* hand
   return guarded([&] {
     bch_dynamic_shape_set& set = object_of(handle, "set");
     const bch_character& of = object_of(character, "character");
-    const OwnPoses own(poses, count);
+    const CustomPoses own(poses, count);
     replace_poses(
         set, of, array_of(shapes, count, "shapes"), [&](std::size_t i) { return own[i]; }, threshold, work);
   });

@@ -45,8 +45,8 @@ constexpr std::string_view kind_of(const bch_live_bodies*) {
 constexpr std::string_view kind_of(const bch_body_set*) {
   return "bch_body_set";
 }
-constexpr std::string_view kind_of(const bch_pose_shaper*) {
-  return "bch_pose_shaper";
+constexpr std::string_view kind_of(const bch_shape_builder*) {
+  return "bch_shape_builder";
 }
 constexpr std::string_view kind_of(const bch_shape_set_builder*) {
   return "bch_shape_set_builder";

@@ -58,13 +58,13 @@ struct bch_animated_shape {
   const bch::AnimatedShape shape;
 };
 
-struct bch_pose_shaper {
-  bch_pose_shaper(const bch_character& of, const bch::ShapeSetPlan& plan, float threshold)
-      : character(of.character), name(of.name), shaper(*character, plan, threshold) {}
+struct bch_shape_builder {
+  bch_shape_builder(const bch_character& of, const bch::ShapeSetPlan& plan, float threshold)
+      : character(of.character), name(of.name), shape_builder(*character, plan, threshold) {}
 
   const std::shared_ptr<const bch::Character> character;
   const std::string name;
-  bch::PoseShaper shaper;
+  bch::ShapeBuilder shape_builder;
   const bch::Shape* made = nullptr;
   bch::PoseTime at = {};
 };

@@ -46,7 +46,7 @@ PoseTime time_of(const Character& character, const bch_pose& pose) {
 
 }  // namespace
 
-OwnPoses::OwnPoses(const bch_pose_arrays* given, std::size_t poses)
+CustomPoses::CustomPoses(const bch_pose_arrays* given, std::size_t poses)
     : arrays_(sized(&required(given, "poses"), bch_pose_arrays BCH_POSE_ARRAYS_INIT, "poses")) {
   const Kind kind = one_of(arrays_.kind, Kind::vertices, "poses->kind");
   const Layout layout = one_of(arrays_.layout, Layout::double_columns, "poses->layout");
@@ -65,7 +65,7 @@ OwnPoses::OwnPoses(const bch_pose_arrays* given, std::size_t poses)
     throw Failure(BCH_INVALID_ARGUMENT, "poses->origins is not NULL, and there are no bone matrices");
 }
 
-Pose OwnPoses::operator[](std::size_t i) const {
+Pose CustomPoses::operator[](std::size_t i) const {
   if (arrays_.kind == BCH_POSED_VERTICES)
     return PosedVertices{{static_cast<const Vec3*>(arrays_.data) + i * arrays_.count, arrays_.count}};
   const bool is_double = arrays_.layout == BCH_DOUBLE_ROWS || arrays_.layout == BCH_DOUBLE_COLUMNS;

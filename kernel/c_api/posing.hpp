@@ -11,10 +11,10 @@
 
 namespace bch::c_api {
 
-/// Returns the shape that a shaper made last.
-inline const Shape& made_by(const bch_pose_shaper& shaper) {
-  if (shaper.made == nullptr) throw Failure(BCH_INVALID_ARGUMENT, "shaper has made no shape");
-  return *shaper.made;
+/// Returns the shape that a shape builder made last.
+inline const Shape& made_by(const bch_shape_builder& shape_builder) {
+  if (shape_builder.made == nullptr) throw Failure(BCH_INVALID_ARGUMENT, "shape_builder has made no shape");
+  return *shape_builder.made;
 }
 
 /// Checks that a character has the clip of a pose.
@@ -35,10 +35,10 @@ inline Pose pose_of(const bch_pose& pose) {
 }
 
 /// Holds poses of the caller's own.
-class OwnPoses {
+class CustomPoses {
  public:
   /// Errors:  throws Failure naming the member, where `poses` of them cannot be in memory.
-  OwnPoses(const bch_pose_arrays* given, std::size_t poses);
+  CustomPoses(const bch_pose_arrays* given, std::size_t poses);
   Pose operator[](std::size_t i) const;
 
  private:
@@ -48,9 +48,9 @@ class OwnPoses {
 
 /// Makes the shape of a pose.
 /// Errors:  names the pose.
-inline const Shape& shape_of_pose(PoseShaper& shaper, const Pose& pose, std::size_t i) {
+inline const Shape& shape_of_pose(ShapeBuilder& shape_builder, const Pose& pose, std::size_t i) {
   try {
-    return shaper.shape(pose);
+    return shape_builder.shape(pose);
   } catch (const std::logic_error& error) {
     const bool large = dynamic_cast<const std::length_error*>(&error) != nullptr;
     throw Failure(large ? BCH_TOO_LARGE : BCH_INVALID_ARGUMENT,

@@ -12,7 +12,7 @@
 
 struct bch_scene_plan {
   bch::ScenePlan plan;
-  std::vector<bch_shape_source> shapes;
+  std::vector<bch_pose_id> shapes;
 };
 
 namespace bch::c_api {
@@ -30,19 +30,19 @@ std::vector<ScenePlan::Agent> scene_agents_of(const bch_scene_agents& given) {
   return agents;
 }
 
-SceneUse use_of(const bch_scene_use& given) {
+SceneRequirements requirements_of(const bch_scene_requirements& given) {
   return {.outlines = given.outlines != 0,
           .heights = given.heights != 0,
           .pose_step = given.pose_step,
           .pairs_per_shape = given.pairs_per_shape};
 }
 
-std::unique_ptr<bch_scene_plan> plan_of(const bch_scene_agents& agents, const bch_scene_use& given) {
-  SceneUse use = use_of(given);
+std::unique_ptr<bch_scene_plan> plan_of(const bch_scene_agents& agents, const bch_scene_requirements& given) {
+  SceneRequirements requirements = requirements_of(given);
   if (agents.depth != nullptr)
-    use.density_depth = [&](double agent) { return agents.depth[static_cast<std::size_t>(agent)]; };
+    requirements.density_depth = [&](double agent) { return agents.depth[static_cast<std::size_t>(agent)]; };
   auto made = std::make_unique<bch_scene_plan>();
-  made->plan = plan_scene(scene_agents_of(agents), use);
+  made->plan = plan_scene(scene_agents_of(agents), requirements);
   for (const PoseId& shape : made->plan.shapes)
     made->shapes.push_back({shape.character, {shape.at.clip, shape.at.seconds}});
   return made;
@@ -71,13 +71,14 @@ bch_status bch_depth_at_density(double people_per_square_metre, uint32_t* depth)
   });
 }
 
-bch_status bch_scene_plan_create(const bch_scene_agents* agents, const bch_scene_use* use,
+bch_status bch_scene_plan_create(const bch_scene_agents* agents, const bch_scene_requirements* requirements,
                                  bch_scene_plan** plan) {
   return guarded([&] {
     required(plan, "plan");
-    hand_out(plan_of(sized(&required(agents, "agents"), bch_scene_agents BCH_SCENE_AGENTS_INIT, "agents"),
-                     sized<bch_scene_use>(use, BCH_SCENE_USE_INIT, "use")),
-             plan);
+    hand_out(
+        plan_of(sized(&required(agents, "agents"), bch_scene_agents BCH_SCENE_AGENTS_INIT, "agents"),
+                sized<bch_scene_requirements>(requirements, BCH_SCENE_REQUIREMENTS_INIT, "requirements")),
+        plan);
   });
 }
 
@@ -91,8 +92,7 @@ bch_status bch_scene_plan_get_set(const bch_scene_plan* handle, bch_plan* set) {
   });
 }
 
-bch_status bch_scene_plan_get_shapes(const bch_scene_plan* plan, const bch_shape_source** shapes,
-                                     size_t* count) {
+bch_status bch_scene_plan_get_shapes(const bch_scene_plan* plan, const bch_pose_id** shapes, size_t* count) {
   return guarded([&] {
     const auto& all = object_of(plan, "plan").shapes;
     required(shapes, "shapes"), required(count, "count");

@@ -8,8 +8,8 @@
 
 #include "kernel/baking/pose_baker.hpp"
 #include "kernel/c_api/arguments.hpp"
+#include "kernel/c_api/custom_characters.hpp"
 #include "kernel/c_api/objects.hpp"
-#include "kernel/c_api/own_characters.hpp"
 #include "kernel/c_api/posing.hpp"
 #include "kernel/c_api/work.hpp"
 #include "layout/base/number_class.hpp"
@@ -128,27 +128,26 @@ void add_baked(bch_shape_set_builder& to, std::span<const bch_character* const> 
   });
 }
 
-/// Adds the shapes of sources.
-void add_sources(bch_shape_set_builder& to, std::span<const bch_character* const> characters,
-                 std::span<const PoseId> sources, const bch_work* given) {
+/// Adds the shapes that pose_ids name.
+void add_pose_ids(bch_shape_set_builder& to, std::span<const bch_character* const> characters,
+                  std::span<const PoseId> pose_ids, const bch_work* given) {
   add_baked(
-      to, characters, sources.size(), given, [&](detail::PoseBaker& baker, const detail::BakeSteps& steps) {
-        baker.add(*to.builder, sources, steps);
+      to, characters, pose_ids.size(), given, [&](detail::PoseBaker& baker, const detail::BakeSteps& steps) {
+        baker.add(*to.builder, pose_ids, steps);
         std::vector<std::optional<ShapeOrigin>> known(characters.size());
-        for (const auto& [character, at] : sources)
+        for (const auto& [character, at] : pose_ids)
           to.origins.origins.push_back(origin_of(to.origins, *characters[character], at, known[character]));
       });
 }
 
-void check_sources(std::span<const bch_character* const> characters,
-                   std::span<const bch_shape_source> sources) {
+void check_pose_ids(std::span<const bch_character* const> characters, std::span<const bch_pose_id> pose_ids) {
   for (const bch_character* const character : characters) object_of(character, "a character of characters");
-  for (std::size_t i = 0; i < sources.size(); ++i) {
-    if (sources[i].character >= characters.size())
-      throw Failure(BCH_OUT_OF_RANGE, "sources[" + std::to_string(i) + "].character is " +
-                                          std::to_string(sources[i].character) + " of " +
+  for (std::size_t i = 0; i < pose_ids.size(); ++i) {
+    if (pose_ids[i].character >= characters.size())
+      throw Failure(BCH_OUT_OF_RANGE, "pose_ids[" + std::to_string(i) + "].character is " +
+                                          std::to_string(pose_ids[i].character) + " of " +
                                           std::to_string(characters.size()));
-    check_pose(*characters[sources[i].character]->character, sources[i].at, i);
+    check_pose(*characters[pose_ids[i].character]->character, pose_ids[i].at, i);
   }
 }
 
@@ -190,10 +189,10 @@ bch_status bch_shape_set_builder_add_poses(bch_shape_set_builder* handle, const 
     const bch_character& of = object_of(character, "character");
     const auto all = array_of(poses, count, "poses");
     check_poses(*of.character, all);
-    std::vector<PoseId> sources;
-    for (const bch_pose& pose : all) sources.push_back({0, {pose.clip, pose.seconds}});
+    std::vector<PoseId> pose_ids;
+    for (const bch_pose& pose : all) pose_ids.push_back({0, {pose.clip, pose.seconds}});
     const bch_character* const characters[] = {&of};
-    add_sources(builder, characters, sources, work);
+    add_pose_ids(builder, characters, pose_ids, work);
   });
 }
 
@@ -204,7 +203,7 @@ bch_status bch_shape_set_builder_add_pose_arrays(bch_shape_set_builder* handle,
     bch_shape_set_builder& builder = object_of(handle, "builder");
     const bch_character& of = object_of(character, "character");
     const bch_character* const characters[] = {&of};
-    const OwnPoses own(poses, count);
+    const CustomPoses own(poses, count);
     add_baked(builder, characters, count, work,
               [&](detail::PoseBaker& baker, const detail::BakeSteps& steps) {
                 const auto pose_of = [&](std::size_t i) { return detail::PoseOfCharacter{0, own[i]}; };
@@ -216,25 +215,26 @@ bch_status bch_shape_set_builder_add_pose_arrays(bch_shape_set_builder* handle,
   });
 }
 
-bch_status bch_shape_set_builder_add_sources(bch_shape_set_builder* handle,
-                                             const bch_character* const* characters, size_t character_count,
-                                             const bch_shape_source* sources, size_t count,
-                                             const bch_work* work) {
+bch_status bch_shape_set_builder_add_pose_ids(bch_shape_set_builder* handle,
+                                              const bch_character* const* characters, size_t character_count,
+                                              const bch_pose_id* pose_ids, size_t count,
+                                              const bch_work* work) {
   return guarded([&] {
     bch_shape_set_builder& builder = object_of(handle, "builder");
     const auto of = array_of(characters, character_count, "characters");
-    const auto all = array_of(sources, count, "sources");
-    check_sources(of, all);
+    const auto all = array_of(pose_ids, count, "pose_ids");
+    check_pose_ids(of, all);
     std::vector<PoseId> shapes;
     for (const auto& [character, at] : all) shapes.push_back({character, {at.clip, at.seconds}});
-    add_sources(builder, of, shapes, work);
+    add_pose_ids(builder, of, shapes, work);
   });
 }
 
-bch_status bch_shape_set_builder_add_shape(bch_shape_set_builder* handle, const bch_pose_shaper* shaper) {
+bch_status bch_shape_set_builder_add_shape(bch_shape_set_builder* handle,
+                                           const bch_shape_builder* shape_builder) {
   return guarded([&] {
     bch_shape_set_builder& builder = object_of(handle, "builder");
-    const bch_pose_shaper& by = object_of(shaper, "shaper");
+    const bch_shape_builder& by = object_of(shape_builder, "shape_builder");
     add(builder, made_by(by), [&](ShapeOrigins& in) { return origin_of(in, by.name, *by.character, by.at); });
   });
 }
@@ -286,13 +286,13 @@ bch_status bch_shape_set_builder_add_mesh(bch_shape_set_builder* handle, const b
     if (triangle_count > SIZE_MAX / 3) throw Failure(BCH_INVALID_ARGUMENT, "triangle_count is too large");
     const Character mesh = character_of_mesh(array_of(positions, position_count, "positions"),
                                              array_of(triangles, 3 * triangle_count, "triangles"));
-    PoseShaper shaper(mesh, builder.plan, builder.threshold);
-    add_without_pose(builder, "mesh", shaper.shape({}));
+    ShapeBuilder shape_builder(mesh, builder.plan, builder.threshold);
+    add_without_pose(builder, "mesh", shape_builder.shape({}));
   });
 }
 
-bch_status bch_shape_set_builder_add_moment(bch_shape_set_builder* handle, const bch_animated_shape* shape,
-                                            double seconds) {
+bch_status bch_shape_set_builder_add_animated_shape(bch_shape_set_builder* handle,
+                                                    const bch_animated_shape* shape, double seconds) {
   return guarded([&] {
     bch_shape_set_builder& builder = object_of(handle, "builder");
     const bch_animated_shape& of = object_of(shape, "shape");
@@ -311,12 +311,12 @@ bch_status bch_bake(const bch_character* const* characters, size_t character_cou
   return guarded([&] {
     const auto of = array_of(characters, character_count, "characters");
     required(set, "set");
-    std::vector<PoseId> sources;
+    std::vector<PoseId> pose_ids;
     for (std::uint32_t i = 0; i < of.size(); ++i)
       for (const PoseTime at : sample_poses(*object_of(of[i], "a character of characters").character, poses))
-        sources.push_back({i, at});
+        pose_ids.push_back({i, at});
     bch_shape_set_builder builder(plan);
-    add_sources(builder, of, sources, work);
+    add_pose_ids(builder, of, pose_ids, work);
     finish(builder, set);
   });
 }

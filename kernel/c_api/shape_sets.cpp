@@ -127,13 +127,13 @@ bch_status bch_shape_set_get_outline(const bch_shape_set* handle, uint32_t shape
   });
 }
 
-bch_status bch_shape_set_verify(const bch_shape_set* set, size_t most, bch_finding finding, void* user,
-                                size_t* count) {
+bch_status bch_shape_set_verify(const bch_shape_set* set, size_t most, bch_inconsistency inconsistency,
+                                void* user, size_t* count) {
   return guarded([&] {
     required(count, "count");
     const std::vector<detail::Inconsistency> found = detail::verify(set_of(set), most);
-    if (finding != nullptr)
-      for (const detail::Inconsistency& each : found) finding(user, text_of(each).c_str());
+    if (inconsistency != nullptr)
+      for (const detail::Inconsistency& each : found) inconsistency(user, text_of(each).c_str());
     *count = found.size();
   });
 }

@@ -76,17 +76,17 @@ struct Owned {
   const Contour& contour;
 };
 
-bool holds(const Arguments& in, const Owned& outer, const Owned& inner) {
+bool contains(const Arguments& in, const Owned& outer, const Owned& inner) {
   const Vec2* const points = in.shapes->points;
   const Vec2 first = points[inner.contour.begin];
   const Placement place = placement(in, inner.agent, outer.agent);
-  return contour_holds(points, outer.contour, place.apply(double{first.x}, double{first.y}));
+  return contour_contains(points, outer.contour, place.apply(double{first.x}, double{first.y}));
 }
 
 }  // namespace
 
 /// By the parity of the edges to its right. Whiskers have each edge twice, in both directions, and cancel.
-bool contour_holds(const Vec2* points, const Contour& contour, PointIn<double> p) noexcept {
+bool contour_contains(const Vec2* points, const Contour& contour, PointIn<double> p) noexcept {
   bool odd = false;
   for (std::uint32_t i = contour.begin, before = contour.end - 1; i < contour.end; before = i++) {
     const double ax = points[before].x, ay = points[before].y;
@@ -115,7 +115,7 @@ bool one_contains_other(const Arguments& in, Pair pair) noexcept {
       const Owned a{agent_a, shapes.contours[i]};
       if (!one_may_be_inside(a.contour.disc, b.contour.disc, centre, slack)) continue;
       const bool is_b_larger = b.contour.disc.radius > a.contour.disc.radius;
-      if (is_b_larger ? holds(in, b, a) : holds(in, a, b)) return true;
+      if (is_b_larger ? contains(in, b, a) : contains(in, a, b)) return true;
     }
   }
   return false;

@@ -12,7 +12,7 @@
 namespace bch::detail {
 
 /// Returns whether a contour contains a point that is not on it; both are in the shape's frame.
-bool contour_holds(const Vec2* points, const Contour& contour, PointIn<double> p) noexcept;
+bool contour_contains(const Vec2* points, const Contour& contour, PointIn<double> p) noexcept;
 
 /// Returns whether a contour of one agent lies inside the other's, for two agents whose cuts do not overlap.
 ///

@@ -23,7 +23,7 @@ namespace bch::detail {
 /// of many pairs overlap and no branch depends on an answer. Ancestors are tested only if leaves overlap. Most pairs end
 /// after a few rounds. The rest wait until more pairs are added, because a round over three pairs takes as long as one
 /// over thirty.
-/// `capacity`: the most undecided pairs; run(enough) makes room for add().
+/// `capacity`: the most undecided pairs; run(stop_below) makes room for add().
 template <class Simd, std::uint32_t capacity>
 class OverlapTraversal {
  public:
@@ -50,9 +50,9 @@ class OverlapTraversal {
     states_[pair] = state_without_hit;
   }
 
-  /// Runs rounds until at most `enough` pairs are undecided.
-  void run(std::uint32_t enough) noexcept {
-    if (size_ > enough) rounds(enough);
+  /// Runs rounds until at most `stop_below` pairs are undecided.
+  void run(std::uint32_t stop_below) noexcept {
+    if (size_ > stop_below) rounds(stop_below);
   }
 
  private:
@@ -90,8 +90,8 @@ class OverlapTraversal {
   /// either, but hardly those of one fused loop. All in one function, because a round over one pair is so short that calls
   /// matter. `noipa`, because GCC 12's interprocedural passes otherwise judge this function to have no effects, and drop
   /// its calls.
-  [[gnu::noipa]] void rounds(std::uint32_t enough) noexcept {
-    while (size_ > enough) {
+  [[gnu::noipa]] void rounds(std::uint32_t stop_below) noexcept {
+    while (size_ > stop_below) {
       const std::uint32_t tests = size_;
       test();
       end_stage<Simd>(Stage::blocks, tests);
@@ -120,14 +120,14 @@ class OverlapTraversal {
     if constexpr (KnowsGaps<Simd>)
       return near_discs<Simd>(pair.b_in_a, Nodes::outer_discs(nodes, a, pair.stride_a),
                               Nodes::outer_discs(nodes, b, pair.stride_b), radius_factor,
-                              (a & b) >= leaf_window ? pair.gaps.leaf : pair.gaps.bound);
+                              (a & b) >= leaf_bit ? pair.gaps.leaf : pair.gaps.bound);
     return overlapping_discs<Simd>(pair.b_in_a, Nodes::discs(nodes, a, pair.stride_a),
                                    Nodes::discs(nodes, b, pair.stride_b));
   }
 
-  /// Returns 1 if both blocks are windows, whose indices have the top bit, leaf_window, else 0.
-  [[gnu::always_inline]] static std::uint32_t both_are_windows(const Traversal& at) noexcept {
-    return (at.a & at.b) / leaf_window;
+  /// Returns 1 if both blocks are leaf blocks, whose indices have the top bit, leaf_bit, else 0.
+  [[gnu::always_inline]] static std::uint32_t both_are_leaf_blocks(const Traversal& at) noexcept {
+    return (at.a & at.b) / leaf_bit;
   }
 
   /// Clears the overlaps of leaves whose segments do not meet or whose ancestors do not all overlap, up to each pair's
@@ -140,7 +140,7 @@ class OverlapTraversal {
     for (std::uint32_t k = 0; k < size_; ++k) {
       const Traversal& at = traversals_[slots_[k]];
       found[count] = static_cast<std::uint16_t>(k);
-      count += both_are_windows(at) & static_cast<std::uint32_t>(overlaps_[k] != 0);
+      count += both_are_leaf_blocks(at) & static_cast<std::uint32_t>(overlaps_[k] != 0);
       if (count == verified_together) [[unlikely]]
         verify(found, count), all += count, count = 0;
     }
@@ -174,8 +174,8 @@ class OverlapTraversal {
       is_compared |= std::uint32_t{1} << i;
       placed_[i] = {at.b_in_a, at.margin};
       const Tree &a = shapes_.trees[at.root_a], &b = shapes_.trees[at.root_b];
-      const Compared& added = compared[pairs++] = {segments_.row(a, at.a & ~leaf_window),
-                                                   segments_.row(b, at.b & ~leaf_window),
+      const Compared& added = compared[pairs++] = {segments_.row(a, at.a & ~leaf_bit),
+                                                   segments_.row(b, at.b & ~leaf_bit),
                                                    a.count,
                                                    b.count,
                                                    overlaps_[which[i]],
@@ -212,23 +212,25 @@ class OverlapTraversal {
   /// side by side, because each step waits for the one before.
   void verify_overlaps(std::uint16_t* which, std::uint32_t count) noexcept {
     const float* const nodes = shapes_.nodes;
-    AncestorPath<Simd>*const above_a = above_a_, *const above_b = above_b_;
+    AncestorPath<Simd>*const ancestors_a = ancestors_a_, *const ancestors_b = ancestors_b_;
     while (count > 0) {
       for (std::uint32_t i = 0; i < count; ++i) {
         const Traversal& at = traversals_[slots_[which[i]]];
         const auto [disc_a, disc_b] = first_overlap(at, overlaps_[which[i]]);
-        above_a[i].begin(nodes, shapes_.trees[at.root_a], disc_a);
-        above_b[i].begin(nodes, shapes_.trees[at.root_b], disc_b);
+        ancestors_a[i].begin(nodes, shapes_.trees[at.root_a], disc_a);
+        ancestors_b[i].begin(nodes, shapes_.trees[at.root_b], disc_b);
       }
       for (std::uint32_t k = 1; k < AncestorPath<Simd>::length; ++k)
-        for (std::uint32_t i = 0; i < count; ++i) above_a[i].step(nodes, k), above_b[i].step(nodes, k);
+        for (std::uint32_t i = 0; i < count; ++i)
+          ancestors_a[i].step(nodes, k), ancestors_b[i].step(nodes, k);
       std::uint32_t left = 0;
       for (std::uint32_t i = 0; i < count; ++i) {
         const std::uint16_t k = which[i];
         const Traversal& at = traversals_[slots_[k]];
         const auto [disc_a, disc_b] = first_overlap(at, overlaps_[k]);
         const PlacedTrees trees{at.b_in_a, shapes_.trees[at.root_a], shapes_.trees[at.root_b], at.reach};
-        const bool stays = AncestorTest<Simd>(nodes, trees, disc_a, disc_b, above_a[i], above_b[i]).passes();
+        const bool stays =
+            AncestorTest<Simd>(nodes, trees, disc_a, disc_b, ancestors_a[i], ancestors_b[i]).passes();
         if (!stays) overlaps_[k] &= overlaps_[k] - 1;
         which[left] = k;
         left += !stays & (overlaps_[k] != 0);
@@ -237,7 +239,7 @@ class OverlapTraversal {
     }
   }
 
-  /// Represents two windows whose leaves are compared by their segments.
+  /// Represents two leaf blocks whose leaves are compared by their segments.
   struct Compared {
     typename SegmentTest<Simd>::Row a, b;
     std::uint32_t leaves_a, leaves_b;  ///< how many each tree has
@@ -248,14 +250,14 @@ class OverlapTraversal {
   struct LeafPair {
     std::uint32_t a, b;  ///< indices in ShapeSetView::nodes
   };
-  /// Returns the leaves of the first overlap of two windows.
+  /// Returns the leaves of the first overlap of two leaf blocks.
   static LeafPair first_overlap(const Traversal& at, std::uint64_t overlaps) noexcept {
     const auto bit = static_cast<unsigned>(__builtin_ctzll(overlaps));
-    return {(at.a & ~leaf_window) + bit / block_width, (at.b & ~leaf_window) + bit % block_width};
+    return {(at.a & ~leaf_bit) + bit / block_width, (at.b & ~leaf_bit) + bit % block_width};
   }
 
   /// Decides pairs whose leaves overlap. For each other pair, pushes the overlaps found, takes the next unvisited one, and
-  /// sets the blocks to test: the children of the two discs, or, if one block is a window already, that window and the
+  /// sets the blocks to test: the children of the two discs, or, if one block is a leaf block already, that leaf block and the
   /// other's child. What is computed for a decided pair is never used, which beats a branch that no processor can predict.
   /// The slots of decided pairs end up behind the others.
   [[gnu::always_inline]] void step() noexcept {
@@ -267,7 +269,7 @@ class OverlapTraversal {
       const std::uint16_t slot = slots_[k];
       Traversal& at = traversals_[slot];
       const std::uint64_t overlaps = overlaps_[k];
-      const std::uint32_t any = overlaps != 0, hit = both_are_windows(at) & any;
+      const std::uint32_t any = overlaps != 0, hit = both_are_leaf_blocks(at) & any;
       states[at.pair] = static_cast<std::uint8_t>(states[at.pair] | hit);
 
       Frame* const frames = frames_[slot];
@@ -292,13 +294,13 @@ class OverlapTraversal {
     std::uint64_t rest = at.unvisited & (at.unvisited - 1);
     const auto bit = static_cast<unsigned>(__builtin_ctzll(at.unvisited | std::uint64_t{1} << 63));
     const unsigned i = bit / block_width, j = bit % block_width;
-    if ((at.a | at.b) < leaf_window) [[likely]]
+    if ((at.a | at.b) < leaf_bit) [[likely]]
       return {Nodes::child(nodes, at.a, i), Nodes::child(nodes, at.b, j), rest};
     std::uint32_t a = at.a, b = at.b;
-    // If one node is a window, only the other node is descended. The next test is of that child and the whole window,
-    // so it covers all overlaps between the child and the window's discs: these are removed from `rest`.
-    if (a < leaf_window) a = Nodes::child(nodes, a, i), rest &= ~(first_row_of_pairs << (bit - j));
-    if (b < leaf_window) b = Nodes::child(nodes, b, j), rest &= ~(first_column_of_pairs << j);
+    // If one node is a leaf block, only the other node is descended. The next test is of that child and the whole leaf block,
+    // so it covers all overlaps between the child and the leaf block's discs: these are removed from `rest`.
+    if (a < leaf_bit) a = Nodes::child(nodes, a, i), rest &= ~(first_row_of_pairs << (bit - j));
+    if (b < leaf_bit) b = Nodes::child(nodes, b, j), rest &= ~(first_column_of_pairs << j);
     return {a, b, rest};
   }
 
@@ -309,8 +311,8 @@ class OverlapTraversal {
   std::uint16_t slots_[capacity];  ///< a permutation: first those of undecided pairs, then free ones
   Traversal traversals_[capacity];
   std::uint64_t overlaps_[capacity];
-  AncestorPath<Simd> above_a_[verified_together],
-      above_b_[verified_together];  ///< of the overlaps that are verified
+  AncestorPath<Simd> ancestors_a_[verified_together],
+      ancestors_b_[verified_together];  ///< of the overlaps that are verified
   PlacedSegments placed_[verified_together];
   SegmentTest<Simd> segments_;
   Frame frames_[capacity][max_frames + 2];

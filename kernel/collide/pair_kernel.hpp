@@ -8,8 +8,8 @@
 
 #include "kernel/collide/overlap_traversal.hpp"
 #include "kernel/simd/arguments.hpp"
-#include "kernel/simd/chunk_pairs.hpp"
 #include "kernel/simd/disc_pairs.hpp"
+#include "kernel/simd/packet_pairs.hpp"
 #include "kernel/simd/profile_test.hpp"
 #include "kernel/simd/relative_transforms.hpp"
 #include "kernel/simd/separating_axis_test.hpp"
@@ -23,7 +23,7 @@ namespace bch::detail {
 /// operation that decides an answer is listed in layout/base/rounding.hpp or in Gaps, and runs in the order listed there,
 /// so that all instantiations and the scalar reference agree bit for bit; what only saves work is conservative.
 ///
-/// Pairs are answered in chunks, stage by stage; "Stages" in kernel/README.md describes these.
+/// Pairs are answered in packets, stage by stage; "Stages" in kernel/README.md describes these.
 template <class Simd>
 class PairKernel {
  public:
@@ -31,21 +31,21 @@ class PairKernel {
     static_assert(sizeof(PairKernel) <= 256 * 1024,
                   "with room for calls within the stack that query.hpp requires");
     PairKernel kernel(arguments);
-    for (; begin < end; begin += chunk_size) {
+    for (; begin < end; begin += packet_size) {
       kernel.transforms_.compute(arguments, begin, end);
       if constexpr (KnowsGaps<Simd>) kernel.transforms_.set_gaps(arguments, begin);
       end_stage<Simd>(Stage::place, kernel.transforms_.size);
-      kernel.answer_chunk(begin);
-      kernel.traversal_.run(max_traversals - chunk_size);
+      kernel.answer_packet(begin);
+      kernel.traversal_.run(max_traversals - packet_size);
     }
     kernel.traversal_.run(0);
   }
 
  private:
   using Float = typename Simd::Float;
-  /// Traversals at one time: those of a chunk, and as many undecided pairs of earlier chunks as fit on the stack.
-  static constexpr std::uint32_t max_traversals = chunk_size + chunk_size * 7 / 8;
-  using List = ChunkPairs<Simd, chunk_size>;
+  /// Traversals at one time: those of a packet, and as many undecided pairs of earlier packets as fit on the stack.
+  static constexpr std::uint32_t max_traversals = packet_size + packet_size * 7 / 8;
+  using List = PacketPairs<Simd, packet_size>;
 
   explicit PairKernel(const Arguments& arguments) noexcept
       : in_(arguments),
@@ -55,8 +55,8 @@ class PairKernel {
         profiles_(shapes_, transforms_, arguments),
         traversal_(shapes_, arguments) {}
 
-  /// Answers the chunk's pairs, but for those that are left to traversals.
-  [[gnu::always_inline]] void answer_chunk(std::size_t begin) noexcept {
+  /// Answers the packet's pairs, but for those that are left to traversals.
+  [[gnu::always_inline]] void answer_packet(std::size_t begin) noexcept {
     states_ = in_.states + begin;
     undecided_.size = likely_.size = 0;
     // Profiles reject more pairs than root discs do. Roots are tested only if there are no profiles, if a cut may be a single
@@ -134,7 +134,7 @@ class PairKernel {
     return (row_a_[k] | row_b_[k]) == single_disc;
   }
 
-  /// Returns whether a pair of the chunk is undecided. In a set of single discs, test_roots() has decided all.
+  /// Returns whether a pair of the packet is undecided. In a set of single discs, test_roots() has decided all.
   bool any_undecided() const noexcept {
     std::uint32_t any = 0;
     for (std::uint32_t k = 0; k < transforms_.whole_registers(); k += Simd::width)
@@ -245,13 +245,13 @@ class PairKernel {
   const Arguments& in_;
   const ShapeSetView shapes_;
   const std::uint8_t state_without_hit_;
-  std::uint8_t* states_ = nullptr;  ///< of the chunk
+  std::uint8_t* states_ = nullptr;  ///< of the packet
   RelativeTransforms<Simd> transforms_;
   SeparatingAxisTest<Simd> axis_test_;
   ProfileTest<Simd> profiles_;
-  alignas(64) std::uint32_t row_a_[chunk_size], row_b_[chunk_size];  ///< of supports; set by test_roots()
+  alignas(64) std::uint32_t row_a_[packet_size], row_b_[packet_size];  ///< of supports; set by test_roots()
   /// One word for each register of pairs: a bit for each of its pairs.
-  std::uint32_t undecided_bits_[chunk_size / Simd::width], may_nest_[chunk_size / Simd::width];
+  std::uint32_t undecided_bits_[packet_size / Simd::width], may_nest_[packet_size / Simd::width];
   List undecided_, likely_, separated_;
   OverlapTraversal<Simd, max_traversals> traversal_;
 };

@@ -26,16 +26,16 @@ namespace bch::detail {
 /// of its ancestors. With exact leaves, segments of the two discs also touch. Handles one pair of agents
 /// after the other.
 ///
-/// Order. "Rows" are the discs of the pair's first agent, "columns" those of the second. A window is a leaf
+/// Order. "Rows" are the discs of the pair's first agent, "columns" those of the second. A leaf block is a leaf
 /// of a flat tree: eight consecutive discs; the nodes above are blocks (layout/format/shape_set_view.hpp).
-/// Row windows are visited from left to right, each with the column nodes that overlap the blocks above it.
-/// So contacts are found in order, except among the eight rows of a window; those are counted first and then
+/// Row leaf blocks are visited from left to right, each with the column nodes that overlap the blocks above it.
+/// So contacts are found in order, except among the eight rows of a leaf block; those are counted first and then
 /// written to their positions.
 ///
-/// Uniqueness. Windows may share discs with their neighbours, but no contact is reported twice. A row is
-/// tested in the last window that contains it: each row window is used only up to the first row of the next
-/// window. The last window begins earlier than the others would let it, so that it has eight discs; its rows
-/// are tested together at the end. A column is tested in the first visited window that contains it.
+/// Uniqueness. Leaf blocks may share discs with their neighbours, but no contact is reported twice. A row is
+/// tested in the last leaf block that contains it: each row leaf block is used only up to the first row of the next
+/// leaf block. The last leaf block begins earlier than the others would let it, so that it has eight discs; its rows
+/// are tested together at the end. A column is tested in the first visited leaf block that contains it.
 ///
 /// Pruning and verification of hits are those of the kernel of collide().
 template <class Simd>
@@ -44,8 +44,8 @@ class ContactKernel {
   static void count(const Arguments& in, std::size_t begin, std::size_t end, std::uint64_t* counts) noexcept {
     for_pairs(in, begin, end, [=](ContactKernel& kernel, std::size_t pair) {
       std::uint64_t sum = 0;
-      kernel.for_row_windows([&](std::uint32_t rows, std::uint64_t mask, const Nodes& columns) {
-        kernel.for_column_windows(rows, mask, columns, [&](std::uint32_t, std::uint64_t hits) {
+      kernel.for_row_leaf_blocks([&](std::uint32_t rows, std::uint64_t mask, const Nodes& columns) {
+        kernel.for_column_leaf_blocks(rows, mask, columns, [&](std::uint32_t, std::uint64_t hits) {
           sum += static_cast<std::uint64_t>(__builtin_popcountll(hits));
         });
       });
@@ -115,15 +115,16 @@ class ContactKernel {
     reach_ = reach_a + reach_b;
     rows_ = shapes_.trees[rows], columns_ = shapes_.trees[columns];
     // Nodes enclose their discs with a margin that suffices for reaches up to this sum: rounding.hpp, VIII.
-    is_conservative_ = (rows_.nodes_hold_discs & columns_.nodes_hold_discs) != 0 &&
-                       reach_ <= float{rounding::held_reaches} * (reach_a < reach_b ? reach_a : reach_b);
+    is_conservative_ =
+        (rows_.conservative_nodes & columns_.conservative_nodes) != 0 &&
+        reach_ <= float{rounding::conservative_ratio} * (reach_a < reach_b ? reach_a : reach_b);
     const bool exact = in_.exact_leaves && rows_.segments != no_segments && columns_.segments != no_segments;
     placed_.margin =
         exact ? segment_margin<Simd>(shapes_, transforms_.shape_a[k], transforms_.shape_b[k]) : 0;
     first_row_ = rows_.discs, first_column_ = columns_.discs;
   }
 
-  /// Sets the current pair for a set of single discs, which has no windows, by making two.
+  /// Sets the current pair for a set of single discs, which has no leaf blocks, by making two.
   void begin_single_discs(const Root& row_disc, const Root& column_disc) noexcept {
     for (DiscBlock& single : singles_)
       for (unsigned i = 0; i < block_width; ++i)
@@ -133,27 +134,27 @@ class ContactKernel {
     singles_[1].radius[0] = column_disc.radius;
     nodes_ = singles_[0].x;
     first_row_ = 0, first_column_ = sizeof(DiscBlock) / sizeof(float);
-    rows_ = {leaf_window | first_row_, first_row_, block_width, 1, 0};
-    columns_ = {leaf_window | first_column_, first_column_, block_width, 1, 0};
+    rows_ = {leaf_bit | first_row_, first_row_, block_width, 1, 0};
+    columns_ = {leaf_bit | first_column_, first_column_, block_width, 1, 0};
   }
 
-  /// Calls visit(window, mask of its own rows, nodes above the columns that may overlap them).
+  /// Calls visit(leaf_block, mask of its own rows, nodes above the columns that may overlap them).
   template <class Visit>
-  void for_row_windows(Visit visit) const noexcept {
+  void for_row_leaf_blocks(Visit visit) const noexcept {
     Nodes columns;
     columns.node[columns.size++] = columns_.top;
     visit_rows(rows_.top, last_rows() + block_width, columns, visit);
-    visit(last_rows() | leaf_window, ~std::uint64_t{0}, columns);
+    visit(last_rows() | leaf_bit, ~std::uint64_t{0}, columns);
   }
 
   /// Returns the index of the first of the last eight rows.
   std::uint32_t last_rows() const noexcept { return first_row_ + rows_.stride - block_width; }
 
-  /// Visits the row windows below a node. `end`: the first row of the node to the right.
+  /// Visits the row leaf blocks below a node. `end`: the first row of the node to the right.
   template <class Visit>
   void visit_rows(std::uint32_t node, std::uint32_t end, const Nodes& columns, Visit& visit) const noexcept {
-    if (node >= leaf_window) {
-      const std::uint32_t begin = node & ~leaf_window;
+    if (node >= leaf_bit) {
+      const std::uint32_t begin = node & ~leaf_bit;
       const std::uint32_t stop = end < last_rows() ? end : last_rows();
       if (begin < stop) visit(node, rows_below(stop - begin), columns);
       return;
@@ -175,28 +176,28 @@ class ContactKernel {
     return lanes < block_width ? (std::uint64_t{1} << (lanes * block_width)) - 1 : ~std::uint64_t{0};
   }
 
-  /// Collects the children of the column nodes that disc i of a row block overlaps; a window is its own
+  /// Collects the children of the column nodes that disc i of a row block overlaps; a leaf block is its own
   /// child.
   /// Returns: whether there is room for all.
   bool children_of_hits(const Nodes& columns, const std::uint64_t* hits, unsigned i,
                         Nodes& below) const noexcept {
     for (std::uint32_t k = 0; k < columns.size; ++k) {
       std::uint64_t of_disc = hits[k] >> (i * block_width) & first_row_of_pairs;
-      const bool is_window = columns.node[k] >= leaf_window;
-      if (is_window && of_disc != 0) of_disc = 1;
+      const bool is_leaf_block = columns.node[k] >= leaf_bit;
+      if (is_leaf_block && of_disc != 0) of_disc = 1;
       for (; of_disc != 0; of_disc &= of_disc - 1) {
         if (below.size == Nodes::capacity) return false;
         const auto j = static_cast<unsigned>(__builtin_ctzll(of_disc));
-        below.node[below.size++] = is_window ? columns.node[k] : child(columns.node[k], j);
+        below.node[below.size++] = is_leaf_block ? columns.node[k] : child(columns.node[k], j);
       }
     }
     return true;
   }
 
-  /// Calls visit(window, hits) for each window of columns with discs that overlap those of a row window.
+  /// Calls visit(leaf_block, hits) for each leaf block of columns with discs that overlap those of a row leaf block.
   template <class Visit>
-  void for_column_windows(std::uint32_t rows, std::uint64_t mask, const Nodes& columns,
-                          Visit visit) const noexcept {
+  void for_column_leaf_blocks(std::uint32_t rows, std::uint64_t mask, const Nodes& columns,
+                              Visit visit) const noexcept {
     std::uint32_t next = 0;
     for (std::uint32_t k = 0; k < columns.size; ++k) visit_columns(rows, mask, columns.node[k], next, visit);
   }
@@ -205,7 +206,7 @@ class ContactKernel {
   void visit_columns(std::uint32_t rows, std::uint64_t mask, std::uint32_t node, std::uint32_t& next,
                      Visit& visit) const noexcept {
     std::uint64_t hits = overlaps_of(rows, node) & mask;
-    if (node >= leaf_window) {
+    if (node >= leaf_bit) {
       hits &= (first_row_of_pairs << visited_lanes(node, next) & first_row_of_pairs) * first_column_of_pairs;
       if (hits != 0) hits = verified(rows, node, hits);
       if (hits != 0) visit(node, hits);
@@ -215,17 +216,17 @@ class ContactKernel {
       if (hits & first_column_of_pairs << j) visit_columns(rows, mask, child(node, j), next, visit);
   }
 
-  /// Returns how many discs of a window were in the windows visited before it, which ended before disc
-  /// `next`. Advances `next` to the end of this window.
-  static std::uint32_t visited_lanes(std::uint32_t window, std::uint32_t& next) noexcept {
-    const std::uint32_t done = next > window ? next - window : 0;
-    next = window + block_width > next ? window + block_width : next;
+  /// Returns how many discs of a leaf block were in the leaf blocks visited before it, which ended before disc
+  /// `next`. Advances `next` to the end of this leaf block.
+  static std::uint32_t visited_lanes(std::uint32_t leaf_block, std::uint32_t& next) noexcept {
+    const std::uint32_t done = next > leaf_block ? next - leaf_block : 0;
+    next = leaf_block + block_width > next ? leaf_block + block_width : next;
     return done < block_width ? done : block_width;
   }
 
   /// Writes all contacts of a pair. Returns: one past the last.
   DiscPair* write_all(DiscPair* out) const noexcept {
-    if ((rows_.top & columns_.top) >= leaf_window) {
+    if ((rows_.top & columns_.top) >= leaf_bit) {
       std::uint64_t hits = verified(rows_.top, columns_.top, overlaps_of(rows_.top, columns_.top));
       for (; hits != 0; hits &= hits - 1) {
         const auto bit = static_cast<unsigned>(__builtin_ctzll(hits));
@@ -233,40 +234,40 @@ class ContactKernel {
       }
       return out;
     }
-    for_row_windows([&](std::uint32_t rows, std::uint64_t mask, const Nodes& columns) {
+    for_row_leaf_blocks([&](std::uint32_t rows, std::uint64_t mask, const Nodes& columns) {
       out = write_rows(rows, mask, columns, out);
     });
     return out;
   }
 
-  /// Writes the contacts of a row window with all column windows, row by row.
+  /// Writes the contacts of a row leaf block with all column leaf blocks, row by row.
   /// Returns: one past the last.
   DiscPair* write_rows(std::uint32_t rows, std::uint64_t mask, const Nodes& columns,
                        DiscPair* out) const noexcept {
     constexpr std::uint32_t max_kept = 16;
-    std::uint32_t count[block_width] = {}, windows = 0, kept[max_kept];
+    std::uint32_t count[block_width] = {}, leaf_blocks = 0, kept[max_kept];
     std::uint64_t kept_hits[max_kept];
-    for_column_windows(rows, mask, columns, [&](std::uint32_t window, std::uint64_t hits) {
+    for_column_leaf_blocks(rows, mask, columns, [&](std::uint32_t leaf_block, std::uint64_t hits) {
       for (unsigned i = 0; i < block_width; ++i)
         count[i] +=
             static_cast<std::uint32_t>(__builtin_popcountll(hits >> (i * block_width) & first_row_of_pairs));
-      if (windows < max_kept) kept[windows] = window, kept_hits[windows] = hits;
-      ++windows;
+      if (leaf_blocks < max_kept) kept[leaf_blocks] = leaf_block, kept_hits[leaf_blocks] = hits;
+      ++leaf_blocks;
     });
     DiscPair* end[block_width];
     for (unsigned i = 0; i < block_width; ++i) end[i] = out, out += count[i];
-    const std::uint32_t first = (rows & ~leaf_window) - first_row_;
-    const auto place = [&](std::uint32_t window, std::uint64_t hits) {
+    const std::uint32_t first = (rows & ~leaf_bit) - first_row_;
+    const auto place = [&](std::uint32_t leaf_block, std::uint64_t hits) {
       for (; hits != 0; hits &= hits - 1) {
         const auto bit = static_cast<unsigned>(__builtin_ctzll(hits));
         *end[bit / block_width]++ = {first + bit / block_width,
-                                     (window & ~leaf_window) - first_column_ + bit % block_width};
+                                     (leaf_block & ~leaf_bit) - first_column_ + bit % block_width};
       }
     };
-    if (windows > max_kept)
-      for_column_windows(rows, mask, columns, place);
+    if (leaf_blocks > max_kept)
+      for_column_leaf_blocks(rows, mask, columns, place);
     else
-      for (std::uint32_t k = 0; k < windows; ++k) place(kept[k], kept_hits[k]);
+      for (std::uint32_t k = 0; k < leaf_blocks; ++k) place(kept[k], kept_hits[k]);
     return out;
   }
 
@@ -279,7 +280,7 @@ class ContactKernel {
     return transposed(overlapping_discs<Simd>(placed_.b_in_a, of_columns, of_rows));
   }
 
-  /// Returns the hits of two leaf windows that their ancestors confirm. Single discs have no ancestors, and
+  /// Returns the hits of two leaf blocks that their ancestors confirm. Single discs have no ancestors, and
   /// conservative nodes overlap wherever discs below them do.
   std::uint64_t verified(std::uint32_t rows, std::uint32_t columns, std::uint64_t hits) const noexcept {
     if (shapes_.trees == nullptr) return hits;
@@ -287,8 +288,8 @@ class ContactKernel {
     std::uint64_t verified = 0;
     for (; hits != 0; hits &= hits - 1) {
       const auto bit = static_cast<unsigned>(__builtin_ctzll(hits));
-      const std::uint32_t row = (rows & ~leaf_window) + bit / block_width,
-                          column = (columns & ~leaf_window) + bit % block_width;
+      const std::uint32_t row = (rows & ~leaf_bit) + bit / block_width,
+                          column = (columns & ~leaf_bit) + bit % block_width;
       const bool passes =
           swapped_ ? is_hit(columns_, column, rows_, row) : is_hit(rows_, row, columns_, column);
       verified |= std::uint64_t{passes} << bit;
@@ -308,11 +309,12 @@ class ContactKernel {
 
   bool is_hit(const Tree& a, std::uint32_t disc_a, const Tree& b, std::uint32_t disc_b) const noexcept {
     if (placed_.margin > 0 && !segments_meet(a, disc_a, b, disc_b)) return false;
-    AncestorPath<Simd> above_a, above_b;
-    above_a.begin(nodes_, a, disc_a), above_b.begin(nodes_, b, disc_b);
+    AncestorPath<Simd> ancestors_a, ancestors_b;
+    ancestors_a.begin(nodes_, a, disc_a), ancestors_b.begin(nodes_, b, disc_b);
     for (std::uint32_t k = 1; k < AncestorPath<Simd>::length; ++k)
-      above_a.step(nodes_, k), above_b.step(nodes_, k);
-    return AncestorTest<Simd>(nodes_, {placed_.b_in_a, a, b, reach_}, disc_a, disc_b, above_a, above_b)
+      ancestors_a.step(nodes_, k), ancestors_b.step(nodes_, k);
+    return AncestorTest<Simd>(nodes_, {placed_.b_in_a, a, b, reach_}, disc_a, disc_b, ancestors_a,
+                              ancestors_b)
         .passes();
   }
 
@@ -340,7 +342,7 @@ class ContactKernel {
   bool swapped_;           ///< the first agent is B
   PlacedSegments placed_;  ///< a margin of 0: discs decide
   float reach_;            ///< of both shapes
-  bool is_conservative_;   ///< Tree::nodes_hold_discs of both, and similar reaches
+  bool is_conservative_;   ///< Tree::conservative_nodes of both, and similar reaches
   const float* nodes_;
   Tree rows_, columns_;
   std::uint32_t first_row_, first_column_;  ///< where their discs begin

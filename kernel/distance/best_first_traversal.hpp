@@ -27,8 +27,8 @@ struct NodePairBounds {
 ///         below them that is up to best(); far_beyond for padding
 ///     float best()
 ///         larger values are ignored; never increases
-///     void measure_windows(at, a, b, first_a, first_b)
-///         compares the values of two leaf windows, which begin at first_a and first_b, with the best
+///     void measure_leaf_blocks(at, a, b, first_a, first_b)
+///         compares the values of two leaf blocks, which begin at first_a and first_b, with the best
 ///
 /// Of two nodes, the children with the least bound are visited first. Children with a bound above the best
 /// are skipped.
@@ -48,8 +48,8 @@ class BestFirstTraversal {
         if (top == frames_) return;
         --top;
         found = extract_next(*top, measure.best(), a, b);
-      } else if ((a & b) >= leaf_window) {
-        measure_windows(at, a, b, stride_a, stride_b, measure);
+      } else if ((a & b) >= leaf_bit) {
+        measure_leaf_blocks(at, a, b, stride_a, stride_b, measure);
         found = extract_next(*top, measure.best(), a, b);
       } else {
         bound(at, a, b, stride_a, stride_b, measure, *++top);
@@ -58,12 +58,12 @@ class BestFirstTraversal {
     }
   }
 
-  /// Measures the discs of two windows.
-  [[gnu::always_inline]] void measure_windows(const Transform& at, std::uint32_t a, std::uint32_t b,
-                                              std::uint32_t stride_a, std::uint32_t stride_b,
-                                              Measure& measure) const noexcept {
-    measure.measure_windows(at, outer_discs(a, stride_a), outer_discs(b, stride_b), a & ~leaf_window,
-                            b & ~leaf_window);
+  /// Measures the discs of two leaf blocks.
+  [[gnu::always_inline]] void measure_leaf_blocks(const Transform& at, std::uint32_t a, std::uint32_t b,
+                                                  std::uint32_t stride_a, std::uint32_t stride_b,
+                                                  Measure& measure) const noexcept {
+    measure.measure_leaf_blocks(at, outer_discs(a, stride_a), outer_discs(b, stride_b), a & ~leaf_bit,
+                                b & ~leaf_bit);
   }
 
   void bound(const Transform& at, std::uint32_t a, std::uint32_t b, std::uint32_t stride_a,
@@ -100,9 +100,9 @@ class BestFirstTraversal {
     return TreeNodes<Simd>::outer_discs(nodes_, node, stride);
   }
 
-  /// Returns the child of a node in a lane; a window is its own child.
+  /// Returns the child of a node in a lane; a leaf block is its own child.
   std::uint32_t child(std::uint32_t node, unsigned lane) const noexcept {
-    return node >= leaf_window ? node : TreeNodes<Simd>::child(nodes_, node, lane);
+    return node >= leaf_bit ? node : TreeNodes<Simd>::child(nodes_, node, lane);
   }
 
  private:
@@ -115,10 +115,10 @@ class BestFirstTraversal {
     const unsigned i = k / block_width, j = k % block_width;
     a = child(frame.a, i), b = child(frame.b, j);
     std::uint64_t extracted = std::uint64_t{1} << k;
-    // If one node is a window, it is visited whole with the child of the other. That visit covers the child's
-    // pairs with all discs of the window, so all of these are extracted.
-    if (frame.a >= leaf_window) extracted |= first_column_of_pairs << j;
-    if (frame.b >= leaf_window) extracted |= first_row_of_pairs << (k - j);
+    // If one node is a leaf block, it is visited whole with the child of the other. That visit covers the child's
+    // pairs with all discs of the leaf block, so all of these are extracted.
+    if (frame.a >= leaf_bit) extracted |= first_column_of_pairs << j;
+    if (frame.b >= leaf_bit) extracted |= first_row_of_pairs << (k - j);
     frame.open &= ~extracted;
   }
 

@@ -18,7 +18,7 @@
 
 namespace bch::detail {
 
-/// Finds the nearest discs of every pair, or with exact leaves the nearest segments. For each chunk of pairs
+/// Finds the nearest discs of every pair, or with exact leaves the nearest segments. For each packet of pairs
 /// the kernel places B in A's frame, bounds the gaps by the root discs, one pair per lane, and traverses the
 /// trees of the pairs that may be within the limit.
 template <class Simd>
@@ -27,7 +27,7 @@ class ClearanceKernel {
   static void run(const ClearanceArguments& arguments, std::size_t begin, std::size_t end) noexcept {
     static_assert(sizeof(ClearanceKernel) <= 256 * 1024, "fits the stack of query.hpp with room for calls");
     ClearanceKernel kernel(arguments);
-    for (; begin < end; begin += chunk_size) kernel.answer_chunk(begin, end);
+    for (; begin < end; begin += packet_size) kernel.answer_packet(begin, end);
   }
 
  private:
@@ -42,7 +42,7 @@ class ClearanceKernel {
         facing_(shapes_),
         search_(shapes_.nodes) {}
 
-  void answer_chunk(std::size_t begin, std::size_t end) noexcept {
+  void answer_packet(std::size_t begin, std::size_t end) noexcept {
     transforms_.compute(arguments_.in, begin, end);
     const std::uint32_t size = transforms_.size;
     of_a_.template load<4>(&shapes_.roots->x, transforms_.root_a, transforms_.whole_registers(),
@@ -141,7 +141,7 @@ class ClearanceKernel {
 
   /// Answers the pairs of a set of single discs.
   void answer_roots(NearestFeatures* nearest) noexcept {
-    alignas(64) float gap[chunk_size], x_of[chunk_size], y_of[chunk_size];
+    alignas(64) float gap[packet_size], x_of[packet_size], y_of[packet_size];
     for (std::uint32_t k = 0; k < transforms_.size; k += Simd::width) {
       const auto [x, y, r] = between_roots(k);
       Simd::store(gap + k, Measure::gap(x, y, r));
@@ -160,8 +160,8 @@ class ClearanceKernel {
   const ShapeSetView shapes_;
   RelativeTransforms<Simd> transforms_;
   RecordFields<Simd> of_a_, of_b_;
-  alignas(64) float root_bound_[chunk_size];
-  std::uint32_t searched_[Search::capacity];  ///< pairs of the chunk
+  alignas(64) float root_bound_[packet_size];
+  std::uint32_t searched_[Search::capacity];  ///< pairs of the packet
   typename Measure::Segments segments_;
   FacingSegments<Simd> facing_;
   static_assert(Measure::Segments::max_searches == Search::capacity);

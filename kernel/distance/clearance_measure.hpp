@@ -62,7 +62,7 @@ class ClearanceMeasure {
   ClearanceMeasure() = default;
 
   /// Measures between the segments of two trees, which have segments, as search `number` of `segments`.
-  /// `probes`: of the first windows, only the two nearest leaves are stored.
+  /// `probes`: of the first leaf blocks, only the two nearest leaves are stored.
   void use_segments(Segments* segments, std::uint32_t number, const Tree& a, const Tree& b, double margin,
                     bool probes) noexcept {
     segments_ = segments, number_ = number, tree_a_ = &a, tree_b_ = &b, probes_ = probes;
@@ -85,7 +85,7 @@ class ClearanceMeasure {
     return rough_gap(x, y, r + Float(slack_per_reach) * reach);
   }
 
-  /// Returns which pairs of two blocks or windows may improve on the best, without square roots:
+  /// Returns which pairs of two blocks or leaf blocks may improve on the best, without square roots:
   ///
   ///     v <= best   =>   sqrt(x^2 + y^2) <= (r + best + u |best|) (1 + 19 u)
   ///
@@ -95,10 +95,10 @@ class ClearanceMeasure {
     return (x * x + y * y) * Float(square_factor) <= sum * sum;
   }
 
-  /// Measures all gaps of two windows before any is compared with the best, because a branch per gap would be
+  /// Measures all gaps of two leaf blocks before any is compared with the best, because a branch per gap would be
   /// unpredictable.
-  [[gnu::always_inline]] void measure_windows(const Transform& at, Discs a, Discs b, std::uint32_t first_a,
-                                              std::uint32_t first_b) noexcept {
+  [[gnu::always_inline]] void measure_leaf_blocks(const Transform& at, Discs a, Discs b,
+                                                  std::uint32_t first_a, std::uint32_t first_b) noexcept {
     if (segments_ != nullptr) return collect_leaves(at, a, b, first_a, first_b);
     alignas(64) float gaps[block_pairs];
     visit_disc_pairs<Simd>(
@@ -109,7 +109,7 @@ class ClearanceMeasure {
     update_from_discs(least, first_a + k / block_width, first_b + k % block_width);
   }
 
-  /// Ends probing: from now on, all leaves are stored. Returns whether there were windows of which only two
+  /// Ends probing: from now on, all leaves are stored. Returns whether there were leaf blocks of which only two
   /// leaves were stored, and their names.
   bool end_probe(std::uint32_t& a, std::uint32_t& b) noexcept {
     const bool probed = probed_a_ != 0;
@@ -153,7 +153,7 @@ class ClearanceMeasure {
     return Simd::select(square <= Float(far_beyond), root - r, Float(far_beyond));
   }
 
-  /// Bounds the least gap of segments by the discs of two windows, and stores the leaves that may contain it.
+  /// Bounds the least gap of segments by the discs of two leaf blocks, and stores the leaves that may contain it.
   [[gnu::noinline]] void collect_leaves(const Transform& at, Discs a, Discs b, std::uint32_t first_a,
                                         std::uint32_t first_b) noexcept {
     alignas(64) float gaps[block_pairs], squares[block_pairs];
@@ -165,7 +165,7 @@ class ClearanceMeasure {
     const float least = least_value<Simd>(gaps);
     if (!(least <= best_)) return;
     if (probes_) {
-      probes_ = false, probed_a_ = first_a | leaf_window, probed_b_ = first_b | leaf_window;
+      probes_ = false, probed_a_ = first_a | leaf_bit, probed_b_ = first_b | leaf_bit;
       const unsigned k = first_within<Simd>(gaps, least);
       return segments_->add(number_, *this, first_a + k / block_width, first_b + k % block_width, gaps[k]);
     }
@@ -214,7 +214,7 @@ class ClearanceMeasure {
   Segments* segments_ = nullptr;
   const Tree *tree_a_, *tree_b_;
   std::uint32_t number_;
-  std::uint32_t probed_a_ = 0, probed_b_ = 0;  ///< windows; 0: none
+  std::uint32_t probed_a_ = 0, probed_b_ = 0;  ///< leaf blocks; 0: none
   bool probes_ = false;
   float margin_;
   Nearest nearest_;

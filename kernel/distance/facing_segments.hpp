@@ -101,8 +101,8 @@ class FacingSegments {
   static Point way(Point from, const Point (&to)[2]) noexcept {
     const Point edge{to[1].x - to[0].x, to[1].y - to[0].y}, back{from.x - to[0].x, from.y - to[0].y};
     const float along = back.x * edge.x + back.y * edge.y, length = square(edge);
-    const float share = along <= 0 ? 0 : along < length ? along / length : 1;
-    return {share * edge.x - back.x, share * edge.y - back.y};
+    const float fraction = along <= 0 ? 0 : along < length ? along / length : 1;
+    return {fraction * edge.x - back.x, fraction * edge.y - back.y};
   }
 
   /// Computes the places of all points. Returns the largest.

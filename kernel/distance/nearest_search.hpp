@@ -47,7 +47,7 @@ class NearestSearch {
     between();
     inner_.size = 0;
     for (Step step{0, 0, 0}; step.pair < size_; ++step.pair)
-      if (pairs_[step.pair].measure.end_probe(step.a, step.b)) measure_windows(step);
+      if (pairs_[step.pair].measure.end_probe(step.a, step.b)) measure_leaf_blocks(step);
     for (std::uint32_t depth = max_kept; depth-- > 0;) {
       for (std::uint32_t pair = 0; pair < size_; ++pair)
         if (depth < pairs_[pair].frames) collect(pair, frames_[pair][depth]);
@@ -97,8 +97,8 @@ class NearestSearch {
       for (std::uint32_t k = 0; k < open; ++k) {
         const Step step = steps_[k];
         Searched& pair = pairs_[step.pair];
-        if ((step.a & step.b) >= leaf_window) {
-          measure_windows(step);
+        if ((step.a & step.b) >= leaf_bit) {
+          measure_leaf_blocks(step);
         } else if (depth == max_kept) {
           traversal_.run(pair.at, step.a, step.b, pair.stride_a, pair.stride_b, pair.measure);
         } else {
@@ -126,15 +126,15 @@ class NearestSearch {
 
   /// Adds the pairs of children whose bits are set.
   void add_children(const Step& step, std::uint64_t bits) noexcept {
-    // A window is visited as a whole, once with each child of the other node.
-    if (step.a >= leaf_window) bits = fold(bits, 8) & first_row_of_pairs;
-    if (step.b >= leaf_window) bits = fold(bits, 1) & first_column_of_pairs;
+    // A leaf block is visited as a whole, once with each child of the other node.
+    if (step.a >= leaf_bit) bits = fold(bits, 8) & first_row_of_pairs;
+    if (step.b >= leaf_bit) bits = fold(bits, 1) & first_column_of_pairs;
     for (; bits != 0; bits &= bits - 1) {
       const auto k = static_cast<unsigned>(__builtin_ctzll(bits));
       const Step child{step.pair, traversal_.child(step.a, k / block_width),
                        traversal_.child(step.b, k % block_width)};
-      if ((child.a & child.b) >= leaf_window)
-        visit_window(child);
+      if ((child.a & child.b) >= leaf_bit)
+        visit_leaf_block(child);
       else if (inner_.size < list_capacity)
         inner_.step[inner_.size++] = child;
       else
@@ -155,10 +155,10 @@ class NearestSearch {
     }
   }
 
-  /// Measures the discs of two windows only if some may improve on the best, which few do. Each improvement
-  /// excludes many of the following windows.
-  void visit_window(const Step& step) noexcept {
-    if (improving(step) != 0) measure_windows(step);
+  /// Measures the discs of two leaf blocks only if some may improve on the best, which few do. Each improvement
+  /// excludes many of the following leaf blocks.
+  void visit_leaf_block(const Step& step) noexcept {
+    if (improving(step) != 0) measure_leaf_blocks(step);
   }
 
   /// Returns the bits of the pairs of discs that may improve on the best value.
@@ -173,9 +173,9 @@ class NearestSearch {
     return bits;
   }
 
-  [[gnu::always_inline]] void measure_windows(const Step& step) noexcept {
+  [[gnu::always_inline]] void measure_leaf_blocks(const Step& step) noexcept {
     Searched& pair = pairs_[step.pair];
-    traversal_.measure_windows(pair.at, step.a, step.b, pair.stride_a, pair.stride_b, pair.measure);
+    traversal_.measure_leaf_blocks(pair.at, step.a, step.b, pair.stride_a, pair.stride_b, pair.measure);
   }
 
   void traverse(const Step& step) noexcept {

@@ -9,13 +9,13 @@
 #include "kernel/distance/time_of_impact_arguments.hpp"
 #include "kernel/distance/time_of_impact_measure.hpp"
 #include "kernel/distance/time_of_impact_traversal.hpp"
-#include "kernel/simd/chunk_pairs.hpp"
+#include "kernel/simd/packet_pairs.hpp"
 #include "kernel/simd/relative_transforms.hpp"
 #include "kernel/simd/separating_axis_test.hpp"
 
 namespace bch::detail {
 
-/// Finds the first contact of every pair, none of which collides at the start. For each chunk of pairs the
+/// Finds the first contact of every pair, none of which collides at the start. For each packet of pairs the
 /// kernel places B in A's frame, rejects by supports the pairs that a line separates during the whole
 /// displacement, and traverses the trees of the rest.
 template <class Simd>
@@ -24,7 +24,7 @@ class TimeOfImpactKernel {
   static void run(const TimeOfImpactArguments& arguments, std::size_t begin, std::size_t end) noexcept {
     static_assert(sizeof(TimeOfImpactKernel) <= 256 * 1024, "what query.hpp promises, and room for calls");
     TimeOfImpactKernel kernel(arguments);
-    for (; begin < end; begin += chunk_size) kernel.answer_chunk(begin, end);
+    for (; begin < end; begin += packet_size) kernel.answer_packet(begin, end);
     kernel.traversal_.run(0);
   }
 
@@ -37,7 +37,7 @@ class TimeOfImpactKernel {
         axis_test_(shapes_, transforms_),
         traversal_(shapes_.nodes, arguments.time) {}
 
-  void answer_chunk(std::size_t begin, std::size_t end) noexcept {
+  void answer_packet(std::size_t begin, std::size_t end) noexcept {
     transforms_.compute(arguments_.in, begin, end);
     const std::uint32_t size = transforms_.size;
     rotate_displacements(arguments_.x + begin, arguments_.y + begin);
@@ -131,11 +131,11 @@ class TimeOfImpactKernel {
 
   const TimeOfImpactArguments& arguments_;
   const ShapeSetView shapes_;
-  alignas(64) float x_[chunk_size], y_[chunk_size];  ///< the chunk's displacements
+  alignas(64) float x_[packet_size], y_[packet_size];  ///< the packet's displacements
   RelativeTransforms<Simd> transforms_;
   SeparatingAxisTest<Simd> axis_test_;
-  std::uint32_t row_a_[chunk_size], row_b_[chunk_size];  ///< rows of the supports, if they are not in order
-  ChunkPairs<Simd, chunk_size> open_;
+  std::uint32_t row_a_[packet_size], row_b_[packet_size];  ///< rows of the supports, if they are not in order
+  PacketPairs<Simd, packet_size> open_;
   TimeOfImpactTraversal<Simd> traversal_;
 };
 

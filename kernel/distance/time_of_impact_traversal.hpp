@@ -7,8 +7,8 @@
 #include <cstdint>
 
 #include "kernel/distance/time_of_impact_measure.hpp"
-#include "kernel/simd/chunk_pairs.hpp"
 #include "kernel/simd/disc_pairs.hpp"
+#include "kernel/simd/packet_pairs.hpp"
 #include "kernel/simd/transform.hpp"
 #include "kernel/simd/tree_nodes.hpp"
 #include "layout/format/shape_set_view.hpp"
@@ -21,7 +21,7 @@ namespace bch::detail {
 ///
 /// 1. bounds of the discs of two nodes;
 /// 2. the least of these bounds;
-/// 3. descent to the two children with the least bound; or, if both nodes are windows (leaves of eight
+/// 3. descent to the two children with the least bound; or, if both nodes are leaf blocks (leaves of eight
 ///    consecutive discs), the time of the two discs with the least bound;
 /// 4. if nothing is left below two nodes, back to the previous two nodes.
 ///
@@ -64,7 +64,7 @@ class TimeOfImpactTraversal {
   using Float = typename Simd::Float;
   using Double = typename Simd::Double;
   using Nodes = TreeNodes<Simd>;
-  using Slots = ChunkPairs<Simd, capacity>;
+  using Slots = PacketPairs<Simd, capacity>;
   /// The depth of a pair's stack: every step descends in at least one tree, and no tree has more than
   /// max_wide_levels levels.
   static constexpr std::uint32_t max_frames = 2 * max_wide_levels;
@@ -111,12 +111,12 @@ class TimeOfImpactTraversal {
   /// Assigns each open pair to its next step. `fresh_` then lists the pairs that descend.
   void choose() noexcept {
     Slots below;
-    windows_.size = missed_.size = 0;
+    leaf_blocks_.size = missed_.size = 0;
     for (std::uint32_t k = 0; k < fresh_.size; ++k) {
       const Open& open = open_[fresh_.pair[k]];
-      const bool hit = open.least <= open.measure.limit(), windows = (open.a & open.b) >= leaf_window;
-      below.add_if(hit & !windows, fresh_.pair[k]);
-      windows_.add_if(hit & windows, fresh_.pair[k]);
+      const bool hit = open.least <= open.measure.limit(), leaf_blocks = (open.a & open.b) >= leaf_bit;
+      below.add_if(hit & !leaf_blocks, fresh_.pair[k]);
+      leaf_blocks_.add_if(hit & leaf_blocks, fresh_.pair[k]);
       missed_.add_if(!hit, fresh_.pair[k]);
     }
     for (std::uint32_t k = 0; k < returning_.size; ++k) {
@@ -137,34 +137,34 @@ class TimeOfImpactTraversal {
     };
     open.a = child(frame.a, i), open.b = child(frame.b, j);
     frame.bound[open.which] = far_beyond;
-    // If one node is a window, it is visited whole with the child of the other. That visit covers the child's
-    // pairs with all discs of the window, so their bounds are closed here.
-    if (frame.a >= leaf_window) [[unlikely]]
+    // If one node is a leaf block, it is visited whole with the child of the other. That visit covers the child's
+    // pairs with all discs of the leaf block, so their bounds are closed here.
+    if (frame.a >= leaf_bit) [[unlikely]]
       close(j, block_width);
-    if (frame.b >= leaf_window) [[unlikely]]
+    if (frame.b >= leaf_bit) [[unlikely]]
       close(i * block_width, 1);
   }
 
-  /// Returns the child of a node in a lane; a window is its own child.
+  /// Returns the child of a node in a lane; a leaf block is its own child.
   std::uint32_t child(std::uint32_t node, unsigned lane) const noexcept {
-    return node >= leaf_window ? node : Nodes::child(nodes_, node, lane);
+    return node >= leaf_bit ? node : Nodes::child(nodes_, node, lane);
   }
 
   /// Computes the times of the discs with the least bounds, which usually exclude all other discs of two
-  /// windows.
+  /// leaf blocks.
   void update_times() noexcept {
-    for (std::uint32_t k = 0; k < windows_.size; ++k) {
-      const Open& open = open_[windows_.pair[k]];
+    for (std::uint32_t k = 0; k < leaf_blocks_.size; ++k) {
+      const Open& open = open_[leaf_blocks_.pair[k]];
       const auto [x, y, r] = disc_pair<Simd>(open.b_in_a, discs_a(open), discs_b(open), open.which);
       x_[k] = x, y_[k] = y, r_[k] = r;
       displacement_x_[k] = open.measure.x(), displacement_y_[k] = open.measure.y();
     }
-    for (std::uint32_t k = 0; k < windows_.size; k += Simd::doubles)
+    for (std::uint32_t k = 0; k < leaf_blocks_.size; k += Simd::doubles)
       Simd::store(time_ + k, Measure::template time_of<Double>(
                                  Simd::load(x_ + k), Simd::load(y_ + k), Simd::load(r_ + k),
                                  Simd::load(displacement_x_ + k), Simd::load(displacement_y_ + k)));
-    for (std::uint32_t k = 0; k < windows_.size; ++k) {
-      Open& open = open_[windows_.pair[k]];
+    for (std::uint32_t k = 0; k < leaf_blocks_.size; ++k) {
+      Open& open = open_[leaf_blocks_.pair[k]];
       open.measure.update(time_[k]);
       const std::uint64_t others =
           all_within<Simd>(open.frame->bound, open.measure.limit()) & ~(std::uint64_t{1} << open.which);
@@ -182,9 +182,9 @@ class TimeOfImpactTraversal {
     }
   }
 
-  /// Returns pairs without useful bounds, and pairs at two windows, which are done, to their previous nodes.
+  /// Returns pairs without useful bounds, and pairs at two leaf blocks, which are done, to their previous nodes.
   void ascend() noexcept {
-    for (std::uint32_t k = 0; k < windows_.size; ++k) missed_.add_if(true, windows_.pair[k]);
+    for (std::uint32_t k = 0; k < leaf_blocks_.size; ++k) missed_.add_if(true, leaf_blocks_.pair[k]);
     returning_.size = 0;
     for (std::uint32_t k = 0; k < missed_.size; ++k) {
       const std::uint16_t slot = missed_.pair[k];
@@ -201,10 +201,10 @@ class TimeOfImpactTraversal {
   const float* const nodes_;
   float* const times_;
   // Slots of pairs of agents. fresh_: those at new nodes. returning_: those back at previous nodes. free_:
-  // unused. In the current round, windows_: those at two windows. missed_: those with nothing left below
+  // unused. In the current round, windows_: those at two leaf blocks. missed_: those with nothing left below
   // their nodes.
   Slots fresh_, returning_, free_;
-  Slots windows_, missed_;
+  Slots leaf_blocks_, missed_;
   std::uint32_t numbered_ = 0;
   alignas(64) double x_[capacity] = {}, y_[capacity] = {}, r_[capacity] = {};
   double displacement_x_[capacity] = {}, displacement_y_[capacity] = {}, time_[capacity];

@@ -19,7 +19,7 @@ namespace bch::detail {
 
 /// Returns the largest gap of leaf discs for a distance; see Gaps.
 inline float gap_of(double distance) noexcept {
-  return rounding::round_up(std::min(distance, static_cast<double>(largest_limit)) * (1 + gap_share));
+  return rounding::round_up(std::min(distance, static_cast<double>(largest_limit)) * (1 + gap_fraction));
 }
 
 /// Validates, and calls run(arguments, size) for the pairs of each task.

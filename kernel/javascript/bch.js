@@ -180,7 +180,7 @@ export function bakePoses(characters, { character, clip, seconds }, plan = {}) {
     const sources = array(Uint32Array, 3 * clip.length);
     const numbers = view(Uint32Array, sources, 3 * clip.length), floats = view(Float32Array, sources, 3 * clip.length);
     for (let i = 0; i < clip.length; ++i) (numbers[3 * i] = character[i]), (numbers[3 * i + 1] = clip[i]), (floats[3 * i + 2] = seconds[i]);
-    call("bch_shape_set_builder_add_sources", builder, pointers(characters), characters.length, sources, clip.length, 0);
+    call("bch_shape_set_builder_add_pose_ids", builder, pointers(characters), characters.length, sources, clip.length, 0);
   });
 }
 

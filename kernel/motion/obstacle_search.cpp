@@ -55,7 +55,7 @@ bool ObstacleSearch::find_near(double from, double end) {
 }
 
 bool ObstacleSearch::is_in_area(double x, double y) {
-  return !near_.areas_that_hold({x, y, {1, 0}}, {0, 0}).empty();
+  return !near_.areas_containing({x, y, {1, 0}}, {0, 0}).empty();
 }
 
 /// Searches key by key of the clip.

@@ -31,13 +31,13 @@ bool is_touched(std::span<const LocalSegment> segments, float x, float y, float 
 }
 
 /// Returns whether an area holds what is in a leaf whose disc is touched. `disc`: its place among the nodes.
-bool leaf_is_held(const ShapeSetView& shapes, const ShapeTree<void>& own, std::uint32_t disc,
-                  bool has_segments, std::span<const LocalSegment> segments, AreaSide& area) {
+bool leaf_is_contained(const ShapeSetView& shapes, const ShapeTree<void>& own, std::uint32_t disc,
+                       bool has_segments, std::span<const LocalSegment> segments, AreaSide& area) {
   if (has_segments) {
     const LeafSegments<void> leaves{shapes.leaf_segments};
     const auto list = leaves.segments(own.tree, disc);
     for (std::uint32_t i = 0; i < list.count; ++i)
-      if (area.holds(shapes.points[list.point(i)])) return true;
+      if (area.contains(shapes.points[list.point(i)])) return true;
     if (list.count != 0) return false;
   }
   if (own.tree.count == 1) return false;
@@ -45,7 +45,7 @@ bool leaf_is_held(const ShapeSetView& shapes, const ShapeTree<void>& own, std::u
   path.begin(own.nodes, own.tree, disc);
   for (;;) {
     const float* const node = own.nodes + std::size_t{path.node[0]} * inner_floats;
-    if (!is_touched(segments, node[0], node[1], node[2]) && area.holds({node[0], node[1]})) return true;
+    if (!is_touched(segments, node[0], node[1], node[2]) && area.contains({node[0], node[1]})) return true;
     path.step(own.nodes, 1);
     if (path.node[1] == path.node[0]) return false;
     path.node[0] = path.node[1];
@@ -120,25 +120,25 @@ NearestObstacle BodyQuery::nearest(std::uint32_t agent, double limit, double sto
 /// Where no segment touches a node, everything below it is on the side of the border on which its centre is. Where they touch a leaf's disc and
 /// not the outline in it, the points of that tell. Where discs decide, a node above a touched leaf may be untouched: blocks do not have all
 /// nodes.
-bool BodyQuery::area_holds(const PlacedBody& body, std::span<const LocalSegment> segments,
-                           std::uint32_t obstacle) {
+bool BodyQuery::area_contains(const PlacedBody& body, std::span<const LocalSegment> segments,
+                              std::uint32_t obstacle) {
   if (obstacles().is_area[obstacle] == 0) return false;
   const ShapeTree<void> own(shapes_, body.root_index());
   const Tree& tree = own.tree;
   AreaSide area(near_, body.place, segments, obstacle);
   const bool has_segments = exact_leaves_ && tree.segments != no_segments;
   const Root& root = body.root();
-  if (!is_touched(segments, root.x, root.y, root.radius)) return area.holds(body.centre());
+  if (!is_touched(segments, root.x, root.y, root.radius)) return area.contains(body.centre());
   const auto visit = [&](std::uint32_t node, OpenBlock& block) {
     const Discs discs = TreeNodes<void>::discs(own.nodes, node, tree.stride);
     for (unsigned lane = 0; lane < block_width; ++lane) {
       const float x = discs.x[lane], y = discs.y()[lane];
       if (!(x < __builtin_inff())) continue;
       if (!is_touched(segments, x, y, discs.radius()[lane])) {
-        if (area.holds({x, y})) return true;
-      } else if (node < leaf_window) {
+        if (area.contains({x, y})) return true;
+      } else if (node < leaf_bit) {
         block.lanes |= 1u << lane;
-      } else if (leaf_is_held(shapes_, own, (node & ~leaf_window) + lane, has_segments, segments, area)) {
+      } else if (leaf_is_contained(shapes_, own, (node & ~leaf_bit) + lane, has_segments, segments, area)) {
         return true;
       }
     }
@@ -147,7 +147,8 @@ bool BodyQuery::area_holds(const PlacedBody& body, std::span<const LocalSegment>
   return own.walk(visit, [](const OpenBlock& block) { return block.first(); });
 }
 
-bool BodyQuery::outline_holds(const PlacedBody& body, std::span<const LocalSegment> segments) const noexcept {
+bool BodyQuery::outline_contains(const PlacedBody& body,
+                                 std::span<const LocalSegment> segments) const noexcept {
   if (shapes_.shape_contours == nullptr) return false;
   const ContourRange contours = shapes_.shape_contours[body.shape];
   for (const LocalSegment& segment : segments) {
@@ -155,7 +156,7 @@ bool BodyQuery::outline_holds(const PlacedBody& body, std::span<const LocalSegme
     const WorldSegment& world = obstacles().segments[segment.slot];
     const auto [x, y] = body.place.turned_back(world.ax - body.place.x, world.ay - body.place.y);
     for (std::uint32_t i = contours.begin; i < contours.end; ++i)
-      if (contour_holds(shapes_.points, shapes_.contours[i], {x, y})) return true;
+      if (contour_contains(shapes_.points, shapes_.contours[i], {x, y})) return true;
   }
   return false;
 }
@@ -170,11 +171,11 @@ bool BodyQuery::has_segment_of(std::uint32_t obstacle) noexcept {
 }
 
 bool BodyQuery::is_inside(const PlacedBody& body) {
-  const auto holds = [&](std::span<const LocalSegment> segments, std::uint32_t obstacle) {
-    return area_holds(body, segments, obstacle);
+  const auto contains = [&](std::span<const LocalSegment> segments, std::uint32_t obstacle) {
+    return area_contains(body, segments, obstacle);
   };
-  return near_.any_obstacle(holds) || visit_areas_beyond(body, [](std::uint32_t) { return false; }) ||
-         outline_holds(body, near_.found());
+  return near_.any_obstacle(contains) || visit_areas_beyond(body, [](std::uint32_t) { return false; }) ||
+         outline_contains(body, near_.found());
 }
 
 }  // namespace bch::detail

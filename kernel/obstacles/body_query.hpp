@@ -86,8 +86,8 @@ class BodyQuery {
     if (body == nullptr) return;
     near_body(*body);
     const bool stop = near_.any_obstacle([&](std::span<const LocalSegment> segments, std::uint32_t obstacle) {
-      const bool hit =
-          touches(*body, segments) || area_holds(*body, segments, obstacle) || outline_holds(*body, segments);
+      const bool hit = touches(*body, segments) || area_contains(*body, segments, obstacle) ||
+                       outline_contains(*body, segments);
       return hit && !found(obstacle);
     });
     if (!stop) visit_areas_beyond(*body, found);
@@ -106,13 +106,13 @@ class BodyQuery {
   bool is_inside(const PlacedBody& body);
   /// Returns whether an obstacle is an area that contains a part of a body which touches none of the area's segments.
   /// `segments` are those of the area that are near the body.
-  bool area_holds(const PlacedBody& body, std::span<const LocalSegment> segments, std::uint32_t obstacle);
+  bool area_contains(const PlacedBody& body, std::span<const LocalSegment> segments, std::uint32_t obstacle);
   /// Calls found(obstacle) for the areas that contain a body and have no segment near it, until found() returns false.
   /// Returns: whether found() returned false.
   template <class Found>
   bool visit_areas_beyond(const PlacedBody& body, const Found& found) {
     if (is_too_large_for_areas(body.root())) return false;
-    for (const std::uint32_t area : near_.areas_that_hold(body.place, body.centre()))
+    for (const std::uint32_t area : near_.areas_containing(body.place, body.centre()))
       if (!has_segment_of(area) && !found(area)) return true;
     return false;
   }
@@ -154,7 +154,7 @@ class BodyQuery {
   }
   bool touches(const PlacedBody& body, std::span<const LocalSegment> segments) const noexcept;
   /// Returns whether the outline of a body contains the first point of a polyline that it does not touch.
-  bool outline_holds(const PlacedBody& body, std::span<const LocalSegment> segments) const noexcept;
+  bool outline_contains(const PlacedBody& body, std::span<const LocalSegment> segments) const noexcept;
 
   bool is_too_large_for_areas(const Root& root) const noexcept {
     return 2 * double{root.radius} > obstacles().widest_area;

@@ -27,7 +27,7 @@ ExitMove ExitMoves::longest() {
     find_touched(segments);
     if (!touched_.empty())
       keep_longer(longest, is_post() ? from_post(*touched_.front()) : shortest(segments));
-    else if (query_.area_holds(body_, segments, obstacle))
+    else if (query_.area_contains(body_, segments, obstacle))
       areas.push_back(obstacle);
     return false;
   });

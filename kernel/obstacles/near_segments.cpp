@@ -125,7 +125,7 @@ std::span<LocalSegment> NearSegments::find_along(const ObstaclePlace& place, Vec
 }
 
 void NearSegments::prepare(std::span<const NearQuery> queries) {
-  queries_ = queries, body_ = {}, held_.reset();
+  queries_ = queries, body_ = {}, of_point_.reset();
   boxes_.clear();
   for (const auto& [place, centre, distance, body] : queries)
     boxes_.push_back(box_about(place, in_world(place, centre), distance, {0, 0}));
@@ -146,7 +146,7 @@ void NearSegments::prepare(std::span<const NearQuery> queries) {
 }
 
 std::span<LocalSegment> NearSegments::take(std::size_t query) {
-  body_ = queries_[query].body, held_.reset();
+  body_ = queries_[query].body, of_point_.reset();
   const std::uint32_t begin = prepared_end_[query];
   return sorted(std::span(prepared_).subspan(begin, prepared_end_[query + 1] - begin));
 }
@@ -158,11 +158,11 @@ std::span<LocalSegment> NearSegments::sorted(std::span<LocalSegment> segments) {
   return found_ = segments;
 }
 
-std::span<const std::uint32_t> NearSegments::areas_that_hold(const ObstaclePlace& place, Vec2 point) {
+std::span<const std::uint32_t> NearSegments::areas_containing(const ObstaclePlace& place, Vec2 point) {
   const Vector from = place.turned(point.x, point.y);
   const AgentPoint at{place.x, place.y, from.x, from.y};
-  if (at == held_) return areas_;
-  held_ = at;
+  if (at == of_point_) return areas_;
+  of_point_ = at;
   areas_.clear(), about_.clear();
   const double wide = rounding_of(place), x = place.x + from.x, y = place.y + from.y;
   Box ray{x - wide, y - wide, x + wide, y + wide};
@@ -184,22 +184,22 @@ std::span<const std::uint32_t> NearSegments::areas_that_hold(const ObstaclePlace
   return areas_;
 }
 
-bool AreaSide::holds(Vec2 point) {
+bool AreaSide::contains(Vec2 point) {
   const Vector at = place_.turned(double{point.x}, double{point.y});
   if (!is_known_) {
-    const auto areas = near_.areas_that_hold(place_, point);
+    const auto areas = near_.areas_containing(place_, point);
     is_known_ = true, first_ = at;
-    return first_is_held_ = std::binary_search(areas.begin(), areas.end(), obstacle_);
+    return first_is_contained_ = std::binary_search(areas.begin(), areas.end(), obstacle_);
   }
   const Vector displacement{at.x - first_.x, at.y - first_.y};
   const double square = displacement.x * displacement.x + displacement.y * displacement.y;
-  bool is_held = first_is_held_;
+  bool is_contained = first_is_contained_;
   for (const LocalSegment& segment : segments_) {
     const WorldSegment& world = near_.obstacles().segments[segment.slot];
-    is_held ^= crosses(first_, displacement, square, {world.ax - place_.x, world.ay - place_.y},
-                       {world.bx - place_.x, world.by - place_.y});
+    is_contained ^= crosses(first_, displacement, square, {world.ax - place_.x, world.ay - place_.y},
+                            {world.bx - place_.x, world.by - place_.y});
   }
-  return is_held;
+  return is_contained;
 }
 
 }  // namespace bch::detail

@@ -105,7 +105,7 @@ class NearSegments {
 
   /// Returns the areas that contain a point of the agent's frame, ascending: by the parity of their segments that a ray crosses,
   /// one ray for all areas. An area whose border is next to the point may be missing or not. Valid until the next call.
-  std::span<const std::uint32_t> areas_that_hold(const ObstaclePlace& place, Vec2 point);
+  std::span<const std::uint32_t> areas_containing(const ObstaclePlace& place, Vec2 point);
 
  private:
   /// Finds the boxes of a tree that overlap `boxes_`, level by level, and writes them to hits_, query after query. Returns: how
@@ -153,7 +153,7 @@ class NearSegments {
   const Implementation& implementation_;
   const ObstacleView& obstacles_;
   std::vector<std::uint32_t> about_, areas_;
-  std::optional<AgentPoint> held_;  ///< the point that areas_ contain
+  std::optional<AgentPoint> of_point_;  ///< the point that areas_ contain
   std::vector<Box> boxes_;
   std::vector<BoxHit> hits_, next_;
   NearestBoxes nearest_boxes_;
@@ -173,14 +173,14 @@ class AreaSide {
            std::uint32_t obstacle) noexcept
       : near_(near), place_(place), segments_(segments), obstacle_(obstacle) {}
 
-  bool holds(Vec2 point);
+  bool contains(Vec2 point);
 
  private:
   NearSegments& near_;
   const ObstaclePlace& place_;
   std::span<const LocalSegment> segments_;
   std::uint32_t obstacle_;
-  bool is_known_ = false, first_is_held_ = false;
+  bool is_known_ = false, first_is_contained_ = false;
   ObstaclePlace::Vector first_{};
 };
 

@@ -47,9 +47,9 @@ class ObstacleKernel {
     if (in_.shapes->inscribed != nullptr && any_goes_in()) return true;
     const auto visit = [&](std::uint32_t node, OpenBlock& block) {
       block.lanes = touching(TreeNodes<Simd>::discs(nodes_, node, tree_.stride));
-      if (node < leaf_window) return false;
+      if (node < leaf_bit) return false;
       for (; block.lanes != 0; block.lanes &= block.lanes - 1) {
-        const std::uint32_t disc = (node & ~leaf_window) + block.first();
+        const std::uint32_t disc = (node & ~leaf_bit) + block.first();
         const Meeting meeting = exact_ ? outline_meets(disc) : Meeting::within_margin;
         if (meeting == Meeting::sure || (meeting == Meeting::within_margin && ancestors_touch(disc)))
           return true;
@@ -182,7 +182,7 @@ class ObstacleKernel {
     const double reach = double{tree_.outer_radius} + limit;
     if (reach < 0 || square_from_root(segment) > reach * reach) return;
     const auto visit = [&](std::uint32_t node, OpenBlock& block) {
-      if (node < leaf_window) return open(segment, limit, block), false;
+      if (node < leaf_bit) return open(segment, limit, block), false;
       if (take(segment, node, limit, best)) limit = limit_of(segment, best);
       return may_stop(stop_below, best);
     };
@@ -228,7 +228,7 @@ class ObstacleKernel {
     return bound > limit ? block_width : found;
   }
 
-  /// Improves `best` by the leaves of a window. Returns: whether it did.
+  /// Improves `best` by the leaves of a leaf block. Returns: whether it did.
   bool take(const LocalSegment& segment, std::uint32_t node, double limit, ObstacleGap& best) const noexcept {
     const Discs discs = TreeNodes<Simd>::discs(nodes_, node, tree_.stride);
     alignas(64) double square[block_width], gap[block_width];
@@ -236,7 +236,7 @@ class ObstacleKernel {
     if (left == 0) return false;
     for (unsigned k = 0; k < block_width; k += Simd::doubles)
       Simd::store(gap + k, gaps(segment, discs, k, square));
-    const std::uint32_t first = node & ~leaf_window;
+    const std::uint32_t first = node & ~leaf_bit;
     bool improved = false;
     for (; left != 0; left &= left - 1) {
       const auto lane = static_cast<unsigned>(__builtin_ctz(left));

@@ -68,7 +68,7 @@ void find_time(const PlacedBody& body, const LocalSegment& segment, Vector displ
     for (unsigned lane = 0; lane < block_width; ++lane) {
       const Disc disc{discs.x[lane], discs.y()[lane], discs.radius()[lane]};
       if (!(disc.x < __builtin_inff()) || passes(segment, disc, displacement, std::min(best, 1.0))) continue;
-      if (node < leaf_window)
+      if (node < leaf_bit)
         block.lanes |= 1u << lane;
       else
         best = std::min(best, touch_time(segment, disc, displacement));

@@ -21,7 +21,7 @@ struct OpenBlock {
   }
 };
 
-/// Holds the tree of a shape's level. Sets of single discs store no trees: then it makes a window of the disc. (`Simd` keeps
+/// Holds the tree of a shape's level. Sets of single discs store no trees: then it makes a leaf block of the disc. (`Simd` keeps
 /// instruction sets from sharing a function.)
 template <class Simd>
 struct ShapeTree {
@@ -34,10 +34,10 @@ struct ShapeTree {
       return;
     }
     const Root& only = shapes.roots[root];
-    for (float& number : window_) number = 0;
-    for (unsigned lane = 0; lane < block_width; ++lane) window_[lane] = __builtin_inff();
-    window_[0] = only.x, window_[block_width] = only.y, window_[2 * block_width] = only.radius;
-    nodes = window_, tree = {leaf_window, 0, block_width, 1, only.radius};
+    for (float& number : leaf_block_) number = 0;
+    for (unsigned lane = 0; lane < block_width; ++lane) leaf_block_[lane] = __builtin_inff();
+    leaf_block_[0] = only.x, leaf_block_[block_width] = only.y, leaf_block_[2 * block_width] = only.radius;
+    nodes = leaf_block_, tree = {leaf_bit, 0, block_width, 1, only.radius};
   }
   ShapeTree(const ShapeTree&) = delete;
 
@@ -45,7 +45,7 @@ struct ShapeTree {
   /// into, and next(block) returns which of them is next, or block_width. Returns: whether visit() ended the walk.
   template <class Visit, class Next>
   bool walk(const Visit& visit, const Next& next) const {
-    OpenBlock open[max_wide_levels + 1];  // the last one for windows, which set no lanes
+    OpenBlock open[max_wide_levels + 1];  // the last one for leaf blocks, which set no lanes
     OpenBlock* top = open;
     std::uint32_t node = tree.top;
     for (;;) {
@@ -64,7 +64,7 @@ struct ShapeTree {
   }
 
  private:
-  float window_[3 * block_width];
+  float leaf_block_[3 * block_width];
 };
 
 }  // namespace bch::detail

@@ -32,7 +32,7 @@ bool is_clear(const NearestSegment& nearest) noexcept {
 
 }  // namespace
 
-double SphereQuery::rise(float bottom, float top, std::uint32_t obstacle) const noexcept {
+double SphereQuery::vertical_gap(float bottom, float top, std::uint32_t obstacle) const noexcept {
   const WorldHeights* const heights = obstacles().heights;
   if (heights == nullptr) return 0;
   const double below = heights[obstacle].bottom - (ground_ + double{top}),
@@ -60,8 +60,8 @@ void SphereQuery::improve(std::span<const LocalSegment> segments, std::uint32_t 
   const bool is_area = obstacles().is_area[obstacle] != 0;
   AreaSide area(near(), body_->place, segments, obstacle);
   // Whether the area holds a centre that is as far from its segments as that.
-  const auto is_held = [&](const NearestSegment& segment, float x, float y) {
-    return is_area && (segments.empty() || !is_clear(segment) || area.holds({x, y}));
+  const auto is_contained = [&](const NearestSegment& segment, float x, float y) {
+    return is_area && (segments.empty() || !is_clear(segment) || area.contains({x, y}));
   };
   // What is left out by bounds must not depend on their rounding.
   const double tolerance = 0x1p-44 * (std::abs(ground_) + double{header.reach} + std::abs(nearest.gap));
@@ -69,21 +69,21 @@ void SphereQuery::improve(std::span<const LocalSegment> segments, std::uint32_t 
   const float* const nodes = record_ + record_nodes;
   for (std::uint32_t leaf = 0; leaf < header.leaf_count; ++leaf) {
     const float x = nodes[leaf], y = nodes[stride + leaf], radius = nodes[2 * stride + leaf];
-    if (rise(nodes[3 * stride + leaf], nodes[4 * stride + leaf], obstacle) >
+    if (vertical_gap(nodes[3 * stride + leaf], nodes[4 * stride + leaf], obstacle) >
         std::max(nearest.gap + tolerance, 0.0))
       continue;
     const NearestSegment of_leaf = nearest_segment(segments, double{x}, double{y});
     const double beyond = of_leaf.distance - double{radius} - (nearest.gap + tolerance);
     // All of a leaf is on one side only where it is clear of the segments, whose gap may be less than 0.
     const bool is_beyond = beyond > 0 && (!is_area || beyond + nearest.gap > 0);
-    if (is_beyond && !is_held(of_leaf, x, y)) continue;
+    if (is_beyond && !is_contained(of_leaf, x, y)) continue;
     const float* const spheres = leaf_of(record_, leaf);
     for (std::uint32_t i = 0; i < size; ++i) {
       const float sx = spheres[i], sy = spheres[size + i], sz = spheres[2 * size + i];
-      const double r = spheres[3 * size + i], h = rise(sz, sz, obstacle);
+      const double r = spheres[3 * size + i], h = vertical_gap(sz, sz, obstacle);
       if (h - r > nearest.gap) continue;
       const NearestSegment segment = nearest_segment(segments, double{sx}, double{sy});
-      const bool is_inside = is_beyond || is_held(segment, sx, sy);
+      const bool is_inside = is_beyond || is_contained(segment, sx, sy);
       const double d = is_inside ? 0 : std::max(segment.distance, 0.0);
       const double gap = std::sqrt(d * d + h * h) - r;
       if (gap < nearest.gap || (gap == nearest.gap && !nearest.is_found))

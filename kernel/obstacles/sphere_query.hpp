@@ -70,7 +70,7 @@ class SphereQuery : public BodyQuery {
   /// Improves `nearest` by an obstacle. An area without segments contains all of the body, as seen from above.
   void improve(std::span<const LocalSegment> segments, std::uint32_t obstacle, SphereGap& nearest);
   /// Returns how far heights of the body are above or below an obstacle, 0 if they meet.
-  double rise(float bottom, float top, std::uint32_t obstacle) const noexcept;
+  double vertical_gap(float bottom, float top, std::uint32_t obstacle) const noexcept;
 
   const BodySetView& bodies_;
   const Agents& agents_;

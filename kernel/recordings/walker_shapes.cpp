@@ -97,10 +97,10 @@ Character WalkerPose::character(CharacterLibraryView library) const {
                             turn[static_cast<std::size_t>(shoulders)]);
 }
 
-/// A character and its shapers. They are few, because threads take poses as they come, of many bodies.
+/// A character and its shape builders. They are few, because threads take poses as they come, of many bodies.
 struct WalkerShapes::Body {
   std::unique_ptr<const Character> character;
-  Spares<PoseShaper> shapers;
+  Spares<ShapeBuilder> shape_builders;
 };
 
 WalkerShapes::WalkerShapes(const ShapeSetPlan& plan, CharacterLibraryView library,
@@ -143,9 +143,9 @@ void WalkerShapes::build(std::span<const WalkerPose> poses) {
       [&](BuiltShape& place, std::size_t i) {
         if (bodies[i] == nullptr)
           return place.prepare(shape_from_polygons(motions_[poses[i].footprint].footprint), i);
-        const auto shaper =
-            bodies[i]->shapers.borrow([&] { return PoseShaper(*bodies[i]->character, plan_, threshold); });
-        place.prepare(shaper->shape(poses[i].at()), i);
+        const auto shape_builder = bodies[i]->shape_builders.borrow(
+            [&] { return ShapeBuilder(*bodies[i]->character, plan_, threshold); });
+        place.prepare(shape_builder->shape(poses[i].at()), i);
       },
       [](std::size_t) {});
   set_ = &builder_.set();

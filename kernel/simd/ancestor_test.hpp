@@ -29,20 +29,20 @@ struct AncestorPath {
 
   /// Begins the path above a cut disc, whose index in `nodes` is `disc`: sets its first node only.
   void begin(const float* nodes, const Tree& tree, std::uint32_t disc) noexcept {
-    const std::uint32_t beside = tree.first_inner() + (disc - tree.discs);
+    const std::uint32_t adjacent = tree.first_inner() + (disc - tree.discs);
     // Inner nodes are stored in-order: node k lies between discs k and k + 1. If the first child of node k is a cut
-    // disc (above_cut_disc), that child is disc k. Otherwise disc k is the second child of node k - 1.
-    node[0] = beside - (link(nodes, beside) < above_cut_disc);
+    // disc (parent_of_cut_disc), that child is disc k. Otherwise disc k is the second child of node k - 1.
+    node[0] = adjacent - (link(nodes, adjacent) < parent_of_cut_disc);
   }
   /// Sets node k, the parent of node k - 1.
-  void step(const float* nodes, std::uint32_t k) noexcept { node[k] = above(nodes, node[k - 1]); }
+  void step(const float* nodes, std::uint32_t k) noexcept { node[k] = parent(nodes, node[k - 1]); }
 
   void go_up(const float* nodes) noexcept {
-    node[0] = above(nodes, node[length - 1]);
+    node[0] = parent(nodes, node[length - 1]);
     for (std::uint32_t k = 1; k < length; ++k) step(nodes, k);
   }
   bool ends_at_root(const float* nodes) const noexcept {
-    return above(nodes, node[length - 1]) == node[length - 1];
+    return parent(nodes, node[length - 1]) == node[length - 1];
   }
 
  private:
@@ -51,8 +51,8 @@ struct AncestorPath {
     __builtin_memcpy(&bits, nodes + std::size_t{inner} * inner_floats + 3, sizeof bits);
     return bits;
   }
-  static std::uint32_t above(const float* nodes, std::uint32_t inner) noexcept {
-    return link(nodes, inner) & ~above_cut_disc;
+  static std::uint32_t parent(const float* nodes, std::uint32_t inner) noexcept {
+    return link(nodes, inner) & ~parent_of_cut_disc;
   }
 };
 
@@ -61,22 +61,22 @@ struct AncestorPath {
 template <class Simd>
 class AncestorTest {
  public:
-  /// Takes two discs by their places among `nodes`; `above_a` and `above_b` are their paths.
+  /// Takes two discs by their places among `nodes`; `ancestors_a` and `ancestors_b` are their paths.
   AncestorTest(const float* nodes, const PlacedTrees& trees, std::uint32_t disc_a, std::uint32_t disc_b,
-               const AncestorPath<Simd>& above_a, const AncestorPath<Simd>& above_b) noexcept
-      : nodes_(nodes), trees_(trees), above_a_(above_a), above_b_(above_b) {
+               const AncestorPath<Simd>& ancestors_a, const AncestorPath<Simd>& ancestors_b) noexcept
+      : nodes_(nodes), trees_(trees), ancestors_a_(ancestors_a), ancestors_b_(ancestors_b) {
     a_ = disc(trees.a, disc_a);
     const Disc b = disc(trees.b, disc_b);
     const auto [x, y] = trees.b_in_a.apply(b.x, b.y);
     b_ = {x, y, b.radius};
-    load(above_a, discs_a_), load(above_b, discs_b_);
+    load(ancestors_a, discs_a_), load(ancestors_b, discs_b_);
   }
 
   bool passes() noexcept {
-    const auto [overlap, share_point] = compare_with_leaves();
+    const auto [overlap, common_point] = compare_with_leaves();
     if (!overlap) return false;
-    if (!above_a_.ends_at_root(nodes_) || !above_b_.ends_at_root(nodes_)) return paths_overlap();
-    return share_point || loaded_overlap();
+    if (!ancestors_a_.ends_at_root(nodes_) || !ancestors_b_.ends_at_root(nodes_)) return paths_overlap();
+    return common_point || loaded_overlap();
   }
 
  private:
@@ -84,7 +84,7 @@ class AncestorTest {
   static constexpr std::uint32_t length = AncestorPath<Simd>::length;
   /// The least depth, in units of the sum of reaches, at which a point inside all discs proves overlaps. If a point
   /// lies that deep in every disc of both paths, each disc of A overlaps each disc of B by at least twice the depth.
-  /// Rounding is covered: both calls of holds_point() and the test of two discs start from the same floats, and each of
+  /// Rounding is covered: both calls of contains_point() and the test of two discs start from the same floats, and each of
   /// these three computations rounds one difference, squares and radii, which are at most the sum of reaches.
   static constexpr double inside_margin = 16 * rounding::unit_roundoff;
   static_assert(2 * inside_margin >=
@@ -98,8 +98,8 @@ class AncestorTest {
   };
 
   struct Comparison {
-    bool overlap;      ///< each of the two cut discs overlaps all loaded nodes of the other's path
-    bool share_point;  ///< a point is inside all loaded discs of both paths
+    bool overlap;       ///< each of the two cut discs overlaps all loaded nodes of the other's path
+    bool common_point;  ///< a point is inside all loaded discs of both paths
   };
 
   Disc disc(const Tree& tree, std::uint32_t place) const noexcept {
@@ -119,14 +119,14 @@ class AncestorTest {
   /// ratio of their radii, so that it lies in both.
   Comparison compare_with_leaves() const noexcept {
     const auto b_in_a = trees_.b_in_a.template in_lanes<Float>();
-    const float share = a_.radius / (a_.radius + b_.radius);
-    const Float x(a_.x + share * (b_.x - a_.x)), y(a_.y + share * (b_.y - a_.y));
+    const float fraction = a_.radius / (a_.radius + b_.radius);
+    const Float x(a_.x + fraction * (b_.x - a_.x)), y(a_.y + fraction * (b_.y - a_.y));
     const Float margin(static_cast<float>(inside_margin) * trees_.reach), zero(0.0f);
-    const auto holds_point = [&](Float at_x, Float at_y, Float r) {
+    const auto contains_point = [&](Float at_x, Float at_y, Float r) {
       const Float dx = x - at_x, dy = y - at_y, inside = r - margin;
       return Simd::bits(dx * dx + dy * dy <= inside * inside) & Simd::bits(inside >= zero);
     };
-    std::uint32_t overlap = ~std::uint32_t{0}, share_point = ~std::uint32_t{0};
+    std::uint32_t overlap = ~std::uint32_t{0}, common_point = ~std::uint32_t{0};
     for (std::uint32_t k = 0; k < length; k += Simd::width) {
       const Float ax = Simd::load(discs_a_.field[0] + k), ay = Simd::load(discs_a_.field[1] + k),
                   ar = Simd::load(discs_a_.field[2] + k);
@@ -135,17 +135,17 @@ class AncestorTest {
       const Float br = Simd::load(discs_b_.field[2] + k);
       overlap &= overlaps<Simd>(Float(b_.x), Float(b_.y), Float(b_.radius), ax, ay, ar) &
                  overlaps<Simd>(bx, by, br, Float(a_.x), Float(a_.y), Float(a_.radius));
-      share_point &= holds_point(ax, ay, ar) & holds_point(bx, by, br);
+      common_point &= contains_point(ax, ay, ar) & contains_point(bx, by, br);
     }
     constexpr std::uint32_t all = (std::uint32_t{1} << Simd::width) - 1;
-    return {overlap == all, share_point == all};
+    return {overlap == all, common_point == all};
   }
 
   /// Tests all nodes of one path with all nodes of the other and with its cut disc, sixteen by sixteen up to the roots.
   bool paths_overlap() noexcept {
-    for (AncestorPath<Simd> a = above_a_;; a.go_up(nodes_)) {
+    for (AncestorPath<Simd> a = ancestors_a_;; a.go_up(nodes_)) {
       load(a, discs_a_);
-      for (AncestorPath<Simd> b = above_b_;; b.go_up(nodes_)) {
+      for (AncestorPath<Simd> b = ancestors_b_;; b.go_up(nodes_)) {
         load(b, discs_b_);
         if (!compare_with_leaves().overlap || !loaded_overlap()) return false;
         if (b.ends_at_root(nodes_)) break;
@@ -164,7 +164,7 @@ class AncestorTest {
   const float* const nodes_;
   const PlacedTrees& trees_;
   Disc a_, b_;  ///< the cut discs, in A's frame
-  const AncestorPath<Simd>&above_a_, &above_b_;
+  const AncestorPath<Simd>&ancestors_a_, &ancestors_b_;
   PathDiscs discs_a_, discs_b_;
 };
 

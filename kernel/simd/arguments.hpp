@@ -14,7 +14,7 @@ namespace bch::detail {
 struct ShapeSetView;
 
 /// The number of pairs that a kernel takes through its stages together.
-constexpr std::uint32_t chunk_size = 256;
+constexpr std::uint32_t packet_size = 256;
 
 /// Locates one value of each agent in the caller's memory. The values may be any number of bytes apart. Numbers are
 /// floats or doubles.

@@ -46,10 +46,10 @@ struct Gaps {
 
 constexpr float radius_factor = 1 + 0x1p-19f;  ///< the factor of r
 constexpr float sure_gap = 1 - 0x1p-18f;       ///< the factor of g
-constexpr double gap_share = 0x1p-19, gap_bound_share = 0x1p-17, gap_price = 1.4e-6;
-static_assert(double{radius_factor} - 1 == gap_share && gap_share == 32 * rounding::unit_roundoff);
-static_assert(gap_share >= (19.2 + 4.5 + 0.1) * rounding::unit_roundoff);
-static_assert(gap_bound_share >= (37 + 2 * 23 + 2 * 8 + 21) * rounding::unit_roundoff);
+constexpr double gap_fraction = 0x1p-19, gap_bound_fraction = 0x1p-17, gap_price = 1.4e-6;
+static_assert(double{radius_factor} - 1 == gap_fraction && gap_fraction == 32 * rounding::unit_roundoff);
+static_assert(gap_fraction >= (19.2 + 4.5 + 0.1) * rounding::unit_roundoff);
+static_assert(gap_bound_fraction >= (37 + 2 * 23 + 2 * 8 + 21) * rounding::unit_roundoff);
 static_assert(1 - double{sure_gap} >= (11 + 34 + 1) * rounding::unit_roundoff);
 static_assert(gap_price >= (34 + 3 - (16 - 2)) * rounding::unit_roundoff);
 
@@ -57,7 +57,7 @@ static_assert(gap_price >= (34 + 3 - (16 - 2)) * rounding::unit_roundoff);
 /// of its own, which the linker cannot merge.)
 template <class Simd>
 Gaps gaps(float leaf, float reach) noexcept {
-  return {leaf, leaf + static_cast<float>(gap_bound_share) * (reach + leaf)};
+  return {leaf, leaf + static_cast<float>(gap_bound_fraction) * (reach + leaf)};
 }
 
 /// Is true for the stages of within(). Those of collide() have no gaps, and do not pay for them.

@@ -33,7 +33,7 @@ class ProfileTest {
         prefetch_(arguments.prefetch_shapes),
         discs_decide_(arguments.exact_leaves ? 0.0f : 1.0f) {}
 
-  /// Finds, for all pairs of the chunk, the line between the centres, and loads the sectors of both profiles along it.
+  /// Finds, for all pairs of the packet, the line between the centres, and loads the sectors of both profiles along it.
   /// `row_a`, `row_b`: for each pair, Root::row of the two roots; null if ShapeSetView::rows_follow_roots.
   void load_sectors(const std::uint32_t* row_a, const std::uint32_t* row_b) noexcept {
     const float* const records = &shapes_.profiles->x;
@@ -71,7 +71,7 @@ class ProfileTest {
             .may_nest = Simd::bits(distance <=
                                    xsimd::max(coincident, outer_a - field(records_b_, sector_extent, k))) |
                         Simd::bits(distance <= outer_b - field(records_a_, sector_extent, k)),
-            .likely = Simd::bits(distance < inner + Float(likely_share) * (outer - inner))};
+            .likely = Simd::bits(distance < inner + Float(likely_fraction) * (outer - inner))};
   }
 
   /// Returns how far discs of the pair may stick out of the outlines, which supports and profiles bound, metres; 0 if
@@ -91,7 +91,7 @@ class ProfileTest {
   static constexpr std::uint32_t profile_strides = sizeof(Profile) / sizeof(float) / stride;
   /// Pairs nearer than this, between the distances at which areas surely meet (0) and cuts are surely apart (1), are
   /// likely hits. The value was measured.
-  static constexpr float likely_share = 0.6f;
+  static constexpr float likely_fraction = 0.6f;
 
   static Float field(const Fields& of, std::uint32_t i, std::uint32_t k) noexcept {
     return Simd::load(of.field[i] + k);
@@ -152,8 +152,8 @@ class ProfileTest {
   static Float sector(Float x, Float y) noexcept {
     constexpr float quadrant = 0.25f * profile_sectors, not_zero = 1e-30f;
     const Float zero(0.0f), ax = xsimd::abs(x), ay = xsimd::abs(y);
-    const Float share = Float(quadrant) * ay / (ax + ay + Float(not_zero));
-    const Float half = Simd::select(x < zero, Float(2 * quadrant) - share, share);
+    const Float fraction = Float(quadrant) * ay / (ax + ay + Float(not_zero));
+    const Float half = Simd::select(x < zero, Float(2 * quadrant) - fraction, fraction);
     return Simd::select(y < zero, Float(4 * quadrant) - half, half);
   }
 
@@ -161,8 +161,9 @@ class ProfileTest {
   const RelativeTransforms<Simd>& transforms_;
   const bool prefetch_;
   const float discs_decide_;  ///< 1 where discs decide, 0 where segments do
-  alignas(64) std::uint32_t record_a_[chunk_size], record_b_[chunk_size];
-  alignas(64) float distance_[chunk_size], sector_a_[chunk_size], sector_b_[chunk_size], excess_[chunk_size];
+  alignas(64) std::uint32_t record_a_[packet_size], record_b_[packet_size];
+  alignas(64) float distance_[packet_size], sector_a_[packet_size], sector_b_[packet_size],
+      excess_[packet_size];
   Fields records_a_, records_b_;
 };
 

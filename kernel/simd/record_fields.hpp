@@ -12,7 +12,7 @@ namespace bch::detail {
 /// Holds records of four floats, selected from a table by index, field by field: lane = pair.
 template <class Simd>
 struct RecordFields {
-  alignas(64) float field[4][chunk_size];
+  alignas(64) float field[4][packet_size];
 
   static constexpr std::uint32_t records_ahead = 32;  ///< how many records ahead are prefetched
 

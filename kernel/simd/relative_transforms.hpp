@@ -19,14 +19,14 @@
 
 namespace bch::detail {
 
-/// Computes the transforms from B's frame into A's for a chunk of pairs, lane = pair. This is the first stage of the pair
+/// Computes the transforms from B's frame into A's for a packet of pairs, lane = pair. This is the first stage of the pair
 /// kernel.
 template <class Simd>
 class RelativeTransforms {
  public:
-  /// Computes the transforms of pairs begin .. end, one chunk at most.
+  /// Computes the transforms of pairs begin .. end, one packet at most.
   void compute(const Arguments& in, std::size_t begin, std::size_t end) noexcept {
-    size = end - begin < chunk_size ? static_cast<std::uint32_t>(end - begin) : chunk_size;
+    size = end - begin < packet_size ? static_cast<std::uint32_t>(end - begin) : packet_size;
     load_agents(in, begin);
     in.prefetch_agents ? find_roots<true>(in) : find_roots<false>(in);
     turn(in);
@@ -64,11 +64,11 @@ class RelativeTransforms {
   std::uint32_t size = 0;
 
   // Up to whole_registers(), lanes beyond the last pair repeat it. The transform is as in layout/base/rounding.hpp.
-  alignas(64) float c[chunk_size], s[chunk_size], tx[chunk_size], ty[chunk_size];
-  std::uint32_t shape_a[chunk_size], shape_b[chunk_size];
-  std::uint32_t root_a[chunk_size], root_b[chunk_size];  ///< shape * level_count + level
-  alignas(64) float gap[chunk_size],
-      bound_gap[chunk_size];  ///< see Gaps; where KnowsGaps
+  alignas(64) float c[packet_size], s[packet_size], tx[packet_size], ty[packet_size];
+  std::uint32_t shape_a[packet_size], shape_b[packet_size];
+  std::uint32_t root_a[packet_size], root_b[packet_size];  ///< shape * level_count + level
+  alignas(64) float gap[packet_size],
+      bound_gap[packet_size];  ///< see Gaps; where KnowsGaps
 
  private:
   static constexpr std::uint32_t pairs_ahead = 32;  ///< how many pairs ahead agents are prefetched
@@ -215,8 +215,8 @@ class RelativeTransforms {
     }
   }
 
-  alignas(64) std::uint32_t a_[chunk_size], b_[chunk_size];  ///< agents, padded as above
-  alignas(64) float cosine_[chunk_size], sine_[chunk_size];
+  alignas(64) std::uint32_t a_[packet_size], b_[packet_size];  ///< agents, padded as above
+  alignas(64) float cosine_[packet_size], sine_[packet_size];
 };
 
 }  // namespace bch::detail

@@ -29,10 +29,10 @@ struct SegmentPair {
     Real margin;     ///< the margin times the L1 length of the segment, at least its length
 
     /// Returns a value above 0 if both ends are on one side, farther than the margin.
-    Real beside() const noexcept { return xsimd::max(low, Real(0.0) - high) - margin; }
+    Real same_side() const noexcept { return xsimd::max(low, Real(0.0) - high) - margin; }
     /// Returns a value above 0 if the ends are surely on different sides.
     Real across() const noexcept {
-      return xsimd::min(high, Real(0.0) - low) - Real(rounding::sure_share) * margin;
+      return xsimd::min(high, Real(0.0) - low) - Real(rounding::sure_fraction) * margin;
     }
   };
   Sides sides_of_p(Real margin) const noexcept { return sides(p0, p1, q0, q1, margin); }
@@ -66,11 +66,11 @@ struct SegmentPair {
   /// Returns the square of the distance from a point to the nearest one of a segment.
   static Real square_distance(Point p, Point from, Point to) noexcept {
     const Point along = way(from, to), to_p = way(from, p);
-    // A segment without length has a share of 0, by a number that is less than the square of any other length.
+    // A segment without length has a fraction of 0, by a number that is less than the square of any other length.
     const Real square = xsimd::max(along.x * along.x + along.y * along.y, shortest_square());
-    const Real share =
+    const Real fraction =
         xsimd::max(xsimd::min((to_p.x * along.x + to_p.y * along.y) / square, Real(1.0)), Real(0.0));
-    const Real x = to_p.x - share * along.x, y = to_p.y - share * along.y;
+    const Real x = to_p.x - fraction * along.x, y = to_p.y - fraction * along.y;
     return x * x + y * y;
   }
 };

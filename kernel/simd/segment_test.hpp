@@ -75,7 +75,7 @@ class SegmentTest : private SegmentBatch<Simd> {
     for (std::uint32_t part = 0; part < parts; ++part) {
       const auto of_p = pairs[part].sides_of_p(pairs[part].margin),
                  of_q = pairs[part].sides_of_q(pairs[part].margin);
-      apart[part] = xsimd::max(of_p.beside(), of_q.beside());
+      apart[part] = xsimd::max(of_p.same_side(), of_q.same_side());
       Simd::store(apart_ + k + part * Simd::doubles, apart[part]);
       Simd::store(sure_ + k + part * Simd::doubles, xsimd::min(of_p.across(), of_q.across()));
     }

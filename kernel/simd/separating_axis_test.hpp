@@ -33,7 +33,7 @@ class SeparatingAxisTest {
     rows_ = shapes_.support, row_a_ = a, row_b_ = b;
   }
 
-  /// Finds B's directions for all pairs of the chunk.
+  /// Finds B's directions for all pairs of the packet.
   void place_directions() noexcept { directions_.place(); }
 
   /// Returns whether a line perpendicular to one of A's even directions, or of its odd ones, separates the pair. `excess` is

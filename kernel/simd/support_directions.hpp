@@ -11,11 +11,11 @@
 
 namespace bch::detail {
 
-/// Finds, for the pairs of a chunk, which supports of B (layout/culling/supports.hpp) are opposite to those of A, lane =
+/// Finds, for the pairs of a packet, which supports of B (layout/culling/supports.hpp) are opposite to those of A, lane =
 /// direction.
 ///
 /// A's direction k is compared with B's direction k * D + psi, where D = 2 pi / 32 and psi = pi - (heading of B relative to
-/// A). psi = (offset + share) * D with 0 <= share <= 1. B's support there is at most lower * (support of the direction
+/// A). psi = (offset + fraction) * D with 0 <= fraction <= 1. B's support there is at most lower * (support of the direction
 /// below) + upper * (support of the direction above): that of the corner of the two supporting lines.
 template <class Simd>
 class SupportDirections {
@@ -29,14 +29,14 @@ class SupportDirections {
 
   explicit SupportDirections(const RelativeTransforms<Simd>& transforms) noexcept : transforms_(transforms) {}
 
-  /// Computes offset, lower and upper for all pairs of the chunk, lane = pair.
+  /// Computes offset, lower and upper for all pairs of the packet, lane = pair.
   void place() noexcept {
     static_assert(support_directions == 32);
     constexpr float tangent[] = {0.19891237f, 0.41421356f, 0.66817864f, 1.0f,
                                  1.4966058f,  2.4142136f,  5.0273395f};
     constexpr float cosine_of[] = {c1, c2, c3, c4, c5, c6, c7};
     constexpr float cotangent = 5.0273395f, one_over_sine = 5.1258309f;  // of D
-    alignas(64) float offset[chunk_size];
+    alignas(64) float offset[packet_size];
     const Float zero(0.0f);
     const std::uint32_t count = transforms_.whole_registers();
     for (std::uint32_t k = 0; k < count; k += Simd::width) {
@@ -106,8 +106,8 @@ class SupportDirections {
   static constexpr unsigned half = support_stride / 2;
 
   const RelativeTransforms<Simd>& transforms_;
-  alignas(64) std::int32_t offset_[chunk_size];
-  alignas(64) float lower_[chunk_size], upper_[chunk_size];
+  alignas(64) std::int32_t offset_[packet_size];
+  alignas(64) float lower_[packet_size], upper_[packet_size];
 };
 
 }  // namespace bch::detail

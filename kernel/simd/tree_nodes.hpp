@@ -11,25 +11,25 @@
 namespace bch::detail {
 
 /// Decodes the name of a node of a flat tree (layout/format/shape_set_view.hpp): its index in ShapeSetView::nodes, with
-/// the top bit set for a window, which is a leaf of eight consecutive discs of the cut. All other nodes are blocks.
+/// the top bit set for a leaf block, which is a leaf of eight consecutive discs of the cut. All other nodes are blocks.
 /// (`Simd` keeps instruction sets from sharing a function.)
 template <class Simd>
 struct TreeNodes {
-  /// Returns a mask, all ones if the node is a window. GCC would compile a condition to a branch, and no processor can
-  /// predict which nodes are windows.
-  static std::uint32_t all_if_leaf(std::uint32_t node) noexcept { return -(node / leaf_window); }
+  /// Returns a mask, all ones if the node is a leaf block. GCC would compile a condition to a branch, and no processor can
+  /// predict which nodes are leaf blocks.
+  static std::uint32_t all_if_leaf(std::uint32_t node) noexcept { return -(node / leaf_bit); }
 
-  /// Returns the eight discs of a node. In a window, an x, its y and its radius are `stride` floats apart
+  /// Returns the eight discs of a node. In a leaf block, an x, its y and its radius are `stride` floats apart
   /// (Tree::stride); in a block they are block_width floats apart.
   static Discs discs(const float* nodes, std::uint32_t node, std::uint32_t stride) noexcept {
     const std::size_t to_y = block_width + (all_if_leaf(node) & (stride - block_width));
-    return {nodes + (node & ~leaf_window), to_y, 2 * to_y};
+    return {nodes + (node & ~leaf_bit), to_y, 2 * to_y};
   }
 
   /// Returns the eight discs of a node. Those of a block have the outer radii in place of their own.
   static Discs outer_discs(const float* nodes, std::uint32_t node, std::uint32_t stride) noexcept {
     const std::uint32_t leaf = all_if_leaf(node);
-    return {nodes + (node & ~leaf_window), block_width + (leaf & (stride - block_width)),
+    return {nodes + (node & ~leaf_bit), block_width + (leaf & (stride - block_width)),
             block_outer + (leaf & (2 * stride - block_outer))};
   }
 

@@ -87,7 +87,7 @@ class ClipAnimator {
   /// posed ones by more than the error.
   void add_keys(std::size_t first, std::size_t last) {
     Key from = keys_.back(), to = centres(last);
-    const double most = hold(first, last, from, to);
+    const double most = cover(first, last, from, to);
     const double seconds = double{samples_[last].seconds} - double{samples_[first].seconds};
     if (most > double{options_.error} && last - first > 1 && seconds > 2 * shortest_interval) {
       const std::size_t middle = first + (last - first) / 2;
@@ -111,7 +111,7 @@ class ClipAnimator {
 
   /// Enlarges the spheres of two keys until they hold all corners at all times between.
   /// Returns: by how much they stand out of the spheres of a sample between, at most.
-  double hold(std::size_t first, std::size_t last, Key& from, Key& to) const {
+  double cover(std::size_t first, std::size_t last, Key& from, Key& to) const {
     double most = 0;
     for (std::size_t i = 0; i < from.size(); ++i) {
       const SpacePoint begin = centre(from[i]), move = centre(to[i]) - begin;

@@ -64,15 +64,15 @@
 /// Rows. Root::row is 0 where the level's cut is a single disc; else 1, except for a shape's last level, which has the row
 /// after that of the shape before, from 2 on.
 ///
-/// Nodes. A node's name is the index of its first float, with bit 31 set for a leaf window. A block is 48 floats: x, y
+/// Nodes. A node's name is the index of its first float, with bit 31 set for a leaf block. A block is 48 floats: x, y
 /// and radius of eight discs, eight and eight, the names of the eight nodes below them as u32, their outer radii, and which
 /// node of the hierarchy each is, as u32: the number of an inner node, or 2^31 + the index of a cut disc's x. A disc whose x
 /// is plus infinity is padding, and what else is said of it has no meaning; the first one is none. A level's blocks lie one
 /// behind the other in breadth-first order, first Tree::top: those children that are blocks are the second, the third
 /// and so on. After the last, at Tree::discs, come Tree::stride x, as many y and as many radii: the cut's discs, padding up to
-/// eight. A window is eight consecutive discs of these, named by the first one's x. At the next multiple of four floats come
+/// eight. A leaf block is eight consecutive discs of these, named by the first one's x. At the next multiple of four floats come
 /// Tree::count records of an InnerNode, which is numbered by the index of its x by four. From top on, first child after first child
-/// leads to the window at the first disc, top itself where it is a window. Levels lie in the order of roots, with at
+/// leads to the leaf block at the first disc, top itself where it is a leaf block. Levels lie in the order of roots, with at
 /// most 9 levels of blocks each. At least 48 floats follow the last one.
 ///
 /// Exact leaves. Tree::segments is 2^32 - 1, or, at depth all_depths of a shape with contours, the index in

@@ -3,8 +3,8 @@
 
 #include <fcntl.h>
 #include <io.h>
+#include <leaf_blocks.h>
 #include <sys/stat.h>
-#include <windows.h>
 
 #include <algorithm>
 #include <cerrno>

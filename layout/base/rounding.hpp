@@ -123,17 +123,17 @@
 ///
 ///     (segment_margin)   13 u P          of either shape, and 1.5 of its grid steps
 ///
-/// of the other, or where both ends of each lie on different sides of the other's line, at least 0.7 (sure_share) of
+/// of the other, or where both ends of each lie on different sides of the other's line, at least 0.7 (sure_fraction) of
 /// that margin away from it. No miss: outlines that meet, snapped and placed, are at most (segment_place) and 1.5 of
 /// each grid step apart. If the placed segments are disjoint, an end of one is at most that far from the other. If they
 /// cross without the test of sides being met, an end is within sqrt(2) 0.7 of the margin of the other's line. (The test
 /// multiplies the margin by |x| + |y| of a segment (x, y) in place of its length; that sum is up to sqrt(2) times the
 /// length.) Then some end is at most that far from the other segment: this end or, if it lies beyond an end of the
-/// other segment, that other end, which is nearer to the crossing. A crossing by (sure_share) is a crossing of the
+/// other segment, that other end, which is nearer to the crossing. A crossing by (sure_fraction) is a crossing of the
 /// outlines themselves. They could only be apart if, without the errors, an end were on the other side of the other
 /// segment, and no end is off by so much:
 ///
-///     sure_share * segment_margin > segment_place
+///     sure_fraction * segment_margin > segment_place
 ///
 /// The price, by the same steps as above: segments that meet are at most the margin and (segment_place) apart,
 ///
@@ -152,11 +152,11 @@
 /// rounding of two sums of lengths up to 1e6 m is nothing.
 ///
 /// VIII. Nodes that enclose the discs below them, as in bodies made of discs, overlap wherever the discs do, if they
-/// enclose them with a margin, (held_margin). The float test accepts discs with D <= r_A + r_B + (query_error) S. With
+/// enclose them with a margin, (conservative_margin). The float test accepts discs with D <= r_A + r_B + (query_error) S. With
 /// R >= |C - c| + r + margin, a node of A and a disc of B are at most R_A + r_B - margin_A + (query_error) S apart, and
 /// the test accepts what is at most R_A + r_B - (query_error) S apart. So the margin of either shape has to be 2
 /// (query_error) S; the margins of two nodes add up. Margins are fractions of their own shape's reach: they suffice if
-/// S is at most (held_reaches) times the lesser reach.
+/// S is at most (conservative_ratio) times the lesser reach.
 namespace bch::detail::rounding {
 
 constexpr double unit_roundoff = 0x1p-24;
@@ -230,15 +230,16 @@ static_assert(support_margin >=
 constexpr double segment_margin = 13 * unit_roundoff;
 static_assert(segment_margin >= (terms::segment_place + terms::higher) * unit_roundoff);
 /// A crossing of two segments is sure if all ends are beyond the other segment's line by this fraction of the margin.
-constexpr double sure_share = 0.7;
-static_assert(terms::root_2 * sure_share < 1);
-static_assert(sure_share * segment_margin >= (terms::segment_place + terms::higher) * unit_roundoff);
+constexpr double sure_fraction = 0.7;
+static_assert(terms::root_2 * sure_fraction < 1);
+static_assert(sure_fraction * segment_margin >= (terms::segment_place + terms::higher) * unit_roundoff);
 
 /// The margin with which nodes enclose their discs, times the shape's reach. It suffices for pairs whose reaches sum
-/// to at most held_reaches times the lesser one: twice (query_error) of both, and the rounding of the check itself.
-constexpr double held_reaches = 3;
-constexpr double held_margin = 47 * held_reaches * unit_roundoff;
-static_assert(held_margin >= held_reaches * 2 * (terms::query_error + 8 * terms::higher) * unit_roundoff);
+/// to at most conservative_ratio times the lesser one: twice (query_error) of both, and the rounding of the check itself.
+constexpr double conservative_ratio = 3;
+constexpr double conservative_margin = 47 * conservative_ratio * unit_roundoff;
+static_assert(conservative_margin >=
+              conservative_ratio * 2 * (terms::query_error + 8 * terms::higher) * unit_roundoff);
 
 /// The error of an outline in grid steps: snapping moves a vertex by up to sqrt(1/2) steps, and rounding a crossing
 /// to the grid by as much again.

@@ -50,10 +50,10 @@ void add_row(const BodySet::Capsule& capsule, std::size_t number, float error, s
     refuse_capsule(number, "expected an error that " + std::to_string(max_spheres) + " spheres keep, found " +
                                shortest(error) + " m");
   const double half = length / parts / 2;
-  const float held_by = static_cast<float>(std::sqrt(radius * radius + half * half) + spare);
+  const float enclosing_radius = static_cast<float>(std::sqrt(radius * radius + half * half) + spare);
   for (double i = 0; i <= parts; ++i) {
     const auto [x, y, z] = rounded(a + i / parts * axis);
-    spheres.push_back({x, y, z, held_by});
+    spheres.push_back({x, y, z, enclosing_radius});
     if (length == 0) return;
   }
 }

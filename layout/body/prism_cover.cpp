@@ -49,8 +49,8 @@ struct Piece {
     double square = 0;
     for (const PlanePoint& corner : corners)
       square = std::max(square, squared_length(corner - PlanePoint{c.x, c.y}));
-    const double rise = std::max(top - c.z, c.z - bottom);
-    return std::sqrt(square + rise * rise);
+    const double dz = std::max(top - c.z, c.z - bottom);
+    return std::sqrt(square + dz * dz);
   }
 };
 
@@ -98,7 +98,7 @@ class PrismCover {
     while (!open.empty() && balls_.size() <= most_ && open.size() <= max_pieces) {
       const Piece piece = std::move(open.front());
       open.pop_front();
-      if (piece.corners.empty() || is_held(piece) || hold(piece)) continue;
+      if (piece.corners.empty() || is_covered(piece) || cover(piece)) continue;
       halve(piece, open);
     }
     if (!open.empty() || balls_.size() > most_) return {};
@@ -136,7 +136,7 @@ class PrismCover {
     return -std::sqrt(aside * aside + beyond * beyond);
   }
 
-  bool is_held(const Piece& piece) {
+  bool is_covered(const Piece& piece) {
     for (Ball& ball : balls_)
       if (const double radius = piece.radius(ball.centre); radius <= ball.radius) {
         ball.needed = std::max(ball.needed, radius);
@@ -146,7 +146,7 @@ class PrismCover {
   }
 
   /// Adds a sphere that holds a piece, if there is one and it needs one.
-  bool hold(const Piece& piece) {
+  bool cover(const Piece& piece) {
     const PlanePoint low = piece.low(), high = piece.high();
     const auto in_float = [](const SpacePoint& at) { return space_point(rounded(at)); };
     SpacePoint best = in_float({(low.x + high.x) / 2, (low.y + high.y) / 2, (piece.bottom + piece.top) / 2});

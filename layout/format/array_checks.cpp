@@ -91,7 +91,7 @@ void sizes(const ShapeArrays& a) {
     require_size("support", a.support.size(), 0);
     require_size("shape_contours", a.shape_contours.size(), 0);
   }
-  if (a.nodes.size() >= leaf_window)
+  if (a.nodes.size() >= leaf_bit)
     throw std::invalid_argument("nodes: " + std::to_string(a.nodes.size()) + ", not below 2^31");
   require_size("inscribed", a.inscribed.size(), culling ? shapes : 0);
   require_size("profiles", a.profiles.size(), culling ? shapes : 0);

@@ -10,8 +10,8 @@ namespace bch::detail {
 
 /// Children stand in the order of their discs, so the first of the first is the first.
 std::uint32_t first_disc(const float* nodes, std::uint32_t node) noexcept {
-  while (node < leaf_window) node = std::bit_cast<std::uint32_t>(nodes[node + block_names]);
-  return node & ~leaf_window;
+  while (node < leaf_bit) node = std::bit_cast<std::uint32_t>(nodes[node + block_names]);
+  return node & ~leaf_bit;
 }
 
 CutDiscs cut_discs(const ShapeSetView& shapes, std::uint32_t root) noexcept {

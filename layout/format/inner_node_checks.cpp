@@ -26,8 +26,8 @@ class InnerNodes {
   std::uint32_t number(std::uint32_t k) const { return first_ + k; }
   std::uint32_t link(std::uint32_t k) const { return std::bit_cast<std::uint32_t>(record(k)[3]); }
   /// The index of the node above, or anything.
-  std::uint32_t above(std::uint32_t k) const { return (link(k) & ~above_cut_disc) - first_; }
-  bool is_above_disc(std::uint32_t k) const { return link(k) >= above_cut_disc; }
+  std::uint32_t above(std::uint32_t k) const { return (link(k) & ~parent_of_cut_disc) - first_; }
+  bool is_above_disc(std::uint32_t k) const { return link(k) >= parent_of_cut_disc; }
   Disc inner(std::uint32_t k) const { return {record(k)[0], record(k)[1], record(k)[2]}; }
   Disc cut(std::uint32_t k) const {
     const float* x = nodes_ + tree_.discs + k;
@@ -119,12 +119,12 @@ class PendingNodes {
 
 /// One past the last of the discs that are shown below a node.
 std::uint32_t end_of_discs(const float* nodes, std::uint32_t node) {
-  while (node < leaf_window) {
+  while (node < leaf_bit) {
     std::uint32_t lane = block_width - 1;
     while (lane > 0 && nodes[node + lane] == infinity) --lane;
     node = std::bit_cast<std::uint32_t>(nodes[node + block_names + lane]);
   }
-  return (node & ~leaf_window) + block_width;
+  return (node & ~leaf_bit) + block_width;
 }
 
 }  // namespace
@@ -137,7 +137,7 @@ void inner_nodes(const ShapeArrays& a, LevelNodes& level) {
       reject_inner(nodes, 0, "the only node is not the cut's disc");
     return;
   }
-  const auto slack = static_cast<float>(rounding::held_margin + 49 * rounding::unit_roundoff);
+  const auto slack = static_cast<float>(rounding::conservative_margin + 49 * rounding::unit_roundoff);
   PendingNodes open(nodes, level.open_nodes, slack * a.reach[level.root / a.depths.size()]);
   for (std::uint32_t k = 0; k < nodes.count(); ++k) open.add(k);
   if (nodes.is_above_disc(nodes.count())) reject_inner(nodes, nodes.count(), "padding is above a disc");
@@ -152,7 +152,7 @@ void nodes_of_blocks(const ShapeArrays& a, LevelNodes& level) {
   const Tree& tree = a.trees[level.root];
   const InnerNodes nodes(a, level);
   const float* floats = a.nodes.data();
-  if (tree.top >= leaf_window) return;
+  if (tree.top >= leaf_bit) return;
   for (std::uint64_t block = tree.top; block < level.discs; block += block_floats)
     for (std::uint32_t lane = 0; lane < block_width && floats[block + lane] < infinity; ++lane) {
       const auto bits = [&](std::uint32_t field) {
@@ -161,8 +161,8 @@ void nodes_of_blocks(const ShapeArrays& a, LevelNodes& level) {
       const std::uint32_t child = bits(block_names), node = bits(block_nodes);
       const std::uint32_t first = first_disc(floats, child) - tree.discs,
                           last = end_of_discs(floats, child) - 1 - tree.discs;
-      const bool is_disc = node >= leaf_window;
-      const std::uint32_t k = is_disc ? (node & ~leaf_window) - tree.discs : node - nodes.number(0);
+      const bool is_disc = node >= leaf_bit;
+      const std::uint32_t k = is_disc ? (node & ~leaf_bit) - tree.discs : node - nodes.number(0);
       const Disc disc{floats[block + lane], floats[block + block_width + lane],
                       floats[block + 2 * block_width + lane]};
       if (k < first || k > last || k > nodes.count() || (!is_disc && k >= std::min(last, nodes.count())) ||
@@ -180,7 +180,7 @@ void outer_radii(const ShapeArrays& a, LevelNodes& level) {
   const auto good = [&](float outer, float radius) { return outer >= 0 && outer <= radius + most; };
   if (!good(tree.outer_radius, a.roots[level.root].radius))
     reject("trees", level.root, "the outer radius is none");
-  if (tree.top >= leaf_window) return;
+  if (tree.top >= leaf_bit) return;
   for (std::uint64_t block = tree.top; block < level.discs; block += block_floats)
     for (std::uint32_t lane = 0; lane < block_width && floats[block + lane] < infinity; ++lane)
       if (!good(floats[block + block_outer + lane], floats[block + 2 * block_width + lane]))

@@ -14,8 +14,8 @@ namespace {
 const Tree& tree(const ShapeArrays& a, const LevelNodes& level) {
   return a.trees[level.root];
 }
-bool is_window(const Tree& tree) {
-  return tree.top >= leaf_window;
+bool is_leaf_block(const Tree& tree) {
+  return tree.top >= leaf_bit;
 }
 float reach(const ShapeArrays& a, const LevelNodes& level) {
   return a.reach[level.root / a.depths.size()];
@@ -27,23 +27,23 @@ std::uint32_t name_of(const float* block, std::uint32_t lane) {
 /// Requires those of one block's children that are blocks to be the next ones in breadth-first order.
 /// Returns: where the one after those begins.
 std::uint64_t require_children(const float* x, std::uint64_t block, std::uint64_t next,
-                               NamedWindows& windows) {
+                               NamedLeafBlocks& leaf_blocks) {
   std::uint32_t any_block = 0;
 #pragma GCC unroll 1  // else GCC 12 unrolls it first, and then makes no vectors
   for (std::uint32_t i = 0; i < block_width; ++i) {
     const std::uint32_t name = name_of(x, i), disc = ~is_padding(x[i]);
-    const std::uint32_t window = disc & static_cast<std::uint32_t>(static_cast<std::int32_t>(name) >> 31);
+    const std::uint32_t leaf_block = disc & static_cast<std::uint32_t>(static_cast<std::int32_t>(name) >> 31);
     any_block |= disc & ~name;
-    const auto named = static_cast<std::int32_t>(name & window);
-    const auto or_first = static_cast<std::int32_t>((name & window) | (~window & leaf_window));
-    windows.least[i] = std::min(windows.least[i], named);
-    windows.most[i] = std::max(windows.most[i], or_first);
-    windows.count[i] -= window;
+    const auto named = static_cast<std::int32_t>(name & leaf_block);
+    const auto or_first = static_cast<std::int32_t>((name & leaf_block) | (~leaf_block & leaf_bit));
+    leaf_blocks.least[i] = std::min(leaf_blocks.least[i], named);
+    leaf_blocks.most[i] = std::max(leaf_blocks.most[i], or_first);
+    leaf_blocks.count[i] -= leaf_block;
   }
   if ((any_block & top_bit) == 0) return next;
   for (std::uint32_t i = 0; i < block_width; ++i) {
     const std::uint32_t name = name_of(x, i);
-    if (x[i] == infinity || name >= leaf_window) continue;
+    if (x[i] == infinity || name >= leaf_bit) continue;
     if (name != next) reject("nodes", block, "child " + std::to_string(name) + " is not the next block");
     next += block_floats;
   }
@@ -97,75 +97,76 @@ void require_inner_numbers(const ShapeArrays& a, const LevelNodes& level, float 
 }  // namespace
 
 void order_of_levels(const ShapeArrays& a, LevelNodes& level) {
-  const std::uint64_t first = tree(a, level).top & ~leaf_window;
+  const std::uint64_t first = tree(a, level).top & ~leaf_bit;
   if (first < level.begin)
     reject("trees", level.root, "begins at " + std::to_string(first) + ", in another tree");
 }
 
 void blocks(const ShapeArrays& a, LevelNodes& level) {
   const std::uint32_t top = tree(a, level).top;
-  NamedWindows& windows = level.windows;
-  std::fill_n(windows.most, block_width, std::numeric_limits<std::int32_t>::min());
-  level.discs = top & ~leaf_window;
-  if (is_window(tree(a, level))) {
-    windows.least[0] = windows.most[0] = static_cast<std::int32_t>(top);
-    windows.count[0] = 1;
+  NamedLeafBlocks& leaf_blocks = level.leaf_blocks;
+  std::fill_n(leaf_blocks.most, block_width, std::numeric_limits<std::int32_t>::min());
+  level.discs = top & ~leaf_bit;
+  if (is_leaf_block(tree(a, level))) {
+    leaf_blocks.least[0] = leaf_blocks.most[0] = static_cast<std::int32_t>(top);
+    leaf_blocks.count[0] = 1;
     return;
   }
   std::uint64_t next = level.discs + block_floats, level_end = next;
   for (std::uint64_t block = top, levels = 1; block < next; block += block_floats) {
     if (block == level_end) {
       level_end = next;
-      // The windows below are a level, too.
+      // The leaf blocks below are a level, too.
       if (++levels == max_wide_levels) reject("nodes", block, "the tree has too many levels");
     }
     if (block + block_floats > a.nodes.size()) reject("nodes", block, "the block ends beyond the array");
     const float* x = a.nodes.data() + block;
     // first_disc() follows the first disc's name before padding is examined.
     if (x[0] == infinity) reject("nodes", block, "begins with padding");
-    next = require_children(x, block, next, windows);
+    next = require_children(x, block, next, leaf_blocks);
   }
   level.discs = next;
 }
 
 void disc_extent(const ShapeArrays& a, LevelNodes& level) {
-  const auto [top, discs, stride, count, outer, segments, points, nodes_hold_discs] = tree(a, level);
+  const auto [top, discs, stride, count, outer, segments, points, conservative_nodes] = tree(a, level);
   const std::uint64_t after_discs = level.discs + 3 * std::uint64_t{stride};
   level.end =
       (after_discs + inner_floats - 1) / inner_floats * inner_floats + inner_floats * std::uint64_t{count};
   if (discs != level.discs || count < 1 || stride != std::max(count, block_width) ||
       level.end + block_floats > a.nodes.size())
     reject("trees", level.root, std::to_string(count) + " discs do not fit");
-  if (nodes_hold_discs > 1) reject("trees", level.root, "whether nodes hold discs is neither 0 nor 1");
+  if (conservative_nodes > 1) reject("trees", level.root, "whether nodes hold discs is neither 0 nor 1");
 }
 
-void windows(const ShapeArrays& a, LevelNodes& level) {
-  const NamedWindows& named = level.windows;
+void leaf_blocks(const ShapeArrays& a, LevelNodes& level) {
+  const NamedLeafBlocks& named = level.leaf_blocks;
   const std::int32_t least = *std::min_element(named.least, named.least + block_width);
   const std::int32_t most = *std::max_element(named.most, named.most + block_width);
-  const std::uint64_t from = static_cast<std::uint32_t>(least) & ~leaf_window,
-                      to = static_cast<std::uint32_t>(most) & ~leaf_window;
+  const std::uint64_t from = static_cast<std::uint32_t>(least) & ~leaf_bit,
+                      to = static_cast<std::uint32_t>(most) & ~leaf_bit;
   if (from < level.discs || to + block_width > level.discs + tree(a, level).stride)
-    reject("trees", level.root,
-           "windows at " + std::to_string(from) + " to " + std::to_string(to) + " are not among its discs");
+    reject(
+        "trees", level.root,
+        "leaf blocks at " + std::to_string(from) + " to " + std::to_string(to) + " are not among its discs");
 }
 
-void first_window(const ShapeArrays& a, LevelNodes& level) {
+void first_leaf_block(const ShapeArrays& a, LevelNodes& level) {
   if (first_disc(a.nodes.data(), tree(a, level).top) != level.discs)
-    reject("trees", level.root, "the first window is not at the first disc");
+    reject("trees", level.root, "the first leaf block is not at the first disc");
 }
 
-void number_of_windows(const ShapeArrays& a, LevelNodes& level) {
+void number_of_leaf_blocks(const ShapeArrays& a, LevelNodes& level) {
   std::uint64_t count = 0;
-  for (const std::uint32_t of_lane : level.windows.count) count += of_lane;
+  for (const std::uint32_t of_lane : level.leaf_blocks.count) count += of_lane;
   if (count > tree(a, level).stride)
     reject("trees", level.root,
-           std::to_string(count) + " windows of " + std::to_string(tree(a, level).stride) + " discs");
+           std::to_string(count) + " leaf blocks of " + std::to_string(tree(a, level).stride) + " discs");
 }
 
 void padding(const ShapeArrays& a, LevelNodes& level) {
   const float* nodes = a.nodes.data();
-  if (!is_window(tree(a, level)))
+  if (!is_leaf_block(tree(a, level)))
     for (std::uint64_t block = tree(a, level).top; block < level.discs; block += block_floats)
       require_padding_last(nodes + block, block);
   const std::uint32_t count = tree(a, level).count;
@@ -179,7 +180,7 @@ void padding(const ShapeArrays& a, LevelNodes& level) {
 void numbers(const ShapeArrays& a, LevelNodes& level) {
   const float* nodes = a.nodes.data();
   const float least = smallest_radius(reach(a, level));
-  if (!is_window(tree(a, level)))
+  if (!is_leaf_block(tree(a, level)))
     for (std::uint64_t block = tree(a, level).top; block < level.discs; block += block_floats)
       require_eight_discs(nodes + block, least, block);
   require_inner_numbers(a, level, least);

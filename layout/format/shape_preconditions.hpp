@@ -12,9 +12,9 @@
 
 namespace bch::detail {
 
-/// Holds, per lane of blocks, the windows that a level's nodes name. As signed integers, names of windows are
+/// Holds, per lane of blocks, the leaf blocks that a level's nodes name. As signed integers, names of leaf blocks are
 /// negative, the first of them is the least, and names of blocks are not negative.
-struct NamedWindows {
+struct NamedLeafBlocks {
   static constexpr std::int32_t none = 0;
   std::int32_t least[block_width], most[block_width];
   std::uint32_t count[block_width];
@@ -28,7 +28,7 @@ struct LevelNodes {
   std::uint64_t discs = 0;     ///< where the cut's discs begin, after the blocks
   std::uint64_t end = 0;       ///< the end of the level
   std::uint64_t segments = 0;  ///< the end of the leaf_segments of the levels before
-  NamedWindows windows{};
+  NamedLeafBlocks leaf_blocks{};
 
   /// Represents a pending inner node, by its index, and the disc of its first child.
   struct OpenNode {

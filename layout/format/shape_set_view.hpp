@@ -26,13 +26,13 @@ struct DiscBlock {
 };
 
 /// A node of the flat tree is named by a 32-bit number: the position of its first disc in ShapeSetView::nodes. A name
-/// with the bit leaf_window names a window: any eight consecutive discs of the cut. A name without that bit names a
+/// with the bit leaf_bit names a leaf block: any eight consecutive discs of the cut. A name without that bit names a
 /// block, which has six arrays of eight. The first three are x, y and radius of nodes of the hierarchy. The fourth
 /// has the names of the nodes below them, stored as the bits of floats. The fifth has outer radii: a disc about the
 /// same centre with the outer radius encloses all discs of the cut below, which may protrude from the node's own
-/// disc. The sixth has the nodes' numbers in the hierarchy: the number of an inner node, or leaf_window + the
+/// disc. The sixth has the nodes' numbers in the hierarchy: the number of an inner node, or leaf_bit + the
 /// position of a disc of the cut.
-constexpr std::uint32_t leaf_window = 0x80000000;
+constexpr std::uint32_t leaf_bit = 0x80000000;
 constexpr std::uint32_t block_names = 3 * block_width;  ///< from a block's first x, like the next two
 constexpr std::uint32_t block_outer = 4 * block_width;
 constexpr std::uint32_t block_nodes = 5 * block_width;
@@ -44,11 +44,11 @@ constexpr std::uint32_t block_floats = 6 * block_width;
 /// padding takes its place. If the cut is one disc, that disc is the only inner node, as its own root.
 struct InnerNode {
   float x, y, radius;
-  /// The number, in the whole set, of the parent (for the root: of itself), and perhaps above_cut_disc.
+  /// The number, in the whole set, of the parent (for the root: of itself), and perhaps parent_of_cut_disc.
   std::uint32_t link;
 };
 /// A bit of links: the first child of the node is a disc of the cut.
-constexpr std::uint32_t above_cut_disc = 0x80000000;
+constexpr std::uint32_t parent_of_cut_disc = 0x80000000;
 constexpr std::uint32_t inner_floats = sizeof(InnerNode) / sizeof(float);
 static_assert(sizeof(InnerNode) == 16);
 
@@ -78,7 +78,7 @@ struct Tree {
   /// 1: every inner node encloses the cut discs below it with a margin; 0: some may not. Nodes of two trees with 1
   /// overlap wherever the discs below them do, unless one shape is much larger than the other (section VIII of
   /// layout/base/rounding.hpp).
-  std::uint32_t nodes_hold_discs = 0;
+  std::uint32_t conservative_nodes = 0;
 
   /// Returns the number of the first inner node: its position in `nodes` divided by inner_floats. (Always inlined, so
   /// that instruction sets share no function.)

@@ -52,12 +52,13 @@ constexpr Precondition all[] = {
      nullptr, blocks},
     {"room", "A level has eight discs or more, with padding, and a block's room follows them.", nullptr,
      disc_extent},
-    {"windows", "Windows lie among their level's discs.", nullptr, windows},
-    {"first window",
+    {"leaf blocks", "Leaf blocks lie among their level's discs.", nullptr, leaf_blocks},
+    {"first leaf block",
      "First child after first child leads to the level's first disc, from which others are numbered.",
-     nullptr, first_window},
-    {"number of windows", "A level has no more windows than discs, which bounds the steps that a pair takes.",
-     nullptr, number_of_windows},
+     nullptr, first_leaf_block},
+    {"number of leaf blocks",
+     "A level has no more leaf blocks than discs, which bounds the steps that a pair takes.", nullptr,
+     number_of_leaf_blocks},
     {"padding", "Padding follows discs: in blocks, and where a level has fewer than eight.", nullptr,
      padding},
     {"numbers",
@@ -96,8 +97,8 @@ void validate(const ShapeArrays& arrays, const std::function<void(std::size_t)>&
     if (each.check_set != nullptr) each.check_set(arrays);
   LevelNodes level{};
   for (std::size_t root = 0; root < arrays.trees.size(); ++root) {
-    if (before_nodes) before_nodes(arrays.trees[root].top & ~leaf_window);
-    level.root = root, level.begin = level.end, level.windows = {};
+    if (before_nodes) before_nodes(arrays.trees[root].top & ~leaf_bit);
+    level.root = root, level.begin = level.end, level.leaf_blocks = {};
     for (const Precondition& each : all)
       if (each.check_level != nullptr) each.check_level(arrays, level);
   }

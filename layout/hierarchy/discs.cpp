@@ -70,7 +70,7 @@ std::size_t best_split(std::span<const Disc> discs) {
 /// Inner nodes hold the discs with room to spare; see layout/base/rounding.hpp, VIII.
 void add_nodes(std::span<const Disc> discs, Hierarchy& hierarchy) {
   constexpr double of_leaves = rounding::query_margin,
-                   of_others = of_leaves + rounding::held_margin + 4 * rounding::unit_roundoff;
+                   of_others = of_leaves + rounding::conservative_margin + 4 * rounding::unit_roundoff;
   const std::size_t node = hierarchy.nodes.size();
   const bool is_leaf = discs.size() == 1;
   hierarchy.nodes.push_back({smallest_disc(discs, (is_leaf ? of_leaves : of_others) * hierarchy.reach)});

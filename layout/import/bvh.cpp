@@ -10,7 +10,7 @@ namespace bch::detail::importing {
 namespace {
 
 /// Returns a whole number, or -1.
-double whole_number(std::string_view word) {
+double integer(std::string_view word) {
   const double value = number_of(word).value_or(-1);
   return value == std::floor(value) ? value : -1;
 }
@@ -18,7 +18,7 @@ double whole_number(std::string_view word) {
 /// Goes over the channels of a joint.
 /// Returns: how many there are.
 std::size_t skip_channels(const std::filesystem::path& file, std::string_view& text, std::string_view joint) {
-  const double said = whole_number(next_word(text));
+  const double said = integer(next_word(text));
   std::size_t channels = 0, positions = 0;
   for (; static_cast<double>(channels) < said && !text.empty(); ++channels)
     positions += next_word(text).ends_with("position");
@@ -42,7 +42,7 @@ std::string check_bvh(const std::filesystem::path& file, std::string_view text) 
   }
   if (next_word(text) != "Frames:") return "";  // assimp says what it misses
   const std::string_view said = next_word(text);
-  const double frames = whole_number(said);
+  const double frames = integer(said);
   if (!(frames >= 1)) reject(file, "'Frames: " + std::string(said) + "' is no number of frames");
   for (int i = 0; i < 3; ++i) next_word(text);  // Frame Time: seconds
   std::size_t numbers = 0;

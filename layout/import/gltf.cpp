@@ -75,7 +75,7 @@ void read_scene_nodes(GltfReader& reader, const JsonValue& roots) {
     const Pending next = stack.back();
     stack.pop_back();
     const JsonValue node = reader.file.named_by(next.index, "nodes");
-    const std::size_t index = next.index.whole_number(nodes.size());
+    const std::size_t index = next.index.integer(nodes.size());
     if (reader.nodes[index] != nullptr)
       next.index.reject("is " + std::to_string(index) + ", a node that has a place in the scene already");
     reader.names[index] = names.add(node, index);

@@ -72,8 +72,8 @@ class AnimationReader {
         continue;
       }
       reader_.file.named_by(node, "nodes");
-      const std::size_t index = node.whole_number(reader_.names.size());
-      const JsonValue sampler = samplers[channels[c]["sampler"].whole_number(samplers.size())];
+      const std::size_t index = node.integer(reader_.names.size());
+      const JsonValue sampler = samplers[channels[c]["sampler"].integer(samplers.size())];
       if (path == "weights")
         check_morphs(index, sampler);
       else

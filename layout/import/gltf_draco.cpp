@@ -37,7 +37,7 @@ template <class Number>
 std::vector<Number> DracoMesh::attribute(const char* name, std::size_t components, bool normalised) const {
   constexpr std::size_t largest_id = 0xffffffff;
   const JsonValue id = attributes_[name];
-  const int index = mesh_->GetAttributeIdByUniqueId(static_cast<std::uint32_t>(id.whole_number(largest_id)));
+  const int index = mesh_->GetAttributeIdByUniqueId(static_cast<std::uint32_t>(id.integer(largest_id)));
   if (index < 0) id.reject("is no attribute of its Draco mesh");
   draco::PointAttribute& attribute = *mesh_->attribute(index);
   attribute.set_normalized(normalised);

@@ -135,7 +135,7 @@ std::vector<std::string> GltfFile::unread_extensions() const {
 }
 
 JsonValue GltfFile::named_by(const JsonValue& index, const char* array) const {
-  const std::size_t number = index.whole_number(largest_index);
+  const std::size_t number = index.integer(largest_index);
   const JsonValue list = root()[array];
   if (number >= list.size())
     index.reject("is " + std::to_string(number) + " of " + count(list.size(), "element") + " of " + array);
@@ -143,7 +143,7 @@ JsonValue GltfFile::named_by(const JsonValue& index, const char* array) const {
 }
 
 std::string_view GltfFile::buffer(const JsonValue& json, std::size_t index) {
-  const std::size_t size = json["byteLength"].whole_number(largest_offset);
+  const std::size_t size = json["byteLength"].integer(largest_offset);
   const std::string uri = json["uri"].text();
   std::string_view bytes = binary_chunk_;
   if (!uri.empty()) {
@@ -167,10 +167,10 @@ std::string_view GltfFile::buffer(const JsonValue& json, std::size_t index) {
 }
 
 std::string_view GltfFile::bytes_of(const JsonValue& view) {
-  const std::size_t index = view["buffer"].whole_number(largest_index);
+  const std::size_t index = view["buffer"].integer(largest_index);
   const std::string_view bytes = buffer(named_by(view["buffer"], "buffers"), index);
-  const std::size_t offset = view["byteOffset"].whole_number(largest_offset, 0);
-  const std::size_t size = view["byteLength"].whole_number(largest_offset);
+  const std::size_t offset = view["byteOffset"].integer(largest_offset, 0);
+  const std::size_t size = view["byteLength"].integer(largest_offset);
   if (offset > bytes.size() || size > bytes.size() - offset)
     view.reject("reaches beyond the " + count(bytes.size(), "byte") + " of its buffer");
   return bytes.substr(offset, size);

@@ -92,7 +92,7 @@ class Primitive {
   }
 
   Mode mode() const {
-    const auto mode = static_cast<Mode>(json_["mode"].whole_number(triangle_fan, triangles));
+    const auto mode = static_cast<Mode>(json_["mode"].integer(triangle_fan, triangles));
     return draco_ ? triangles : mode;  // a strip is compressed as its triangles
   }
 
@@ -150,7 +150,7 @@ void read_bones(GltfReader& reader, Primitive& primitive, const JsonValue& skin,
   for (std::size_t j = 0; j < lists.size(); ++j) {
     aiBone& bone = *(mesh.mBones[j] = new aiBone);
     file.named_by(joints[j], "nodes");
-    bone.mName = reader.names[joints[j].whole_number(reader.names.size())];
+    bone.mName = reader.names[joints[j].integer(reader.names.size())];
     if (binds) bone.mOffsetMatrix = matrix_from(&matrices[16 * j]);
     bone.mWeights = new aiVertexWeight[lists[j].size()];
     bone.mNumWeights = static_cast<unsigned>(lists[j].size());
@@ -225,7 +225,7 @@ void read_gltf_meshes(GltfReader& reader) {
     if (reader.nodes[n] == nullptr || !mesh) continue;
     check_morphs(reader, nodes[n], file.named_by(mesh, "meshes"));
     if (skin) file.named_by(skin, "skins");
-    users[{mesh.whole_number(no_skin), skin.whole_number(no_skin, no_skin)}].push_back(n);
+    users[{mesh.integer(no_skin), skin.integer(no_skin, no_skin)}].push_back(n);
   }
   MeshList meshes(reader);
   for (const auto& [key, their_nodes] : users) {

@@ -47,7 +47,7 @@ struct Decoder {
 namespace {
 
 Decoder decoder_of(const JsonValue& type) {
-  switch (type.whole_number(largest_index)) {
+  switch (type.integer(largest_index)) {
     case 5120:
       return {1, 0x7f, true, read_number<std::int8_t>};
     case 5121:
@@ -83,9 +83,9 @@ Elements GltfFile::elements(const JsonValue& place, std::size_t count, std::size
                             bool strided) {
   const JsonValue view = named_by(place["bufferView"], "bufferViews");
   const std::string_view bytes = bytes_of(view);
-  const std::size_t offset = place["byteOffset"].whole_number(largest_offset, 0);
+  const std::size_t offset = place["byteOffset"].integer(largest_offset, 0);
   const std::size_t stride =
-      strided ? view["byteStride"].whole_number(largest_offset, element_bytes) : element_bytes;
+      strided ? view["byteStride"].integer(largest_offset, element_bytes) : element_bytes;
   if (stride < element_bytes)
     view["byteStride"].reject("is less than the " + std::to_string(element_bytes) + " bytes of an element");
   const bool fits = count == 0 || (offset <= bytes.size() && element_bytes <= bytes.size() - offset &&
@@ -99,7 +99,7 @@ template <class Number>
 void GltfFile::replace_sparse(const JsonValue& accessor, const Decoder& decoder,
                               std::vector<Number>& numbers) {
   const JsonValue sparse = accessor["sparse"], places = sparse["indices"];
-  const std::size_t size = numbers.size() / decoder.components, count = sparse["count"].whole_number(size);
+  const std::size_t size = numbers.size() / decoder.components, count = sparse["count"].integer(size);
   const Decoder index = index_decoder_of(places["componentType"]);
   const Elements from = elements(places, count, index.element_bytes(), false);
   const Elements values = elements(sparse["values"], count, decoder.element_bytes(), false);
@@ -120,7 +120,7 @@ std::vector<Number> GltfFile::read(const JsonValue& accessor, const char* type) 
                                                : decoder_of(accessor["componentType"]);
   decoder.components = components_of(type);
   decoder.normalised = !std::is_integral_v<Number> && decoder.one > 0 && accessor["normalized"].as_bool();
-  const std::size_t count = accessor["count"].whole_number(largest_index);
+  const std::size_t count = accessor["count"].integer(largest_index);
   if (count * decoder.components > values_left_)
     accessor.reject("and those before it hold more than " + std::to_string(max_values) + " numbers");
   values_left_ -= count * decoder.components;

@@ -34,7 +34,7 @@ std::size_t JsonValue::size() const {
   return value_->size();
 }
 
-std::size_t JsonValue::whole_number(std::size_t largest) const {
+std::size_t JsonValue::integer(std::size_t largest) const {
   if (value_ == nullptr) reject("is missing");
   // Some programs write whole numbers as 3.0.
   const double number = value_->is_number() ? value_->get<double>() : -1;
@@ -43,8 +43,8 @@ std::size_t JsonValue::whole_number(std::size_t largest) const {
   return static_cast<std::size_t>(number);
 }
 
-std::size_t JsonValue::whole_number(std::size_t largest, std::size_t if_absent) const {
-  return value_ == nullptr ? if_absent : whole_number(largest);
+std::size_t JsonValue::integer(std::size_t largest, std::size_t if_absent) const {
+  return value_ == nullptr ? if_absent : integer(largest);
 }
 
 float JsonValue::number() const {

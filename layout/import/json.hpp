@@ -28,9 +28,9 @@ class JsonValue {
   /// Errors:  throws ImportError if the array has no such element.
   JsonValue operator[](std::size_t index) const;
 
-  std::size_t size() const;                             ///< of an array; 0 if absent
-  std::size_t whole_number(std::size_t largest) const;  ///< from 0 to `largest`
-  std::size_t whole_number(std::size_t largest, std::size_t if_absent) const;
+  std::size_t size() const;                        ///< of an array; 0 if absent
+  std::size_t integer(std::size_t largest) const;  ///< from 0 to `largest`
+  std::size_t integer(std::size_t largest, std::size_t if_absent) const;
   float number() const;
   bool as_bool() const;      ///< false if absent
   std::string text() const;  ///< empty if absent

@@ -33,7 +33,7 @@ class ContourIndex {
     if (!boxes_.empty()) pending[count++] = root;
     while (count > 0) {
       const std::size_t node = pending[--count];
-      if (!boxes_[node].holds(point)) continue;
+      if (!boxes_[node].contains(point)) continue;
       if (node < leaves_)
         pending[count++] = 2 * node, pending[count++] = 2 * node + 1;
       else if (accept(contour_[node - leaves_]))

@@ -15,7 +15,7 @@ namespace bch::detail {
 struct GridBox {
   GridPoint low, high;
 
-  bool holds(GridPoint p) const { return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y; }
+  bool contains(GridPoint p) const { return low.x <= p.x && p.x <= high.x && low.y <= p.y && p.y <= high.y; }
 };
 
 /// The empty box. Enlarged by another box it becomes that box.

@@ -112,7 +112,7 @@ int place_in(const GridRing& ring, GridVector twice) {
 }
 
 /// Returns whether a hole is in an exterior, which it may touch in points: by the first middle of an edge that is not on it.
-bool holds(const GridRing& exterior, const GridRing& hole) {
+bool contains(const GridRing& exterior, const GridRing& hole) {
   for (std::size_t i = 0; i < hole.size(); ++i) {
     const GridPoint a = hole[i], b = hole[(i + 1) % hole.size()];
     const int place = place_in(exterior, {std::int64_t{a.x} + b.x, std::int64_t{a.y} + b.y});
@@ -147,7 +147,7 @@ std::vector<GridRing> rings_of(std::vector<BoundaryPiece> boundary) {
   for (GridRing& hole : holes) {
     Polygon* smallest = nullptr;
     for (Polygon& polygon : polygons)
-      if ((smallest == nullptr || polygon.area < smallest->area) && holds(polygon.rings[0], hole))
+      if ((smallest == nullptr || polygon.area < smallest->area) && contains(polygon.rings[0], hole))
         smallest = &polygon;
     if (smallest != nullptr) smallest->rings.push_back(std::move(hole));
   }

@@ -78,14 +78,14 @@ class Ndjson final : public RowSource {
       if (name == "prediction_number" || name == "pred_number") prediction = value;
     });
     if (!whole) reject("is not an object of JSON: " + shown(line));
-    row.key = whole_number("f", frame);
+    row.key = integer("f", frame);
     if (row.key > largest_frame || row.key < -largest_frame)
       reject("f " + shown(frame) + " is not within +-1e15");
-    row.id = whole_number("p", person);
+    row.id = integer("p", person);
     row.x = coordinate("x", x);
     row.y = coordinate("y", y);
     const bool is_other =
-        !prediction.empty() && prediction != "null" && whole_number("prediction_number", prediction) != 0;
+        !prediction.empty() && prediction != "null" && integer("prediction_number", prediction) != 0;
     left_out_ += is_other;
     return !is_other;
   }
@@ -112,7 +112,7 @@ class Ndjson final : public RowSource {
     return *value;
   }
 
-  std::int64_t whole_number(const char* name, std::string_view text) const {
+  std::int64_t integer(const char* name, std::string_view text) const {
     if (text.empty()) reject("has no " + shown(name));
     const std::optional<std::int64_t> value = whole_number_from(text);
     if (!value) reject(std::string(name) + " " + shown(text) + " is not a whole number");

@@ -53,10 +53,10 @@ class RowValues {
       case Role::none:
         break;
       case Role::id:
-        row.id = whole_number(column, value);
+        row.id = integer(column, value);
         break;
       case Role::frame:
-        row.key = whole_number(column, value);
+        row.key = integer(column, value);
         if (row.key > largest_frame || row.key < -largest_frame)
           reject(column, value, "is not within +-1e15");
         break;
@@ -148,7 +148,7 @@ class RowValues {
   }
 
   template <class Value>
-  std::int64_t whole_number(std::size_t column, Value value) const {
+  std::int64_t integer(std::size_t column, Value value) const {
     const std::optional<std::int64_t> number = whole_number_from(value);
     if (!number) reject(column, value, "is not a whole number");
     return *number;

@@ -18,7 +18,7 @@ namespace bch {
 
 using namespace detail;
 
-struct PoseShaper::State {
+struct ShapeBuilder::State {
   ShapeSetPlan plan;
   float threshold;
   Skinner skinner;
@@ -31,13 +31,13 @@ struct PoseShaper::State {
   void make_hierarchy();
 };
 
-void PoseShaper::State::make_outline(const Pose& pose) {
+void ShapeBuilder::State::make_outline(const Pose& pose) {
   if (extremes) return extremes->find(skinner.ground_pose(pose));
   if (!plan.heights) return outline_builder->build(skinner.ground_pose(pose), shape.outline);
   shape.heights = outline_builder->build(skinner.pose(pose), shape.outline);
 }
 
-void PoseShaper::State::make_hierarchy() {
+void ShapeBuilder::State::make_hierarchy() {
   if (extremes) {
     require_threshold(threshold);
     return hierarchy_builder.root(extremes->points(), extremes->grid_step(), shape.hierarchy);
@@ -47,7 +47,7 @@ void PoseShaper::State::make_hierarchy() {
   if (plan.depths.back() == all_depths) hierarchy_builder.add_primitives(shape.hierarchy);
 }
 
-PoseShaper::PoseShaper(const Character& character, const ShapeSetPlan& plan, float threshold) {
+ShapeBuilder::ShapeBuilder(const Character& character, const ShapeSetPlan& plan, float threshold) {
   const FloatingPointStateGuard floats;
   validate(plan);
   state_.reset(new State{plan, threshold, Skinner(character), {}, {}, {}, {}});
@@ -57,42 +57,42 @@ PoseShaper::PoseShaper(const Character& character, const ShapeSetPlan& plan, flo
     state_->outline_builder.emplace(character.triangles, character.vertices.size(), character.vertices);
 }
 
-PoseShaper::PoseShaper(PoseShaper&&) noexcept = default;
-PoseShaper& PoseShaper::operator=(PoseShaper&&) noexcept = default;
-PoseShaper::~PoseShaper() = default;
+ShapeBuilder::ShapeBuilder(ShapeBuilder&&) noexcept = default;
+ShapeBuilder& ShapeBuilder::operator=(ShapeBuilder&&) noexcept = default;
+ShapeBuilder::~ShapeBuilder() = default;
 
-void PoseShaper::limit_nodes(std::size_t max) {
+void ShapeBuilder::limit_nodes(std::size_t max) {
   state_->hierarchy_builder.limit_nodes(max);
 }
 
-const Shape& PoseShaper::shape(const Pose& pose) {
+const Shape& ShapeBuilder::shape(const Pose& pose) {
   make_outline(pose);
   return make_hierarchy();
 }
 
-const Shape& PoseShaper::make_outline(const Pose& pose) {
+const Shape& ShapeBuilder::make_outline(const Pose& pose) {
   const FloatingPointStateGuard floats;
   state_->make_outline(pose);
   return state_->shape;
 }
 
-const Shape& PoseShaper::make_hierarchy() {
+const Shape& ShapeBuilder::make_hierarchy() {
   const FloatingPointStateGuard floats;
   state_->make_hierarchy();
   return state_->shape;
 }
 
-std::span<const Affine3d> PoseShaper::joint_transforms(PoseTime at, JointFrame frame) {
+std::span<const Affine3d> ShapeBuilder::joint_transforms(PoseTime at, JointFrame frame) {
   const FloatingPointStateGuard floats;
   return state_->skinner.joints(at, frame);
 }
 
-std::span<const Affine3d> PoseShaper::blend(std::span<const WeightedPose> poses) {
+std::span<const Affine3d> ShapeBuilder::blend(std::span<const WeightedPose> poses) {
   const FloatingPointStateGuard floats;
   return state_->skinner.blend(poses);
 }
 
-std::span<const Vec3> PoseShaper::pose_vertices(const Pose& pose) {
+std::span<const Vec3> ShapeBuilder::pose_vertices(const Pose& pose) {
   const FloatingPointStateGuard floats;
   return state_->skinner.pose(pose);
 }

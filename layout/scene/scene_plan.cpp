@@ -30,11 +30,11 @@ constexpr std::size_t max_levels = 255;
   throw std::invalid_argument("scene plan: agent " + std::to_string(agent) + ": " + what);
 }
 
-void require(const SceneUse& use) {
-  if (!(use.pose_step >= 0) || !is_finite(use.pose_step))
-    throw std::invalid_argument("scene plan: a pose step of " + shortest(use.pose_step) + " s");
-  if (!(use.pairs_per_shape >= 0))
-    throw std::invalid_argument("scene plan: " + shortest(use.pairs_per_shape) + " pairs a shape");
+void require(const SceneRequirements& requirements) {
+  if (!(requirements.pose_step >= 0) || !is_finite(requirements.pose_step))
+    throw std::invalid_argument("scene plan: a pose step of " + shortest(requirements.pose_step) + " s");
+  if (!(requirements.pairs_per_shape >= 0))
+    throw std::invalid_argument("scene plan: " + shortest(requirements.pairs_per_shape) + " pairs a shape");
 }
 
 /// Numbers the different shapes of a scene.
@@ -64,11 +64,13 @@ class Shapes {
   std::map<std::tuple<std::uint32_t, std::uint32_t, float>, std::size_t> numbers_;
 };
 
-std::vector<std::uint32_t> depths_of(std::span<const ScenePlan::Agent> agents, const SceneUse& use) {
+std::vector<std::uint32_t> depths_of(std::span<const ScenePlan::Agent> agents,
+                                     const SceneRequirements& requirements) {
   std::vector<std::uint32_t> depths;
   for (const ScenePlan::Agent& agent : agents)
-    depths.push_back(std::min(use.depth ? use.depth(agent.distance) : all_depths,
-                              use.density_depth ? use.density_depth(agent.density) : all_depths));
+    depths.push_back(
+        std::min(requirements.depth ? requirements.depth(agent.distance) : all_depths,
+                 requirements.density_depth ? requirements.density_depth(agent.density) : all_depths));
   return depths;
 }
 
@@ -88,9 +90,9 @@ std::uint32_t depth_at_density(double people_per_square_metre) {
   return people_per_square_metre < 1.1 ? 0 : all_depths;
 }
 
-ScenePlan plan_scene(std::span<const ScenePlan::Agent> agents, const SceneUse& use) {
+ScenePlan plan_scene(std::span<const ScenePlan::Agent> agents, const SceneRequirements& requirements) {
   const FloatingPointStateGuard floats;
-  require(use);
+  require(requirements);
   for (std::size_t i = 0; i < agents.size(); ++i) {
     if (!(agents[i].distance >= 0) || !is_finite(agents[i].distance))
       reject(i, "a distance of " + shortest(agents[i].distance) + " m");
@@ -98,13 +100,13 @@ ScenePlan plan_scene(std::span<const ScenePlan::Agent> agents, const SceneUse& u
       reject(i, "a density of " + shortest(agents[i].density) + " people per square metre");
     if (!is_finite(agents[i].pose.at.seconds)) reject(i, "at " + shortest(agents[i].pose.at.seconds) + " s");
   }
-  const std::vector<std::uint32_t> depths = depths_of(agents, use);
+  const std::vector<std::uint32_t> depths = depths_of(agents, requirements);
   ScenePlan plan;
   plan.set.depths = different(depths);
-  plan.set.outlines = use.outlines;
-  plan.set.heights = use.heights;
-  plan.set.culling = use.pairs_per_shape >= pairs_for_culling;
-  Shapes shapes(use.pose_step);
+  plan.set.outlines = requirements.outlines;
+  plan.set.heights = requirements.heights;
+  plan.set.culling = requirements.pairs_per_shape >= pairs_for_culling;
+  Shapes shapes(requirements.pose_step);
   for (std::size_t i = 0; i < agents.size(); ++i) {
     plan.agent_shape.push_back(shapes.number(agents[i].pose));
     const auto level = std::lower_bound(plan.set.depths.begin(), plan.set.depths.end(), depths[i]);

@@ -104,10 +104,10 @@ class Builder {
     std::vector<std::vector<std::uint32_t>> level = {std::move(all)};
     for (; most > 1; most /= animated_width) level = divide(std::move(level), most / animated_width);
     for (const std::vector<std::uint32_t>& leaf : level) {
-      tree_.leaf_of_disc[leaf[0]] = static_cast<std::uint16_t>(held_.size());
-      held_.push_back(leaf);
+      tree_.leaf_of_disc[leaf[0]] = static_cast<std::uint16_t>(discs_of_node_.size());
+      discs_of_node_.push_back(leaf);
     }
-    tree_.child_begin.push_back(static_cast<std::uint16_t>(held_.size()));
+    tree_.child_begin.push_back(static_cast<std::uint16_t>(discs_of_node_.size()));
     place_discs();
     find_speed();
     return std::move(tree_);
@@ -122,10 +122,10 @@ class Builder {
   std::vector<std::vector<std::uint32_t>> divide(std::vector<std::vector<std::uint32_t>> level,
                                                  std::size_t most) {
     std::vector<std::vector<std::uint32_t>> below;
-    const std::size_t end = held_.size() + level.size();
+    const std::size_t end = discs_of_node_.size() + level.size();
     for (std::vector<std::uint32_t>& discs : level) {
       tree_.child_begin.push_back(static_cast<std::uint16_t>(end + below.size()));
-      held_.push_back(discs);
+      discs_of_node_.push_back(discs);
       const std::size_t parts = parts_of(discs.size(), most);
       divide_into(parts, most, std::move(discs), below);
     }
@@ -225,11 +225,12 @@ class Builder {
   }
 
   void place_discs() {
-    const std::size_t keys = chunk_.times.size(), nodes = held_.size(), fields = tree_.in_space ? 4 : 3;
+    const std::size_t keys = chunk_.times.size(), nodes = discs_of_node_.size(),
+                      fields = tree_.in_space ? 4 : 3;
     tree_.numbers.resize(fields * keys * nodes + animated_width);
     for (std::size_t key = 0; key < keys; ++key)
       for (std::size_t i = 0; i < nodes; ++i) {
-        const Sphere disc = disc_about(key, held_[i]);
+        const Sphere disc = disc_about(key, discs_of_node_[i]);
         std::uint16_t* const x = tree_.numbers.data() + fields * key * nodes + i;
         const auto as_bits = [](float steps) {
           return static_cast<std::uint16_t>(static_cast<std::int16_t>(steps));
@@ -254,7 +255,7 @@ class Builder {
   AnimatedTreeChunk tree_;
   std::vector<Sphere> discs_;  ///< those of the keys
   std::vector<std::size_t> sampled_keys_;
-  std::vector<std::vector<std::uint32_t>> held_;  ///< per node: its discs
+  std::vector<std::vector<std::uint32_t>> discs_of_node_;  ///< per node: its discs
 };
 
 }  // namespace

@@ -24,7 +24,8 @@ constexpr double shortest_loop = 0.001;
 /// descendants with room to spare, also for the rounding of both: 8 u for nodes that are rounded once, and, for a
 /// node made of two others, three roundings for each of up to 12 nodes between a leaf and the root.
 constexpr double margin_of_leaves = rounding::query_margin,
-                 margin_of_nodes = margin_of_leaves + rounding::held_margin + 48 * rounding::unit_roundoff;
+                 margin_of_nodes =
+                     margin_of_leaves + rounding::conservative_margin + 48 * rounding::unit_roundoff;
 
 /// Holds the nodes of a chunk at a key, in steps of the chunk. From any node, animated_width elements can be read,
 /// also beyond the last node.

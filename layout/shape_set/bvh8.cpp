@@ -9,7 +9,7 @@
 
 #include "layout/base/rounding.hpp"
 #include "layout/culling/cut_lanes.hpp"
-#include "layout/shape_set/held_discs.hpp"
+#include "layout/shape_set/conservative_nodes.hpp"
 
 namespace bch::detail {
 namespace {
@@ -75,8 +75,8 @@ void Bvh8Builder::flatten(std::uint32_t depth, Bvh8& tree) {
   tree.y.assign(y_.begin(), y_.begin() + padded);
   tree.radius.assign(radius_.begin(), radius_.begin() + padded);
   take_inner(tree);
-  tree.nodes_hold_discs =
-      nodes_hold_discs({x_.data(), y_.data(), radius_.data(), count_}, tree.inner_nodes, hierarchy_->reach);
+  tree.conservative_nodes =
+      conservative_nodes({x_.data(), y_.data(), radius_.data(), count_}, tree.inner_nodes, hierarchy_->reach);
   if (!grow(&Bvh8Builder::subtrees, tree)) grow(&Bvh8Builder::even_runs, tree);
 }
 
@@ -90,10 +90,10 @@ void Bvh8Builder::take_inner(Bvh8& tree) const {
   tree.inner_nodes.resize(count_);
   const Disc& root = nodes[0].disc;
   tree.inner_nodes.back() =
-      tree.is_single() ? InnerNode{root.x, root.y, root.radius, above_cut_disc} : InnerNode{};
+      tree.is_single() ? InnerNode{root.x, root.y, root.radius, parent_of_cut_disc} : InnerNode{};
   for (const std::uint32_t node : inner_) {
     const Disc& disc = nodes[node].disc;
-    const std::uint32_t is_above_cut = place(node) == position_[node] ? above_cut_disc : 0;
+    const std::uint32_t is_above_cut = place(node) == position_[node] ? parent_of_cut_disc : 0;
     tree.inner_nodes[place(node)] = {disc.x, disc.y, disc.radius, place(parent_[node]) | is_above_cut};
   }
 }
@@ -103,10 +103,10 @@ bool Bvh8Builder::grow(Split split, Bvh8& tree) {
   const Group all{0, count_, 0, count_};
   tree.root = hierarchy_->nodes[0].disc;
   tree.outer_radius = outer_radius(all);
-  tree.top = is_window(all) ? window(all) : 0;
+  tree.top = is_leaf_block(all) ? leaf_block(all) : 0;
   tree.blocks.clear();
   level_.clear();
-  if (!is_window(all)) level_.push_back(all);
+  if (!is_leaf_block(all)) level_.push_back(all);
   for (std::uint32_t depth = 1; !level_.empty(); ++depth) {
     if (depth == max_wide_levels) return false;
     next_.clear();
@@ -119,11 +119,10 @@ bool Bvh8Builder::grow(Split split, Bvh8& tree) {
         const Disc& disc = hierarchy_->nodes[part.node].disc;
         block.discs.x[i] = disc.x, block.discs.y[i] = disc.y, block.discs.radius[i] = disc.radius;
         block.outer_radius[i] = outer_radius(part);
-        block.node[i] =
-            part.node_end - position_[part.node] == 1 ? leaf_window + part.begin : place(part.node);
+        block.node[i] = part.node_end - position_[part.node] == 1 ? leaf_bit + part.begin : place(part.node);
         block.child[i] =
-            is_window(part) ? window(part) : next_block + static_cast<std::uint32_t>(next_.size());
-        if (!is_window(part)) next_.push_back(part);
+            is_leaf_block(part) ? leaf_block(part) : next_block + static_cast<std::uint32_t>(next_.size());
+        if (!is_leaf_block(part)) next_.push_back(part);
       }
     }
     std::swap(level_, next_);
@@ -131,8 +130,8 @@ bool Bvh8Builder::grow(Split split, Bvh8& tree) {
   return true;
 }
 
-std::uint32_t Bvh8Builder::window(const Group& group) const {
-  return leaf_window + std::min(group.begin, count_ < block_width ? 0 : count_ - block_width);
+std::uint32_t Bvh8Builder::leaf_block(const Group& group) const {
+  return leaf_bit + std::min(group.begin, count_ < block_width ? 0 : count_ - block_width);
 }
 
 /// Returns the worth of expanding a group.

@@ -22,11 +22,11 @@ struct Bvh8 {
   /// Holds up to eight groups of the cut's discs in parallel arrays; unused entries are padding.
   ///
   /// - `discs`: the discs of the nodes that are above the groups.
-  /// - `child`: a block of this tree, or leaf_window + the index of the first of eight consecutive discs of the cut.
+  /// - `child`: a block of this tree, or leaf_bit + the index of the first of eight consecutive discs of the cut.
   ///   These include the whole group and, if it has fewer than eight discs, some of its neighbours. That is harmless,
   ///   because any disc of the cut may be tested at any time.
   /// - `outer_radius`: radii about the same centres that enclose the discs of the groups.
-  /// - `node`: an index of `inner_nodes`, or leaf_window + the index of a disc of the cut.
+  /// - `node`: an index of `inner_nodes`, or leaf_bit + the index of a disc of the cut.
   struct Block {
     DiscBlock discs;
     std::uint32_t child[block_width];
@@ -40,14 +40,14 @@ struct Bvh8 {
   std::uint32_t top;                   ///< the root, encoded like Block::child
   Disc root;                           ///< the disc of the hierarchy's root
   float outer_radius;                  ///< the radius about the root's centre that encloses the cut's discs
-  bool nodes_hold_discs;               ///< each node encloses the discs below it (held_discs.hpp)
+  bool conservative_nodes;             ///< each node encloses the discs below it (conservative_nodes.hpp)
 
   bool is_single() const { return count == 1; }
 };
 
 /// Collapses the binary tree above a cut. The groups of a block come from its node: the group with the largest
 /// product of size and radius is replaced by the groups of its node's children, until there are eight groups or none
-/// can be expanded. A group of at most eight discs becomes a window. If the tree would be higher than
+/// can be expanded. A group of at most eight discs becomes a leaf block. If the tree would be higher than
 /// max_wide_levels, the cut's discs are grouped evenly in their order instead.
 Bvh8 bvh8(const Hierarchy& hierarchy, std::uint32_t depth);
 
@@ -72,7 +72,7 @@ class Bvh8Builder {
 
     std::uint32_t size() const { return end - begin; }
   };
-  static bool is_window(const Group& group) { return group.size() <= block_width; }
+  static bool is_leaf_block(const Group& group) { return group.size() <= block_width; }
   /// Holds the groups that become one block.
   struct Parts {
     std::array<Group, block_width> group;
@@ -87,7 +87,7 @@ class Bvh8Builder {
 
   void cut(std::uint32_t depth);
   bool grow(Split split, Bvh8& tree);
-  std::uint32_t window(const Group& group) const;
+  std::uint32_t leaf_block(const Group& group) const;
   Parts subtrees(const Group& group) const;
   Parts even_runs(const Group& group) const;
   void expand(Parts& parts, std::uint32_t index) const;

@@ -21,10 +21,10 @@ Bvh8 bvh8_of(const Root& root, const Tree& level, const float* nodes) {
   tree.root = {root.x, root.y, root.radius};
   tree.count = level.count;
   tree.outer_radius = level.outer_radius;
-  tree.nodes_hold_discs = level.nodes_hold_discs != 0;
-  const std::uint32_t begin = level.top < leaf_window ? level.top : level.discs;
+  tree.conservative_nodes = level.conservative_nodes != 0;
+  const std::uint32_t begin = level.top < leaf_bit ? level.top : level.discs;
   const auto local = [&](std::uint32_t name) {
-    return name < leaf_window ? (name - begin) / block_floats : name - level.discs;
+    return name < leaf_bit ? (name - begin) / block_floats : name - level.discs;
   };
   tree.top = local(level.top);
   tree.blocks.resize((level.discs - begin) / block_floats);
@@ -43,9 +43,8 @@ Bvh8 bvh8_of(const Root& root, const Tree& level, const float* nodes) {
     for (float* field : {block.discs.x, block.discs.y, block.discs.radius}) read(field, block_width);
     read_bits(block.child, local);
     read(block.outer_radius, block_width);
-    read_bits(block.node, [&](std::uint32_t node) {
-      return node < leaf_window ? node - first_inner : node - level.discs;
-    });
+    read_bits(block.node,
+              [&](std::uint32_t node) { return node < leaf_bit ? node - first_inner : node - level.discs; });
   }
   for (std::vector<float>* field : {&tree.x, &tree.y, &tree.radius}) {
     field->resize(level.stride);

@@ -15,7 +15,7 @@
 namespace bch::detail {
 namespace {
 
-/// Blocks begin on cache lines; windows do not care.
+/// Blocks begin on cache lines; leaf blocks do not care.
 std::size_t level_begin(const Bvh8& tree, std::size_t after) {
   return tree.blocks.empty() ? after : next_line(after);
 }
@@ -60,7 +60,7 @@ void ShapeStorage::reserve(const ShapeSetPlan& plan, std::size_t shapes, const S
   roots.reserve(shapes * plan.depths.size());
   if (plan.depths.back() == 0) return;
   trees.reserve(shapes * plan.depths.size());
-  nodes.reserve(std::min<std::size_t>(extent.nodes, leaf_window));
+  nodes.reserve(std::min<std::size_t>(extent.nodes, leaf_bit));
   reach.reserve(shapes);
   if (plan.culling) {
     support.reserve(extent.rows * support_stride);
@@ -86,9 +86,9 @@ void ShapeStorage::resize(const ShapeSetPlan& plan, std::size_t shapes) {
 }
 
 void ShapeStorage::allocate(const ShapeExtent& at, const ShapeExtent& size) {
-  // Kernels read a window's "children", and forget them.
+  // Kernels read a leaf block's "children", and forget them.
   const std::size_t last_node = at.nodes + size.nodes + block_floats;
-  if (last_node >= leaf_window) throw std::length_error("shape set: more than 2^31 numbers in nodes");
+  if (last_node >= leaf_bit) throw std::length_error("shape set: more than 2^31 numbers in nodes");
   require_numbers(at.rows + size.rows, "rows of supports");
   require_numbers(at.points + size.points, "points");
   require_numbers(at.segments + size.segments, "segments of leaves");
@@ -136,11 +136,11 @@ void ShapeStorage::store(std::size_t shape, const FlatBody& body, const ShapeExt
 void ShapeStorage::store_level(std::size_t root, const Bvh8& tree, std::size_t node) {
   const std::size_t first_disc = node + tree.blocks.size() * block_floats;
   const auto name = [&](std::uint32_t local) {
-    return static_cast<std::uint32_t>(local & leaf_window ? local + first_disc : node + local * block_floats);
+    return static_cast<std::uint32_t>(local & leaf_bit ? local + first_disc : node + local * block_floats);
   };
   trees[root] = {name(tree.top), static_cast<std::uint32_t>(first_disc),
                  static_cast<std::uint32_t>(tree.x.size()), tree.count, tree.outer_radius};
-  trees[root].nodes_hold_discs = tree.nodes_hold_discs;
+  trees[root].conservative_nodes = tree.conservative_nodes;
   const std::uint32_t first_inner = trees[root].first_inner();
   float* out = nodes.data() + node;
   for (const Bvh8::Block& block : tree.blocks) {
@@ -150,7 +150,7 @@ void ShapeStorage::store_level(std::size_t root, const Bvh8& tree, std::size_t n
       const std::uint32_t of_block = block.node[k];
       out[block_names + k] = std::bit_cast<float>(name(block.child[k]));
       out[block_nodes + k] =
-          std::bit_cast<float>(of_block < leaf_window ? of_block + first_inner : name(of_block));
+          std::bit_cast<float>(of_block < leaf_bit ? of_block + first_inner : name(of_block));
     }
     out += block_floats;
   }

@@ -29,7 +29,7 @@ PlanePoint direction(std::uint32_t k, std::uint32_t of) {
 }
 
 /// The fraction of a segment's path up to which a disc holds it, if it holds the point at `from`; else `from`.
-double held_up_to(const Disc& disc, PlanePoint a, PlanePoint edge, double from) {
+double covered_up_to(const Disc& disc, PlanePoint a, PlanePoint edge, double from) {
   const PlanePoint centre{static_cast<double>(disc.x), static_cast<double>(disc.y)};
   const double radius = disc.radius, square = dot(edge, edge);
   const PlanePoint to_a = a - centre, at{to_a.x + from * edge.x, to_a.y + from * edge.y};
@@ -53,7 +53,7 @@ bool is_covered(const CutDiscs& discs, PlanePoint a, PlanePoint b) {
   }
   double at = 0;
   for (double next = 0; at < 1; at = next) {
-    for (const Disc& disc : near) next = std::max(next, held_up_to(disc, a, edge, at));
+    for (const Disc& disc : near) next = std::max(next, covered_up_to(disc, a, edge, at));
     if (next == at) return false;
   }
   return true;

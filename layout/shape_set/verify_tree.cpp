@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "layout/shape_set/held_discs.hpp"
+#include "layout/shape_set/conservative_nodes.hpp"
 #include "layout/shape_set/verify_parts.hpp"
 
 namespace bch::detail::verification {
@@ -19,7 +19,7 @@ double needed(const Disc& disc, const Disc& held) {
   return distance(disc, held) + static_cast<double>(held.radius);
 }
 
-/// The tree of one level that is more than a disc. Nodes are indices: of the inner ones, or leaf_window + that of a cut disc.
+/// The tree of one level that is more than a disc. Nodes are indices: of the inner ones, or leaf_bit + that of a cut disc.
 class LevelTree {
  public:
   LevelTree(const Verifier& verifier, std::uint32_t level)
@@ -31,18 +31,19 @@ class LevelTree {
     std::memcpy(inner_.data(), nodes() + std::size_t{tree_.first_inner()} * inner_floats,
                 inner_.size() * sizeof(InnerNode));
     for (InnerNode& node : inner_)  // links are within the level from here on
-      node.link = (node.link & above_cut_disc) | ((node.link - tree_.first_inner()) & ~above_cut_disc);
+      node.link =
+          (node.link & parent_of_cut_disc) | ((node.link - tree_.first_inner()) & ~parent_of_cut_disc);
     for (std::uint32_t i = 0; i < cut_.count; ++i)
-      above_disc_.push_back(i - (inner_[i].link < above_cut_disc));
+      above_disc_.push_back(i - (inner_[i].link < parent_of_cut_disc));
   }
 
   void verify_parts() const {
-    for (std::uint32_t i = 0; i < cut_.count; ++i) require_part(leaf_window + i, above_disc_[i]);
+    for (std::uint32_t i = 0; i < cut_.count; ++i) require_part(leaf_bit + i, above_disc_[i]);
     for (std::uint32_t i = 0; i + 1 < cut_.count; ++i) require_part(i, above(i));
   }
 
-  void verify_held_discs() const {
-    if (tree_.nodes_hold_discs != 0 && !nodes_hold_discs(cut_, inner_, 0.999 * verifier_.reach))
+  void verify_conservative_nodes() const {
+    if (tree_.conservative_nodes != 0 && !conservative_nodes(cut_, inner_, 0.999 * verifier_.reach))
       verifier_.report("trees", level_, "a node does not hold the discs below it, as the tree says");
   }
 
@@ -54,12 +55,12 @@ class LevelTree {
     for (std::uint32_t i = 0; i < cut_.count; ++i)
       if (!is_found_[i])
         verifier_.report("nodes", level_,
-                         "disc " + std::to_string(i) + " at " + text_of(disc(leaf_window + i)) +
+                         "disc " + std::to_string(i) + " at " + text_of(disc(leaf_bit + i)) +
                              " is not below the nodes of the blocks above it");
   }
 
  private:
-  /// Discs of the cut, from the first one that a node's windows show to the last: all of them, and those that are found
+  /// Discs of the cut, from the first one that a node's leaf blocks show to the last: all of them, and those that are found
   /// below the node.
   struct Shown {
     std::uint32_t begin, end;
@@ -67,10 +68,10 @@ class LevelTree {
   };
 
   const float* nodes() const { return verifier_.arrays().nodes.data(); }
-  std::uint32_t above(std::uint32_t i) const { return inner_[i].link & ~above_cut_disc; }
+  std::uint32_t above(std::uint32_t i) const { return inner_[i].link & ~parent_of_cut_disc; }
   Disc disc(std::uint32_t node) const {
-    const std::uint32_t i = node & ~leaf_window;
-    if (node < leaf_window) return {inner_[i].x, inner_[i].y, inner_[i].radius};
+    const std::uint32_t i = node & ~leaf_bit;
+    if (node < leaf_bit) return {inner_[i].x, inner_[i].y, inner_[i].radius};
     return {cut_.x[i], cut_.y[i], cut_.radius[i]};
   }
 
@@ -82,14 +83,14 @@ class LevelTree {
   }
 
   bool is_above(std::uint32_t node, std::uint32_t i) const {
-    if (node >= leaf_window) return node == leaf_window + i;
+    if (node >= leaf_bit) return node == leaf_bit + i;
     std::uint32_t at = above_disc_[i];
     while (at != node && at != above(at)) at = above(at);
     return at == node;
   }
 
   Shown visit(std::uint32_t name, std::vector<std::uint32_t>& nodes_above) {
-    if (name >= leaf_window) return visit_window((name & ~leaf_window) - tree_.discs, nodes_above);
+    if (name >= leaf_bit) return visit_leaf_block((name & ~leaf_bit) - tree_.discs, nodes_above);
     Shown all{cut_.count, 0, {}};
     const float* const block = nodes() + name;
     for (std::uint32_t lane = 0; lane < block_width && block[lane] < infinity; ++lane) {
@@ -97,7 +98,7 @@ class LevelTree {
         return std::bit_cast<std::uint32_t>(block[field + lane]);
       };
       const std::uint32_t node = bits(block_nodes);
-      nodes_above.push_back(node < leaf_window ? node - tree_.first_inner() : node - tree_.discs);
+      nodes_above.push_back(node < leaf_bit ? node - tree_.first_inner() : node - tree_.discs);
       const Shown shown = visit(bits(block_names), nodes_above);
       nodes_above.pop_back();
       verify_outer({block[lane], block[block_width + lane], block[block_outer + lane]}, shown);
@@ -107,7 +108,7 @@ class LevelTree {
     return all;
   }
 
-  Shown visit_window(std::uint32_t begin, const std::vector<std::uint32_t>& nodes_above) {
+  Shown visit_leaf_block(std::uint32_t begin, const std::vector<std::uint32_t>& nodes_above) {
     Shown shown{begin, std::min(begin + block_width, cut_.count), {}};
     for (std::uint32_t i = shown.begin; i < shown.end; ++i) {
       if (!std::all_of(nodes_above.begin(), nodes_above.end(),
@@ -121,9 +122,9 @@ class LevelTree {
 
   void verify_outer(const Disc& outer, const Shown& shown) const {
     double least = 0, most = 0;
-    for (const std::uint32_t i : shown.found) least = std::max(least, needed(outer, disc(leaf_window + i)));
+    for (const std::uint32_t i : shown.found) least = std::max(least, needed(outer, disc(leaf_bit + i)));
     for (std::uint32_t i = shown.begin; i < shown.end; ++i)
-      most = std::max(most, needed(outer, disc(leaf_window + i)));
+      most = std::max(most, needed(outer, disc(leaf_bit + i)));
     const double radius = outer.radius;
     if (radius < least || radius > most * (1 + 0x1p-18))
       verifier_.report("nodes", level_,
@@ -158,7 +159,7 @@ void verify_tree(const Verifier& verifier, std::uint32_t level) {
   if (verifier.arrays().roots[verifier.root(level)].row == single_disc) return;
   LevelTree tree(verifier, level);
   tree.verify_parts();
-  tree.verify_held_discs();
+  tree.verify_conservative_nodes();
   tree.verify_blocks();
 }
 

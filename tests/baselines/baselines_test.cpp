@@ -12,7 +12,7 @@
 #include "tests/support/test.hpp"
 #include "tests/support/test_characters.hpp"
 
-// Every structure against every other, and a share of the answers against brute force. 1 of `brute_share`
+// Every structure against every other, and a share of the answers against brute force. 1 of `brute_stride`
 // placements goes to the brute force over triangles; outlines are small enough to check always.
 
 namespace bch {
@@ -130,7 +130,7 @@ using baselines::Truth;
 using test::complaint;
 using test::PairScene;
 
-constexpr std::size_t brute_share = 32;
+constexpr std::size_t brute_stride = 32;
 /// How close to touching FCL and the exact tests may differ, metres: FCL projects onto normalised products of
 /// edges in double, which are off by 1e-16 of lengths of a metre, divided by sines of sliver triangles.
 constexpr double fcl_band = 1e-9;
@@ -206,7 +206,7 @@ class Suite {
       const bool expected = crosses(agents, scene_.pairs[i]);
       for (const std::string_view name : {"obb_contour", "obb_contour_2d"})
         ASSERT_EQ(hits(name)[i] == 1, expected) << name << ", " << test::replay_line(scene_, i);
-      if (i % brute_share != 0) continue;
+      if (i % brute_stride != 0) continue;
       const auto [a, b] = std::minmax(scene_.pairs[i].first, scene_.pairs[i].second);
       const baselines::Oracle oracle(outline(agents, a), outline(agents, b),
                                      baselines::exact_placement(agents, a, b));
@@ -223,7 +223,7 @@ class Suite {
     for (std::size_t i = 0; i < scene_.pairs.size(); ++i) {
       ASSERT_EQ(hits("obb_projected")[i], hits("bch_projected")[i]) << test::replay_line(scene_, i);
       ASSERT_LE(hits("obb_full")[i], hits("obb_projected")[i]) << test::replay_line(scene_, i);
-      if (i % brute_share != 0) continue;
+      if (i % brute_stride != 0) continue;
       const auto [a, b] = std::minmax(scene_.pairs[i].first, scene_.pairs[i].second);
       const Body &body_a = bodies_[agents.shape[a]], &body_b = bodies_[agents.shape[b]];
       const baselines::Placement at = baselines::placement_in_space(agents, scene_.pairs[i]);

@@ -29,7 +29,7 @@ using test::PairScene;
 
 constexpr std::uint32_t deepest = 14;
 /// 1 of so many pairs goes to what is slower still.
-constexpr std::size_t slow_share = 8;
+constexpr std::size_t slow_stride = 8;
 
 std::vector<std::uint32_t> all_levels() {
   std::vector<std::uint32_t> depths;
@@ -93,7 +93,7 @@ class Answers {
           ASSERT_EQ(segments->query(agents, scene.pairs[i]),
                     exact.solid(agents, scene.pairs[i], Method::depth_first));
         }
-        if (i % slow_share == 0) check_slowly(agents, scene.pairs[i], hits[i] == 1);
+        if (i % slow_stride == 0) check_slowly(agents, scene.pairs[i], hits[i] == 1);
         refuted += hits[i] != met[i];
       }
       before = hits;

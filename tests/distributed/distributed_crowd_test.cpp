@@ -402,11 +402,11 @@ class PosedCrowd : public testing::Test {
 
   /// What one process knows: a set with a shape for each agent, who has its number.
   ShapeSet shapes_of(World& world, const ShapeSetPlan& plan) const {
-    std::vector<PoseShaper> shapers;
-    for (const Character& character : characters) shapers.emplace_back(character, plan);
+    std::vector<ShapeBuilder> shape_builders;
+    for (const Character& character : characters) shape_builders.emplace_back(character, plan);
     std::vector<Shape> shapes;
     for (DistributedCrowd::Agent& agent : world.agents) {
-      shapes.push_back(shapers[agent.shape].shape(agent.pose));
+      shapes.push_back(shape_builders[agent.shape].shape(agent.pose));
       agent.shape = static_cast<std::uint32_t>(shapes.size() - 1);
     }
     return ShapeSet(shapes, plan);

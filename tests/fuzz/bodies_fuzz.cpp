@@ -16,7 +16,7 @@
 #include "baselines/body_reference.hpp"
 #include "tests/fuzz/target.hpp"
 #include "tests/support/body_scenes.hpp"
-#include "tests/support/held_triangles.hpp"
+#include "tests/support/covered_triangles.hpp"
 
 namespace bch::fuzz {
 namespace {
@@ -123,12 +123,12 @@ void check_model(Bytes& bytes) {
       make_body(character_of(bytes, step), {.spheres = 1 + bytes.below(16), .draft = true});
   validate(model);
   require(to_bytes(body_model(to_bytes(model))) == to_bytes(model), "bytes of a model are read as they are");
-  const test::HeldTriangles triangles(model);
+  const test::CoveredTriangles triangles(model);
   BodyPoser poser(model);
-  test::expect_held(triangles, poser, *model.character, Pose());
+  test::expect_covered(triangles, poser, *model.character, Pose());
   for (int pose = 0; pose < 4; ++pose) {
     const Affine3d bones[] = {affine_of(bytes, step), affine_of(bytes, step)};
-    test::expect_held(triangles, poser, *model.character, SkinningPalette{bones, 0, 0});
+    test::expect_covered(triangles, poser, *model.character, SkinningPalette{bones, 0, 0});
   }
 }
 

@@ -72,9 +72,9 @@ constexpr std::array<void (*)(Caller&), sizeof...(calls) + 1> all = {load, run_q
 constexpr auto& steps = all<
     no_character, bch_character_create, bch_character_get_info, bch_character_get_clip, sample_poses,
     bch_shape_set_get_info, bch_shape_set_get_origin, bch_shape_set_get_radius, bch_shape_set_get_discs,
-    bch_shape_set_get_outline, bch_shape_set_verify, bch_pose_shaper_create, bch_pose_shaper_make,
-    bch_pose_shaper_get_outline, bch_shape_set_builder_create, bch_shape_set_builder_add_poses,
-    bch_shape_set_builder_add_sources, bch_shape_set_builder_add_shape, bch_shape_set_builder_add_polygons,
+    bch_shape_set_get_outline, bch_shape_set_verify, bch_shape_builder_create, bch_shape_builder_make,
+    bch_shape_builder_get_outline, bch_shape_set_builder_create, bch_shape_set_builder_add_poses,
+    bch_shape_set_builder_add_pose_ids, bch_shape_set_builder_add_shape, bch_shape_set_builder_add_polygons,
     bch_shape_set_builder_add_capsules, bch_shape_set_builder_add_discs, bch_shape_set_builder_add_cylinder,
     bch_shape_set_builder_add_mesh, bch_shape_set_builder_finish, bch_dynamic_shape_set_create,
     bch_dynamic_shape_set_get_shapes, bch_dynamic_shape_set_replace, bch_dynamic_shape_set_replace_poses,
@@ -85,10 +85,10 @@ constexpr auto& steps = all<
     bch_obstacles_get_counts, bch_obstacles_get_owner, bch_obstacles_collide, bch_obstacles_within,
     bch_obstacles_clearance, bch_obstacles_penetration, bch_obstacles_time_of_impact,
     bch_animated_shape_create, bch_animated_shape_get_info, bch_animated_shape_get_discs,
-    bch_shape_set_builder_add_moment, bch_shape_set_add_clip, bch_shape_set_get_clip_count,
+    bch_shape_set_builder_add_animated_shape, bch_shape_set_add_clip, bch_shape_set_get_clip_count,
     bch_shape_set_get_clip, bch_local_densities, bch_depth_at_density, bch_scene_plan_create,
     bch_scene_plan_get_set, bch_scene_plan_get_shapes, bch_scene_plan_get_agents, status_name,
-    bch_shape_set_free, bch_pose_shaper_free, bch_shape_set_builder_free, bch_dynamic_shape_set_free,
+    bch_shape_set_free, bch_shape_builder_free, bch_shape_set_builder_free, bch_dynamic_shape_set_free,
     bch_crowd_free, bch_character_free, bch_scene_plan_free, bch_obstacles_free, bch_animated_shape_free,
     bch_body_set_create, bch_body_set_get_info, bch_body_set_get_spheres, bch_collide_bodies,
     bch_within_bodies, bch_clearance_bodies, bch_nearest_free_bodies, bch_nearest_free_bodies_touches,
@@ -128,9 +128,9 @@ void begin(Caller& by) {
   by.begin_with<bch_body_set>([&](bch_body_set** to) { return bch_body_set_create(spheres, bodies, 2, to); });
   auto* const character =
       by.begin_with<bch_character>([&](bch_character** to) { return bch_character_create(&arrays, to); });
-  auto* const shaper = by.begin_with<bch_pose_shaper>(
-      [&](bch_pose_shaper** to) { return bch_pose_shaper_create(character, &plan, to); });
-  require(bch_pose_shaper_make(shaper, {BCH_REST_POSE, 0}) == BCH_OK, "a shape is made");
+  auto* const shape_builder = by.begin_with<bch_shape_builder>(
+      [&](bch_shape_builder** to) { return bch_shape_builder_create(character, &plan, to); });
+  require(bch_shape_builder_make(shape_builder, {BCH_REST_POSE, 0}) == BCH_OK, "a shape is made");
   by.begin_with<bch_crowd>([](bch_crowd** to) { return bch_crowd_create(nullptr, to); });
 }
 

@@ -135,7 +135,7 @@ class Program {
     std::set<Object*> living;
   };
 
-  std::tuple<Objects<bch_shape_set>, Objects<bch_pose_shaper>, Objects<bch_shape_set_builder>,
+  std::tuple<Objects<bch_shape_set>, Objects<bch_shape_builder>, Objects<bch_shape_set_builder>,
              Objects<bch_dynamic_shape_set>, Objects<bch_crowd>, Objects<bch_obstacles>,
              Objects<bch_character>, Objects<bch_scene_plan>, Objects<bch_animated_shape>,
              Objects<bch_body_set>>
@@ -165,7 +165,7 @@ class Program {
 };
 
 inline Program::~Program() {
-  free_all(bch_pose_shaper_free), free_all(bch_shape_set_builder_free);
+  free_all(bch_shape_builder_free), free_all(bch_shape_set_builder_free);
   free_all(bch_dynamic_shape_set_free), free_all(bch_shape_set_free);
   free_all(bch_crowd_free);
   free_all(bch_obstacles_free), free_all(bch_character_free), free_all(bch_scene_plan_free);

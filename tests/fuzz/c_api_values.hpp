@@ -62,7 +62,7 @@ class Caller : public Program {
   void draw(bch_pair& of) { of = {index(most), index(most)}; }
   void draw(bch_heights& of) { draw_all(of.bottom, of.top); }
   void draw(bch_pose& of) { of = {chance(8) ? index() : BCH_REST_POSE, std::abs(number<float>())}; }
-  void draw(bch_shape_source& of) { draw_all(of.character, of.at); }
+  void draw(bch_pose_id& of) { draw_all(of.character, of.at); }
   void draw(bch_disc& of) { draw_all(of.x, of.y), of.radius = size(); }
   void draw(bch_sphere& of) { draw_all(of.x, of.y, of.z), of.radius = size(); }
   void draw(bch_capsule& of) { draw_all(of.a, of.b), of.radius = size(); }
@@ -193,8 +193,8 @@ class Caller : public Program {
   inline static std::int32_t on_meeting(void* user, std::uint64_t, std::uint64_t) {
     return user != nullptr && (*static_cast<std::uint8_t*>(user))-- == 0;
   }
-  void draw(bch_finding& finding) {
-    finding = [](void*, const char* line) { require(*line != '\0', "findings say something"); };
+  void draw(bch_inconsistency& inconsistency) {
+    inconsistency = [](void*, const char* line) { require(*line != '\0', "findings say something"); };
   }
   void draw(void*& user) {
     auto* const calls_left = fresh<std::uint8_t>();
@@ -309,8 +309,8 @@ class Caller : public Program {
     if (chance(2)) draw(of.character);
     if (chance(2)) draw(of.depth);
   }
-  void draw(bch_scene_use& of) {
-    of = BCH_SCENE_USE_INIT;
+  void draw(bch_scene_requirements& of) {
+    of = BCH_SCENE_REQUIREMENTS_INIT;
     draw_all(of.outlines, of.heights);
     if (chance(4)) draw(of.pose_step);
   }

@@ -100,7 +100,7 @@ TEST(BakeBodies, NamesWhatCannotBeMade) {
   EXPECT_TRUE(test::has(test::complaint([&] { bake(BodyModel{}); }), "expected a character, found none"));
 }
 
-// ---- Outlines: what the loop over PoseShaper gives.
+// ---- Outlines: what the loop over ShapeBuilder gives.
 
 std::string bytes(const ShapeSet& set) {
   return test::BakedBytes(set, test::origins_of(set.shape_count())).text();
@@ -120,8 +120,8 @@ TEST(Bake, GivesTheBytesOfTheLoopOnAnyNumberOfThreads) {
   for (const ShapeSetPlan& plan : {ShapeSetPlan{}, ShapeSetPlan{.depths = {0, 3}, .heights = true}}) {
     std::vector<Shape> shapes;
     for (const Character& person : people) {
-      PoseShaper shaper(person, plan, 0.02f);
-      for (const PoseTime& at : sample_poses(person, 70)) shapes.push_back(shaper.shape(at));
+      ShapeBuilder shape_builder(person, plan, 0.02f);
+      for (const PoseTime& at : sample_poses(person, 70)) shapes.push_back(shape_builder.shape(at));
     }
     const std::string expected = bytes(ShapeSet(shapes, plan));
     for (const unsigned threads : {1u, 2u, 4u})
@@ -136,7 +136,8 @@ TEST(Bake, TakesPosesByClipAndTime) {
   const ShapeSetPlan plan{.heights = true};
   const std::vector<PoseId> sources = {{1, {0, 0.5f}}, {0, {}}, {1, {1, 0.25f}}};
   std::vector<Shape> shapes;
-  for (const auto& [character, at] : sources) shapes.push_back(PoseShaper(people[character], plan).shape(at));
+  for (const auto& [character, at] : sources)
+    shapes.push_back(ShapeBuilder(people[character], plan).shape(at));
   EXPECT_EQ(bytes(bake(people, {.shapes = sources, .plan = plan})), bytes(ShapeSet(shapes, plan)));
 }
 

@@ -12,7 +12,7 @@
 #include "tests/support/allocation_count.hpp"
 #include "tests/support/body_models.hpp"
 #include "tests/support/character_shapes.hpp"
-#include "tests/support/held_triangles.hpp"
+#include "tests/support/covered_triangles.hpp"
 #include "tests/support/on_threads.hpp"
 #include "tests/support/test.hpp"
 
@@ -49,56 +49,56 @@ std::vector<Affine3d> palette(const Character& character, std::span<const Affine
   return bones;
 }
 
-void expect_held_in_poses(const BodyModel& model, std::uint32_t poses) {
+void expect_covered_in_poses(const BodyModel& model, std::uint32_t poses) {
   const Character& character = *model.character;
-  const test::HeldTriangles held(model);
+  const test::CoveredTriangles held(model);
   BodyPoser poser(model);
   detail::Random random(54);
-  test::expect_held(held, poser, character, Pose());
+  test::expect_covered(held, poser, character, Pose());
   for (const PoseTime& at : sample_poses(character, poses)) {
-    test::expect_held(held, poser, character, at);
+    test::expect_covered(held, poser, character, at);
     const auto world = joint_transforms(character, at, JointFrame::world);
     const auto bones = palette(character, world);
-    test::expect_held(held, poser, character, SkinningPalette{bones, 0.25, -0.5});
+    test::expect_covered(held, poser, character, SkinningPalette{bones, 0.25, -0.5});
     const std::vector<Affine3d> joints = joint_transforms(character, at);
     for (const double degrees : {30.0, 180.0}) {
       const auto turned = bent(joints, random, degrees * std::numbers::pi / 180);
-      test::expect_held(held, poser, character, LocalPose{turned});
+      test::expect_covered(held, poser, character, LocalPose{turned});
     }
   }
 }
 
 TEST(BodyPosing, HoldsEveryTriangleInEveryPose) {
-  expect_held_in_poses(test::plain_model(default_male(), 96), test::samples(40));
-  expect_held_in_poses(test::plain_model(default_female(), 500, 0.02f), test::samples(20));
-  expect_held_in_poses(default_body(default_male(), 64), test::samples(40));
+  expect_covered_in_poses(test::plain_model(default_male(), 96), test::samples(40));
+  expect_covered_in_poses(test::plain_model(default_female(), 500, 0.02f), test::samples(20));
+  expect_covered_in_poses(default_body(default_male(), 64), test::samples(40));
 }
 
 /// A character far from its origin loses bits: margins have to grow with the reach.
 TEST(BodyPosing, HoldsEveryTriangleFarFromTheOrigin) {
   const Character man = default_male();
   const BodyModel model = test::plain_model(man, 96);
-  const test::HeldTriangles held(model);
+  const test::CoveredTriangles held(model);
   BodyPoser poser(model);
   for (const double height : {1e3, 1e5}) {
     std::vector<Affine3d> joints = joint_transforms(man, {0, 0.5f}, JointFrame::world);
     for (Affine3d& joint : joints) joint.rows[2][3] += height;
-    test::expect_held(held, poser, man, WorldPose{joints});
+    test::expect_covered(held, poser, man, WorldPose{joints});
   }
 }
 
 TEST(BodyPosing, HoldsMeshesWithoutRootJoints) {
   Character box = default_male();
   box.root_joint = -1;
-  expect_held_in_poses(test::plain_model(box, 40), test::samples(8));
+  expect_covered_in_poses(test::plain_model(box, 40), test::samples(8));
 }
 
 TEST(BodyPosing, HoldsRealCharacters) {
   const auto data = test::test_data();
   if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set: no real characters to test with";
   for (const char* const name : {"rocketbox_male_cmu.glb", "rocketbox_female_cmu.glb", "generic_man_cmu.glb"})
-    expect_held_in_poses(test::plain_model(import_character(*data / "characters" / name).character, 256),
-                         test::samples(8));
+    expect_covered_in_poses(test::plain_model(import_character(*data / "characters" / name).character, 256),
+                            test::samples(8));
 }
 
 TEST(BodyPosing, GivesTheSameBitsForAllKindsOfTransforms) {

@@ -43,7 +43,7 @@ class CleanRegisters : public testing::Test {
 TEST_F(CleanRegisters, AfterQueries) {
   test::Random random(256);
   const ShapeSet shapes(test::synthetic_shapes(257, 16), {{0, 3, all_depths}, true});
-  // Less than a register of pairs, whole chunks, and some that are left over.
+  // Less than a register of pairs, whole packets, and some that are left over.
   for (const std::uint32_t count : {1u, 3u, 16u, 256u, 512u, 700u}) {
     const test::PairScene scene = test::random_scene(random, shapes, count);
     const Agents agents = scene.crowd.agents();

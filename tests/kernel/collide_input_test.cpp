@@ -64,7 +64,7 @@ TEST_F(BadInput, AFewOfManyAgents) {
   }
 }
 
-// Batches of up to a chunk are looked at while they are answered.
+// Batches of up to a packet are looked at while they are answered.
 TEST_F(BadInput, AnyValueInAnyPlaceOfABatch) {
   for (const Implementation& implementation : test::supported()) {
     const detail::AllOptions options{.implementation = &implementation};

@@ -250,9 +250,9 @@ std::uint64_t hash_of(const std::vector<Shape>& shapes, const ShapeSetPlan& plan
 }
 
 std::uint64_t hash_of(const Character& character, const ShapeSetPlan& plan) {
-  PoseShaper shaper(character, plan);
+  ShapeBuilder shape_builder(character, plan);
   std::vector<Shape> shapes;
-  for (const PoseTime& time : sample_poses(character, 3)) shapes.push_back(shaper.shape(time));
+  for (const PoseTime& time : sample_poses(character, 3)) shapes.push_back(shape_builder.shape(time));
   return hash_of(shapes, plan);
 }
 

@@ -55,8 +55,8 @@ Outline scaled(std::vector<Vec2> points, double size) {
 std::vector<Shape> of_unequal_sizes(Random& random) {
   std::vector<Shape> shapes;
   for (const double size : {2e-6, 1e-4, 1e-2, 0.3, 1.0, 30.0, 1000.0}) {
-    const auto add = [&](const Outline& outline, double share) {
-      shapes.push_back(test::contour_shape(outline, static_cast<float>(share * size)));
+    const auto add = [&](const Outline& outline, double fraction) {
+      shapes.push_back(test::contour_shape(outline, static_cast<float>(fraction * size)));
     };
     add(scaled({{-1, 0}, {1, 0}}, size), 0.03);
     add(scaled({{0.75f, 0.75f}, {0.75f, 1.25f}}, size), 1);
@@ -355,7 +355,7 @@ INSTANTIATE_TEST_SUITE_P(Shapes, QueriesOf,
                          testing::Combine(testing::ValuesIn(kinds), testing::ValuesIn(plans)), name_of);
 
 std::uint32_t depth_of(const detail::Bvh8& tree, std::uint32_t node) {
-  if (node >= detail::leaf_window) return 1;
+  if (node >= detail::leaf_bit) return 1;
   std::uint32_t below = 0;
   for (std::uint32_t lane = 0; lane < detail::block_width; ++lane)
     if (std::isfinite(tree.blocks[node].discs.x[lane]))
@@ -381,7 +381,7 @@ TEST(BodiesOfDiscs, EqualBruteForce) {
     while (shapes.size() < 40) shapes.push_back(test::body_of_discs(random, 1 + random.below(most)));
     World world{shapes, plans[0].plan};
     for (std::uint32_t i = 0, levels = world.set.level_count(); i < shapes.size(); ++i)
-      EXPECT_EQ(world.set.arrays().trees[i * levels + levels - 1].nodes_hold_discs, 1u) << i;
+      EXPECT_EQ(world.set.arrays().trees[i * levels + levels - 1].conservative_nodes, 1u) << i;
     for (const PairScene& scene :
          {anywhere(random, world, 1'500), at_contact(random, world, test::samples(20'000))}) {
       const Questions questions = questions_about(random, world.set, scene);

@@ -270,8 +270,8 @@ struct Direction {
 std::uint32_t sector_of(Direction d) {
   const auto x = static_cast<float>(d.x), y = static_cast<float>(d.y);
   constexpr float quadrant = detail::profile_sectors / 4;
-  const float share = quadrant * std::abs(y) / (std::abs(x) + std::abs(y));
-  const float half = x < 0 ? 2 * quadrant - share : share;
+  const float fraction = quadrant * std::abs(y) / (std::abs(x) + std::abs(y));
+  const float half = x < 0 ? 2 * quadrant - fraction : fraction;
   return static_cast<std::uint32_t>(y < 0 ? 4 * quadrant - half : half) % detail::profile_sectors;
 }
 
@@ -325,9 +325,9 @@ std::uint32_t expect_sound(const Shape& shape, test::Random& random) {
     const auto along = [&](double x, double y) {
       return (x - static_cast<double>(profile.x)) * d.x + (y - static_cast<double>(profile.y)) * d.y;
     };
-    for (const double share : {0.0, random.uniform(0, 1), 1.0}) {
+    for (const double fraction : {0.0, random.uniform(0, 1), 1.0}) {
       if (sector.inner == -infinity) continue;
-      const double out = share * static_cast<double>(sector.inner);
+      const double out = fraction * static_cast<double>(sector.inner);
       EXPECT_GE(test::depth_in_contour<double>(contour, static_cast<double>(profile.x) + out * d.x,
                                                static_cast<double>(profile.y) + out * d.y),
                 inner_margin * reach);

@@ -191,8 +191,8 @@ Soup soup_of_slivers(test::Random& random) {
   Soup soup;
   const std::uint32_t count = 3 + random.below(4);
   for (std::uint32_t i = 0; i < count; ++i) {
-    const double share = i == 0 ? 0.99 : random.uniform(-0.99, 0.99);
-    soup.positions.push_back({on_grid(share * x), on_grid(share * y), 0});
+    const double fraction = i == 0 ? 0.99 : random.uniform(-0.99, 0.99);
+    soup.positions.push_back({on_grid(fraction * x), on_grid(fraction * y), 0});
   }
   for (std::uint32_t i = 0; i < 6; ++i)
     soup.triangles.push_back({i % count, random.below(count), random.below(count)});

@@ -50,8 +50,8 @@ double from_segment(const Point& p, const Point& a, const Point& b) {
   const Point way{b.x - a.x, b.y - a.y, b.z - a.z};
   const double square = way.x * way.x + way.y * way.y + way.z * way.z;
   const double along = (p.x - a.x) * way.x + (p.y - a.y) * way.y + (p.z - a.z) * way.z;
-  const double share = square > 0 ? std::clamp(along / square, 0.0, 1.0) : 0;
-  return between(p, {a.x + share * way.x, a.y + share * way.y, a.z + share * way.z});
+  const double fraction = square > 0 ? std::clamp(along / square, 0.0, 1.0) : 0;
+  return between(p, {a.x + fraction * way.x, a.y + fraction * way.y, a.z + fraction * way.z});
 }
 
 TEST(OwnBodies, OfCapsulesHoldThemAndHardlyMore) {
@@ -70,11 +70,11 @@ TEST(OwnBodies, OfCapsulesHoldThemAndHardlyMore) {
     const Point a = point(capsule.a), b = point(capsule.b);
     const double radius = double{capsule.radius};
     for (int k = 0; k < 300; ++k) {
-      const double share = random.uniform(0, 1);
+      const double fraction = random.uniform(0, 1);
       const Point direction = random_direction(random);
-      const Point surface{a.x + share * (b.x - a.x) + radius * direction.x,
-                          a.y + share * (b.y - a.y) + radius * direction.y,
-                          a.z + share * (b.z - a.z) + radius * direction.z};
+      const Point surface{a.x + fraction * (b.x - a.x) + radius * direction.x,
+                          a.y + fraction * (b.y - a.y) + radius * direction.y,
+                          a.z + fraction * (b.z - a.z) + radius * direction.z};
       ASSERT_LE(outside(spheres, surface), 0) << i;
     }
     for (const Sphere& sphere : spheres)
@@ -93,7 +93,7 @@ double from_prism(const std::vector<Vec2>& polygon, const Heights& heights, cons
   return std::hypot(std::max(0.0, -test::depth_in_contour<double>(polygon, p.x, p.y)), above);
 }
 
-void expect_held(const std::vector<Vec2>& polygon, const Heights& heights, float error, Random& random) {
+void expect_covered(const std::vector<Vec2>& polygon, const Heights& heights, float error, Random& random) {
   const std::vector<Sphere> spheres = spheres_from_polygons({&polygon, 1}, heights, error);
   const auto height = [&] { return random.uniform(double{heights.bottom}, double{heights.top}); };
   int inside = 0;
@@ -107,11 +107,11 @@ void expect_held(const std::vector<Vec2>& polygon, const Heights& heights, float
   for (std::size_t i = 0; i < polygon.size(); ++i)
     for (int k = 0; k < 50; ++k) {
       const Vec2 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-      const double share = k == 0 ? 0 : random.uniform(0, 1), z = k % 3 == 0   ? double{heights.top}
-                                                                  : k % 3 == 1 ? double{heights.bottom}
-                                                                               : height();
-      ASSERT_LE(outside(spheres, {double{a.x} + share * (double{b.x} - double{a.x}),
-                                  double{a.y} + share * (double{b.y} - double{a.y}), z}),
+      const double fraction = k == 0 ? 0 : random.uniform(0, 1), z = k % 3 == 0   ? double{heights.top}
+                                                                     : k % 3 == 1 ? double{heights.bottom}
+                                                                                  : height();
+      ASSERT_LE(outside(spheres, {double{a.x} + fraction * (double{b.x} - double{a.x}),
+                                  double{a.y} + fraction * (double{b.y} - double{a.y}), z}),
                 1e-7);
     }
   for (const Sphere& sphere : spheres)
@@ -129,15 +129,15 @@ TEST(OwnBodies, OfPolygonsWithHeightsHoldThemAndHardlyMore) {
   };
   for (const std::vector<Vec2>& polygon : polygons)
     for (const float error : {0.03f, 0.1f}) {
-      expect_held(polygon, {0, 1}, error, random);
-      expect_held(polygon, {0.2f, 0.25f}, error, random);
+      expect_covered(polygon, {0, 1}, error, random);
+      expect_covered(polygon, {0.2f, 0.25f}, error, random);
     }
   for (int i = 0; i < 20; ++i) {
     std::vector<Vec2> polygon;
     for (int corner = 0; corner < 3 + i % 5; ++corner)
       polygon.push_back(
           {static_cast<float>(random.uniform(-1, 1)), static_cast<float>(random.uniform(-1, 1))});
-    expect_held(polygon, {0, 0.5f}, 0.08f, random);
+    expect_covered(polygon, {0, 0.5f}, 0.08f, random);
   }
 }
 

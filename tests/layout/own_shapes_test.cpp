@@ -15,7 +15,8 @@ namespace {
 using test::Random;
 
 /// How much larger than the smallest disc a node may be, times the reach.
-constexpr double room_of_nodes = detail::rounding::query_margin + detail::rounding::held_margin + 1e-6;
+constexpr double room_of_nodes =
+    detail::rounding::query_margin + detail::rounding::conservative_margin + 1e-6;
 
 std::vector<Disc> random_discs(Random& random, std::uint32_t count, double size = 0.5) {
   std::vector<Disc> discs;
@@ -137,9 +138,9 @@ TEST(ShapeFromCapsules, OutlinesHoldThem) {
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Vec2 from = points[i], to = points[(i + 1) % points.size()];
       for (int step = 0; step < 10; ++step) {
-        const double share = step / 10.0;
-        const double x = (1 - share) * static_cast<double>(from.x) + share * static_cast<double>(to.x),
-                     y = (1 - share) * static_cast<double>(from.y) + share * static_cast<double>(to.y);
+        const double fraction = step / 10.0;
+        const double x = (1 - fraction) * static_cast<double>(from.x) + fraction * static_cast<double>(to.x),
+                     y = (1 - fraction) * static_cast<double>(from.y) + fraction * static_cast<double>(to.y);
         const double gap = distance_from(capsule, x, y);
         ASSERT_GE(gap, 0) << k;
         ASSERT_LE(gap, tolerance) << k;

@@ -15,11 +15,11 @@ namespace {
 
 using test::complaint;
 
-static_assert(!std::is_constructible_v<PoseShaper, Character>);
-static_assert(!std::is_constructible_v<PoseShaper, const Character>);
-static_assert(!std::is_constructible_v<PoseShaper, Character, ShapeSetPlan, float>);
-static_assert(std::is_constructible_v<PoseShaper, Character&> &&
-              std::is_constructible_v<PoseShaper, const Character&>);
+static_assert(!std::is_constructible_v<ShapeBuilder, Character>);
+static_assert(!std::is_constructible_v<ShapeBuilder, const Character>);
+static_assert(!std::is_constructible_v<ShapeBuilder, Character, ShapeSetPlan, float>);
+static_assert(std::is_constructible_v<ShapeBuilder, Character&> &&
+              std::is_constructible_v<ShapeBuilder, const Character&>);
 
 /// Returns the bone matrices of a pose, its root joint over the origin.
 std::vector<Affine3d> palette(const Character& character, std::vector<Affine3d> joints) {
@@ -70,7 +70,7 @@ void expect_same(const Shape& shape, const Shape& expected) {
 }
 
 /// Expects that every way to give a pose has its vertices and its shape.
-void expect_one_pose(const Character& character, PoseTime at, PoseShaper& by_clip, PoseShaper& by_pose) {
+void expect_one_pose(const Character& character, PoseTime at, ShapeBuilder& by_clip, ShapeBuilder& by_pose) {
   const auto local = joint_transforms(character, at),
              world = joint_transforms(character, at, JointFrame::world), bones = palette(character, world);
   const auto narrow_bones = narrowed(bones);
@@ -97,8 +97,8 @@ void expect_one_pose(const Character& character, PoseTime at, PoseShaper& by_cli
 std::vector<PoseTime> times_of_all_clips(const Character& character) {
   std::vector<PoseTime> times{{}};
   for (std::uint32_t clip = 0; clip < character.clips.size(); ++clip)
-    for (const float share : {0.0f, 0.37f, 1.0f})
-      times.push_back({clip, share * character.clips[clip].seconds});
+    for (const float fraction : {0.0f, 0.37f, 1.0f})
+      times.push_back({clip, fraction * character.clips[clip].seconds});
   return times;
 }
 
@@ -108,7 +108,7 @@ TEST(PoseInput, HasTheBitsOfTheClipInEveryWay) {
   all.push_back(default_male());
   all.back().root_joint = -1;
   for (const Character& character : all) {
-    PoseShaper by_clip(character), by_pose(character);
+    ShapeBuilder by_clip(character), by_pose(character);
     for (const PoseTime& at : times_of_all_clips(character)) expect_one_pose(character, at, by_clip, by_pose);
   }
 }
@@ -116,7 +116,7 @@ TEST(PoseInput, HasTheBitsOfTheClipInEveryWay) {
 TEST(PoseInput, HasTheBitsOfTheClipWithHeightsAndAsARoot) {
   const Character woman = default_female();
   for (const ShapeSetPlan& plan : {ShapeSetPlan{.heights = true}, ShapeSetPlan{.depths = {0}}}) {
-    PoseShaper by_clip(woman, plan), by_pose(woman, plan);
+    ShapeBuilder by_clip(woman, plan), by_pose(woman, plan);
     for (const PoseTime& at : sample_poses(woman, 5)) expect_one_pose(woman, at, by_clip, by_pose);
   }
 }
@@ -159,9 +159,9 @@ TEST(PoseInput, JointsHaveNames) {
 
 TEST(PoseInput, IsRejectedWhereItDoesNotFit) {
   const Character man = default_male();
-  PoseShaper shaper(man);
+  ShapeBuilder shape_builder(man);
   const auto complaint_of = [&](const Pose& pose) {
-    return complaint<std::invalid_argument>([&] { shaper.shape(pose); });
+    return complaint<std::invalid_argument>([&] { shape_builder.shape(pose); });
   };
   auto local = joint_transforms(man, {});
   const auto fewer = std::span(local).first(26);
@@ -181,20 +181,20 @@ TEST(PoseInput, IsRejectedWhereItDoesNotFit) {
   local[3].rows[2][1] = std::nan("");
   EXPECT_EQ(complaint_of(LocalPose{local}),
             "shape: expected finite joint transforms, found others at index 3");
-  expect_same(shaper.shape(PosedVertices{pose_vertices(man, {})}), PoseShaper(man).shape({}));
+  expect_same(shape_builder.shape(PosedVertices{pose_vertices(man, {})}), ShapeBuilder(man).shape({}));
 }
 
 TEST(PoseInput, AllocatesNothingTheSecondTime) {
   const Character woman = default_female();
   const std::vector<PoseTime> times = sample_poses(woman, 10);
-  PoseShaper shaper(woman), source(woman);
+  ShapeBuilder shape_builder(woman), source(woman);
   const auto run = [&] {
     for (const PoseTime& at : times) {
-      shaper.shape(LocalPose{source.joint_transforms(at)});
-      shaper.shape(WorldPose{source.joint_transforms(at, JointFrame::world)});
-      shaper.shape(PosedVertices{source.pose_vertices(at)});
+      shape_builder.shape(LocalPose{source.joint_transforms(at)});
+      shape_builder.shape(WorldPose{source.joint_transforms(at, JointFrame::world)});
+      shape_builder.shape(PosedVertices{source.pose_vertices(at)});
       const WeightedPose mean[] = {{at, 1}, {times[0], 2}};
-      shaper.shape(LocalPose{source.blend(mean)});
+      shape_builder.shape(LocalPose{source.blend(mean)});
     }
   };
   run();
@@ -272,20 +272,20 @@ Shape one_shape(detail::Skinner& skinner, PoseTime at, float threshold = 0.01f) 
   return shape;
 }
 
-TEST(PoseShaper, MakesTheShapesThatAreMadeOneByOne) {
+TEST(ShapeBuilder, MakesTheShapesThatAreMadeOneByOne) {
   for (const Character& character : test::people())
     for (const float threshold : {0.01f, 0.1f}) {
       detail::Skinner skinner(character);
-      PoseShaper shaper(character, {}, threshold);
+      ShapeBuilder shape_builder(character, {}, threshold);
       for (const PoseTime& time : sample_poses(character, 20))
-        expect_same(shaper.shape(time), one_shape(skinner, time, threshold));
+        expect_same(shape_builder.shape(time), one_shape(skinner, time, threshold));
     }
 }
 
 /// Depth 0 without an outline: the same disc, bit for bit.
-TEST(PoseShaper, NeedsNoOutlineForTheRootAlone) {
+TEST(ShapeBuilder, NeedsNoOutlineForTheRootAlone) {
   for (const Character& character : test::people()) {
-    PoseShaper with(character, {.depths = {0}, .heights = true}), without(character, {.depths = {0}});
+    ShapeBuilder with(character, {.depths = {0}, .heights = true}), without(character, {.depths = {0}});
     for (const PoseTime& time : sample_poses(character, 200)) {
       const Hierarchy &expected = with.shape(time).hierarchy, &root = without.shape(time).hierarchy;
       ASSERT_EQ(root.nodes.size(), 1u);
@@ -298,32 +298,32 @@ TEST(PoseShaper, NeedsNoOutlineForTheRootAlone) {
 
 void expect_no_allocations_the_second_time(const ShapeSetPlan& plan) {
   const Character woman = default_female();
-  PoseShaper shaper(woman, plan);
+  ShapeBuilder shape_builder(woman, plan);
   BuiltShape prepared(plan);
   const std::vector<PoseTime> times = sample_poses(woman, 20);
   const std::size_t before = test::allocation_count();
-  for (const PoseTime& time : times) prepared.prepare(shaper.shape(time), 0);
+  for (const PoseTime& time : times) prepared.prepare(shape_builder.shape(time), 0);
   const std::size_t first = test::allocation_count();
   EXPECT_GT(first, before);
-  for (const PoseTime& time : times) prepared.prepare(shaper.shape(time), 0);
+  for (const PoseTime& time : times) prepared.prepare(shape_builder.shape(time), 0);
   EXPECT_EQ(test::allocation_count(), first);
 }
 
-TEST(PoseShaper, AllocatesNothingTheSecondTime) {
+TEST(ShapeBuilder, AllocatesNothingTheSecondTime) {
   expect_no_allocations_the_second_time({});
   expect_no_allocations_the_second_time({.depths = {0}});
   expect_no_allocations_the_second_time({.heights = true});
   expect_no_allocations_the_second_time({.depths = {0, 3, 6, all_depths}});
 }
 
-TEST(PoseShaper, RejectsWhatItsPartsReject) {
+TEST(ShapeBuilder, RejectsWhatItsPartsReject) {
   const Character man = default_male();
-  EXPECT_THROW(PoseShaper(man, {}, -1.0f).shape({PoseTime::rest, 0}), std::invalid_argument);
-  EXPECT_THROW(PoseShaper(man, {.depths = {0}}, -1.0f).shape({PoseTime::rest, 0}), std::invalid_argument);
-  PoseShaper shaper(man);
-  EXPECT_THROW(shaper.shape({static_cast<std::uint32_t>(man.clips.size()), 0}), std::invalid_argument);
+  EXPECT_THROW(ShapeBuilder(man, {}, -1.0f).shape({PoseTime::rest, 0}), std::invalid_argument);
+  EXPECT_THROW(ShapeBuilder(man, {.depths = {0}}, -1.0f).shape({PoseTime::rest, 0}), std::invalid_argument);
+  ShapeBuilder shape_builder(man);
+  EXPECT_THROW(shape_builder.shape({static_cast<std::uint32_t>(man.clips.size()), 0}), std::invalid_argument);
   detail::Skinner skinner(man);
-  expect_same(shaper.shape({PoseTime::rest, 0}), one_shape(skinner, {PoseTime::rest, 0}));
+  expect_same(shape_builder.shape({PoseTime::rest, 0}), one_shape(skinner, {PoseTime::rest, 0}));
 }
 
 /// What its manual says of a program: the directions of its axes as a person who looks forwards sees them.

@@ -134,7 +134,7 @@ TEST(ScenePlan, ChangesNoAnswer) {
   test::Random random(93);
   const std::vector<ScenePlan::Agent> agents = walkers(400, random);
   const std::vector<Character> characters = test::default_characters();
-  std::vector<PoseShaper> shapers(characters.begin(), characters.end());
+  std::vector<ShapeBuilder> shape_builders(characters.begin(), characters.end());
   std::vector<double> x, y, heading;
   std::vector<Pair> pairs;
   for (std::uint32_t i = 0; i < agents.size(); ++i) {
@@ -144,7 +144,8 @@ TEST(ScenePlan, ChangesNoAnswer) {
   }
   const auto hits = [&](const ScenePlan& plan, const ShapeSetPlan& set_plan) {
     std::vector<Shape> shapes;
-    for (const PoseId& source : plan.shapes) shapes.push_back(shapers[source.character].shape(source.at));
+    for (const PoseId& source : plan.shapes)
+      shapes.push_back(shape_builders[source.character].shape(source.at));
     std::vector<std::uint8_t> answers(pairs.size());
     collide(ShapeSet(shapes, set_plan), {plan.agent_shape, x, y, heading, plan.agent_level}, pairs, answers);
     return answers;

@@ -46,10 +46,10 @@ struct DamagedArrays {
   float* top_block() { return own.nodes.data() + tree().top; }
   float& name(float* block, std::uint32_t lane) { return block[detail::block_names + lane]; }
   void set_child(std::uint32_t name_of_first) { name(top_block(), 0) = std::bit_cast<float>(name_of_first); }
-  /// The first block all of whose names are windows.
+  /// The first block all of whose names are leaf blocks.
   float* lowest_block() {
     float* block = top_block();
-    while (std::bit_cast<std::uint32_t>(name(block, 0)) < detail::leaf_window) block += detail::block_floats;
+    while (std::bit_cast<std::uint32_t>(name(block, 0)) < detail::leaf_bit) block += detail::block_floats;
     return block;
   }
   /// The discs of the level: x, and from there to y and to radii.
@@ -92,8 +92,8 @@ struct Damage {
   const ShapeSetPlan& plan = levels;
 };
 
-/// 64 windows, all at the same eight discs, below the same node. Discs are all the same, and a chain of nodes is above them.
-void name_a_window_64_times(Arrays& a) {
+/// 64 leaf blocks, all at the same eight discs, below the same node. Discs are all the same, and a chain of nodes is above them.
+void name_a_leaf_block_64_times(Arrays& a) {
   a.own = {};
   a.own.depths = {all_depths};
   a.own.roots = {{0, 0, 1, detail::first_row}};
@@ -110,7 +110,7 @@ void name_a_window_64_times(Arrays& a) {
     store_discs(block * detail::block_floats);
     for (std::uint32_t lane = 0; lane < detail::block_width; ++lane) {
       a.name(x, lane) =
-          std::bit_cast<float>(block == 0 ? (lane + 1) * detail::block_floats : detail::leaf_window + discs);
+          std::bit_cast<float>(block == 0 ? (lane + 1) * detail::block_floats : detail::leaf_bit + discs);
       x[detail::block_nodes + lane] = std::bit_cast<float>(first_inner);
     }
   }
@@ -118,7 +118,7 @@ void name_a_window_64_times(Arrays& a) {
   for (std::uint32_t k = 0; k + 1 < detail::block_width; ++k) {
     float* const inner = &a.own.nodes[(first_inner + k) * detail::inner_floats];
     inner[2] = 1;
-    inner[3] = std::bit_cast<float>(first_inner + (k == 0 ? 0 : k - 1) + detail::above_cut_disc);
+    inner[3] = std::bit_cast<float>(first_inner + (k == 0 ? 0 : k - 1) + detail::parent_of_cut_disc);
   }
 }
 
@@ -177,13 +177,13 @@ const std::vector<Damage>& all_damage() {
       {"blocks", [](Arrays& a) { a.top_block()[0] = infinity; }},
       {"room", [](Arrays& a) { a.tree().stride = detail::block_width - 1; }},
       {"room", [](Arrays& a) { a.own.nodes.resize(a.own.nodes.size() - 1); }},
-      {"windows",  // by one disc
+      {"leaf blocks",  // by one disc
        [](Arrays& a) {
-         a.name(a.lowest_block(), 7) = std::bit_cast<float>(detail::leaf_window + a.tree().discs +
+         a.name(a.lowest_block(), 7) = std::bit_cast<float>(detail::leaf_bit + a.tree().discs +
                                                             a.tree().stride - detail::block_width + 1);
        }},
-      {"first window", [](Arrays& a) { add(a.name(a.lowest_block(), 0), 1); }},
-      {"number of windows", name_a_window_64_times},
+      {"first leaf block", [](Arrays& a) { add(a.name(a.lowest_block(), 0), 1); }},
+      {"number of leaf blocks", name_a_leaf_block_64_times},
       {"padding", [](Arrays& a) { a.lowest_block()[3] = infinity; }},
       {"numbers", [](Arrays& a) { a.smallest_disc() = 1e-12f; }},
       {"numbers", [](Arrays& a) { a.smallest_disc() *= -1; }},
@@ -194,14 +194,15 @@ const std::vector<Damage>& all_damage() {
       {"inner nodes", [](Arrays& a) { a.inner_node(a.node_of_no_block())[2] *= 8; }},
       {"inner nodes",  // a way that never ends
        [](Arrays& a) {
-         const std::uint32_t k = a.node_of_no_block(), kind = a.link(k) & detail::above_cut_disc;
+         const std::uint32_t k = a.node_of_no_block(), kind = a.link(k) & detail::parent_of_cut_disc;
          a.inner_node(k)[3] = std::bit_cast<float>(kind + a.tree().first_inner() + k);
        }},
-      {"inner nodes", [](Arrays& a) { add(a.inner_node(a.node_of_no_block())[3], detail::above_cut_disc); }},
+      {"inner nodes",
+       [](Arrays& a) { add(a.inner_node(a.node_of_no_block())[3], detail::parent_of_cut_disc); }},
       {"inner nodes",  // below the node above the one that it is below
        [](Arrays& a) {
          const auto above = [&](std::uint32_t k) {
-           return (a.link(k) & ~detail::above_cut_disc) - a.tree().first_inner();
+           return (a.link(k) & ~detail::parent_of_cut_disc) - a.tree().first_inner();
          };
          std::uint32_t k = 2;
          while (!(above(k) < k && above(above(k)) < above(k))) ++k;
@@ -242,17 +243,17 @@ const std::vector<Damage>& named_damage() {
       {"is not the next block", [](Arrays& a) { a.set_child(0x7fffffe0); }},
       {"is not the next block", [](Arrays& a) { a.set_child(a.tree().top + 2 * detail::block_floats); }},
       {"is not the next block", [](Arrays& a) { a.set_child(a.tree().top + 1); }},
-      {"windows at 0",
-       [](Arrays& a) { a.name(a.lowest_block(), 0) = std::bit_cast<float>(detail::leaf_window); }},
+      {"leaf blocks at 0",
+       [](Arrays& a) { a.name(a.lowest_block(), 0) = std::bit_cast<float>(detail::leaf_bit); }},
       {"to 2147483647", [](Arrays& a) { a.name(a.lowest_block(), 0) = std::bit_cast<float>(~0u); }},
-      {"trees 2: the first window", [](Arrays& a) { add(a.name(a.lowest_block(), 0), 1); }},
+      {"trees 2: the first leaf block", [](Arrays& a) { add(a.name(a.lowest_block(), 0), 1); }},
       {"begins with padding", [](Arrays& a) { a.top_block()[0] = infinity; }},
       {"trees 2", [](Arrays& a) { a.tree().stride = ~0u; }},
       {"trees 2", [](Arrays& a) { a.tree().stride -= 1; }},
       {"trees 2", [](Arrays& a) { a.tree().top = 0; }},
       {"", [](Arrays& a) { a.tree().top = 0x7fffffff; }},
       {"", [](Arrays& a) { a.tree().top = ~0u; }},
-      {"", [](Arrays& a) { a.tree().top |= detail::leaf_window; }},
+      {"", [](Arrays& a) { a.tree().top |= detail::leaf_bit; }},
       {"holds a disc that is none", [](Arrays& a) { a.top_block()[0] = nan; }},
       {"holds a disc that is none", [](Arrays& a) { a.top_block()[0] = -infinity; }},
       {"holds a disc that is none", [](Arrays& a) { a.top_block()[detail::block_width] = infinity; }},
@@ -286,7 +287,7 @@ const std::vector<Damage>& named_damage() {
 
 /// What the other checks read without looking: where one of these does not hold they must not run.
 const std::set<std::string> relied_upon = {"depths", "sizes", "shape contours", "contours", "order of levels",
-                                           "blocks", "room",  "windows",        "numbers"};
+                                           "blocks", "room",  "leaf blocks",    "numbers"};
 
 /// Runs the checks as validate() does, but for one. Returns: the name of the one that refuses; empty where none does.
 std::string refused_by(const detail::ShapeArrays& arrays, const std::string& without,
@@ -303,7 +304,7 @@ std::string refused_by(const detail::ShapeArrays& arrays, const std::string& wit
     }
     detail::LevelNodes level{};
     for (std::size_t root = 0; root < arrays.trees.size(); ++root) {
-      level.root = root, level.begin = level.end, level.windows = {};
+      level.root = root, level.begin = level.end, level.leaf_blocks = {};
       for (const detail::Precondition& each : detail::shape_preconditions()) {
         if (each.name == stop_at) break;
         if (each.check_level != nullptr && runs(each)) each.check_level(arrays, level);
@@ -361,7 +362,7 @@ const ShapeSetPlan plans[] = {{},
                               {{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, all_depths}, true}};
 
 void expect_nothing(const ShapeSet& set) {
-  for (const Inconsistency& finding : verify(set, 5)) ADD_FAILURE() << text_of(finding);
+  for (const Inconsistency& inconsistency : verify(set, 5)) ADD_FAILURE() << text_of(inconsistency);
 }
 
 TEST(Verify, FindsNothingInSyntheticShapes) {
@@ -394,12 +395,12 @@ TEST(Verify, LooksAtBodiesOfDiscs) {
   // A disc that is large enough to be beyond the nodes above it, though it touches the same others.
   BakedBytes bytes(ShapeSet(shapes), origins_of(2));
   const detail::Tree& tree = bytes.section<detail::Tree>(Section::trees)[1];
-  ASSERT_NE(tree.nodes_hold_discs, 0u);
+  ASSERT_NE(tree.conservative_nodes, 0u);
   bytes.section<float>(Section::nodes)[tree.discs + 2 * tree.stride + 1] += 0.125f;
   bytes.seal();
   bool said = false;
-  for (const Inconsistency& finding : verify(bytes.load().set, 50))
-    said |= finding.what.find("does not hold the discs below it") != std::string::npos;
+  for (const Inconsistency& inconsistency : verify(bytes.load().set, 50))
+    said |= inconsistency.what.find("does not hold the discs below it") != std::string::npos;
   EXPECT_TRUE(said);
 }
 
@@ -474,9 +475,10 @@ TEST(Verify, NamesTheLie) {
     ASSERT_NO_THROW(validate(arrays.view())) << lie.array << ", " << lie.says;
     bool found = false;
     std::string all;
-    for (const Inconsistency& finding : verify(ShapeSet(arrays.view(), nullptr))) {
-      all += text_of(finding) + "\n";
-      found |= finding.array == std::string(lie.array) && finding.what.find(lie.says) != std::string::npos;
+    for (const Inconsistency& inconsistency : verify(ShapeSet(arrays.view(), nullptr))) {
+      all += text_of(inconsistency) + "\n";
+      found |= inconsistency.array == std::string(lie.array) &&
+               inconsistency.what.find(lie.says) != std::string::npos;
     }
     EXPECT_TRUE(found) << lie.array << ", " << lie.says << ":\n" << all;
   }

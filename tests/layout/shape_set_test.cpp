@@ -12,40 +12,40 @@
 namespace bch {
 namespace {
 
-/// Walks a wide tree: its height in blocks and windows, and the discs that it reaches, which are those of a window
-/// below all nodes of the blocks above it (a window may show neighbours of its group as well).
+/// Walks a wide tree: its height in blocks and leaf blocks, and the discs that it reaches, which are those of a leaf block
+/// below all nodes of the blocks above it (a leaf block may show neighbours of its group as well).
 class Walk {
  public:
   explicit Walk(const detail::Bvh8& tree) : tree_(tree), reached_(tree.count) {
     visit(tree.top, {}, 1);
     for (std::size_t i = 0; i < reached_.size(); ++i)
-      if (reached_[i]) discs.push_back(disc(detail::leaf_window + static_cast<std::uint32_t>(i)));
+      if (reached_[i]) discs.push_back(disc(detail::leaf_bit + static_cast<std::uint32_t>(i)));
   }
   std::vector<Disc> discs;
   std::uint32_t levels = 0;
 
  private:
-  /// Of an inner node, or leaf_window + a cut disc's index.
+  /// Of an inner node, or leaf_bit + a cut disc's index.
   Disc disc(std::uint32_t node) const {
-    const std::uint32_t i = node & ~detail::leaf_window;
-    if (node >= detail::leaf_window) return {tree_.x[i], tree_.y[i], tree_.radius[i]};
+    const std::uint32_t i = node & ~detail::leaf_bit;
+    if (node >= detail::leaf_bit) return {tree_.x[i], tree_.y[i], tree_.radius[i]};
     return {tree_.inner_nodes[i].x, tree_.inner_nodes[i].y, tree_.inner_nodes[i].radius};
   }
 
   std::uint32_t above(std::uint32_t inner) const {
-    return tree_.inner_nodes[inner].link & ~detail::above_cut_disc;
+    return tree_.inner_nodes[inner].link & ~detail::parent_of_cut_disc;
   }
 
   bool is_above(std::uint32_t node, std::uint32_t i) const {
-    if (node >= detail::leaf_window) return node == detail::leaf_window + i;
-    std::uint32_t at = tree_.inner_nodes[i].link >= detail::above_cut_disc ? i : i - 1;
+    if (node >= detail::leaf_bit) return node == detail::leaf_bit + i;
+    std::uint32_t at = tree_.inner_nodes[i].link >= detail::parent_of_cut_disc ? i : i - 1;
     while (at != node && at != above(at)) at = above(at);
     return at == node;
   }
 
   void visit(std::uint32_t node, const std::vector<std::uint32_t>& nodes_above, std::uint32_t level) {
     levels = std::max(levels, level);
-    if (node & detail::leaf_window) return reach(node & ~detail::leaf_window, nodes_above);
+    if (node & detail::leaf_bit) return reach(node & ~detail::leaf_bit, nodes_above);
     const detail::Bvh8::Block& block = tree_.blocks.at(node);
     for (std::uint32_t lane = 0; lane < detail::block_width; ++lane) {
       const Disc in_block{block.discs.x[lane], block.discs.y[lane], block.discs.radius[lane]};
@@ -104,12 +104,12 @@ TEST(Bvh8, LinksLeadToTheRoot) {
                                        ends = detail::subtree_ends(nodes);
       ASSERT_EQ(tree.inner_nodes.size(), discs.size());
       for (std::uint32_t i = 0; i < discs.size(); ++i) {
-        std::uint32_t at = tree.inner_nodes[i].link >= detail::above_cut_disc ? i : i - 1;
+        std::uint32_t at = tree.inner_nodes[i].link >= detail::parent_of_cut_disc ? i : i - 1;
         for (std::uint32_t node = discs[i]; node-- > 0;) {
           if (ends[node] <= discs[i]) continue;  // not above the disc
           EXPECT_EQ(nodes[node].disc,
                     (Disc{tree.inner_nodes[at].x, tree.inner_nodes[at].y, tree.inner_nodes[at].radius}));
-          const std::uint32_t above = tree.inner_nodes[at].link & ~detail::above_cut_disc;
+          const std::uint32_t above = tree.inner_nodes[at].link & ~detail::parent_of_cut_disc;
           EXPECT_EQ(above == at, node == 0);
           at = above;
         }
@@ -229,7 +229,7 @@ TEST(ShapeSet, RejectsBadPlansAndShapes) {
   EXPECT_NO_THROW(ShapeSet(broken, {{all_depths}, false, false}));  // asks for no outline
 }
 
-/// Levels of one disc, of fewer than a window and of many, in sets with and without nodes.
+/// Levels of one disc, of fewer than a leaf block and of many, in sets with and without nodes.
 TEST(CutDiscs, AreThoseOfTheCutInItsOrder) {
   const std::vector<Shape> shapes = test::synthetic_shapes(71, 24);
   std::size_t single = 0, few = 0, many = 0;

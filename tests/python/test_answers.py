@@ -457,13 +457,13 @@ class Outlines(unittest.TestCase):
         man = bch.default_male()
         poses = man.sample_poses(3)
         found = bch.outline(man, poses=poses)
-        shaper = bch.PoseShaper(man)
+        shape_builder = bch.ShapeBuilder(man)
         for pose, each in zip(poses, found):
-            expected = shaper.outline(int(pose["clip"]), float(pose["seconds"]))
+            expected = shape_builder.outline(int(pose["clip"]), float(pose["seconds"]))
             self.assertTrue(all(np.array_equal(a, b) for a, b in zip(each.contours, expected, strict=True)))
         alone = bch.outline(man, poses=(int(poses[0]["clip"]), float(poses[0]["seconds"])))
         np.testing.assert_array_equal(alone.contours[0], found[0].contours[0])
-        np.testing.assert_array_equal(bch.outline(man).contours[0], shaper.outline()[0])
+        np.testing.assert_array_equal(bch.outline(man).contours[0], shape_builder.outline()[0])
         walls = bch.Obstacles.from_wkt(alone.wkt)
         self.assertEqual(walls.segment_count, sum(map(len, alone.contours)))
 

@@ -99,7 +99,7 @@ class Errors(unittest.TestCase):
         self.expect(TypeError, ["depth", "uint32"], bch.plan_scene, [(0, 0.0)], depth=np.zeros(1, "f4"))
         self.expect(ValueError, ["agent 0", "nan"], bch.plan_scene, [(0, np.nan)])
         plan = bch.plan_scene([(0, 0.0)], character=np.array([1], np.uint32))
-        self.expect(IndexError, ["sources[0].character is 1 of 1"], plan.build, [make()])
+        self.expect(IndexError, ["pose_ids[0].character is 1 of 1"], plan.build, [make()])
         self.expect(ValueError, ["NUL"], bch.Obstacles.from_wkt, "LINESTRING(0 0, 1 1)\0")
         self.expect(ValueError, ["NUL"], self.shapes.save, "a\0b")
         self.expect(ValueError, ["nan"], bch.depth_at_density, float("nan"))
@@ -183,19 +183,19 @@ class Errors(unittest.TestCase):
             ),
             (bch.make_character, {**mesh, "name": "a", "joints": [], "bones": [], "motions": [], "root_joint": -1}),
             (bch.make_character, {**mesh, "to_ground": np.eye(4), "weights": None, "vertex_bones": None}),
-            (bch.PoseShaper, {"character": man}),
-            (bch.PoseShaper(man).outline, {"clip": 0, "seconds": 0}),
+            (bch.ShapeBuilder, {"character": man}),
+            (bch.ShapeBuilder(man).outline, {"clip": 0, "seconds": 0}),
             (bch.ShapeSetBuilder, {"plan": bch.Plan()}),
             (lambda depths: bch.ShapeSetBuilder(bch.Plan(depths=depths)), {"depths": [0]}),
             (lambda threshold: bch.ShapeSetBuilder(bch.Plan(threshold=threshold)), {"threshold": 0.5}),
             (builder.add_poses, {"character": man, "poses": [], "threads": 1}),
-            (builder.add_sources, {"characters": [man], "sources": np.empty(0, bch.SOURCE), "threads": 1}),
+            (builder.add_pose_ids, {"characters": [man], "pose_ids": np.empty(0, bch.POSE_ID), "threads": 1}),
             (tall.add_polygons, {"polygons": [[(0, 0), (1, 0), (0, 1)]], "heights": (0, 1)}),
             (tall.add_capsules, {"capsules": [(0, 0, 1, 0, 1)], "tolerance": 0.1, "heights": (0, 1)}),
             (tall.add_discs, {"discs": [(0, 0, 1)], "heights": (0, 1)}),
             (tall.add_cylinder, {"radius": 1, "heights": (0, 1)}),
             (builder.add_mesh, {"positions": np.eye(3), "triangles": [(0, 1, 2)]}),
-            (builder.add_moment, {"shape": body, "seconds": 0}),
+            (builder.add_animated_shape, {"shape": body, "seconds": 0}),
             (bch.bake, {"characters": man, "poses": 0, "plan": bch.Plan(), "path": None, "threads": 1}),
             (bch.DynamicShapeSet, {"start": self.shapes}),
             (
@@ -414,7 +414,7 @@ class Sets(unittest.TestCase):
         self.assertEqual(made.origin(5).character, "default:female")
         self.assertEqual((loaded.depths, loaded.has_heights), (plan.depths, True))
         poses = female.sample_poses(8)
-        outline = bch.PoseShaper(female).outline(int(poses[2]["clip"]), float(poses[2]["seconds"]))
+        outline = bch.ShapeBuilder(female).outline(int(poses[2]["clip"]), float(poses[2]["seconds"]))
         np.testing.assert_array_equal(outline[0], bch.bake(female, poses=poses[2:3]).outline(0)[0])
 
     def test_poses_of_ones_own(self):
@@ -561,7 +561,7 @@ class Sets(unittest.TestCase):
         self.assertEqual([(each.character, each.clip) for each in kept], [("walker", walker.clips[40].name), ("nobody", None)])
         self.assertEqual(kept[0].shape.discs(0.4).tolist(), clip.discs(0.4).tolist())
         builder = bch.ShapeSetBuilder()
-        builder.add_moment(clip, 0.4)
+        builder.add_animated_shape(clip, 0.4)
         self.assertEqual(len(builder.finish().discs(0)), len(clip.discs(0.4)))
 
     def test_densities(self):

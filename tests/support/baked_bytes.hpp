@@ -9,7 +9,7 @@
 
 namespace bch::test {
 
-/// Returns a few shapes with blocks, windows, single discs, several contours.
+/// Returns a few shapes with blocks, leaf blocks, single discs, several contours.
 std::vector<Shape> few_shapes();
 ShapeOrigins origins_of(std::size_t shapes);
 /// Returns clips of its names: one of numbers of 16 bits, which loops, and one of other numbers and without a name.

@@ -37,10 +37,11 @@ std::vector<baselines::Body> posed_bodies(const std::vector<Character>& characte
   std::vector<baselines::Body> bodies;
   for (const Character& character : characters) {
     detail::Skinner skinner(character);
-    PoseShaper shaper(character);
+    ShapeBuilder shape_builder(character);
     for (const PoseTime& time : sample_poses(character, poses)) {
       const auto positions = skinner.pose(time);
-      bodies.push_back({{positions.begin(), positions.end()}, character.triangles, shaper.shape(time)});
+      bodies.push_back(
+          {{positions.begin(), positions.end()}, character.triangles, shape_builder.shape(time)});
     }
   }
   return bodies;

@@ -83,9 +83,9 @@ BodyModel plain_model(const Character& character, std::uint32_t spheres, float l
     const std::uint32_t vertex = !corners.empty() && corners[0] < character.vertices.size() ? corners[0] : 0;
     Vec3 middle{};
     for (const std::uint32_t corner : corners) {
-      const auto share = 1 / static_cast<float>(corners.size());
+      const auto fraction = 1 / static_cast<float>(corners.size());
       const Vec3& at = cut.points_[corner];
-      middle = {middle.x + share * at.x, middle.y + share * at.y, middle.z + share * at.z};
+      middle = {middle.x + fraction * at.x, middle.y + fraction * at.y, middle.z + fraction * at.z};
     }
     for (std::uint32_t i = character.influence_begin[vertex]; i < character.influence_begin[vertex + 1]; ++i)
       model.influences.push_back({character.influences[i].bone, character.influences[i].weight, middle});

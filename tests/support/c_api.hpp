@@ -22,7 +22,7 @@ using Owned = std::unique_ptr<Object, Freed<Object, free>>;
 using OwnedSet = Owned<bch_shape_set, bch_shape_set_free>;
 using OwnedBuilder = Owned<bch_shape_set_builder, bch_shape_set_builder_free>;
 using OwnedCharacter = Owned<bch_character, bch_character_free>;
-using OwnedShaper = Owned<bch_pose_shaper, bch_pose_shaper_free>;
+using OwnedShapeBuilder = Owned<bch_shape_builder, bch_shape_builder_free>;
 using OwnedCrowd = Owned<bch_crowd, bch_crowd_free>;
 using OwnedObstacles = Owned<bch_obstacles, bch_obstacles_free>;
 

@@ -19,8 +19,8 @@ std::vector<Shape> pose_shapes(const Character& character, std::uint32_t poses) 
   const std::vector<PoseTime> times = sample_poses(character, poses);
   std::vector<Shape> shapes(times.size());
   detail::run_ranges(times.size(), 1, detail::RangeWork([&](std::size_t begin, std::size_t end) {
-                       PoseShaper shaper(character);
-                       for (std::size_t i = begin; i < end; ++i) shapes[i] = shaper.shape(times[i]);
+                       ShapeBuilder shape_builder(character);
+                       for (std::size_t i = begin; i < end; ++i) shapes[i] = shape_builder.shape(times[i]);
                      }));
   return shapes;
 }
@@ -28,8 +28,8 @@ std::vector<Shape> pose_shapes(const Character& character, std::uint32_t poses) 
 std::vector<Shape> bodies_with_heights(Random& random) {
   std::vector<Shape> shapes;
   for (const Character& character : {default_male(), default_female()}) {
-    PoseShaper shaper(character, {.heights = true});
-    for (const PoseTime& time : sample_poses(character, 8)) shapes.push_back(shaper.shape(time));
+    ShapeBuilder shape_builder(character, {.heights = true});
+    for (const PoseTime& time : sample_poses(character, 8)) shapes.push_back(shape_builder.shape(time));
   }
   for (Shape& shape : synthetic_shapes(26, 12)) {
     const auto bottom = static_cast<float>(random.uniform(-0.5, 1.5));

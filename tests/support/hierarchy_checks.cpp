@@ -16,7 +16,7 @@ double distance(const Disc& disc, double x, double y) {
   return std::hypot(static_cast<double>(disc.x) - x, static_cast<double>(disc.y) - y);
 }
 
-void expect_holds_elements(const Hierarchy& hierarchy, std::uint32_t node) {
+void expect_contains_primitives(const Hierarchy& hierarchy, std::uint32_t node) {
   const Disc& disc = hierarchy.nodes[node].disc;
   for (std::uint32_t e = hierarchy.primitive_ranges[node].begin; e < hierarchy.primitive_ranges[node].end;
        ++e) {
@@ -39,7 +39,7 @@ void expect_sound(const Hierarchy& hierarchy) {
   for (std::uint32_t i = 0; i < nodes.size(); ++i) {
     const Hierarchy::Node& node = nodes[i];
     ASSERT_LT(held[i].begin, held[i].end) << "node " << i;
-    expect_holds_elements(hierarchy, i);
+    expect_contains_primitives(hierarchy, i);
     double needed = node.disc.radius;
     for (std::uint32_t below = i + 1; below < ends[i]; ++below) {
       const Disc& disc = nodes[below].disc;

@@ -84,9 +84,9 @@ inline float farthest_apart(const Character& a, PoseTime at, const Character& b,
 inline float farthest_in_clips(const Character& a, std::uint32_t clip, const Character& b,
                                std::uint32_t other) {
   float farthest = 0;
-  for (const float share : {0.0f, 0.1f, 0.3f, 0.35f, 0.5f, 0.7f, 0.9f, 1.0f})
-    farthest = std::max(farthest, farthest_apart(a, PoseTime{clip, share * a.clips.at(clip).seconds}, b,
-                                                 PoseTime{other, share * b.clips.at(other).seconds}));
+  for (const float fraction : {0.0f, 0.1f, 0.3f, 0.35f, 0.5f, 0.7f, 0.9f, 1.0f})
+    farthest = std::max(farthest, farthest_apart(a, PoseTime{clip, fraction * a.clips.at(clip).seconds}, b,
+                                                 PoseTime{other, fraction * b.clips.at(other).seconds}));
   return farthest;
 }
 

@@ -15,10 +15,11 @@ PathKey pose_at(const std::vector<PathKey>& path, double time) {
   if (time <= path.front().time) return path.front();
   for (std::size_t k = 1; k < path.size(); ++k)
     if (time <= path[k].time) {
-      const double share = (time - path[k - 1].time) / (path[k].time - path[k - 1].time);
-      return {time, std::lerp(path[k - 1].x, path[k].x, share), std::lerp(path[k - 1].y, path[k].y, share),
-              std::lerp(path[k - 1].heading, path[k].heading, share),
-              std::lerp(path[k - 1].z, path[k].z, share)};
+      const double fraction = (time - path[k - 1].time) / (path[k].time - path[k - 1].time);
+      return {time, std::lerp(path[k - 1].x, path[k].x, fraction),
+              std::lerp(path[k - 1].y, path[k].y, fraction),
+              std::lerp(path[k - 1].heading, path[k].heading, fraction),
+              std::lerp(path[k - 1].z, path[k].z, fraction)};
     }
   return path.back();
 }
@@ -39,18 +40,18 @@ std::vector<WorldDisc> placed_at(const MotionCase& motion, double time) {
   const AnimatedChunk& chunk = chunks[k];
   std::size_t key = 0;
   while (key + 2 < chunk.times.size() && seconds > chunk.times[key + 1]) ++key;
-  const double share = (seconds - chunk.times[key]) / (chunk.times[key + 1] - chunk.times[key]);
+  const double fraction = (seconds - chunk.times[key]) / (chunk.times[key + 1] - chunk.times[key]);
   for (std::uint32_t i = 0; i < chunk.disc_count; ++i) {
     const Disc &from = chunk.keys[key * chunk.disc_count + i],
                &to = chunk.keys[(key + 1) * chunk.disc_count + i];
-    const double x = std::lerp(double{from.x}, double{to.x}, share),
-                 y = std::lerp(double{from.y}, double{to.y}, share);
+    const double x = std::lerp(double{from.x}, double{to.x}, fraction),
+                 y = std::lerp(double{from.y}, double{to.y}, fraction);
     placed.push_back({pose.x + c * x - s * y, pose.y + s * x + c * y,
-                      std::lerp(double{from.radius}, double{to.radius}, share)});
+                      std::lerp(double{from.radius}, double{to.radius}, fraction)});
     if (chunk.z.empty()) continue;
     const double z_from = chunk.z[key * chunk.disc_count + i],
                  z_to = chunk.z[(key + 1) * chunk.disc_count + i];
-    placed.back().z = pose.z + std::lerp(z_from, z_to, share);
+    placed.back().z = pose.z + std::lerp(z_from, z_to, fraction);
   }
   return placed;
 }

@@ -39,7 +39,7 @@ struct ObstacleScene {
 
 /// Returns whether an area holds a point, by the parity of the segments that a ray along x meets.
 template <class Real>
-bool holds(const baselines::ReferenceObstacle& area, Real x, Real y) {
+bool contains(const baselines::ReferenceObstacle& area, Real x, Real y) {
   bool odd = false;
   for (const auto& [ax, ay, bx, by] : area.segments)
     if ((ay > y) != (by > y)) odd ^= x - ax < (bx - ax) * ((y - ay) / (by - ay));

@@ -13,9 +13,9 @@ namespace bch::test {
 template <class Real>
 Real distance_to_segment(Real x, Real y, Real ax, Real ay, Real bx, Real by) {
   const Real dx = bx - ax, dy = by - ay, square = dx * dx + dy * dy;
-  const Real share =
+  const Real fraction =
       square > 0 ? std::clamp(((x - ax) * dx + (y - ay) * dy) / square, Real(0), Real(1)) : Real(0);
-  return std::hypot(x - ax - share * dx, y - ay - share * dy);
+  return std::hypot(x - ax - fraction * dx, y - ay - fraction * dy);
 }
 
 /// Returns the distance of a point from a contour, negative outside of it by the even-odd rule.

@@ -11,7 +11,7 @@ namespace bch::test {
 using baselines::Method;
 
 /// All segments against all others take as long as all else: 1 of so many pairs.
-constexpr std::size_t segment_share = 4;
+constexpr std::size_t segment_stride = 4;
 
 BruteForce::BruteForce(std::span<const Shape> shapes, const ShapeSetPlan& plan)
     : collisions(shapes, plan),
@@ -53,7 +53,7 @@ std::vector<PairAnswers> BruteForce::answers(const ShapeSet& set, const Question
                                                                                      : deepest);
     set_nearest(all.deepest, deepest);
     set_nearest(all.nearest, zero);
-    if (i % segment_share == 0)
+    if (i % segment_stride == 0)
       all.exact.distance =
           all.hit != 0 ? 0 : segment_clearances.distance(agents, pair, of.limit).value_or(zero.distance);
     all.time =

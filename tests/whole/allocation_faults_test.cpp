@@ -172,10 +172,10 @@ class AllocationFaults : public testing::Test {
   }
 
   OwnedCharacter man() const { return made<bch_character_free>(bch_character_default, BCH_MALE); }
-  OwnedShaper standing(const OwnedCharacter& of) const {
-    auto shaper = made<bch_pose_shaper_free>(bch_pose_shaper_create, of.get(), &plan);
-    expect_ok(bch_pose_shaper_make(shaper.get(), {BCH_REST_POSE, 0}));
-    return shaper;
+  OwnedShapeBuilder standing(const OwnedCharacter& of) const {
+    auto shape_builder = made<bch_shape_builder_free>(bch_shape_builder_create, of.get(), &plan);
+    expect_ok(bch_shape_builder_make(shape_builder.get(), {BCH_REST_POSE, 0}));
+    return shape_builder;
   }
 
   const ShapeSet shapes{few_shapes(), {.depths = depths, .heights = true}};
@@ -287,9 +287,9 @@ TEST_F(AllocationFaults, BuildersAndWhatTheyAdd) {
   const bch_vec3 positions[] = {{1, 0, 0}, {2, 0, 0}, {2, 1, 0}, {1, 1, 2}};
   const std::uint32_t triangles[] = {0, 1, 2, 0, 2, 3};
   const auto character = man();
-  const auto shaper = standing(character);
+  const auto shape_builder = standing(character);
   const bch_character* const people[] = {character.get()};
-  const bch_shape_source sources[] = {{0, {BCH_REST_POSE, 0}}, {0, {0, 0}}};
+  const bch_pose_id sources[] = {{0, {BCH_REST_POSE, 0}}, {0, {0, 0}}};
   using To = bch_shape_set_builder*;
   fail_each_adding(
       5, [&](To to) { return bch_shape_set_builder_add_polygons(to, corners, square, 1, &heights); });
@@ -298,11 +298,11 @@ TEST_F(AllocationFaults, BuildersAndWhatTheyAdd) {
   fail_each_adding(2, [&](To to) { return bch_shape_set_builder_add_discs(to, &disc, 1, &heights); });
   fail_each_adding(2, [&](To to) { return bch_shape_set_builder_add_cylinder(to, 0.25f, nullptr); });
   fail_each_adding(20, [&](To to) { return bch_shape_set_builder_add_mesh(to, positions, 4, triangles, 2); });
-  fail_each_adding(5, [&](To to) { return bch_shape_set_builder_add_shape(to, shaper.get()); });
+  fail_each_adding(5, [&](To to) { return bch_shape_set_builder_add_shape(to, shape_builder.get()); });
   fail_each_adding(
       20, [&](To to) { return bch_shape_set_builder_add_poses(to, character.get(), poses, 2, &work); }, 7);
   fail_each_adding(
-      20, [&](To to) { return bch_shape_set_builder_add_sources(to, people, 1, sources, 2, &work); }, 11);
+      20, [&](To to) { return bch_shape_set_builder_add_pose_ids(to, people, 1, sources, 2, &work); }, 11);
 }
 
 /// A set that could not be finished is finished later, or gets more shapes instead; its builder begins another one.
@@ -352,14 +352,14 @@ TEST_F(AllocationFaults, BuildersOfManyShapes) {
   fail_each(5, [&](Attempt& attempt) { EXPECT_EQ(fill([&](auto add) { attempt(add); }), expected); });
 }
 
-/// A shaper that ran out of memory makes the same shape later, at whichever allocation it was.
-TEST_F(AllocationFaults, AShaperMakesTheShapeThatItCouldNot) {
+/// A shape builder that ran out of memory makes the same shape later, at whichever allocation it was.
+TEST_F(AllocationFaults, AShapeBuilderMakesTheShapeThatItCouldNot) {
   const auto character = man();
   const auto make = [&](auto try_to) {
-    const auto shaper = made<bch_pose_shaper_free>(bch_pose_shaper_create, character.get(), &plan);
-    try_to([&] { return bch_pose_shaper_make(shaper.get(), {0, 0.25f}); });
+    const auto shape_builder = made<bch_shape_builder_free>(bch_shape_builder_create, character.get(), &plan);
+    try_to([&] { return bch_shape_builder_make(shape_builder.get(), {0, 0.25f}); });
     const auto builder = made<bch_shape_set_builder_free>(bch_shape_set_builder_create, &plan);
-    expect_ok(bch_shape_set_builder_add_shape(builder.get(), shaper.get()));
+    expect_ok(bch_shape_set_builder_add_shape(builder.get(), shape_builder.get()));
     return finished(builder);
   };
   const std::string expected = make([](auto call) { expect_ok(call()); });
@@ -372,7 +372,7 @@ TEST_F(AllocationFaults, DynamicSets) {
       5, [&](bch_dynamic_shape_set** to) { return bch_dynamic_shape_set_create(set.get(), to); },
       bch_dynamic_shape_set_free);
   const auto character = man();
-  const auto shaper = standing(character);
+  const auto shape_builder = standing(character);
   fail_each(5, [&](Attempt& attempt) {
     const auto dynamic = made<bch_dynamic_shape_set_free>(bch_dynamic_shape_set_create, set.get());
     const bch_shape_set* lent = nullptr;
@@ -388,7 +388,7 @@ TEST_F(AllocationFaults, DynamicSets) {
       return all;
     };
     const std::string before = discs();
-    attempt([&] { return bch_dynamic_shape_set_replace(dynamic.get(), 1, shaper.get()); },
+    attempt([&] { return bch_dynamic_shape_set_replace(dynamic.get(), 1, shape_builder.get()); },
             [&] { return discs() == before; });
     EXPECT_TRUE(discs() != before);
   });
@@ -417,9 +417,9 @@ TEST_F(AllocationFaults, CharactersAndScenes) {
   fail_each_making<bch_character>(
       5, [&](bch_character** to) { return bch_character_create(&arrays, to); }, bch_character_free);
   const auto character = man();
-  fail_each_making<bch_pose_shaper>(
-      20, [&](bch_pose_shaper** to) { return bch_pose_shaper_create(character.get(), &plan, to); },
-      bch_pose_shaper_free, 3);
+  fail_each_making<bch_shape_builder>(
+      20, [&](bch_shape_builder** to) { return bch_shape_builder_create(character.get(), &plan, to); },
+      bch_shape_builder_free, 3);
   bch_scene_agents of = BCH_SCENE_AGENTS_INIT;
   of.poses = poses, of.count = 2;
   fail_each_making<bch_scene_plan>(

@@ -86,16 +86,16 @@ class People {
 
  private:
   void pose(const std::vector<BodyModel>& models) {
-    std::vector<PoseShaper> shapers;
-    for (const BodyModel& model : models) shapers.emplace_back(*model.character);
+    std::vector<ShapeBuilder> shape_builders;
+    for (const BodyModel& model : models) shape_builders.emplace_back(*model.character);
     std::vector<Pose> poses;
     for (std::size_t i = 0; i < joints_.size(); ++i) {
       const Pose& at = poses.emplace_back(WorldPose{joints_[i]});
-      PoseShaper& shaper = shapers[model_of_body_[i]];
-      const auto positions = shaper.pose_vertices(at);
+      ShapeBuilder& shape_builder = shape_builders[model_of_body_[i]];
+      const auto positions = shape_builder.pose_vertices(at);
       bodies.push_back(
           {{positions.begin(), positions.end()}, models[model_of_body_[i]].character->triangles, {}});
-      bodies.back().shape = shaper.shape(at);
+      bodies.back().shape = shape_builder.shape(at);
     }
     live_.emplace(models, model_of_body_).pose(poses);
   }

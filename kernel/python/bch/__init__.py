@@ -22,7 +22,7 @@ the error says which is expected. Every query releases the GIL, so Python thread
 
 from . import plot
 from ._animated import AnimatedShape
-from ._arrays import DISC, PENETRATION, POSE, SOURCE, SPHERE, SPHERE_CONTACT, TOUCH
+from ._arrays import DISC, PENETRATION, POSE, POSE_ID, SPHERE, SPHERE_CONTACT, TOUCH
 from ._bake import bake
 from ._bodies import BodyModel, BodySet, LiveBodies, default_body, load_models, save_models, spheres_from_capsules, spheres_from_polygons
 from ._characters import Bone, Channel, Curve, Joint, Motion, make_character
@@ -81,7 +81,7 @@ from ._shapes import (
     KeptClip,
     Origin,
     Plan,
-    PoseShaper,
+    ShapeBuilder,
     ShapeSet,
     ShapeSetBuilder,
     default_bulky_male,
@@ -134,18 +134,18 @@ __all__ = [
     "PASS",
     "PENETRATION",
     "POSE",
+    "POSE_ID",
     "Pairs",
     "Penetrations",
     "Resolved",
     "Plan",
-    "PoseShaper",
     "REST_POSE",
     "RangeError",
     "Rows",
-    "SOURCE",
     "SPHERE",
     "SPHERE_CONTACT",
     "ScenePlan",
+    "ShapeBuilder",
     "ShapeSet",
     "ShapeSetBuilder",
     "SizeError",

@@ -34,7 +34,7 @@ SPHERE = np.dtype([("x", f4), ("y", f4), ("z", f4), ("radius", f4)])
 #: A time in a clip of a character; clip 0xffffffff is the rest pose.
 POSE = np.dtype([("clip", u4), ("seconds", f4)])
 #: The character, by its index in a list, and the pose that a shape shows.
-SOURCE = np.dtype([("character", u4), ("clip", u4), ("seconds", f4)])
+POSE_ID = np.dtype([("character", u4), ("clip", u4), ("seconds", f4)])
 #: Two spheres that overlap, in space: their indices, the point of the first that is deepest in the second (relative to the
 #: first agent's position), the normal from the first to the second, and the depth, metres.
 SPHERE_CONTACT = np.dtype([("spheres", u4, 2), ("point", f4, 3), ("normal", f4, 3), ("depth", f4)])
@@ -74,7 +74,7 @@ def _shape_words(shape: Shape) -> str:
 
 
 def _dtype_words(dtype: np.dtype[Any]) -> str:
-    names = {DISC: "bch.DISC", SPHERE: "bch.SPHERE", POSE: "bch.POSE", SOURCE: "bch.SOURCE", PENETRATION: "bch.PENETRATION", TOUCH: "bch.TOUCH", b1: "bool"}
+    names = {DISC: "bch.DISC", SPHERE: "bch.SPHERE", POSE: "bch.POSE", POSE_ID: "bch.POSE_ID", PENETRATION: "bch.PENETRATION", TOUCH: "bch.TOUCH", b1: "bool"}
     return names.get(dtype, dtype.name)
 
 
@@ -210,7 +210,7 @@ def one_of(words: Dict[str, int], word: Any, name: str) -> int:
     return words[word]
 
 
-def whole_number(value: Any, name: str) -> int:
+def integer(value: Any, name: str) -> int:
     """Return a whole number, or raise an error that names it."""
     try:
         return operator.index(value)
@@ -220,7 +220,7 @@ def whole_number(value: Any, name: str) -> int:
 
 def index(value: Any, name: str, end: int) -> int:
     """Return a whole number from 0 to below `end`, or raise an error that names it."""
-    number = whole_number(value, name)
+    number = integer(value, name)
     if not 0 <= number < end:
         raise RangeError(f"{name} is {number}, not from 0 to {end - 1}")
     return number
@@ -228,7 +228,7 @@ def index(value: Any, name: str, end: int) -> int:
 
 def bounded(value: Any, name: str, low: int, high: int) -> int:
     """Return a whole number within bounds, or raise an error that names it."""
-    number = whole_number(value, name)
+    number = integer(value, name)
     if not low <= number <= high:
         raise ArgumentError(f"{name} is {number}, not from {low} to {high}")
     return number

@@ -78,8 +78,8 @@ class _Bar:
 
     def update(self, more: int) -> None:
         self.n += more
-        share = self.n / self._total if self._total else 0.0
-        filled = "#" * int(30 * share)
+        fraction = self.n / self._total if self._total else 0.0
+        filled = "#" * int(30 * fraction)
         print(f"\r{self._what}: [{filled:30}] {self.n}/{self._total}", end="", file=sys.stderr, flush=True)
 
     def close(self) -> None:

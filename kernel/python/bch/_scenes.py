@@ -11,7 +11,7 @@ from typing import Any, Optional, Sequence
 
 from . import _library
 from ._arrays import (
-    SOURCE,
+    POSE_ID,
     Records,
     UInt8,
     UInt32,
@@ -34,15 +34,15 @@ class ScenePlan:
     ----------
     plan : Plan
         The plan of the set.
-    sources : (s,) SOURCE
-        The shapes to build, for `ShapeSetBuilder.add_sources`.
+    pose_ids : (s,) POSE_ID
+        The shapes to build, for `ShapeSetBuilder.add_pose_ids`.
     shape : (n,) uint32
         The shape of each agent, for `Agents`.
     level : (n,) uint8
         The level of each agent, for `Agents`.
     """
 
-    __slots__ = ("plan", "sources", "shape", "level")
+    __slots__ = ("plan", "pose_ids", "shape", "level")
 
     def __init__(self, handle: Handle) -> None:
         of, first, second, count = _library.Plan(), c_void_p(), c_void_p(), c_size_t()
@@ -54,7 +54,7 @@ class ScenePlan:
             heights=bool(of.heights),
         )
         check(lib.bch_scene_plan_get_shapes(handle.pointer, byref(first), byref(count)))
-        self.sources: Records = copied(first.value, SOURCE, (count.value,))
+        self.pose_ids: Records = copied(first.value, POSE_ID, (count.value,))
         check(lib.bch_scene_plan_get_agents(handle.pointer, byref(first), byref(second), byref(count)))
         self.shape: UInt32 = copied(first.value, u4, (count.value,))
         self.level: UInt8 = copied(second.value, u1, (count.value,))
@@ -72,11 +72,11 @@ class ScenePlan:
             Show a progress bar on a terminal.
         """
         builder = ShapeSetBuilder(self.plan)
-        builder.add_sources(characters, self.sources, threads=threads, progress=progress)
+        builder.add_pose_ids(characters, self.pose_ids, threads=threads, progress=progress)
         return builder.finish()
 
     def __repr__(self) -> str:
-        return f"<bch.ScenePlan of {len(self.sources)} shapes for {len(self.shape)} agents>"
+        return f"<bch.ScenePlan of {len(self.pose_ids)} shapes for {len(self.shape)} agents>"
 
 
 def plan_scene(
@@ -117,10 +117,10 @@ def plan_scene(
         depth=None if depth is None else given(depth, u4, (n,), "depth"),
         count=n,
     )
-    use = _library.SceneUse(
+    requirements = _library.SceneRequirements(
         outlines=flag(outlines, "outlines"),
         heights=flag(heights, "heights"),
         pairs_per_shape=number(pairs_per_shape, "pairs_per_shape"),
         pose_step=number(pose_step, "pose_step"),
     )
-    return ScenePlan(Handle("scene_plan", "create", byref(agents), byref(use)))
+    return ScenePlan(Handle("scene_plan", "create", byref(agents), byref(requirements)))

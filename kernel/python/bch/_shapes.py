@@ -18,7 +18,7 @@ from ._animated import AnimatedShape
 from ._arrays import (
     DISC,
     POSE,
-    SOURCE,
+    POSE_ID,
     Float32,
     Float64,
     Records,
@@ -43,7 +43,7 @@ from ._arrays import (
     table,
     u4,
     u8,
-    whole_number,
+    integer,
 )
 from ._library import ArgumentError, ArrayError, Exclusive, Handle, check, lib, said
 from ._poses import custom_poses
@@ -202,11 +202,11 @@ class Character:
         -------
         (joints, 3, 4) float64
         """
-        array, shares = _as_poses(poses), converted(weights, f4, "weights")
-        if shares.shape != (len(array),):
+        array, factors = _as_poses(poses), converted(weights, f4, "weights")
+        if factors.shape != (len(array),):
             raise ArrayError(f"weights has shape {shares.shape}, and there are {len(array)} poses")
         rows = np.empty((self.joints, 3, 4), f8)
-        check(lib.bch_character_blend(self._pointer, address(array), address(shares), len(array), address(rows)))
+        check(lib.bch_character_blend(self._pointer, address(array), address(factors), len(array), address(rows)))
         return rows
 
     def posed_vertices(self, poses: Any) -> Float32:
@@ -334,7 +334,7 @@ def _as_poses(poses: Any, name: str = "poses") -> Records:
     return array
 
 
-class PoseShaper:
+class ShapeBuilder:
     """Makes the outlines of a character, one pose at a time.
 
     Parameters
@@ -346,8 +346,8 @@ class PoseShaper:
 
     def __init__(self, character: Character) -> None:
         self._clips = len(instance(character, Character, "character").clips)
-        self._exclusive = Exclusive("PoseShaper")
-        self._handle = Handle("pose_shaper", "create", character._pointer, None)
+        self._exclusive = Exclusive("ShapeBuilder")
+        self._handle = Handle("shape_builder", "create", character._pointer, None)
         self._pointer: int = self._handle.pointer
 
     def outline(self, clip: int = REST_POSE, seconds: float = 0.0) -> List[Float32]:
@@ -360,12 +360,12 @@ class PoseShaper:
         seconds : float
             Time from the start of the clip.
         """
-        of = whole_number(clip, "clip")
+        of = integer(clip, "clip")
         of = of if of == REST_POSE else index(of, "clip", self._clips)
         at = number(seconds, "seconds")
         with self._exclusive:
-            check(lib.bch_pose_shaper_make(self._pointer, _library.Pose(of, at)))
-            return _contours(lib.bch_pose_shaper_get_outline, self._pointer)
+            check(lib.bch_shape_builder_make(self._pointer, _library.Pose(of, at)))
+            return _contours(lib.bch_shape_builder_get_outline, self._pointer)
 
 
 class Origin(NamedTuple):
@@ -469,7 +469,7 @@ class ShapeSet:
         (n,) DISC
             Records of x, y and radius, metres.
         """
-        number = whole_number(level, "level")
+        number = integer(level, "level")
         number += len(self.depths) if number < 0 else 0
         shape, number = index(shape, "shape", self.shape_count), index(number, "level", len(self.depths))
         return records(lib.bch_shape_set_get_discs, DISC, self._pointer, shape, number)
@@ -533,7 +533,7 @@ class ShapeSet:
             One line per difference, at most `most`; none for sets that the library made.
         """
         lines: List[str] = []
-        callback = _library.Finding(lambda _, line: lines.append(line.decode(errors="replace")))
+        callback = _library.Inconsistency(lambda _, line: lines.append(line.decode(errors="replace")))
         count = c_size_t()
         check(lib.bch_shape_set_verify(self._pointer, bounded(most, "most", 0, 2**31), callback, None, byref(count)))
         return lines
@@ -591,8 +591,8 @@ class ShapeSetBuilder:
             add, data = (of_clips, address(array)) if custom is None else (of_arrays, byref(custom.struct))
             watched.run(add(self._pointer, character._pointer, data, len(array), byref(work)))
 
-    def add_sources(
-        self, characters: Sequence[Character], sources: Records, *, threads: int = 0, progress: bool = False
+    def add_pose_ids(
+        self, characters: Sequence[Character], pose_ids: Records, *, threads: int = 0, progress: bool = False
     ) -> None:
         """Add shapes of several characters in poses, as `plan_scene` lists them. If Ctrl-C interrupts the work, no shape is
         added.
@@ -600,20 +600,20 @@ class ShapeSetBuilder:
         Parameters
         ----------
         characters : sequence of Character
-        sources : (n,) SOURCE
+        pose_ids : (n,) POSE_ID
             Records of character, clip and seconds. `character` is an index in `characters`.
         threads : int
             Number of threads; 0: all processors.
         progress : bool
             Show a progress bar on a terminal.
         """
-        which = given(sources, SOURCE, (None,), "sources")
+        which = given(pose_ids, POSE_ID, (None,), "pose_ids")
         pointers = _pointers(characters, "characters")
         with self._exclusive, Watched("baking", progress) as watched:
             work = _library.Work(threads=bounded(threads, "threads", 0, 1024), progress=watched.callback)
             watched.run(
-                lib.bch_shape_set_builder_add_sources(
-                    self._pointer, pointers, len(pointers), which, len(sources), byref(work)
+                lib.bch_shape_set_builder_add_pose_ids(
+                    self._pointer, pointers, len(pointers), which, len(pose_ids), byref(work)
                 )
             )
 
@@ -674,11 +674,11 @@ class ShapeSetBuilder:
                 )
             )
 
-    def add_moment(self, shape: AnimatedShape, seconds: float) -> None:
+    def add_animated_shape(self, shape: AnimatedShape, seconds: float) -> None:
         """Add a snapshot of an animated body: its shape at one time of its clip, in seconds."""
         body, at = instance(shape, AnimatedShape, "shape"), number(seconds, "seconds")
         with self._exclusive:
-            check(lib.bch_shape_set_builder_add_moment(self._pointer, body._pointer, at))
+            check(lib.bch_shape_set_builder_add_animated_shape(self._pointer, body._pointer, at))
 
     def finish(self) -> ShapeSet:
         """Return the set of all bodies that were added. The builder is then empty."""

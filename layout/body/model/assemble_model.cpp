@@ -51,11 +51,11 @@ class PieceMerger {
   std::uint32_t owner_of_both(const SkinPieces::Node& node) const {
     const std::uint32_t first = owner_[node.children[0]], second = owner_[node.children[1]];
     if (first == second || second == none || first == none) return first == second ? first : none;
-    if (holds(first, node)) return first;
-    return holds(second, node) ? second : none;
+    if (contains(first, node)) return first;
+    return contains(second, node) ? second : none;
   }
 
-  bool holds(std::uint32_t sphere, const SkinPieces::Node& node) const {
+  bool contains(std::uint32_t sphere, const SkinPieces::Node& node) const {
     for (std::size_t pose = 0; pose < poses_.size(); ++pose)
       for (const std::uint32_t corner : node.corners) {
         const std::size_t at = pose * spheres_ + sphere;

@@ -91,10 +91,10 @@ class GrowthTable {
 /// Chooses candidates that hold, grown by so much, all pieces that any candidate can hold so.
 std::vector<std::uint32_t> cover(const GrowthTable& table, std::size_t candidates, std::size_t pieces,
                                  float growth) {
-  std::vector<std::uint8_t> held(pieces, 0);
+  std::vector<std::uint8_t> covered(pieces, 0);
   const auto left = [&](std::uint32_t c) {
     std::uint32_t count = 0;
-    for (const Growth& of : table[c]) count += of.growth <= growth && held[of.piece] == 0;
+    for (const Growth& of : table[c]) count += of.growth <= growth && covered[of.piece] == 0;
     return count;
   };
   // Counts only fall: whoever still has the count that it stands with is the best.
@@ -114,7 +114,7 @@ std::vector<std::uint32_t> cover(const GrowthTable& table, std::size_t candidate
     }
     chosen.push_back(~name);
     for (const Growth& of : table[~name])
-      if (of.growth <= growth) held[of.piece] = 1;
+      if (of.growth <= growth) covered[of.piece] = 1;
   }
   return chosen;
 }

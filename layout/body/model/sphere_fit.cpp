@@ -66,7 +66,7 @@ void SphereFit::refit(Ball& ball) {
   for (std::size_t pose = 0; pose < poses; ++pose) ball.radius[pose] = std::sqrt(ball.squared_radius[pose]);
 }
 
-bool SphereFit::holds(const Ball& ball, std::uint32_t piece) const {
+bool SphereFit::contains(const Ball& ball, std::uint32_t piece) const {
   for (const std::uint32_t corner : corners(piece)) {
     PerPose squared;
     measure(ball, corner, squared);

@@ -39,7 +39,7 @@ class SphereFit {
   /// Finds the radii of a sphere after its place or its pieces changed.
   void refit(Ball& ball);
   /// Says whether a sphere holds a piece in all poses without growing.
-  bool holds(const Ball& ball, std::uint32_t piece) const;
+  bool contains(const Ball& ball, std::uint32_t piece) const;
   using Corners = std::array<std::uint32_t, 3>;
   /// Returns by how much a sphere grows when it takes a triangle, metres, in the mean of all poses.
   float growth(const Ball& ball, const Corners& triangle) const;

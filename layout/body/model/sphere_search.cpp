@@ -101,7 +101,7 @@ class SphereSearch {
 
   std::uint32_t holder(std::uint32_t piece, std::uint32_t but) const {
     for (std::uint32_t q = 0; q < fit_.balls.size(); ++q)
-      if (q != but && fit_.holds(fit_.balls[q], piece)) return q;
+      if (q != but && fit_.contains(fit_.balls[q], piece)) return q;
     return none;
   }
 

@@ -67,7 +67,7 @@ class Covering {
       middle_.try_emplace(std::minmax(model.midpoints[i][0], model.midpoints[i][1]), vertices + i);
   }
 
-  bool holds(const std::array<std::uint32_t, 3>& corners, int halvings = 0) {
+  bool contains(const std::array<std::uint32_t, 3>& corners, int halvings = 0) {
     const auto [a, b, c] = corners;
     const std::size_t work = 1 + spheres_[a].size();
     if (work > left_) refuse("midpoints whose order is found soon", "none that was");
@@ -78,8 +78,8 @@ class Covering {
     for (std::size_t k = 0; k < 3; ++k) {
       const std::uint32_t from = corners[k], to = corners[(k + 1) % 3], other = corners[(k + 2) % 3];
       const auto found = middle_.find(std::minmax(from, to));
-      if (found != middle_.end() && holds({from, found->second, other}, halvings + 1) &&
-          holds({found->second, to, other}, halvings + 1))
+      if (found != middle_.end() && contains({from, found->second, other}, halvings + 1) &&
+          contains({found->second, to, other}, halvings + 1))
         return true;
     }
     return false;
@@ -117,7 +117,7 @@ void require_corners(const BodyModel& model) {
     }
   Covering covering(model);
   for (std::size_t t = 0; t < model.character->triangles.size(); ++t)
-    if (!covering.holds(model.character->triangles[t]))
+    if (!covering.contains(model.character->triangles[t]))
       refuse("spheres that hold all triangles", "triangle " + std::to_string(t) + " outside");
 }
 

@@ -132,7 +132,7 @@ enum class JointFrame : std::uint8_t { parent, world };
 /// Errors:  throws std::invalid_argument if no joint or more than one has the name.
 std::uint32_t find_joint(const Character& character, std::string_view name);
 
-// PoseShaper has functions of the same names that reuse memory.
+// ShapeBuilder has functions of the same names that reuse memory.
 
 /// Returns the transforms of all joints at a time of a clip.
 /// As a LocalPose or a WorldPose they give the same shape as the clip, bit for bit.
@@ -149,14 +149,14 @@ std::vector<Affine3d> joint_transforms(const Character& character, PoseTime at,
 std::vector<Affine3d> blend(const Character& character, std::span<const WeightedPose> poses);
 
 /// Returns the positions of all vertices in a pose: metres, z up, relative to the origin of the shape.
-/// Errors:  as PoseShaper::shape().
+/// Errors:  as ShapeBuilder::shape().
 std::vector<Vec3> pose_vertices(const Character& character, const Pose& pose);
 
 /// Converts the axes and units of another program to ours.
 /// Ours are x forwards, y left, z up, metres, and headings in radians, counter-clockwise.
 ///
 ///     agents.x[i] = AxisSystem::unity.position(at.x, at.y, at.z)[0];
-///     shaper.shape(WorldPose{AxisSystem::unity.transforms(Transforms::column_major(matrices, joints))});
+///     shape_builder.shape(WorldPose{AxisSystem::unity.transforms(Transforms::column_major(matrices, joints))});
 struct AxisSystem {
   double rows[3][3];   ///< rotation or reflection from the program's axes to ours
   double metres = 1;   ///< metres per unit of the program's lengths
@@ -199,19 +199,19 @@ std::vector<Affine3d> grounded(const Character& character, const Transforms& map
 /// It poses the mesh, finds the outline of the union of its triangles, and builds the contour hierarchy. It
 /// reuses its memory: a pose allocates nothing once the largest shape has been made.
 /// Threads: one at a time may use an object. A moved-from object can only be assigned to or destroyed.
-class PoseShaper {
+class ShapeBuilder {
  public:
   /// Prepares the mesh of a valid character (see validate()), which must outlive this object.
   /// The shapes are for sets with this `plan`: their hierarchies end at its deepest cut. A plan of depth 0
   /// alone, without heights, needs no outlines: the outermost vertices give its discs in a third of the time.
   /// Discs with a radius below `threshold`, in metres, are not divided.
   /// Errors:  throws std::invalid_argument on a bad plan.
-  explicit PoseShaper(const Character& character, const ShapeSetPlan& plan = {}, float threshold = 0.01f);
+  explicit ShapeBuilder(const Character& character, const ShapeSetPlan& plan = {}, float threshold = 0.01f);
   /// Deleted, because a temporary character would not outlive this object.
-  PoseShaper(const Character&&, const ShapeSetPlan& = {}, float = 0.01f) = delete;
-  PoseShaper(PoseShaper&&) noexcept;
-  PoseShaper& operator=(PoseShaper&&) noexcept;
-  ~PoseShaper();
+  ShapeBuilder(const Character&&, const ShapeSetPlan& = {}, float = 0.01f) = delete;
+  ShapeBuilder(ShapeBuilder&&) noexcept;
+  ShapeBuilder& operator=(ShapeBuilder&&) noexcept;
+  ~ShapeBuilder();
 
   /// Sets the largest number of nodes of a hierarchy, 2^22 by default.
   /// A shape that needs more nodes throws std::length_error.
@@ -260,7 +260,7 @@ struct BakeOptions {
 /// Makes a set of characters in many poses, on all threads of the caller's TBB arena.
 /// The bytes do not depend on the number of threads.
 /// Errors:  throws std::invalid_argument as validate(Character) does, if the plan is bad, or if a character
-///          does not exist; what PoseShaper::shape() throws, naming character, clip and time;
+///          does not exist; what ShapeBuilder::shape() throws, naming character, clip and time;
 ///          std::length_error if the set is too large; std::system_error of std::errc::operation_canceled if
 ///          cancelled.
 ShapeSet bake(std::span<const Character> characters, const BakeOptions& options = {});

@@ -21,7 +21,7 @@ struct PoseId {
 };
 
 /// Describes the queries and levels of detail that a scene is planned for.
-struct SceneUse {
+struct SceneRequirements {
   /// Whether to keep outlines, as in ShapeSetPlan.
   bool outlines = true;
   /// Returns the cut depth for agents at a distance from the viewer; empty: all_depths.
@@ -66,7 +66,7 @@ std::uint32_t depth_at_density(double people_per_square_metre);
 /// Errors:  throws std::invalid_argument, naming the agent, if a distance or density is negative or not
 ///          finite or a time is not finite; if the pose step is negative or not finite, if the number of
 ///          pairs is negative or NaN, and if there are more than 255 different depths.
-ScenePlan plan_scene(std::span<const ScenePlan::Agent> agents, const SceneUse& use = {});
+ScenePlan plan_scene(std::span<const ScenePlan::Agent> agents, const SceneRequirements& requirements = {});
 
 /// Measures the density around each agent, in people per square metre.
 /// It is the number of agents within `radius`, the agent included, over the area of that circle; it is lower

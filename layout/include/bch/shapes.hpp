@@ -289,9 +289,9 @@ class ShapeSetBuilder {
 
 /// Holds a set whose shapes are replaced while it lives, for characters whose poses are new in every frame.
 ///
-///     PoseShaper shaper(character);                  // one shaper and one BuiltShape per thread
+///     ShapeBuilder shape_builder(character);  // one per thread, as the BuiltShape
 ///     BuiltShape prepared(dynamic.set().plan());
-///     prepared.prepare(shaper.shape({clip, seconds}), shape);
+///     prepared.prepare(shape_builder.shape({clip, seconds}), shape);
 ///     if (!dynamic.try_replace(shape, prepared)) later.push_back(shape);  // for replace(), by one thread
 /// "Plans" in layout/README.md says how memory grows, and why it stops growing after some frames.
 class DynamicShapeSet {

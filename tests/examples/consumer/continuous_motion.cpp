@@ -109,8 +109,9 @@ std::size_t overlaps(const bch::ShapeSet& shapes, std::span<const bch::Pair> nea
 int main() {
   std::vector<bch::Shape> shapes;
   for (const bch::Character& character : {bch::default_male(), bch::default_female()}) {
-    bch::PoseShaper shaper(character);
-    for (const bch::PoseTime& time : bch::sample_poses(character, 50)) shapes.push_back(shaper.shape(time));
+    bch::ShapeBuilder shape_builder(character);
+    for (const bch::PoseTime& time : bch::sample_poses(character, 50))
+      shapes.push_back(shape_builder.shape(time));
   }
   const bch::ShapeSet set(shapes);
   std::mt19937_64 random(2014);

@@ -47,12 +47,12 @@ TEST(CApiBuilding, SetsOfPosesHaveTheBytesOfTheLibrary) {
   const Character character = default_female();
   const ShapeSetPlan plan{.depths = {0, 3, all_depths}, .heights = true};
   const std::vector<PoseTime> times = sample_poses(character, 20);
-  PoseShaper shaper(character, plan, 0.02f);
+  ShapeBuilder shape_builder(character, plan, 0.02f);
   ShapeOrigins origins{static_cast<double>(0.02f), {"default:female"}, {}};
   for (const Clip& clip : character.clips) origins.names.push_back(clip.name);
   std::vector<Shape> shapes;
   for (const PoseTime& at : times) {
-    shapes.push_back(shaper.shape(at));
+    shapes.push_back(shape_builder.shape(at));
     origins.origins.push_back({0, 1 + at.clip, at.seconds});
   }
   const std::string expected = bytes_of(ShapeSet(shapes, plan), origins);
@@ -61,7 +61,7 @@ TEST(CApiBuilding, SetsOfPosesHaveTheBytesOfTheLibrary) {
   const bch_character* const people[] = {female.get()};
   std::vector<bch_pose> poses(20);
   expect_ok(bch_character_sample_poses(female.get(), 20, poses.data()));
-  std::vector<bch_shape_source> sources;
+  std::vector<bch_pose_id> sources;
   for (const bch_pose& at : poses) sources.push_back({0, at});
   bch_plan c_plan = BCH_PLAN_INIT;
   c_plan.depths = plan.depths.data(), c_plan.depth_count = 3;
@@ -73,15 +73,15 @@ TEST(CApiBuilding, SetsOfPosesHaveTheBytesOfTheLibrary) {
     work.threads = threads;
     expect_ok(bch_shape_set_builder_add_poses(builder.get(), female.get(), poses.data(), 20, &work));
     EXPECT_EQ(bytes_of(finished(builder).get()), expected) << threads;
-    expect_ok(bch_shape_set_builder_add_sources(builder.get(), people, 1, sources.data(), 20, &work));
+    expect_ok(bch_shape_set_builder_add_pose_ids(builder.get(), people, 1, sources.data(), 20, &work));
     EXPECT_EQ(bytes_of(finished(builder).get()), expected) << threads;
     const auto baked = made<bch_shape_set_free>(bch_bake, people, 1, 20, &c_plan, &work);
     EXPECT_EQ(bytes_of(baked.get()), expected) << threads;
   }
-  const auto c_shaper = made<bch_pose_shaper_free>(bch_pose_shaper_create, female.get(), &c_plan);
+  const auto c_shape_builder = made<bch_shape_builder_free>(bch_shape_builder_create, female.get(), &c_plan);
   for (const bch_pose& pose : poses) {
-    expect_ok(bch_pose_shaper_make(c_shaper.get(), pose));
-    expect_ok(bch_shape_set_builder_add_shape(builder.get(), c_shaper.get()));
+    expect_ok(bch_shape_builder_make(c_shape_builder.get(), pose));
+    expect_ok(bch_shape_set_builder_add_shape(builder.get(), c_shape_builder.get()));
   }
   const auto set = finished(builder);
   EXPECT_EQ(bytes_of(set.get()), expected);
@@ -126,7 +126,7 @@ TEST(CApiBuilding, BodiesOfOnesOwnAreThoseOfTheLibrary) {
   EXPECT_EQ(corners_of(finished(other).get(), 0), square);
 }
 
-/// Each shape is replaced by another's pose, the last one by a shaper.
+/// Each shape is replaced by another's pose, the last one by a shape builder.
 TEST(CApiBuilding, ReplacedShapesAreThoseOfNewSets) {
   const auto female = test::c_person(BCH_FEMALE);
   std::vector<bch_pose> poses(6);
@@ -142,9 +142,9 @@ TEST(CApiBuilding, ReplacedShapesAreThoseOfNewSets) {
   const bch_pose backwards[] = {poses[4], poses[3]};
   expect_ok(
       bch_dynamic_shape_set_replace_poses(dynamic.get(), female.get(), which, backwards, 2, 0.01f, nullptr));
-  const auto shaper = made<bch_pose_shaper_free>(bch_pose_shaper_create, female.get(), nullptr);
-  expect_ok(bch_pose_shaper_make(shaper.get(), poses[5]));
-  expect_ok(bch_dynamic_shape_set_replace(dynamic.get(), 2, shaper.get()));
+  const auto shape_builder = made<bch_shape_builder_free>(bch_shape_builder_create, female.get(), nullptr);
+  expect_ok(bch_shape_builder_make(shape_builder.get(), poses[5]));
+  expect_ok(bch_dynamic_shape_set_replace(dynamic.get(), 2, shape_builder.get()));
   const bch_shape_set* present = nullptr;
   expect_ok(bch_dynamic_shape_set_get_shapes(dynamic.get(), &present));
   for (std::uint32_t shape = 0; shape < 3; ++shape)
@@ -286,14 +286,14 @@ TEST(CApiBuilding, ScenesArePlanned) {
   const bch_pose poses[] = {{0, 0.1f}, {0, 0.4f}, {0, 0.6f}, {0, 0.6f}};
   bch_scene_agents of = BCH_SCENE_AGENTS_INIT;
   of.character = characters, of.poses = poses, of.depth = depths, of.count = 4;
-  bch_scene_use use = BCH_SCENE_USE_INIT;
+  bch_scene_requirements use = BCH_SCENE_REQUIREMENTS_INIT;
   use.outlines = 0, use.heights = 1;
   use.pose_step = 0.5f, use.pairs_per_shape = 20;
   const auto plan = made<bch_scene_plan_free>(bch_scene_plan_create, &of, &use);
 
   const std::uint32_t* shape = nullptr;
   const std::uint8_t* level = nullptr;
-  const bch_shape_source* sources = nullptr;
+  const bch_pose_id* sources = nullptr;
   std::size_t count = 0;
   expect_ok(bch_scene_plan_get_agents(plan.get(), &shape, &level, &count));
   EXPECT_EQ(std::vector<std::uint32_t>(shape, shape + count), (std::vector<std::uint32_t>{0, 0, 1, 2}));
@@ -314,7 +314,7 @@ TEST(CApiBuilding, ScenesArePlanned) {
   const auto male = test::c_person(BCH_MALE), female = test::c_person(BCH_FEMALE);
   const bch_character* const people[] = {male.get(), female.get()};
   const auto builder = test::c_builder(&set_plan);
-  expect_ok(bch_shape_set_builder_add_sources(builder.get(), people, 2, sources, count, nullptr));
+  expect_ok(bch_shape_set_builder_add_pose_ids(builder.get(), people, 2, sources, count, nullptr));
   const auto set = finished(builder);
   for (const auto& [made, from, seconds] :
        {std::tuple(0u, "default:male", 0.0f), {1u, "default:female", 0.5f}}) {
@@ -333,7 +333,7 @@ TEST(CApiBuilding, WhatIsWrongWithScenes) {
   EXPECT_EQ(bch_scene_plan_create(&of, nullptr, &none), BCH_INVALID_ARGUMENT);
   EXPECT_STREQ(bch_last_error(), "agents->poses is NULL");
   of.poses = &pose;
-  bch_scene_use use = BCH_SCENE_USE_INIT;
+  bch_scene_requirements use = BCH_SCENE_REQUIREMENTS_INIT;
   use.pose_step = -1;
   EXPECT_EQ(bch_scene_plan_create(&of, &use, &none), BCH_INVALID_ARGUMENT);
   EXPECT_EQ(none, nullptr);
@@ -341,11 +341,12 @@ TEST(CApiBuilding, WhatIsWrongWithScenes) {
   const auto male = test::c_person(BCH_MALE);
   const bch_character* const people[] = {male.get()};
   const auto builder = test::c_builder();
-  const bch_shape_source beyond{1, pose}, late{0, {1'000, 0}};
-  EXPECT_EQ(bch_shape_set_builder_add_sources(builder.get(), people, 1, &beyond, 1, nullptr),
+  const bch_pose_id beyond{1, pose}, late{0, {1'000, 0}};
+  EXPECT_EQ(bch_shape_set_builder_add_pose_ids(builder.get(), people, 1, &beyond, 1, nullptr),
             BCH_OUT_OF_RANGE);
-  EXPECT_STREQ(bch_last_error(), "sources[0].character is 1 of 1");
-  EXPECT_EQ(bch_shape_set_builder_add_sources(builder.get(), people, 1, &late, 1, nullptr), BCH_OUT_OF_RANGE);
+  EXPECT_STREQ(bch_last_error(), "pose_ids[0].character is 1 of 1");
+  EXPECT_EQ(bch_shape_set_builder_add_pose_ids(builder.get(), people, 1, &late, 1, nullptr),
+            BCH_OUT_OF_RANGE);
 }
 
 TEST(CApiOutlines, AreThoseOfCpp) {

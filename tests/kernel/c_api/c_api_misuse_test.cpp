@@ -220,14 +220,16 @@ TEST_F(CApiMisuse, PlansAndBodies) {
   expect_invalid(
       bch_dynamic_shape_set_replace_poses(dynamic.get(), man.get(), twice, rest, 2, 0.01f, nullptr),
       "shapes[1] is 0, as one before");
-  const auto shaper = made<bch_pose_shaper_free>(bch_pose_shaper_create, man.get(), nullptr);
-  expect_invalid(bch_dynamic_shape_set_replace(dynamic.get(), 0, shaper.get()), "shaper has made no shape");
+  const auto shape_builder = made<bch_shape_builder_free>(bch_shape_builder_create, man.get(), nullptr);
+  expect_invalid(bch_dynamic_shape_set_replace(dynamic.get(), 0, shape_builder.get()),
+                 "shape_builder has made no shape");
 
   bch_vec2 point{8, 9};
   std::uint64_t offset = 7;
   bch_outline outline = BCH_OUTLINE_INIT;
   outline.points = &point, outline.point_capacity = 1, outline.offsets = &offset, outline.offset_capacity = 1;
-  expect_invalid(bch_pose_shaper_get_outline(shaper.get(), &outline), "shaper has made no shape");
+  expect_invalid(bch_shape_builder_get_outline(shape_builder.get(), &outline),
+                 "shape_builder has made no shape");
   expect_error(bch_shape_set_get_outline(set.get(), 50, &outline), BCH_OUT_OF_RANGE, "50");
   EXPECT_EQ(point.x, 8);
   EXPECT_EQ(offset, 7u);

@@ -141,8 +141,8 @@ TEST(CApiMotions, ShapesAtATimeAreAdded) {
   const AnimatedDiscs discs = test::swinging_body(random);
   const OwnedAnimated body = Arrays(discs).shape();
   const auto builder = test::c_builder();
-  expect_ok(bch_shape_set_builder_add_moment(builder.get(), body.get(), 0.5));
-  EXPECT_EQ(bch_shape_set_builder_add_moment(builder.get(), body.get(), NAN), BCH_INVALID_ARGUMENT);
+  expect_ok(bch_shape_set_builder_add_animated_shape(builder.get(), body.get(), 0.5));
+  EXPECT_EQ(bch_shape_set_builder_add_animated_shape(builder.get(), body.get(), NAN), BCH_INVALID_ARGUMENT);
   const auto set = test::finished(builder);
   float radius = 0;
   expect_ok(bch_shape_set_get_radius(set.get(), 0, &radius));
@@ -330,10 +330,10 @@ TEST_F(CApiPoses, HaveTheBitsOfTheClipInEveryWay) {
                                                         0.01f, nullptr));
     EXPECT_TRUE(discs_of(lent) == expected);
 
-    const auto shaper = made<bch_pose_shaper_free>(bch_pose_shaper_create, man.get(), nullptr);
+    const auto shape_builder = made<bch_shape_builder_free>(bch_shape_builder_create, man.get(), nullptr);
     for (std::size_t i = 0; i < pose_count; ++i) {
-      expect_ok(bch_pose_shaper_make_from_arrays(shaper.get(), &way, i));
-      expect_ok(bch_shape_set_builder_add_shape(builder.get(), shaper.get()));
+      expect_ok(bch_shape_builder_make_from_arrays(shape_builder.get(), &way, i));
+      expect_ok(bch_shape_set_builder_add_shape(builder.get(), shape_builder.get()));
     }
     EXPECT_TRUE(discs_of(test::finished(builder).get()) == expected);
   }
@@ -365,12 +365,12 @@ TEST_F(CApiPoses, CanBeReadAndBlended) {
 }
 
 TEST_F(CApiPoses, AreRejectedWhereTheyDoNotFit) {
-  const auto shaper = made<bch_pose_shaper_free>(bch_pose_shaper_create, man.get(), nullptr);
+  const auto shape_builder = made<bch_shape_builder_free>(bch_shape_builder_create, man.get(), nullptr);
   const std::vector<double> local = rows(BCH_JOINTS_IN_PARENTS);
   const auto expect_rejected = [&](auto change, const std::string& message) {
     bch_pose_arrays arrays = arrays_of(BCH_JOINTS_IN_PARENTS, BCH_DOUBLE_ROWS, local.data(), joints);
     change(arrays);
-    EXPECT_EQ(bch_pose_shaper_make_from_arrays(shaper.get(), &arrays, 1), BCH_INVALID_ARGUMENT);
+    EXPECT_EQ(bch_shape_builder_make_from_arrays(shape_builder.get(), &arrays, 1), BCH_INVALID_ARGUMENT);
     EXPECT_EQ(bch_last_error(), message);
   };
   expect_rejected([](auto& a) { a.count = 26; }, "poses[1]: shape: expected 27 joint transforms, found 26");

@@ -34,7 +34,7 @@ Meeting meeting_at(const MotionCase& motion, const ObstacleScene& scene, double 
       for (const auto& [ax, ay, bx, by] : obstacle.segments)
         meeting.gap =
             std::min(meeting.gap, test::distance_to_segment(disc.x, disc.y, ax, ay, bx, by) - disc.radius);
-      meeting.inside |= obstacle.is_area && test::holds(obstacle, disc.x, disc.y);
+      meeting.inside |= obstacle.is_area && test::contains(obstacle, disc.x, disc.y);
     }
   }
   return meeting;

@@ -24,12 +24,12 @@ using test::infinity;
 class ObstacleHall : public test::ObstacleTest {
  protected:
   /// A ring of so many segments, whose radius swings by a share of it.
-  static ObstacleScene hall(double radius, std::uint32_t segments, double share, bool is_area) {
+  static ObstacleScene hall(double radius, std::uint32_t segments, double fraction, bool is_area) {
     ObstacleScene scene;
     std::vector<ObstacleScene::Point> points;
     for (std::uint32_t i = 0; i < segments; ++i) {
       const double angle = 2 * std::numbers::pi * i / segments,
-                   r = radius * (1 + share * std::cos(37 * angle));
+                   r = radius * (1 + fraction * std::cos(37 * angle));
       points.push_back({r * std::cos(angle), r * std::sin(angle)});
     }
     scene.add_polyline(points, true);
@@ -42,8 +42,8 @@ class ObstacleHall : public test::ObstacleTest {
 TEST_F(ObstacleHall, IsAsFarAsBruteForceSays) {
   const ObstacleReference reference(shapes, {.depths = {0, 3, 6, all_depths}}, Leaves::discs);
   for (const bool is_area : {false, true})
-    for (const double share : {0.0, 0.02}) {
-      const ObstacleScene scene = hall(200, 2'000, share, is_area);
+    for (const double fraction : {0.0, 0.02}) {
+      const ObstacleScene scene = hall(200, 2'000, fraction, is_area);
       const ObstacleSet obstacles = scene.set();
       Crowd crowd = test::crowd_about(random, set, test::samples(120), 210);
       crowd.add({0, 0, 0, 0, 3}), crowd.add({1, 1e6, -1e6, 0, 2});
@@ -57,11 +57,11 @@ TEST_F(ObstacleHall, IsAsFarAsBruteForceSays) {
         const auto gap = reference.gap(agents, i, scene.reference);
         ASSERT_EQ(deepest[i], test::rounded_down(gap.gap)) << i;
         ASSERT_EQ(discs[i], (DiscPair{gap.disc, gap.segment})) << i;
-        const bool is_held = reference.holds_a_centre(agents, i, scene.reference[0]) ||
-                             reference.outline_holds(agents, i, scene.reference[0]);
-        const float expected = is_held ? 0 : std::max(deepest[i], 0.0f);
+        const bool is_contained = reference.contains_a_centre(agents, i, scene.reference[0]) ||
+                                  reference.outline_contains(agents, i, scene.reference[0]);
+        const float expected = is_contained ? 0 : std::max(deepest[i], 0.0f);
         ASSERT_EQ(distance[i], expected) << i;
-        ASSERT_EQ(limited[i], is_held || gap.gap <= 50 ? expected : HUGE_VALF) << i;
+        ASSERT_EQ(limited[i], is_contained || gap.gap <= 50 ? expected : HUGE_VALF) << i;
       }
     }
 }

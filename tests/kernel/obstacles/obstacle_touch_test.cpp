@@ -60,7 +60,7 @@ double distance_of(const std::vector<QuadVector>& points, const Outline& outline
 }
 
 /// Returns whether a contour of a placed outline goes round a point that is not on it.
-bool holds(const std::vector<QuadVector>& points, const Outline& outline, QuadVector at) {
+bool contains(const std::vector<QuadVector>& points, const Outline& outline, QuadVector at) {
   bool held = false;
   for (std::size_t contour = 0; contour < outline.contours(); ++contour) {
     bool odd = false;
@@ -76,7 +76,7 @@ bool holds(const std::vector<QuadVector>& points, const Outline& outline, QuadVe
 
 /// Returns whether a placed outline, as an area, meets a wall.
 bool meets(const std::vector<QuadVector>& points, const Outline& outline, QuadVector a, QuadVector b) {
-  bool met = holds(points, outline, a);
+  bool met = contains(points, outline, a);
   for_each_segment(points, outline, [&](QuadVector p, QuadVector q) { met = met || cross(a, b, p, q); });
   return met;
 }

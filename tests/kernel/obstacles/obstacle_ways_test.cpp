@@ -198,25 +198,25 @@ TEST_F(Obstacles, AreTouchedInTime) {
       dx.push_back(random.below(5) == 0 ? 0 : random.uniform(-4, 4)), dy.push_back(random.uniform(-4, 4));
     std::vector<float> time(crowd.x.size()), distance(crowd.x.size());
     time_of_impact(set, crowd.agents(), {dx, dy}, obstacles, time);
-    const auto clearances_at = [&](const std::vector<double>& share) {
+    const auto clearances_at = [&](const std::vector<double>& fraction) {
       Crowd moved = crowd;
-      for (std::size_t i = 0; i < share.size(); ++i)
-        moved.x[i] += share[i] * dx[i], moved.y[i] += share[i] * dy[i];
+      for (std::size_t i = 0; i < fraction.size(); ++i)
+        moved.x[i] += fraction[i] * dx[i], moved.y[i] += fraction[i] * dy[i];
       clearance(set, moved.agents(), obstacles, {distance});
     };
-    std::vector<double> share(time.size());
+    std::vector<double> fraction(time.size());
     for (int sample = 0; sample < 8; ++sample) {
-      for (std::size_t i = 0; i < share.size(); ++i)
-        share[i] = random.uniform(0, 1) * std::min(1.0, static_cast<double>(time[i]) * (1 - 1e-6));
-      clearances_at(share);
-      for (std::size_t i = 0; i < share.size(); ++i)
+      for (std::size_t i = 0; i < fraction.size(); ++i)
+        fraction[i] = random.uniform(0, 1) * std::min(1.0, static_cast<double>(time[i]) * (1 - 1e-6));
+      clearances_at(fraction);
+      for (std::size_t i = 0; i < fraction.size(); ++i)
         ASSERT_TRUE(time[i] == 0 || distance[i] > 0)
             << "scene " << k << ", agent " << i << ", time " << time[i];
     }
-    for (std::size_t i = 0; i < share.size(); ++i)
-      share[i] = std::isinf(time[i]) ? 0 : static_cast<double>(time[i]);
-    clearances_at(share);
-    for (std::size_t i = 0; i < share.size(); ++i) {
+    for (std::size_t i = 0; i < fraction.size(); ++i)
+      fraction[i] = std::isinf(time[i]) ? 0 : static_cast<double>(time[i]);
+    clearances_at(fraction);
+    for (std::size_t i = 0; i < fraction.size(); ++i) {
       if (std::isinf(time[i])) {
         ++passed;
         continue;

@@ -46,8 +46,8 @@ void expect_nearest(const ShapeSet& set, const Agents& agents, std::uint32_t age
   const Vec2 centre = turned(agents, agent, disc.x, disc.y);
   const double cx = agents.x[agent] + double{centre.x} - ax, cy = agents.y[agent] + double{centre.y} - ay;
   const double ux = bx - ax, uy = by - ay, square = ux * ux + uy * uy;
-  const double share = square > 0 ? std::clamp((cx * ux + cy * uy) / square, 0.0, 1.0) : 0.0;
-  const double to_x = share * ux - cx, to_y = share * uy - cy;
+  const double fraction = square > 0 ? std::clamp((cx * ux + cy * uy) / square, 0.0, 1.0) : 0.0;
+  const double to_x = fraction * ux - cx, to_y = fraction * uy - cy;
   constexpr double near = 1e-5;
   EXPECT_NEAR(double{points.second.x}, double{centre.x} + to_x, near);
   EXPECT_NEAR(double{points.second.y}, double{centre.y} + to_y, near);
@@ -108,23 +108,23 @@ void expect_brute_force(Random& random, std::span<const Shape> shapes, const Sha
         EXPECT_EQ(all_answers(set, agents, obstacles, how, distances, {dx, dy}), best) << each.name;
       }
     for (std::uint32_t i = 0; i < agents.size(); ++i) {
-      bool hit = false, is_held = false;
+      bool hit = false, is_contained = false;
       for (const auto& obstacle : scene.reference) {
         hit = hit || reference.collides(agents, i, obstacle);
-        is_held = is_held || reference.outline_holds(agents, i, obstacle) ||
-                  (leaves == Leaves::discs ? reference.holds_a_centre(agents, i, obstacle)
-                                           : reference.holds_the_outline(agents, i, obstacle));
+        is_contained = is_contained || reference.outline_contains(agents, i, obstacle) ||
+                       (leaves == Leaves::discs ? reference.contains_a_centre(agents, i, obstacle)
+                                                : reference.contains_the_outline(agents, i, obstacle));
       }
       const bool by_discs = leaves == Leaves::discs;
       const auto gap = by_discs ? reference.gap(agents, i, scene.reference)
                                 : reference.outline_gap(agents, i, scene.reference);
       ASSERT_EQ(best.hits[i], hit) << "scene " << k << ", agent " << i;
-      ASSERT_EQ(best.near[i], is_held || gap.gap <= distances[i]) << "scene " << k << ", agent " << i;
+      ASSERT_EQ(best.near[i], is_contained || gap.gap <= distances[i]) << "scene " << k << ", agent " << i;
       if (by_discs) {
         ASSERT_EQ(best.deepest[i], rounded_down(gap.gap)) << "scene " << k << ", agent " << i;
         ASSERT_EQ(best.deepest_discs[i], (DiscPair{gap.disc, gap.segment}));
       }
-      const bool zero = is_held || gap.gap <= 0, of_outline = gap.of_outline != ObstacleReference::none;
+      const bool zero = is_contained || gap.gap <= 0, of_outline = gap.of_outline != ObstacleReference::none;
       ASSERT_EQ(best.distance[i], zero ? 0 : rounded_down(gap.gap)) << "scene " << k << ", agent " << i;
       ASSERT_TRUE(zero || best.deepest[i] <= best.distance[i]) << "scene " << k << ", agent " << i;
       ASSERT_TRUE(!hit || zero || !of_outline) << "scene " << k << ", agent " << i;
@@ -142,7 +142,7 @@ void expect_brute_force(Random& random, std::span<const Shape> shapes, const Sha
         expect_nearest(set, agents, i, scene, best.distance[i], best.discs[i], best.direction[i],
                        best.points[i]);
       }
-      hits += hit, held += is_held, apart += !zero;
+      hits += hit, held += is_contained, apart += !zero;
     }
   }
   const std::size_t all = std::size_t{scenes} * 1000;

@@ -29,7 +29,7 @@ long double gap(const std::vector<Sphere>& spheres, const Agents& agents, std::u
     const long double x = agents.x[agent] + (c * sphere.x - s * sphere.y),
                       y = agents.y[agent] + (s * sphere.x + c * sphere.y),
                       z = static_cast<long double>(agents.z[agent]) + sphere.z;
-    long double aside = other.is_area && test::holds(other, x, y) ? 0 : unlimited, above = 0;
+    long double aside = other.is_area && test::contains(other, x, y) ? 0 : unlimited, above = 0;
     for (const auto& [ax, ay, bx, by] : other.segments)
       aside = std::min(aside, test::distance_to_segment<long double>(x, y, ax, ay, bx, by));
     if (!scene.bottom.empty()) above = std::max({scene.bottom[obstacle] - z, z - scene.top[obstacle], 0.0L});

@@ -98,12 +98,12 @@ BakedShapes baked_man(double turn) {
     return static_cast<std::uint32_t>(std::ranges::find(man.clips, name, &Clip::name) - man.clips.begin());
   };
   ShapeOrigins origins{0.02, {"man.glb", "walk", "idle phone"}, {}};
-  PoseShaper shaper(man);
+  ShapeBuilder shape_builder(man);
   std::vector<Shape> shapes;
   for (const std::uint32_t name : {1u, 2u})
     for (int k = 0; k < 20; ++k) {  // steps of a second; a clip that stands is cut short
       const float seconds = static_cast<float>(k) / 20;
-      shapes.push_back(shaper.shape({clip_of(origins.names[name].c_str()), seconds}));
+      shapes.push_back(shape_builder.shape({clip_of(origins.names[name].c_str()), seconds}));
       origins.origins.push_back({0, name, seconds});
     }
   return {ShapeSet(shapes), origins};

@@ -35,9 +35,9 @@ TEST(Footprints, HoldEllipsesWithinAMillimetre) {
         const Vec2 from = corners[i], to = corners[(i + 1) % corners.size()];
         const double x = static_cast<double>(from.x), y = static_cast<double>(from.y);
         // Where the line from the middle to the corner leaves the ellipse, which is at least as far from the corner as the ellipse.
-        const double share = std::hypot(x / a, y / b);
-        EXPECT_GT(share, 1);
-        EXPECT_LE(std::hypot(x, y) * (1 - 1 / share), 0.001) << length << " " << width;
+        const double fraction = std::hypot(x / a, y / b);
+        EXPECT_GT(fraction, 1);
+        EXPECT_LE(std::hypot(x, y) * (1 - 1 / fraction), 0.001) << length << " " << width;
         // No side cuts the ellipse: in the plane where it is a disc of radius 1, sides are outside of that.
         const double px = x / a, py = y / b, qx = static_cast<double>(to.x) / a,
                      qy = static_cast<double>(to.y) / b;

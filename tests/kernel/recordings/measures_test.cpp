@@ -95,8 +95,8 @@ TEST(Measures, OfDiscsAreTheirFormulas) {
         const Offset to = offset(frame.people[i].walker, frame.people[j].walker);
         time = std::min(time, disc_collision(to.x, to.y, to.velocity_x, to.velocity_y, 0.2));
         if (to.distance() > 2.4) continue;
-        const double share = 0.6 / (to.distance() - 0.2);
-        intrusion += to.distance() <= 0.2 ? infinite : share * share;
+        const double fraction = 0.6 / (to.distance() - 0.2);
+        intrusion += to.distance() <= 0.2 ? infinite : fraction * fraction;
         clearance = std::min(clearance, to.distance() - 0.2);
         intimate += to.distance() <= 0.45, personal += to.distance() <= 1.2;
       }

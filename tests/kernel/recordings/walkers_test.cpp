@@ -213,7 +213,7 @@ Farthest farthest_poses(std::uint32_t coarse) {
   Farthest all;
   for (const bool is_female : {false, true}) {
     const Character person = default_pedestrian(is_female ? Sex::female : Sex::male, 1.7);
-    PoseShaper shaper(person), other(person);
+    ShapeBuilder shape_builder(person), other(person);
     for (std::uint32_t clip = 0; clip + coarse < pedestrian_speeds; clip += 4 * coarse) {
       Walker walker{1, 0, 0, 0, pedestrian_speed_step * clip, 0, 1.7, is_female, false};
       const auto at = [&](std::uint32_t k) {
@@ -221,7 +221,7 @@ Farthest farthest_poses(std::uint32_t coarse) {
             k, static_cast<float>(walker.phase / pedestrian_strides_per_second(pedestrian_speed_step * k))};
       };
       for (walker.phase = 0.003; walker.phase < 1; walker.phase += 0.09) {
-        const Outline own = shaper.shape(at(clip)).outline;
+        const Outline own = shape_builder.shape(at(clip)).outline;
         const Outline built = other.shape(WalkerPose(walker, Shoulders::straight, coarse).at()).outline;
         all.by_phase = std::max({all.by_phase, farthest(built, own), farthest(own, built)});
         const Outline faster = other.shape(at(clip + coarse)).outline;

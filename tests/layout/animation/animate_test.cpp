@@ -13,7 +13,7 @@ namespace {
 
 // What moving discs cover at a time, and what they leave out.
 
-bool holds(std::span<const Disc> cover, const Vec2& p) {
+bool contains(std::span<const Disc> cover, const Vec2& p) {
   return std::any_of(cover.begin(), cover.end(), [&](const Disc& disc) {
     const double x = double{p.x} - double{disc.x}, y = double{p.y} - double{disc.y};
     return std::sqrt(x * x + y * y) <= double{disc.radius};
@@ -26,9 +26,9 @@ std::vector<Disc> cover_at(const AnimatedDiscs& animated, double seconds) {
   while (animated.chunks[c].times.back() < seconds) ++c;
   const AnimatedChunk& chunk = animated.chunks[c];
   while (chunk.times[key + 1] < seconds) ++key;
-  const double share = (seconds - chunk.times[key]) / (chunk.times[key + 1] - chunk.times[key]);
-  const auto mix = [share](float a, float b) {
-    return static_cast<float>(double{a} + (double{b} - double{a}) * share);
+  const double fraction = (seconds - chunk.times[key]) / (chunk.times[key + 1] - chunk.times[key]);
+  const auto mix = [fraction](float a, float b) {
+    return static_cast<float>(double{a} + (double{b} - double{a}) * fraction);
   };
   std::vector<Disc> cover;
   for (std::size_t i = 0; i < chunk.disc_count; ++i) {
@@ -40,7 +40,7 @@ std::vector<Disc> cover_at(const AnimatedDiscs& animated, double seconds) {
 
 /// Counts the vertices and the points of the outline's segments, some millimetres apart, that a cover does not hold.
 std::size_t left_out(std::span<const Disc> cover, std::span<const Vec2> vertices, const Outline& outline) {
-  const auto out = [&](const Vec2& p) { return !holds(cover, p); };
+  const auto out = [&](const Vec2& p) { return !contains(cover, p); };
   std::size_t count = static_cast<std::size_t>(std::count_if(vertices.begin(), vertices.end(), out));
   for (std::size_t c = 0; c < outline.contours(); ++c) {
     const auto contour = outline.contour(c);
@@ -119,7 +119,7 @@ std::size_t corners_left_out(const BodyModel& model, std::span<const Vec3> verti
 
 /// Looks at random times. Half of them are in the first 16th of a clip, where they are close to each other. Discs stand out farther than
 /// the spheres of the pose by hardly more than the error.
-void expect_held(const BodyModel& model, std::uint32_t times) {
+void expect_covered(const BodyModel& model, std::uint32_t times) {
   constexpr float error = 0.005f;
   constexpr double bend = 0.001;
   const Character& character = *model.character;
@@ -154,14 +154,14 @@ void expect_held(const BodyModel& model, std::uint32_t times) {
 TEST(Animate, HoldsCharactersAtEveryTime) {
   const std::vector<Character> both = default_characters();  // one of them with sanitizers
   for (const Character& character : std::span(both).first(samples(2)))
-    expect_held(make_body(with_short_clip(character, 0.8f), {.spheres = 96, .draft = true}), samples(800));
+    expect_covered(make_body(with_short_clip(character, 0.8f), {.spheres = 96, .draft = true}), samples(800));
 }
 
 TEST(Animate, HoldsRealCharacters) {
   const auto data = test_data();
   if (!data) GTEST_SKIP() << "BCH_TEST_DATA is not set";
   for (const Character& character : real_characters(*data))
-    expect_held(plain_model(with_short_clip(character, 0.12f), 96), samples(200));
+    expect_covered(plain_model(with_short_clip(character, 0.12f), 96), samples(200));
 }
 
 /// A body of bars, each 0.4 m times 0.06 m, on joints of their own that turn from and to an angle about x and back, once a second.
@@ -206,12 +206,12 @@ BodyModel model_of(const Character& body) {
 }
 
 TEST(Animate, FollowsArcsBetweenDistantKeys) {
-  expect_held(model_of(bars({{0, 0, 2}})), samples(4000));
+  expect_covered(model_of(bars({{0, 0, 2}})), samples(4000));
 }
 
 TEST(Animate, HoldsPartsThatComeOutFromUnderOthersAndPartsApart) {
-  expect_held(model_of(bars({{0, 0, 0}, {0, 0, 1.5f}, {0, 0, -1}})), samples(2000));
-  expect_held(model_of(bars({{0.1f, 0, 1}, {-0.9f, 0, 1}})), samples(1000));
+  expect_covered(model_of(bars({{0, 0, 0}, {0, 0, 1.5f}, {0, 0, -1}})), samples(2000));
+  expect_covered(model_of(bars({{0.1f, 0, 1}, {-0.9f, 0, 1}})), samples(1000));
 }
 
 TEST(Animate, KnowsLoops) {

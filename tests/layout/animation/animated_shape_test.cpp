@@ -43,8 +43,8 @@ TEST(AnimatedShape, HasItsDiscsAtEveryTime) {
 }
 
 /// Calls at(node, disc) for every disc and the nodes above it.
-void for_each_held(const detail::AnimatedTreeChunk& chunk,
-                   const std::function<void(std::uint32_t, std::uint32_t)>& at) {
+void for_each_enclosed(const detail::AnimatedTreeChunk& chunk,
+                       const std::function<void(std::uint32_t, std::uint32_t)>& at) {
   std::vector<std::uint32_t> above(chunk.nodes(), 0);
   for (std::uint32_t i = 0; i < chunk.first_leaf(); ++i)
     for (std::uint32_t child = chunk.children(i).begin; child < chunk.children(i).end; ++child)
@@ -84,14 +84,14 @@ TEST(AnimatedShape, NodesHoldTheirDiscsAtEveryTime) {
       expect_tree(chunk);
       for (int k = 0; k < 30; ++k) {
         const std::size_t key = random.below(static_cast<std::uint32_t>(chunk.times.size() - 1));
-        const double share = random.below(8) == 0 ? random.below(2) : random.uniform(0, 1);
+        const double fraction = random.below(8) == 0 ? random.below(2) : random.uniform(0, 1);
         const auto at = [&](std::uint32_t node, float Disc::*part) {
           return std::lerp(double{chunk.disc(key, node).*part}, double{chunk.disc(key + 1, node).*part},
-                           share);
+                           fraction);
         };
-        for_each_held(chunk, [&](std::uint32_t node, std::uint32_t disc) {
+        for_each_enclosed(chunk, [&](std::uint32_t node, std::uint32_t disc) {
           const auto height = [&](std::uint32_t of) {
-            return std::lerp(double{chunk.z(key, of)}, double{chunk.z(key + 1, of)}, share);
+            return std::lerp(double{chunk.z(key, of)}, double{chunk.z(key + 1, of)}, fraction);
           };
           const double away =
               std::hypot(at(node, &Disc::x) - at(disc, &Disc::x), at(node, &Disc::y) - at(disc, &Disc::y),
@@ -180,15 +180,15 @@ TEST(AnimatedShape, HullsHoldDiscsThroughTheirWindows) {
         const detail::HullInterval& hull = tree.hulls.levels[level][interval];
         EXPECT_EQ(hull.begin, tree.chunks[interval * width].times.front());
         EXPECT_EQ(hull.end, tree.chunks[std::min((interval + 1) * width, chunks) - 1].times.back());
-        const double share = random.uniform(0, 1), angle = random.uniform(-4, 4);
+        const double fraction = random.uniform(0, 1), angle = random.uniform(-4, 4);
         const detail::PlanePoint d{std::cos(angle), std::sin(angle)};
         const auto [from, to] = detail::HullDirection(d).extent(hull.extents);
-        const double reached = tree.hulls.step * std::lerp(from, to, share);
+        const double reached = tree.hulls.step * std::lerp(from, to, fraction);
         double of_discs = -1;
-        for (const Disc& disc : shape.discs(std::lerp(hull.begin, hull.end, share)))
+        for (const Disc& disc : shape.discs(std::lerp(hull.begin, hull.end, fraction)))
           of_discs = std::max(of_discs, d.x * double{disc.x} + d.y * double{disc.y} + double{disc.radius});
         EXPECT_GE(reached, of_discs - 1e-7);
-        for (const Sphere& s : shape.spheres(std::lerp(hull.begin, hull.end, share)))
+        for (const Sphere& s : shape.spheres(std::lerp(hull.begin, hull.end, fraction)))
           for (std::uint32_t band = 0; band < detail::hull_bands; ++band) {
             const double low = band == 0 ? -1e9 : band * detail::hull_band - detail::hull_overlap,
                          high = band + 1 == detail::hull_bands
@@ -198,7 +198,7 @@ TEST(AnimatedShape, HullsHoldDiscsThroughTheirWindows) {
             const detail::HullBands& bands = tree.hulls.bands[level][interval];
             EXPECT_TRUE(bands.occupied >> band & 1);
             const auto [begin, end] = detail::HullDirection(d).extent(bands.extents[band]);
-            EXPECT_GE(tree.hulls.step * std::lerp(begin, end, share),
+            EXPECT_GE(tree.hulls.step * std::lerp(begin, end, fraction),
                       d.x * double{s.x} + d.y * double{s.y} + double{s.radius} - 1e-7);
           }
         if (level == 0) more += (reached - of_discs) / static_cast<double>(bodies * chunks);

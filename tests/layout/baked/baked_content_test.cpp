@@ -125,12 +125,12 @@ struct Chain {
       const std::uint32_t next = block + detail::block_floats;
       store_discs(block, 1);
       nodes[block + detail::block_names] =
-          std::bit_cast<float>(next == discs ? detail::leaf_window + discs : next);
+          std::bit_cast<float>(next == discs ? detail::leaf_bit + discs : next);
       nodes[block + detail::block_nodes] = std::bit_cast<float>(root);
     }
     store_discs(discs, 2);
     nodes[root * detail::inner_floats + 2] = 1;
-    nodes[root * detail::inner_floats + 3] = std::bit_cast<float>(detail::above_cut_disc + root);
+    nodes[root * detail::inner_floats + 3] = std::bit_cast<float>(detail::parent_of_cut_disc + root);
   }
 
   void store_discs(std::uint32_t at, std::uint32_t count) {

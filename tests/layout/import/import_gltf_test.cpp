@@ -197,8 +197,8 @@ template <class Number>
 std::vector<Number> fifths(Number one) {
   std::vector<Number> weights;
   for (int vertex = 0; vertex < 4; ++vertex)
-    for (const Number share : {Number{1}, Number{4}, Number{0}, Number{0}})
-      weights.push_back(static_cast<Number>(one / Number{5} * share));
+    for (const Number fraction : {Number{1}, Number{4}, Number{0}, Number{0}})
+      weights.push_back(static_cast<Number>(one / Number{5} * fraction));
   return weights;
 }
 

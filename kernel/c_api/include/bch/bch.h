@@ -381,11 +381,11 @@ typedef struct bch_outline {
 BCH_API bch_status bch_shape_set_get_outline(const bch_shape_set* set, uint32_t shape, bch_outline* outline);
 
 /** Receives one line for each difference that bch_shape_set_verify() finds. */
-typedef void (*bch_finding)(void* user, const char* line);
+typedef void (*bch_inconsistency)(void* user, const char* line);
 /** Checks a set from an untrusted file: recomputes all other stored data from discs and outlines, and
- * compares. Calls `finding`, which may be NULL, for at most `most` differences, and writes their number to
+ * compares. Calls `inconsistency`, which may be NULL, for at most `most` differences, and writes their number to
  * `count`. */
-BCH_API bch_status bch_shape_set_verify(const bch_shape_set* set, size_t most, bch_finding finding,
+BCH_API bch_status bch_shape_set_verify(const bch_shape_set* set, size_t most, bch_inconsistency inconsistency,
                                         void* user, size_t* count);
 /** Frees a set. */
 BCH_API bch_status bch_shape_set_free(bch_shape_set* set);
@@ -399,19 +399,19 @@ BCH_API bch_status bch_bake(const bch_character* const* characters, size_t chara
                             const bch_plan* plan, const bch_work* work, bch_shape_set** set);
 
 /** Makes shapes of one character, one pose at a time. */
-typedef struct bch_pose_shaper bch_pose_shaper;
-/** Makes a shaper of a character. `plan` is that of the sets that will take the shapes. */
-BCH_API bch_status bch_pose_shaper_create(const bch_character* character, const bch_plan* plan,
-                                          bch_pose_shaper** shaper);
+typedef struct bch_shape_builder bch_shape_builder;
+/** Makes a shape builder of a character. `plan` is that of the sets that will take the shapes. */
+BCH_API bch_status bch_shape_builder_create(const bch_character* character, const bch_plan* plan,
+                                          bch_shape_builder** shape_builder);
 /** Makes the shape of a pose. It replaces the previous one. */
-BCH_API bch_status bch_pose_shaper_make(bch_pose_shaper* shaper, bch_pose pose);
+BCH_API bch_status bch_shape_builder_make(bch_shape_builder* shape_builder, bch_pose pose);
 /** Makes the shape of pose number `index` of arrays. It replaces the previous one. */
-BCH_API bch_status bch_pose_shaper_make_from_arrays(bch_pose_shaper* shaper, const bch_pose_arrays* poses,
+BCH_API bch_status bch_shape_builder_make_from_arrays(bch_shape_builder* shape_builder, const bch_pose_arrays* poses,
                                                     size_t index);
 /** Gets the outline of the shape that was made last; see bch_shape_set_get_outline(). */
-BCH_API bch_status bch_pose_shaper_get_outline(const bch_pose_shaper* shaper, bch_outline* outline);
-/** Frees a shaper. */
-BCH_API bch_status bch_pose_shaper_free(bch_pose_shaper* shaper);
+BCH_API bch_status bch_shape_builder_get_outline(const bch_shape_builder* shape_builder, bch_outline* outline);
+/** Frees a shape builder. */
+BCH_API bch_status bch_shape_builder_free(bch_shape_builder* shape_builder);
 
 /** Builds a set shape by shape. Shapes are numbered in the order in which they are added. */
 typedef struct bch_shape_set_builder bch_shape_set_builder;
@@ -429,19 +429,19 @@ BCH_API bch_status bch_shape_set_builder_add_pose_arrays(bch_shape_set_builder* 
                                                          const bch_pose_arrays* poses, size_t count,
                                                          const bch_work* work);
 /** Names the character and pose that a shape shows. */
-typedef struct bch_shape_source {
+typedef struct bch_pose_id {
   uint32_t character; /**< index in a list of characters */
   bch_pose at;
-} bch_shape_source;
+} bch_pose_id;
 /** Adds the shapes of several characters in poses, as bch_shape_set_builder_add_poses() does for one
  * character. */
-BCH_API bch_status bch_shape_set_builder_add_sources(bch_shape_set_builder* builder,
+BCH_API bch_status bch_shape_set_builder_add_pose_ids(bch_shape_set_builder* builder,
                                                      const bch_character* const* characters,
-                                                     size_t character_count, const bch_shape_source* sources,
+                                                     size_t character_count, const bch_pose_id* pose_ids,
                                                      size_t count, const bch_work* work);
-/** Adds the shape that a shaper made last. */
+/** Adds the shape that a shape builder made last. */
 BCH_API bch_status bch_shape_set_builder_add_shape(bch_shape_set_builder* builder,
-                                                   const bch_pose_shaper* shaper);
+                                                   const bch_shape_builder* shape_builder);
 /** Adds a body of polygons: polygon i has corners offsets[i] to offsets[i + 1], in the agent's frame, in
  * either orientation. If `heights` is NULL, the body is infinitely high, also in the next functions. */
 BCH_API bch_status bch_shape_set_builder_add_polygons(bch_shape_set_builder* builder, const bch_vec2* corners,
@@ -477,9 +477,9 @@ BCH_API bch_status bch_dynamic_shape_set_create(const bch_shape_set* start, bch_
  * while shapes are replaced. */
 BCH_API bch_status bch_dynamic_shape_set_get_shapes(const bch_dynamic_shape_set* set,
                                                     const bch_shape_set** shapes);
-/** Replaces a shape by the one that a shaper made last. The shaper has to have the set's plan. */
+/** Replaces a shape by the one that a shape builder made last. The shape builder has to have the set's plan. */
 BCH_API bch_status bch_dynamic_shape_set_replace(bch_dynamic_shape_set* set, uint32_t shape,
-                                                 const bch_pose_shaper* shaper);
+                                                 const bch_shape_builder* shape_builder);
 /** Replaces many shapes by poses of a character, on many threads: shape shapes[i] by the pose poses[i]. No
  * shape may be named twice. `threshold` is as in bch_plan. After an error or a cancellation some shapes are
  * new, and others are unchanged. */
@@ -1221,7 +1221,7 @@ BCH_API bch_status bch_animated_shape_get_spheres(const bch_animated_shape* shap
 /** Frees a body. */
 BCH_API bch_status bch_animated_shape_free(bch_animated_shape* shape);
 /** Adds the shape that an animated body has at a time. */
-BCH_API bch_status bch_shape_set_builder_add_moment(bch_shape_set_builder* builder,
+BCH_API bch_status bch_shape_set_builder_add_animated_shape(bch_shape_set_builder* builder,
                                                     const bch_animated_shape* shape, double seconds);
 
 /** Stores an animated body in a set, to be saved with it. If `clip` is NULL, the body has no clip name. */
@@ -1286,27 +1286,27 @@ typedef struct bch_scene_agents {
 #define BCH_SCENE_AGENTS_INIT \
   { sizeof(bch_scene_agents), NULL, NULL, NULL, 0 }
 /** Describes the queries and levels of detail that a scene is planned for. */
-typedef struct bch_scene_use {
-  uint32_t size;          /**< sizeof(bch_scene_use) */
+typedef struct bch_scene_requirements {
+  uint32_t size;          /**< sizeof(bch_scene_requirements) */
   int32_t outlines;       /**< not 0: keep outlines, as bch_plan does */
   int32_t heights;        /**< not 0: agents stand at different heights */
   double pairs_per_shape; /**< expected number of pairs tested per shape in its lifetime */
   float
       pose_step; /**< seconds: times are rounded down to multiples of it, so that agents share shapes; 0: not
       rounded */
-} bch_scene_use;
-#define BCH_SCENE_USE_INIT \
-  { sizeof(bch_scene_use), 1, 0, (double)INFINITY, 0 }
+} bch_scene_requirements;
+#define BCH_SCENE_REQUIREMENTS_INIT \
+  { sizeof(bch_scene_requirements), 1, 0, (double)INFINITY, 0 }
 /** Lists the shapes to build for a scene, each once, and the shape and level of each agent. */
 typedef struct bch_scene_plan bch_scene_plan;
 /** Finds which shapes a scene needs, at which depths and with which other data. */
-BCH_API bch_status bch_scene_plan_create(const bch_scene_agents* agents, const bch_scene_use* use,
+BCH_API bch_status bch_scene_plan_create(const bch_scene_agents* agents, const bch_scene_requirements* requirements,
                                          bch_scene_plan** plan);
 /** Gets the plan of the set to build. Its arrays, and those of the next two functions, live as long as the
  * scene plan. */
 BCH_API bch_status bch_scene_plan_get_set(const bch_scene_plan* plan, bch_plan* set);
-/** Gets the shapes to build, for bch_shape_set_builder_add_sources(). */
-BCH_API bch_status bch_scene_plan_get_shapes(const bch_scene_plan* plan, const bch_shape_source** shapes,
+/** Gets the shapes to build, for bch_shape_set_builder_add_pose_ids(). */
+BCH_API bch_status bch_scene_plan_get_shapes(const bch_scene_plan* plan, const bch_pose_id** shapes,
                                              size_t* count);
 /** Gets the shape and the level of each agent, for bch_agents. */
 BCH_API bch_status bch_scene_plan_get_agents(const bch_scene_plan* plan, const uint32_t** shape,

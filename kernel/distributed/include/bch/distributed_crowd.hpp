@@ -89,7 +89,7 @@ class DistributedCrowd {
   DistributedCrowd(MPI_Comm comm, const ShapeSet& shapes, std::vector<Agent> agents,
                    const DistributedCrowdOptions& options = {});
   /// Takes agents who are characters, each in its own pose; `shape` is then an index into the characters.
-  /// Each agent is known by one rank. Poses become shapes as by PoseShaper and ShapeSet with this plan.
+  /// Each agent is known by one rank. Poses become shapes as by ShapeBuilder and ShapeSet with this plan.
   /// Lifetime: the characters outlive the crowd. They and the plan are the same on every rank.
   /// Errors:  as the other constructor; also on a character or plan that is not valid.
   DistributedCrowd(MPI_Comm comm, std::span<const Character> characters, const ShapeSetPlan& plan,

@@ -8,9 +8,9 @@
 namespace bch::test {
 
 /// Finds the sphere of each piece of each triangle: the first one that has all of its corners.
-class HeldTriangles {
+class CoveredTriangles {
  public:
-  explicit HeldTriangles(const BodyModel& model);
+  explicit CoveredTriangles(const BodyModel& model);
 
   /// Returns by how much a piece of some triangle stands out of its sphere, metres; less than 0: how deep all are inside. Corners are
   /// computed from posed vertices in double, whose error is added.
@@ -27,7 +27,7 @@ class HeldTriangles {
 };
 
 /// Expects that spheres hold all triangles of a pose, and have room for what a query rounds.
-void expect_held(const HeldTriangles& triangles, BodyPoser& poser, const Character& character,
-                 const Pose& pose);
+void expect_covered(const CoveredTriangles& triangles, BodyPoser& poser, const Character& character,
+                    const Pose& pose);
 
 }  // namespace bch::test

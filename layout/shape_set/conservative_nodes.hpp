@@ -14,6 +14,6 @@ namespace bch::detail {
 /// do the nodes of bodies made of discs. The nodes of outlines do not, because a node's disc is the smallest around
 /// the outline below it, not around the discs.
 /// `inner`: as Bvh8::inner_nodes. `reach`: of the shape, metres.
-bool nodes_hold_discs(const CutDiscs& discs, std::span<const InnerNode> inner, double reach) noexcept;
+bool conservative_nodes(const CutDiscs& discs, std::span<const InnerNode> inner, double reach) noexcept;
 
 }  // namespace bch::detail

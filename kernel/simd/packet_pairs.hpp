@@ -7,9 +7,9 @@
 
 namespace bch::detail {
 
-/// Lists some of a chunk's pairs. (`Simd` also keeps instruction sets from sharing a function.)
+/// Lists some of a packet's pairs. (`Simd` also keeps instruction sets from sharing a function.)
 template <class Simd, std::uint32_t capacity>
-struct ChunkPairs {
+struct PacketPairs {
   static constexpr std::uint32_t padding = 16;     ///< lanes of the widest register
   static constexpr std::uint32_t pairs_ahead = 8;  ///< how many pairs ahead `prefetch` is called
 
@@ -29,7 +29,7 @@ struct ChunkPairs {
   /// Empties this list and appends the pairs that fail the test to `rest`, which may be this list. No branch depends on
   /// an answer. `prefetch(pair)` prefetches what the test will read.
   template <class Test, class Prefetch>
-  void drop_if(ChunkPairs& rest, Test passes, Prefetch prefetch) noexcept {
+  void drop_if(PacketPairs& rest, Test passes, Prefetch prefetch) noexcept {
     const std::uint32_t count = size;
     size = 0;
     std::uint32_t kept = rest.size;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "kernel/c_api/own_characters.hpp"
+#include "kernel/c_api/custom_characters.hpp"
 
 #include <memory>
 #include <string>

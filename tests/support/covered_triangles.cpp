@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 the bch authors
 
-#include "tests/support/held_triangles.hpp"
+#include "tests/support/covered_triangles.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ double reach_of(std::span<const Sphere> spheres) {
 
 }  // namespace
 
-HeldTriangles::HeldTriangles(const BodyModel& model) : model_(model) {
+CoveredTriangles::CoveredTriangles(const BodyModel& model) : model_(model) {
   const auto vertices = static_cast<std::uint32_t>(model.character->vertices.size());
   for (std::uint32_t i = 0; i < model.midpoints.size(); ++i)
     cut_.try_emplace(std::minmax(model.midpoints[i][0], model.midpoints[i][1]), vertices + i);
@@ -31,7 +31,7 @@ HeldTriangles::HeldTriangles(const BodyModel& model) : model_(model) {
       owners_[model.corners[i]].push_back(s);
 }
 
-double HeldTriangles::protrusion(std::span<const Vec3> posed, std::span<const Sphere> spheres) const {
+double CoveredTriangles::protrusion(std::span<const Vec3> posed, std::span<const Sphere> spheres) const {
   double most = -in_none;
   for (const auto& triangle : model_.character->triangles) {
     std::array<Point, 3> at;
@@ -44,8 +44,8 @@ double HeldTriangles::protrusion(std::span<const Vec3> posed, std::span<const Sp
   return most;
 }
 
-double HeldTriangles::protrusion(const std::array<std::uint32_t, 3>& corners, const std::array<Point, 3>& at,
-                                 std::span<const Sphere> spheres) const {
+double CoveredTriangles::protrusion(const std::array<std::uint32_t, 3>& corners,
+                                    const std::array<Point, 3>& at, std::span<const Sphere> spheres) const {
   double least = in_none;
   for (const std::uint32_t s : owners_[corners[0]]) {
     const auto begin = model_.corners.begin() + model_.corner_begin[s],
@@ -74,8 +74,8 @@ double HeldTriangles::protrusion(const std::array<std::uint32_t, 3>& corners, co
   return least;
 }
 
-void expect_held(const HeldTriangles& triangles, BodyPoser& poser, const Character& character,
-                 const Pose& pose) {
+void expect_covered(const CoveredTriangles& triangles, BodyPoser& poser, const Character& character,
+                    const Pose& pose) {
   const std::span<const Sphere> spheres = poser.spheres(pose);
   const double room = detail::rounding::sphere_margin * reach_of(spheres);
   EXPECT_LE(triangles.protrusion(pose_vertices(character, pose), spheres), -room * (1 - 1e-4));
