@@ -46,7 +46,7 @@ extern "C" {
 #define BCH_API
 #endif
 
-/* Basics ------------------------------------------------------------------------------------------------------------ */
+/* Basics ------------------------------------------------------------------------------------------------ */
 
 /** Gives the version of this binary interface. A program that was built with one version runs with every
  * library of the same version. */
@@ -115,7 +115,7 @@ typedef struct bch_work {
 #define BCH_WORK_INIT \
   { sizeof(bch_work), 0, NULL, NULL }
 
-/* Characters -------------------------------------------------------------------------------------------------------- */
+/* Characters -------------------------------------------------------------------------------------------- */
 
 /** Holds a character: a mesh, a skeleton and clips. */
 typedef struct bch_character bch_character;
@@ -155,10 +155,10 @@ enum {
  * Without keys that part stays as it is at rest. */
 typedef struct bch_curve {
   const float* times; /**< seconds from the start of the clip */
-  const float*
-      values; /**< one key after the other: x, y, z, and w of rotations, which are unit quaternions */
-  const float*
-      tangents; /**< only of cubic curves: those before and after each key, per second, like values */
+  /** One key after the other: x, y, z, and w of rotations, which are unit quaternions. */
+  const float* values;
+  /** Only of cubic curves: those before and after each key, per second, like values. */
+  const float* tangents;
   size_t count; /**< of keys */
   int32_t interpolation; /**< BCH_LINEAR, BCH_STEP or BCH_CUBIC */
 } bch_curve;
@@ -179,8 +179,8 @@ typedef struct bch_clip {
  * pose. Without joints it is a rigid mesh at the agent's position. */
 typedef struct bch_character_arrays {
   uint32_t size; /**< sizeof(bch_character_arrays) */
-  int32_t
-      root_joint; /**< the joint whose (x, y) is a shape's origin; -1: the centre of the mesh's bounding rectangle */
+  /** The joint whose (x, y) is a shape's origin; -1: the centre of the mesh's bounding rectangle. */
+  int32_t root_joint;
   const char* name; /**< or NULL */
   const bch_vec3* vertices;
   size_t vertex_count;
@@ -193,13 +193,13 @@ typedef struct bch_character_arrays {
   const uint32_t* bone_joints;
   const bch_affine3* inverse_binds; /**< of bones; NULL: vertices are in the joints' frames */
   size_t bone_count;
-  const uint64_t*
-      influence_offsets; /**< vertex v follows influences [v] to [v + 1]; NULL: all follow the first bone */
+  /** Vertex v follows influences [v] to [v + 1]; NULL: all follow the first bone. */
+  const uint64_t* influence_offsets;
   const bch_influence* influences;
   const bch_clip* clips;
   size_t clip_count;
-  const bch_affine3*
-      to_ground; /**< from the joints' frame to the world: metres, z up; NULL: they are the same */
+  /** From the joints' frame to the world: metres, z up; NULL: they are the same. */
+  const bch_affine3* to_ground;
 } bch_character_arrays;
 #define BCH_CHARACTER_ARRAYS_INIT                                                                       \
   {                                                                                                     \
@@ -270,10 +270,10 @@ typedef struct bch_pose_arrays {
   int32_t layout;   /**< BCH_FLOAT_ROWS ...; has to be BCH_FLOAT_ROWS for vertices */
   const void* data; /**< the numbers */
   size_t count;     /**< of transforms or vertices in a pose */
-  size_t
-      stride; /**< numbers from one transform or vertex to the next, at least the size of one; 0: packed */
-  const double*
-      origins; /**< for bone matrices: x and y of each pose's origin in the world; NULL: (0, 0) */
+  /** Numbers from one transform or vertex to the next, at least the size of one; 0: packed. */
+  size_t stride;
+  /** For bone matrices: x and y of each pose's origin in the world; NULL: (0, 0). */
+  const double* origins;
 } bch_pose_arrays;
 #define BCH_POSE_ARRAYS_INIT \
   { sizeof(bch_pose_arrays), BCH_JOINTS_IN_PARENTS, BCH_FLOAT_ROWS, NULL, 0, 0, NULL }
@@ -293,7 +293,7 @@ BCH_API bch_status bch_character_get_vertices(const bch_character* character, bc
 /** Frees a character. Shapers that were made from it stay valid. */
 BCH_API bch_status bch_character_free(bch_character* character);
 
-/* Sets of shapes ---------------------------------------------------------------------------------------------------- */
+/* Sets of shapes ---------------------------------------------------------------------------------------- */
 
 /** Holds shapes of bodies, ready to be queried. */
 typedef struct bch_shape_set bch_shape_set;
@@ -383,14 +383,14 @@ BCH_API bch_status bch_shape_set_get_outline(const bch_shape_set* set, uint32_t 
 /** Receives one line for each difference that bch_shape_set_verify() finds. */
 typedef void (*bch_inconsistency)(void* user, const char* line);
 /** Checks a set from an untrusted file: recomputes all other stored data from discs and outlines, and
- * compares. Calls `inconsistency`, which may be NULL, for at most `most` differences, and writes their number to
- * `count`. */
-BCH_API bch_status bch_shape_set_verify(const bch_shape_set* set, size_t most, bch_inconsistency inconsistency,
-                                        void* user, size_t* count);
+ * compares. Calls `inconsistency`, which may be NULL, for at most `most` differences, and writes their
+ * number to `count`. */
+BCH_API bch_status bch_shape_set_verify(const bch_shape_set* set, size_t most,
+                                        bch_inconsistency inconsistency, void* user, size_t* count);
 /** Frees a set. */
 BCH_API bch_status bch_shape_set_free(bch_shape_set* set);
 
-/* Building sets ----------------------------------------------------------------------------------------------------- */
+/* Building sets ----------------------------------------------------------------------------------------- */
 
 /** Makes a set of characters, each in `poses` poses spread evenly over its clips, one character after the
  * other, on many threads. `plan` and `work` may be NULL. For chosen poses, and for polygons and the like, use
@@ -402,14 +402,15 @@ BCH_API bch_status bch_bake(const bch_character* const* characters, size_t chara
 typedef struct bch_shape_builder bch_shape_builder;
 /** Makes a shape builder of a character. `plan` is that of the sets that will take the shapes. */
 BCH_API bch_status bch_shape_builder_create(const bch_character* character, const bch_plan* plan,
-                                          bch_shape_builder** shape_builder);
+                                            bch_shape_builder** shape_builder);
 /** Makes the shape of a pose. It replaces the previous one. */
 BCH_API bch_status bch_shape_builder_make(bch_shape_builder* shape_builder, bch_pose pose);
 /** Makes the shape of pose number `index` of arrays. It replaces the previous one. */
-BCH_API bch_status bch_shape_builder_make_from_arrays(bch_shape_builder* shape_builder, const bch_pose_arrays* poses,
-                                                    size_t index);
+BCH_API bch_status bch_shape_builder_make_from_arrays(bch_shape_builder* shape_builder,
+                                                      const bch_pose_arrays* poses, size_t index);
 /** Gets the outline of the shape that was made last; see bch_shape_set_get_outline(). */
-BCH_API bch_status bch_shape_builder_get_outline(const bch_shape_builder* shape_builder, bch_outline* outline);
+BCH_API bch_status bch_shape_builder_get_outline(const bch_shape_builder* shape_builder,
+                                                 bch_outline* outline);
 /** Frees a shape builder. */
 BCH_API bch_status bch_shape_builder_free(bch_shape_builder* shape_builder);
 
@@ -436,9 +437,9 @@ typedef struct bch_pose_id {
 /** Adds the shapes of several characters in poses, as bch_shape_set_builder_add_poses() does for one
  * character. */
 BCH_API bch_status bch_shape_set_builder_add_pose_ids(bch_shape_set_builder* builder,
-                                                     const bch_character* const* characters,
-                                                     size_t character_count, const bch_pose_id* pose_ids,
-                                                     size_t count, const bch_work* work);
+                                                      const bch_character* const* characters,
+                                                      size_t character_count, const bch_pose_id* pose_ids,
+                                                      size_t count, const bch_work* work);
 /** Adds the shape that a shape builder made last. */
 BCH_API bch_status bch_shape_set_builder_add_shape(bch_shape_set_builder* builder,
                                                    const bch_shape_builder* shape_builder);
@@ -477,7 +478,8 @@ BCH_API bch_status bch_dynamic_shape_set_create(const bch_shape_set* start, bch_
  * while shapes are replaced. */
 BCH_API bch_status bch_dynamic_shape_set_get_shapes(const bch_dynamic_shape_set* set,
                                                     const bch_shape_set** shapes);
-/** Replaces a shape by the one that a shape builder made last. The shape builder has to have the set's plan. */
+/** Replaces a shape by the one that a shape builder made last. The shape builder has to have the set's
+ * plan. */
 BCH_API bch_status bch_dynamic_shape_set_replace(bch_dynamic_shape_set* set, uint32_t shape,
                                                  const bch_shape_builder* shape_builder);
 /** Replaces many shapes by poses of a character, on many threads: shape shapes[i] by the pose poses[i]. No
@@ -497,15 +499,15 @@ BCH_API bch_status bch_dynamic_shape_set_replace_pose_arrays(bch_dynamic_shape_s
 /** Frees a dynamic set, and the set that bch_dynamic_shape_set_get_shapes() got. */
 BCH_API bch_status bch_dynamic_shape_set_free(bch_dynamic_shape_set* set);
 
-/* Outlines ---------------------------------------------------------------------------------------------------------- */
+/* Outlines ---------------------------------------------------------------------------------------------- */
 
 /** Holds outlines: what a mesh covers in poses, seen from above. */
 typedef struct bch_outlines bch_outlines;
 /** Says which parts of a mesh are outlined. */
 typedef struct bch_outline_options {
   uint32_t size; /**< sizeof(bch_outline_options) */
-  int32_t
-      holes; /**< not 0: also holes (clockwise contours after the contour around them), and parts inside holes */
+  /** Not 0: also holes (clockwise contours after the contour around them), and parts inside holes. */
+  int32_t holes;
   float bottom; /**< metres; the mesh below is cut off; -infinity: nothing is cut off */
   float top;    /**< metres; the mesh above is cut off; infinity: nothing is cut off */
 } bch_outline_options;
@@ -536,7 +538,7 @@ BCH_API bch_status bch_outlines_get_text(const bch_outlines* outlines, size_t po
 /** Frees outlines. */
 BCH_API bch_status bch_outlines_free(bch_outlines* outlines);
 
-/* Queries of pairs -------------------------------------------------------------------------------------------------- */
+/* Queries of pairs -------------------------------------------------------------------------------------- */
 
 enum {
   BCH_DOUBLES = 0, /**< numbers are of type double */
@@ -550,14 +552,15 @@ typedef struct bch_agents {
   const uint32_t* shape; /**< index into the set */
   const void* x;         /**< of the type `numbers`, like y, heading and z */
   const void* y;
-  const void*
-      heading; /**< counter-clockwise; 0 does not turn a shape. With heading_y: the x of a direction */
+  /** Counter-clockwise; 0 does not turn a shape. With heading_y: the x of a direction. */
+  const void* heading;
   const uint8_t* level; /**< index into the set's depths; NULL: the last one for all */
   const void* z;        /**< height of the ground under each agent; NULL: the same for all */
   size_t count;
   int32_t numbers; /**< BCH_DOUBLES or BCH_FLOATS */
   size_t shape_stride, x_stride, y_stride, heading_stride, level_stride, z_stride;
-  /** The y of directions: unit vectors (length 1 within 1e-3) along an agent's +x; NULL: headings are angles. */
+  /** The y of directions: unit vectors (length 1 within 1e-3) along an agent's +x; NULL: headings are
+   * angles. */
   const void* heading_y;
   size_t heading_y_stride;
 } bch_agents;
@@ -588,13 +591,13 @@ enum {
 typedef struct bch_query_options {
   uint32_t size;  /**< sizeof(bch_query_options) */
   int32_t leaves; /**< for collisions and contacts: BCH_SEGMENTS or BCH_DISCS */
-  int32_t
-      distance_leaves; /**< for clearance: BCH_DISCS or BCH_SEGMENTS; deepest overlaps are those of discs */
+  /** For clearance: BCH_DISCS or BCH_SEGMENTS; deepest overlaps are those of discs. */
+  int32_t distance_leaves;
   int32_t overlap;     /**< for clearance: BCH_OVERLAP_ZERO or BCH_OVERLAP_DEEPEST */
   uint32_t threads;    /**< 0: one for each processor; the answer is the same for any number */
   double max_distance; /**< for clearance: farther pairs get an infinite distance */
-  const char*
-      implementation; /**< one of bch_implementation_name(); NULL: the best; the answer is the same for all */
+  /** One of bch_implementation_name(); NULL: the best; the answer is the same for all. */
+  const char* implementation;
 } bch_query_options;
 #define BCH_QUERY_OPTIONS_INIT \
   { sizeof(bch_query_options), BCH_SEGMENTS, BCH_DISCS, BCH_OVERLAP_ZERO, 0, (double)INFINITY, NULL }
@@ -643,8 +646,8 @@ typedef struct bch_nearest_points {
 typedef struct bch_clearance_out {
   uint32_t size;   /**< sizeof(bch_clearance_out) */
   float* distance; /**< metres; infinite beyond max_distance; required, not NULL */
-  bch_vec2*
-      direction; /**< from the first agent's nearest point to the second's; (0, 0) where there is none */
+  /** From the first agent's nearest point to the second's; (0, 0) where there is none. */
+  bch_vec2* direction;
   bch_disc_pair* discs;       /**< the nearest discs, or leaves; BCH_NO_DISC where there are none */
   bch_nearest_points* points; /**< the nearest points; (0, 0) where there are none */
 } bch_clearance_out;
@@ -690,7 +693,7 @@ BCH_API bch_status bch_time_of_impact(const bch_shape_set* set, const bch_agents
                                       const bch_pair* pairs, size_t count, const double* x, const double* y,
                                       const bch_query_options* options, float* times);
 
-/* Queries of crowds -------------------------------------------------------------------------------------------------- */
+/* Queries of crowds ------------------------------------------------------------------------------------- */
 
 /** Finds the pairs of a crowd that collide or are near each other: broad and narrow phase in one call.
  * Answers are valid until the next call for the same crowd. */
@@ -811,7 +814,7 @@ BCH_API bch_status bch_crowd_obstacles(bch_crowd* crowd, const bch_shape_set* se
 /** Frees a crowd and its answers. */
 BCH_API bch_status bch_crowd_free(bch_crowd* crowd);
 
-/* Bodies of spheres -------------------------------------------------------------------------------------------------- */
+/* Bodies of spheres ------------------------------------------------------------------------------------- */
 
 /** Represents a ball. */
 typedef struct bch_sphere {
@@ -1004,8 +1007,8 @@ BCH_API bch_status bch_crowd_body_penetrations(bch_crowd* crowd, const bch_body_
  * two spheres. */
 typedef struct bch_sphere_contact {
   bch_disc_pair spheres; /**< the indices of the spheres */
-  bch_vec3
-      point; /**< of the first sphere, the deepest in the second; relative to the first agent's position */
+  /** Of the first sphere, the deepest in the second; relative to the first agent's position. */
+  bch_vec3 point;
   bch_vec3 normal; /**< a unit vector from the first sphere to the second */
   float depth;     /**< metres */
 } bch_sphere_contact;
@@ -1028,7 +1031,7 @@ BCH_API bch_status bch_crowd_body_contacts_of(bch_crowd* crowd, const bch_body_s
                                               const bch_query_options* options,
                                               bch_sphere_contact_rows* contacts);
 
-/* Obstacles --------------------------------------------------------------------------------------------------------- */
+/* Obstacles --------------------------------------------------------------------------------------------- */
 
 /** Holds obstacles in arrays: polylines of points, and obstacles of polylines, as offsets. */
 typedef struct bch_obstacle_arrays {
@@ -1160,7 +1163,7 @@ BCH_API bch_status bch_crowd_body_resolve(bch_crowd* crowd, const bch_body_set* 
                                           const bch_pair_filter* filter, const bch_query_options* options,
                                           bch_resolved_view* resolved);
 
-/* Motions ----------------------------------------------------------------------------------------------------------- */
+/* Motions ----------------------------------------------------------------------------------------------- */
 
 /** Represents an animated body: discs whose centres and radii are linear in time from key to key, or spheres,
  * which have heights. It has a shape at every time. Times outside the clip are clamped or, if the clip loops,
@@ -1222,7 +1225,8 @@ BCH_API bch_status bch_animated_shape_get_spheres(const bch_animated_shape* shap
 BCH_API bch_status bch_animated_shape_free(bch_animated_shape* shape);
 /** Adds the shape that an animated body has at a time. */
 BCH_API bch_status bch_shape_set_builder_add_animated_shape(bch_shape_set_builder* builder,
-                                                    const bch_animated_shape* shape, double seconds);
+                                                            const bch_animated_shape* shape,
+                                                            double seconds);
 
 /** Stores an animated body in a set, to be saved with it. If `clip` is NULL, the body has no clip name. */
 BCH_API bch_status bch_shape_set_add_clip(bch_shape_set* set, const bch_animated_shape* shape,
@@ -1265,7 +1269,7 @@ BCH_API bch_status bch_obstacles_first_contact(const bch_motion* motions, size_t
 BCH_API bch_status bch_free_until(const bch_motion* motion, const bch_motion* others, size_t count,
                                   double from, double to, double tolerance, double* time);
 
-/* Scenes ------------------------------------------------------------------------------------------------------------ */
+/* Scenes ------------------------------------------------------------------------------------------------ */
 
 /** Measures the density around each agent, in people per square metre: the number of agents within a radius,
  * divided by the area of that circle. */
@@ -1291,17 +1295,16 @@ typedef struct bch_scene_requirements {
   int32_t outlines;       /**< not 0: keep outlines, as bch_plan does */
   int32_t heights;        /**< not 0: agents stand at different heights */
   double pairs_per_shape; /**< expected number of pairs tested per shape in its lifetime */
-  float
-      pose_step; /**< seconds: times are rounded down to multiples of it, so that agents share shapes; 0: not
-      rounded */
+  /** Seconds: times are rounded down to multiples of it, so that agents share shapes; 0: not rounded. */
+  float pose_step;
 } bch_scene_requirements;
 #define BCH_SCENE_REQUIREMENTS_INIT \
   { sizeof(bch_scene_requirements), 1, 0, (double)INFINITY, 0 }
 /** Lists the shapes to build for a scene, each once, and the shape and level of each agent. */
 typedef struct bch_scene_plan bch_scene_plan;
 /** Finds which shapes a scene needs, at which depths and with which other data. */
-BCH_API bch_status bch_scene_plan_create(const bch_scene_agents* agents, const bch_scene_requirements* requirements,
-                                         bch_scene_plan** plan);
+BCH_API bch_status bch_scene_plan_create(const bch_scene_agents* agents,
+                                         const bch_scene_requirements* requirements, bch_scene_plan** plan);
 /** Gets the plan of the set to build. Its arrays, and those of the next two functions, live as long as the
  * scene plan. */
 BCH_API bch_status bch_scene_plan_get_set(const bch_scene_plan* plan, bch_plan* set);

@@ -17,12 +17,13 @@
 extern "C" {
 #endif
 
-/* Characters -------------------------------------------------------------------------------------------------------- */
+/* Characters -------------------------------------------------------------------------------------------- */
 
 /** Holds the options of an import: values that override those of the file, and limits. */
 typedef struct bch_import_options {
   uint32_t size;                 /**< sizeof(bch_import_options) */
-  int32_t up;                    /**< the axis that points up: 0, 1 or 2 for x, y or z; -1: what the file states, or a guess */
+  /** The axis that points up: 0, 1 or 2 for x, y or z; -1: what the file states, or a guess. */
+  int32_t up;
   float scale;                   /**< metres per unit of the file; 0: what the file states, or a guess */
   int32_t force_clips;           /**< not 0: also accepts clips that belong to another skeleton */
   const char* const* clip_files; /**< paths of files whose clips follow those of the character's own file */
@@ -40,7 +41,7 @@ typedef struct bch_import_options {
 BCH_API bch_status bch_character_import(const char* path, const bch_import_options* options,
                                         bch_character** character);
 
-/* Recordings -------------------------------------------------------------------------------------------------------- */
+/* Recordings -------------------------------------------------------------------------------------------- */
 
 /** Holds an open recording of people, from which their positions are read frame by frame. */
 typedef struct bch_trajectory bch_trajectory;
@@ -49,8 +50,10 @@ typedef struct bch_trajectory_options {
   uint32_t size;         /**< sizeof(bch_trajectory_options) */
   double fps;            /**< frames per second; 0: what the file states */
   double unit;           /**< metres per unit of the file; 0: what the file states */
-  const char* columns;   /**< for text and CSV: the column names in order, such as "frame,id,x,y"; NULL: what the file states */
-  bch_progress progress; /**< or NULL; called with 0 of 0 parts while the recording is opened, and can cancel */
+  /** For text and CSV: the column names in order, such as "frame,id,x,y"; NULL: what the file states. */
+  const char* columns;
+  /** Or NULL; called with 0 of 0 parts while the recording is opened, and can cancel. */
+  bch_progress progress;
   void* user;            /**< for progress */
 } bch_trajectory_options;
 #define BCH_TRAJECTORY_OPTIONS_INIT \
@@ -79,8 +82,9 @@ typedef struct bch_column {
 /** Opens a recording in memory: rows of named columns, which give the same results as a CSV file with this
  * header and these rows. The values are not copied: do not change or free them before the recording is freed.
  * Messages count rows from 0. Invalid values give BCH_INVALID_ARGUMENT. `options->columns` has to be NULL. */
-BCH_API bch_status bch_trajectory_from_columns(const bch_column* columns, size_t column_count, size_t row_count,
-                                               const bch_trajectory_options* options, bch_trajectory** trajectory);
+BCH_API bch_status bch_trajectory_from_columns(const bch_column* columns, size_t column_count,
+                                               size_t row_count, const bch_trajectory_options* options,
+                                               bch_trajectory** trajectory);
 /** Holds the format, size and assumptions of a recording. */
 typedef struct bch_trajectory_info {
   uint32_t size; /**< sizeof(bch_trajectory_info) */
@@ -89,10 +93,12 @@ typedef struct bch_trajectory_info {
   uint64_t people; /**< the number of different ids; 0 if they are too many to be counted */
   int64_t first_frame;
   int64_t last_frame;
-  const char* format;      /**< such as "JuPedSim SQLite, version 2"; lives as long as the trajectory, like the next */
+  /** Such as "JuPedSim SQLite, version 2"; lives as long as the trajectory, like the next. */
+  const char* format;
   const char* geometry;    /**< the walkable area as well-known text, or empty */
   const char* assumptions; /**< a line for each thing that the file does not state, and what is assumed */
-  const char* notes;       /**< a line for each thing that seems to be wrong: columns that are not read, values of another unit */
+  /** A line for each thing that seems to be wrong: columns that are not read, values of another unit. */
+  const char* notes;
 } bch_trajectory_info;
 #define BCH_TRAJECTORY_INFO_INIT \
   { sizeof(bch_trajectory_info), 0, 0, 0, 0, 0, NULL, NULL, NULL, NULL }
@@ -105,11 +111,12 @@ typedef struct bch_named_motion {
 } bch_named_motion;
 /** Gets all pairs of a character and a clip that rows name, in the order of the file. They live as long as
  * the trajectory. */
-BCH_API bch_status bch_trajectory_get_motions(const bch_trajectory* trajectory, const bch_named_motion** motions,
-                                              size_t* count);
+BCH_API bch_status bch_trajectory_get_motions(const bch_trajectory* trajectory,
+                                              const bch_named_motion** motions, size_t* count);
 /** Describes the body that rows have instead of a walking person's, such as a cart. */
 typedef struct bch_named_body {
-  const char* kind; /**< such as "box", or a name of bch_check_options::footprints; empty if the motion is a person's */
+  /** Such as "box", or a name of bch_check_options::footprints; empty if the motion is a person's. */
+  const char* kind;
   float length, width; /**< metres; 0 if rows do not state it */
 } bch_named_body;
 /** Gets one body per motion, in the order of bch_trajectory_get_motions(); motions of bodies that do not walk
@@ -130,8 +137,8 @@ typedef struct bch_tracked_person {
 } bch_tracked_person;
 /** Reads the people of the next frames: as many whole frames as fit into `capacity` people. A frame with more
  * people gives BCH_INVALID_ARGUMENT. At the end `count` is 0. */
-BCH_API bch_status bch_trajectory_read(bch_trajectory* trajectory, bch_tracked_person* people, size_t capacity,
-                                       size_t* count);
+BCH_API bch_status bch_trajectory_read(bch_trajectory* trajectory, bch_tracked_person* people,
+                                       size_t capacity, size_t* count);
 /** Frees a recording. */
 BCH_API bch_status bch_trajectory_free(bch_trajectory* trajectory);
 
@@ -165,10 +172,14 @@ typedef struct bch_check_options {
   void* user;                 /**< for progress */
   uint32_t depth;             /**< the depth of the bodies' hierarchies */
   int32_t leaves;             /**< BCH_SEGMENTS or BCH_DISCS: what is compared at BCH_ALL_DEPTHS */
-  const bch_character* const* characters; /**< the people's bodies, assigned by id; each has a clip that walks straight on */
+  /** The people's bodies, assigned by id; each has a clip that walks straight on. */
+  const bch_character* const* characters;
   size_t character_count;                 /**< 0: built-in pedestrians */
-  const bch_shape_set* baked; /**< or NULL: a loaded or baked set; its shapes, at the last level, are the people's bodies, instead of characters */
-  const bch_clip_speed* clip_speeds; /**< for a baked set, which does not state how fast people walk in its clips */
+  /** Or NULL: a loaded or baked set; its shapes, at the last level, are the people's bodies, instead of
+   * characters. */
+  const bch_shape_set* baked;
+  /** For a baked set, which does not state how fast people walk in its clips. */
+  const bch_clip_speed* clip_speeds;
   size_t clip_speed_count;
   double facing; /**< for a baked set: the direction that people face, radians from +x */
   /** The largest number of pairs of people near each other, in a frame or in the frames of a task (about
@@ -179,7 +190,8 @@ typedef struct bch_check_options {
    * leaves, are errors. 0: outlines, seen from above. */
   uint32_t spheres;
   uint32_t unused;  /**< 0 */
-  int32_t measures; /**< not 0: also finds the results of bch_check_get_measures() and bch_check_get_conflicts() */
+  /** Not 0: also finds the results of bch_check_get_measures() and bch_check_get_conflicts(). */
+  int32_t measures;
   /** Kinds of bodies that rows may name beside disc, box, ellipse, wheelchair, bicycle, trolley and robot.
    * If rows have such bodies, spheres and a baked set are errors. */
   const bch_footprint* footprints;
@@ -193,7 +205,8 @@ typedef struct bch_check_options {
   { sizeof(bch_check_options), 0, 0, NULL, 0, NULL, NULL, BCH_ALL_DEPTHS, BCH_SEGMENTS, NULL, 0, NULL, NULL, 0, 0, 0, 0, 0, 0, NULL, 0, NULL, NULL }
 /** Finds who runs into whom in a recording: each row becomes a walking person, or the body that the row
  * names. The recording must not have been read from. */
-BCH_API bch_status bch_check_run(bch_trajectory* trajectory, const bch_check_options* options, bch_check** check);
+BCH_API bch_status bch_check_run(bch_trajectory* trajectory, const bch_check_options* options,
+                                 bch_check** check);
 /** Holds the summary of a whole recording. */
 typedef struct bch_check_summary {
   uint32_t size;   /**< sizeof(bch_check_summary) */
@@ -207,11 +220,13 @@ typedef struct bch_check_summary {
   uint64_t guessed_headings;       /**< person-frames whose heading is taken from an earlier frame */
   uint64_t near_pairs;             /**< pairs of a frame within 1.2 m */
   uint64_t overlapping_near_pairs; /**< those of these pairs that overlap */
-  uint64_t colliding_people;       /**< people who overlap or pass anybody at any time; only with `measures` */
+  /** People who overlap or pass anybody at any time; only with `measures`. */
+  uint64_t colliding_people;
   uint64_t disc_colliding_people;  /**< the same for discs of radius 0.1 m */
   uint64_t overlap_events, pass_events, wall_events; /**< the number of events of each kind */
   uint64_t truth_frames;           /**< frames of both recordings; only with `truth` */
-  uint64_t truth_colliding_people;      /**< people whose body overlaps that of another who moves as in `truth` */
+  /** People whose body overlaps that of another who moves as in `truth`. */
+  uint64_t truth_colliding_people;
   uint64_t truth_disc_colliding_people; /**< the same for discs of radius 0.1 m */
 } bch_check_summary;
 #define BCH_CHECK_SUMMARY_INIT \
@@ -220,12 +235,14 @@ typedef struct bch_check_summary {
 BCH_API bch_status bch_check_get_summary(const bch_check* check, bch_check_summary* summary);
 /** Counts the person-frames of a class of density. */
 typedef struct bch_check_density {
-  double from;            /**< people per square metre within a metre of the person; to the `from` of the next class, or any more */
+  /** People per square metre within a metre of the person; to the `from` of the next class, or any more. */
+  double from;
   uint64_t person_frames; /**< these and the next are counted as in bch_check_summary */
   uint64_t overlapping, in_walls, near_pairs, overlapping_near_pairs;
 } bch_check_density;
 /** Gets the counts of all classes of density, from the lowest on; they live as long as the check. */
-BCH_API bch_status bch_check_get_densities(const bch_check* check, const bch_check_density** densities, size_t* count);
+BCH_API bch_status bch_check_get_densities(const bch_check* check, const bch_check_density** densities,
+                                           size_t* count);
 /** Gets what was assumed because the recording does not state it, and what was found about the characters,
  * one line each. The text lives as long as the check. */
 BCH_API bch_status bch_check_get_assumptions(const bch_check* check, const char** assumptions);
@@ -251,8 +268,10 @@ typedef struct bch_check_frame {
 typedef struct bch_check_pair {
   int64_t frame;
   int64_t first, second; /**< ids; `second` is the number of a wall */
-  float depth;           /**< how far the first has to move to separate, metres; for spheres in a wall: how deep the deepest is */
-  float gap;             /**< their distance in this frame, metres; 0 also if discs overlap and their ancestors do not */
+  /** How far the first has to move to separate, metres; for spheres in a wall: how deep the deepest is. */
+  float depth;
+  /** Their distance in this frame, metres; 0 also if discs overlap and their ancestors do not. */
+  float gap;
   float x, y;            /**< the direction in which the first has to move */
   int32_t kind;          /**< BCH_CHECK_OVERLAP ... */
   int32_t unused;
@@ -261,7 +280,8 @@ typedef struct bch_check_pair {
  * once. */
 typedef struct bch_check_event {
   int64_t first, second;   /**< ids */
-  int64_t from, to, worst; /**< the first and the last frame, and that of the deepest overlap; for a pass: the frame before it */
+  /** The first and the last frame, and that of the deepest overlap; for a pass: the frame before it. */
+  int64_t from, to, worst;
   double x, y;             /**< the position of the first at `worst`, metres */
   float depth;             /**< the depth of the overlap at `worst`, metres */
   uint32_t frames;
@@ -269,11 +289,13 @@ typedef struct bch_check_event {
   float after;  /**< for a pass: how long after `worst` they touch, in frames; else 0 */
 } bch_check_event;
 /** Gets all frames; they live as long as the check, like the next. */
-BCH_API bch_status bch_check_get_frames(const bch_check* check, const bch_check_frame** frames, size_t* count);
+BCH_API bch_status bch_check_get_frames(const bch_check* check, const bch_check_frame** frames,
+                                        size_t* count);
 /** Gets all pairs, frame after frame. */
 BCH_API bch_status bch_check_get_pairs(const bch_check* check, const bch_check_pair** pairs, size_t* count);
 /** Gets all events, ordered by their first frames. */
-BCH_API bch_status bch_check_get_events(const bch_check* check, const bch_check_event** events, size_t* count);
+BCH_API bch_status bch_check_get_events(const bch_check* check, const bch_check_event** events,
+                                        size_t* count);
 /** Holds the measures of a person in a frame, which bench/README.md defines. Members with `disc_` are for
  * discs of radius 0.1 m, the others for bodies. Least values are over all other people of the frame, and
  * infinite if nobody is within the measured range. */
@@ -288,7 +310,8 @@ typedef struct bch_check_measure {
   float avoidance, disc_avoidance; /**< the avoidance number of Cordes et al. 2024 */
   float unused;
   uint32_t intimate, personal;     /**< others within 0.45 m and within 1.2 m, between centres */
-  int32_t collides, disc_collides; /**< 1: with somebody in this frame or before the next; for discs: in this frame or halfway to the next */
+  /** 1: with somebody in this frame or before the next; for discs: in this frame or halfway to the next. */
+  int32_t collides, disc_collides;
 } bch_check_measure;
 /** Describes two people of a frame who overlap, as bodies or as discs, or will do so within 5 s at present
  * velocities. */
@@ -301,10 +324,12 @@ typedef struct bch_check_conflict {
 } bch_check_conflict;
 /** Gets the measures of all people, frame after frame; none without bch_check_options::measures. They live as
  * long as the check. */
-BCH_API bch_status bch_check_get_measures(const bch_check* check, const bch_check_measure** measures, size_t* count);
+BCH_API bch_status bch_check_get_measures(const bch_check* check, const bch_check_measure** measures,
+                                          size_t* count);
 /** Gets the measures of pairs, frame after frame; none without bch_check_options::measures. They live as long
  * as the check. */
-BCH_API bch_status bch_check_get_conflicts(const bch_check* check, const bch_check_conflict** pairs, size_t* count);
+BCH_API bch_status bch_check_get_conflicts(const bch_check* check, const bch_check_conflict** pairs,
+                                           size_t* count);
 /** Gets the page, an empty text without bch_check_options::page. It lives as long as the check. */
 BCH_API bch_status bch_check_get_page(const bch_check* check, const char** html, size_t* size);
 /** Frees a check. */
